@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/base.h: status codes, the error record and the version.
+ *
+ * Rules that hold for the whole interface:
+ *   - SI units everywhere; vectors are x, y, z; axes are right-handed, gravity is given by the scene.
+ *   - Every call that can fail returns a CpsStatus and takes an optional CpsError last (NULL is accepted).
+ *     The status says whether the call worked. What the mathematics said is an outcome (evolve.h).
+ *   - The library copies what it needs. Each create has one destroy, and destroy accepts NULL.
+ *   - A returned `const double *` is a view owned by the handle, valid until the next non-const call on it.
+ *   - The library never prints, exits or aborts, and has no mutable global state: different handles may be
+ *     used from different threads at the same time. */
+#ifndef CAPSTAN_BASE_H
+#define CAPSTAN_BASE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define CPS_API __attribute__((visibility("default")))
+#else
+#define CPS_API
+#endif
+
+#define CPS_VERSION_MAJOR 0
+#define CPS_VERSION_MINOR 1
+#define CPS_VERSION_PATCH 0
+
+/* One list: name, fixed number, sentence. Numbers are never reused. */
+#define CPS_STATUS_LIST(X)                                                        \
+    X(CPS_OK, 0, "success")                                                       \
+    X(CPS_ERR_ARGUMENT, 1, "an argument is outside what the call accepts")        \
+    X(CPS_ERR_MEMORY, 2, "out of memory")                                         \
+    X(CPS_ERR_INPUT, 3, "the input is not a valid scene")                         \
+    X(CPS_ERR_IO, 4, "a file could not be read or written")                       \
+    X(CPS_ERR_LIMIT, 5, "a size limit was exceeded")
+
+typedef enum CpsStatus {
+#define CPS_STATUS_ENUM(name, number, sentence) name = number,
+    CPS_STATUS_LIST(CPS_STATUS_ENUM)
+#undef CPS_STATUS_ENUM
+} CpsStatus;
+
+/* Where and why a call failed. `file` is empty and line, column are 0 when no input file is concerned;
+ * otherwise lines and columns count from 1. */
+typedef struct CpsError {
+    CpsStatus status;
+    int line, column;
+    char file[512];
+    char message[1024]; /* what was found, what was expected, what to do */
+} CpsError;
+
+/* The name of a status ("CPS_ERR_INPUT") and its sentence; never NULL. */
+CPS_API const char *cps_status_name(CpsStatus status);
+CPS_API const char *cps_status_sentence(CpsStatus status);
+
+/* The library's version, "0.1.0". */
+CPS_API const char *cps_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/capstan.h: everything but files (those are in io.h, library capstan-io). */
+#ifndef CAPSTAN_CAPSTAN_H
+#define CAPSTAN_CAPSTAN_H
+
+#include "capstan/base.h"
+#include "capstan/evolve.h"
+#include "capstan/scene.h"
+
+#endif

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/evolve.h: carry a scene through its history, one certified load step at a time.
+ *
+ *   CpsEvolution *evolution;
+ *   cps_evolution_create(&scene, &evolution, &err);
+ *   while (cps_evolution_remaining(evolution) > 0) {
+ *       cps_evolution_step(evolution, &err);
+ *       CpsStepReport report = cps_evolution_report(evolution);
+ *       ...
+ *   }
+ *   cps_evolution_destroy(evolution);
+ *
+ * Each step solves P4.2 of S90 from the last configuration and certifies it by a duality gap that is a sum of
+ * local non-negative terms (docs/theory.md). Stepping allocates nothing. */
+#ifndef CAPSTAN_EVOLVE_H
+#define CAPSTAN_EVOLVE_H
+
+#include <stdbool.h>
+
+#include "capstan/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct CpsEvolution CpsEvolution;
+
+/* What the mathematics said. Ordered from best to worst: a step's outcome is the worst of its lines'. */
+#define CPS_OUTCOME_LIST(X)                                                                           \
+    X(CPS_SOLVED, 0, "solved", "solved and certified")                                                \
+    X(CPS_TAUT, 1, "taut", "inextensible line pulled exactly straight: tension not unique")           \
+    X(CPS_STALLED, 2, "stalled", "no further progress: the answer is not certified")                  \
+    X(CPS_ITERATION_LIMIT, 3, "iteration_limit", "iteration limit reached: the answer is not certified") \
+    X(CPS_UNBOUNDED, 4, "unbounded", "no equilibrium: a rigid motion lowers the energy without bound") \
+    X(CPS_INFEASIBLE, 5, "infeasible", "no configuration: the ends are farther apart than the line is long")
+
+typedef enum CpsOutcome {
+#define CPS_OUTCOME_ENUM(name, number, key, sentence) name = number,
+    CPS_OUTCOME_LIST(CPS_OUTCOME_ENUM)
+#undef CPS_OUTCOME_ENUM
+} CpsOutcome;
+
+CPS_API const char *cps_outcome_key(CpsOutcome outcome);      /* "solved", ... */
+CPS_API const char *cps_outcome_sentence(CpsOutcome outcome);
+
+/* The certificate of one line's step: forces that balance and a configuration, with the gap between them. */
+typedef struct CpsCertificate {
+    double primal;           /* [J] J + j at the configuration */
+    double dual;             /* [J] a lower bound of the minimum, from the forces */
+    double gap;              /* [J] sum of the local gaps, each >= 0; primal - dual up to rounding */
+    double scale;            /* [J] S of docs/theory.md; certified when gap <= tolerance * scale */
+    double tension_bound;    /* [N] guaranteed rms error of the tension along the line; NaN where it says nothing */
+    double tension_estimate; /* [N] max |T - |p||: elongation against equilibrium */
+    double force_residual;   /* [N] largest imbalance of forces on a node */
+    double largest_force;    /* [N] largest force in the line or on it */
+    double law_residual;     /* [J] sum of phi(u) + <u, F> */
+    double contact_residual; /* [J] sum of R (n.u + gap) */
+    double stretch_residual; /* [-] largest |x'| - 1 of an inextensible element */
+    double penetration;      /* [m] deepest node below the obstacle, >= 0 */
+} CpsCertificate;
+
+/* How a node rests on the obstacle. */
+typedef enum CpsNodeState { CPS_NODE_FREE = 0, CPS_NODE_STICK = 1, CPS_NODE_SLIP = 2 } CpsNodeState;
+
+typedef struct CpsEndReport {
+    double position[3]; /* [m] */
+    double force[3];    /* [N] on the line at this end */
+    double tension;     /* [N] |force| */
+} CpsEndReport;
+
+typedef struct CpsLineReport {
+    CpsOutcome outcome;
+    int iterations;
+    CpsCertificate certificate;
+    double dissipated; /* [J] in this step */
+    CpsEndReport end[2];
+    double grounded; /* [m] natural length in contact with a reaction */
+    double slipping; /* [m] natural length that slid on the obstacle in this step */
+    double slack;    /* [m] natural length without tension */
+    double proof[3]; /* infeasible: unit vector from end A to end B, along which a constant force proves it;
+                        unbounded: the rigid direction in which the energy falls; else 0 0 0 */
+    double proof_value; /* infeasible: [m] distance of the ends - length > 0;
+                           unbounded: [N] fall of the energy per metre > 0; else 0 */
+} CpsLineReport;
+
+/* One step of all lines: sums of energies, residuals and forces at their worst. */
+typedef struct CpsStepReport {
+    const char *name; /* "laid", a stage's name, or "name k/n" within a stage of n steps; owned by the evolution */
+    int index;        /* 0, 1, ... */
+    CpsOutcome outcome;
+    int iterations; /* largest over the lines */
+    CpsCertificate certificate; /* energies, gap, scale, residuals summed; bounds and forces: the largest */
+    double dissipated; /* [J] */
+    double wall;       /* [s] */
+} CpsStepReport;
+
+/* Everything about one line after a step. Views into the evolution; n = elements + 1 nodes.
+ * Forces act on the line; arrays (n, 3) are stored node after node. */
+typedef struct CpsLineView {
+    const char *name;
+    int elements;
+    const double *arc_length;         /* (n) [m] natural abscissa a of the nodes */
+    const double *element_length;     /* (elements) [m] */
+    double compliance;                /* [1/N] 1/EA, 0: inextensible */
+    CpsEnd end[2];                    /* what was imposed in this step */
+    const double *reference;          /* (n, 3) [m] x_R of this step */
+    const double *position;           /* (n, 3) [m] */
+    const double *load;               /* (n, 3) [N] weight and free-end forces */
+    const double *normal;             /* (n, 3) [-] the obstacle's, 0 0 0 without one */
+    const double *gap;                /* (n) [m] distance that n.u may close: n.u >= -gap; INFINITY: no contact looked for */
+    const double *friction_bound;     /* (n) [N] w = A h, 0 where friction does not act */
+    const double *friction;           /* (n, 3) [N] F, |F| <= w */
+    const double *reaction;           /* (n) [N] R >= 0, along the normal */
+    const double *segment_force;      /* (elements, 3) [N] p: what the B side does to the A side */
+    const double *tension;            /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
+    const unsigned char *state;       /* (n) CpsNodeState */
+} CpsLineView;
+
+/* Prepare a scene.
+ *
+ *   scene   checked (cps_scene_check) and copied
+ *   out     NULL on failure
+ *
+ * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
+CPS_API CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err);
+CPS_API void cps_evolution_destroy(CpsEvolution *evolution);
+
+/* Number of load steps in all (a start laid by statics is the first), and still to do.
+ * 0 remain after an infeasible or unbounded step: nothing can follow it. */
+CPS_API int cps_evolution_step_count(const CpsEvolution *evolution);
+CPS_API int cps_evolution_remaining(const CpsEvolution *evolution);
+
+/* Take the next load step. The outcome is in the report; the status is CPS_OK even when it is not solved.
+ * After an infeasible or unbounded step the lines stay where they were.
+ * Returns CPS_ERR_ARGUMENT when no step remains. */
+CPS_API CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err);
+
+/* Report on the last step taken; before the first one: index -1 and the start configuration in the views. */
+CPS_API CpsStepReport cps_evolution_report(const CpsEvolution *evolution);
+CPS_API int cps_evolution_line_count(const CpsEvolution *evolution);
+CPS_API CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line);
+CPS_API CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/scene.h: what there is and what happens to it: lines, an obstacle, loads, a history.
+ *
+ * Plain value structs, filled by the user, copied by the library. Start from cps_scene_default(),
+ * cps_line_default(), ... : a struct made otherwise lacks its cookie and is refused. */
+#ifndef CAPSTAN_SCENE_H
+#define CAPSTAN_SCENE_H
+
+#include "capstan/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A plane obstacle: the side `normal` points to is free. */
+typedef struct CpsObstacle {
+    uint32_t cookie;
+    const char *name;
+    double point[3];  /* [m] a point of the plane, default 0 0 0 */
+    double normal[3]; /* [-] any non-zero length, default 0 0 1 */
+    double friction;  /* [-] Coulomb coefficient mu >= 0, default 0 */
+} CpsObstacle;
+
+typedef enum CpsEndKind {
+    CPS_END_HELD, /* value is the imposed position [m]        (S90 (8), remark 2.3.4) */
+    CPS_END_FREE  /* value is the force applied to the end [N] (S90 (9)) */
+} CpsEndKind;
+
+typedef struct CpsEnd {
+    CpsEndKind kind;
+    double value[3];
+} CpsEnd;
+
+enum { CPS_END_A = 0, CPS_END_B = 1 };
+
+typedef enum CpsStartKind {
+    CPS_START_STRAIGHT, /* from point[0] to point[1] */
+    CPS_START_POLYLINE, /* along point[0..point_count-1] */
+    CPS_START_ARC,      /* from point[0], around centre point[1], turning about axis */
+    CPS_START_LAID      /* by statics: the frictionless equilibrium under the ends given */
+} CpsStartKind;
+
+/* The first reference configuration. Nodes follow the shape by natural length, an elastic line being
+ * stretched evenly over a shape longer than itself; a shape shorter than the line is refused (use laid). */
+typedef struct CpsStart {
+    CpsStartKind kind;
+    int point_count;      /* straight, arc: 2; polyline: >= 2; laid: 0 */
+    const double *point;  /* (point_count, 3) [m] */
+    double axis[3];       /* [-] arc: axis of the turn, right-hand rule, default 0 0 1 */
+} CpsStart;
+
+/* A tension-only line, node 0 at end A, node `elements` at end B. */
+typedef struct CpsLine {
+    uint32_t cookie;
+    const char *name;
+    double length;                /* [m] natural length > 0 */
+    int elements;                 /* >= 1 */
+    const double *element_length; /* (elements) [m], their sum is `length`; NULL: all equal */
+    double weight;                /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double stiffness;             /* [N] EA > 0; INFINITY: inextensible */
+    CpsStart start;
+    CpsEnd end[2];                /* default: A held and B free without force, both where the start puts them;
+                                     a held end must agree with the start shape */
+} CpsLine;
+
+/* One end of one line gets a new imposed position or force. A free end given a position is grabbed where it
+ * is and moved; a held end given a force is let go from the force it carries. */
+typedef struct CpsChange {
+    int line; /* index in the scene */
+    int end;  /* CPS_END_A or CPS_END_B */
+    CpsEnd to;
+} CpsChange;
+
+/* An entry of the history, reached in `steps` equal load steps. */
+typedef struct CpsStage {
+    const char *name;
+    int steps; /* >= 1 */
+    int change_count;
+    const CpsChange *change;
+} CpsStage;
+
+typedef enum CpsFriction {
+    CPS_FRICTION_FROZEN /* the bound A = mu R is that of the reference configuration   (S90 section 2 d) */
+} CpsFriction;
+
+typedef enum CpsContact {
+    CPS_CONTACT_GAINED, /* no node ends below the obstacle: contact may be gained within a step */
+    CPS_CONTACT_STRICT  /* only what touches at the reference is kept out              (S90 (35)) */
+} CpsContact;
+
+typedef enum CpsLinearSystem {
+    CPS_LINEAR_SYSTEM_CHAIN, /* block tridiagonal, cost linear in the nodes */
+    CPS_LINEAR_SYSTEM_DENSE  /* the same matrix in full: small lines and tests only */
+} CpsLinearSystem;
+
+typedef struct CpsSolverOptions {
+    double tolerance;              /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8 */
+    int max_iterations;            /* per step and line, 1..1000, default 60 */
+    CpsLinearSystem linear_system; /* default chain */
+} CpsSolverOptions;
+
+typedef struct CpsScene {
+    uint32_t cookie;
+    const char *title; /* may be NULL */
+    double gravity[3]; /* [m/s2] default 0 0 -9.81; its direction is that of the lines' weight */
+    int obstacle_count; /* 0 or 1 */
+    const CpsObstacle *obstacle;
+    int line_count; /* >= 1 */
+    const CpsLine *line;
+    int stage_count; /* >= 0 */
+    const CpsStage *stage;
+    CpsFriction friction;
+    CpsContact contact;
+    CpsSolverOptions solver;
+} CpsScene;
+
+CPS_API CpsScene cps_scene_default(void);
+CPS_API CpsLine cps_line_default(void);
+CPS_API CpsObstacle cps_obstacle_default(void);
+
+/* Check everything that can be known before solving.
+ *
+ *   err   may be NULL; err->message names the line, the value found and what was expected
+ *
+ * Returns CPS_OK, CPS_ERR_ARGUMENT or CPS_ERR_LIMIT. */
+CPS_API CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One block of memory, measured and laid out by the same function (see arena.h). */
+#include "base/arena.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CACHE_LINE = 64 };
+
+void *cpsi_arena_take(CpsiArena *arena, size_t count, size_t size) {
+    size_t bytes = 0, end = 0;
+    /* a line of padding more than needed keeps equal arrays from falling on the same cache sets */
+    if (__builtin_mul_overflow(count, size, &bytes) || __builtin_add_overflow(bytes, (size_t)(2*CACHE_LINE - 1), &bytes) ||
+        __builtin_add_overflow(arena->used, bytes/CACHE_LINE*CACHE_LINE, &end)) {
+        arena->overflow = true;
+        return NULL;
+    }
+    void *place = arena->base ? arena->base + arena->used : NULL;
+    arena->used = end;
+    return place;
+}
+
+bool cpsi_arena_allocate(CpsiArena *arena) {
+    if (arena->overflow || arena->used > SIZE_MAX/2) return false;
+    const size_t bytes = arena->used ? arena->used : CACHE_LINE;
+    arena->base = aligned_alloc(CACHE_LINE, bytes);
+    if (!arena->base) return false;
+    memset(arena->base, 0, bytes);
+    arena->used = 0;
+    return true;
+}
+
+void cpsi_arena_free(CpsiArena *arena) {
+    free(arena->base);
+    *arena = (CpsiArena){0};
+}

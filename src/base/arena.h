@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One block of memory, laid out twice by the same function: first with no block, to measure; then on the block.
+ * The two cannot disagree, and nothing is allocated afterwards.
+ *
+ *     CpsiArena arena = {0};
+ *     layout(&arena, ...);                       measures
+ *     cpsi_arena_allocate(&arena);               one calloc, checked
+ *     layout(&arena, ...);                       places  */
+#ifndef CAPSTAN_SRC_BASE_ARENA_H
+#define CAPSTAN_SRC_BASE_ARENA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct CpsiArena {
+    char *base;    /* NULL while measuring */
+    size_t used;   /* bytes so far */
+    bool overflow; /* a size did not fit into size_t */
+} CpsiArena;
+
+/* Room for count items of `size` bytes, aligned to a cache line; NULL while measuring. */
+void *cpsi_arena_take(CpsiArena *arena, size_t count, size_t size);
+
+/* Turn a measuring arena into a real one, zeroed; false when memory or size_t does not suffice. */
+bool cpsi_arena_allocate(CpsiArena *arena);
+void cpsi_arena_free(CpsiArena *arena);
+
+#define CPSI_TAKE(arena, count, type) ((type *)cpsi_arena_take((arena), (size_t)(count), sizeof(type)))
+
+#endif

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Names and sentences of status codes and outcomes, from the lists in base.h and evolve.h. */
+#include "base/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "capstan/evolve.h"
+
+#define STRING(x) #x
+#define VERSION(major, minor, patch) STRING(major) "." STRING(minor) "." STRING(patch)
+
+const char *cps_version(void) { return VERSION(CPS_VERSION_MAJOR, CPS_VERSION_MINOR, CPS_VERSION_PATCH); }
+
+const char *cps_status_name(CpsStatus status) {
+    switch (status) {
+#define CASE(name, number, sentence)                                                                                   \
+    case name: return #name;
+        CPS_STATUS_LIST(CASE)
+#undef CASE
+    }
+    return "unknown status";
+}
+
+const char *cps_status_sentence(CpsStatus status) {
+    switch (status) {
+#define CASE(name, number, sentence)                                                                                   \
+    case name: return sentence;
+        CPS_STATUS_LIST(CASE)
+#undef CASE
+    }
+    return "unknown status";
+}
+
+const char *cps_outcome_key(CpsOutcome outcome) {
+    switch (outcome) {
+#define CASE(name, number, key, sentence)                                                                              \
+    case name: return key;
+        CPS_OUTCOME_LIST(CASE)
+#undef CASE
+    }
+    return "unknown";
+}
+
+const char *cps_outcome_sentence(CpsOutcome outcome) {
+    switch (outcome) {
+#define CASE(name, number, key, sentence)                                                                              \
+    case name: return sentence;
+        CPS_OUTCOME_LIST(CASE)
+#undef CASE
+    }
+    return "unknown outcome";
+}
+
+CpsStatus cpsi_fail(CpsError *err, CpsStatus status, const char *format, ...) {
+    if (err) {
+        memset(err, 0, sizeof *err);
+        err->status = status;
+        va_list args;
+        va_start(args, format);
+        vsnprintf(err->message, sizeof err->message, format, args);
+        va_end(args);
+    }
+    return status;
+}

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Failing with a message. */
+#ifndef CAPSTAN_SRC_BASE_STATUS_H
+#define CAPSTAN_SRC_BASE_STATUS_H
+
+#include "capstan/base.h"
+
+/* Fill err (may be NULL) with a printf-style message and return status. */
+__attribute__((format(printf, 3, 4))) CpsStatus cpsi_fail(CpsError *err, CpsStatus status, const char *format, ...);
+
+#endif

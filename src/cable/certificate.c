@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The certificate of one step (docs/theory.md, "Certificate").
+ *
+ * With positions x that keep clear of the obstacle and forces (p, F, R) that balance, |F_j| <= w_j, R_j >= 0, P - D is the sum of
+ *
+ *     segment    l [W(e) + W*(p) - p.e] = l [ (c/2) (T_x - |p|)^2 + (|p||e| - p.e) ]     |e| >= 1, T_x = (|e| - 1)/c
+ *                                       = l [ |p| (1 - |e|) + (c/2) |p|^2 + (|p||e| - p.e) ]      |e| < 1
+ *     friction   w |u_T| + F.u_T = (w - |F|) |u_T| + (|F||u_T| + F.u_T)
+ *     contact    R (n.u + gap)
+ *
+ * each >= 0, where |p||e| - p.e = |p x e|^2/(|p||e| + p.e) has no cancellation. An inextensible element is taken as long as it
+ * is found, |e| <= 1 up to rounding; the excess is reported as stretch_residual. */
+#include "cable/certificate.h"
+
+#include <math.h>
+
+/* |a||b| - a.b for any two vectors, without cancellation. */
+static double angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
+    const double dot = vec3_dot(a, b), sum = size_a*size_b + dot;
+    if (!(dot > 0)) return size_a*size_b - dot;
+    const Vec3 cross = vec3_cross(a, b);
+    return vec3_dot(cross, cross)/sum;
+}
+
+static Vec3 tangential(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
+
+/* Everything that acts on node j except the segments. */
+static Vec3 node_force(const CpsiLine *line, int j) {
+    const Vec3 n = vec3_load(&line->normal[3*j]);
+    const Vec3 f = vec3_add(vec3_load(&line->friction_force[3*j]), vec3_load(&line->load[3*j]));
+    return vec3_axpy(line->reaction[j], n, f);
+}
+
+static Vec3 segment_force(const CpsiLine *line, int e) { return vec3_load(&line->segment_force[3*e]); }
+
+/* Share out the force `rest` that a line free at both ends has in excess: its tangential part among frictions in proportion
+ * to the room they have, its normal part among reactions in proportion to their size. */
+static void share_out(CpsiLine *line, Vec3 rest) {
+    double room = 0, reaction = 0;
+    for (int j = 0; j < line->n; j++) {
+        room += line->friction_bound[j] - vec3_norm(vec3_load(&line->friction_force[3*j]));
+        reaction += line->reaction[j];
+    }
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 n = vec3_load(&line->normal[3*j]), f = vec3_load(&line->friction_force[3*j]);
+        const double share = line->friction_bound[j] - vec3_norm(f);
+        if (room > 0) vec3_store(&line->friction_force[3*j], vec3_axpy(-share/room, tangential(rest, n), f));
+        if (reaction > 0) line->reaction[j] *= fmax(0, 1 - vec3_dot(rest, n)/reaction);
+    }
+}
+
+void cpsi_balance_forces(CpsiLine *line) {
+    const int n = line->n, elements = n - 1;
+    if (line->end[CPS_END_A].kind == CPS_END_FREE && line->end[CPS_END_B].kind == CPS_END_FREE) {
+        Vec3 rest = vec3(0, 0, 0);
+        for (int j = 0; j < n; j++) rest = vec3_add(rest, node_force(line, j));
+        share_out(line, rest);
+    }
+    /* from B to A, starting from nothing beyond a free end or from the force found in the last element */
+    if (line->end[CPS_END_B].kind == CPS_END_FREE || line->end[CPS_END_A].kind == CPS_END_HELD) {
+        Vec3 p = segment_force(line, elements - 1);
+        if (line->end[CPS_END_B].kind == CPS_END_FREE) p = node_force(line, n - 1);
+        vec3_store(&line->segment_force[3*(elements - 1)], p);
+        for (int e = elements - 2; e >= 0; e--) {
+            p = vec3_add(p, node_force(line, e + 1));
+            vec3_store(&line->segment_force[3*e], p);
+        }
+        return;
+    }
+    /* only A is free: from A to B */
+    Vec3 p = vec3_scale(-1, node_force(line, 0));
+    vec3_store(&line->segment_force[0], p);
+    for (int e = 1; e < elements; e++) {
+        p = vec3_sub(p, node_force(line, e));
+        vec3_store(&line->segment_force[3*e], p);
+    }
+}
+
+static void raise_to(double *largest, double value) {
+    if (!(value <= *largest)) *largest = value;
+}
+
+/* Elongation: the segments' part of P, D, gap, scale and tension errors. */
+static void add_segments(const CpsiLine *line, CpsCertificate *out) {
+    const double c = line->compliance;
+    for (int e = 0; e + 1 < line->n; e++) {
+        const double l = line->element_length[e];
+        const Vec3 dx = vec3_sub(vec3_load(&line->position[3*(e + 1)]), vec3_load(&line->position[3*e]));
+        const Vec3 strain = vec3_scale(1/l, dx), p = segment_force(line, e);
+        double size = vec3_norm(strain);
+        const double force = vec3_norm(p), over = size - 1, along = force*c;
+        double gap = angle_defect(p, strain, force, size);
+        if (over > 0 && c > 0) {
+            gap += 0.5*(over - along)*((over - along)/c);
+            out->primal += l*0.5*over*(over/c);
+        } else if (over > 0) {
+            raise_to(&out->stretch_residual, over);
+            gap *= 1/size; /* as if scaled back to |e| = 1 */
+        } else {
+            gap += force*(-over + 0.5*along);
+        }
+        out->gap += l*gap;
+        out->dual -= l*force*(1 + 0.5*along);
+        out->scale += l*force*(1 + along);
+        raise_to(&out->tension_estimate, fabs(line->tension[e] - force));
+        raise_to(&out->largest_force, force);
+    }
+}
+
+/* Nodes: friction, contact, loads and the balance of forces. */
+static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
+    const Vec3 anchor = vec3_load(&line->position[0]);
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 x = vec3_load(&line->position[3*j]), reference = vec3_load(&line->reference[3*j]);
+        const Vec3 n = vec3_load(&line->normal[3*j]), b = vec3_load(&line->load[3*j]);
+        const Vec3 f = vec3_load(&line->friction_force[3*j]), u = vec3_sub(x, reference), ut = tangential(u, n);
+        const bool held = (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
+                          (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
+        out->primal -= vec3_dot(b, x);
+        out->scale += vec3_norm(b)*vec3_norm(vec3_sub(x, anchor));
+        raise_to(&out->largest_force, vec3_norm(b));
+        Vec3 balance = b;
+        if (j > 0) balance = vec3_sub(balance, segment_force(line, j - 1));
+        if (j + 1 < line->n) balance = vec3_add(balance, segment_force(line, j));
+        if (line->has_obstacle) raise_to(&out->penetration, -cpsi_plane_gap(&line->plane, &line->position[3*j]));
+        if (held) { /* the held end's share of D: what its support does, times where it is */
+            out->dual -= vec3_dot(balance, x);
+            continue;
+        }
+        const double slide = vec3_norm(ut), size = vec3_norm(f), w = line->friction_bound[j];
+        const double law = (w - size)*slide + (size*slide + vec3_dot(f, ut));
+        out->law_residual += law > 0 ? law : 0;
+        out->primal += w*slide;
+        out->scale += w*slide;
+        out->dual += vec3_dot(f, reference);
+        if (line->reaction[j] > 0) {
+            const double contact = line->reaction[j]*fmax(0, vec3_dot(n, u) + line->gap[j]);
+            out->contact_residual += contact;
+            out->dual += line->reaction[j]*(vec3_dot(n, reference) - line->gap[j]);
+            raise_to(&out->largest_force, line->reaction[j]);
+        }
+        balance = vec3_axpy(line->reaction[j], n, vec3_add(balance, f));
+        raise_to(&out->force_residual, vec3_norm(balance));
+    }
+    out->gap += out->law_residual + out->contact_residual;
+}
+
+CpsCertificate cpsi_certificate(const CpsiLine *line) {
+    CpsCertificate out = {0};
+    add_segments(line, &out);
+    add_nodes(line, &out);
+    /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)); it says nothing beyond the tension itself */
+    const double bound = line->compliance > 0 ? sqrt(2*out.gap/(line->compliance*line->length)) : NAN;
+    out.tension_bound = bound <= out.largest_force ? bound : NAN;
+    return out;
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The proof of a step: forces that balance, and the gap between what they prove and the configuration found. */
+#ifndef CAPSTAN_SRC_CABLE_CERTIFICATE_H
+#define CAPSTAN_SRC_CABLE_CERTIFICATE_H
+
+#include "cable/line.h"
+
+/* Make the forces of a step balance at every node that is not held, by summation along the line from a free end; what a line
+ * free at both ends has left over is shared out among friction and reactions that have room for it.
+ * Changes segment_force, and for two free ends friction_force and reaction. */
+void cpsi_balance_forces(CpsiLine *line);
+
+/* The certificate of the fields in `line`: theory.md section 4, each local gap computed without cancellation.
+ * O(nodes); reads only. */
+CpsCertificate cpsi_certificate(const CpsiLine *line);
+
+#endif

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A line's arrays, its mesh, and the reaction of the bed on the shape it starts from. */
+#include "cable/line.h"
+
+void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
+    const size_t n = (size_t)line->n;
+    line->arc_length = CPSI_TAKE(arena, n, double);
+    line->element_length = CPSI_TAKE(arena, n, double);
+    line->share = CPSI_TAKE(arena, n, double);
+    line->reference = CPSI_TAKE(arena, 3*n, double);
+    line->position = CPSI_TAKE(arena, 3*n, double);
+    line->load = CPSI_TAKE(arena, 3*n, double);
+    line->normal = CPSI_TAKE(arena, 3*n, double);
+    line->gap = CPSI_TAKE(arena, n, double);
+    line->friction_bound = CPSI_TAKE(arena, n, double);
+    line->friction_force = CPSI_TAKE(arena, 3*n, double);
+    line->reaction = CPSI_TAKE(arena, n, double);
+    line->segment_force = CPSI_TAKE(arena, 3*n, double);
+    line->tension = CPSI_TAKE(arena, n, double);
+    line->state = CPSI_TAKE(arena, n, unsigned char);
+}
+
+void cpsi_line_measure(CpsiLine *line) {
+    /* compensated: the last abscissa is the length to the last digit, for any number of elements */
+    double sum = 0, carry = 0;
+    line->arc_length[0] = 0;
+    for (int e = 0; e + 1 < line->n; e++) {
+        const double next = line->element_length[e] - carry, total = sum + next;
+        carry = (total - sum) - next;
+        sum = line->arc_length[e + 1] = total;
+    }
+    for (int j = 0; j < line->n; j++) {
+        const double before = j > 0 ? line->element_length[j - 1] : 0;
+        const double after = j + 1 < line->n ? line->element_length[j] : 0;
+        line->share[j] = 0.5*(before + after);
+    }
+}
+
+/* The force K (|x'| - 1)^+ t of element e at `position`; 0 for an inextensible line, whose tension shapes do not tell. */
+static Vec3 start_force(const CpsiLine *line, int e) {
+    const Vec3 dx = vec3_sub(vec3_load(&line->position[3*(e + 1)]), vec3_load(&line->position[3*e]));
+    const double size = vec3_norm(dx), strain = size/line->element_length[e] - 1;
+    if (!(line->compliance > 0) || !(strain > 0)) return vec3(0, 0, 0);
+    return vec3_scale(strain/(line->compliance*size), dx);
+}
+
+void cpsi_line_start_reaction(CpsiLine *line, double touch) {
+    for (int j = 0; j < line->n; j++) {
+        line->reaction[j] = 0;
+        line->state[j] = CPS_NODE_FREE;
+        if (!line->has_obstacle || cpsi_plane_gap(&line->plane, &line->position[3*j]) > touch) continue;
+        Vec3 sum = vec3_scale(line->share[j], vec3_load(line->weight));
+        if (j > 0) sum = vec3_sub(sum, start_force(line, j - 1));
+        if (j + 1 < line->n) sum = vec3_add(sum, start_force(line, j));
+        const double reaction = -vec3_dot(sum, line->plane.axis[2]);
+        line->reaction[j] = reaction > 0 ? reaction : 0;
+        line->state[j] = CPS_NODE_STICK;
+    }
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One quasi-static step of one line: problem P4.2 of S90 (= P2.1 and P3.1 by results 4.1 and 4.3) as a conic program. */
+#ifndef CAPSTAN_SRC_CABLE_LINE_STEP_H
+#define CAPSTAN_SRC_CABLE_LINE_STEP_H
+
+#include "cable/line.h"
+#include "ipm/program.h"
+
+typedef struct CpsiStepOptions {
+    CpsSolverOptions solver;
+    CpsContact contact;
+    bool frictionless; /* a start laid by statics */
+} CpsiStepOptions;
+
+/* From the line's position (and its reaction and state there) to the next equilibrium under line->end.
+ *
+ *   line      reads position, reaction, state; writes every field and the report. Where there is no equilibrium
+ *             (infeasible, unbounded) position, reaction and state stay.
+ *   program   scratch laid out for at least line->n nodes
+ *
+ * Allocates nothing. */
+void cpsi_line_step(CpsiLine *line, CpsiProgram *program, const CpsiStepOptions *options);
+
+#endif

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The history of a scene: load steps in sequence, each line solved on its own.
+ *
+ * A stage of n steps takes each end that it changes from where it is (position, or force carried) to the stage's value in n
+ * equal parts. The lines do not act on each other, so a step is one program per line and the report adds them up. */
+#define _POSIX_C_SOURCE 200809L
+#include "capstan/evolve.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/status.h"
+#include "cable/line_step.h"
+#include "evolve/start.h"
+
+enum { STEP_NAME = 96 };
+
+/* How near to the obstacle a node of a start shape counts as touching, per length of the line. */
+static const double START_TOUCH = 1e-9;
+
+/* What one stage does to one end. */
+typedef struct Change {
+    int line, end;
+    CpsEnd from, to; /* `from` is found when the stage begins */
+} Change;
+
+typedef struct Stage {
+    const char *name;
+    int steps, change_count;
+    Change *change;
+} Stage;
+
+struct CpsEvolution {
+    CpsiArena arena;
+    CpsStepReport report;
+    char step_name[STEP_NAME];
+    CpsiStepOptions options;
+    int line_count, stage_count, step_count;
+    CpsiLine *line;   /* (line_count) */
+    Stage *stage;     /* (stage_count) */
+    bool laid;        /* the first step is the statics of lines laid */
+    bool *is_laid;    /* (line_count) */
+    int done;         /* steps taken */
+    int current, part; /* next stage, steps already taken of it */
+    bool ended;       /* an infeasible or unbounded step ends the history */
+    CpsiProgram program;
+};
+
+/* create -------------------------------------------------------------------------------------------------------- */
+
+static char *take_name(CpsiArena *arena, const char *name) {
+    const size_t size = strlen(name) + 1;
+    char *copy = CPSI_TAKE(arena, size, char);
+    if (copy) memcpy(copy, name, size);
+    return copy;
+}
+
+/* Everything an evolution holds, in one block (base/arena.h); called once to measure and once to place. */
+static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
+    CpsEvolution measured = {0};
+    CpsiLine any = {0};
+    Stage none = {0};
+    CpsEvolution *placed = CPSI_TAKE(arena, 1, CpsEvolution), *evolution = placed ? placed : &measured;
+    const bool real = placed != NULL;
+    evolution->line = CPSI_TAKE(arena, scene->line_count, CpsiLine);
+    evolution->is_laid = CPSI_TAKE(arena, scene->line_count, bool);
+    evolution->stage = CPSI_TAKE(arena, scene->stage_count + 1, Stage);
+    int nodes = 0;
+    for (int i = 0; i < scene->line_count; i++) {
+        CpsiLine *line = real ? &evolution->line[i] : &any;
+        line->name = take_name(arena, scene->line[i].name);
+        line->n = scene->line[i].elements + 1;
+        cpsi_line_layout(line, arena);
+        if (line->n > nodes) nodes = line->n;
+    }
+    for (int i = 0; i < scene->stage_count; i++) {
+        Stage *stage = real ? &evolution->stage[i] : &none;
+        stage->name = take_name(arena, scene->stage[i].name);
+        stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, Change);
+    }
+    cpsi_program_layout(&evolution->program, arena, nodes,
+                        scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain);
+    return placed;
+}
+
+static void fill_line(CpsiLine *line, const CpsScene *scene, const CpsLine *def) {
+    static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1};
+    const CpsObstacle *bed = scene->obstacle_count > 0 ? scene->obstacle : NULL;
+    line->length = def->length;
+    line->compliance = isinf(def->stiffness) ? 0 : 1/def->stiffness;
+    line->has_obstacle = bed != NULL;
+    line->friction = bed ? bed->friction : 0;
+    line->plane = bed ? cpsi_plane(bed->point, bed->normal) : cpsi_plane(origin, up);
+    const Vec3 gravity = vec3_load(scene->gravity);
+    const double size = vec3_norm(gravity);
+    vec3_store(line->weight, vec3_scale(size > 0 ? def->weight/size : 0, gravity));
+    for (int e = 0; e < def->elements; e++)
+        line->element_length[e] = def->element_length ? def->element_length[e] : def->length/def->elements;
+    cpsi_line_measure(line);
+    cpsi_start_place(def, line->position);
+    for (int end = 0; end < 2; end++) {
+        line->end[end] = def->end[end];
+        if (line->end[end].kind == CPS_END_HELD) cpsi_start_end(def, end, line->end[end].value);
+    }
+    if (def->start.kind == CPS_START_LAID) {
+        /* the first guess of statics lies on the free side */
+        for (int j = 0; j < line->n && bed; j++) {
+            const double gap = cpsi_plane_gap(&line->plane, &line->position[3*j]);
+            const Vec3 x = vec3_load(&line->position[3*j]);
+            if (gap < 0) vec3_store(&line->position[3*j], vec3_axpy(-gap, line->plane.axis[2], x));
+        }
+    } else {
+        cpsi_line_start_reaction(line, START_TOUCH*line->length);
+    }
+    memcpy(line->reference, line->position, 3*(size_t)line->n*sizeof *line->reference);
+}
+
+static void fill(CpsEvolution *evolution, const CpsScene *scene) {
+    evolution->options = (CpsiStepOptions){.solver = scene->solver, .contact = scene->contact};
+    evolution->line_count = scene->line_count;
+    evolution->stage_count = scene->stage_count;
+    for (int i = 0; i < scene->line_count; i++) {
+        fill_line(&evolution->line[i], scene, &scene->line[i]);
+        evolution->is_laid[i] = scene->line[i].start.kind == CPS_START_LAID;
+        evolution->laid = evolution->laid || evolution->is_laid[i];
+    }
+    for (int i = 0; i < scene->stage_count; i++) {
+        const CpsStage *from = &scene->stage[i];
+        Stage *stage = &evolution->stage[i];
+        stage->steps = from->steps;
+        stage->change_count = from->change_count;
+        for (int k = 0; k < from->change_count; k++)
+            stage->change[k] = (Change){.line = from->change[k].line, .end = from->change[k].end, .to = from->change[k].to};
+        evolution->step_count += from->steps;
+    }
+    if (evolution->laid) evolution->step_count++;
+    if (evolution->step_count == 0) {
+        /* no history: one step to the equilibrium under the ends as they are */
+        evolution->stage[0] = (Stage){.name = "equilibrium", .steps = 1};
+        evolution->stage_count = evolution->step_count = 1;
+    }
+    evolution->report = (CpsStepReport){.name = evolution->step_name, .index = -1};
+}
+
+CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err) {
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the handle");
+    *out = NULL;
+    const CpsStatus status = cps_scene_check(scene, err);
+    if (status != CPS_OK) return status;
+    CpsiArena arena = {0};
+    layout(&arena, scene);
+    const size_t bytes = arena.used;
+    if (!cpsi_arena_allocate(&arena))
+        return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had", (double)bytes*1e-6);
+    CpsEvolution *evolution = layout(&arena, scene);
+    evolution->arena = arena;
+    fill(evolution, scene);
+    *out = evolution;
+    return CPS_OK;
+}
+
+void cps_evolution_destroy(CpsEvolution *evolution) {
+    if (!evolution) return;
+    CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
+    cpsi_arena_free(&arena);
+}
+
+/* step ---------------------------------------------------------------------------------------------------------- */
+
+int cps_evolution_step_count(const CpsEvolution *evolution) { return evolution->step_count; }
+
+int cps_evolution_remaining(const CpsEvolution *evolution) {
+    return evolution->ended ? 0 : evolution->step_count - evolution->done;
+}
+
+/* Where an end is taken from: its position if it is to be held, the force that it carries if it is let go. */
+static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
+    CpsEnd now = {.kind = kind};
+    if (kind == line->end[end].kind) return line->end[end];
+    const double *x = &line->position[3*(end == CPS_END_A ? 0 : line->n - 1)];
+    memcpy(now.value, kind == CPS_END_HELD ? x : line->report.end[end].force, sizeof now.value);
+    return now;
+}
+
+/* Impose the next load step's ends, and name it. */
+static void impose(CpsEvolution *evolution) {
+    Stage *stage = &evolution->stage[evolution->current];
+    const double share = (double)(evolution->part + 1)/stage->steps;
+    for (int k = 0; k < stage->change_count; k++) {
+        Change *change = &stage->change[k];
+        CpsiLine *line = &evolution->line[change->line];
+        if (evolution->part == 0) change->from = end_now(line, change->end, change->to.kind);
+        CpsEnd *end = &line->end[change->end];
+        end->kind = change->to.kind;
+        for (int a = 0; a < 3; a++)
+            end->value[a] = evolution->part + 1 == stage->steps
+                                ? change->to.value[a]
+                                : change->from.value[a] + share*(change->to.value[a] - change->from.value[a]);
+    }
+    if (stage->steps == 1) snprintf(evolution->step_name, STEP_NAME, "%s", stage->name);
+    else snprintf(evolution->step_name, STEP_NAME, "%.64s %d/%d", stage->name, evolution->part + 1, stage->steps);
+    if (++evolution->part == stage->steps) evolution->part = 0, evolution->current++;
+}
+
+static double larger(double a, double b) { return b > a || isnan(a) ? b : a; }
+
+/* Add a line's report to the step's. */
+static void add_report(CpsStepReport *step, const CpsLineReport *line) {
+    CpsCertificate *to = &step->certificate;
+    const CpsCertificate *from = &line->certificate;
+    if (line->outcome > step->outcome) step->outcome = line->outcome;
+    if (line->iterations > step->iterations) step->iterations = line->iterations;
+    step->dissipated += line->dissipated;
+    to->primal += from->primal, to->dual += from->dual, to->gap += from->gap, to->scale += from->scale;
+    to->law_residual += from->law_residual, to->contact_residual += from->contact_residual;
+    to->tension_bound = larger(to->tension_bound, from->tension_bound);
+    to->tension_estimate = larger(to->tension_estimate, from->tension_estimate);
+    to->force_residual = larger(to->force_residual, from->force_residual);
+    to->largest_force = larger(to->largest_force, from->largest_force);
+    to->stretch_residual = larger(to->stretch_residual, from->stretch_residual);
+    to->penetration = larger(to->penetration, from->penetration);
+}
+
+static double seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9*(double)now.tv_nsec;
+}
+
+CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
+    if (!evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution is NULL");
+    if (cps_evolution_remaining(evolution) == 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "no load step remains: ask cps_evolution_remaining first");
+    const double begin = seconds();
+    const bool statics = evolution->laid && evolution->done == 0;
+    if (statics) snprintf(evolution->step_name, STEP_NAME, "laid");
+    else impose(evolution);
+    evolution->report = (CpsStepReport){.name = evolution->step_name, .index = evolution->done};
+    evolution->report.certificate.tension_bound = NAN;
+    for (int i = 0; i < evolution->line_count; i++) {
+        CpsiStepOptions options = evolution->options;
+        if (statics && evolution->is_laid[i]) options.frictionless = true, options.contact = CPS_CONTACT_GAINED;
+        cpsi_line_step(&evolution->line[i], &evolution->program, &options);
+        add_report(&evolution->report, &evolution->line[i].report);
+    }
+    evolution->done++;
+    evolution->ended = evolution->report.outcome >= CPS_UNBOUNDED;
+    evolution->report.wall = seconds() - begin;
+    return CPS_OK;
+}
+
+/* report -------------------------------------------------------------------------------------------------------- */
+
+CpsStepReport cps_evolution_report(const CpsEvolution *evolution) { return evolution->report; }
+
+int cps_evolution_line_count(const CpsEvolution *evolution) { return evolution->line_count; }
+
+CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) { return evolution->line[line].report; }
+
+CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
+    const CpsiLine *from = &evolution->line[line];
+    return (CpsLineView){
+        .name = from->name,
+        .elements = from->n - 1,
+        .arc_length = from->arc_length,
+        .element_length = from->element_length,
+        .compliance = from->compliance,
+        .end = {from->end[0], from->end[1]},
+        .reference = from->reference,
+        .position = from->position,
+        .load = from->load,
+        .normal = from->normal,
+        .gap = from->gap,
+        .friction_bound = from->friction_bound,
+        .friction = from->friction_force,
+        .reaction = from->reaction,
+        .segment_force = from->segment_force,
+        .tension = from->tension,
+        .state = from->state,
+    };
+}

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rub: dry friction with the disc of radius A as its set of forces, the cone (t, u) in Q3 with energy A t.
+ *
+ * t is private and linear in the energy, so the first dual is the constant A, dual pair (A, F) in Q3: |F| <= A. Eliminating t
+ * from dz + H ds = q with dz0 = 0 leaves, omega = |w1|^2:
+ *
+ *     dF = Q - M du,     M = g (I - 2 w1 w1^T/(1 + 2 omega)),     Q = q1 + 2 w0 w1 q0/(1 + 2 omega)
+ *     dt = (q0/g + 2 w0 w1.du)/(1 + 2 omega)
+ *
+ * M is stiff while the node sticks; once it slips, g = A/|u| acts across the slip and almost nothing along it. */
+#include "cone/soc.h"
+#include "ipm/program.h"
+
+void cpsi_rub_start(CpsiProgram *program, double mu) {
+    CpsiRub *rub = &program->rub;
+    for (int k = 0; k < rub->count; k++) {
+        const double *u = &program->u[3*rub->node[k]], bound = rub->z[k][0];
+        /* F = -beta A u/|u| with s o z = mu e:  |u| = mu beta/(A (1 - beta^2)),  t = mu/(A (1 - beta^2)) */
+        const double size = sqrt(u[0]*u[0] + u[1]*u[1]), ratio = 2*size*bound/mu;
+        const double beta = ratio/(1 + sqrt(1 + ratio*ratio)), pull = size > 0 ? -beta*bound/size : 0;
+        rub->s[k][0] = mu/(bound*(1 - beta)*(1 + beta));
+        for (int a = 0; a < 2; a++) rub->s[k][1 + a] = u[a], rub->z[k][1 + a] = pull*u[a];
+    }
+}
+
+void cpsi_rub_measure(CpsiProgram *program, CpsiSums *sums) {
+    const CpsiRub *rub = &program->rub;
+    for (int k = 0; k < rub->count; k++) {
+        const double *s = rub->s[k], *z = rub->z[k], weight = rub->weight[k];
+        double *residual = &program->residual[3*rub->node[k]];
+        sums->weight += weight;
+        sums->sz += weight*(s[0]*z[0] + s[1]*z[1] + s[2]*z[2]);
+        sums->scale += weight*s[0]*z[0];
+        residual[0] += weight*z[1];
+        residual[1] += weight*z[2];
+    }
+}
+
+void cpsi_rub_scale(CpsiProgram *program) {
+    CpsiRub *rub = &program->rub;
+    for (int k = 0; k < rub->count; k++) {
+        const CpsiSocScaling scaling = cpsi_soc_scaling(rub->s[k], rub->z[k], 3);
+        const double *w = scaling.w, g = scaling.g, weight = rub->weight[k];
+        const double omega = w[1]*w[1] + w[2]*w[2], cut = 2/(1 + 2*omega);
+        double *diagonal = &program->matrix.diagonal[6*rub->node[k]];
+        diagonal[0] += weight*g*(1 + 2*w[2]*w[2])/(1 + 2*omega);
+        diagonal[1] -= weight*g*cut*w[1]*w[2];
+        diagonal[2] += weight*g*(1 + 2*w[1]*w[1])/(1 + 2*omega);
+        for (int a = 0; a < 3; a++) rub->w[k][a] = w[a], rub->q[k][a] = -rub->z[k][a];
+        rub->g[k] = g;
+    }
+}
+
+void cpsi_rub_load(CpsiProgram *program) {
+    const CpsiRub *rub = &program->rub;
+    for (int k = 0; k < rub->count; k++) {
+        const double *w = rub->w[k], *q = rub->q[k], weight = rub->weight[k];
+        const double pull = 2*w[0]*q[0]/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
+        double *f = &program->du[3*rub->node[k]];
+        for (int a = 0; a < 2; a++) f[a] += weight*(q[1 + a] + pull*w[1 + a]);
+    }
+}
+
+void cpsi_rub_direct(CpsiProgram *program, CpsiSums *sums) {
+    CpsiRub *rub = &program->rub;
+    for (int k = 0; k < rub->count; k++) {
+        const double *w = rub->w[k], *q = rub->q[k], *s = rub->s[k], *z = rub->z[k], *du = &program->du[3*rub->node[k]];
+        const double g = rub->g[k], weight = rub->weight[k], share = 1/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
+        double *ds = rub->ds[k], *dz = rub->dz[k];
+        const double wu = w[1]*du[0] + w[2]*du[1], pull = 2*share*(w[0]*q[0] + g*wu);
+        ds[0] = share*(q[0]/g + 2*w[0]*wu);
+        dz[0] = 0;
+        for (int a = 0; a < 2; a++) {
+            ds[1 + a] = du[a];
+            dz[1 + a] = q[1 + a] - g*du[a] + pull*w[1 + a];
+        }
+        double point[3], scaled_ds[3], scaled_dz[3];
+        cpsi_soc_apply(point, w, z, 1, 3);
+        cpsi_soc_apply(scaled_dz, w, dz, 1, 3);
+        cpsi_soc_apply(scaled_ds, w, ds, -1, 3);
+        for (int a = 0; a < 3; a++) scaled_ds[a] *= g;
+        const double step_s = cpsi_soc_inverse_step(point, scaled_ds, 3), step_z = cpsi_soc_inverse_step(point, scaled_dz, 3);
+        const double step = step_s > step_z ? step_s : step_z;
+        if (!(step <= sums->inverse_step)) sums->inverse_step = step;
+        for (int a = 0; a < 3; a++) {
+            sums->first += weight*(s[a]*dz[a] + z[a]*ds[a]);
+            sums->second += weight*ds[a]*dz[a];
+        }
+    }
+}
+
+void cpsi_rub_correct(CpsiProgram *program, double target) {
+    CpsiRub *rub = &program->rub;
+    for (int k = 0; k < rub->count; k++) {
+        const double *w = rub->w[k], *s = rub->s[k], *z = rub->z[k];
+        double point[3], a[3], b[3], second[3], scaled[3], correction[3];
+        cpsi_soc_apply(point, w, z, 1, 3);
+        cpsi_soc_apply(a, w, rub->dz[k], 1, 3);
+        cpsi_soc_apply(b, w, rub->ds[k], -1, 3);
+        cpsi_soc_product(second, a, b, 3);
+        cpsi_soc_divide(scaled, point, second, 3);
+        cpsi_soc_apply(correction, w, scaled, -1, 3);
+        const double inverse = target/cpsi_soc_det(s, 3), g = rub->g[k];
+        rub->q[k][0] = -z[0] + inverse*s[0] - g*correction[0];
+        for (int j = 1; j < 3; j++) rub->q[k][j] = -z[j] - inverse*s[j] - g*correction[j];
+    }
+}
+
+void cpsi_rub_advance(CpsiProgram *program, double alpha) {
+    CpsiRub *rub = &program->rub;
+    for (int k = 0; k < rub->count; k++)
+        for (int a = 0; a < 3; a++) {
+            rub->s[k][a] += alpha*rub->ds[k][a];
+            rub->z[k][a] += alpha*rub->dz[k][a];
+        }
+}

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Stop: unilateral contact along the third axis, s = gap + u_z >= 0 with reaction z >= 0, s z = 0.
+ *
+ * Linearised: dz = q - (z/s) ds,  ds = du_z + rho,  rho = gap + u_z - s. */
+#include <math.h>
+
+#include "ipm/program.h"
+
+static inline double residual_of(const CpsiProgram *program, int k) {
+    const CpsiStop *stop = &program->stop;
+    return stop->gap[k] + program->u[3*stop->node[k] + 2] - stop->s[k];
+}
+
+void cpsi_stop_start(CpsiProgram *program, double mu, double margin) {
+    CpsiStop *stop = &program->stop;
+    for (int k = 0; k < stop->count; k++) {
+        const double distance = stop->gap[k] + program->u[3*stop->node[k] + 2];
+        stop->s[k] = distance > margin ? distance : margin;
+        stop->z[k] = mu/stop->s[k];
+    }
+}
+
+void cpsi_stop_measure(CpsiProgram *program, CpsiSums *sums) {
+    const CpsiStop *stop = &program->stop;
+    for (int k = 0; k < stop->count; k++) {
+        const double rho = fabs(residual_of(program, k));
+        sums->weight += stop->weight[k];
+        sums->sz += stop->weight[k]*stop->s[k]*stop->z[k];
+        sums->ray -= stop->weight[k]*stop->z[k]*(stop->s[k] + residual_of(program, k));
+        if (!(rho <= sums->residual)) sums->residual = rho;
+        if (stop->z[k] > sums->largest) sums->largest = stop->z[k];
+        program->residual[3*stop->node[k] + 2] += stop->weight[k]*stop->z[k];
+    }
+}
+
+void cpsi_stop_scale(CpsiProgram *program) {
+    CpsiStop *stop = &program->stop;
+    for (int k = 0; k < stop->count; k++) {
+        program->matrix.diagonal[6*stop->node[k] + 5] += stop->weight[k]*stop->z[k]/stop->s[k];
+        stop->q[k] = -stop->z[k];
+    }
+}
+
+void cpsi_stop_load(CpsiProgram *program, double keep) {
+    const CpsiStop *stop = &program->stop;
+    for (int k = 0; k < stop->count; k++)
+        program->du[3*stop->node[k] + 2] +=
+            stop->weight[k]*(stop->q[k] - stop->z[k]/stop->s[k]*keep*residual_of(program, k));
+}
+
+void cpsi_stop_direct(CpsiProgram *program, double keep, CpsiSums *sums) {
+    CpsiStop *stop = &program->stop;
+    for (int k = 0; k < stop->count; k++) {
+        const double s = stop->s[k], z = stop->z[k];
+        const double ds = program->du[3*stop->node[k] + 2] + keep*residual_of(program, k), dz = stop->q[k] - z/s*ds;
+        const double step_s = -ds/s, step_z = -dz/z, step = step_s > step_z ? step_s : step_z;
+        stop->ds[k] = ds;
+        stop->dz[k] = dz;
+        if (!(step <= sums->inverse_step)) sums->inverse_step = step;
+        sums->first += stop->weight[k]*(s*dz + z*ds);
+        sums->second += stop->weight[k]*ds*dz;
+    }
+}
+
+void cpsi_stop_correct(CpsiProgram *program, double target) {
+    CpsiStop *stop = &program->stop;
+    for (int k = 0; k < stop->count; k++)
+        stop->q[k] = -stop->z[k] + (target - stop->ds[k]*stop->dz[k])/stop->s[k];
+}
+
+void cpsi_stop_advance(CpsiProgram *program, double alpha) {
+    CpsiStop *stop = &program->stop;
+    for (int k = 0; k < stop->count; k++) {
+        stop->s[k] += alpha*stop->ds[k];
+        stop->z[k] += alpha*stop->dz[k];
+    }
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Stretch: a tension-only segment of compliance c >= 0, the cone (1 + d, e) in Q4 with energy l d^2/(2c).
+ *
+ * Stationarity in d makes the first dual the tension: T = d/c. So s0 = 1 + c T, with residual rho = 1 + c T - s0, and for
+ * c = 0 (inextensible) nothing changes. With H = g (2 v v^T - J), v = J w, the linearised pair reads dz + H ds = q;
+ * eliminating ds0 = c dT + rho leaves, with omega = |w1|^2, n = w1/|w1|, D = 1 + c g (1 + 2 omega):
+ *
+ *     -dp = Q - M de,     M = g (I - n n^T) + k n n^T,     k = g (1 + 2 omega + c g)/D          1/k -> c as s o z -> 0
+ *      Q  = q1 + 2 g w0 w1 (rho + c q0)/D
+ *     dT  = (q0 - g (1 + 2 omega) rho)/D + 2 g w0 w1.de/D
+ *
+ * g is the geometric stiffness T/|x'|. The rest, k - g, may be 1e12 times larger, so it enters the linear system through the
+ * unknown t = (k - g) n.de with compliance a = 1/(k - g), from which dT is recovered without cancellation:
+ * 2 g w0 w1.de/D = w0 t/(|w1| (1 - c g)). On the central path c g = c T/(1 + c T) < 1. */
+#include "cone/soc.h"
+#include "ipm/program.h"
+
+/* Off the central path 1 - c g is kept above this; the step is then inexact in this element's complementarity alone. */
+static const double LEAST_STIFFENING = 1e-3;
+/* omega -> 0 means no preferred direction; 1/omega is kept finite. */
+static const double LEAST_OMEGA = 1e-24;
+
+/* What scale, load and direct share about one element. */
+typedef struct Segment {
+    double omega, d, stiffening; /* |w1|^2, D, 1 - c g */
+} Segment;
+
+static inline Segment segment(const double w[4], double g, double c) {
+    Segment out;
+    const double omega = w[1]*w[1] + w[2]*w[2] + w[3]*w[3], stiffening = 1 - c*g;
+    out.omega = omega > LEAST_OMEGA ? omega : LEAST_OMEGA;
+    out.d = 1 + c*g*(1 + 2*omega);
+    out.stiffening = stiffening > LEAST_STIFFENING ? stiffening : LEAST_STIFFENING;
+    return out;
+}
+
+void cpsi_stretch_start(CpsiProgram *program, double mu, double margin) {
+    CpsiStretch *st = &program->stretch;
+    for (int i = 1; i < program->n; i++) {
+        double *s = st->s[i], *z = st->z[i];
+        const double r = sqrt(s[1]*s[1] + s[2]*s[2] + s[3]*s[3]);
+        s[0] = r + margin;
+        /* z = mu s^-1 */
+        const double k = mu/(margin*(2*r + margin));
+        z[0] = k*s[0];
+        for (int a = 1; a < 4; a++) z[a] = -k*s[a];
+    }
+}
+
+void cpsi_stretch_measure(CpsiProgram *program, CpsiSums *sums) {
+    const CpsiStretch *st = &program->stretch;
+    double *residual = program->residual;
+    for (int i = 1; i < program->n; i++) {
+        const double *s = st->s[i], *z = st->z[i];
+        const double rho = fabs(1 + st->compliance[i]*z[0] - s[0]);
+        sums->weight += st->length[i];
+        const double work = s[1]*z[1] + s[2]*z[2] + s[3]*z[3];
+        sums->sz += st->length[i]*(s[0]*z[0] + work);
+        sums->scale += st->length[i]*s[0]*z[0];
+        sums->ray -= st->length[i]*(z[0] + work);
+        sums->ray_cost += st->length[i]*st->compliance[i]*z[0]*z[0];
+        if (!(rho <= sums->residual)) sums->residual = rho;
+        if (z[0] > sums->largest) sums->largest = z[0];
+        /* the force p = -z1 pulls node i-1 towards i and node i back */
+        for (int a = 0; a < 3; a++) {
+            residual[3*(i - 1) + a] -= z[1 + a];
+            residual[3*i + a] += z[1 + a];
+        }
+    }
+}
+
+void cpsi_stretch_scale(CpsiProgram *program) {
+    CpsiStretch *st = &program->stretch;
+    CpsiMatrix *matrix = &program->matrix;
+    for (int i = 1; i < program->n; i++) {
+        const CpsiSocScaling scaling = cpsi_soc_scaling(st->s[i], st->z[i], 4);
+        const double g = scaling.g, l = st->length[i];
+        const Segment seg = segment(scaling.w, g, st->compliance[i]);
+        const double in = 1/sqrt(seg.omega);
+        for (int a = 0; a < 4; a++) st->w[i][a] = scaling.w[a];
+        st->g[i] = g;
+        matrix->stiffness[i] = g/l;
+        matrix->compliance[i] = l*seg.d/(2*seg.omega*g*seg.stiffening);
+        for (int a = 0; a < 3; a++) matrix->direction[3*i + a] = in*scaling.w[1 + a];
+        for (int a = 0; a < 4; a++) st->q[i][a] = -st->z[i][a];
+    }
+}
+
+void cpsi_stretch_load(CpsiProgram *program, double keep) {
+    const CpsiStretch *st = &program->stretch;
+    double *f = program->du;
+    for (int i = 1; i < program->n; i++) {
+        const double *w = st->w[i], *q = st->q[i], g = st->g[i], c = st->compliance[i];
+        const Segment seg = segment(w, g, c);
+        const double rho = keep*(1 + c*st->z[i][0] - st->s[i][0]);
+        const double k = 2*g*w[0]*(rho + c*q[0])/seg.d;
+        for (int a = 0; a < 3; a++) {
+            const double force = q[1 + a] + k*w[1 + a];
+            f[3*(i - 1) + a] -= force;
+            f[3*i + a] += force;
+        }
+    }
+}
+
+void cpsi_stretch_direct(CpsiProgram *program, double keep, CpsiSums *sums) {
+    CpsiStretch *st = &program->stretch;
+    const double *du = program->du;
+    for (int i = 1; i < program->n; i++) {
+        const double *w = st->w[i], *q = st->q[i], *s = st->s[i], *z = st->z[i];
+        const double g = st->g[i], c = st->compliance[i], l = st->length[i], t = program->dt[i];
+        double *ds = st->ds[i], *dz = st->dz[i];
+        const Segment seg = segment(w, g, c);
+        const double rho = keep*(1 + c*z[0] - s[0]);
+        const double k = 2*g*w[0]*(rho + c*q[0])/seg.d, in = 1/sqrt(seg.omega), il = 1/l;
+        /* elongation and force */
+        for (int a = 0; a < 3; a++) {
+            const double de = (du[3*i + a] - du[3*(i - 1) + a])*il;
+            ds[1 + a] = de;
+            dz[1 + a] = q[1 + a] + k*w[1 + a] - g*de - in*w[1 + a]*t;
+        }
+        dz[0] = (q[0] - g*(1 + 2*seg.omega)*rho)/seg.d + w[0]*in*t/seg.stiffening;
+        ds[0] = c*dz[0] + rho;
+        /* step to the boundary in the scaled frame, and sums */
+        double point[4], scaled_ds[4], scaled_dz[4];
+        cpsi_soc_apply(point, w, z, 1, 4);
+        cpsi_soc_apply(scaled_dz, w, dz, 1, 4);
+        cpsi_soc_apply(scaled_ds, w, ds, -1, 4);
+        for (int a = 0; a < 4; a++) scaled_ds[a] *= g;
+        const double step_s = cpsi_soc_inverse_step(point, scaled_ds, 4), step_z = cpsi_soc_inverse_step(point, scaled_dz, 4);
+        const double step = step_s > step_z ? step_s : step_z;
+        if (!(step <= sums->inverse_step)) sums->inverse_step = step;
+        for (int a = 0; a < 4; a++) {
+            sums->first += l*(s[a]*dz[a] + z[a]*ds[a]);
+            sums->second += l*ds[a]*dz[a];
+        }
+    }
+}
+
+void cpsi_stretch_correct(CpsiProgram *program, double target) {
+    CpsiStretch *st = &program->stretch;
+    for (int i = 1; i < program->n; i++) {
+        const double *w = st->w[i], *s = st->s[i], *z = st->z[i];
+        double point[4], a[4], b[4], second[4], scaled[4], correction[4];
+        cpsi_soc_apply(point, w, z, 1, 4);
+        cpsi_soc_apply(a, w, st->dz[i], 1, 4);
+        cpsi_soc_apply(b, w, st->ds[i], -1, 4);
+        cpsi_soc_product(second, a, b, 4);
+        cpsi_soc_divide(scaled, point, second, 4);
+        cpsi_soc_apply(correction, w, scaled, -1, 4);
+        const double k = target/cpsi_soc_det(s, 4), g = st->g[i];
+        st->q[i][0] = -z[0] + k*s[0] - g*correction[0];
+        for (int j = 1; j < 4; j++) st->q[i][j] = -z[j] - k*s[j] - g*correction[j];
+    }
+}
+
+void cpsi_stretch_advance(CpsiProgram *program, double alpha) {
+    CpsiStretch *st = &program->stretch;
+    for (int i = 1; i < program->n; i++)
+        for (int a = 0; a < 4; a++) {
+            st->s[i][a] += alpha*st->ds[i][a];
+            st->z[i][a] += alpha*st->dz[i][a];
+        }
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The contract of a linear system: one symmetric quasi-definite matrix over a chain of nodes.
+ *
+ * Unknowns: x_j in R^3 at the nodes j = 0..n-1, and one tension t_i for each element i = 1..n-1 (element i joins node i-1
+ * and node i; index 0 of element arrays is unused). With d_i = x_i - x_{i-1}:
+ *
+ *     node j:       D_j x_j + k_j d_j + m_j t_j - k_{j+1} d_{j+1} - m_{j+1} t_{j+1} = f_j      (terms beyond the ends absent)
+ *     element i:    m_i . d_i - a_i t_i = h_i
+ *     held node:    x_j = 0, its equation is dropped
+ *
+ * D_j symmetric >= 0, k_i >= 0, a_i > 0. Keeping the tension t_i as an unknown keeps stiff elements exact: a_i may be as
+ * small as 0+ beside k_i of order one, where the condensed stiffness m m^T/a would drown everything else. */
+#ifndef CAPSTAN_SRC_LINSYS_LINSYS_H
+#define CAPSTAN_SRC_LINSYS_LINSYS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+
+/* The matrix; arrays belong to the caller. */
+typedef struct CpsiMatrix {
+    int n;                     /* nodes >= 1 */
+    const unsigned char *held; /* (n) 1: x_j = 0 */
+    double *diagonal;          /* (n, 6) D_j as xx, xy, yy, xz, yz, zz */
+    double *stiffness;         /* (n) k_i */
+    double *direction;         /* (n, 3) m_i */
+    double *compliance;        /* (n) a_i */
+} CpsiMatrix;
+
+typedef struct CpsiLinsys CpsiLinsys;
+
+typedef struct CpsiLinsysOps {
+    const char *name;
+    /* Place the factor's storage for at most n nodes in the arena. */
+    CpsiLinsys *(*layout)(CpsiArena *arena, int n);
+    /* Factorise; false when a pivot is not finite (the matrix holds NaN or infinities). */
+    bool (*factor)(CpsiLinsys *self, const CpsiMatrix *matrix);
+    /* Solve with the last factor. In: x = f (n, 3), t = h (n). Out: the solution; x = 0 at held nodes, t[0] = 0. */
+    void (*solve)(const CpsiLinsys *self, const CpsiMatrix *matrix, double *x, double *t);
+} CpsiLinsysOps;
+
+extern const CpsiLinsysOps cpsi_linsys_chain; /* block tridiagonal, cost linear in n */
+extern const CpsiLinsysOps cpsi_linsys_dense; /* all unknowns in one matrix, cost cubic: small n and tests */
+
+#endif
