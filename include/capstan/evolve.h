@@ -89,7 +89,8 @@ typedef struct CpsStepReport {
     int index;        /* 0, 1, ... */
     CpsOutcome outcome;
     int iterations; /* largest over the lines */
-    CpsCertificate certificate; /* energies, gap, scale, residuals summed; bounds and forces: the largest */
+    CpsCertificate certificate; /* energies, gap, scale and J residuals summed, all else the largest of the lines; a
+                                   tension_bound of NaN on any line makes it NaN */
     double dissipated; /* [J] */
     double wall;       /* [s] */
 } CpsStepReport;

@@ -14,6 +14,8 @@
 
 #include <math.h>
 
+#include "base/larger.h"
+
 /* |a||b| - a.b for any two vectors, without cancellation. */
 static double angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
     const double dot = vec3_dot(a, b), sum = size_a*size_b + dot;
@@ -76,9 +78,7 @@ void cpsi_balance_forces(CpsiLine *line) {
     }
 }
 
-static void raise_to(double *largest, double value) {
-    if (!(value <= *largest)) *largest = value;
-}
+static void raise_to(double *largest, double value) { *largest = cpsi_larger(*largest, value); }
 
 /* Elongation: the segments' part of P, D, gap, scale and tension errors. */
 static void add_segments(const CpsiLine *line, CpsCertificate *out) {

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/larger.h"
 #include "base/status.h"
 #include "cable/line_step.h"
 #include "evolve/start.h"
@@ -205,8 +206,6 @@ static void impose(CpsEvolution *evolution) {
     if (++evolution->part == stage->steps) evolution->part = 0, evolution->current++;
 }
 
-static double larger(double a, double b) { return b > a || isnan(a) ? b : a; }
-
 /* Add a line's report to the step's. */
 static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     CpsCertificate *to = &step->certificate;
@@ -216,12 +215,12 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     step->dissipated += line->dissipated;
     to->primal += from->primal, to->dual += from->dual, to->gap += from->gap, to->scale += from->scale;
     to->law_residual += from->law_residual, to->contact_residual += from->contact_residual;
-    to->tension_bound = larger(to->tension_bound, from->tension_bound);
-    to->tension_estimate = larger(to->tension_estimate, from->tension_estimate);
-    to->force_residual = larger(to->force_residual, from->force_residual);
-    to->largest_force = larger(to->largest_force, from->largest_force);
-    to->stretch_residual = larger(to->stretch_residual, from->stretch_residual);
-    to->penetration = larger(to->penetration, from->penetration);
+    to->tension_bound = cpsi_larger(to->tension_bound, from->tension_bound);
+    to->tension_estimate = cpsi_larger(to->tension_estimate, from->tension_estimate);
+    to->force_residual = cpsi_larger(to->force_residual, from->force_residual);
+    to->largest_force = cpsi_larger(to->largest_force, from->largest_force);
+    to->stretch_residual = cpsi_larger(to->stretch_residual, from->stretch_residual);
+    to->penetration = cpsi_larger(to->penetration, from->penetration);
 }
 
 static double seconds(void) {
@@ -239,7 +238,6 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     if (statics) snprintf(evolution->step_name, STEP_NAME, "laid");
     else impose(evolution);
     evolution->report = (CpsStepReport){.name = evolution->step_name, .index = evolution->done};
-    evolution->report.certificate.tension_bound = NAN;
     for (int i = 0; i < evolution->line_count; i++) {
         CpsiStepOptions options = evolution->options;
         if (statics && evolution->is_laid[i]) options.frictionless = true, options.contact = CPS_CONTACT_GAINED;

@@ -10,16 +10,18 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/larger.h"
+
 /* First complementarity and the distance of the start from the cones' boundary; all data are of order one. */
 static const double START_MU = 1.0;
 static const double START_MARGIN = 0.5;
-/* Share of the way to the boundary that a step may take. */
-static const double FRACTION = 0.995;
+/* Share of the way to the boundary that a step may take: nearer to 1 loses the centre on fine meshes, lower costs steps. */
+static const double FRACTION = 0.98;
 /* A step shorter than this, or this many steps without halving the best gap, end the loop. */
 static const double LEAST_STEP = 1e-6;
-static const int PATIENCE = 4;
-/* A ray is a proof once its value outweighs all that it neglects by this factor. */
-static const double RAY = 1e8;
+static const int PATIENCE = 8;
+/* A ray is a proof once its value outweighs all that it neglects by this factor, for any u up to as many line lengths. */
+static const double RAY = 1e4;
 
 static void start(CpsiProgram *program) {
     cpsi_stretch_start(program, START_MU, START_MARGIN);
@@ -40,10 +42,7 @@ static CpsiSums measure(CpsiProgram *program) {
 static double largest_imbalance(const CpsiProgram *program) {
     double largest = 0;
     for (int j = 0; j < program->n; j++)
-        for (int a = 0; a < 3 && !program->held[j]; a++) {
-            const double r = fabs(program->residual[3*j + a]);
-            if (!(r <= largest)) largest = r;
-        }
+        for (int a = 0; a < 3 && !program->held[j]; a++) largest = cpsi_larger(largest, fabs(program->residual[3*j + a]));
     return largest;
 }
 
@@ -85,16 +84,17 @@ static void advance(CpsiProgram *program, double alpha) {
 }
 
 static double step_length(const CpsiSums *sums, double fraction) {
-    return sums->inverse_step > fraction ? fraction/sums->inverse_step : 1;
+    return sums->inverse_step <= fraction ? 1 : fraction/sums->inverse_step; /* NaN stays NaN */
 }
 
-/* Are the duals a ray that no primal point can meet?  Its value must outweigh loads, friction, residuals and compliance. */
+/* Are the duals a ray that no primal point can meet?  Its value must outweigh loads, friction and residuals, and it may not
+ * strain anything with compliance. */
 static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums, double imbalance) {
-    if (sums->largest < RAY) return false;
-    double neglected = program->n*imbalance + sums->ray_cost;
+    if (sums->ray_cost > 0 || !(sums->ray > RAY)) return false;
+    double neglected = program->n*imbalance + sqrt(DBL_EPSILON)*sums->largest/RAY;
     for (int i = 0; i < 3*program->n; i++) neglected += fabs(program->load[i]);
     for (int k = 0; k < program->rub.count; k++) neglected += program->rub.weight[k]*program->rub.z[k][0];
-    return sums->ray > 0 && sums->ray > RAY*DBL_EPSILON*sums->largest + neglected;
+    return sums->ray > RAY*neglected;
 }
 
 /* Is u a ray along which the loads gain more than friction takes, for ever? */
@@ -120,14 +120,15 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
         const CpsiSums sums = measure(program);
         const double imbalance = largest_imbalance(program), mu = sums.sz/sums.weight;
         report.gap = sums.sz/(options->scale + sums.scale);
-        report.residual = imbalance > sums.residual ? imbalance : sums.residual;
+        report.residual = cpsi_larger(imbalance, sums.residual);
         const double merit = report.gap + report.residual;
+        if (!isfinite(merit)) { report.outcome = CPSI_IPM_STALLED; break; }
         if (merit <= options->target) { report.outcome = CPSI_IPM_SOLVED; break; }
         if (primal_infeasible(program, &sums, imbalance)) { report.outcome = CPSI_IPM_INFEASIBLE; break; }
         if (dual_infeasible(program)) { report.outcome = CPSI_IPM_UNBOUNDED; break; }
         if (report.iterations >= options->max_iterations) break;
         waited = merit < 0.5*best ? 0 : waited + 1;
-        if (merit < best) best = merit;
+        if (waited == 0) best = merit;
         if (waited > PATIENCE) { report.outcome = CPSI_IPM_STALLED; break; }
 
         /* predictor: straight for s o z = 0 */

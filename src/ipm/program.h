@@ -78,7 +78,7 @@ typedef struct CpsiSums {
     double scale;        /* sum w s0 z0 over the cones */
     double largest;      /* largest dual of a stretch or stop */
     double ray;          /* minus what the duals, as a ray, ask of the primal: > 0 speaks for infeasibility */
-    double ray_cost;     /* sum l c T^2: what compliance takes from that */
+    double ray_cost;     /* sum l c T^2: > 0 where the ray strains what has compliance */
 } CpsiSums;
 
 /* Place a program for at most n nodes in the arena. */

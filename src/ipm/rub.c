@@ -8,6 +8,7 @@
  *     dt = (q0/g + 2 w0 w1.du)/(1 + 2 omega)
  *
  * M is stiff while the node sticks; once it slips, g = A/|u| acts across the slip and almost nothing along it. */
+#include "base/larger.h"
 #include "cone/soc.h"
 #include "ipm/program.h"
 
@@ -80,8 +81,8 @@ void cpsi_rub_direct(CpsiProgram *program, CpsiSums *sums) {
         cpsi_soc_apply(scaled_ds, w, ds, -1, 3);
         for (int a = 0; a < 3; a++) scaled_ds[a] *= g;
         const double step_s = cpsi_soc_inverse_step(point, scaled_ds, 3), step_z = cpsi_soc_inverse_step(point, scaled_dz, 3);
-        const double step = step_s > step_z ? step_s : step_z;
-        if (!(step <= sums->inverse_step)) sums->inverse_step = step;
+        const double step = cpsi_larger(step_s, step_z);
+        sums->inverse_step = cpsi_larger(sums->inverse_step, step);
         for (int a = 0; a < 3; a++) {
             sums->first += weight*(s[a]*dz[a] + z[a]*ds[a]);
             sums->second += weight*ds[a]*dz[a];

@@ -4,6 +4,7 @@
  * Linearised: dz = q - (z/s) ds,  ds = du_z + rho,  rho = gap + u_z - s. */
 #include <math.h>
 
+#include "base/larger.h"
 #include "ipm/program.h"
 
 static inline double residual_of(const CpsiProgram *program, int k) {
@@ -27,7 +28,7 @@ void cpsi_stop_measure(CpsiProgram *program, CpsiSums *sums) {
         sums->weight += stop->weight[k];
         sums->sz += stop->weight[k]*stop->s[k]*stop->z[k];
         sums->ray -= stop->weight[k]*stop->z[k]*(stop->s[k] + residual_of(program, k));
-        if (!(rho <= sums->residual)) sums->residual = rho;
+        sums->residual = cpsi_larger(sums->residual, rho);
         if (stop->z[k] > sums->largest) sums->largest = stop->z[k];
         program->residual[3*stop->node[k] + 2] += stop->weight[k]*stop->z[k];
     }
@@ -53,10 +54,10 @@ void cpsi_stop_direct(CpsiProgram *program, double keep, CpsiSums *sums) {
     for (int k = 0; k < stop->count; k++) {
         const double s = stop->s[k], z = stop->z[k];
         const double ds = program->du[3*stop->node[k] + 2] + keep*residual_of(program, k), dz = stop->q[k] - z/s*ds;
-        const double step_s = -ds/s, step_z = -dz/z, step = step_s > step_z ? step_s : step_z;
+        const double step_s = -ds/s, step_z = -dz/z, step = cpsi_larger(step_s, step_z);
         stop->ds[k] = ds;
         stop->dz[k] = dz;
-        if (!(step <= sums->inverse_step)) sums->inverse_step = step;
+        sums->inverse_step = cpsi_larger(sums->inverse_step, step);
         sums->first += stop->weight[k]*(s*dz + z*ds);
         sums->second += stop->weight[k]*ds*dz;
     }

@@ -9,14 +9,18 @@
  *      Q  = q1 + 2 g w0 w1 (rho + c q0)/D
  *     dT  = (q0 - g (1 + 2 omega) rho)/D + 2 g w0 w1.de/D
  *
- * g is the geometric stiffness T/|x'|. The rest, k - g, may be 1e12 times larger, so it enters the linear system through the
- * unknown t = (k - g) n.de with compliance a = 1/(k - g), from which dT is recovered without cancellation:
- * 2 g w0 w1.de/D = w0 t/(|w1| (1 - c g)). On the central path c g = c T/(1 + c T) < 1. */
+ * g is the geometric stiffness T/|x'|. The rest, k - g = 2 omega g (1 - c g)/D, may be 1e12 times larger, so it enters the
+ * linear system through the unknown t = (k - g) n.de with compliance a = 1/(k - g), from which dT is recovered without
+ * cancellation: 2 g w0 w1.de/D = w0 t/(|w1| (1 - c g)). On the central path c g = c T/(1 + c T) < 1; off it, where strains are
+ * of order one, c g may pass 1 and a turn negative, which the linear system allows. */
+#include "base/larger.h"
 #include "cone/soc.h"
 #include "ipm/program.h"
 
-/* Off the central path 1 - c g is kept above this; the step is then inexact in this element's complementarity alone. */
-static const double LEAST_STIFFENING = 1e-3;
+/* 1 - c g is kept this far from 0, so that a stays finite: the step is inexact by as much. */
+static const double LEAST_STIFFENING = 1e-13;
+/* Below this 1 - c g the element is not stiff, and dT is taken from de. */
+static const double STIFF = 0.5;
 /* omega -> 0 means no preferred direction; 1/omega is kept finite. */
 static const double LEAST_OMEGA = 1e-24;
 
@@ -30,7 +34,7 @@ static inline Segment segment(const double w[4], double g, double c) {
     const double omega = w[1]*w[1] + w[2]*w[2] + w[3]*w[3], stiffening = 1 - c*g;
     out.omega = omega > LEAST_OMEGA ? omega : LEAST_OMEGA;
     out.d = 1 + c*g*(1 + 2*omega);
-    out.stiffening = stiffening > LEAST_STIFFENING ? stiffening : LEAST_STIFFENING;
+    out.stiffening = fabs(stiffening) > LEAST_STIFFENING ? stiffening : LEAST_STIFFENING;
     return out;
 }
 
@@ -59,7 +63,7 @@ void cpsi_stretch_measure(CpsiProgram *program, CpsiSums *sums) {
         sums->scale += st->length[i]*s[0]*z[0];
         sums->ray -= st->length[i]*(z[0] + work);
         sums->ray_cost += st->length[i]*st->compliance[i]*z[0]*z[0];
-        if (!(rho <= sums->residual)) sums->residual = rho;
+        sums->residual = cpsi_larger(sums->residual, rho);
         if (z[0] > sums->largest) sums->largest = z[0];
         /* the force p = -z1 pulls node i-1 towards i and node i back */
         for (int a = 0; a < 3; a++) {
@@ -113,12 +117,15 @@ void cpsi_stretch_direct(CpsiProgram *program, double keep, CpsiSums *sums) {
         const double rho = keep*(1 + c*z[0] - s[0]);
         const double k = 2*g*w[0]*(rho + c*q[0])/seg.d, in = 1/sqrt(seg.omega), il = 1/l;
         /* elongation and force */
+        double along = 0; /* w1.de */
         for (int a = 0; a < 3; a++) {
             const double de = (du[3*i + a] - du[3*(i - 1) + a])*il;
             ds[1 + a] = de;
             dz[1 + a] = q[1 + a] + k*w[1 + a] - g*de - in*w[1 + a]*t;
+            along += w[1 + a]*de;
         }
-        dz[0] = (q[0] - g*(1 + 2*seg.omega)*rho)/seg.d + w[0]*in*t/seg.stiffening;
+        const double pull = seg.stiffening > STIFF ? in*t/seg.stiffening : 2*g*along/seg.d;
+        dz[0] = (q[0] - g*(1 + 2*seg.omega)*rho)/seg.d + w[0]*pull;
         ds[0] = c*dz[0] + rho;
         /* step to the boundary in the scaled frame, and sums */
         double point[4], scaled_ds[4], scaled_dz[4];
@@ -127,8 +134,8 @@ void cpsi_stretch_direct(CpsiProgram *program, double keep, CpsiSums *sums) {
         cpsi_soc_apply(scaled_ds, w, ds, -1, 4);
         for (int a = 0; a < 4; a++) scaled_ds[a] *= g;
         const double step_s = cpsi_soc_inverse_step(point, scaled_ds, 4), step_z = cpsi_soc_inverse_step(point, scaled_dz, 4);
-        const double step = step_s > step_z ? step_s : step_z;
-        if (!(step <= sums->inverse_step)) sums->inverse_step = step;
+        const double step = cpsi_larger(step_s, step_z);
+        sums->inverse_step = cpsi_larger(sums->inverse_step, step);
         for (int a = 0; a < 4; a++) {
             sums->first += l*(s[a]*dz[a] + z[a]*ds[a]);
             sums->second += l*ds[a]*dz[a];

@@ -3,6 +3,7 @@
  *
  * A quasi-definite matrix has such a factor in every symmetric order (Vanderbei, SIAM J. Optim. 5 (1995)). The unknowns are
  * x_0, ..., x_{n-1} (3 each), then t_1, ..., t_{n-1}. Cost (4n)^3/3: for small lines and for testing the chain. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -60,14 +61,17 @@ static bool dense_factor(CpsiLinsys *self, const CpsiMatrix *matrix) {
             for (size_t k = 0; k < j; k++) sum -= li[k]*lj[k];
             li[j] = sum; /* L_ij D_j for now */
         }
-        double pivot = li[i];
+        const double entry = li[i], least = 4*DBL_EPSILON*fabs(entry);
+        double pivot = entry;
         for (size_t j = 0; j < i; j++) {
             const double scaled = li[j]/l[j*size + j];
             pivot -= scaled*li[j];
             li[j] = scaled;
         }
-        li[i] = pivot;
+        /* a pivot lost to rounding is lifted to the rounding level */
+        if (fabs(pivot) < least) pivot = entry < 0 ? -least : least;
         if (!isfinite(pivot) || pivot == 0) return false;
+        li[i] = pivot;
     }
     return true;
 }

@@ -8,7 +8,8 @@
  *     element i:    m_i . d_i - a_i t_i = h_i
  *     held node:    x_j = 0, its equation is dropped
  *
- * D_j symmetric >= 0, k_i >= 0, a_i > 0. Keeping the tension t_i as an unknown keeps stiff elements exact: a_i may be as
+ * D_j symmetric >= 0, k_i >= 0, a_i > 0; or a_i < 0 as long as k_i I + m_i m_i^T/a_i >= 0 (an element softer along itself than
+ * across). Eliminating the tensions would leave a positive definite matrix, so no pivot vanishes in the orders used. Keeping the tension t_i as an unknown keeps stiff elements exact: a_i may be as
  * small as 0+ beside k_i of order one, where the condensed stiffness m m^T/a would drown everything else. */
 #ifndef CAPSTAN_SRC_LINSYS_LINSYS_H
 #define CAPSTAN_SRC_LINSYS_LINSYS_H

@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The larger of two numbers, NaN if either is: maxima of residuals must not hide one. */
+#ifndef CAPSTAN_SRC_BASE_LARGER_H
+#define CAPSTAN_SRC_BASE_LARGER_H
+
+static inline double cpsi_larger(double a, double b) { return a > b || a != a ? a : b; }
+
+#endif

@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Defaults of the scene structs, and the check of a scene before anything is solved. */
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "base/vec3.h"
+#include "capstan/scene.h"
+#include "evolve/start.h"
+
+enum { SCENE_COOKIE = 0x5ce9e501, LINE_COOKIE = 0x11e00e02, OBSTACLE_COOKIE = 0x0b57ac03 };
+
+/* A start shape must be as long as the line to this relative accuracy: lengths written with 9 digits pass. */
+static const double LENGTH_TOLERANCE = 1e-8;
+/* An elastic line may start stretched, but not beyond this strain: more is a slip of the pen. */
+static const double MAX_START_STRAIN = 1.0;
+/* How far a held end may lie from where the start shape puts it, or below the obstacle, per length of the line. */
+static const double PLACE_TOLERANCE = 1e-9;
+/* How far the elements' lengths may sum up beside the line's, relative: lengths written with 10 digits pass. */
+static const double SUM_TOLERANCE = 1e-9;
+/* What still fits into the memory of a large machine (1 kB per element), and into a list of results. */
+enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000 };
+
+CpsScene cps_scene_default(void) {
+    return (CpsScene){
+        .cookie = SCENE_COOKIE,
+        .gravity = {0, 0, -9.81},
+        .solver = {.tolerance = 1e-8, .max_iterations = 60, .linear_system = CPS_LINEAR_SYSTEM_CHAIN},
+    };
+}
+
+CpsLine cps_line_default(void) {
+    return (CpsLine){
+        .cookie = LINE_COOKIE,
+        .elements = 100,
+        .stiffness = INFINITY,
+        .start = {.axis = {0, 0, 1}},
+        .end = {{.kind = CPS_END_HELD, .value = {NAN, NAN, NAN}}, {.kind = CPS_END_FREE}},
+    };
+}
+
+CpsObstacle cps_obstacle_default(void) { return (CpsObstacle){.cookie = OBSTACLE_COOKIE, .normal = {0, 0, 1}}; }
+
+/* ---- the check ----
+ *
+ * A message begins with the object and its key, as a scene file writes them, so that a reader of files can find the
+ * place: line 'cable': length is ...      obstacle 'bed': friction is ...      stage 2: steps is ...      solver:
+ * tolerance is ... */
+
+/* Numbers whose squares and products would overflow are taken for infinite; lengths whose squares would vanish for
+ * zero. */
+static const double LARGEST = 1e100, SMALLEST = 1e-100;
+
+static bool usable(double x) { return fabs(x) <= LARGEST; }
+static bool usable3(const double x[3]) { return usable(x[0]) && usable(x[1]) && usable(x[2]); }
+static bool positive(double x) { return x >= SMALLEST && x <= LARGEST; }
+static bool not_negative(double x) { return x >= 0 && x <= LARGEST; }
+static bool direction(const double x[3]) { return usable3(x) && vec3_norm(vec3_load(x)) >= SMALLEST; }
+
+static const char *end_letter(int end) { return end == CPS_END_A ? "A" : "B"; }
+
+/* Names are file and column names elsewhere: a letter, then letters, digits, _ and -, 64 in all. */
+static bool name_is_valid(const char *name) {
+    static const char LETTERS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    static const char OTHERS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+    return name && name[0] && strchr(LETTERS, name[0]) && strnlen(name, 65) <= 64 &&
+           strspn(name, OTHERS) == strlen(name);
+}
+
+static CpsStatus check_name(const char *what, int index, const char *name, CpsError *err) {
+    if (name_is_valid(name)) return CPS_OK;
+    return cpsi_fail(
+        err, CPS_ERR_ARGUMENT,
+        "%s %d: its name is '%.80s', expected a letter followed by letters, digits, '_' or '-', at most 64 in all",
+        what, index + 1, name ? name : "(none)");
+}
+
+static CpsStatus check_obstacle(const CpsScene *scene, CpsError *err) {
+    if (scene->obstacle_count < 0 || scene->obstacle_count > 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacles: found %d, at most one obstacle is possible",
+                         scene->obstacle_count);
+    if (scene->obstacle_count == 0) return CPS_OK;
+    const CpsObstacle *o = scene->obstacle;
+    if (!o || o->cookie != OBSTACLE_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle 1: not made by cps_obstacle_default()");
+    const CpsStatus status = check_name("obstacle", 0, o->name, err);
+    if (status != CPS_OK) return status;
+    if (!usable3(o->point))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': plane point is (%g, %g, %g) m, expected finite numbers",
+                         o->name, o->point[0], o->point[1], o->point[2]);
+    if (!direction(o->normal))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "obstacle '%s': plane normal is (%g, %g, %g), expected a direction: finite numbers, not all 0",
+                         o->name, o->normal[0], o->normal[1], o->normal[2]);
+    if (!not_negative(o->friction))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
+                         o->friction);
+    return CPS_OK;
+}
+
+/* [m] distance of a point above the obstacle; INFINITY without one. */
+static double height(const CpsScene *scene, Vec3 x) {
+    if (scene->obstacle_count == 0) return INFINITY;
+    const Vec3 normal = vec3_load(scene->obstacle->normal);
+    return vec3_dot(vec3_sub(x, vec3_load(scene->obstacle->point)), normal) / vec3_norm(normal);
+}
+
+static CpsStatus check_elements(const CpsLine *line, CpsError *err) {
+    if (line->elements < 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': elements is %d, expected at least 1", line->name,
+                         line->elements);
+    if (!line->element_length) return CPS_OK;
+    double sum = 0;
+    for (int i = 0; i < line->elements; i++) {
+        if (!positive(line->element_length[i]))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "line '%s': elements: number %d is %g m long, expected a positive finite number",
+                             line->name, i + 1, line->element_length[i]);
+        sum += line->element_length[i];
+    }
+    if (!(fabs(sum - line->length) <= SUM_TOLERANCE * line->length))
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "line '%s': elements are %.12g m long together, but length is %.12g m: make them agree to 9 digits",
+            line->name, sum, line->length);
+    return CPS_OK;
+}
+
+static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsError *err) {
+    if (!positive(line->length))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': length is %g m, expected a positive finite number",
+                         line->name, line->length);
+    if (!not_negative(line->weight))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': weight is %g N/m, expected a finite number >= 0",
+                         line->name, line->weight);
+    if (line->weight > 0 && !direction(scene->gravity))
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "line '%s': weight is %g N/m, but gravity is zero and has no direction: give the scene a gravity",
+            line->name, line->weight);
+    if (!positive(line->stiffness) && line->stiffness != INFINITY)
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "line '%s': stiffness is %g N, expected a positive number, or infinity for an inextensible line",
+            line->name, line->stiffness);
+    return check_elements(line, err);
+}
+
+/* What the start is made of, and for an arc that it can carry the elements. */
+static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
+    const CpsStart *start = &line->start;
+    if (start->kind < CPS_START_STRAIGHT || start->kind > CPS_START_LAID)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start has the unknown kind %d", line->name,
+                         (int)start->kind);
+    if (start->kind == CPS_START_LAID) return CPS_OK;
+    const bool polyline = start->kind == CPS_START_POLYLINE;
+    if (!start->point || (polyline ? start->point_count < 2 : start->point_count != 2))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start has %d points, expected %s", line->name,
+                         start->point ? start->point_count : 0, polyline ? "at least 2" : "2");
+    for (int i = 0; i < start->point_count; i++)
+        if (!usable3(&start->point[3 * i]))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "line '%s': start: point %d is (%g, %g, %g) m, expected finite numbers", line->name, i + 1,
+                             start->point[3 * i], start->point[3 * i + 1], start->point[3 * i + 2]);
+    if (start->kind != CPS_START_ARC) return CPS_OK;
+    if (!direction(start->axis))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%s': start: arc axis is (%g, %g, %g), expected a direction: finite numbers, not all 0",
+                         line->name, start->axis[0], start->axis[1], start->axis[2]);
+    const double radius = cpsi_start_arc(line).radius;
+    if (!positive(radius))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start: the arc's first point lies on its axis", line->name);
+    for (int i = 0; i < line->elements; i++) {
+        const double l = line->element_length ? line->element_length[i] : line->length / line->elements;
+        if (l > 2 * radius)
+            return cpsi_fail(
+                err, CPS_ERR_ARGUMENT,
+                "line '%s': start: an element is %g m long, longer than the arc's diameter %g m: use more elements",
+                line->name, l, 2 * radius);
+    }
+    return CPS_OK;
+}
+
+static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
+    const double shape = cpsi_start_length(line), length = line->length;
+    const bool elastic = isfinite(line->stiffness);
+    if (line->start.kind == CPS_START_ARC) {
+        const double full = 2 * acos(-1.0) * cpsi_start_arc(line).radius;
+        if (!(length <= full * (1 + LENGTH_TOLERANCE)))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "line '%s': start: the line is %.10g m long, more than one full turn of the arc, %.10g m",
+                             line->name, length, full);
+    }
+    if (!(shape >= length * (1 - LENGTH_TOLERANCE)))
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "line '%s': start is %.10g m long, shorter than the line's length %.10g m: lengthen the shape, or "
+            "use 'laid'",
+            line->name, shape, length);
+    if (!elastic && !(shape <= length * (1 + LENGTH_TOLERANCE)))
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "line '%s': start is %.10g m long, longer than the inextensible line's length %.10g m: shorten it",
+            line->name, shape, length);
+    if (elastic && !(shape <= length * (1 + MAX_START_STRAIN)))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%s': start is %.10g m long, more than twice the line's length %.10g m: shorten it",
+                         line->name, shape, length);
+    return CPS_OK;
+}
+
+/* No node of the start shape below the obstacle; statics keeps a laid line above by itself. */
+static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, CpsError *err) {
+    if (scene->obstacle_count == 0 || line->start.kind == CPS_START_LAID) return CPS_OK;
+    CpsiStartWalk walk = cpsi_start_walk(line);
+    for (int i = 0; i <= line->elements; i++) {
+        const double above = height(scene, cpsi_start_next(&walk));
+        if (!(above >= -PLACE_TOLERANCE * line->length))
+            return cpsi_fail(
+                err, CPS_ERR_ARGUMENT,
+                "line '%s': start: node %d lies %g m below obstacle '%s': lift the shape, or turn the normal",
+                line->name, i, -above, scene->obstacle->name);
+    }
+    return CPS_OK;
+}
+
+static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, CpsError *err) {
+    const CpsEnd *e = &line->end[end];
+    const char *letter = end_letter(end);
+    const double *v = e->value;
+    if (e->kind != CPS_END_HELD && e->kind != CPS_END_FREE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': ends: end %s has the unknown kind %d", line->name, letter,
+                         (int)e->kind);
+    if (e->kind == CPS_END_FREE) {
+        if (usable3(v)) return CPS_OK;
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%s': ends: the force on end %s is (%g, %g, %g) N, expected finite numbers", line->name,
+                         letter, v[0], v[1], v[2]);
+    }
+    const bool laid = line->start.kind == CPS_START_LAID;
+    if (isnan(v[0]) && isnan(v[1]) && isnan(v[2])) {
+        if (!laid) return CPS_OK;
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%s': ends: end %s has no position, and a laid start gives none: fix it at [x, y, z]",
+                         line->name, letter);
+    }
+    if (!usable3(v))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': ends: end %s is at (%g, %g, %g) m, expected finite numbers",
+                         line->name, letter, v[0], v[1], v[2]);
+    const double above = height(scene, vec3_load(v));
+    if (!(above >= -PLACE_TOLERANCE * line->length))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': ends: end %s is %g m below obstacle '%s'", line->name,
+                         letter, -above, scene->obstacle->name);
+    if (laid) return CPS_OK;
+
+    /* where the start puts the end: ask as if no value were given */
+    CpsLine open = *line;
+    open.end[end].value[0] = NAN;
+    double start[3];
+    cpsi_start_end(&open, end, start);
+    const double off = vec3_norm(vec3_sub(vec3_load(start), vec3_load(v)));
+    if (!(off <= PLACE_TOLERANCE * line->length))
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "line '%s': ends: end %s is fixed at (%.10g, %.10g, %.10g) m, but the start puts it at (%.10g, %.10g, "
+            "%.10g) m, %g m away: make them agree, or give no position",
+            line->name, letter, v[0], v[1], v[2], start[0], start[1], start[2], off);
+    return CPS_OK;
+}
+
+static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
+    const CpsLine *line = &scene->line[index];
+    if (line->cookie != LINE_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line %d: not made by cps_line_default()", index + 1);
+    CpsStatus status = check_name("line", index, line->name, err);
+    for (int i = 0; i < index && status == CPS_OK; i++)
+        if (strcmp(scene->line[i].name, line->name) == 0)
+            status = cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': lines %d and %d have the same name", line->name,
+                               i + 1, index + 1);
+    if (status == CPS_OK) status = check_numbers(scene, line, err);
+    if (status == CPS_OK) status = check_start_data(line, err);
+    if (status == CPS_OK) status = check_start_length(line, err);
+    if (status == CPS_OK) status = check_start_height(scene, line, err);
+    for (int end = 0; end < 2 && status == CPS_OK; end++) status = check_end(scene, line, end, err);
+    if (status == CPS_OK && line->start.kind == CPS_START_LAID && line->end[0].kind == CPS_END_FREE &&
+        line->end[1].kind == CPS_END_FREE)
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': ends: both are free, but a laid start needs a fixed one",
+                           line->name);
+    return status;
+}
+
+static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsError *err) {
+    const CpsChange *change = &scene->stage[stage].change[index];
+    if (change->line < 0 || change->line >= scene->line_count || (change->end != CPS_END_A && change->end != CPS_END_B))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "stage %d: change %d names line %d, end %d: there are %d lines, ends are 0 and 1", stage + 1,
+                         index + 1, change->line, change->end, scene->line_count);
+    const CpsLine *line = &scene->line[change->line];
+    const char *letter = end_letter(change->end);
+    for (int i = 0; i < index; i++) {
+        const CpsChange *other = &scene->stage[stage].change[i];
+        if (other->line == change->line && other->end == change->end)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: %s.%s is changed twice", stage + 1, line->name, letter);
+    }
+    const double *v = change->to.value;
+    if (change->to.kind != CPS_END_HELD && change->to.kind != CPS_END_FREE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: %s.%s has the unknown kind %d", stage + 1, line->name,
+                         letter, (int)change->to.kind);
+    if (!usable3(v))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: %s.%s gets (%g, %g, %g), expected finite numbers", stage + 1,
+                         line->name, letter, v[0], v[1], v[2]);
+    const double above = change->to.kind == CPS_END_HELD ? height(scene, vec3_load(v)) : INFINITY;
+    if (!(above >= -PLACE_TOLERANCE * line->length))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: %s.%s is moved to %g m below obstacle '%s'", stage + 1,
+                         line->name, letter, -above, scene->obstacle->name);
+    return CPS_OK;
+}
+
+static CpsStatus check_history(const CpsScene *scene, CpsError *err) {
+    if (scene->stage_count < 0 || (scene->stage_count > 0 && !scene->stage))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "history: found %d stages, expected 0 or more", scene->stage_count);
+    int64_t steps = 0;
+    for (int k = 0; k < scene->stage_count; k++) {
+        const CpsStage *stage = &scene->stage[k];
+        if (!stage->name || !stage->name[0]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: it has no name", k + 1);
+        if (stage->steps < 1)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: steps is %d, expected at least 1", k + 1, stage->steps);
+        steps += stage->steps;
+        if (steps > MAX_STEPS)
+            return cpsi_fail(err, CPS_ERR_LIMIT, "stage %d: steps of the history exceed %lld in all, the limit", k + 1,
+                             (long long)MAX_STEPS);
+        if (stage->change_count < 0 || (stage->change_count > 0 && !stage->change))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d changes, expected 0 or more", k + 1,
+                             stage->change_count);
+        for (int i = 0; i < stage->change_count; i++) {
+            const CpsStatus status = check_change(scene, k, i, err);
+            if (status != CPS_OK) return status;
+        }
+    }
+    return CPS_OK;
+}
+
+static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
+    const CpsSolverOptions *solver = &scene->solver;
+    if (!(solver->tolerance >= 1e-14 && solver->tolerance <= 1e-2))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "solver: tolerance is %g, expected 1e-14 to 1e-2", solver->tolerance);
+    if (solver->max_iterations < 1 || solver->max_iterations > 1000)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "solver: max_iterations is %d, expected 1 to 1000",
+                         solver->max_iterations);
+    if (solver->linear_system != CPS_LINEAR_SYSTEM_CHAIN && solver->linear_system != CPS_LINEAR_SYSTEM_DENSE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "solver: linear_system has the unknown value %d",
+                         (int)solver->linear_system);
+    if (scene->friction != CPS_FRICTION_FROZEN)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "friction: unknown value %d", (int)scene->friction);
+    if (scene->contact != CPS_CONTACT_GAINED && scene->contact != CPS_CONTACT_STRICT)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "contact: unknown value %d", (int)scene->contact);
+    if (!usable3(scene->gravity))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "gravity: is (%g, %g, %g) m/s2, expected finite numbers",
+                         scene->gravity[0], scene->gravity[1], scene->gravity[2]);
+    return CPS_OK;
+}
+
+CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
+    if (!scene || scene->cookie != SCENE_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the scene was not made by cps_scene_default()");
+    CpsStatus status = check_options(scene, err);
+    if (status == CPS_OK) status = check_obstacle(scene, err);
+    if (status != CPS_OK) return status;
+    if (scene->line_count < 1 || !scene->line)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "lines: found %d, expected at least one", scene->line_count);
+    if (scene->line_count > MAX_LINES)
+        return cpsi_fail(err, CPS_ERR_LIMIT, "lines: found %d, the limit is %d", scene->line_count, (int)MAX_LINES);
+    int64_t elements = 0;
+    for (int i = 0; i < scene->line_count; i++) {
+        elements += scene->line[i].elements > 0 ? scene->line[i].elements : 0;
+        if (elements > MAX_ELEMENTS)
+            return cpsi_fail(err, CPS_ERR_LIMIT, "lines: %lld elements or more together, the limit is %lld",
+                             (long long)elements, (long long)MAX_ELEMENTS);
+    }
+    for (int i = 0; i < scene->line_count; i++) {
+        status = check_line(scene, i, err);
+        if (status != CPS_OK) return status;
+    }
+    return check_history(scene, err);
+}

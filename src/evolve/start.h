@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Where a line starts: its nodes along the start shape, by natural length.
+ *
+ *   straight, polyline   node i at the shape's arc length a_i s, with a_i its natural abscissa and s = shape's length
+ * over line's length >= 1: an elastic line is stretched evenly arc                  nodes on the circle, each chord
+ * exactly as long as its element: free of stress laid                 only a first guess for statics: evenly on the
+ * straight line between the held ends, or from the held end along the force on the free one (straight down, -z, when
+ * there is none)
+ *
+ * The line must have passed the check of its start (scene.c), which itself walks along the shape. */
+#ifndef CAPSTAN_SRC_EVOLVE_START_H
+#define CAPSTAN_SRC_EVOLVE_START_H
+
+#include "base/vec3.h"
+#include "capstan/scene.h"
+
+/* The circle of a start arc: centre + radius (cos t e1 + sin t e2), t from 0. */
+typedef struct CpsiArc {
+    Vec3 centre; /* nearest point of the axis to the first node */
+    Vec3 e1, e2; /* unit vectors: to the first node, and along the first step */
+    double radius;
+} CpsiArc;
+CpsiArc cpsi_start_arc(const CpsLine *line);
+
+/* [m] Length of the start shape; an arc and a laid start are as long as the line. */
+double cpsi_start_length(const CpsLine *line);
+
+/* Visit the nodes from A to B. */
+typedef struct CpsiStartWalk {
+    const CpsLine *line;
+    int node;       /* next to visit */
+    double natural; /* [m] abscissa of that node */
+    double stretch; /* [-] straight, polyline: shape's length over line's */
+    double angle;   /* [rad] arc: of that node */
+    double behind;  /* [m] polyline: length of the pieces already passed */
+    int piece;      /* polyline: piece that the walk is on */
+    CpsiArc arc;
+    Vec3 from, to; /* laid: the ends of the guess */
+} CpsiStartWalk;
+CpsiStartWalk cpsi_start_walk(const CpsLine *line);
+Vec3 cpsi_start_next(CpsiStartWalk *walk);
+
+/* All nodes.  position   (elements + 1, 3) [m], written */
+void cpsi_start_place(const CpsLine *line, double *position);
+
+/* Where an end starts: the value of a held end, or where the start puts it (free, or held with value NaN). */
+void cpsi_start_end(const CpsLine *line, int end, double position[3]);
+
+#endif

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the writers of results share: the history so far in numbers, and sampled shapes for the pictures.
+ *
+ * Fields go to files step by step; memory keeps one row of reports per step and at most about sixty sampled
+ * shapes, so it does not grow with the number of nodes. */
+#ifndef CAPSTAN_SRC_IO_RESULT_H
+#define CAPSTAN_SRC_IO_RESULT_H
+
+#include <locale.h>
+#include <stdbool.h>
+
+#include "capstan/io.h"
+#include "io/result_file.h"
+
+typedef struct CpsiNetcdf CpsiNetcdf;
+
+typedef struct CpsiLineRow {
+    CpsLineReport report;
+    bool held[2];         /* was the position of this end imposed? */
+    double open_reaction; /* [N] largest reaction on a node that does not touch */
+} CpsiLineRow;
+
+typedef struct CpsiRow {
+    CpsStepReport report; /* its name is `name` */
+    char *name;
+    double open_reaction; /* [N] largest over the lines */
+    CpsiLineRow *line;
+} CpsiRow;
+
+/* A line at one step, thinned to a number of points that a picture can show. */
+typedef struct CpsiShape {
+    int points;
+    double *abscissa;     /* (points) [m] */
+    double *position;     /* (points, 3) [m] */
+    double *reference;    /* (points, 3) [m] where the step started */
+    double *tension;      /* (points - 1) [N] mean over the elements between two points */
+    unsigned char *state; /* (points) CpsNodeState */
+} CpsiShape;
+
+typedef struct CpsiSnapshot {
+    int step;         /* index of its row */
+    CpsiShape *shape; /* one per line, owning a single block of memory */
+} CpsiSnapshot;
+
+/* The steps first..last (inclusive) that make up an entry of the history. */
+typedef struct CpsiStage {
+    char *name;
+    int first, last;
+} CpsiStage;
+
+struct CpsResults {
+    CpsiDirectory *directory;
+    CpsiNetcdf *netcdf;
+    locale_t locale; /* "C": numbers are written with a point whatever the program's locale */
+    bool failed;     /* a call has failed: nothing may be committed any more */
+
+    char *title; /* "" when the scene has none */
+    double gravity[3];
+    bool has_obstacle;
+    char *obstacle_name;
+    CpsObstacle obstacle;
+    int line_count;
+    char **line_name;
+    double *line_length; /* [m] */
+    int stage_count;
+    CpsiStage *stage;
+    int planned_steps;
+
+    int row_count, row_capacity;
+    CpsiRow *row;
+    int snapshot_count, snapshot_capacity;
+    CpsiSnapshot *snapshot;
+};
+
+/* Is this step among those that get their own plan view and elevation? All of a short history; of a long one the
+ * ends of its stages, or an even selection, and always the first and the last step. */
+bool cpsi_results_pictured(const CpsResults *results, int step);
+
+/* Worst outcome so far. */
+CpsOutcome cpsi_results_outcome(const CpsResults *results);
+
+/* result_snapshot.c: keep the last step for the pictures if it is among those to be drawn. */
+bool cpsi_snapshot_append(CpsResults *results, const CpsEvolution *evolution);
+void cpsi_snapshot_free(CpsiSnapshot *snapshot);
+
+/* result_summary.c, result_history.c: the rows as JSON and CSV. */
+void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
+void cpsi_history_write(const CpsResults *results, FILE *out);
+
+/* result_netcdf.c: result.nc, every step synced. */
+CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution, CpsiNetcdf **out,
+                           CpsError *err);
+CpsStatus cpsi_netcdf_append(CpsiNetcdf *netcdf, const CpsEvolution *evolution, CpsError *err);
+/* Close and free; accepts NULL. Reports what could not be written. */
+CpsStatus cpsi_netcdf_close(CpsiNetcdf *netcdf, CpsError *err);
+
+/* result_paraview.c: one step as .vtp, the list of steps as .pvd. */
+CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution, CpsError *err);
+CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err);
+
+/* picture_*.c: all SVG pictures. */
+CpsStatus cpsi_pictures_write(CpsResults *results, CpsError *err);
+
+#endif

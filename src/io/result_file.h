@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A set of files that appears in a directory whole or not at all.
+ *
+ * Every file NAME is written as .NAME.part, synced, and renamed at the commit, after all of them are complete.
+ * Closing without a commit removes the temporary files, and the directory too if it was made for them. One
+ * writer at a time: the open directory carries an advisory lock, which also ends with a killed process. */
+#ifndef CAPSTAN_SRC_IO_RESULT_FILE_H
+#define CAPSTAN_SRC_IO_RESULT_FILE_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "capstan/base.h"
+
+typedef struct CpsiDirectory CpsiDirectory;
+
+/* Open `path`, made if missing. Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
+CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *err);
+
+/* Begin the file `name`; the stream is closed by cpsi_directory_close_file. */
+CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE **out, CpsError *err);
+
+/* Has a file of this name been begun? */
+bool cpsi_directory_has(const CpsiDirectory *directory, const char *name);
+
+/* Flush, sync and close the stream just created; reports any write to it that failed. */
+CpsStatus cpsi_directory_close_file(CpsiDirectory *directory, FILE *stream, CpsError *err);
+
+/* Begin a file that a library opens by itself: its temporary path, owned by the caller. */
+CpsStatus cpsi_directory_reserve(CpsiDirectory *directory, const char *name, char **path, CpsError *err);
+
+/* Sync a reserved file after the library has closed it. */
+CpsStatus cpsi_directory_sync(CpsiDirectory *directory, const char *name, CpsError *err);
+
+/* Rename all files into place, in the order of their creation, and remove files of earlier runs for which
+ * `stale` is true and that this run has not written. */
+CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const char *name), CpsError *err);
+
+/* Close; files not committed are removed. Accepts NULL. */
+void cpsi_directory_destroy(CpsiDirectory *directory);
+
+#endif

@@ -1,0 +1,359 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* result.nc: every field of every step, classic netCDF with 64-bit offsets (CDF-2) and CF attributes.
+ *
+ * The layout is two tables, of the arrays in a line's view and of the numbers in its report; docs/results.md shows
+ * the result. nc_sync after each step leaves a file that can be read while the run goes on, and after a crash.
+ * The library keeps a list of open files of its own and is not safe for threads: one lock around its calls makes
+ * it so (the only shared state in capstan-io). */
+#include <math.h>
+#include <netcdf.h>
+#include <pthread.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "io/result.h"
+#include "io/result_text.h"
+
+static pthread_mutex_t library_lock = PTHREAD_MUTEX_INITIALIZER;
+
+enum { XYZ = 3, ENDS = 2, NAME_LENGTH = 96, VARIABLE_NAME_SIZE = NC_MAX_NAME + 1 };
+
+/* the format's limit on one variable in one record, in bytes (the specification of CDF-2) */
+static const uint64_t MAX_RECORD = 4294967292;
+
+/* Arrays of CpsLineView. */
+typedef enum Place { PLACE_NODE, PLACE_ELEMENT } Place;
+typedef struct Field {
+    const char *name, *long_name, *units;
+    Place place;
+    bool vector, fixed; /* fixed: does not change with the steps */
+    size_t offset;      /* of a const double * in CpsLineView */
+} Field;
+
+#define VIEW(member)   offsetof(CpsLineView, member)
+#define REPORT(member) offsetof(CpsLineReport, member)
+
+static const Field FIELD[] = {
+    {"arc_length", "natural abscissa of the nodes", "m", PLACE_NODE, false, true, VIEW(arc_length)},
+    {"element_length", "natural length of the elements", "m", PLACE_ELEMENT, false, true, VIEW(element_length)},
+    {"reference", "configuration in which the step starts", "m", PLACE_NODE, true, false, VIEW(reference)},
+    {"position", "configuration", "m", PLACE_NODE, true, false, VIEW(position)},
+    {"load", "weight and forces on free ends", "N", PLACE_NODE, true, false, VIEW(load)},
+    {"normal", "normal of the obstacle, 0 without one", "1", PLACE_NODE, true, false, VIEW(normal)},
+    {"contact_gap", "distance that the displacement may close, infinite where no contact is looked for", "m",
+     PLACE_NODE, false, false, VIEW(gap)},
+    {"friction_bound", "largest friction force", "N", PLACE_NODE, false, false, VIEW(friction_bound)},
+    {"friction", "friction force on the line", "N", PLACE_NODE, true, false, VIEW(friction)},
+    {"reaction", "reaction of the obstacle along its normal", "N", PLACE_NODE, false, false, VIEW(reaction)},
+    {"segment_force", "force of the B side of an element on its A side", "N", PLACE_ELEMENT, true, false,
+     VIEW(segment_force)},
+    {"tension", "tension from the elongation", "N", PLACE_ELEMENT, false, false, VIEW(tension)},
+};
+
+/* Numbers of CpsLineReport. */
+typedef struct Number {
+    const char *name, *long_name, *units;
+    size_t offset;
+} Number;
+
+static const Number NUMBER[] = {
+    {"primal", "energy and friction work of the configuration", "J", REPORT(certificate.primal)},
+    {"dual", "lower bound of the minimum, from the forces", "J", REPORT(certificate.dual)},
+    {"gap", "sum of the local gaps", "J", REPORT(certificate.gap)},
+    {"scale", "scale of the gap", "J", REPORT(certificate.scale)},
+    {"tension_bound", "guaranteed rms error of the tension", "N", REPORT(certificate.tension_bound)},
+    {"tension_estimate", "largest difference of elongation and equilibrium tension", "N",
+     REPORT(certificate.tension_estimate)},
+    {"force_residual", "largest imbalance of forces on a node", "N", REPORT(certificate.force_residual)},
+    {"largest_force", "largest force in the line or on it", "N", REPORT(certificate.largest_force)},
+    {"law_residual", "sum of dissipation and friction power", "J", REPORT(certificate.law_residual)},
+    {"contact_residual", "sum of reaction times distance", "J", REPORT(certificate.contact_residual)},
+    {"stretch_residual", "largest stretch of an inextensible element", "1", REPORT(certificate.stretch_residual)},
+    {"penetration", "depth of the deepest node below the obstacle", "m", REPORT(certificate.penetration)},
+    {"dissipated", "energy dissipated by friction in the step", "J", REPORT(dissipated)},
+    {"proof_value", "infeasible: excess distance in m; unbounded: fall of energy per metre in N", "m or N",
+     REPORT(proof_value)},
+};
+
+enum { FIELDS = sizeof FIELD / sizeof FIELD[0], NUMBERS = sizeof NUMBER / sizeof NUMBER[0] };
+
+typedef struct LineIds {
+    int node, element; /* dimensions */
+    int compliance, state, end_kind, end_value, outcome, iterations, proof;
+    int field[FIELDS];
+    int number[NUMBERS];
+} LineIds;
+
+struct CpsiNetcdf {
+    int file;
+    bool open;
+    int status; /* of the first call that failed: later ones do nothing */
+    size_t steps;
+    int step, xyz, end, name_length; /* dimensions */
+    int step_name, outcome, wall;
+    int line_count;
+    LineIds *line;
+};
+
+static void keep(CpsiNetcdf *nc, int status) {
+    if (nc->status == NC_NOERR) nc->status = status;
+}
+
+static CpsStatus result_of(const CpsiNetcdf *nc, CpsError *err) {
+    if (nc->status == NC_NOERR) return CPS_OK;
+    return cpsi_fail(err, nc->status == NC_ENOMEM ? CPS_ERR_MEMORY : CPS_ERR_IO, "cannot write result.nc: %s",
+                     nc_strerror(nc->status));
+}
+
+static int add_dimension(CpsiNetcdf *nc, const char *name, size_t size) {
+    int id = -1;
+    if (nc->status == NC_NOERR) keep(nc, nc_def_dim(nc->file, name, size, &id));
+    return id;
+}
+
+static void add_text(CpsiNetcdf *nc, int variable, const char *name, const char *text) {
+    if (nc->status == NC_NOERR) keep(nc, nc_put_att_text(nc->file, variable, name, strlen(text), text));
+}
+
+/* a variable "prefix_name", or "name" without a prefix */
+static int add_variable(CpsiNetcdf *nc, const char *prefix, const char *name, nc_type type, int rank, const int *shape,
+                        const char *long_name, const char *units) {
+    char full[VARIABLE_NAME_SIZE];
+    int id = -1;
+    const int length = snprintf(full, sizeof full, "%s%s%s", prefix, *prefix ? "_" : "", name);
+    if (length < 0 || (size_t)length >= sizeof full) keep(nc, NC_EMAXNAME);
+    if (nc->status == NC_NOERR) keep(nc, nc_def_var(nc->file, full, type, rank, shape, &id));
+    add_text(nc, id, "long_name", long_name);
+    if (units) add_text(nc, id, "units", units);
+    return id;
+}
+
+/* names of the values of an enumeration, as CF wants them */
+static void add_flags(CpsiNetcdf *nc, int variable, nc_type type, int count, const char *meanings) {
+    const int value[] = {0, 1, 2, 3, 4, 5};
+    if (nc->status == NC_NOERR) keep(nc, nc_put_att_int(nc->file, variable, "flag_values", type, (size_t)count, value));
+    add_text(nc, variable, "flag_meanings", meanings);
+}
+
+#define OUTCOME_WORD(name, number, key, sentence) key " "
+#define OUTCOME_ONE(name, number, key, sentence)  +1
+static const char OUTCOME_MEANINGS[] = CPS_OUTCOME_LIST(OUTCOME_WORD);
+enum { OUTCOMES = 0 CPS_OUTCOME_LIST(OUTCOME_ONE) };
+
+static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
+    const int id = add_variable(nc, prefix, "outcome", NC_INT, 1, &nc->step, "what came of the step", "1");
+    add_flags(nc, id, NC_INT, OUTCOMES, OUTCOME_MEANINGS);
+    return id;
+}
+
+static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names) {
+    add_text(nc, NC_GLOBAL, "Conventions", "CF-1.8");
+    add_text(nc, NC_GLOBAL, "title", scene->title ? scene->title : "");
+    char source[64];
+    snprintf(source, sizeof source, "capstan %s", cps_version());
+    add_text(nc, NC_GLOBAL, "source", source);
+    add_text(nc, NC_GLOBAL, "lines", names);
+    if (nc->status == NC_NOERR)
+        keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "gravity", NC_DOUBLE, 3, scene->gravity));
+    if (nc->status == NC_NOERR)
+        keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &scene->solver.tolerance));
+
+    nc->step = add_dimension(nc, "step", NC_UNLIMITED);
+    nc->xyz = add_dimension(nc, "xyz", XYZ);
+    nc->end = add_dimension(nc, "end", ENDS);
+    nc->name_length = add_dimension(nc, "name_length", NAME_LENGTH);
+    const int shape[] = {nc->step, nc->name_length};
+    nc->step_name = add_variable(nc, "", "step_name", NC_CHAR, 2, shape, "name of the step", NULL);
+    nc->outcome = add_outcome(nc, "");
+    nc->wall = add_variable(nc, "", "wall", NC_DOUBLE, 1, &nc->step, "time taken by the step", "s");
+}
+
+static void define_field(CpsiNetcdf *nc, LineIds *ids, const char *line, int f) {
+    const Field *field = &FIELD[f];
+    const int along = field->place == PLACE_NODE ? ids->node : ids->element;
+    const int shape[] = {nc->step, along, nc->xyz};
+    const int rank = 1 + !field->fixed + field->vector;
+    ids->field[f] = add_variable(nc, line, field->name, NC_DOUBLE, rank, field->fixed ? shape + 1 : shape,
+                                 field->long_name, field->units);
+}
+
+static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
+    char name[VARIABLE_NAME_SIZE];
+    snprintf(name, sizeof name, "%.200s_node", view->name);
+    ids->node = add_dimension(nc, name, (size_t)view->elements + 1);
+    snprintf(name, sizeof name, "%.200s_element", view->name);
+    ids->element = add_dimension(nc, name, (size_t)view->elements);
+
+    for (int f = 0; f < FIELDS; ++f) define_field(nc, ids, view->name, f);
+    ids->compliance = add_variable(nc, view->name, "compliance", NC_DOUBLE, 0, NULL, "1/EA, 0: inextensible", "N-1");
+    const int on_nodes[] = {nc->step, ids->node}, on_ends[] = {nc->step, nc->end, nc->xyz};
+    ids->state = add_variable(nc, view->name, "state", NC_BYTE, 2, on_nodes, "rest on the obstacle", "1");
+    add_flags(nc, ids->state, NC_BYTE, 3, "free stick slip");
+    ids->end_kind = add_variable(nc, view->name, "end_kind", NC_BYTE, 2, on_ends, "what is imposed at A and B", "1");
+    add_flags(nc, ids->end_kind, NC_BYTE, 2, "held free");
+    ids->end_value = add_variable(nc, view->name, "end_value", NC_DOUBLE, 3, on_ends,
+                                  "position in m of a held end, force in N on a free one", "m or N");
+    ids->outcome = add_outcome(nc, view->name);
+    ids->iterations =
+        add_variable(nc, view->name, "iterations", NC_INT, 1, &nc->step, "interior-point iterations", "1");
+    const int vectors[] = {nc->step, nc->xyz};
+    ids->proof = add_variable(nc, view->name, "proof", NC_DOUBLE, 2, vectors, "direction that proves no solution", "1");
+    for (int i = 0; i < NUMBERS; ++i)
+        ids->number[i] =
+            add_variable(nc, view->name, NUMBER[i].name, NC_DOUBLE, 1, &nc->step, NUMBER[i].long_name, NUMBER[i].units);
+}
+
+static const double *array_of(const CpsLineView *view, const Field *field) {
+    const double *array;
+    memcpy(&array, (const char *)view + field->offset, sizeof array);
+    return array;
+}
+
+static void write_doubles(CpsiNetcdf *nc, int variable, const size_t *start, const size_t *count, const double *value) {
+    if (nc->status == NC_NOERR) keep(nc, nc_put_vara_double(nc->file, variable, start, count, value));
+}
+
+/* the fields that do not change (fixed), or those of a step */
+static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view, bool fixed) {
+    for (int f = 0; f < FIELDS; ++f) {
+        const Field *field = &FIELD[f];
+        if (field->fixed != fixed) continue;
+        const size_t along = (size_t)view->elements + (field->place == PLACE_NODE);
+        const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
+        write_doubles(nc, ids->field[f], start + fixed, count + fixed, array_of(view, field));
+    }
+}
+
+static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view, const CpsLineReport *report) {
+    write_fields(nc, ids, view, false);
+    const size_t start[] = {nc->steps, 0, 0};
+    const size_t nodes[] = {1, (size_t)view->elements + 1}, ends[] = {1, ENDS, XYZ}, vector[] = {1, XYZ};
+    if (nc->status == NC_NOERR) keep(nc, nc_put_vara_uchar(nc->file, ids->state, start, nodes, view->state));
+
+    unsigned char kind[ENDS];
+    double value[ENDS][XYZ];
+    for (int e = 0; e < ENDS; ++e) {
+        kind[e] = view->end[e].kind == CPS_END_FREE;
+        memcpy(value[e], view->end[e].value, sizeof value[e]);
+    }
+    if (nc->status == NC_NOERR) keep(nc, nc_put_vara_uchar(nc->file, ids->end_kind, start, ends, kind));
+    write_doubles(nc, ids->end_value, start, ends, value[0]);
+    write_doubles(nc, ids->proof, start, vector, report->proof);
+
+    const int outcome = (int)report->outcome;
+    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->outcome, start, &outcome));
+    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->iterations, start, &report->iterations));
+    for (int i = 0; i < NUMBERS; ++i) {
+        const double *number = (const double *)(const void *)((const char *)report + NUMBER[i].offset);
+        if (nc->status == NC_NOERR) keep(nc, nc_put_var1_double(nc->file, ids->number[i], start, number));
+    }
+}
+
+/* all definitions, then the fields that never change */
+static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene, const CpsEvolution *evolution,
+                  const char *names) {
+    int before = 0;
+    keep(nc, nc_create(path, NC_CLOBBER | NC_64BIT_OFFSET, &nc->file));
+    nc->open = nc->status == NC_NOERR;
+    /* everything is written once, so nothing need be filled before */
+    if (nc->open) keep(nc, nc_set_fill(nc->file, NC_NOFILL, &before));
+    if (nc->open) define_run(nc, scene, names);
+    for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
+        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        define_line(nc, &nc->line[i], &view);
+    }
+    if (nc->status == NC_NOERR) keep(nc, nc_enddef(nc->file));
+    for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
+        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        write_fields(nc, &nc->line[i], &view, true);
+        if (nc->status == NC_NOERR) keep(nc, nc_put_var_double(nc->file, nc->line[i].compliance, &view.compliance));
+    }
+    if (nc->status == NC_NOERR) keep(nc, nc_sync(nc->file));
+}
+
+/* names of all lines, separated by blanks; NULL when memory does not suffice */
+static char *join_names(const CpsEvolution *evolution, int count) {
+    size_t size = 1;
+    for (int i = 0; i < count; ++i) size += strlen(cps_evolution_line_view(evolution, i).name) + 1;
+    char *names = calloc(size, 1), *next = names;
+    for (int i = 0; names && i < count; ++i)
+        next += snprintf(next, size - (size_t)(next - names), "%s%s", i ? " " : "",
+                         cps_evolution_line_view(evolution, i).name);
+    return names;
+}
+
+static CpsStatus check_sizes(const CpsEvolution *evolution, int count, CpsError *err) {
+    for (int i = 0; i < count; ++i) {
+        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        uint64_t bytes = 0;
+        if (__builtin_mul_overflow((uint64_t)view.elements + 1, (uint64_t)(XYZ * sizeof(double)), &bytes) ||
+            bytes > MAX_RECORD)
+            return cpsi_fail(err, CPS_ERR_LIMIT, "line %s has %d elements; result.nc holds at most %llu per line",
+                             view.name, view.elements, (unsigned long long)(MAX_RECORD / (XYZ * sizeof(double)) - 1));
+    }
+    return CPS_OK;
+}
+
+CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution, CpsiNetcdf **out,
+                           CpsError *err) {
+    *out = NULL;
+    const int lines = cps_evolution_line_count(evolution);
+    CpsStatus status = check_sizes(evolution, lines, err);
+    if (status) return status;
+    CpsiNetcdf *nc = calloc(1, sizeof *nc);
+    char *names = join_names(evolution, lines);
+    if (nc) nc->line = calloc((size_t)lines, sizeof *nc->line), nc->line_count = lines;
+    if (nc && nc->line && names) {
+        pthread_mutex_lock(&library_lock);
+        begin(nc, path, scene, evolution, names);
+        pthread_mutex_unlock(&library_lock);
+        status = result_of(nc, err);
+    } else {
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while opening result.nc");
+    }
+    free(names);
+    if (status)
+        cpsi_netcdf_close(nc, NULL);
+    else
+        *out = nc;
+    return status;
+}
+
+CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsError *err) {
+    const CpsStepReport report = cps_evolution_report(evolution);
+    const size_t start[] = {nc->steps, 0}, count[] = {1, NAME_LENGTH};
+    const int outcome = (int)report.outcome;
+    char name[NAME_LENGTH] = {0};
+    const char *given = report.name ? report.name : "";
+    memcpy(name, given, cpsi_utf8_cut(given, sizeof name));
+
+    pthread_mutex_lock(&library_lock);
+    if (nc->status == NC_NOERR) keep(nc, nc_put_vara_text(nc->file, nc->step_name, start, count, name));
+    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, nc->outcome, start, &outcome));
+    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_double(nc->file, nc->wall, start, &report.wall));
+    for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
+        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        const CpsLineReport line = cps_evolution_line_report(evolution, i);
+        write_line(nc, &nc->line[i], &view, &line);
+    }
+    if (nc->status == NC_NOERR) keep(nc, nc_sync(nc->file));
+    pthread_mutex_unlock(&library_lock);
+    nc->steps++;
+    return result_of(nc, err);
+}
+
+CpsStatus cpsi_netcdf_close(CpsiNetcdf *nc, CpsError *err) {
+    if (!nc) return CPS_OK;
+    if (nc->open) {
+        pthread_mutex_lock(&library_lock);
+        const int status = nc_close(nc->file);
+        pthread_mutex_unlock(&library_lock);
+        keep(nc, status);
+    }
+    const CpsStatus status = result_of(nc, err);
+    free(nc->line);
+    free(nc);
+    return status;
+}

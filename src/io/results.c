@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A directory of results: open, append each step, finish. The writers are in result_*.c and picture_*.c; this
+ * file owns the memory, the order of the files and what happens when one of them fails. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "base/vec3.h"
+#include "io/result.h"
+
+/* A node touches when it is closer to the obstacle than this part of its line's length: far above the rounding
+ * of positions, far below anything drawn. */
+static const double TOUCH_TOLERANCE = 1e-9;
+
+enum {
+    SHORT_HISTORY = 14, /* up to here every step is pictured */
+    EVEN_SELECTION = 12
+};
+
+static CpsStatus fail_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while keeping the history of the results");
+}
+
+static char *copy_text(const char *text) { return strdup(text ? text : ""); }
+
+/* stages in terms of steps; a laid start is a step before the first stage */
+static bool copy_stages(CpsResults *results, const CpsScene *scene) {
+    if (scene->stage_count == 0) return true;
+    results->stage = calloc((size_t)scene->stage_count, sizeof *results->stage);
+    if (!results->stage) return false;
+    int64_t first = results->planned_steps;
+    for (int i = 0; i < scene->stage_count; ++i) first -= scene->stage[i].steps;
+    for (int i = 0; i < scene->stage_count; ++i) {
+        CpsiStage *stage = &results->stage[results->stage_count++];
+        stage->name = copy_text(scene->stage[i].name);
+        stage->first = (int)first;
+        first += scene->stage[i].steps;
+        stage->last = (int)first - 1;
+        if (!stage->name) return false;
+    }
+    return true;
+}
+
+static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvolution *evolution) {
+    results->planned_steps = cps_evolution_step_count(evolution);
+    results->title = copy_text(scene->title);
+    memcpy(results->gravity, scene->gravity, sizeof results->gravity);
+    if (scene->obstacle_count > 0) {
+        results->has_obstacle = true;
+        results->obstacle = scene->obstacle[0];
+        results->obstacle_name = copy_text(scene->obstacle[0].name);
+        results->obstacle.name = results->obstacle_name;
+    }
+    const size_t lines = (size_t)cps_evolution_line_count(evolution);
+    results->line_name = calloc(lines, sizeof *results->line_name);
+    results->line_length = calloc(lines, sizeof *results->line_length);
+    if (!results->title || !results->line_name || !results->line_length) return false;
+    if (results->has_obstacle && !results->obstacle_name) return false;
+    for (size_t i = 0; i < lines; ++i) {
+        const CpsLineView view = cps_evolution_line_view(evolution, (int)i);
+        results->line_length[i] = view.arc_length[view.elements];
+        results->line_name[i] = copy_text(view.name);
+        results->line_count = (int)i + 1;
+        if (!results->line_name[i]) return false;
+    }
+    return copy_stages(results, scene);
+}
+
+static CpsStatus open_files(CpsResults *results, const char *directory, const CpsScene *scene,
+                            const CpsEvolution *evolution, CpsError *err) {
+    CpsStatus status = cpsi_directory_open(directory, &results->directory, err);
+    if (status) return status;
+    char *path = NULL;
+    status = cpsi_directory_reserve(results->directory, "result.nc", &path, err);
+    if (!status) status = cpsi_netcdf_open(path, scene, evolution, &results->netcdf, err);
+    free(path);
+    return status;
+}
+
+CpsStatus cps_results_open(const char *directory, const CpsScene *scene, const CpsEvolution *evolution,
+                           CpsResults **out, CpsError *err) {
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL; give the address of a CpsResults pointer");
+    *out = NULL;
+    if (!directory || !*directory || !scene || !evolution)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory, scene and evolution are all needed to open results");
+
+    CpsResults *results = calloc(1, sizeof *results);
+    if (!results) return fail_memory(err);
+    results->locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    CpsStatus status = CPS_OK;
+    if (!results->locale || !copy_scene(results, scene, evolution)) status = fail_memory(err);
+    if (!status) status = open_files(results, directory, scene, evolution, err);
+    if (status) {
+        cps_results_destroy(results);
+        return status;
+    }
+    *out = results;
+    return CPS_OK;
+}
+
+bool cpsi_results_pictured(const CpsResults *results, int step) {
+    const int steps = results->planned_steps;
+    if (steps <= SHORT_HISTORY || step == 0 || step == steps - 1) return true;
+    if (results->stage_count < 4 || results->stage_count > SHORT_HISTORY)
+        return step % ((steps + EVEN_SELECTION - 1) / EVEN_SELECTION) == 0;
+    for (int i = 0; i < results->stage_count; ++i)
+        if (results->stage[i].last == step) return true;
+    return false;
+}
+
+CpsOutcome cpsi_results_outcome(const CpsResults *results) {
+    CpsOutcome worst = CPS_SOLVED;
+    for (int i = 0; i < results->row_count; ++i)
+        if (results->row[i].report.outcome > worst) worst = results->row[i].report.outcome;
+    return worst;
+}
+
+/* Largest reaction on a node that does not touch: what complementarity forbids, in newtons. A held end is carried
+ * by what holds it; its reaction is only a share of that and says nothing. */
+static double open_reaction(const CpsLineView *view) {
+    const double touch = TOUCH_TOLERANCE * view->arc_length[view->elements];
+    double worst = 0;
+    const int first = view->end[CPS_END_A].kind == CPS_END_HELD;
+    const int last = view->elements - (view->end[CPS_END_B].kind == CPS_END_HELD);
+    for (int j = first; j <= last; ++j) {
+        const Vec3 moved =
+            vec3_sub(vec3_load(view->position + 3 * (size_t)j), vec3_load(view->reference + 3 * (size_t)j));
+        const double distance = vec3_dot(vec3_load(view->normal + 3 * (size_t)j), moved) + view->gap[j];
+        /* written so that a NaN is seen and not passed over */
+        if (!(distance <= touch) && !(view->reaction[j] <= worst)) worst = view->reaction[j];
+    }
+    return worst;
+}
+
+static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
+    if (results->row_count == results->row_capacity) {
+        const size_t capacity = results->row_capacity ? 2 * (size_t)results->row_capacity : 64;
+        CpsiRow *grown = realloc(results->row, capacity * sizeof *grown);
+        if (!grown) return false;
+        results->row = grown;
+        results->row_capacity = (int)capacity;
+    }
+    CpsiRow row = {.report = cps_evolution_report(evolution)};
+    row.name = copy_text(row.report.name);
+    row.report.name = row.name;
+    row.line = calloc((size_t)results->line_count, sizeof *row.line);
+    if (!row.name || !row.line) {
+        free(row.name);
+        free(row.line);
+        return false;
+    }
+    for (int i = 0; i < results->line_count; ++i) {
+        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        CpsiLineRow *line = &row.line[i];
+        line->report = cps_evolution_line_report(evolution, i);
+        line->open_reaction = open_reaction(&view);
+        for (int e = 0; e < 2; ++e) line->held[e] = view.end[e].kind == CPS_END_HELD;
+        if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
+    }
+    results->row[results->row_count++] = row;
+    return true;
+}
+
+static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
+    if (!append_row(results, evolution) || !cpsi_snapshot_append(results, evolution)) return fail_memory(err);
+    const CpsStatus status = cpsi_netcdf_append(results->netcdf, evolution, err);
+    return status ? status : cpsi_paraview_step(results, evolution, err);
+}
+
+static CpsStatus refuse_failed(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                     "these results have failed or are finished; destroy them and open new ones");
+}
+
+CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
+    if (!results || !evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and evolution are both needed");
+    if (results->failed) return refuse_failed(err);
+    const CpsStepReport report = cps_evolution_report(evolution);
+    if (report.index != results->row_count)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d follows step %d of the results; append every step once",
+                         report.index, results->row_count - 1);
+    const locale_t before = uselocale(results->locale);
+    const CpsStatus status = append(results, evolution, err);
+    uselocale(before);
+    results->failed = status != CPS_OK;
+    return status;
+}
+
+/* one text file of the directory from a function that prints it */
+static CpsStatus write_history(CpsResults *results, CpsError *err) {
+    FILE *out = NULL;
+    const CpsStatus status = cpsi_directory_create(results->directory, "history.csv", &out, err);
+    if (status) return status;
+    cpsi_history_write(results, out);
+    return cpsi_directory_close_file(results->directory, out, err);
+}
+
+static CpsStatus write_summary(CpsResults *results, double wall, CpsError *err) {
+    FILE *out = NULL;
+    const CpsStatus status = cpsi_directory_create(results->directory, "summary.json", &out, err);
+    if (status) return status;
+    cpsi_summary_write(results, wall, out);
+    return cpsi_directory_close_file(results->directory, out, err);
+}
+
+/* names of which an earlier run may have left more than this one writes */
+static bool is_step_or_loop(const char *name) {
+    const char *dot = strrchr(name, '.');
+    if (!dot) return false;
+    if (strncmp(name, "loop-", 5) == 0) return strcmp(dot, ".svg") == 0;
+    if (strncmp(name, "step-", 5) != 0 || strspn(name + 5, "0123456789") < 5) return false;
+    return strcmp(dot, ".svg") == 0 || strcmp(dot, ".vtp") == 0;
+}
+
+static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
+    CpsiNetcdf *netcdf = results->netcdf;
+    results->netcdf = NULL;
+    CpsStatus status = cpsi_netcdf_close(netcdf, err);
+    if (!status) status = cpsi_directory_sync(results->directory, "result.nc", err);
+    if (!status) status = cpsi_paraview_list(results, err);
+    if (!status) status = cpsi_pictures_write(results, err);
+    if (!status) status = write_history(results, err);
+    /* last: where there is a new summary, everything it speaks of is in place */
+    if (!status) status = write_summary(results, wall, err);
+    return status ? status : cpsi_directory_commit(results->directory, is_step_or_loop, err);
+}
+
+CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError *err) {
+    if (!results) return cpsi_fail(err, CPS_ERR_ARGUMENT, "results is NULL; open them first");
+    if (results->failed) return refuse_failed(err);
+    const locale_t before = uselocale(results->locale);
+    const CpsStatus status = finish(results, wall, err);
+    uselocale(before);
+    results->failed = true; /* nothing can be added to finished results either */
+    cpsi_directory_destroy(results->directory);
+    results->directory = NULL;
+    return status;
+}
+
+CpsStatus cps_results_write_summary(const CpsResults *results, double wall, FILE *out, CpsError *err) {
+    if (!results || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and out are both needed");
+    const locale_t before = uselocale(results->locale);
+    cpsi_summary_write(results, wall, out);
+    uselocale(before);
+    if (fflush(out) != 0 || ferror(out)) return cpsi_fail(err, CPS_ERR_IO, "the summary could not be written");
+    return CPS_OK;
+}
+
+void cps_results_destroy(CpsResults *results) {
+    if (!results) return;
+    cpsi_netcdf_close(results->netcdf, NULL);
+    cpsi_directory_destroy(results->directory);
+    for (int i = 0; i < results->row_count; ++i) {
+        free(results->row[i].name);
+        free(results->row[i].line);
+    }
+    for (int i = 0; i < results->snapshot_count; ++i) cpsi_snapshot_free(&results->snapshot[i]);
+    for (int i = 0; i < results->stage_count; ++i) free(results->stage[i].name);
+    for (int i = 0; i < results->line_count; ++i) free(results->line_name[i]);
+    free(results->row);
+    free(results->snapshot);
+    free(results->stage);
+    free(results->line_name);
+    free(results->line_length);
+    free(results->obstacle_name);
+    free(results->title);
+    if (results->locale) freelocale(results->locale);
+    free(results);
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Read a scene file: bytes -> tree (scene_yaml.h) -> validated by the table of keys (scene_valid.h) -> structs
+ * (scene_build.h) -> cps_scene_check. */
+#include <errno.h>
+#include <fcntl.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/status.h"
+#include "capstan/io.h"
+#include "io/scene_build.h"
+#include "io/scene_valid.h"
+
+struct CpsSceneFile {
+    CpsScene scene;
+    CpsiPool pool; /* all that the scene points to */
+};
+
+CpsReadLimits cps_read_limits_default(void) {
+    return (CpsReadLimits){
+        .max_bytes = (size_t)64 << 20, .max_depth = 64, .max_elements = 10000000, .max_steps = 1000000};
+}
+
+void cps_scene_file_destroy(CpsSceneFile *file) {
+    if (!file) return;
+    cpsi_pool_free(&file->pool);
+    free(file);
+}
+
+const CpsScene *cps_scene_file_scene(const CpsSceneFile *file) { return &file->scene; }
+
+/* ---- bytes ---- */
+
+static CpsStatus io_error(const char *file, const char *what, CpsError *err) {
+    return cpsi_fail_at(err, CPS_ERR_IO, file, 0, 0, "%s", what);
+}
+
+/* Open a regular file; a FIFO must not block us, a device must not be read. */
+static CpsStatus open_regular(const char *path, int *fd, CpsError *err) {
+    *fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+    if (*fd < 0) return cpsi_fail_at(err, CPS_ERR_IO, path, 0, 0, "cannot open: %s", strerror(errno));
+    struct stat about = {0};
+    if (fstat(*fd, &about) == 0 && S_ISREG(about.st_mode)) return CPS_OK;
+    const bool directory = S_ISDIR(about.st_mode);
+    close(*fd);
+    return io_error(
+        path, directory ? "is a directory, expected a scene file" : "is not a regular file; '-' reads standard input",
+        err);
+}
+
+/* All bytes of fd and a NUL behind them. The buffer doubles, so a size is never trusted. */
+static CpsStatus read_bytes(int fd, const char *file, size_t max_bytes, char **bytes, size_t *size, CpsError *err) {
+    size_t room = 4096, used = 0;
+    char *buffer = malloc(room);
+    while (buffer) {
+        const ssize_t n = read(fd, buffer + used, room - used - 1);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) {
+            free(buffer);
+            return cpsi_fail_at(err, CPS_ERR_IO, file, 0, 0, "cannot read: %s", strerror(errno));
+        }
+        if (n == 0) {
+            buffer[used] = '\0';
+            *bytes = buffer, *size = used;
+            return CPS_OK;
+        }
+        used += (size_t)n;
+        if (used > max_bytes) {
+            free(buffer);
+            return cpsi_fail_at(err, CPS_ERR_LIMIT, file, 0, 0, "is larger than %zu bytes, the limit", max_bytes);
+        }
+        if (used + 1 == room) {
+            char *larger = room <= SIZE_MAX / 2 ? realloc(buffer, 2 * room) : NULL;
+            if (!larger) free(buffer);
+            buffer = larger, room *= 2;
+        }
+    }
+    return cpsi_fail_at(err, CPS_ERR_MEMORY, file, 0, 0, "out of memory while reading the file");
+}
+
+static CpsStatus read_file(const char *path, const char *file, size_t max_bytes, char **bytes, size_t *size,
+                           CpsError *err) {
+    int fd = STDIN_FILENO;
+    const bool input = strcmp(path, "-") == 0;
+    CpsStatus status = input ? CPS_OK : open_regular(path, &fd, err);
+    if (status != CPS_OK) return status;
+    status = read_bytes(fd, file, max_bytes, bytes, size, err);
+    if (!input) close(fd);
+    return status;
+}
+
+/* ---- the place of what cps_scene_check has found ---- */
+
+static const CpsiYaml *nth_child(const CpsiYaml *node, int n) {
+    const CpsiYaml *child = node ? node->child : NULL;
+    while (child && --n > 0) child = child->next;
+    return child;
+}
+
+/* Messages begin with the object and its key (scene.c): "line 'cable': length ...", "stage 2: cable.B ...". */
+static const CpsiYaml *place_of(const CpsiYaml *root, const char *message) {
+    char name[65] = "", word[160] = "";
+    int number = 0;
+    const CpsiYaml *object = NULL;
+    if (sscanf(message, "line '%64[^']': %159[A-Za-z0-9_.-]", name, word) >= 1)
+        object = cpsi_yaml_child(cpsi_yaml_child(root, "lines"), name);
+    else if (sscanf(message, "obstacle '%64[^']': %159[A-Za-z0-9_.-]", name, word) >= 1)
+        object = cpsi_yaml_child(cpsi_yaml_child(root, "obstacles"), name);
+    else if (sscanf(message, "line %d:", &number) == 1) /* it has no proper name */
+        object = nth_child(cpsi_yaml_child(root, "lines"), number);
+    else if (sscanf(message, "obstacle %d:", &number) == 1)
+        object = nth_child(cpsi_yaml_child(root, "obstacles"), number);
+    else if (sscanf(message, "stage %d: %159[A-Za-z0-9_.-]", &number, word) >= 1)
+        object = nth_child(cpsi_yaml_child(root, "history"), number);
+    else if (sscanf(message, "%64[a-z]: %159[a-z_]", name, word) >= 1)
+        object = cpsi_yaml_child(root, name);
+    if (!object) return root;
+    const CpsiYaml *value = cpsi_yaml_child(object, word);
+    return value ? value : object;
+}
+
+static CpsStatus check(const char *file, const CpsiYaml *root, const CpsScene *scene, CpsError *err) {
+    CpsError found;
+    const CpsStatus status = cps_scene_check(scene, &found);
+    if (status == CPS_OK) return CPS_OK;
+    const CpsiYaml *place = place_of(root, found.message);
+    return cpsi_fail_at(err, status == CPS_ERR_ARGUMENT ? CPS_ERR_INPUT : status, file, place->line, place->column,
+                        "%s", found.message);
+}
+
+/* ---- all together ---- */
+
+static CpsStatus read_scene(const char *path, const CpsReadLimits *limits, CpsSceneFile *scene, CpsError *err) {
+    const char *file = strcmp(path, "-") == 0 ? "standard input" : path;
+    char *bytes = NULL;
+    size_t size = 0;
+    CpsiPool tree = {0};
+    CpsiYaml *root = NULL;
+    CpsStatus status = read_file(path, file, limits->max_bytes, &bytes, &size, err);
+    if (status == CPS_OK) status = cpsi_yaml_parse(file, bytes, size, limits->max_depth, &tree, &root, err);
+    free(bytes);
+    if (status == CPS_OK) status = cpsi_scene_validate(file, root, err);
+    if (status == CPS_OK) status = cpsi_scene_build(file, root, limits, &scene->pool, &scene->scene, err);
+    if (status == CPS_OK) status = check(file, root, &scene->scene, err);
+    cpsi_pool_free(&tree);
+    return status;
+}
+
+CpsStatus cps_scene_read(const char *path, const CpsReadLimits *limits, CpsSceneFile **out, CpsError *err) {
+    if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
+    *out = NULL;
+    const CpsReadLimits defaults = cps_read_limits_default();
+    if (!limits) limits = &defaults;
+    if (limits->max_depth < 1 || limits->max_elements < 1 || limits->max_steps < 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "limits are not positive: start from cps_read_limits_default()");
+
+    /* numbers have a decimal point whatever the program's locale */
+    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    CpsSceneFile *scene = calloc(1, sizeof *scene);
+    if (!numbers || !scene) {
+        if (numbers) freelocale(numbers);
+        free(scene);
+        return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    }
+    const locale_t before = uselocale(numbers);
+    const CpsStatus status = read_scene(path, limits, scene, err);
+    uselocale(before);
+    freelocale(numbers);
+    if (status == CPS_OK)
+        *out = scene;
+    else
+        cps_scene_file_destroy(scene);
+    return status;
+}

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Memory: stepping allocates nothing; creating survives every failing allocation and leaks nothing. malloc and its kin are
+ * replaced by wrappers that count and can be told to fail (linked with --wrap). */
+#include <stdlib.h>
+
+#include "capstan/capstan.h"
+#include "check.h"
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *place, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+void __real_free(void *place);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *place, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+void __wrap_free(void *place);
+
+static int allocations, live, fail_at = -1;
+
+static bool refuse(void) { return allocations++ == fail_at; }
+static void *counted(void *place) { return live += place != NULL, place; }
+void *__wrap_malloc(size_t size) { return refuse() ? NULL : counted(__real_malloc(size)); }
+void *__wrap_calloc(size_t count, size_t size) { return refuse() ? NULL : counted(__real_calloc(count, size)); }
+void *__wrap_realloc(void *place, size_t size) { return refuse() ? NULL : __real_realloc(place, size); }
+void *__wrap_aligned_alloc(size_t alignment, size_t size) {
+    return refuse() ? NULL : counted(__real_aligned_alloc(alignment, size));
+}
+void __wrap_free(void *place) {
+    live -= place != NULL;
+    __real_free(place);
+}
+
+static const double ends[] = {0, 0, 0, 6.28, 0, 0};
+static const CpsChange pull = {.line = 0, .end = CPS_END_B, .to = {CPS_END_FREE, {0.5, 0.5, 0.5}}};
+static const CpsStage stage = {.name = "pull", .steps = 3, .change_count = 1, .change = &pull};
+
+static CpsScene scene(const CpsObstacle *bed, const CpsLine *line) {
+    CpsScene out = cps_scene_default();
+    out.obstacle_count = out.line_count = out.stage_count = 1;
+    out.obstacle = bed, out.line = line, out.stage = &stage;
+    return out;
+}
+
+static CpsLine rope(void) {
+    CpsLine line = cps_line_default();
+    line.name = "rope", line.length = 6.28, line.elements = 50, line.weight = 9.81, line.stiffness = 10;
+    line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = ends};
+    return line;
+}
+
+static CpsObstacle rough(void) {
+    CpsObstacle bed = cps_obstacle_default();
+    bed.name = "bed", bed.friction = 0.0255;
+    return bed;
+}
+
+static void stepping_allocates_nothing(void **unused) {
+    (void)unused;
+    const CpsLine line = rope();
+    const CpsObstacle bed = rough();
+    const CpsScene s = scene(&bed, &line);
+    CpsEvolution *evolution;
+    assert_int_equal(cps_evolution_create(&s, &evolution, NULL), CPS_OK);
+    const int before = allocations;
+    while (cps_evolution_remaining(evolution) > 0) {
+        assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
+        assert_int_equal(cps_evolution_report(evolution).outcome, CPS_SOLVED);
+    }
+    CHECK_INT(allocations, before);
+    cps_evolution_destroy(evolution);
+}
+
+static void every_failing_allocation_is_survived(void **unused) {
+    (void)unused;
+    const CpsLine line = rope();
+    const CpsObstacle bed = rough();
+    const CpsScene s = scene(&bed, &line);
+    const int live_before = live;
+    for (int k = 0;; k++) {
+        CpsEvolution *evolution = (CpsEvolution *)&stage; /* anything: must come back NULL */
+        CpsError err;
+        allocations = 0, fail_at = k;
+        const CpsStatus status = cps_evolution_create(&s, &evolution, &err);
+        fail_at = -1;
+        if (status == CPS_OK) {
+            cps_evolution_destroy(evolution);
+            assert_true(k > 0); /* at least one allocation was made to fail */
+            break;
+        }
+        assert_int_equal(status, CPS_ERR_MEMORY);
+        assert_int_equal(err.status, CPS_ERR_MEMORY);
+        assert_null(evolution);
+    }
+    CHECK_INT(live, live_before);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stepping_allocates_nothing),
+        cmocka_unit_test(every_failing_allocation_is_survived),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
