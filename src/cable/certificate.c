@@ -127,6 +127,7 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
             out->dual -= vec3_dot(balance, x);
             continue;
         }
+        raise_to(&out->largest_force, vec3_norm(f));
         const double slide = vec3_norm(ut), size = vec3_norm(f), w = line->friction_bound[j];
         const double law = (w - size)*slide + (size*slide + vec3_dot(f, ut));
         out->law_residual += law > 0 ? law : 0;

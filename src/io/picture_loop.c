@@ -4,8 +4,8 @@
  * A loop is a run of stages that move a held end away and back to the same place. With u the displacement along the
  * direction of the farthest point and F the force along it, the trapezoidal sum of F du over the load steps is the
  * work done on the line there; in a steady cycle it is what friction dissipates, the loop's area. A stiff line's loop
- * is too thin to see: the second frame shows F less a polynomial f(u), which opens the loop and leaves its area as
- * it is, since f(u) du sums to nothing round a closed path. */
+ * is too thin to see: the second frame shows F less the mean f(u) of the ways out and back, which opens the loop and
+ * leaves its area as it is, since f(u) du sums to nothing round a closed path. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,10 +15,13 @@
 #include "io/picture.h"
 #include "io/result_text.h"
 
+/* Displacements closer than this part of the loop's width are equal. */
+static const double SAME_DISPLACEMENT = 1e-6;
+
 /* Ends closer than this part of the line's length are at the same place: far above rounding of imposed positions. */
 static const double SAME_PLACE = 1e-9;
 
-enum { MAX_LOOPS = 48, FORCE_HEIGHT = 300, OPENED_HEIGHT = 260, MAX_DEGREE = 9 };
+enum { MAX_LOOPS = 48, FORCE_HEIGHT = 300, OPENED_HEIGHT = 260 };
 
 /* Steps first..last (rows) of one end of one line that lead back to where they began; row first - 1, if there is
  * one, is the state before. */
@@ -108,43 +111,50 @@ static void loop_name(const CpsResults *results, const Loop *loop, char out[64])
     snprintf(out, 64, "%.*s", (int)length, first);
 }
 
-/* Points of a loop, and what is left of its forces without their smooth part. */
+/* A knot of the mean curve, or a point of the path on the way to one. */
+typedef struct Knot {
+    double u, force;
+} Knot;
+
+/* Points of a loop, and their forces less the mean curve. */
 typedef struct Path {
     int count;
     double *u, *force, *opened; /* (count) [m], [N], [N] */
-    double *work;               /* 3 (count) for the fit */
+    Knot *knot;                 /* (count) work space */
 } Path;
 
-/* Subtract the best polynomial in u from the forces: discrete orthogonal polynomials by their three-term recurrence
- * (Forsythe 1957), on u scaled to -1..1. */
-static void open_path(Path *path) {
-    double *x = path->work, *p = x + path->count, *before = p + path->count;
-    double range[2] = {INFINITY, -INFINITY};
-    for (int i = 0; i < path->count; ++i) cpsi_range_include(range, path->u[i]);
-    const double middle = 0.5 * (range[0] + range[1]), half = 0.5 * (range[1] - range[0]);
-    for (int i = 0; i < path->count; ++i) {
-        x[i] = (path->u[i] - middle) / half;
-        p[i] = 1, before[i] = 0;
-        path->opened[i] = path->force[i];
+static int by_displacement(const void *a, const void *b) {
+    const Knot *p = a, *q = b;
+    return (p->u > q->u) - (p->u < q->u);
+}
+
+/* The mean curve's knots from the sorted points: where the path passes more than once, half way between the largest
+ * and the smallest force there; and both turning points. Returns their number. */
+static int find_knots(Knot *knot, int count) {
+    const double same = SAME_DISPLACEMENT * (knot[count - 1].u - knot[0].u);
+    int knots = 0;
+    for (int i = 0, next; i < count; i = next) {
+        double low = knot[i].force, high = low;
+        for (next = i + 1; next < count && knot[next].u - knot[i].u <= same; ++next) {
+            low = fmin(low, knot[next].force);
+            high = fmax(high, knot[next].force);
+        }
+        if (next - i > 1 || i == 0 || next == count) knot[knots++] = (Knot){knot[i].u, 0.5 * (low + high)};
     }
-    double norm_before = 1;
-    const int degree = path->count / 4 < MAX_DEGREE ? path->count / 4 : MAX_DEGREE;
-    for (int k = 0; k <= degree; ++k) {
-        double norm = 0, moment = 0, product = 0;
-        for (int i = 0; i < path->count; ++i) {
-            norm += p[i] * p[i];
-            moment += x[i] * p[i] * p[i];
-            product += path->opened[i] * p[i];
-        }
-        if (!(norm > 1e-12 * path->count)) return; /* no further polynomial on these points */
-        const double alpha = moment / norm, beta = k > 0 ? norm / norm_before : 0;
-        for (int i = 0; i < path->count; ++i) {
-            path->opened[i] -= product / norm * p[i];
-            const double next = (x[i] - alpha) * p[i] - beta * before[i];
-            before[i] = p[i];
-            p[i] = next;
-        }
-        norm_before = norm;
+    return knots;
+}
+
+/* opened = force - f(u), f piecewise linear through the knots */
+static void open_path(Path *path) {
+    Knot *knot = path->knot;
+    for (int i = 0; i < path->count; ++i) knot[i] = (Knot){path->u[i], path->force[i]};
+    qsort(knot, (size_t)path->count, sizeof *knot, by_displacement);
+    const int knots = find_knots(knot, path->count);
+    for (int i = 0; i < path->count; ++i) {
+        int k = 1;
+        while (k < knots - 1 && knot[k].u < path->u[i]) ++k;
+        const double t = (path->u[i] - knot[k - 1].u) / (knot[k].u - knot[k - 1].u);
+        path->opened[i] = path->force[i] - (1 - t) * knot[k - 1].force - t * knot[k].force;
     }
 }
 
@@ -199,17 +209,21 @@ static void draw_loop(const CpsResults *results, const Loop *loop, const Path *p
     const Vec3 d = loop->direction;
     snprintf(x_label, sizeof x_label, "displacement along (%.3g, %.3g, %.3g) (m)", d.x + 0.0, d.y + 0.0, d.z + 0.0);
     draw_path(path, path->force, above, x_label, "force along it", out);
-    draw_path(path, path->opened, below, x_label, "less a smooth f(u)", out);
+    draw_path(path, path->opened, below, x_label, "less the mean of both ways", out);
     cpsi_svg_finish(out);
 }
 
 /* the picture of one loop; false when memory does not suffice */
 static bool picture_loop(const CpsResults *results, const Loop *loop, const char *name, FILE *out) {
     Path path = {.count = loop->last - loop->start + 1};
-    double *block = calloc((size_t)path.count, 6 * sizeof *block);
-    if (!block) return false;
+    double *block = calloc((size_t)path.count, 3 * sizeof *block);
+    path.knot = calloc((size_t)path.count, sizeof *path.knot);
+    if (!block || !path.knot) {
+        free(block);
+        free(path.knot);
+        return false;
+    }
     path.u = block, path.force = path.u + path.count, path.opened = path.force + path.count;
-    path.work = path.opened + path.count;
     for (int i = 0; i < path.count; ++i) {
         path.u[i] = along(results, loop, loop->start + i);
         path.force[i] = force(results, loop, loop->start + i);
@@ -217,6 +231,7 @@ static bool picture_loop(const CpsResults *results, const Loop *loop, const char
     open_path(&path);
     draw_loop(results, loop, &path, name, out);
     free(block);
+    free(path.knot);
     return true;
 }
 

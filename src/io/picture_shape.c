@@ -153,7 +153,9 @@ static void draw_end(const Pen *pen, const double position[3], bool held, const 
     const double y = cpsi_frame_y(pen->frame, vec3_dot(pen->view->up, place));
     fprintf(pen->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\" stroke=\"#222\" stroke-width=\"1.4\"/>", x,
             y, held ? "#222" : "#fff");
-    cpsi_svg_text(pen->out, x + 7, y - 8, CPSI_START,
+    /* on the side where there is room */
+    const bool left = x > pen->frame->left + 0.8 * pen->frame->width;
+    cpsi_svg_text(pen->out, left ? x - 7 : x + 7, y - 8, left ? CPSI_END : CPSI_START,
                   "font-size=\"11\" paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"", name);
 }
 

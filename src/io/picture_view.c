@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Where the pictures look from: plan views against gravity, elevations across the direction in which the lines
- * spread most. All pictures of a run share them, so that steps can be laid side by side. */
+ * spread most, or along a slope, which then is a straight line. All pictures of a run share them, so that steps can
+ * be laid side by side. */
 #include <math.h>
 
 #include "io/picture.h"
 
 /* A widest direction this close to an axis is taken as the axis: pictures of moorings then show plain x or y. */
 static const double SNAP_COSINE = 0.985; /* 10 degrees */
+
+/* A plane is level below this slope: not seen in a picture. */
+static const double LEVEL = 1e-3;
 
 static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
 
@@ -83,10 +87,20 @@ static double widest_angle(const CpsResults *results, Vec3 right, Vec3 up) {
     return 0.5 * atan2(2 * (xy - x * y / n), (xx - x * x / n) - (yy - y * y / n));
 }
 
+/* the direction of a slope, or of the widest spread, as an angle from east */
+static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) {
+    if (results->has_obstacle) {
+        const Vec3 normal = unit(vec3_load(results->obstacle.normal));
+        const double x = vec3_dot(normal, east), y = vec3_dot(normal, north);
+        if (hypot(x, y) > LEVEL) return x < 0 ? atan2(-y, -x) : atan2(y, x);
+    }
+    return widest_angle(results, east, north);
+}
+
 CpsiView cpsi_view_elevation(const CpsResults *results) {
     CpsiView view = {.up = upward(results)};
     const Vec3 east = horizontal_x(view.up), north = vec3_cross(view.up, east);
-    const double angle = widest_angle(results, east, north);
+    const double angle = elevation_angle(results, east, north);
     const double c = cos(angle), s = sin(angle);
     view.right = vec3_axpy(c, east, vec3_scale(s, north));
     if (c > SNAP_COSINE) view.right = east;

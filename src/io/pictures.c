@@ -27,7 +27,7 @@ CpsiColour cpsi_step_colour(const CpsResults *results, int snapshot) {
 
 double cpsi_step_width(const CpsResults *results, int snapshot) {
     const int count = results->snapshot_count;
-    return count < 2 || count > LISTED_STEPS ? 1.6 : 1.6 + 5.0*(count - 1 - snapshot)/(count - 1);
+    return count < 2 || count > LISTED_STEPS ? 1.6 : 1.6 + 5.0 * (count - 1 - snapshot) / (count - 1);
 }
 
 void cpsi_step_note(const CpsResults *results, char *out, size_t size) {

@@ -189,10 +189,11 @@ static CpsStatus build_obstacles(const Build *b, const CpsiYaml *obstacles) {
 
 /* ---- history ---- */
 
+/* The index of the line of LINE.END; the validation has seen that there is one. */
 static int find_line(const Build *b, const char *line_end) {
     const size_t n = strlen(line_end) - 2;
     int i = 0;
-    while (i < b->scene->line_count && (strlen(b->line[i].name) != n || memcmp(b->line[i].name, line_end, n) != 0)) i++;
+    while (i + 1 < b->scene->line_count && (strncmp(b->line[i].name, line_end, n) != 0 || b->line[i].name[n])) i++;
     return i;
 }
 

@@ -140,19 +140,19 @@ static CpsStatus unknown_key(const Valid *v, const CpsiYaml *node, CpsiObject ob
 /* LINE.END: the line must be one of the scene's. */
 static CpsStatus check_line_end(const Valid *v, const CpsiYaml *node) {
     const CpsiYaml *lines = cpsi_yaml_child(v->root, "lines");
-    char wanted[80];
-    snprintf(wanted, sizeof wanted, "%.79s", node->key);
-    *strrchr(wanted, '.') = '\0';
-    if (cpsi_yaml_child(lines, wanted)) return CPS_OK;
+    const size_t n = strlen(node->key) - 2;
+    char wanted[80] = ""; /* stays empty for what is too long for a name */
+    if (n < sizeof wanted) memcpy(wanted, node->key, n);
+    if (wanted[0] && cpsi_yaml_child(lines, wanted)) return CPS_OK;
     CpsiSuggestion suggestion = {.word = wanted};
     for (const CpsiYaml *line = lines ? lines->child : NULL; line; line = line->next)
         cpsi_suggest(&suggestion, line->key);
     if (suggestion.best)
         return cpsi_fail_at(v->err, CPS_ERR_INPUT, v->file, node->line, node->column,
-                            "'%.70s': there is no line '%s'; did you mean '%.64s.%c'?", node->key, wanted,
-                            suggestion.best, cpsi_key_end(node->key));
+                            "'%.80s': there is no such line; did you mean '%.64s.%c'?", node->key, suggestion.best,
+                            cpsi_key_end(node->key));
     return cpsi_fail_at(v->err, CPS_ERR_INPUT, v->file, node->line, node->column,
-                        "'%.70s': there is no line '%s' under 'lines'", node->key, wanted);
+                        "'%.80s': there is no such line under 'lines'", node->key);
 }
 
 /* Required keys, and exactly one of those of which one is needed. */

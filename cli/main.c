@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan: the command line. Finds the command, answers --help and --version, turns errors into exit codes. */
+#include <stdio.h>
+#include <string.h>
+
+#include "capstan/io.h"
+#include "commands.h"
+#include "options.h"
+
+typedef struct Command {
+    const char *name;
+    int (*call)(int argc, char **argv);
+    unsigned options; /* FOR_ bit */
+    bool takes_scene;
+    const char *help;
+} Command;
+
+static const Command COMMANDS[] = {
+    {"run", cmd_run, FOR_RUN, true, "solve a scene and write its results and pictures"},
+    {"check", cmd_check, FOR_CHECK, true, "read a scene and say what is in it, or what is wrong with it"},
+    {"schema", cmd_schema, FOR_SCHEMA, false, "print the JSON schema of scenes (for editors)"},
+};
+enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
+
+static void print_help(FILE *out, const Command *command) {
+    if (command) {
+        fprintf(out, "usage: capstan %s [options]%s\n\n%s\n\noptions:\n", command->name,
+                command->takes_scene ? " SCENE.yaml" : "", command->help);
+        cli_print_options(out, command->options);
+    } else {
+        fprintf(out, "usage: capstan COMMAND [options] [SCENE.yaml]\n\n"
+                     "Ropes, cables and mooring lines with exact dry friction, every answer certified.\n\ncommands:\n");
+        for (int i = 0; i < COMMAND_COUNT; i++) fprintf(out, "  %-8s %s\n", COMMANDS[i].name, COMMANDS[i].help);
+        fprintf(out, "\noptions:\n");
+        cli_print_options(out, FOR_ALL);
+    }
+    fprintf(out,
+            "\nA scene named '-' is read from standard input.\n"
+            "Exit codes: 0 done and certified, 1 not certified, 2 usage, 3 bad scene, 4 file cannot be read or\n"
+            "written, 5 no solution (with proof), 6 out of memory or over a limit, 130/143 stopped by a signal.\n");
+}
+
+static void print_version(void) {
+    printf("capstan %s\ncommit %s\nbuild  %s\n", cps_version(), CAPSTAN_COMMIT, CAPSTAN_BUILD);
+}
+
+int cli_report(const CpsError *err) {
+    if (!err->file[0])
+        fprintf(stderr, "capstan: %s\n", err->message);
+    else if (err->line == 0)
+        fprintf(stderr, "capstan: %s: %s\n", err->file, err->message);
+    else
+        fprintf(stderr, "capstan: %s:%d:%d: %s\n", err->file, err->line, err->column, err->message);
+    switch (err->status) {
+    case CPS_OK:
+        return EXIT_OK;
+    case CPS_ERR_ARGUMENT:
+    case CPS_ERR_INPUT:
+        return EXIT_INPUT;
+    case CPS_ERR_IO:
+        return EXIT_IO;
+    case CPS_ERR_MEMORY:
+    case CPS_ERR_LIMIT:
+        return EXIT_LIMIT;
+    }
+    return EXIT_INPUT;
+}
+
+static int unknown_command(const char *given) {
+    fprintf(stderr, "capstan: unknown command '%s'", given);
+    const Command *best = NULL;
+    int shared = 0;
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        int n = cli_common_prefix(given, COMMANDS[i].name);
+        if (n > shared) shared = n, best = &COMMANDS[i];
+    }
+    if (best) fprintf(stderr, "; did you mean '%s'?", best->name);
+    fprintf(stderr, "\nTry 'capstan --help'.\n");
+    return EXIT_USAGE;
+}
+
+static int run_command(int argc, char **argv) {
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        const Command *command = &COMMANDS[i];
+        if (strcmp(argv[0], command->name) != 0) continue;
+        CliOptions options;
+        if (!cli_parse(argc, argv, command->options, command->takes_scene, &options)) return EXIT_USAGE;
+        if (options.help) return print_help(stdout, command), EXIT_OK;
+        if (options.version) return print_version(), EXIT_OK;
+        return command->call(argc, argv);
+    }
+    return unknown_command(argv[0]);
+}
+
+int main(int argc, char **argv) {
+    /* without a command: --help, --version, or a usage error */
+    int code;
+    if (argc < 2) {
+        print_help(stderr, NULL);
+        code = EXIT_USAGE;
+    } else if (argv[1][0] == '-') {
+        CliOptions options;
+        argv[0] = "";
+        bool parsed = cli_parse(argc, argv, FOR_ALL, false, &options);
+        if (parsed && options.help) print_help(stdout, NULL);
+        if (parsed && options.version) print_version();
+        code = parsed ? EXIT_OK : EXIT_USAGE;
+    } else {
+        code = run_command(argc - 1, argv + 1);
+    }
+
+    /* a full disk shows only now */
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "capstan: cannot write standard output\n");
+        if (code == EXIT_OK) code = EXIT_IO;
+    }
+    return code;
+}

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Command-line options: the table drives the parser, the help and the suggestions. */
+#include "options.h"
+
+#include <stddef.h>
+#include <string.h>
+
+typedef struct Option {
+    const char *name;     /* --name */
+    char letter;          /* -l, 0: none */
+    const char *argument; /* name of its argument in the help, NULL: none */
+    unsigned commands;    /* FOR_ bits */
+    size_t field;         /* of CliOptions: bool without argument, const char * with one */
+    const char *help;
+} Option;
+
+static const Option OPTIONS[] = {
+    {"output", 'o', "DIR", FOR_RUN, offsetof(CliOptions, output), "directory of the results (default: results/SCENE)"},
+    {"json", 0, NULL, FOR_RUN, offsetof(CliOptions, json), "print the summary as one JSON object on standard output"},
+    {"quiet", 'q', NULL, FOR_RUN, offsetof(CliOptions, quiet), "no progress, no table; only errors"},
+    {"help", 'h', NULL, FOR_ALL, offsetof(CliOptions, help), "show this help"},
+    {"version", 'V', NULL, FOR_ALL, offsetof(CliOptions, version), "show version, commit and build flags"},
+};
+enum { OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0] };
+
+int cli_common_prefix(const char *a, const char *b) {
+    int n = 0;
+    while (a[n] && a[n] == b[n]) n++;
+    return n;
+}
+
+void cli_print_options(FILE *out, unsigned commands) {
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        const Option *o = &OPTIONS[i];
+        if (!(o->commands & commands)) continue;
+        char left[64];
+        snprintf(left, sizeof left, "%c%c%s --%s%s%s", o->letter ? '-' : ' ', o->letter ? o->letter : ' ',
+                 o->letter ? "," : " ", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
+        fprintf(out, "  %-20s %s\n", left, o->help);
+    }
+}
+
+/* the option of a command with this long name (length n) or letter, or NULL */
+static const Option *find_option(unsigned command, const char *name, size_t n, char letter) {
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        const Option *o = &OPTIONS[i];
+        bool same = letter ? o->letter == letter : strlen(o->name) == n && memcmp(o->name, name, n) == 0;
+        if ((o->commands & command) && same) return o;
+    }
+    return NULL;
+}
+
+/* "capstan check: ", or "capstan: " before any command (an empty name) */
+static void begin_message(const char *command) { fprintf(stderr, "capstan%s%s: ", *command ? " " : "", command); }
+
+static bool end_message(const char *command) {
+    fprintf(stderr, "\nTry 'capstan%s%s --help'.\n", *command ? " " : "", command);
+    return false;
+}
+
+static bool unknown_option(const char *command_name, unsigned command, const char *given) {
+    begin_message(command_name);
+    fprintf(stderr, "unknown option '%s'", given);
+    const Option *best = NULL;
+    int shared = 0;
+    for (int i = 0; i < OPTION_COUNT && given[1] == '-'; i++) {
+        int n = cli_common_prefix(given + 2, OPTIONS[i].name);
+        if ((OPTIONS[i].commands & command) && n > shared) shared = n, best = &OPTIONS[i];
+    }
+    if (best) fprintf(stderr, "; did you mean '--%s'?", best->name);
+    return end_message(command_name);
+}
+
+/* take one option at argv[*i], with its argument if it has one */
+static bool take_option(int argc, char **argv, int *i, unsigned command, CliOptions *out) {
+    const char *given = argv[*i];
+    bool is_long = given[1] == '-';
+    const char *name = given + (is_long ? 2 : 1);
+    size_t n = is_long ? strcspn(name, "=") : 1;
+    const Option *o = find_option(command, name, n, is_long ? 0 : *name);
+    if (!o) return unknown_option(argv[0], command, given);
+
+    /* what follows the name in the same word: "=value", or for a letter "value" */
+    const char *attached = name[n] ? name + n + (is_long ? 1 : 0) : NULL;
+    char *field = (char *)out + o->field;
+    if (!o->argument) {
+        if (attached) {
+            begin_message(argv[0]);
+            fprintf(stderr, "'%s': option '--%s' takes no argument", given, o->name);
+            return end_message(argv[0]);
+        }
+        *(bool *)field = true;
+        return true;
+    }
+    const char *value = attached ? attached : *i + 1 < argc ? argv[++*i] : NULL;
+    if (!value || !*value) {
+        begin_message(argv[0]);
+        fprintf(stderr, "option '--%s' needs an argument: --%s %s", o->name, o->name, o->argument);
+        return end_message(argv[0]);
+    }
+    memcpy(field, &value, sizeof value);
+    return true;
+}
+
+bool cli_parse(int argc, char **argv, unsigned command, bool takes_scene, CliOptions *out) {
+    *out = (CliOptions){0};
+    bool options_ended = false;
+    for (int i = 1; i < argc; i++) {
+        const char *word = argv[i];
+        if (!options_ended && strcmp(word, "--") == 0) {
+            options_ended = true;
+        } else if (!options_ended && word[0] == '-' && word[1]) {
+            if (!take_option(argc, argv, &i, command, out)) return false;
+        } else if (takes_scene && !out->scene && *word) {
+            out->scene = word;
+        } else {
+            begin_message(argv[0]);
+            fprintf(stderr, "unexpected '%s'", word);
+            return end_message(argv[0]);
+        }
+    }
+    if (takes_scene && !out->scene && !out->help && !out->version) {
+        begin_message(argv[0]);
+        fprintf(stderr, "no scene given: capstan %s SCENE.yaml ('-' reads standard input)", argv[0]);
+        return end_message(argv[0]);
+    }
+    return true;
+}

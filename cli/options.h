@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Command-line options: one table with help texts, one parser for all commands. */
+#ifndef CAPSTAN_CLI_OPTIONS_H
+#define CAPSTAN_CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Which commands an option belongs to. */
+enum { FOR_RUN = 1, FOR_CHECK = 2, FOR_SCHEMA = 4, FOR_ALL = 7 };
+
+typedef struct CliOptions {
+    bool help, version;
+    bool json, quiet;
+    const char *output; /* NULL: not given */
+    const char *scene;  /* the scene file, "-" for standard input; NULL: not given */
+} CliOptions;
+
+/* Parse argv[1..argc-1] for one command.
+ *
+ *   command      a FOR_ bit: options of other commands are refused
+ *   takes_scene  exactly one file name must be given
+ *
+ * Returns true; or false after a message on standard error (exit with EXIT_USAGE). With --help or --version
+ * given, a missing scene is accepted. */
+bool cli_parse(int argc, char **argv, unsigned command, bool takes_scene, CliOptions *out);
+
+/* List the options of `commands` (FOR_ bits), one line each. */
+void cli_print_options(FILE *out, unsigned commands);
+
+/* " (did you mean 'x'?)" support: how many leading characters two words share. */
+int cli_common_prefix(const char *a, const char *b);
+
+#endif

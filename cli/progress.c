@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How far a run has come (see progress.h). */
+#include "progress.h"
+
+#include <stdint.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { BAR_WIDTH = 30, NAME_WIDTH = 24 };
+
+/* a bar drawn more often than this [s] only costs time */
+static const double REDRAW = 0.05;
+
+double cli_now(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void cli_put_text(FILE *out, const char *text, int width, bool pad) {
+    int used = 0;
+    for (const unsigned char *c = (const unsigned char *)text; *c && used < width; ++c) {
+        const bool c1 = c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0;
+        if (*c < 0x20 || *c == 0x7F || c1) {
+            fputc('?', out);
+            c += c1;
+        } else {
+            fputc(*c, out);
+            /* the rest of a character of several bytes */
+            while (*c >= 0x80 && (c[1] & 0xC0) == 0x80) fputc(*++c, out);
+        }
+        ++used;
+    }
+    while (pad && used++ < width) fputc(' ', out);
+}
+
+Progress progress_begin(int steps, bool quiet) {
+    return (Progress){.quiet = quiet, .terminal = isatty(STDERR_FILENO) == 1, .steps = steps, .begun = cli_now()};
+}
+
+static void draw_bar(const Progress *progress, int done, const char *name, double elapsed) {
+    const int full = (int)((int64_t)BAR_WIDTH * done / progress->steps);
+    fputs("\r[", stderr);
+    for (int i = 0; i < BAR_WIDTH; ++i) fputc(i < full ? '#' : '.', stderr);
+    fprintf(stderr, "] %d/%d  %.1f s  ", done, progress->steps, elapsed);
+    cli_put_text(stderr, name, NAME_WIDTH, true);
+    fflush(stderr);
+}
+
+void progress_step(Progress *progress, int done, const char *name) {
+    if (progress->quiet || progress->steps < 1) return;
+    const double now = cli_now();
+    if (progress->terminal) {
+        if (now - progress->drawn < REDRAW && done < progress->steps) return;
+        progress->drawn = now;
+        draw_bar(progress, done, name, now - progress->begun);
+        return;
+    }
+    const int tenths = (int)((int64_t)10 * done / progress->steps);
+    if (tenths == progress->tenths) return;
+    progress->tenths = tenths;
+    fprintf(stderr, "step %d of %d, %.1f s: ", done, progress->steps, now - progress->begun);
+    cli_put_text(stderr, name, 80, false);
+    fputc('\n', stderr);
+}
+
+void progress_end(Progress *progress) {
+    if (progress->quiet || !progress->terminal) return;
+    fputs("\r\033[K", stderr);
+    fflush(stderr);
+}

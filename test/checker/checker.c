@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The verdict of the checker: what each outcome claims, held against what was recomputed. */
+#include "checker.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "measure.h"
+
+/* A balance is accepted when no node is off by more than this part of the largest force: rounding leaves 1e-16 per
+ * operation, and a drag over thousands of nodes must not hide in it. The same for friction above its bound, friction
+ * off the tangent plane and forces where nothing can carry them. */
+static const double FORCE_TOLERANCE = 1e-9;
+/* Positions (held ends, depth below the obstacle) per length of the line, and strains: rounding of coordinates
+ * leaves 1e-16 times extent over element length, 1e-11 in the worst graded mesh. */
+static const double PLACE_TOLERANCE = 1e-9;
+/* An imposed position is copied, not computed. */
+static const double COPY_TOLERANCE = 1e-12;
+/* Claimed figures against recomputed ones: they are reports, six digits are enough; */
+static const double CLAIM_TOLERANCE = 1e-6;
+/* below these parts of the scale or of the largest force they are rounding and no figure at all. */
+static const double ENERGY_FLOOR = 1e-12, FORCE_FLOOR = 1e-12;
+/* Taut: the distance of the ends equals the length within this part of it. */
+static const double TAUT_TOLERANCE = 1e-12;
+
+typedef struct Judge {
+    FILE *log;
+    const char *line;
+    size_t step;
+    int findings;
+} Judge;
+
+__attribute__((format(printf, 2, 3))) static void find(Judge *judge, const char *format, ...) {
+    judge->findings++;
+    if (!judge->log) return;
+    va_list list;
+    va_start(list, format);
+    fprintf(judge->log, "step %zu line %s: ", judge->step, judge->line);
+    vfprintf(judge->log, format, list);
+    fprintf(judge->log, "\n");
+    va_end(list);
+}
+
+/* value <= bound, with NaN a finding */
+static void at_most(Judge *judge, const char *what, double value, double bound) {
+    if (!(value <= bound)) find(judge, "%s is %.6g, allowed %.3g", what, value, bound);
+}
+
+static void same(Judge *judge, const char *what, double claimed, double found, double floor) {
+    if (!(fabs(claimed - found) <= CLAIM_TOLERANCE * fabs(found) + floor)) {
+        find(judge, "claimed %s %.9g, recomputed %.9g (floor %.3g)", what, claimed, found, floor);
+    }
+}
+
+/* the figures of the certificate */
+static void judge_claims(Judge *judge, const Record *r, const Measures *m) {
+    const double *claim = r->claim;
+    double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent;
+    double force = FORCE_FLOOR * m->largest_force, place = COPY_TOLERANCE * (m->length + m->extent);
+    same(judge, "primal", claim[CLAIM_PRIMAL], m->primal, energy);
+    same(judge, "dual", claim[CLAIM_DUAL], m->dual, energy);
+    same(judge, "gap", claim[CLAIM_GAP], m->gap, energy + m->overlong); // counted here, not by everyone
+    same(judge, "scale", claim[CLAIM_SCALE], m->scale, 0);
+    same(judge, "force_residual", claim[CLAIM_FORCE_RESIDUAL], m->force, force);
+    same(judge, "largest_force", claim[CLAIM_LARGEST_FORCE], m->largest_force, force);
+    same(judge, "law_residual", claim[CLAIM_LAW_RESIDUAL], m->law, energy);
+    same(judge, "contact_residual", claim[CLAIM_CONTACT_RESIDUAL], m->contact, energy);
+    same(judge, "tension_estimate", claim[CLAIM_TENSION_ESTIMATE], m->tension_estimate, force);
+    // what friction dissipates is -F.u_T; w |u_T| differs from it by the law residual
+    same(judge, "dissipated", r->dissipated, m->slid, energy + m->law);
+    // sqrt(2 gap / (c L)) of a gap known up to the floor
+    double noise = sqrt(2 * energy / (r->compliance * m->length));
+    // nodes that the step does not keep out may be deeper than those that it does
+    double depth = m->watched ? m->penetration : fmax(m->penetration, claim[CLAIM_PENETRATION]);
+    same(judge, "penetration", claim[CLAIM_PENETRATION], depth, place);
+    if (r->compliance > 0 && isnan(claim[CLAIM_TENSION_BOUND])) {
+        // no bound is claimed where it would exceed every force
+        at_most(judge, "largest force, without a bound", m->largest_force, m->tension_bound + noise);
+    } else if (r->compliance > 0) {
+        same(judge, "tension_bound", claim[CLAIM_TENSION_BOUND], m->tension_bound, noise);
+    } else {
+        same(judge, "stretch_residual", fmax(claim[CLAIM_STRETCH_RESIDUAL], 0), fmax(m->stretch, 0),
+             PLACE_TOLERANCE / 10);
+    }
+}
+
+/* a solved step: admissible configuration, admissible forces, balance, gap */
+static void judge_solved(Judge *judge, const Record *r, const Measures *m, double tolerance) {
+    double force = FORCE_TOLERANCE * m->largest_force, place = PLACE_TOLERANCE * m->length;
+    at_most(judge, "sum of local gaps", m->gap, tolerance * m->scale);
+    at_most(judge, "primal - dual against the local gaps", fabs(m->identity), m->identity_noise);
+    at_most(judge, "imbalance of forces", m->force, force);
+    at_most(judge, "friction above its bound", m->friction_excess, force);
+    at_most(judge, "friction along the normal", m->friction_normal, force);
+    at_most(judge, "force without an obstacle or on a held end", m->stray_force, force);
+    at_most(judge, "adhesion (-R)", -m->reaction_least, 0);
+    at_most(judge, "compression (-T)", -m->tension_least, 0);
+    at_most(judge, "depth below the obstacle", m->penetration, place);
+    at_most(judge, "length of the normal - 1", m->normal_error, COPY_TOLERANCE);
+    at_most(judge, "elongation beyond the tension", m->strain_error, PLACE_TOLERANCE);
+    at_most(judge, "distance of a held end", m->held_error, COPY_TOLERANCE * (m->length + m->extent));
+    judge_claims(judge, r, m);
+}
+
+static void judge_taut(Judge *judge, const Record *r, const Measures *m) {
+    if (r->compliance != 0) find(judge, "taut, but the line is elastic (compliance %.3g)", r->compliance);
+    at_most(judge, "distance of the ends - length", fabs(m->ends_distance - m->length),
+            TAUT_TOLERANCE * m->length + 1e-15 * m->extent);
+    at_most(judge, "stretch", m->stretch, PLACE_TOLERANCE);
+    at_most(judge, "distance of a held end", m->held_error, COPY_TOLERANCE * (m->length + m->extent));
+    at_most(judge, "depth below the obstacle", m->penetration, PLACE_TOLERANCE * m->length);
+}
+
+/* a constant force along the unit vector from A to B has the dual value t (distance - length), unbounded in t */
+static void judge_infeasible(Judge *judge, const Record *r, const Measures *m) {
+    if (r->compliance != 0) find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
+    if (!(m->ends_distance > m->length)) {
+        find(judge, "infeasible, but the ends are %.17g apart and the length is %.17g", m->ends_distance, m->length);
+    }
+    double excess = m->ends_distance - m->length, along = 0;
+    for (int k = 0; k < 3; k++) along += r->proof[k] * (r->end_value[1][k] - r->end_value[0][k]);
+    same(judge, "proof_value", r->proof_value, excess, COPY_TOLERANCE * (m->length + m->extent));
+    at_most(judge, "proof vector off the line of the ends", m->ends_distance - along, PLACE_TOLERANCE * m->length);
+    at_most(judge, "proof vector longer than 1", hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1,
+            COPY_TOLERANCE);
+}
+
+static void judge_unbounded(Judge *judge, const Record *r, const Measures *m) {
+    if (r->end_kind[0] != END_FREE || r->end_kind[1] != END_FREE) find(judge, "unbounded, but an end is held");
+    double size = hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]);
+    at_most(judge, "length of the rigid motion - 1", fabs(size - 1), PLACE_TOLERANCE);
+    if (!(m->rigid_fall > 0)) find(judge, "unbounded, but the energy falls by %.3g N along the proof", m->rigid_fall);
+    at_most(judge, "rigid motion into the obstacle", -m->rigid_rise_least, COPY_TOLERANCE);
+    same(judge, "proof_value", r->proof_value, m->rigid_fall, FORCE_FLOOR * m->largest_force);
+}
+
+static void judge_record(const Record *r, const char *line, size_t step, double tolerance, FILE *log,
+                         CheckerReport *report) {
+    Judge judge = {log, line, step, 0};
+    Measures m = measure(r);
+    report->records++;
+    report->outcome[r->outcome]++;
+    if (m.missing) {
+        find(&judge, "%s holds a value that cannot be (NaN, infinite or negative)", m.missing);
+        report->not_finite++;
+    } else {
+        switch (r->outcome) {
+        case OUTCOME_SOLVED:
+            judge_solved(&judge, r, &m, tolerance);
+            break;
+        case OUTCOME_TAUT:
+            judge_taut(&judge, r, &m);
+            break;
+        case OUTCOME_INFEASIBLE:
+            judge_infeasible(&judge, r, &m);
+            break;
+        case OUTCOME_UNBOUNDED:
+            judge_unbounded(&judge, r, &m);
+            break;
+        default:
+            judge_claims(&judge, r, &m);
+            break;
+        }
+    }
+    bool claimed = r->outcome != OUTCOME_STALLED && r->outcome != OUTCOME_LIMIT;
+    if (judge.findings > 0) {
+        report->refuted++;
+    } else if (claimed) {
+        report->certified++;
+    } else {
+        report->uncertified++;
+        if (log) fprintf(log, "step %zu line %s: not certified, as the file says\n", step, line);
+    }
+    if (r->outcome != OUTCOME_SOLVED || m.missing) return;
+    report->gap = fmax(report->gap, m.gap > 0 ? m.gap / m.scale : 0);
+    report->force = fmax(report->force, m.force > 0 ? m.force / m.largest_force : 0);
+    report->stretch = fmax(report->stretch, m.stretch);
+    report->penetration = fmax(report->penetration, m.penetration / m.length);
+}
+
+/* What a step takes over from the one before: its reference is where that ended, and its friction bounds are those
+ * reactions times one coefficient `mu`, found at the first node that has both and the same for ever after. Nodes that
+ * carry less than 1e-3 of the largest load or reaction may count as free; a line just laid, and a held node, have no
+ * friction. */
+static void judge_taken_over(const Record *r, const Record *before, double *mu, Judge *judge) {
+    if (memcmp(r->reference, before->position, r->nodes * sizeof(Vector)) != 0) {
+        find(judge, "the reference is not the position of the step before");
+    }
+    double largest = 0;
+    for (size_t j = 0; j < r->nodes; j++) {
+        const double *b = before->load[j];
+        largest = fmax(largest, fmax(before->reaction[j], hypot(hypot(b[0], b[1]), b[2])));
+    }
+    for (size_t j = 0; j < r->nodes; j++) {
+        bool held = (j == 0 && r->end_kind[0] == END_HELD) || (j == r->elements && r->end_kind[1] == END_HELD);
+        bool was_held =
+            (j == 0 && before->end_kind[0] == END_HELD) || (j == r->elements && before->end_kind[1] == END_HELD);
+        double w = r->friction_bound[j], R = before->reaction[j];
+        if (held || (w == 0 && (was_held || R <= 1e-3 * largest))) continue;
+        if (isnan(*mu)) *mu = w / R;
+        // one product and its rounding
+        if (!(fabs(w - *mu * R) <= 1e-14 * w)) {
+            find(judge, "friction bound %.9g at node %zu, expected %.9g times the last reaction %.9g", w, j, *mu, R);
+            return;
+        }
+    }
+}
+
+static int check_line(const Source *source, const char *line, FILE *log, CheckerReport *report) {
+    Record record = {0}, previous = {0};
+    double mu = NAN;
+    int bad = record_create(source, line, &record, log) || record_create(source, line, &previous, log);
+    for (size_t step = 0; step < source->steps && !bad; step++) {
+        bad = record_read(source, line, step, &record, log);
+        if (bad) break;
+        if (step > 0) {
+            Judge judge = {log, line, step, 0};
+            judge_taken_over(&record, &previous, &mu, &judge);
+            report->refuted += judge.findings > 0;
+        }
+        judge_record(&record, line, step, source->tolerance, log, report);
+        Record swap = previous;
+        previous = record;
+        record = swap;
+    }
+    record_destroy(&record);
+    record_destroy(&previous);
+    return bad;
+}
+
+int checker_file(const char *path, CheckerReport *worst, FILE *log) {
+    CheckerReport unused, *report = worst ? worst : &unused;
+    *report = (CheckerReport){.stretch = -INFINITY};
+    Source source;
+    int bad = source_open(path, &source, log);
+    report->steps = bad ? 0 : (int)source.steps;
+    if (!bad && source.steps == 0 && log) fprintf(log, "%s holds no step\n", path);
+    for (size_t i = 0; i < source.lines && !bad; i++) bad = check_line(&source, source.line_name[i], log, report);
+    source_close(&source);
+    if (bad) report->refuted++;
+    if (bad) return 2;
+    return report->refuted > 0 || report->uncertified > 0 || report->records == 0;
+}

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Reader of result.nc for the checker, on the C interface of netCDF. Every variable's shape is compared with the
+ * dimensions before a byte of it is read, and every size is bounded before anything is allocated. */
+#include "record.h"
+
+#include <math.h>
+#include <netcdf.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const CLAIM_NAME[CLAIMS] = {
+    "primal",           "dual",           "gap",           "scale",        "tension_bound",
+    "tension_estimate", "force_residual", "largest_force", "law_residual", "contact_residual",
+    "stretch_residual", "penetration"};
+
+/* more than any result of this project holds; keeps sizes far from overflow */
+enum { MAX_NODES = 20000000, MAX_LINES = 100000, MAX_NAME = 256, MAX_RANK = 3 };
+
+static int complain(FILE *log, const char *what, const char *name, int status) {
+    if (log) {
+        fprintf(log, "%s '%s'%s%s\n", what, name, status ? ": " : "", status ? nc_strerror(status) : "");
+    }
+    return -1;
+}
+
+/* split the global attribute `lines` at its blanks */
+static int split_names(char *text, Source *source, FILE *log) {
+    size_t count = 0;
+    for (const char *c = text; *c; c++) count += *c != ' ' && (c == text || c[-1] == ' ');
+    if (count == 0 || count > MAX_LINES) return complain(log, "no lines, or too many, in attribute", "lines", 0);
+    source->line_name = calloc(count, sizeof *source->line_name);
+    if (!source->line_name) return complain(log, "out of memory for", "lines", 0);
+    char *rest = NULL;
+    for (char *name = strtok_r(text, " ", &rest); name; name = strtok_r(NULL, " ", &rest)) {
+        if (strlen(name) > MAX_NAME) return complain(log, "name of a line is too long:", name, 0);
+        char *copy = malloc(strlen(name) + 1);
+        if (!copy) return complain(log, "out of memory for", name, 0);
+        strcpy(copy, name);
+        source->line_name[source->lines++] = copy;
+    }
+    return 0;
+}
+
+int source_open(const char *path, Source *source, FILE *log) {
+    *source = (Source){.nc = -1};
+    int status = nc_open(path, NC_NOWRITE, &source->nc), dimension;
+    if (status) {
+        source->nc = -1;
+        return complain(log, "cannot open", path, status);
+    }
+    status = nc_inq_dimid(source->nc, "step", &dimension);
+    if (!status) status = nc_inq_dimlen(source->nc, dimension, &source->steps);
+    if (status) return complain(log, "cannot read dimension", "step", status);
+    status = nc_get_att_double(source->nc, NC_GLOBAL, "tolerance", &source->tolerance);
+    if (status) return complain(log, "cannot read attribute", "tolerance", status);
+
+    size_t bytes;
+    status = nc_inq_attlen(source->nc, NC_GLOBAL, "lines", &bytes);
+    if (status || bytes == 0 || bytes > (size_t)MAX_LINES * MAX_NAME) {
+        return complain(log, "cannot read attribute", "lines", status);
+    }
+    char *text = calloc(bytes + 1, 1);
+    if (!text) return complain(log, "out of memory for", "lines", 0);
+    status = nc_get_att_text(source->nc, NC_GLOBAL, "lines", text);
+    int result = status ? complain(log, "cannot read attribute", "lines", status) : split_names(text, source, log);
+    free(text);
+    return result;
+}
+
+void source_close(Source *source) {
+    for (size_t i = 0; i < source->lines; i++) free(source->line_name[i]);
+    free(source->line_name);
+    if (source->line_name || source->nc >= 0) nc_close(source->nc);
+    *source = (Source){.nc = -1};
+}
+
+/* Find variable <line>_<what> and compare its shape with `length` (rank entries, slowest first). */
+static int find(const Source *source, const char *line, const char *what, size_t rank, const size_t *length, int *id,
+                FILE *log) {
+    char name[2 * MAX_NAME];
+    snprintf(name, sizeof name, "%s_%s", line, what);
+    int status = nc_inq_varid(source->nc, name, id), found_rank, dimension[MAX_RANK];
+    if (status) return complain(log, "missing variable", name, status);
+    status = nc_inq_varndims(source->nc, *id, &found_rank);
+    if (status || (size_t)found_rank != rank) return complain(log, "wrong number of dimensions of", name, status);
+    status = nc_inq_vardimid(source->nc, *id, dimension);
+    if (status) return complain(log, "cannot read the dimensions of", name, status);
+    for (size_t k = 0; k < rank; k++) {
+        size_t found;
+        status = nc_inq_dimlen(source->nc, dimension[k], &found);
+        if (status || found != length[k]) return complain(log, "wrong length of a dimension of", name, status);
+    }
+    return 0;
+}
+
+static int read_static(const Source *source, const char *line, const char *what, size_t length, double *value,
+                       FILE *log) {
+    int id;
+    if (find(source, line, what, length ? 1 : 0, &length, &id, log)) return -1;
+    int status = nc_get_var_double(source->nc, id, value);
+    return status ? complain(log, "cannot read variable", what, status) : 0;
+}
+
+/* one step of a variable (step, rows, columns); rows or columns 0: that dimension is absent */
+static int read_step(const Source *source, const char *line, const char *what, size_t step, size_t rows, size_t columns,
+                     double *value, FILE *log) {
+    size_t shape[MAX_RANK] = {source->steps}, start[MAX_RANK] = {step}, count[MAX_RANK] = {1}, rank = 1;
+    if (rows) shape[rank] = count[rank] = rows, rank++;
+    if (columns) shape[rank] = count[rank] = columns, rank++;
+    int id;
+    if (find(source, line, what, rank, shape, &id, log)) return -1;
+    int status = nc_get_vara_double(source->nc, id, start, count, value);
+    return status ? complain(log, "cannot read variable", what, status) : 0;
+}
+
+static int read_dimension(const Source *source, const char *line, const char *what, size_t *length, FILE *log) {
+    char name[2 * MAX_NAME];
+    snprintf(name, sizeof name, "%s_%s", line, what);
+    int id, status = nc_inq_dimid(source->nc, name, &id);
+    if (!status) status = nc_inq_dimlen(source->nc, id, length);
+    if (status || *length == 0 || *length > MAX_NODES)
+        return complain(log, "missing or senseless dimension", name, status);
+    return 0;
+}
+
+int record_create(const Source *source, const char *line, Record *record, FILE *log) {
+    *record = (Record){0};
+    if (read_dimension(source, line, "node", &record->nodes, log)) return -1;
+    if (read_dimension(source, line, "element", &record->elements, log)) return -1;
+    if (record->nodes != record->elements + 1) return complain(log, "nodes are not elements + 1 in line", line, 0);
+
+    size_t n = record->nodes;
+    Vector **vectors[] = {&record->reference, &record->position, &record->load,
+                          &record->normal,    &record->friction, &record->segment_force};
+    double **scalars[] = {&record->element_length, &record->gap, &record->friction_bound, &record->reaction,
+                          &record->tension};
+    int missing = 0;
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
+        missing |= (*vectors[k] = calloc(n, sizeof(Vector))) == NULL;
+    }
+    for (size_t k = 0; k < sizeof scalars / sizeof *scalars; k++) {
+        missing |= (*scalars[k] = calloc(n, sizeof(double))) == NULL;
+    }
+    if (missing) return complain(log, "out of memory for line", line, 0);
+    if (read_static(source, line, "element_length", record->elements, record->element_length, log)) return -1;
+    return read_static(source, line, "compliance", 0, &record->compliance, log);
+}
+
+void record_destroy(Record *record) {
+    free(record->reference), free(record->position), free(record->load);
+    free(record->normal), free(record->friction), free(record->segment_force);
+    free(record->element_length), free(record->gap), free(record->friction_bound);
+    free(record->reaction), free(record->tension);
+    *record = (Record){0};
+}
+
+/* numbers that stand alone in a step */
+static int read_scalars(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    double outcome, iterations, kind[2];
+    int bad = read_step(source, line, "outcome", step, 0, 0, &outcome, log);
+    bad |= read_step(source, line, "iterations", step, 0, 0, &iterations, log);
+    bad |= read_step(source, line, "end_kind", step, 2, 0, kind, log);
+    bad |= read_step(source, line, "end_value", step, 2, 3, record->end_value[0], log);
+    bad |= read_step(source, line, "dissipated", step, 0, 0, &record->dissipated, log);
+    bad |= read_step(source, line, "proof", step, 3, 0, record->proof, log);
+    bad |= read_step(source, line, "proof_value", step, 0, 0, &record->proof_value, log);
+    for (int k = 0; k < CLAIMS; k++) bad |= read_step(source, line, CLAIM_NAME[k], step, 0, 0, &record->claim[k], log);
+    if (bad) return -1;
+
+    if (!(outcome >= 0 && outcome < OUTCOMES)) return complain(log, "unknown outcome in line", line, 0);
+    if (!(fabs(iterations) < 1e9)) return complain(log, "senseless number of iterations in line", line, 0);
+    for (int e = 0; e < 2; e++) {
+        if (kind[e] != END_HELD && kind[e] != END_FREE) return complain(log, "unknown kind of end in line", line, 0);
+        record->end_kind[e] = (int)kind[e];
+    }
+    record->outcome = (int)outcome;
+    record->iterations = (int)iterations;
+    return 0;
+}
+
+int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    size_t n = record->nodes, elements = record->elements;
+    int bad = read_step(source, line, "reference", step, n, 3, record->reference[0], log);
+    bad |= read_step(source, line, "position", step, n, 3, record->position[0], log);
+    bad |= read_step(source, line, "load", step, n, 3, record->load[0], log);
+    bad |= read_step(source, line, "normal", step, n, 3, record->normal[0], log);
+    bad |= read_step(source, line, "friction", step, n, 3, record->friction[0], log);
+    bad |= read_step(source, line, "segment_force", step, elements, 3, record->segment_force[0], log);
+    bad |= read_step(source, line, "contact_gap", step, n, 0, record->gap, log);
+    bad |= read_step(source, line, "friction_bound", step, n, 0, record->friction_bound, log);
+    bad |= read_step(source, line, "reaction", step, n, 0, record->reaction, log);
+    bad |= read_step(source, line, "tension", step, elements, 0, record->tension, log);
+    return bad ? -1 : read_scalars(source, line, step, record, log);
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A result file with known exact contents, to try the checker on. */
+#ifndef CAPSTAN_CHECKER_SAMPLE_H
+#define CAPSTAN_CHECKER_SAMPLE_H
+
+#include <stddef.h>
+
+/* Two steps of four lines, the second without any motion, every number exact in binary:
+ *   drag   elastic, straight on a rough bed, pulled at B: solved
+ *   tight  inextensible, ends exactly its length apart: taut
+ *   far    inextensible, ends farther apart than its length: infeasible
+ *   loose  both ends free, pulled harder than the bed holds it: unbounded
+ * Returns 0 or a netCDF error. */
+int sample_write(const char *path);
+
+/* Overwrite one number: component `index` (flat; beyond the first step's: in the second) of a variable. */
+int sample_poke(const char *path, const char *variable, size_t index, double value);
+
+#endif

@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bad scenes: each must be refused with its exit code, its place (file:line:column) and its message.
+
+usage: bad_scenes.py CAPSTAN
+
+Every case is one change to a good scene, or whole file contents. Expected is the exit code and what follows the file
+name in the message; the whole of standard error must be one line, and standard output empty.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+GOOD = """\
+capstan: 1
+obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}
+lines:
+  cable:
+    length: 10
+    elements: 4
+    mass: 1
+    stiffness: 1e6
+    start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}
+    ends: {A: fixed, B: free}
+history:
+  - {name: pull, cable.B: {force: [1, 0, 0]}}
+"""
+INPUT, IO, LIMIT = 3, 4, 6
+START = "{straight: {from: [0, 0, 0], to: [10, 0, 0]}}"
+ENDS = "{A: fixed, B: free}"
+
+# name, what is replaced in GOOD, by what, exit code, expected after "FILE:"
+CHANGES = [
+    # keys
+    ("unknown key at the top", "obstacles:", "obstacels:", INPUT, "2:1: scene: unknown key 'obstacels'; did you mean 'obstacles'?"),
+    ("unknown key of a line", "stiffness: 1e6", "stifness: 1e6", INPUT, "8:5: line 'cable': unknown key 'stifness'; did you mean 'stiffness'?"),
+    ("capitals", "length: 10", "Length: 10", INPUT, "5:5: line 'cable': unknown key 'Length'; did you mean 'length'?"),
+    ("unknown key, nothing near", "mass: 1", "colour: 1", INPUT, "7:5: line 'cable': unknown key 'colour', expected a mapping with length, elements, mass,"),
+    ("unknown key of a plane", "{normal:", "{norm:", INPUT, "2:27: 'plane': unknown key 'norm'"),
+    ("unknown key of an entry", "name: pull,", "nmae: pull,", INPUT, "12:6: entry: unknown key 'nmae'; did you mean 'name'?"),
+    ("unknown line in the history", "cable.B:", "cabel.B:", INPUT, "12:18: 'cabel.B': there is no such line; did you mean 'cable.B'?"),
+    ("unknown line, nothing near", "cable.B:", "mooring.B:", INPUT, "12:18: 'mooring.B': there is no such line under 'lines'"),
+    ("unknown line, too long a name", "cable.B:", "c" * 100 + ".B:", INPUT, "12:18: 'ccc"),
+    ("unknown end in the history", "cable.B:", "cable.C:", INPUT, "12:18: entry: unknown key 'cable.C'"),
+    ("duplicate key", "    mass: 1\n", "    mass: 1\n    length: 9\n", INPUT, "8:5: key 'length' is given twice, first in line 5"),
+    ("duplicate line", "history:", "  cable: {}\nhistory:", INPUT, "11:3: key 'cable' is given twice, first in line 4"),
+    ("duplicate key, quoted", "    mass: 1\n", "    mass: 1\n    \"length\": 9\n", INPUT, "8:5: key 'length' is given twice"),
+    ("key missing", "    length: 10\n", "", INPUT, "4:3: line 'cable': 'length' is missing: [m] unstretched length"),
+    ("version missing", "capstan: 1\n", "", INPUT, "1:1: scene: 'capstan' is missing"),
+    ("version of the future", "capstan: 1", "capstan: 2", INPUT, "1:1: 'capstan': found '2', expected a whole number: 1"),
+    ("neither mass nor weight", "    mass: 1\n", "", INPUT, "4:3: line 'cable': nothing given, expected exactly one of 'mass', 'weight'"),
+    ("mass and weight", "mass: 1", "mass: 1\n    weight: 10", INPUT, "4:3: line 'cable': too much given, expected exactly one of 'mass', 'weight'"),
+    ("end missing", ENDS, "{A: fixed}", INPUT, "10:5: 'ends': 'B' is missing"),
+    ("ends missing", "    ends: " + ENDS + "\n", "", INPUT, "4:3: line 'cable': 'ends' is missing"),
+    ("a list as key", "mass: 1", "[mass]: 1", INPUT, "7:5: found a mapping or a list as a key"),
+    ("name of an obstacle", "{bed:", "{1bed:", INPUT, "2:13: obstacle 1: its name is '1bed'"),
+    # types and units
+    ("unit in the value", "length: 10", "length: 10 m", INPUT, "5:5: 'length': found '10 m', expected a number in m, greater than 0: write the number alone, without a unit"),
+    ("decimal comma", "mass: 1", "mass: 1,5", INPUT, "7:5: 'mass': found '1,5', expected a number in kg/m, at least 0: write a decimal point"),
+    ("text for a number", "length: 10", "length: long", INPUT, "5:5: 'length': found 'long', expected a number in m"),
+    ("number in quotes", "length: 10", "length: '10'", INPUT, "5:5: 'length': found the text \"10\" in quotes, expected a number"),
+    ("nothing for a number", "length: 10", "length:", INPUT, "5:5: 'length': found nothing, expected a number in m"),
+    ("list for a number", "length: 10", "length: [10]", INPUT, "5:5: 'length': found a list of 1, expected a number"),
+    ("number for a mapping", "start: " + START, "start: 3", INPUT, "9:5: 'start': found '3', expected laid, or a mapping with straight, polyline, arc"),
+    ("mapping for a list", "  - {name: pull,", "  {name: pull,", INPUT, "11:1: 'history': found a mapping, expected a list"),
+    ("list for a mapping", "obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}", "obstacles: []", INPUT, "2:1: 'obstacles': found a list of 0, expected a mapping"),
+    ("two components", "to: [10, 0, 0]", "to: [10, 0]", INPUT, "9:41: 'to': found a list of 2, expected three numbers in m, as in [x, y, z]"),
+    ("text in a vector", "to: [10, 0, 0]", "to: [10, y, 0]", INPUT, "9:50: 'to': found 'y', expected a number in m"),
+    ("an unknown word", "history:", "contact: lost\nhistory:", INPUT, "11:1: 'contact': found 'lost', expected one of: gained strict"),
+    ("one point", START, "{polyline: [[0, 0, 0]]}", INPUT, "9:13: 'polyline': found a list of 1, expected at least two points"),
+    ("two shapes", START, "{straight: {from: [0, 0, 0], to: [10, 0, 0]}, arc: {from: [0, 0, 0], center: [0, 5, 0]}}", INPUT, "9:5: 'start': too much given, expected exactly one of"),
+    # numbers
+    ("NaN", "length: 10", "length: .nan", INPUT, "5:5: 'length': found '.nan', expected a number in m, greater than 0"),
+    ("NaN in a vector", "to: [10, 0, 0]", "to: [10, .NaN, 0]", INPUT, "9:50: 'to': found '.NaN'"),
+    ("infinite length", "length: 10", "length: .inf", INPUT, "5:5: 'length': found '.inf', expected a number in m, greater than 0"),
+    ("overflow", "length: 10", "length: 1e999", INPUT, "5:5: 'length': found '1e999'"),
+    ("infinite force", "force: [1, 0, 0]", "force: [-.inf, 0, 0]", INPUT, "12:36: 'force': found '-.inf'"),
+    ("negative length", "length: 10", "length: -2", INPUT, "5:5: 'length': found '-2', expected a number in m, greater than 0"),
+    ("zero length", "length: 10", "length: 0", INPUT, "5:5: 'length': found '0', expected a number in m, greater than 0"),
+    ("zero stiffness", "1e6", "0", INPUT, "8:5: 'stiffness': found '0', expected a number in N, greater than 0, or .inf"),
+    ("negative stiffness", "1e6", "-.inf", INPUT, "8:5: 'stiffness': found '-.inf'"),
+    ("negative friction", "friction: 0.5", "friction: -0.5", INPUT, "2:47: 'friction': found '-0.5', expected a number, at least 0"),
+    ("zero elements", "elements: 4", "elements: 0", INPUT, "6:5: 'elements': found '0', expected a whole number, at least 1"),
+    ("part of an element", "elements: 4", "elements: 4.5", INPUT, "6:5: 'elements': found '4.5', expected a whole number"),
+    ("zero steps", "name: pull,", "steps: 0,", INPUT, "12:6: 'steps': found '0', expected a whole number, from 1 to 1e+06"),
+    ("tolerance too wide", "history:", "solver: {tolerance: 1}\nhistory:", INPUT, "11:10: 'tolerance': found '1', expected a number, from 1e-14 to 0.01"),
+    ("zero normal", "[0, 0, 1]", "[0, 0, 0]", INPUT, "2:19: obstacle 'bed': plane normal is (0, 0, 0), expected a direction"),
+    # sizes
+    ("1e12 elements", "elements: 4", "elements: 1e12", LIMIT, "6:5: elements: 1000000000000 elements in all lines so far, the limit is 10000000"),
+    ("1e300 elements", "elements: 4", "elements: [[1e99, 10]]", LIMIT, "6:5: elements: 1e+99 elements in all lines so far"),
+    ("too many steps", "name: pull,", "steps: 1e6}\n  - {", LIMIT, "13:5: history: 1000001 load steps so far, the limit is 1000000"),
+    # elements
+    ("elements too short in all", "elements: 4", "elements: [2, 2, 2]", INPUT, "6:5: line 'cable': elements are 6 m long together, but length is 10 m"),
+    ("negative element", "elements: 4", "elements: [12, -2]", INPUT, "6:20: 'elements': found '-2', expected a number in m, greater than 0"),
+    ("zero elements in a pair", "elements: 4", "elements: [[0, 10]]", INPUT, "6:17: 'elements': found '0', expected a whole number, at least 1"),
+    ("no elements", "elements: 4", "elements: []", INPUT, "6:5: 'elements': found a list of 0"),
+    # shapes and ends
+    ("start too short", "to: [10, 0, 0]", "to: [9, 0, 0]", INPUT, "9:5: line 'cable': start is 9 m long, shorter than the line's length 10 m"),
+    ("start too long", "to: [10, 0, 0]", "to: [20.1, 0, 0]", INPUT, "9:5: line 'cable': start is 20.1 m long, more than twice the line's length 10 m"),
+    ("start below the bed", "to: [10, 0, 0]", "to: [9, 0, -5]", INPUT, "9:5: line 'cable': start: node 1 lies 1.25 m below obstacle 'bed'"),
+    ("arc more than a turn", START, "{arc: {from: [0, 0, 0], center: [0, 1.5, 0]}}", INPUT, "9:5: line 'cable': start: the line is 10 m long, more than one full turn"),
+    ("arc without radius", START, "{arc: {from: [0, 0, 5], center: [0, 0, 0]}}", INPUT, "9:5: line 'cable': start: the arc's first point lies on its axis"),
+    ("arc without axis", START, "{arc: {from: [0, 0, 0], center: [0, 5, 0], axis: [0, 0, 0]}}", INPUT, "9:5: line 'cable': start: arc axis is (0, 0, 0)"),
+    ("elements too long for the arc", "elements: 4\n    mass: 1\n    stiffness: 1e6\n    start: " + START, "elements: 1\n    mass: 1\n    stiffness: 1e6\n    start: {arc: {from: [0, 0, 0], center: [0, 2, 0]}}", INPUT, "9:5: line 'cable': start: an element is 10 m long, longer than the arc's diameter 4 m"),
+    ("end beside the start", ENDS, "{A: {fixed: [0, 0, 1]}, B: free}", INPUT, "10:5: line 'cable': ends: end A is fixed at (0, 0, 1) m, but the start puts it at (0, 0, 0) m"),
+    ("end below the bed", ENDS, "{A: {fixed: [0, 0, -1]}, B: free}", INPUT, "10:5: line 'cable': ends: end A is 1 m below obstacle 'bed'"),
+    ("laid without a position", START + "\n    ends: " + ENDS, "laid\n    ends: " + ENDS, INPUT, "10:5: line 'cable': ends: end A has no position, and a laid start gives none"),
+    ("laid with free ends", START + "\n    ends: " + ENDS, "laid\n    ends: {A: free, B: free}", INPUT, "10:5: line 'cable': ends: both are free, but a laid start needs a fixed one"),
+    ("an end fixed and pulled", ENDS, "{A: {fixed: [0, 0, 0], force: [0, 0, 0]}, B: free}", INPUT, "10:12: 'A': too much given, expected exactly one of 'fixed', 'force'"),
+    ("moved below the bed", "{force: [1, 0, 0]}", "{position: [9, 0, -1]}", INPUT, "12:18: stage 1: cable.B is moved to 1 m below obstacle 'bed'"),
+    ("move of a free end", "{force: [1, 0, 0]}", "{move: [1, 0, 0]}", INPUT, "12:28: 'cable.B': found a move, but the end's position before it is not known"),
+    ("a second obstacle", "friction: 0.5}}", "friction: 0.5}, wall: {plane: {normal: [1, 0, 0]}}}", INPUT, "2:63: obstacle 'wall': a second obstacle; at most one is possible"),
+    ("no lines", GOOD[GOOD.index("lines:"):], "lines: {}\n", INPUT, "3:1: lines: found 0, expected at least one"),
+    # YAML
+    ("anchor", "length: 10", "length: &l 10", INPUT, "5:14: found an anchor"),
+    ("alias", "length: 10", "length: *l", INPUT, "5:14: found an alias"),
+    ("merge key", "length: 10", "<<: {length: 10}", INPUT, "5:5: line 'cable': unknown key '<<'"),
+    ("tag", "length: 10", "length: !!float 10", INPUT, "5:13: found a tag"),
+    ("second document", "history:", "---\nhistory:", INPUT, "11:1: found a second document"),
+    ("tab as indentation", "    mass: 1", "\tmass: 1", INPUT, "7:2: not valid YAML"),
+    ("bad indentation", "    mass: 1", "   mass: 1", INPUT, "7:4: not valid YAML"),
+    ("bracket not closed", "to: [10, 0, 0]}}", "to: [10, 0, 0", INPUT, "11:1: not valid YAML"),
+    ("escape in a text", "capstan: 1", "capstan: 1\ntitle: \"\\e[31mred\"", INPUT, "2:8: found a text with a line break, a tab or a control character"),
+    ("text of two lines", "capstan: 1", "capstan: 1\ntitle: |\n  a\n  b", INPUT, "3:1: found a text with a line break"),
+    ("text too long", "capstan: 1", "capstan: 1\ntitle: " + "x" * 70000, LIMIT, "2:8: a text of 70000 bytes, the limit is 65536"),
+]
+
+# name, contents, exit code, expected after "FILE:"
+FILES = [
+    ("empty", b"", INPUT, "1:1: found an empty file"),
+    ("weight without gravity", GOOD.replace("lines:", "gravity: [0, 0, 0]\nlines:").replace("mass:", "weight:").encode(), INPUT,
+     "8:5: line 'cable': weight is 1 N/m, but gravity is zero and has no direction"),
+    ("inextensible and stretched", GOOD.replace("1e6", ".inf").replace("[10, 0, 0]", "[10.1, 0, 0]").encode(), INPUT,
+     "9:5: line 'cable': start is 10.1 m long, longer than the inextensible line's length 10 m"),
+    ("two lines beyond the limit", GOOD.replace("history:", "  other: {length: 10, elements: 9999999, mass: 0, stiffness: 1, "
+     "start: " + START + ", ends: " + ENDS + "}\nhistory:").encode(), LIMIT, "11:23: elements: 10000003 elements in all lines"),
+    ("bad name", GOOD.replace("cable", "the cable").encode(), INPUT,
+     "4:3: line 1: its name is 'the cable', expected a letter followed by"),
+    ("name that is a formula", GOOD.replace("cable", "=cable").encode(), INPUT, "4:3: line 1: its name is '=cable'"),
+    ("name of 65 letters", GOOD.replace("cable", "c" * 65).encode(), INPUT, "4:3: line 1: its name is 'ccc"),
+    ("only a comment", b"# nothing here\n", INPUT, "1:1: found nothing"),
+    ("a word", b"hello\n", INPUT, "1:1: scene: found 'hello', expected a mapping with capstan, title"),
+    ("a list", b"- capstan: 1\n", INPUT, "1:1: scene: found a list of 1, expected a mapping"),
+    ("not UTF-8", b"capstan: 1\ntitle: caf\xe9 noir\n", INPUT, "2:11: found byte 0xe9, which is not UTF-8"),
+    ("overlong UTF-8", b"title: \xc0\xaf\n", INPUT, "1:8: found byte 0xc0, which is not UTF-8"),
+    ("UTF-16", "capstan: 1\n".encode("utf-16-le"), INPUT, "1:2: found a control character (byte 0x00)"),
+    ("an executable", b"\x7fELF\x02\x01\x01\x00", INPUT, "1:1: found a control character (byte 0x7f)"),
+    ("deep nesting", b"title: " + b"[" * 100000, LIMIT, "1:71: mappings and lists are nested deeper than 64, the limit"),
+    ("deep nesting of mappings", b"".join(b" " * i + b"a:\n" for i in range(100)), LIMIT, "65:65: mappings and lists are nested deeper than 64"),
+    ("a bomb", b"a: &a [x, x]\nb: &b [*a, *a]\nc: &c [*b, *b]\n", INPUT, "1:"),
+    ("a long key cut within a character", ("a" + "\u00e9" * 70 + ": 1\n").encode(), INPUT,
+     "1:1: scene: unknown key 'a" + "\u00e9" * 31 + "?', expected"),
+    ("too many values", b"title: [" + b"1," * 4100000 + b"]\n", LIMIT, "1:"),
+    ("a huge file", None, LIMIT, " is larger than 67108864 bytes, the limit"),
+]
+
+
+# arguments, exit code, expected on standard error (one line, or the first of two)
+USAGE = [
+    (["check"], "capstan check: no scene given"),
+    (["check", "a", "b"], "capstan check: unexpected 'b'"),
+    (["check", "--jsn", "a"], "capstan check: unknown option '--jsn'"),
+    (["check", "--hlep"], "capstan check: unknown option '--hlep'; did you mean '--help'?"),
+    (["check", "-x"], "capstan check: unknown option '-x'"),
+    (["check", "--help=5"], "capstan check: '--help=5': option '--help' takes no argument"),
+    (["chek", "a"], "capstan: unknown command 'chek'; did you mean 'check'?"),
+    (["schema", "a"], "capstan schema: unexpected 'a'"),
+    (["--verzion"], "capstan: unknown option '--verzion'; did you mean '--version'?"),
+]
+
+
+def run(capstan, arguments, **options):
+    done = subprocess.run([capstan, *arguments], stdout=options.pop("stdout", subprocess.PIPE), stderr=subprocess.PIPE,
+                          timeout=60, **options)
+    return done.returncode, (done.stdout or b"").decode(), done.stderr.decode()
+
+
+class Suite:
+    def __init__(self, capstan, folder):
+        self.capstan, self.folder, self.count, self.failed = capstan, folder, 0, 0
+
+    def expect(self, name, result, code, wanted, lines=1):
+        """result: exit code, standard output (must be empty), standard error (begins with `wanted`, at most `lines` lines)"""
+        self.count += 1
+        got, out, err = result
+        whole_lines = err.endswith("\n") and err.count("\n") <= lines
+        if not (got == code and out == "" and whole_lines and err.startswith(wanted)):
+            self.failed += 1
+            print(f"FAILED {name}\n  expected exit {code}: {wanted}\n  found    exit {got}: {err}{out}")
+
+    def scene(self, name, contents, code, fragment):
+        path = os.path.join(self.folder, "scene.yaml")
+        with open(path, "wb") as f:
+            if contents is None:
+                f.truncate((64 << 20) + 1)
+            else:
+                f.write(contents)
+        self.expect(name, run(self.capstan, ["check", path]), code, f"capstan: {path}:{fragment}")
+
+    def unreadable(self):
+        """files that are no scene file at all, and standard input and output"""
+        def path_case(name, path, code, message):
+            self.expect(name, run(self.capstan, ["check", path]), code, f"capstan: {path}: {message}")
+
+        missing = os.path.join(self.folder, "missing.yaml")
+        path_case("no file", missing, IO, "cannot open: No such file or directory")
+        path_case("a directory", self.folder, IO, "is a directory, expected a scene file")
+        path_case("a device", "/dev/zero", IO, "is not a regular file; '-' reads standard input")
+        path_case("a long name", "x" * 300, IO, "cannot open: File name too long")
+        fifo = os.path.join(self.folder, "fifo")
+        os.mkfifo(fifo)
+        path_case("a FIFO without a writer", fifo, IO, "is not a regular file")
+        secret = os.path.join(self.folder, "secret.yaml")
+        with open(secret, "w") as f:
+            f.write(GOOD)
+        os.chmod(secret, 0)
+        if os.geteuid() != 0:  # root may read everything
+            path_case("no permission", secret, IO, "cannot open: Permission denied")
+        self.expect("bad standard input", run(self.capstan, ["check", "-"], input=b"capstan: 2\n"), INPUT,
+                    "capstan: standard input:1:1: 'capstan': found '2'")
+        self.expect("endless standard input", run(self.capstan, ["check", "-"], stdin=open("/dev/zero", "rb")), LIMIT,
+                    "capstan: standard input: is larger than 67108864 bytes, the limit")
+        self.expect("a directory as standard input", run(self.capstan, ["check", "-"], stdin=os.open(self.folder, os.O_RDONLY)),
+                    IO, "capstan: standard input: cannot read: Is a directory")
+        with open("/dev/full", "wb") as full:
+            for command in ["schema", "--help"]:
+                self.expect(f"full disk, {command}", run(self.capstan, [command], stdout=full), IO, "capstan: ", lines=2)
+
+    def usage(self):
+        for arguments, wanted in USAGE:
+            self.expect(" ".join(arguments), run(self.capstan, arguments), 2, wanted, lines=2)
+
+    def good(self):
+        """the scene that all changes start from must itself be accepted"""
+        self.count += 1
+        code, out, err = run(self.capstan, ["check", "-"], input=GOOD.encode())
+        if code != 0 or err or "The scene is valid." not in out:
+            self.failed += 1
+            print(f"FAILED the good scene: exit {code}: {err}")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        suite = Suite(sys.argv[1], folder)
+        suite.good()
+        for name, old, new, code, fragment in CHANGES:
+            assert GOOD.count(old) == 1, name
+            suite.scene(name, GOOD.replace(old, new).encode(), code, fragment)
+        for case in FILES:
+            suite.scene(*case)
+        suite.unreadable()
+        suite.usage()
+        print(f"{suite.count} cases, {suite.failed} failed")
+        return 1 if suite.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

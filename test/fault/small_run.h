@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The run that the fault tests disturb: a rope on a bed, pulled by its tip and let go. */
+#ifndef CAPSTAN_TEST_FAULT_SMALL_RUN_H
+#define CAPSTAN_TEST_FAULT_SMALL_RUN_H
+
+#include "capstan/capstan.h"
+#include "capstan/io.h"
+
+/* Write the results of that run with `elements` elements into `directory`; whatever fails is cleaned up as a
+ * program would do it. */
+static CpsStatus small_run(const char *directory, int elements, CpsError *err) {
+    const double point[6] = {0, 0, 0, 6, 0, 0};
+    const CpsChange change[2] = {{0, CPS_END_B, {CPS_END_HELD, {5.9, 0.2, 0}}},
+                                 {0, CPS_END_B, {CPS_END_HELD, {6, 0, 0}}}};
+    const CpsStage stage[2] = {{"there", 2, 1, &change[0]}, {"back", 2, 1, &change[1]}};
+    CpsObstacle bed = cps_obstacle_default();
+    bed.name = "bed";
+    bed.friction = 0.3;
+    CpsLine line = cps_line_default();
+    line.name = "rope";
+    line.length = 6;
+    line.elements = elements;
+    line.weight = 10;
+    line.stiffness = 1e4;
+    line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 0, 1}};
+    CpsScene scene = cps_scene_default();
+    scene.title = "a run that something happens to";
+    scene.obstacle_count = 1;
+    scene.obstacle = &bed;
+    scene.line_count = 1;
+    scene.line = &line;
+    scene.stage_count = 2;
+    scene.stage = stage;
+
+    CpsEvolution *evolution = NULL;
+    CpsResults *results = NULL;
+    CpsStatus status = cps_evolution_create(&scene, &evolution, err);
+    if (!status) status = cps_results_open(directory, &scene, evolution, &results, err);
+    while (!status && cps_evolution_remaining(evolution) > 0) {
+        status = cps_evolution_step(evolution, err);
+        if (!status) status = cps_results_append(results, evolution, err);
+    }
+    if (!status) status = cps_results_finish(results, 1, err);
+    cps_results_destroy(results);
+    cps_evolution_destroy(evolution);
+    return status;
+}
+
+#endif

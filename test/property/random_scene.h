@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Seeded random scenes, by class. The same (class, seed) gives the same scene on every machine with IEEE doubles. */
+#ifndef CAPSTAN_TEST_RANDOM_SCENE_H
+#define CAPSTAN_TEST_RANDOM_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "capstan/capstan.h"
+
+enum { SCENE_LINES = 4, SCENE_POINTS = 6, SCENE_ELEMENTS = 60, SCENE_STAGES = 20, SCENE_EA_CLASSES = 12 };
+
+/* What a class is about; ea_0 ... ea_11 come first: EA / T from 10^k to 10^(k + 1). */
+#define SCENE_CLASS_LIST(X)                                                                                            \
+    X(SCENE_INEXTENSIBLE, "inextensible")                                                                              \
+    X(SCENE_SLOPE, "slope")             /* plane tilted up to and beyond the friction angle */                         \
+    X(SCENE_SLACK, "slack")             /* parts without tension */                                                    \
+    X(SCENE_FULLY_SLACK, "fully_slack") /* no tension at the end of a step */                                          \
+    X(SCENE_LONG_HISTORY, "long_history")                                                                              \
+    X(SCENE_IMPOSED, "imposed_ends")                                                                                   \
+    X(SCENE_NEAR_FULL, "near_full_length") /* inextensible, 1e-9 to 1e-3 short of straight */                          \
+    X(SCENE_GRADED, "graded")              /* element lengths 1 to 1e4 */                                              \
+    X(SCENE_FEW, "few_elements")           /* 1 to 3 */                                                                \
+    X(SCENE_SEVERAL, "several_lines")                                                                                  \
+    X(SCENE_HANGING, "hanging") /* no obstacle */                                                                      \
+    X(SCENE_INFEASIBLE, "infeasible")                                                                                  \
+    X(SCENE_UNBOUNDED, "unbounded")                                                                                    \
+    X(SCENE_TAUT, "taut")
+
+enum {
+    SCENE_BEFORE_FIRST = SCENE_EA_CLASSES - 1,
+#define SCENE_CLASS_ENUM(name, text) name,
+    SCENE_CLASS_LIST(SCENE_CLASS_ENUM)
+#undef SCENE_CLASS_ENUM
+        SCENE_CLASSES
+};
+
+/* A scene and the arrays it points into; must not be moved after random_scene_make. */
+typedef struct RandomScene {
+    CpsScene scene;
+    CpsOutcome expected; /* of the last step; those before are solved */
+    CpsObstacle obstacle;
+    CpsLine line[SCENE_LINES];
+    char line_name[SCENE_LINES][8], stage_name[SCENE_STAGES][8];
+    double point[SCENE_LINES][3 * SCENE_POINTS], element_length[SCENE_LINES][SCENE_ELEMENTS];
+    CpsStage stage[SCENE_STAGES];
+    CpsChange change[SCENE_STAGES][2 * SCENE_LINES];
+} RandomScene;
+
+const char *random_scene_class_name(int class_index);
+void random_scene_make(int class_index, uint64_t seed, RandomScene *out);
+
+#endif

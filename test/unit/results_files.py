@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Read directories of results with independent readers: json, csv, an XML parser, and the layout of VTK's appended
+data. Arguments: the directories. A directory named *infeasible must hold a proof."""
+import csv, json, os, re, struct, sys
+import xml.etree.ElementTree as tree
+
+STEP_KEYS = {"name", "outcome", "iterations", "energy", "tension_bound_rms_N", "tension_estimate_N",
+             "force_residual_N", "largest_force_N", "law_residual_J", "contact_residual_N", "contact_residual_J",
+             "stretch_residual", "penetration_m", "dissipated_J", "wall_s", "lines"}
+LINE_KEYS = {"outcome", "iterations", "grounded_m", "slipping_m", "slack_m", "dissipated_J", "A", "B"}
+POINT_DATA = {"tension_N", "contact_force_N", "friction_state", "displacement_m"}
+SIZE = {"Float64": 8, "Int64": 8, "Int32": 4, "UInt8": 1}
+
+
+def no_constant(name):
+    raise ValueError(name + " is not JSON")
+
+
+def check_summary(directory):
+    with open(os.path.join(directory, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file, parse_constant=no_constant)
+    assert set(summary) == {"capstan", "title", "outcome", "wall_s", "steps"}, set(summary)
+    for step in summary["steps"]:
+        assert set(step) == STEP_KEYS, set(step) ^ STEP_KEYS
+        assert set(step["energy"]) == {"primal_J", "dual_J", "gap_J", "scale_J"}
+        for name, line in step["lines"].items():
+            assert set(line) - {"proof"} == LINE_KEYS, set(line)
+            assert set(line["A"]) == {"position_m", "force_N", "tension_N"} and len(line["B"]["force_N"]) == 3
+            assert name in step["tension_bound_rms_N"]
+    assert "\x1b[31m" in summary["title"] and "</title>" in summary["title"], summary["title"]
+    if directory.endswith("infeasible"):
+        last = summary["steps"][-1]["lines"]["mooring-2"]
+        assert summary["outcome"] == last["outcome"] == "infeasible"
+        assert abs(sum(x * x for x in last["proof"]["direction"]) - 1) < 1e-12  # a unit vector, rounded
+        assert last["proof"]["excess_m"] > 0
+    return summary
+
+
+def check_history(directory, summary):
+    with open(os.path.join(directory, "history.csv"), encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    names, units, rows = rows[0], rows[1], rows[2:]
+    assert len(rows) == len(summary["steps"]) and len(set(names)) == len(names) == len(units)
+    assert all(unit in ("", "1", "s", "m", "N", "J") for unit in units), units
+    for row, step in zip(rows, summary["steps"]):
+        assert len(row) == len(names)
+        value = dict(zip(names, row))
+        assert value["outcome"] == step["outcome"] and float(value["gap"]) == step["energy"]["gap_J"]
+        assert not value["name"].startswith("="), "a formula"
+        for name, line in step["lines"].items():
+            assert float(value[name + ".B.fx"]) == line["B"]["force_N"][0]
+            assert float(value[name + ".grounded"]) == line["grounded_m"]
+
+
+def check_loop(directory):
+    """The printed area against the trapezoidal sum of force and displacement in history.csv."""
+    with open(os.path.join(directory, "loop-surge.svg"), encoding="utf-8") as file:
+        printed, unit = re.search(r"area ([-0-9.e+]+) (k?)J", file.read()).groups()
+    with open(os.path.join(directory, "history.csv"), encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    column = {name: i for i, name in enumerate(rows[0])}
+    force = [float(row[column["mooring-2.B.fx"]]) for row in rows[3:]]
+    place = [float(row[column["mooring-2.B.x"]]) for row in rows[3:]]
+    work = sum((force[i] + force[i - 1]) / 2 * (place[i] - place[i - 1]) for i in range(1, len(force)))
+    area = float(printed) * (1000 if unit else 1)
+    assert abs(area - work) <= 1e-3 * abs(work), (area, work)  # four digits are printed
+    assert work > 0
+
+
+def check_vtp(path, lines):
+    """Sizes and offsets of the blocks against the header, and the polylines."""
+    with open(path, "rb") as file:
+        data = file.read()
+    begin = data.index(b"<AppendedData encoding=\"raw\">")
+    mark = data.index(b"_", begin)
+    root = tree.fromstring(data[:begin] + b"</VTKFile>")
+    order = {"LittleEndian": "<", "BigEndian": ">"}[root.get("byte_order")]
+    assert root.get("type") == "PolyData" and root.get("header_type") == "UInt64"
+    piece = root.find("PolyData/Piece")
+    points, cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfLines"))
+    assert cells == lines and {a.get("Name") for a in piece.find("PointData")} == POINT_DATA
+    end, block = mark + 1, {}
+    for section, count in (("Points", points), ("Lines", None), ("PointData", points), ("CellData", cells)):
+        for array in piece.find(section):
+            count_here = {"connectivity": points, "offsets": cells}.get(array.get("Name"), count)
+            at = mark + 1 + int(array.get("offset"))
+            assert at == end, "blocks lie end to end"
+            size = struct.unpack_from(order + "Q", data, at)[0]
+            assert size == count_here * SIZE[array.get("type")] * int(array.get("NumberOfComponents"))
+            block[array.get("Name")] = data[at + 8:at + 8 + size]
+            end = at + 8 + size
+    assert data[end:].strip().startswith(b"</AppendedData>")
+    assert struct.unpack(order + "%dq" % points, block["connectivity"]) == tuple(range(points))
+    assert struct.unpack(order + "%dq" % cells, block["offsets"])[-1] == points
+    assert set(block["friction_state"]) <= {0, 1, 2}
+
+
+def check_directory(directory):
+    files = sorted(os.listdir(directory))
+    assert not [f for f in files if f.startswith(".") or f.endswith(".part")], files
+    summary = check_summary(directory)
+    check_history(directory, summary)
+    steps = len(summary["steps"])
+    vtp = [f for f in files if f.endswith(".vtp")]
+    assert vtp == ["step-%05d.vtp" % i for i in range(steps)], vtp
+    for name in vtp:
+        check_vtp(os.path.join(directory, name), len(summary["steps"][0]["lines"]))
+    listed = [d.get("file") for d in tree.parse(os.path.join(directory, "result.pvd")).iter("DataSet")]
+    assert listed == vtp
+    for name in [f for f in files if f.endswith(".svg")]:
+        root = tree.parse(os.path.join(directory, name)).getroot()
+        assert root.tag == "{http://www.w3.org/2000/svg}svg"
+        assert not [e for e in root.iter() if e.tag.endswith("script")], "text became an element"
+        with open(os.path.join(directory, name), encoding="utf-8") as file:
+            assert not re.search(r"\b(nan|inf)\b|href|url\((?!#)", file.read()), name
+    for name in ("plan.svg", "elevation.svg", "tension.svg", "step-00000-plan.svg", "step-00000-elevation.svg"):
+        assert name in files, name
+    if not directory.endswith("infeasible"):
+        check_loop(directory)
+    print("%s: %d steps, %d files" % (directory, steps, len(files)))
+
+
+for argument in sys.argv[1:]:
+    if os.path.isdir(argument):
+        check_directory(argument)
+    else:
+        assert argument.endswith("locale"), argument + " is missing"  # no such locale on this machine
