@@ -247,7 +247,8 @@ class Conic:
             h[stretch + 1 + a] = e[:, a]
             put(stretch + 1 + a, np.where(at[1:] >= 0, at[1:] + a, -1), -1/l)
             put(stretch + 1 + a, np.where(at[:-1] >= 0, at[:-1] + a, -1), 1/l)
-        G = sparse.csc_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(cols))), shape=(len(h), self.columns))
+        where = np.concatenate(rows), np.concatenate(cols)
+        G = sparse.csc_matrix((np.concatenate(values), where), shape=(len(h), self.columns))
 
         # the scaling asked for, and what undoes it on the duals
         factor, cost = np.ones(len(h)), m if scaling[1] == "N" else 1
@@ -381,7 +382,8 @@ def first_to_reach(name, conic, limit, slowest):
 def best_of(name, problem, limit):
     """The fastest way for this solver to reach the norm, or the best norm that it reaches: a row of the table."""
     best, left = None, limit
-    nothing = {"norm": float("inf"), "iterations": 0, "seconds": float("nan"), "wall": float("nan"), "tolerance": float("nan"), "note": ""}
+    nan = float("nan")
+    nothing = {"norm": float("inf"), "iterations": 0, "seconds": nan, "wall": nan, "tolerance": nan, "note": "no answer"}
     for count, scaling in enumerate(SCALINGS):
         reached = best is not None and best["norm"] <= ACCURACY
         conic = Conic(problem, scaling)
@@ -407,18 +409,19 @@ def best_of(name, problem, limit):
 # capstan ------------------------------------------------------------------------------------------------------------
 
 
-def capstan(bench, case, elements, stop):
-    """capstan's row, and the problem that it wrote."""
+def capstan_problem(bench, case, elements, stop):
+    """The step problem with capstan's answer to it."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "step.csv")
-        options = ["--case", case, "--elements", str(elements)] + (["--stop", str(stop)] if stop else [])
-        subprocess.run([bench, *options, "--dump", path], check=True)
-        problem = Problem(path)
-        text = subprocess.run([bench, *options], check=True, capture_output=True, text=True).stdout
-    row = next(csv.DictReader(io.StringIO(text)))
-    seconds = 1e-3*float(row["wall_min_ms"])
-    return problem, {"norm": norm(problem, problem.answer), "iterations": int(row["iterations"]), "seconds": seconds,
-                     "wall": seconds, "tolerance": stop or float("nan"), "note": "" if stop else "to the smallest gap"}
+        subprocess.run([bench, "--case", case, "--elements", str(elements), *stop, "--dump", path], check=True)
+        return Problem(path)
+
+
+def capstan_seconds(bench, case, elements, stop):
+    """The fastest of the repeats."""
+    command = [bench, "--case", case, "--elements", str(elements), *stop]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    return 1e-3*float(next(csv.DictReader(io.StringIO(text)))["wall_min_ms"])
 
 
 # the table ----------------------------------------------------------------------------------------------------------
@@ -428,18 +431,27 @@ COLUMNS = ["case", "elements", "solver", "iterations", "norm", "solve_s", "wall_
 
 def compare(bench, case, elements, solvers, limit):
     """Rows of one size."""
-    problem, polished = capstan(bench, case, elements, None)
-    _, stopped = capstan(bench, case, elements, ACCURACY)
-    rows = {"capstan": stopped, "capstan polished": polished}
+    modes = {"capstan": ["--stop", str(ACCURACY)], "capstan polished": []}
+    rows = {}
+    for name, stop in modes.items():
+        problem = capstan_problem(bench, case, elements, stop)
+        seconds = capstan_seconds(bench, case, elements, stop)
+        rows[name] = {"norm": norm(problem, problem.answer), "iterations": problem.iterations, "seconds": seconds,
+                      "tolerance": ACCURACY if stop else float("nan"), "note": "" if stop else "to the smallest gap"}
     for name in solvers:
         if importlib.util.find_spec(name) is None:
             print(f"compare: {name} is not installed: left out", file=sys.stderr)
             continue
         rows[name] = best_of(name, problem, limit)
+    # once more after the others, as they too had more than one chance on a machine that may be busy
+    for name, stop in modes.items():
+        rows[name]["seconds"] = min(rows[name]["seconds"], capstan_seconds(bench, case, elements, stop))
+        rows[name]["wall"] = rows[name]["seconds"]
+    fastest = rows["capstan"]["seconds"]
     for name, row in rows.items():
-        yield {"case": case, "elements": elements, "solver": name, "iterations": row["iterations"], "norm": f"{row['norm']:.1e}",
-               "solve_s": f"{row['seconds']:.4g}", "wall_s": f"{row['wall']:.4g}", "ratio": f"{row['seconds']/stopped['seconds']:.3g}",
-               "own_tolerance": f"{row['tolerance']:.0e}", "note": row["note"]}
+        yield {"case": case, "elements": elements, "solver": name, "iterations": row["iterations"],
+               "norm": f"{row['norm']:.1e}", "solve_s": f"{row['seconds']:.4g}", "wall_s": f"{row['wall']:.4g}",
+               "ratio": f"{row['seconds']/fastest:.3g}",               "own_tolerance": f"{row['tolerance']:.0e}", "note": row["note"]}
 
 
 def find_bench():
@@ -462,7 +474,8 @@ def main():
     if unknown:
         sys.exit(f"compare: unknown solver {', '.join(sorted(unknown))}: expected {', '.join(SOLVERS)}")
 
-    form = "{case:6} {elements:>8} {solver:17} {iterations:>10} {norm:>9} {solve_s:>9} {wall_s:>9} {ratio:>8} {own_tolerance:>7}  {note}"
+    form = ("{case:6} {elements:>8} {solver:17} {iterations:>10} {norm:>9} {solve_s:>9} {wall_s:>9} {ratio:>8} "
+            "{own_tolerance:>7}  {note}")
     print(form.format(**{name: name for name in COLUMNS} | {"own_tolerance": "own tol"}), flush=True)
     rows = []
     for case in ["souza", "oc3"] if options.case == "all" else [options.case]:

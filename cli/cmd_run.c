@@ -129,7 +129,8 @@ static CpsStatus take_steps(const CpsScene *scene, CpsEvolution *evolution, CpsR
         if (status) return status;
         const CpsStepReport report = cps_evolution_report(evolution);
         progress_step(progress, report.index + 1, report.name);
-        if (is_shown(scene, steps, report.index) || report.outcome != CPS_SOLVED || stop_signal) put_rows(table, evolution);
+        if (is_shown(scene, steps, report.index) || report.outcome != CPS_SOLVED || stop_signal)
+            put_rows(table, evolution);
         if (report.outcome != CPS_SOLVED) {
             progress_end(progress);
             report_outcomes(evolution);

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Names and sentences of status codes and outcomes, from the lists in base.h and evolve.h. */
+/* Names and sentences of status codes, from the list in base.h; failing with a message. */
 #include "base/status.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "capstan/evolve.h"
-
 #define STRING(x) #x
 #define VERSION(major, minor, patch) STRING(major) "." STRING(minor) "." STRING(patch)
 
@@ -31,26 +28,6 @@ const char *cps_status_sentence(CpsStatus status) {
 #undef CASE
     }
     return "unknown status";
-}
-
-const char *cps_outcome_key(CpsOutcome outcome) {
-    switch (outcome) {
-#define CASE(name, number, key, sentence)                                                                              \
-    case name: return key;
-        CPS_OUTCOME_LIST(CASE)
-#undef CASE
-    }
-    return "unknown";
-}
-
-const char *cps_outcome_sentence(CpsOutcome outcome) {
-    switch (outcome) {
-#define CASE(name, number, key, sentence)                                                                              \
-    case name: return sentence;
-        CPS_OUTCOME_LIST(CASE)
-#undef CASE
-    }
-    return "unknown outcome";
 }
 
 CpsStatus cpsi_fail(CpsError *err, CpsStatus status, const char *format, ...) {

@@ -5,7 +5,7 @@
 
 #include "capstan/base.h"
 
-/* Fill err (may be NULL) with a printf-style message and return status. */
-__attribute__((format(printf, 3, 4))) CpsStatus cpsi_fail(CpsError *err, CpsStatus status, const char *format, ...);
+/* Fill err (may be NULL) with a printf-style message and return status. Exported: capstan-io fails the same way. */
+CPS_API __attribute__((format(printf, 3, 4))) CpsStatus cpsi_fail(CpsError *err, CpsStatus status, const char *format, ...);
 
 #endif

@@ -138,7 +138,7 @@ static double force_scale(const CpsiLine *line, double distance) {
 }
 
 /* The first guess: the reference, its ends moved to where they are held, the rest along in proportion. */
-static void guess(const CpsiLine *line, CpsiProgram *program) {
+static void guess(const CpsiLine *line, CpsiChainProgram *program) {
     double shift[2][3] = {{0}};
     const int last = line->n - 1;
     for (int end = 0; end < 2; end++) {
@@ -151,20 +151,20 @@ static void guess(const CpsiLine *line, CpsiProgram *program) {
         const double b = line->arc_length[j]/line->length;
         for (int a = 0; a < 3; a++) {
             const double value = j == 0 ? shift[0][a] : j == last ? shift[1][a] : (1 - b)*shift[0][a] + b*shift[1][a];
-            program->u[3*j + a] = value/line->length;
+            program->base.u[3*j + a] = value/line->length;
         }
     }
 }
 
-static void fill_nodes(const CpsiLine *line, CpsiProgram *program, double force) {
+static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, double force) {
     CpsiRub *rub = &program->rub;
     CpsiStop *stop = &program->stop;
     rub->count = stop->count = 0;
     for (int j = 0; j < line->n; j++) {
         const double share = line->share[j]/line->length;
         program->held[j] = is_held(line, j);
-        cpsi_plane_to_frame(&line->plane, &program->load[3*j], &line->load[3*j]);
-        for (int a = 0; a < 3; a++) program->load[3*j + a] /= force;
+        cpsi_plane_to_frame(&line->plane, &program->base.load[3*j], &line->load[3*j]);
+        for (int a = 0; a < 3; a++) program->base.load[3*j + a] /= force;
         if (line->friction_bound[j] > 0) {
             rub->node[rub->count] = j;
             rub->weight[rub->count] = share;
@@ -178,7 +178,7 @@ static void fill_nodes(const CpsiLine *line, CpsiProgram *program, double force)
     }
 }
 
-static void fill_elements(const CpsiLine *line, CpsiProgram *program, double force, double longer) {
+static void fill_elements(const CpsiLine *line, CpsiChainProgram *program, double force, double longer) {
     CpsiStretch *st = &program->stretch;
     for (int i = 1; i < line->n; i++) {
         const double l = line->element_length[i - 1]*longer;
@@ -188,17 +188,17 @@ static void fill_elements(const CpsiLine *line, CpsiProgram *program, double for
         st->length[i] = l/line->length;
         st->compliance[i] = line->compliance*force;
         for (int a = 0; a < 3; a++)
-            st->s[i][1 + a] = frame[a] + (program->u[3*i + a] - program->u[3*(i - 1) + a])/st->length[i];
+            st->s[i][1 + a] = frame[a] + (program->base.u[3*i + a] - program->base.u[3*(i - 1) + a])/st->length[i];
     }
 }
 
 /* conclude ------------------------------------------------------------------------------------------------------ */
 
 /* Positions and forces in world axes. */
-static void unpack(CpsiLine *line, const CpsiProgram *program, double force) {
+static void unpack(CpsiLine *line, const CpsiChainProgram *program, double force) {
     for (int j = 0; j < line->n; j++) {
         double u[3], shift[3];
-        for (int a = 0; a < 3; a++) u[a] = line->length*program->u[3*j + a];
+        for (int a = 0; a < 3; a++) u[a] = line->length*program->base.u[3*j + a];
         if (isfinite(line->gap[j]) && u[2] < -line->gap[j]) u[2] = -line->gap[j];
         cpsi_plane_from_frame(&line->plane, shift, u);
         for (int a = 0; a < 3; a++) line->position[3*j + a] = line->reference[3*j + a] + shift[a];
@@ -234,7 +234,7 @@ static void straighten(CpsiLine *line) {
 
 /* Free, stick or slip, and slack: of two complementary quantities, the one that is larger at its own scale is the one that is
  * not zero. */
-static void classify(CpsiLine *line, const CpsiProgram *program, double force) {
+static void classify(CpsiLine *line, const CpsiChainProgram *program, double force) {
     const double weight = vec3_norm(vec3_load(line->weight)), density = weight > 0 ? weight : force/line->length;
     CpsLineReport *report = &line->report;
     memset(line->state, CPS_NODE_FREE, (size_t)line->n);
@@ -288,8 +288,10 @@ static CpsOutcome judge(const CpsiLine *line, const CpsiIpmReport *ipm, double t
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }
 
-void cpsi_line_step(CpsiLine *line, CpsiProgram *program, const CpsiStepOptions *options) {
+void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     line->report = (CpsLineReport){0};
+    for (int end = 0; end < 2; end++) /* where they stay if there is no equilibrium */
+        memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
     pose(line, options);
     if (too_short(line) || runs_away(line)) return;
 
@@ -298,15 +300,15 @@ void cpsi_line_step(CpsiLine *line, CpsiProgram *program, const CpsiStepOptions 
     const double force = force_scale(line, end_distance(line)/longer);
     for (int j = 0; j < line->n; j++)
         if (line->friction_bound[j] < LEAST_FRICTION*force) line->friction_bound[j] = 0;
-    program->n = program->matrix.n = line->n;
+    cpsi_chain_program_resize(program, line->n);
     guess(line, program);
     fill_nodes(line, program, force);
     fill_elements(line, program, force, longer);
     double scale = 0;
-    for (int i = 0; i < 3*line->n; i++) scale += fabs(program->load[i]);
+    for (int i = 0; i < 3*line->n; i++) scale += fabs(program->base.load[i]);
     const CpsiIpmOptions ipm_options = {
         .target = TARGET, .scale = scale > 0 ? scale : 1, .max_iterations = options->solver.max_iterations};
-    const CpsiIpmReport ipm = cpsi_ipm_solve(program, &ipm_options);
+    const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     line->report.iterations = ipm.iterations;
 
     unpack(line, program, force);

@@ -4,7 +4,7 @@
 #define CAPSTAN_SRC_CABLE_LINE_STEP_H
 
 #include "cable/line.h"
-#include "ipm/program.h"
+#include "ipm/chain_program.h"
 
 typedef struct CpsiStepOptions {
     CpsSolverOptions solver;
@@ -19,6 +19,6 @@ typedef struct CpsiStepOptions {
  *   program   scratch laid out for at least line->n nodes
  *
  * Allocates nothing. */
-void cpsi_line_step(CpsiLine *line, CpsiProgram *program, const CpsiStepOptions *options);
+void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options);
 
 #endif

@@ -47,7 +47,7 @@ struct CpsEvolution {
     int done;         /* steps taken */
     int current, part; /* next stage, steps already taken of it */
     bool ended;       /* an infeasible or unbounded step ends the history */
-    CpsiProgram program;
+    CpsiChainProgram program;
 };
 
 /* create -------------------------------------------------------------------------------------------------------- */
@@ -82,7 +82,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
         stage->name = take_name(arena, scene->stage[i].name);
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, Change);
     }
-    cpsi_program_layout(&evolution->program, arena, nodes,
+    cpsi_chain_program_layout(&evolution->program, arena, nodes,
                         scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain);
     return placed;
 }

@@ -21,7 +21,7 @@ static const double SAME_DISPLACEMENT = 1e-6;
 /* Ends closer than this part of the line's length are at the same place: far above rounding of imposed positions. */
 static const double SAME_PLACE = 1e-9;
 
-enum { MAX_LOOPS = 48, FORCE_HEIGHT = 300, OPENED_HEIGHT = 260 };
+enum { MAX_LOOPS = 48, MAX_LOOP_STAGES = 1000, FORCE_HEIGHT = 300, OPENED_HEIGHT = 260 };
 
 /* Steps first..last (rows) of one end of one line that lead back to where they began; row first - 1, if there is
  * one, is the state before. */
@@ -85,7 +85,9 @@ static int find_loop(const CpsResults *results, Loop *loop, int stage) {
         if (!stage_moves(results, loop, &results->stage[stage])) continue;
         const int first = results->stage[stage].first;
         loop->start = first > 0 ? first - 1 : 0;
-        for (int next = stage; next < results->stage_count; ++next) {
+        const int most =
+            results->stage_count - stage < MAX_LOOP_STAGES ? results->stage_count : stage + MAX_LOOP_STAGES;
+        for (int next = stage; next < most; ++next) {
             if (!stage_moves(results, loop, &results->stage[next])) break;
             const int last = results->stage[next].last;
             if (vec3_norm(moved(results, loop, last)) > SAME_PLACE * results->line_length[loop->line]) continue;

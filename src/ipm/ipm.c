@@ -20,67 +20,47 @@ static const double FRACTION = 0.98;
 /* A step shorter than this, or this many steps without halving the best gap, end the loop. */
 static const double LEAST_STEP = 1e-6;
 static const int PATIENCE = 8;
-/* A ray is a proof once its value outweighs all that it neglects by this factor, for any u up to as many line lengths. */
+/* A ray is a proof once its value outweighs all that it neglects by this factor, for any u of size one. */
 static const double RAY = 1e4;
+/* An iterate this far from a start of size one runs away. */
+static const double FAR = 1e8;
 
 static void start(CpsiProgram *program) {
-    cpsi_stretch_start(program, START_MU, START_MARGIN);
-    cpsi_rub_start(program, START_MU);
-    cpsi_stop_start(program, START_MU, START_MARGIN);
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->start(program, START_MU, START_MARGIN);
 }
 
 /* Residuals and complementarity of the iterate. */
 static CpsiSums measure(CpsiProgram *program) {
     CpsiSums sums = {0};
-    memcpy(program->residual, program->load, 3*(size_t)program->n*sizeof *program->residual);
-    cpsi_stretch_measure(program, &sums);
-    cpsi_rub_measure(program, &sums);
-    cpsi_stop_measure(program, &sums);
+    memcpy(program->residual, program->load, (size_t)program->size*sizeof *program->residual);
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->measure(program, &sums);
     return sums;
-}
-
-static double largest_imbalance(const CpsiProgram *program) {
-    double largest = 0;
-    for (int j = 0; j < program->n; j++)
-        for (int a = 0; a < 3 && !program->held[j]; a++) largest = cpsi_larger(largest, fabs(program->residual[3*j + a]));
-    return largest;
 }
 
 /* The matrix at the iterate, factorised. */
 static bool scale_and_factor(CpsiProgram *program) {
-    memset(program->matrix.diagonal, 0, 6*(size_t)program->n*sizeof *program->matrix.diagonal);
-    cpsi_stretch_scale(program);
-    cpsi_rub_scale(program);
-    cpsi_stop_scale(program);
-    return program->ops->factor(program->linsys, &program->matrix);
+    program->clear(program);
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->scale(program);
+    return program->factor(program);
 }
 
 /* Solve for the direction that the elements' q ask for, removing the share `keep` of the residuals. */
 static CpsiSums direction(CpsiProgram *program, double keep) {
-    for (int i = 0; i < 3*program->n; i++) program->du[i] = keep*program->residual[i];
-    cpsi_stretch_load(program, keep);
-    cpsi_rub_load(program);
-    cpsi_stop_load(program, keep);
-    memset(program->dt, 0, (size_t)program->n*sizeof *program->dt);
-    program->ops->solve(program->linsys, &program->matrix, program->du, program->dt);
     CpsiSums sums = {0};
-    cpsi_stretch_direct(program, keep, &sums);
-    cpsi_rub_direct(program, &sums);
-    cpsi_stop_direct(program, keep, &sums);
+    for (int i = 0; i < program->size; i++) program->du[i] = keep*program->residual[i];
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->load(program, keep);
+    program->solve(program);
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->direct(program, keep, &sums);
     return sums;
 }
 
 static void correct(CpsiProgram *program, double target) {
-    cpsi_stretch_correct(program, target);
-    cpsi_rub_correct(program, target);
-    cpsi_stop_correct(program, target);
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->correct(program, target);
 }
 
 static void advance(CpsiProgram *program, double alpha) {
-    for (int i = 0; i < 3*program->n; i++) program->u[i] += alpha*program->du[i];
-    cpsi_stretch_advance(program, alpha);
-    cpsi_rub_advance(program, alpha);
-    cpsi_stop_advance(program, alpha);
+    for (int i = 0; i < program->size; i++) program->u[i] += alpha*program->du[i];
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->advance(program, alpha);
 }
 
 static double step_length(const CpsiSums *sums, double fraction) {
@@ -91,23 +71,19 @@ static double step_length(const CpsiSums *sums, double fraction) {
  * strain anything with compliance. */
 static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums, double imbalance) {
     if (sums->ray_cost > 0 || !(sums->ray > RAY)) return false;
-    double neglected = program->n*imbalance + sqrt(DBL_EPSILON)*sums->largest/RAY;
-    for (int i = 0; i < 3*program->n; i++) neglected += fabs(program->load[i]);
-    for (int k = 0; k < program->rub.count; k++) neglected += program->rub.weight[k]*program->rub.z[k][0];
+    double neglected = sums->bound + program->size*imbalance + sqrt(DBL_EPSILON)*sums->largest/RAY;
+    for (int i = 0; i < program->size; i++) neglected += fabs(program->load[i]);
     return sums->ray > RAY*neglected;
 }
 
-/* Is u a ray along which the loads gain more than friction takes, for ever? */
-static bool dual_infeasible(const CpsiProgram *program) {
-    double size = 0, gain = 0, cost = 0;
-    for (int i = 0; i < 3*program->n; i++) {
+/* Is u a ray along which the loads gain more than the elements take, for ever? */
+static bool dual_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
+    double size = 0, gain = 0;
+    for (int i = 0; i < program->size; i++) {
         gain += program->load[i]*program->u[i];
-        if (fabs(program->u[i]) > size) size = fabs(program->u[i]);
+        size = cpsi_larger(size, fabs(program->u[i]));
     }
-    if (size < RAY) return false;
-    for (int k = 0; k < program->rub.count; k++) cost += program->rub.weight[k]*program->rub.z[k][0]*program->rub.s[k][0];
-    for (int i = 1; i < program->n; i++) cost += program->stretch.length[i]*program->stretch.z[i][0]*program->stretch.s[i][0];
-    return gain > cost + size/RAY;
+    return size > FAR && gain > sums->scale + size/FAR;
 }
 
 CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options) {
@@ -118,14 +94,14 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
     for (;; report.iterations++) {
         /* where are we, and is it enough? */
         const CpsiSums sums = measure(program);
-        const double imbalance = largest_imbalance(program), mu = sums.sz/sums.weight;
+        const double imbalance = program->imbalance(program), mu = sums.sz/sums.weight;
         report.gap = sums.sz/(options->scale + sums.scale);
         report.residual = cpsi_larger(imbalance, sums.residual);
         const double merit = report.gap + report.residual;
         if (!isfinite(merit)) { report.outcome = CPSI_IPM_STALLED; break; }
         if (merit <= options->target) { report.outcome = CPSI_IPM_SOLVED; break; }
         if (primal_infeasible(program, &sums, imbalance)) { report.outcome = CPSI_IPM_INFEASIBLE; break; }
-        if (dual_infeasible(program)) { report.outcome = CPSI_IPM_UNBOUNDED; break; }
+        if (dual_infeasible(program, &sums)) { report.outcome = CPSI_IPM_UNBOUNDED; break; }
         if (report.iterations >= options->max_iterations) break;
         waited = merit < 0.5*best ? 0 : waited + 1;
         if (waited == 0) best = merit;

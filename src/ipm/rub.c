@@ -10,12 +10,14 @@
  * M is stiff while the node sticks; once it slips, g = A/|u| acts across the slip and almost nothing along it. */
 #include "base/larger.h"
 #include "cone/soc.h"
-#include "ipm/program.h"
+#include "ipm/chain_program.h"
 
-void cpsi_rub_start(CpsiProgram *program, double mu) {
+static void start(CpsiProgram *base, double mu, double margin) {
+    (void)margin; /* mu and the iterate fix the pair */
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
-        const double *u = &program->u[3*rub->node[k]], bound = rub->z[k][0];
+        const double *u = &base->u[3*rub->node[k]], bound = rub->z[k][0];
         /* F = -beta A u/|u| with s o z = mu e:  |u| = mu beta/(A (1 - beta^2)),  t = mu/(A (1 - beta^2)) */
         const double size = sqrt(u[0]*u[0] + u[1]*u[1]), ratio = 2*size*bound/mu;
         const double beta = ratio/(1 + sqrt(1 + ratio*ratio)), pull = size > 0 ? -beta*bound/size : 0;
@@ -24,20 +26,23 @@ void cpsi_rub_start(CpsiProgram *program, double mu) {
     }
 }
 
-void cpsi_rub_measure(CpsiProgram *program, CpsiSums *sums) {
+static void measure(CpsiProgram *base, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
     const CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
         const double *s = rub->s[k], *z = rub->z[k], weight = rub->weight[k];
-        double *residual = &program->residual[3*rub->node[k]];
+        double *residual = &base->residual[3*rub->node[k]];
         sums->weight += weight;
         sums->sz += weight*(s[0]*z[0] + s[1]*z[1] + s[2]*z[2]);
         sums->scale += weight*s[0]*z[0];
+        sums->bound += weight*z[0];
         residual[0] += weight*z[1];
         residual[1] += weight*z[2];
     }
 }
 
-void cpsi_rub_scale(CpsiProgram *program) {
+static void scale(CpsiProgram *base) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
         const CpsiSocScaling scaling = cpsi_soc_scaling(rub->s[k], rub->z[k], 3);
@@ -52,20 +57,24 @@ void cpsi_rub_scale(CpsiProgram *program) {
     }
 }
 
-void cpsi_rub_load(CpsiProgram *program) {
+static void load(CpsiProgram *base, double keep) {
+    (void)keep; /* a rub has no residual */
+    CpsiChainProgram *program = cpsi_chain(base);
     const CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
         const double *w = rub->w[k], *q = rub->q[k], weight = rub->weight[k];
         const double pull = 2*w[0]*q[0]/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
-        double *f = &program->du[3*rub->node[k]];
+        double *f = &base->du[3*rub->node[k]];
         for (int a = 0; a < 2; a++) f[a] += weight*(q[1 + a] + pull*w[1 + a]);
     }
 }
 
-void cpsi_rub_direct(CpsiProgram *program, CpsiSums *sums) {
+static void direct(CpsiProgram *base, double keep, CpsiSums *sums) {
+    (void)keep;
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
-        const double *w = rub->w[k], *q = rub->q[k], *s = rub->s[k], *z = rub->z[k], *du = &program->du[3*rub->node[k]];
+        const double *w = rub->w[k], *q = rub->q[k], *s = rub->s[k], *z = rub->z[k], *du = &base->du[3*rub->node[k]];
         const double g = rub->g[k], weight = rub->weight[k], share = 1/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
         double *ds = rub->ds[k], *dz = rub->dz[k];
         const double wu = w[1]*du[0] + w[2]*du[1], pull = 2*share*(w[0]*q[0] + g*wu);
@@ -90,7 +99,8 @@ void cpsi_rub_direct(CpsiProgram *program, CpsiSums *sums) {
     }
 }
 
-void cpsi_rub_correct(CpsiProgram *program, double target) {
+static void correct(CpsiProgram *base, double target) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
         const double *w = rub->w[k], *s = rub->s[k], *z = rub->z[k];
@@ -107,7 +117,8 @@ void cpsi_rub_correct(CpsiProgram *program, double target) {
     }
 }
 
-void cpsi_rub_advance(CpsiProgram *program, double alpha) {
+static void advance(CpsiProgram *base, double alpha) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++)
         for (int a = 0; a < 3; a++) {
@@ -115,3 +126,5 @@ void cpsi_rub_advance(CpsiProgram *program, double alpha) {
             rub->z[k][a] += alpha*rub->dz[k][a];
         }
 }
+
+const CpsiKind cpsi_rub = {start, measure, scale, load, direct, correct, advance};

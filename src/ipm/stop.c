@@ -5,23 +5,25 @@
 #include <math.h>
 
 #include "base/larger.h"
-#include "ipm/program.h"
+#include "ipm/chain_program.h"
 
-static inline double residual_of(const CpsiProgram *program, int k) {
+static inline double residual_of(const CpsiChainProgram *program, int k) {
     const CpsiStop *stop = &program->stop;
-    return stop->gap[k] + program->u[3*stop->node[k] + 2] - stop->s[k];
+    return stop->gap[k] + program->base.u[3*stop->node[k] + 2] - stop->s[k];
 }
 
-void cpsi_stop_start(CpsiProgram *program, double mu, double margin) {
+static void start(CpsiProgram *base, double mu, double margin) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
-        const double distance = stop->gap[k] + program->u[3*stop->node[k] + 2];
+        const double distance = stop->gap[k] + base->u[3*stop->node[k] + 2];
         stop->s[k] = distance > margin ? distance : margin;
         stop->z[k] = mu/stop->s[k];
     }
 }
 
-void cpsi_stop_measure(CpsiProgram *program, CpsiSums *sums) {
+static void measure(CpsiProgram *base, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
     const CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
         const double rho = fabs(residual_of(program, k));
@@ -30,11 +32,12 @@ void cpsi_stop_measure(CpsiProgram *program, CpsiSums *sums) {
         sums->ray -= stop->weight[k]*stop->z[k]*(stop->s[k] + residual_of(program, k));
         sums->residual = cpsi_larger(sums->residual, rho);
         if (stop->z[k] > sums->largest) sums->largest = stop->z[k];
-        program->residual[3*stop->node[k] + 2] += stop->weight[k]*stop->z[k];
+        base->residual[3*stop->node[k] + 2] += stop->weight[k]*stop->z[k];
     }
 }
 
-void cpsi_stop_scale(CpsiProgram *program) {
+static void scale(CpsiProgram *base) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
         program->matrix.diagonal[6*stop->node[k] + 5] += stop->weight[k]*stop->z[k]/stop->s[k];
@@ -42,18 +45,20 @@ void cpsi_stop_scale(CpsiProgram *program) {
     }
 }
 
-void cpsi_stop_load(CpsiProgram *program, double keep) {
+static void load(CpsiProgram *base, double keep) {
+    CpsiChainProgram *program = cpsi_chain(base);
     const CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++)
-        program->du[3*stop->node[k] + 2] +=
+        base->du[3*stop->node[k] + 2] +=
             stop->weight[k]*(stop->q[k] - stop->z[k]/stop->s[k]*keep*residual_of(program, k));
 }
 
-void cpsi_stop_direct(CpsiProgram *program, double keep, CpsiSums *sums) {
+static void direct(CpsiProgram *base, double keep, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
         const double s = stop->s[k], z = stop->z[k];
-        const double ds = program->du[3*stop->node[k] + 2] + keep*residual_of(program, k), dz = stop->q[k] - z/s*ds;
+        const double ds = base->du[3*stop->node[k] + 2] + keep*residual_of(program, k), dz = stop->q[k] - z/s*ds;
         const double step_s = -ds/s, step_z = -dz/z, step = cpsi_larger(step_s, step_z);
         stop->ds[k] = ds;
         stop->dz[k] = dz;
@@ -63,16 +68,20 @@ void cpsi_stop_direct(CpsiProgram *program, double keep, CpsiSums *sums) {
     }
 }
 
-void cpsi_stop_correct(CpsiProgram *program, double target) {
+static void correct(CpsiProgram *base, double target) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++)
         stop->q[k] = -stop->z[k] + (target - stop->ds[k]*stop->dz[k])/stop->s[k];
 }
 
-void cpsi_stop_advance(CpsiProgram *program, double alpha) {
+static void advance(CpsiProgram *base, double alpha) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
         stop->s[k] += alpha*stop->ds[k];
         stop->z[k] += alpha*stop->dz[k];
     }
 }
+
+const CpsiKind cpsi_stop = {start, measure, scale, load, direct, correct, advance};

@@ -15,7 +15,7 @@
  * of order one, c g may pass 1 and a turn negative, which the linear system allows. */
 #include "base/larger.h"
 #include "cone/soc.h"
-#include "ipm/program.h"
+#include "ipm/chain_program.h"
 
 /* 1 - c g is kept this far from 0, so that a stays finite: the step is inexact by as much. */
 static const double LEAST_STIFFENING = 1e-13;
@@ -38,7 +38,8 @@ static inline Segment segment(const double w[4], double g, double c) {
     return out;
 }
 
-void cpsi_stretch_start(CpsiProgram *program, double mu, double margin) {
+static void start(CpsiProgram *base, double mu, double margin) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStretch *st = &program->stretch;
     for (int i = 1; i < program->n; i++) {
         double *s = st->s[i], *z = st->z[i];
@@ -51,9 +52,10 @@ void cpsi_stretch_start(CpsiProgram *program, double mu, double margin) {
     }
 }
 
-void cpsi_stretch_measure(CpsiProgram *program, CpsiSums *sums) {
+static void measure(CpsiProgram *base, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
     const CpsiStretch *st = &program->stretch;
-    double *residual = program->residual;
+    double *residual = base->residual;
     for (int i = 1; i < program->n; i++) {
         const double *s = st->s[i], *z = st->z[i];
         const double rho = fabs(1 + st->compliance[i]*z[0] - s[0]);
@@ -73,7 +75,8 @@ void cpsi_stretch_measure(CpsiProgram *program, CpsiSums *sums) {
     }
 }
 
-void cpsi_stretch_scale(CpsiProgram *program) {
+static void scale(CpsiProgram *base) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStretch *st = &program->stretch;
     CpsiMatrix *matrix = &program->matrix;
     for (int i = 1; i < program->n; i++) {
@@ -90,9 +93,10 @@ void cpsi_stretch_scale(CpsiProgram *program) {
     }
 }
 
-void cpsi_stretch_load(CpsiProgram *program, double keep) {
+static void load(CpsiProgram *base, double keep) {
+    CpsiChainProgram *program = cpsi_chain(base);
     const CpsiStretch *st = &program->stretch;
-    double *f = program->du;
+    double *f = base->du;
     for (int i = 1; i < program->n; i++) {
         const double *w = st->w[i], *q = st->q[i], g = st->g[i], c = st->compliance[i];
         const Segment seg = segment(w, g, c);
@@ -106,9 +110,10 @@ void cpsi_stretch_load(CpsiProgram *program, double keep) {
     }
 }
 
-void cpsi_stretch_direct(CpsiProgram *program, double keep, CpsiSums *sums) {
+static void direct(CpsiProgram *base, double keep, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStretch *st = &program->stretch;
-    const double *du = program->du;
+    const double *du = base->du;
     for (int i = 1; i < program->n; i++) {
         const double *w = st->w[i], *q = st->q[i], *s = st->s[i], *z = st->z[i];
         const double g = st->g[i], c = st->compliance[i], l = st->length[i], t = program->dt[i];
@@ -143,7 +148,8 @@ void cpsi_stretch_direct(CpsiProgram *program, double keep, CpsiSums *sums) {
     }
 }
 
-void cpsi_stretch_correct(CpsiProgram *program, double target) {
+static void correct(CpsiProgram *base, double target) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStretch *st = &program->stretch;
     for (int i = 1; i < program->n; i++) {
         const double *w = st->w[i], *s = st->s[i], *z = st->z[i];
@@ -160,7 +166,8 @@ void cpsi_stretch_correct(CpsiProgram *program, double target) {
     }
 }
 
-void cpsi_stretch_advance(CpsiProgram *program, double alpha) {
+static void advance(CpsiProgram *base, double alpha) {
+    CpsiChainProgram *program = cpsi_chain(base);
     CpsiStretch *st = &program->stretch;
     for (int i = 1; i < program->n; i++)
         for (int a = 0; a < 4; a++) {
@@ -168,3 +175,5 @@ void cpsi_stretch_advance(CpsiProgram *program, double alpha) {
             st->z[i][a] += alpha*st->dz[i][a];
         }
 }
+
+const CpsiKind cpsi_stretch = {start, measure, scale, load, direct, correct, advance};

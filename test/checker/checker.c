@@ -21,6 +21,8 @@ static const double COPY_TOLERANCE = 1e-12;
 static const double CLAIM_TOLERANCE = 1e-6;
 /* below these parts of the scale or of the largest force they are rounding and no figure at all. */
 static const double ENERGY_FLOOR = 1e-12, FORCE_FLOOR = 1e-12;
+/* Below this, in newtons or joules, there is no load at all (a line without weight that nobody pulls). */
+static const double NOTHING = 1e-200;
 /* Taut: the distance of the ends equals the length within this part of it. */
 static const double TAUT_TOLERANCE = 1e-12;
 
@@ -48,7 +50,7 @@ static void at_most(Judge *judge, const char *what, double value, double bound) 
 }
 
 static void same(Judge *judge, const char *what, double claimed, double found, double floor) {
-    if (!(fabs(claimed - found) <= CLAIM_TOLERANCE * fabs(found) + floor)) {
+    if (!(fabs(claimed - found) <= CLAIM_TOLERANCE * fabs(found) + floor + NOTHING)) {
         find(judge, "claimed %s %.9g, recomputed %.9g (floor %.3g)", what, claimed, found, floor);
     }
 }
@@ -70,7 +72,7 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m) {
     // what friction dissipates is -F.u_T; w |u_T| differs from it by the law residual
     same(judge, "dissipated", r->dissipated, m->slid, energy + m->law);
     // sqrt(2 gap / (c L)) of a gap known up to the floor
-    double noise = sqrt(2 * energy / (r->compliance * m->length));
+    double noise = sqrt(2 * (energy + NOTHING) / (r->compliance * m->length));
     // nodes that the step does not keep out may be deeper than those that it does
     double depth = m->watched ? m->penetration : fmax(m->penetration, claim[CLAIM_PENETRATION]);
     same(judge, "penetration", claim[CLAIM_PENETRATION], depth, place);
@@ -87,9 +89,9 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m) {
 
 /* a solved step: admissible configuration, admissible forces, balance, gap */
 static void judge_solved(Judge *judge, const Record *r, const Measures *m, double tolerance) {
-    double force = FORCE_TOLERANCE * m->largest_force, place = PLACE_TOLERANCE * m->length;
-    at_most(judge, "sum of local gaps", m->gap, tolerance * m->scale);
-    at_most(judge, "primal - dual against the local gaps", fabs(m->identity), m->identity_noise);
+    double force = FORCE_TOLERANCE * m->largest_force + NOTHING, place = PLACE_TOLERANCE * m->length;
+    at_most(judge, "sum of local gaps", m->gap, tolerance * m->scale + NOTHING);
+    at_most(judge, "primal - dual against the local gaps", fabs(m->identity), m->identity_noise + NOTHING);
     at_most(judge, "imbalance of forces", m->force, force);
     at_most(judge, "friction above its bound", m->friction_excess, force);
     at_most(judge, "friction along the normal", m->friction_normal, force);
@@ -173,8 +175,8 @@ static void judge_record(const Record *r, const char *line, size_t step, double 
         if (log) fprintf(log, "step %zu line %s: not certified, as the file says\n", step, line);
     }
     if (r->outcome != OUTCOME_SOLVED || m.missing) return;
-    report->gap = fmax(report->gap, m.gap > 0 ? m.gap / m.scale : 0);
-    report->force = fmax(report->force, m.force > 0 ? m.force / m.largest_force : 0);
+    report->gap = fmax(report->gap, m.gap > NOTHING ? m.gap / m.scale : 0);
+    report->force = fmax(report->force, m.force > NOTHING ? m.force / m.largest_force : 0);
     report->stretch = fmax(report->stretch, m.stretch);
     report->penetration = fmax(report->penetration, m.penetration / m.length);
 }
@@ -197,7 +199,7 @@ static void judge_taken_over(const Record *r, const Record *before, double *mu, 
         bool was_held =
             (j == 0 && before->end_kind[0] == END_HELD) || (j == r->elements && before->end_kind[1] == END_HELD);
         double w = r->friction_bound[j], R = before->reaction[j];
-        if (held || (w == 0 && (was_held || R <= 1e-3 * largest))) continue;
+        if (held || (w == 0 && (was_held || isnan(*mu) || R <= 1e-3 * largest + NOTHING))) continue;
         if (isnan(*mu)) *mu = w / R;
         // one product and its rounding
         if (!(fabs(w - *mu * R) <= 1e-14 * w)) {

@@ -259,7 +259,7 @@ Measures measure(const Record *r) {
     add(&identity, -s.signed_gap.value), add(&identity, -s.signed_gap.rest);
     add(&identity, s.imbalance_work.value), add(&identity, s.imbalance_work.rest);
     m.identity = (double)total(&identity);
-    m.identity_noise = (double)(64 * 0x1p-63L * total(&s.magnitude));
+    m.identity_noise = (double)(1024 * 0x1p-63L * total(&s.magnitude));
     m.tension_bound = r->compliance > 0 ? sqrt(2 * m.gap / (r->compliance * m.length)) : NAN;
     return m;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Seeded random scenes, by class. The same (class, seed) gives the same scene on every machine with IEEE doubles. */
+/* Seeded random scenes, by class. The same (class, seed) gives the same scene, up to the last digits of the C library's
+ * cos and pow. */
 #ifndef CAPSTAN_TEST_RANDOM_SCENE_H
 #define CAPSTAN_TEST_RANDOM_SCENE_H
 

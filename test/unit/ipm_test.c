@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The interior-point loop on small programs whose answer is known, with both linear systems: a hanging pair of links, and the two
  * ways of having no answer. */
+#include "ipm/chain_program.h"
 #include "ipm/ipm.h"
 
 #include "check.h"
@@ -9,19 +10,19 @@ enum { NODES = 3 };
 
 typedef struct Fixture {
     CpsiArena arena;
-    CpsiProgram program;
+    CpsiChainProgram program;
 } Fixture;
 
 /* Two equal elements of compliance c; nodes 0 and 2 held at (0,0,0) and (span,0,0) as `held` says, load (0,0,-1) on node 1. */
 static void make(Fixture *fixture, const CpsiLinsysOps *ops, double c, double span, bool held) {
-    CpsiProgram *program = &fixture->program;
+    CpsiChainProgram *program = &fixture->program;
     fixture->arena = (CpsiArena){0};
-    cpsi_program_layout(program, &fixture->arena, NODES, ops);
+    cpsi_chain_program_layout(program, &fixture->arena, NODES, ops);
     assert_true(cpsi_arena_allocate(&fixture->arena));
-    cpsi_program_layout(program, &fixture->arena, NODES, ops);
+    cpsi_chain_program_layout(program, &fixture->arena, NODES, ops);
     program->rub.count = program->stop.count = 0;
     program->held[0] = program->held[2] = held;
-    program->load[3*1 + 2] = -1;
+    program->base.load[3*1 + 2] = -1;
     for (int i = 1; i < NODES; i++) {
         program->stretch.length[i] = 0.5;
         program->stretch.compliance[i] = c;
@@ -31,7 +32,7 @@ static void make(Fixture *fixture, const CpsiLinsysOps *ops, double c, double sp
 
 static CpsiIpmReport run(Fixture *fixture) {
     const CpsiIpmOptions options = {.target = 1e-12, .scale = 1, .max_iterations = 60};
-    return cpsi_ipm_solve(&fixture->program, &options);
+    return cpsi_ipm_solve(&fixture->program.base, &options);
 }
 
 /* Inextensible, ends 0.6 apart: a 3-4-5 triangle, sag 0.4, 2 T (0.4/0.5) = 1. */
@@ -41,7 +42,7 @@ static void links_hang_in_a_triangle(void **ops) {
     const CpsiIpmReport report = run(&fixture);
     assert_int_equal(report.outcome, CPSI_IPM_SOLVED);
     /* a gap of 1e-12 bounds errors by its square root */
-    CHECK_NEAR(fixture.program.u[3 + 2], -0.4, 1e-6);
+    CHECK_NEAR(fixture.program.base.u[3 + 2], -0.4, 1e-6);
     for (int i = 1; i < NODES; i++) CHECK_NEAR(fixture.program.stretch.z[i][0], 0.625, 1e-6);
     cpsi_arena_free(&fixture.arena);
 }
@@ -75,10 +76,10 @@ static void free_fall_is_unbounded(void **ops) {
 static void nan_does_not_leave(void **ops) {
     Fixture fixture;
     make(&fixture, *ops, 0, 0.6, true);
-    fixture.program.load[3*1 + 2] = NAN;
+    fixture.program.base.load[3*1 + 2] = NAN;
     const CpsiIpmReport report = run(&fixture);
     assert_int_equal(report.outcome, CPSI_IPM_STALLED);
-    for (int i = 0; i < 3*NODES; i++) CHECK_FINITE(fixture.program.u[i]);
+    for (int i = 0; i < 3*NODES; i++) CHECK_FINITE(fixture.program.base.u[i]);
     cpsi_arena_free(&fixture.arena);
 }
 

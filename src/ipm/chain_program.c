@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where a program's arrays lie: one function, run once to measure and once to place (base/arena.h). */
-#include "ipm/program.h"
+/* A program over a chain: where its arrays lie (one function, run once to measure and once to place), and its linear system. */
+#include "ipm/chain_program.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/larger.h"
 
 static void layout_stretch(CpsiStretch *st, CpsiArena *arena, int n) {
     st->length = CPSI_TAKE(arena, n, double);
@@ -37,19 +42,57 @@ static void layout_stop(CpsiStop *stop, CpsiArena *arena, int n) {
     stop->dz = CPSI_TAKE(arena, n, double);
 }
 
-void cpsi_program_layout(CpsiProgram *program, CpsiArena *arena, int n, const CpsiLinsysOps *ops) {
-    program->n = n;
-    program->held = CPSI_TAKE(arena, n, unsigned char);
-    program->load = CPSI_TAKE(arena, 3*(size_t)n, double);
+static void clear(CpsiProgram *program) {
+    CpsiMatrix *matrix = &cpsi_chain(program)->matrix;
+    memset(matrix->diagonal, 0, 6*(size_t)matrix->n*sizeof *matrix->diagonal);
+}
+
+static bool factor(CpsiProgram *program) {
+    CpsiChainProgram *chain = cpsi_chain(program);
+    return chain->ops->factor(chain->linsys, &chain->matrix);
+}
+
+/* The rows of the tensions have nothing on their right: residuals of elements are condensed with their privates. */
+static void solve(CpsiProgram *program) {
+    CpsiChainProgram *chain = cpsi_chain(program);
+    memset(chain->dt, 0, (size_t)chain->n*sizeof *chain->dt);
+    chain->ops->solve(chain->linsys, &chain->matrix, program->du, chain->dt);
+}
+
+static double imbalance(const CpsiProgram *program) {
+    const CpsiChainProgram *chain = (const CpsiChainProgram *)program;
+    double largest = 0;
+    for (int j = 0; j < chain->n; j++)
+        for (int a = 0; a < 3 && !chain->held[j]; a++) largest = cpsi_larger(largest, fabs(program->residual[3*j + a]));
+    return largest;
+}
+
+void cpsi_chain_program_resize(CpsiChainProgram *program, int n) {
+    program->n = program->matrix.n = n;
+    program->base.size = 3*n;
+}
+
+void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, const CpsiLinsysOps *ops) {
+    static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_rub, &cpsi_stop};
+    const size_t size = 3*(size_t)n;
+    program->base = (CpsiProgram){
+        .load = CPSI_TAKE(arena, size, double),
+        .u = CPSI_TAKE(arena, size, double),
+        .du = CPSI_TAKE(arena, size, double),
+        .residual = CPSI_TAKE(arena, size, double),
+        .kind_count = sizeof kinds/sizeof *kinds,
+        .kind = kinds,
+        .clear = clear,
+        .factor = factor,
+        .solve = solve,
+        .imbalance = imbalance,
+    };
     layout_stretch(&program->stretch, arena, n);
     layout_rub(&program->rub, arena, n);
     layout_stop(&program->stop, arena, n);
-    program->u = CPSI_TAKE(arena, 3*(size_t)n, double);
-    program->du = CPSI_TAKE(arena, 3*(size_t)n, double);
+    program->held = CPSI_TAKE(arena, n, unsigned char);
     program->dt = CPSI_TAKE(arena, n, double);
-    program->residual = CPSI_TAKE(arena, 3*(size_t)n, double);
     program->matrix = (CpsiMatrix){
-        .n = n,
         .held = program->held,
         .diagonal = CPSI_TAKE(arena, 6*(size_t)n, double),
         .stiffness = CPSI_TAKE(arena, n, double),
@@ -58,4 +101,5 @@ void cpsi_program_layout(CpsiProgram *program, CpsiArena *arena, int n, const Cp
     };
     program->ops = ops;
     program->linsys = ops->layout(arena, n);
+    cpsi_chain_program_resize(program, n);
 }

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A program over a chain of nodes in space, three unknowns each: the line of cable/.
+ *
+ *     min   sum_i l_i d_i^2/(2 c_i)  +  sum_k w_k A_k t_k  -  sum_j b_j.u_j
+ *     s.t.  (1 + d_i, e_i) in Q4,       e_i = e_i^0 + (u_i - u_{i-1})/l_i       stretch, one per element i = 1..n-1
+ *           (t_k, u_xy) in Q3           at node k                               rub,     a disc of forces of radius A_k
+ *           g_k + u_z >= 0              at node k                               stop,    a half-line
+ *           u_j = given at held nodes
+ *
+ * All quantities are dimensionless and of order one; the program knows no mechanics, but its names are those of a line:
+ * stretch duals are (T, -p), rub duals (A, F), stop duals R, each per unit weight, where the weight of an element is its share
+ * of the line (l_i, w_k). With weights the complementarity s.z is a density, and the same target serves a fine and a coarse
+ * element. Private unknowns (d_i, t_k) are condensed out cone by cone; each stretch keeps its tension in the linear system.
+ *
+ * Iterate: s primal, z dual, both interior. s of a rub is exact by construction, s of a stretch or stop may differ from what
+ * u says by the residual rho, which a full step removes. */
+#ifndef CAPSTAN_SRC_IPM_CHAIN_PROGRAM_H
+#define CAPSTAN_SRC_IPM_CHAIN_PROGRAM_H
+
+#include "ipm/program.h"
+#include "linsys/linsys.h"
+
+/* Element i = 1..n-1 between nodes i-1 and i; index 0 is unused. */
+typedef struct CpsiStretch {
+    double *length;       /* (n) l_i > 0, their sum is 1 */
+    double *compliance;   /* (n) c_i >= 0 */
+    double (*s)[4];       /* (n) (1 + d, e) */
+    double (*z)[4];       /* (n) (T, -p) */
+    double (*w)[4];       /* (n) Nesterov-Todd scaling */
+    double *g;            /* (n) and its factor */
+    double (*q)[4];       /* (n) right-hand side of the complementarity equation */
+    double (*ds)[4];      /* (n) direction */
+    double (*dz)[4];      /* (n) */
+} CpsiStretch;
+
+typedef struct CpsiRub {
+    int count;
+    int *node;
+    double *weight; /* (count) w_k > 0 */
+    double (*s)[3]; /* (count) (t, u_x, u_y) */
+    double (*z)[3]; /* (count) (A, F_x, F_y): z[0] never changes */
+    double (*w)[3];
+    double *g;
+    double (*q)[3], (*ds)[3], (*dz)[3];
+} CpsiRub;
+
+typedef struct CpsiStop {
+    int count;
+    int *node;
+    double *weight; /* (count) w_k > 0 */
+    double *gap;    /* (count) g_k >= 0 */
+    double *s, *z;  /* (count) distance, reaction */
+    double *q, *ds, *dz;
+} CpsiStop;
+
+typedef struct CpsiChainProgram {
+    CpsiProgram base;    /* u (n, 3) and so on: node after node */
+    int n;               /* nodes */
+    unsigned char *held; /* (n) */
+    CpsiStretch stretch;
+    CpsiRub rub;
+    CpsiStop stop;
+    double *dt;          /* (n) direction of the tension unknowns (index 0 unused) */
+    CpsiMatrix matrix;
+    const CpsiLinsysOps *ops;
+    CpsiLinsys *linsys;
+} CpsiChainProgram;
+
+/* Place a program for at most n nodes in the arena. */
+void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, const CpsiLinsysOps *ops);
+
+/* Use n of the nodes it was laid out for. */
+void cpsi_chain_program_resize(CpsiChainProgram *program, int n);
+
+static inline CpsiChainProgram *cpsi_chain(CpsiProgram *program) { return (CpsiChainProgram *)program; }
+
+extern const CpsiKind cpsi_stretch, cpsi_rub, cpsi_stop;
+
+#endif
