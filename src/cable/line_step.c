@@ -113,28 +113,21 @@ static bool is_taut(const CpsiLine *line) {
 /* solve --------------------------------------------------------------------------------------------------------- */
 
 /* A force of the size of the tension to come: the largest of the weight, the forces applied, and for two held ends the T
- * of a shallow line, c T - (W/T)^2/24 = distance/L - 1. */
+ * of a shallow line, c T - (W/T)^2/24 = distance/L - 1. 0 if nothing asks for any force. */
 static double force_scale(const CpsiLine *line, double distance) {
-    double weight = 0, scale = 0;
-    for (int j = 0; j < line->n; j++) {
-        const double b = vec3_norm(vec3_load(&line->load[3*j]));
-        weight += line->share[j]*vec3_norm(vec3_load(line->weight));
-        if (b > scale) scale = b;
-    }
-    if (weight > scale) scale = weight;
     const double strain = distance/line->length - 1, c = line->compliance;
-    if (both(line, CPS_END_HELD)) {
-        double low = scale > 0 ? scale : DBL_MIN, high = low;
-        /* the left side grows with T: bracket by doubling, then halve */
-        while (high < 1e300 && c*high - (weight/high)*(weight/high)/24 < strain) high *= 2;
-        for (int i = 0; i < 60 && high > 1.001*low; i++) {
-            const double middle = sqrt(low)*sqrt(high);
-            if (c*middle - (weight/middle)*(weight/middle)/24 < strain) low = middle;
-            else high = middle;
-        }
-        scale = high < 1e300 ? high : scale;
+    double weight = line->length*vec3_norm(vec3_load(line->weight)), scale = weight;
+    for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3*j])));
+    if (!both(line, CPS_END_HELD) || (scale == 0 && strain <= 0)) return scale;
+    /* the left side grows with T: bracket by doubling, then halve */
+    double low = scale > 0 ? scale : DBL_MIN, high = low;
+    while (high < 1e300 && c*high - (weight/high)*(weight/high)/24 < strain) high *= 2;
+    for (int i = 0; i < 60 && high > 1.001*low; i++) {
+        const double middle = sqrt(low)*sqrt(high);
+        if (c*middle - (weight/middle)*(weight/middle)/24 < strain) low = middle;
+        else high = middle;
     }
-    return scale > 0 ? scale : 1;
+    return high < 1e300 ? high : scale;
 }
 
 /* The first guess: the reference, its ends moved to where they are held, the rest along in proportion. */
@@ -273,6 +266,7 @@ static void report_ends(CpsiLine *line) {
             const double up = vec3_dot(force, n);
             if (line->has_obstacle && up > 0 && cpsi_plane_gap(&line->plane, out->position) <= TOUCH*line->length) {
                 line->reaction[j] = up;
+                line->state[j] = CPS_NODE_STICK; /* let go in the next step, it starts with its friction */
                 force = vec3_axpy(-up, n, force);
             }
         }
@@ -297,13 +291,13 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
 
     const bool taut = is_taut(line);
     const double longer = taut ? 1 + TAUT_SLACK : 1;
-    const double force = force_scale(line, end_distance(line)/longer);
+    const double force = force_scale(line, end_distance(line)/longer), unit = force > 0 ? force : 1;
     for (int j = 0; j < line->n; j++)
         if (line->friction_bound[j] < LEAST_FRICTION*force) line->friction_bound[j] = 0;
     cpsi_chain_program_resize(program, line->n);
     guess(line, program);
-    fill_nodes(line, program, force);
-    fill_elements(line, program, force, longer);
+    fill_nodes(line, program, unit);
+    fill_elements(line, program, unit, longer);
     double scale = 0;
     for (int i = 0; i < 3*line->n; i++) scale += fabs(program->base.load[i]);
     const CpsiIpmOptions ipm_options = {
@@ -315,7 +309,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     if (taut) straighten(line);
     cpsi_balance_forces(line);
     line->report.certificate = cpsi_certificate(line);
-    classify(line, program, force);
+    classify(line, program, unit);
     report_ends(line);
     line->report.outcome = judge(line, &ipm, options->solver.tolerance, taut);
 }

@@ -195,7 +195,7 @@ static void draw_step_legend(const CpsResults *results, double y, FILE *out) {
 /* axes, obstacle, subtitle: what both kinds of sheet begin with */
 static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, const char *what,
                         FILE *out) {
-    char subtitle[300], label[128], more[64] = "";
+    char subtitle[300], label[256], more[64] = "";
     const double factor = fit(view, frame);
     if (factor > 1) snprintf(more, sizeof more, ", heights \xC3\x97 %.8g", factor);
     snprintf(subtitle, sizeof subtitle, "%s%s%s", view->plan ? "Plan view" : "Elevation", more, what);

@@ -108,7 +108,7 @@ static void microslip(const char *name, double pretension, double high, double l
         for (int n = 100; n <= 400; n *= 4) {
             double found = cycle(pretension, high, low, n, steps, &amplitude, &loss_error, &motion_error),
                    h = LENGTH / n;
-            char figure[40];
+            char figure[64];
             snprintf(figure, sizeof figure, "loss, N = %d, %d steps [J]", n, steps);
             double error = show(name, figure, loss, found);
             // relative to the sliding length s = swing/(2 mu w), what lumping leaves is of the size (h/s)^2/4 at most
