@@ -7,7 +7,7 @@
  * straight line between the held ends, or from the held end along the force on the free one (straight down, -z, when
  * there is none)
  *
- * The line must have passed the check of its start (scene.c), which itself walks along the shape. */
+ * The line must have passed the check of its start (scene_check.c), which itself walks along the shape. */
 #ifndef CAPSTAN_SRC_EVOLVE_START_H
 #define CAPSTAN_SRC_EVOLVE_START_H
 

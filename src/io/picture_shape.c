@@ -192,6 +192,12 @@ static void draw_step_legend(const CpsResults *results, double y, FILE *out) {
     cpsi_legend(out, &x, y, "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>", "free end");
 }
 
+/* Where a step started. Before a line is laid by statics it is nowhere: the first guess of the solver is no shape to show. */
+static const double *start_of(const CpsResults *results, const CpsiSnapshot *snapshot, int line) {
+    const bool laid = snapshot->step == 0 && strcmp(results->row[0].name, "laid") == 0;
+    return laid ? snapshot->shape[line].position : snapshot->shape[line].reference;
+}
+
 /* axes, obstacle, subtitle: what both kinds of sheet begin with */
 static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, const char *what,
                         FILE *out) {
@@ -223,7 +229,7 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view, const Cp
     const Pen pen = {view, &frame, out};
     cpsi_frame_begin(out, &frame, 1);
     for (int l = 0; l < results->line_count; ++l)
-        put_polyline(&pen, snapshot->shape[l].reference, 0, snapshot->shape[l].points - 1, COLOUR_START, 2, "");
+        put_polyline(&pen, start_of(results, snapshot, l), 0, snapshot->shape[l].points - 1, COLOUR_START, 2, "");
     for (int l = 0; l < results->line_count; ++l) draw_states(&pen, &snapshot->shape[l]);
     for (int l = 0; l < results->line_count; ++l) draw_tension(&pen, &snapshot->shape[l], range);
     cpsi_frame_end(out);
@@ -246,7 +252,7 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
     const Pen pen = {view, &frame, out};
     cpsi_frame_begin(out, &frame, 1);
     for (int l = 0; l < results->line_count; ++l)
-        put_polyline(&pen, results->snapshot[0].shape[l].reference, 0, results->snapshot[0].shape[l].points - 1,
+        put_polyline(&pen, start_of(results, &results->snapshot[0], l), 0, results->snapshot[0].shape[l].points - 1,
                      COLOUR_START, 3, "");
     for (int s = 0; s < results->snapshot_count; ++s)
         for (int l = 0; l < results->line_count; ++l)

@@ -1,17 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Read a scene file: bytes -> tree (scene_yaml.h) -> validated by the table of keys (scene_valid.h) -> structs
  * (scene_build.h) -> cps_scene_check. */
-#include <errno.h>
-#include <fcntl.h>
 #include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/status.h"
 #include "capstan/io.h"
+#include "io/file_bytes.h"
 #include "io/scene_build.h"
 #include "io/scene_valid.h"
 
@@ -33,66 +30,6 @@ void cps_scene_file_destroy(CpsSceneFile *file) {
 
 const CpsScene *cps_scene_file_scene(const CpsSceneFile *file) { return &file->scene; }
 
-/* ---- bytes ---- */
-
-static CpsStatus io_error(const char *file, const char *what, CpsError *err) {
-    return cpsi_fail_at(err, CPS_ERR_IO, file, 0, 0, "%s", what);
-}
-
-/* Open a regular file; a FIFO must not block us, a device must not be read. */
-static CpsStatus open_regular(const char *path, int *fd, CpsError *err) {
-    *fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
-    if (*fd < 0) return cpsi_fail_at(err, CPS_ERR_IO, path, 0, 0, "cannot open: %s", strerror(errno));
-    struct stat about = {0};
-    if (fstat(*fd, &about) == 0 && S_ISREG(about.st_mode)) return CPS_OK;
-    const bool directory = S_ISDIR(about.st_mode);
-    close(*fd);
-    return io_error(
-        path, directory ? "is a directory, expected a scene file" : "is not a regular file; '-' reads standard input",
-        err);
-}
-
-/* All bytes of fd and a NUL behind them. The buffer doubles, so a size is never trusted. */
-static CpsStatus read_bytes(int fd, const char *file, size_t max_bytes, char **bytes, size_t *size, CpsError *err) {
-    size_t room = 4096, used = 0;
-    char *buffer = malloc(room);
-    while (buffer) {
-        const ssize_t n = read(fd, buffer + used, room - used - 1);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) {
-            free(buffer);
-            return cpsi_fail_at(err, CPS_ERR_IO, file, 0, 0, "cannot read: %s", strerror(errno));
-        }
-        if (n == 0) {
-            buffer[used] = '\0';
-            *bytes = buffer, *size = used;
-            return CPS_OK;
-        }
-        used += (size_t)n;
-        if (used > max_bytes) {
-            free(buffer);
-            return cpsi_fail_at(err, CPS_ERR_LIMIT, file, 0, 0, "is larger than %zu bytes, the limit", max_bytes);
-        }
-        if (used + 1 == room) {
-            char *larger = room <= SIZE_MAX / 2 ? realloc(buffer, 2 * room) : NULL;
-            if (!larger) free(buffer);
-            buffer = larger, room *= 2;
-        }
-    }
-    return cpsi_fail_at(err, CPS_ERR_MEMORY, file, 0, 0, "out of memory while reading the file");
-}
-
-static CpsStatus read_file(const char *path, const char *file, size_t max_bytes, char **bytes, size_t *size,
-                           CpsError *err) {
-    int fd = STDIN_FILENO;
-    const bool input = strcmp(path, "-") == 0;
-    CpsStatus status = input ? CPS_OK : open_regular(path, &fd, err);
-    if (status != CPS_OK) return status;
-    status = read_bytes(fd, file, max_bytes, bytes, size, err);
-    if (!input) close(fd);
-    return status;
-}
-
 /* ---- the place of what cps_scene_check has found ---- */
 
 static const CpsiYaml *nth_child(const CpsiYaml *node, int n) {
@@ -101,7 +38,7 @@ static const CpsiYaml *nth_child(const CpsiYaml *node, int n) {
     return child;
 }
 
-/* Messages begin with the object and its key (scene.c): "line 'cable': length ...", "stage 2: cable.B ...". */
+/* Messages begin with the object and its key (scene_check.c): "line 'cable': length ...", "stage 2: cable.B ...". */
 static const CpsiYaml *place_of(const CpsiYaml *root, const char *message) {
     char name[65] = "", word[160] = "";
     int number = 0;
@@ -140,7 +77,7 @@ static CpsStatus read_scene(const char *path, const CpsReadLimits *limits, CpsSc
     size_t size = 0;
     CpsiPool tree = {0};
     CpsiYaml *root = NULL;
-    CpsStatus status = read_file(path, file, limits->max_bytes, &bytes, &size, err);
+    CpsStatus status = cpsi_read_file(path, file, limits->max_bytes, &bytes, &size, err);
     if (status == CPS_OK) status = cpsi_yaml_parse(file, bytes, size, limits->max_depth, &tree, &root, err);
     free(bytes);
     if (status == CPS_OK) status = cpsi_scene_validate(file, root, err);

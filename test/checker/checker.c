@@ -12,8 +12,8 @@
  * operation, and a drag over thousands of nodes must not hide in it. The same for friction above its bound, friction
  * off the tangent plane and forces where nothing can carry them. */
 static const double FORCE_TOLERANCE = 1e-9;
-/* Positions (held ends, depth below the obstacle) per length of the line, and strains: rounding of coordinates
- * leaves 1e-16 times extent over element length, 1e-11 in the worst graded mesh. */
+/* Positions (held ends, depth below the obstacle) per length of the line, and strains: what rounding of the
+ * coordinates leaves is taken off first. */
 static const double PLACE_TOLERANCE = 1e-9;
 /* An imposed position is copied, not computed. */
 static const double COPY_TOLERANCE = 1e-12;
@@ -109,7 +109,7 @@ static void judge_taut(Judge *judge, const Record *r, const Measures *m) {
     if (r->compliance != 0) find(judge, "taut, but the line is elastic (compliance %.3g)", r->compliance);
     at_most(judge, "distance of the ends - length", fabs(m->ends_distance - m->length),
             TAUT_TOLERANCE * m->length + 1e-15 * m->extent);
-    at_most(judge, "stretch", m->stretch, PLACE_TOLERANCE);
+    at_most(judge, "stretch", m->strain_error, PLACE_TOLERANCE);
     at_most(judge, "distance of a held end", m->held_error, COPY_TOLERANCE * (m->length + m->extent));
     at_most(judge, "depth below the obstacle", m->penetration, PLACE_TOLERANCE * m->length);
 }
@@ -233,7 +233,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
 
 int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     CheckerReport unused, *report = worst ? worst : &unused;
-    *report = (CheckerReport){.stretch = -INFINITY};
+    *report = (CheckerReport){0};
     Source source;
     int bad = source_open(path, &source, log);
     report->steps = bad ? 0 : (int)source.steps;

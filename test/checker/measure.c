@@ -127,7 +127,10 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     // residuals
     if (c == 0) raise_to(&m->stretch, stretch - 1);
     if (slack < 0) m->overlong -= (double)(l * slack);
-    raise_to(&m->strain_error, stretch - 1 - c * T);
+    // coordinates are doubles: their last bits over l are no strain
+    Triple here, there;
+    widen(r->position[i], here), widen(r->position[i + 1], there);
+    raise_to(&m->strain_error, stretch - 1 - c * T - 2 * 0x1p-53L * (size(here) + size(there)) / l);
     raise_to(&m->tension_estimate, fabsl(T - force));
     raise_to(&m->largest_force, force);
     raise_to(&m->tension_least, -T);

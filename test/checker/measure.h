@@ -29,7 +29,7 @@ typedef struct Measures {
     bool watched;            /* contact is looked for at every node that has a normal and is not held */
     double normal_error;     /* [-] max | |n| - 1 | where there is a normal */
     double stretch;          /* [-] max |e| - 1 over inextensible elements */
-    double strain_error;     /* [-] max |e| - 1 - c T over all elements: the tension must carry the elongation */
+    double strain_error;     /* [-] max |e| - 1 - c T beyond rounding: the tension must carry the elongation */
     double tension_least;    /* [N] */
     double tension_estimate; /* [N] max |T - |p|| */
     double tension_bound;    /* [N] sqrt(2 gap / (c L)), NaN for c = 0 */

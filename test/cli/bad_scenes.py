@@ -205,7 +205,7 @@ class Suite:
 
         missing = os.path.join(self.folder, "missing.yaml")
         path_case("no file", missing, IO, "cannot open: No such file or directory")
-        path_case("a directory", self.folder, IO, "is a directory, expected a scene file")
+        path_case("a directory", self.folder, IO, "is a directory, expected a file")
         path_case("a device", "/dev/zero", IO, "is not a regular file; '-' reads standard input")
         path_case("a long name", "x" * 300, IO, "cannot open: File name too long")
         fifo = os.path.join(self.folder, "fifo")

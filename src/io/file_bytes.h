@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Read a whole file whose size is not to be trusted. */
+#ifndef CAPSTAN_SRC_IO_FILE_BYTES_H
+#define CAPSTAN_SRC_IO_FILE_BYTES_H
+
+#include <stddef.h>
+
+#include "capstan/base.h"
+
+/* All bytes of a regular file, or of standard input if `path` is "-", with a NUL behind them; free *bytes.
+ *
+ *   file       what the messages call it
+ *   max_bytes  more are refused
+ *
+ * Returns CPS_OK, CPS_ERR_IO, CPS_ERR_LIMIT or CPS_ERR_MEMORY; on failure *bytes and *size are untouched. */
+CpsStatus cpsi_read_file(const char *path, const char *file, size_t max_bytes, char **bytes, size_t *size,
+                         CpsError *err);
+
+#endif
