@@ -83,14 +83,16 @@ static inline void cpsi_soc_divide(double *out, const double *x, const double *y
     out[0] = first;
 }
 
-/* 1/alpha for the largest alpha with  x + alpha d in Q,  x interior; 0 where every alpha will do.
+/* 1/alpha for the largest alpha with  x + alpha d in Q,  x interior; 0 where every alpha will do, NaN if x or d is not finite.
  * det(x + alpha d) = C + 2 B alpha + A alpha^2 vanishes first at alpha = C/(-B + sqrt(B^2 - A C)). */
 static inline double cpsi_soc_inverse_step(const double *x, const double *d, const int n) {
     double a = d[0]*d[0], b = x[0]*d[0];
     for (int i = 1; i < n; i++) a -= d[i]*d[i], b -= x[i]*d[i];
     const double c = cpsi_soc_det(x, n), disc = b*b - a*c;
-    const double inverse = (sqrt(disc > 0 ? disc : 0) - b)/c;
-    return (disc > 0 || b < 0) && inverse > 0 ? inverse : 0;
+    const double inverse = (sqrt(disc < 0 ? 0 : disc) - b)/c;
+    /* written so that NaN comes out as NaN */
+    if (disc <= 0 && b >= 0) return 0;
+    return inverse <= 0 ? 0 : inverse;
 }
 
 #endif

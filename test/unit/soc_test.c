@@ -106,12 +106,21 @@ static void step_ends_on_the_boundary(void **unused) {
     CHECK_BETWEEN(bounded, CASES/2, CASES - CASES/100); /* both answers are met */
 }
 
+static void nan_comes_out_as_nan(void **unused) {
+    (void)unused;
+    const double x[3] = {1, 0, 0}, d[3] = {0, NAN, 0}, far[3] = {INFINITY, 0, 0};
+    assert_true(isnan(cpsi_soc_inverse_step(x, d, 3)));
+    assert_true(isnan(cpsi_soc_inverse_step(d, x, 3)));
+    assert_true(isnan(cpsi_soc_inverse_step(x, far, 3)));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scaling_maps_the_pair_together),
         cmocka_unit_test(apply_and_its_inverse_cancel),
         cmocka_unit_test(divide_undoes_product),
         cmocka_unit_test(step_ends_on_the_boundary),
+        cmocka_unit_test(nan_comes_out_as_nan),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
