@@ -39,6 +39,8 @@ ACCURACY = 1e-8
 TOLERANCES = [10.0**-k for k in range(4, 15)]
 SCALINGS = [("sqrt(l)", "N"), ("l", "1"), ("1", "N"), ("sqrt(l)", "1"), ("l", "N"), ("1", "1")]  # rows, cost
 REPEATS = 3
+PATIENCE = 4      # tightenings in a row that do not halve the norm end the search in one scaling
+ALL_SOLVES = 3    # all solves of one solver and size together may take so many times the limit of one
 
 
 def enter_environment():
@@ -361,41 +363,41 @@ def apart(name, conic, tolerance, limit):
         process.join()
 
 
-def first_to_reach(name, conic, limit, slowest):
-    """Tighten the tolerance until the norm is reached; runs slower than `slowest` are of no use. (row, seconds spent)"""
-    best, spent = None, 0
+def first_to_reach(name, conic, limit, left, slowest):
+    """Tighten the tolerance until the norm is reached, or no longer follows; runs slower than `slowest` are of no use."""
+    best, idle, begin = None, 0, time.perf_counter()
     for tolerance in TOLERANCES:
-        begin = time.perf_counter()
-        found = apart(name, conic, tolerance, limit - spent)
-        spent += time.perf_counter() - begin
+        found = apart(name, conic, tolerance, limit)
         if found is None:
-            return best, spent
+            return best
         value, iterations, seconds, wall, status = found
+        idle = 0 if best is None or value < 0.5*best["norm"] else idle + 1
         if best is None or value < best["norm"]:
             best = {"norm": value, "iterations": iterations, "seconds": seconds, "wall": wall, "tolerance": tolerance,
                     "note": f"{conic.scaling}: {status}"}
-        if value <= ACCURACY or seconds > slowest or spent >= limit:
-            return best, spent
-    return best, spent
+        if value <= ACCURACY or seconds > slowest or idle == PATIENCE or time.perf_counter() - begin > left:
+            return best
+    return best
 
 
 def best_of(name, problem, limit):
     """The fastest way for this solver to reach the norm, or the best norm that it reaches: a row of the table."""
-    best, left = None, limit
+    best, left = None, ALL_SOLVES*limit
     nan = float("nan")
     nothing = {"norm": float("inf"), "iterations": 0, "seconds": nan, "wall": nan, "tolerance": nan, "note": "no answer"}
     for count, scaling in enumerate(SCALINGS):
         reached = best is not None and best["norm"] <= ACCURACY
         conic = Conic(problem, scaling)
-        row, spent = first_to_reach(name, conic, left, best["seconds"] if reached else float("inf"))
-        left -= spent
+        begin = time.perf_counter()
+        row = first_to_reach(name, conic, limit, left, best["seconds"] if reached else float("inf"))
+        left -= time.perf_counter() - begin
         good = row is not None and row["norm"] <= ACCURACY
         if row and (best is None or (good and (not reached or row["seconds"] < best["seconds"])) or
                     (not good and not reached and row["norm"] < best["norm"])):
             best, chosen = row, conic
         if left <= 0:
             break
-    late = f"; {limit:g} s were over after {count + 1} of {len(SCALINGS)} scalings" if left <= 0 else ""
+    late = f"; out of time after {count + 1} of {len(SCALINGS)} scalings" if left <= 0 else ""
     if best is None or best["norm"] > ACCURACY:
         best = best or nothing
         return {**best, "note": f"NOT REACHED; {best['note']}{late}"}
@@ -451,7 +453,8 @@ def compare(bench, case, elements, solvers, limit):
     for name, row in rows.items():
         yield {"case": case, "elements": elements, "solver": name, "iterations": row["iterations"],
                "norm": f"{row['norm']:.1e}", "solve_s": f"{row['seconds']:.4g}", "wall_s": f"{row['wall']:.4g}",
-               "ratio": f"{row['seconds']/fastest:.3g}",               "own_tolerance": f"{row['tolerance']:.0e}", "note": row["note"]}
+               "ratio": f"{row['seconds']/fastest:.3g}" if row["norm"] <= ACCURACY else "-",
+               "own_tolerance": f"{row['tolerance']:.0e}", "note": row["note"]}
 
 
 def find_bench():
@@ -465,7 +468,7 @@ def main():
     parser.add_argument("--case", choices=["souza", "oc3", "all"], default="all")
     parser.add_argument("--elements", default="100,1000,10000,100000")
     parser.add_argument("--solvers", default=",".join(SOLVERS))
-    parser.add_argument("--limit", type=float, default=120, help="seconds per solver and size (default: %(default)s)")
+    parser.add_argument("--limit", type=float, default=120, help="seconds that one solve may take (default: %(default)s)")
     parser.add_argument("--csv", help="also write the rows to this file")
     options = parser.parse_args()
     if not os.access(options.bench, os.X_OK):

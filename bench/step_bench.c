@@ -10,7 +10,8 @@
  * only the step is timed. The machine's limit is the rate at which a plain loop a = b + s c streams (McCalpin's triad).
  * Uses the public interface only. CSV on standard output, or a table. */
 #include <getopt.h>
-#include <inttypes.h>
+#include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,9 @@ enum { MOST_SIZES = 32, MOST_REPEATS = 101, FULL = 1000 };
 
 /* Unless told how often: repeat until this much time is spent on a size, but at least three times. */
 static const double REPEAT_SECONDS = 2;
+/* What --check asks. Smaller sizes drown in the cost of a call (time) and of whole pages (memory). */
+static const double MOST_GROWTH = 1.6, MOST_BYTES = 1000;
+enum { TIME_FROM = 1000, MEMORY_FROM = 10000 };
 
 static const char usage[] =
     "usage: step_bench [options]\n"
@@ -33,6 +37,8 @@ static const char usage[] =
     "  --repeat R        repeats per size, 1..101                    (default: for about two seconds, at least 3)\n"
     "  --stop TOL        stop at the first iteration that is certified at TOL, instead of the smallest gap reached\n"
     "  --table           a table for reading, instead of CSV\n"
+    "  --check           exit 1 unless all are solved, from 1000 elements on time per element stays within a factor\n"
+    "                    of 1.6, and from 10000 on memory within 1000 bytes per element\n"
     "  --stream          measure memory bandwidth instead\n"
     "  --dump FILE       solve once and write the step problem and its answer (README.md); one case, one size\n";
 
@@ -41,7 +47,7 @@ typedef struct Options {
     int sizes, repeat;
     int elements[MOST_SIZES];
     double stop;
-    bool table, stream;
+    bool table, check, stream;
 } Options;
 
 /* One measured size. */
@@ -242,6 +248,24 @@ static void print_head(bool table) {
                "gap_over_scale,force_residual_relative,peak_bytes_per_element,outcome\n");
 }
 
+/* Does what was measured hold what is promised for all sizes? */
+static bool check_rows(const char *name, const Row *row, int count) {
+    double least = INFINITY, most = 0, bytes = 0;
+    bool solved = true;
+    for (int i = 0; i < count; i++) {
+        const double per_element = row[i].least / row[i].elements;
+        solved = solved && row[i].outcome == CPS_SOLVED;
+        if (row[i].elements >= TIME_FROM) least = fmin(least, per_element), most = fmax(most, per_element);
+        if (row[i].elements >= MEMORY_FROM) bytes = fmax(bytes, row[i].bytes);
+    }
+    const bool good = solved && most <= MOST_GROWTH * least && bytes <= MOST_BYTES;
+    printf("%s: %s, time per element within a factor of %.2f (at most %g), at most %.0f bytes per element (at most "
+           "%g): %s\n",
+           name, solved ? "all solved" : "NOT ALL SOLVED", most / least, MOST_GROWTH, bytes, MOST_BYTES,
+           good ? "good" : "NOT GOOD");
+    return good;
+}
+
 /* the machine --------------------------------------------------------------------------------------------------- */
 
 /* Bytes per second of the triad over `bytes` of memory in all: the best of several sweeps, as its author does. */
@@ -345,32 +369,40 @@ static void read_sizes(Options *options, char *list) {
 }
 
 static Options read_options(int argc, char **argv) {
-    static const struct option known[] = {{"case", required_argument, NULL, 'c'},
-                                          {"elements", required_argument, NULL, 'n'},
-                                          {"repeat", required_argument, NULL, 'r'},
-                                          {"stop", required_argument, NULL, 's'},
-                                          {"table", no_argument, NULL, 't'},
-                                          {"stream", no_argument, NULL, 'm'},
-                                          {"dump", required_argument, NULL, 'd'},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {NULL, 0, NULL, 0}};
+    static const struct option known[] = {
+        {"case", required_argument, NULL, 'c'},   {"elements", required_argument, NULL, 'n'},
+        {"repeat", required_argument, NULL, 'r'}, {"stop", required_argument, NULL, 's'},
+        {"table", no_argument, NULL, 't'},        {"check", no_argument, NULL, 'k'},
+        {"stream", no_argument, NULL, 'm'},       {"dump", required_argument, NULL, 'd'},
+        {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0}};
     Options options = {.name = "all", .sizes = 5, .elements = {100, 1000, 10000, 100000, 1000000}};
     for (int key; (key = getopt_long(argc, argv, "h", known, NULL)) != -1;) {
-        if (key == 'c')
+        switch (key) {
+        case 'c':
             options.name = optarg;
-        else if (key == 'n')
+            break;
+        case 'n':
             read_sizes(&options, optarg);
-        else if (key == 'r')
+            break;
+        case 'r':
             options.repeat = whole_number(optarg, 1, MOST_REPEATS, "expected 1..101 repeats");
-        else if (key == 's')
+            break;
+        case 's':
             options.stop = strtod(optarg, NULL);
-        else if (key == 't')
+            break;
+        case 't':
             options.table = true;
-        else if (key == 'm')
+            break;
+        case 'k':
+            options.check = true;
+            break;
+        case 'm':
             options.stream = true;
-        else if (key == 'd')
+            break;
+        case 'd':
             options.dump = optarg;
-        else {
+            break;
+        default:
             fputs(usage, key == 'h' ? stdout : stderr);
             exit(key == 'h' ? 0 : 2);
         }
@@ -386,17 +418,21 @@ int main(int argc, char **argv) {
         die("--dump takes one --case and one of --elements", NULL);
     if (!options.dump) print_head(options.table);
     int found = 0;
+    bool good = true;
     for (int k = 0; k < CASES; k++) {
         if (strcmp(options.name, "all") != 0 && strcmp(options.name, cases[k].name) != 0) continue;
-        for (int i = 0; i < options.sizes; i++, found++) {
-            if (options.dump) {
-                dump(&cases[k], options.elements[i], &options);
-                continue;
-            }
-            const Row row = measure_apart(&cases[k], options.elements[i], &options);
-            print_row(&cases[k], &row, options.table);
+        found++;
+        if (options.dump) {
+            dump(&cases[k], options.elements[0], &options);
+            continue;
         }
+        Row row[MOST_SIZES];
+        for (int i = 0; i < options.sizes; i++) {
+            row[i] = measure_apart(&cases[k], options.elements[i], &options);
+            print_row(&cases[k], &row[i], options.table);
+        }
+        if (options.check) good = check_rows(cases[k].name, row, options.sizes) && good;
     }
     if (found == 0) die("no such case", options.name);
-    return 0;
+    return good ? 0 : 1;
 }

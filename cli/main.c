@@ -18,6 +18,7 @@ typedef struct Command {
 static const Command COMMANDS[] = {
     {"run", cmd_run, FOR_RUN, true, "solve a scene and write its results and pictures"},
     {"check", cmd_check, FOR_CHECK, true, "read a scene and say what is in it, or what is wrong with it"},
+    {"law", cmd_law, FOR_LAW, true, "forces and velocities of a friction law, with a picture"},
     {"schema", cmd_schema, FOR_SCHEMA, false, "print the JSON schema of scenes (for editors)"},
 };
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
@@ -25,7 +26,10 @@ enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 static void print_help(FILE *out, const Command *command) {
     if (command) {
         fprintf(out, "usage: capstan %s [options]%s\n\n%s\n\noptions:\n", command->name,
-                command->takes_scene ? " SCENE.yaml" : "", command->help);
+                !command->takes_scene         ? ""
+                : command->options == FOR_LAW ? " LAW.yaml"
+                                              : " SCENE.yaml",
+                command->help);
         cli_print_options(out, command->options);
     } else {
         fprintf(out, "usage: capstan COMMAND [options] [SCENE.yaml]\n\n"

@@ -10,16 +10,25 @@ typedef struct Option {
     char letter;          /* -l, 0: none */
     const char *argument; /* name of its argument in the help, NULL: none */
     unsigned commands;    /* FOR_ bits */
-    size_t field;         /* of CliOptions: bool without argument, const char * with one */
+    size_t field;         /* of CliOptions: bool without argument, const char * with one, CliList if repeated */
+    bool repeated;
     const char *help;
 } Option;
 
 static const Option OPTIONS[] = {
-    {"output", 'o', "DIR", FOR_RUN, offsetof(CliOptions, output), "directory of the results (default: results/SCENE)"},
-    {"json", 0, NULL, FOR_RUN, offsetof(CliOptions, json), "print the summary as one JSON object on standard output"},
-    {"quiet", 'q', NULL, FOR_RUN, offsetof(CliOptions, quiet), "no progress, no table; only errors"},
-    {"help", 'h', NULL, FOR_ALL, offsetof(CliOptions, help), "show this help"},
-    {"version", 'V', NULL, FOR_ALL, offsetof(CliOptions, version), "show version, commit and build flags"},
+    {"output", 'o', "DIR", FOR_RUN, offsetof(CliOptions, output), false,
+     "directory of the results (default: results/SCENE)"},
+    {"json", 0, NULL, FOR_RUN | FOR_LAW, offsetof(CliOptions, json), false, "print one JSON object on standard output"},
+    {"velocity", 'v', "V1,V2,..", FOR_LAW, offsetof(CliOptions, velocity), true,
+     "forces of the law at this velocity; - reads CSV"},
+    {"force", 'f', "F1,F2,..", FOR_LAW, offsetof(CliOptions, force), true,
+     "velocities of the law at this force; - reads CSV"},
+    {"plot", 'p', "FILE.svg", FOR_LAW, offsetof(CliOptions, plot), false,
+     "draw the set of forces, with what was asked"},
+    {"axes", 0, "I,J", FOR_LAW, offsetof(CliOptions, axes), false, "components drawn by --plot (default: 1,2)"},
+    {"quiet", 'q', NULL, FOR_RUN, offsetof(CliOptions, quiet), false, "no progress, no table; only errors"},
+    {"help", 'h', NULL, FOR_ALL, offsetof(CliOptions, help), false, "show this help"},
+    {"version", 'V', NULL, FOR_ALL, offsetof(CliOptions, version), false, "show version, commit and build flags"},
 };
 enum { OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0] };
 
@@ -98,7 +107,17 @@ static bool take_option(int argc, char **argv, int *i, unsigned command, CliOpti
         fprintf(stderr, "option '--%s' needs an argument: --%s %s", o->name, o->name, o->argument);
         return end_message(argv[0]);
     }
-    memcpy(field, &value, sizeof value);
+    if (!o->repeated) {
+        memcpy(field, &value, sizeof value);
+        return true;
+    }
+    CliList *list = (CliList *)(void *)field;
+    if (list->count == CLI_LIST_MOST) {
+        begin_message(argv[0]);
+        fprintf(stderr, "'--%s' is given more than %d times: use CSV on standard input", o->name, (int)CLI_LIST_MOST);
+        return end_message(argv[0]);
+    }
+    list->item[list->count++] = value;
     return true;
 }
 
@@ -121,7 +140,8 @@ bool cli_parse(int argc, char **argv, unsigned command, bool takes_scene, CliOpt
     }
     if (takes_scene && !out->scene && !out->help && !out->version) {
         begin_message(argv[0]);
-        fprintf(stderr, "no scene given: capstan %s SCENE.yaml ('-' reads standard input)", argv[0]);
+        const char *what = command == FOR_LAW ? "law" : "scene", *name = command == FOR_LAW ? "LAW" : "SCENE";
+        fprintf(stderr, "no %s given: capstan %s %s.yaml ('-' reads standard input)", what, argv[0], name);
         return end_message(argv[0]);
     }
     return true;

@@ -7,13 +7,23 @@
 #include <stdio.h>
 
 /* Which commands an option belongs to. */
-enum { FOR_RUN = 1, FOR_CHECK = 2, FOR_SCHEMA = 4, FOR_ALL = 7 };
+enum { FOR_RUN = 1, FOR_CHECK = 2, FOR_SCHEMA = 4, FOR_LAW = 8, FOR_ALL = 15 };
+
+/* The arguments of an option that may be given more than once. */
+enum { CLI_LIST_MOST = 256 };
+typedef struct CliList {
+    int count;
+    const char *item[CLI_LIST_MOST];
+} CliList;
 
 typedef struct CliOptions {
     bool help, version;
     bool json, quiet;
     const char *output; /* NULL: not given */
-    const char *scene;  /* the scene file, "-" for standard input; NULL: not given */
+    const char *scene;  /* the scene or law file, "-" for standard input; NULL: not given */
+    const char *plot;   /* law: picture, NULL: none */
+    const char *axes;   /* law: components drawn, NULL: the first two */
+    CliList velocity, force;
 } CliOptions;
 
 /* Parse argv[1..argc-1] for one command.

@@ -5,6 +5,8 @@
 
 #include "capstan/base.h"
 #include "capstan/evolve.h"
+#include "capstan/law.h"
 #include "capstan/scene.h"
+#include "capstan/set.h"
 
 #endif

@@ -55,6 +55,8 @@ typedef struct CpsCertificate {
     double largest_force;    /* [N] largest force in the line or on it */
     double law_residual;     /* [J] sum of phi(u) + <u, F> */
     double contact_residual; /* [J] sum of R (n.u + gap) */
+    double friction_residual; /* [N] sum of |A - mu R|, A the friction bounds used and R the reactions found: what freezing A
+                                 leaves out; 0 up to rounding with consistent friction and in a step without friction */
     double stretch_residual; /* [-] largest |x'| - 1 of an inextensible element */
     double penetration;      /* [m] deepest node below the obstacle, >= 0 */
 } CpsCertificate;

@@ -131,6 +131,7 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         const double slide = vec3_norm(ut), size = vec3_norm(f), w = line->friction_bound[j];
         const double law = (w - size)*slide + (size*slide + vec3_dot(f, ut));
         out->law_residual += law > 0 ? law : 0;
+        out->friction_residual += fabs(w - line->friction*line->reaction[j]);
         out->primal += w*slide;
         out->scale += w*slide;
         out->dual += vec3_dot(f, reference);

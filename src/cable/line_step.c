@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One step of one line (S90 problem P4.2, with A frozen from the reference configuration), in four moves:
+/* One step of one line (S90 problem P4.2, with A frozen from the reference or following the reaction), in four moves:
  *
  *   pose      reference x_R, friction bounds w = mu R_R where the reference touches, gaps, loads
  *   decide    is there an equilibrium at all?  An inextensible line shorter than the distance of its ends has none; a line
  *             with no end held needs friction and reactions that can carry its loads
  *   solve     scale to lengths of one and forces of one, turn the obstacle's normal into the third axis, run ipm/
  *   conclude  back to world axes; balance the forces; classify nodes; certificate; report
+ *
+ * Consistent friction is solved in one go, the bound of each rub tied to the reaction beside it (ipm/rub.c). That problem is no
+ * minimisation and may stall; then the bounds are found in rounds, each a convex step with the last round's mu R.
  *
  * Lengths are divided by the line's length L, forces by a force F0 of the size of the tension to come. */
 #include "cable/line_step.h"
@@ -19,6 +22,9 @@
 
 /* The interior point is driven to this relative gap: what the arithmetic allows, well below any tolerance asked. */
 static const double TARGET = 1e-13;
+/* In an answer that is called solved, the loop's own residuals are below this: tensions and elongations, positions and
+ * distances, bounds and mu R agree. Consistent friction whose gap stops short of it is solved again in rounds. */
+static const double CLEAN = 1e-11;
 /* |distance - L| <= TAUT L: an inextensible line is pulled straight, its tension has no upper bound. */
 static const double TAUT = 1e-12;
 /* A taut line's forces are those of a line longer by this share. */
@@ -27,6 +33,8 @@ static const double TAUT_SLACK = 1e-9;
 static const double TOUCH = 1e-9;
 /* Friction below this share of the force scale is none: it could not be told from rounding. */
 static const double LEAST_FRICTION = 1e-14;
+/* Rounds with given bounds before consistent friction is given up. */
+static const int ROUNDS = 12;
 
 static bool is_held(const CpsiLine *line, int j) {
     return (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
@@ -49,7 +57,7 @@ static void pose(CpsiLine *line, const CpsiStepOptions *options) {
     for (int j = 0; j < n; j++) {
         const double *x = &line->reference[3*j];
         const bool touches = line->has_obstacle && line->state[j] != CPS_NODE_FREE, held = is_held(line, j);
-        /* the friction bound is that of the reference */
+        /* the friction bound is that of the reference; for consistent friction it is a first guess */
         line->friction_bound[j] = touches && !held && !options->frictionless ? line->friction*line->reaction[j] : 0;
         /* contact: everywhere, or only where the reference touches (S90 (35)) */
         const double gap = line->has_obstacle ? cpsi_plane_gap(&line->plane, x) : 0;
@@ -81,7 +89,7 @@ static bool too_short(CpsiLine *line) {
 
 /* No end held: a rigid translation v with B.v > sum w |v_T| lowers the energy for ever, B the sum of loads. The best v has
  * the part of B that friction cannot carry, and its normal part where the obstacle does not stop it. */
-static bool runs_away(CpsiLine *line) {
+static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     if (!both(line, CPS_END_FREE)) return false;
     Vec3 sum = vec3(0, 0, 0);
     double friction = 0, loads = 0;
@@ -96,6 +104,8 @@ static bool runs_away(CpsiLine *line) {
     const Vec3 n = line->plane.axis[2];
     const double normal = vec3_dot(sum, n), along = stopped && normal < 0 ? 0 : normal;
     const Vec3 tangent = vec3_axpy(-normal, n, sum);
+    /* all reactions together balance B.n */
+    if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) friction = line->friction*fmax(0, -normal);
     const double pull = vec3_norm(tangent), beyond = pull > friction ? pull - friction : 0;
     const double fall = sqrt(beyond*beyond + along*along);
     if (!(fall > TAUT*loads)) return false;
@@ -149,7 +159,8 @@ static void guess(const CpsiLine *line, CpsiChainProgram *program) {
     }
 }
 
-static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, double force) {
+/* `follow`: friction bounds follow the reactions; else they are those of the line. */
+static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, double force, bool follow) {
     CpsiRub *rub = &program->rub;
     CpsiStop *stop = &program->stop;
     rub->count = stop->count = 0;
@@ -158,16 +169,18 @@ static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, double f
         program->held[j] = is_held(line, j);
         cpsi_plane_to_frame(&line->plane, &program->base.load[3*j], &line->load[3*j]);
         for (int a = 0; a < 3; a++) program->base.load[3*j + a] /= force;
-        if (line->friction_bound[j] > 0) {
-            rub->node[rub->count] = j;
-            rub->weight[rub->count] = share;
-            rub->z[rub->count++][0] = line->friction_bound[j]/(force*share);
-        }
-        if (isfinite(line->gap[j])) {
+        const bool watched = isfinite(line->gap[j]);
+        if (watched) {
             stop->node[stop->count] = j;
             stop->weight[stop->count] = share;
             stop->gap[stop->count++] = line->gap[j]/line->length;
         }
+        if (follow ? !watched : line->friction_bound[j] < LEAST_FRICTION*force) continue;
+        rub->node[rub->count] = j;
+        rub->weight[rub->count] = share;
+        rub->stop[rub->count] = follow ? stop->count - 1 : -1;
+        rub->friction[rub->count] = line->friction;
+        rub->z[rub->count++][0] = line->friction_bound[j]/(force*share);
     }
 }
 
@@ -188,7 +201,7 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program, doubl
 /* conclude ------------------------------------------------------------------------------------------------------ */
 
 /* Positions and forces in world axes. */
-static void unpack(CpsiLine *line, const CpsiChainProgram *program, double force) {
+static void unpack(CpsiLine *line, const CpsiChainProgram *program, double force, bool follow) {
     for (int j = 0; j < line->n; j++) {
         double u[3], shift[3];
         for (int a = 0; a < 3; a++) u[a] = line->length*program->base.u[3*j + a];
@@ -201,15 +214,18 @@ static void unpack(CpsiLine *line, const CpsiChainProgram *program, double force
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_HELD)
             memcpy(&line->position[3*(end == CPS_END_A ? 0 : line->n - 1)], line->end[end].value, sizeof line->end[end].value);
+    for (int k = 0; k < program->stop.count; k++)
+        line->reaction[program->stop.node[k]] = force*program->stop.weight[k]*program->stop.z[k];
+    for (int j = 0; j < line->n; j++)
+        if (follow || line->friction_bound[j] < LEAST_FRICTION*force) line->friction_bound[j] = 0;
     for (int k = 0; k < program->rub.count; k++) {
         const int j = program->rub.node[k];
-        const double *z = program->rub.z[k], size = sqrt(z[1]*z[1] + z[2]*z[2]), scale = force*program->rub.weight[k];
-        const double keep = size > z[0] ? z[0]/size : 1;
+        const double *z = program->rub.z[k], scale = force*program->rub.weight[k], size = scale*sqrt(z[1]*z[1] + z[2]*z[2]);
+        if (follow) line->friction_bound[j] = line->friction*line->reaction[j];
+        const double keep = size > line->friction_bound[j] ? line->friction_bound[j]/size : 1;
         cpsi_plane_from_frame(&line->plane, &line->friction_force[3*j],
                               (double[3]){keep*scale*z[1], keep*scale*z[2], 0});
     }
-    for (int k = 0; k < program->stop.count; k++)
-        line->reaction[program->stop.node[k]] = force*program->stop.weight[k]*program->stop.z[k];
     for (int i = 1; i < line->n; i++) {
         const double *z = program->stretch.z[i];
         cpsi_plane_from_frame(&line->plane, &line->segment_force[3*(i - 1)],
@@ -227,8 +243,9 @@ static void straighten(CpsiLine *line) {
 
 /* Free, stick or slip, and slack: of two complementary quantities, the one that is larger at its own scale is the one that is
  * not zero. */
-static void classify(CpsiLine *line, const CpsiChainProgram *program, double force) {
-    const double weight = vec3_norm(vec3_load(line->weight)), density = weight > 0 ? weight : force/line->length;
+static void classify(CpsiLine *line, const CpsiChainProgram *program) {
+    const double weight = vec3_norm(vec3_load(line->weight));
+    const double density = weight > 0 ? weight : line->report.certificate.largest_force/line->length;
     CpsLineReport *report = &line->report;
     memset(line->state, CPS_NODE_FREE, (size_t)line->n);
     for (int k = 0; k < program->stop.count; k++) {
@@ -275,11 +292,69 @@ static void report_ends(CpsiLine *line) {
     }
 }
 
-static CpsOutcome judge(const CpsiLine *line, const CpsiIpmReport *ipm, double tolerance, bool taut) {
+/* The iterate of the loop as a certified answer, or what it is instead. */
+static CpsOutcome judge(const CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
     const CpsCertificate *c = &line->report.certificate;
+    const double tolerance = options->solver.tolerance;
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
-    if (finite && c->gap <= tolerance*c->scale && c->stretch_residual <= tolerance) return taut ? CPS_TAUT : CPS_SOLVED;
+    const bool consistent = options->friction == CPS_FRICTION_FROZEN || c->friction_residual <= CLEAN*c->largest_force;
+    if (finite && consistent && ipm->residual <= CLEAN && c->gap <= tolerance*c->scale && c->stretch_residual <= tolerance)
+        return is_taut(line) ? CPS_TAUT : CPS_SOLVED;
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
+}
+
+/* Balance the forces, and judge what has been found. */
+static void certify(CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
+    cpsi_balance_forces(line);
+    line->report.certificate = cpsi_certificate(line);
+    if (options->frictionless) line->report.certificate.friction_residual = 0;
+    line->report.outcome = judge(line, options, ipm);
+}
+
+/* Solve once, with bounds that follow the reactions or with the bounds of the line. */
+static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, bool follow) {
+    const bool taut = is_taut(line);
+    const double longer = taut ? 1 + TAUT_SLACK : 1;
+    const double force = force_scale(line, end_distance(line)/longer), unit = force > 0 ? force : 1;
+    cpsi_chain_program_resize(program, line->n);
+    guess(line, program);
+    fill_nodes(line, program, unit, follow);
+    fill_elements(line, program, unit, longer);
+    double scale = 0;
+    for (int i = 0; i < 3*line->n; i++) scale += fabs(program->base.load[i]);
+    const CpsiIpmOptions ipm_options = {
+        .target = TARGET, .scale = scale > 0 ? scale : 1, .max_iterations = options->solver.max_iterations};
+    const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
+
+    unpack(line, program, force, follow);
+    if (taut) straighten(line);
+    certify(line, options, &ipm);
+    line->report.iterations += ipm.iterations;
+    return ipm;
+}
+
+/* The bounds mu R, and no friction beyond them. */
+static void take_bounds(CpsiLine *line) {
+    for (int j = 0; j < line->n; j++) {
+        const double bound = isfinite(line->gap[j]) ? line->friction*line->reaction[j] : 0;
+        double *f = &line->friction_force[3*j];
+        const double size = vec3_norm(vec3_load(f));
+        if (size > bound) vec3_store(f, vec3_scale(bound/size, vec3_load(f)));
+        line->friction_bound[j] = bound;
+    }
+}
+
+/* Rounds of convex steps, each with the bounds mu R of the one before; what the last round leaves between A and mu R goes
+ * into the gap. */
+static void find_bounds(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
+    for (int round = 0; round < ROUNDS; round++) {
+        take_bounds(line);
+        ipm = attempt(line, program, options, false);
+        if (line->report.outcome <= CPS_TAUT) break;
+    }
+    take_bounds(line);
+    certify(line, options, &ipm);
 }
 
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
@@ -287,29 +362,10 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     for (int end = 0; end < 2; end++) /* where they stay if there is no equilibrium */
         memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
     pose(line, options);
-    if (too_short(line) || runs_away(line)) return;
-
-    const bool taut = is_taut(line);
-    const double longer = taut ? 1 + TAUT_SLACK : 1;
-    const double force = force_scale(line, end_distance(line)/longer), unit = force > 0 ? force : 1;
-    for (int j = 0; j < line->n; j++)
-        if (line->friction_bound[j] < LEAST_FRICTION*force) line->friction_bound[j] = 0;
-    cpsi_chain_program_resize(program, line->n);
-    guess(line, program);
-    fill_nodes(line, program, unit);
-    fill_elements(line, program, unit, longer);
-    double scale = 0;
-    for (int i = 0; i < 3*line->n; i++) scale += fabs(program->base.load[i]);
-    const CpsiIpmOptions ipm_options = {
-        .target = TARGET, .scale = scale > 0 ? scale : 1, .max_iterations = options->solver.max_iterations};
-    const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
-    line->report.iterations = ipm.iterations;
-
-    unpack(line, program, force);
-    if (taut) straighten(line);
-    cpsi_balance_forces(line);
-    line->report.certificate = cpsi_certificate(line);
-    classify(line, program, unit);
+    if (too_short(line) || runs_away(line, options)) return;
+    const bool follow = options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless && line->friction > 0;
+    const CpsiIpmReport ipm = attempt(line, program, options, follow);
+    if (follow && !(ipm.gap + ipm.residual <= CLEAN)) find_bounds(line, program, options);
+    classify(line, program);
     report_ends(line);
-    line->report.outcome = judge(line, &ipm, options->solver.tolerance, taut);
 }

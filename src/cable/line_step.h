@@ -8,6 +8,7 @@
 
 typedef struct CpsiStepOptions {
     CpsSolverOptions solver;
+    CpsFriction friction;
     CpsContact contact;
     bool frictionless; /* a start laid by statics */
 } CpsiStepOptions;

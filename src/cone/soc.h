@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The second-order cone  Q = { (x0, x1) in R x R^(n-1) : |x1| <= x0 },  n = 3 or 4: the kernels of an interior-point step.
+/* The second-order cone  Q = { (x0, x1) in R x R^(n-1) : |x1| <= x0 },  n >= 2: the kernels of an interior-point step.
  *
  * Jordan product        x o y = (x.y, x0 y1 + y0 x1),   identity e = (1, 0),   J = diag(1, -1, ..., -1),
  *                       det x = x0^2 - |x1|^2,          x^-1 = J x / det x.
@@ -14,7 +14,7 @@
  *
  * References: Nesterov and Todd, Math. Oper. Res. 22 (1997); Vandenberghe, "The CVXOPT linear and quadratic cone program
  * solvers" (2010), section 4. All functions are exact up to rounding and cannot fail; arguments must not overlap
- * unless said. `n` is a compile-time constant at every call, so that the loops unroll. */
+ * unless said. In the kinds of the cable `n` is a compile-time constant, 3 or 4, so that the loops unroll. */
 #ifndef CAPSTAN_SRC_CONE_SOC_H
 #define CAPSTAN_SRC_CONE_SOC_H
 
@@ -37,23 +37,27 @@ static inline double cpsi_soc_det(const double *x, const int n) {
     return det > floor ? det : floor;
 }
 
-/* The scaling of the interior pair (s, z). */
-static inline CpsiSocScaling cpsi_soc_scaling(const double *s, const double *z, const int n) {
+/* The scaling of the interior pair (s, z) of any dimension: writes w (n), returns g. */
+static inline double cpsi_soc_scale(double *w, const double *s, const double *z, const int n) {
     const double ds = cpsi_soc_det(s, n), dz = cpsi_soc_det(z, n);
     const double is = 1/sqrt(ds), iz = 1/sqrt(dz);
     double sz = 0;
     for (int i = 0; i < n; i++) sz += s[i]*z[i];
     /* w = (s/|s| + J z/|z|) / (2 gamma) with |x| = sqrt(det x), 2 gamma^2 = 1 + s.z/(|s||z|) */
     const double scale = 1/sqrt(2*(1 + sz*is*iz));
-    CpsiSocScaling out;
-    out.g = dz*iz*is;
-    out.w[0] = scale*(s[0]*is + z[0]*iz);
     double w1w1 = 0;
     for (int i = 1; i < n; i++) {
-        out.w[i] = scale*(s[i]*is - z[i]*iz);
-        w1w1 += out.w[i]*out.w[i];
+        w[i] = scale*(s[i]*is - z[i]*iz);
+        w1w1 += w[i]*w[i];
     }
-    out.w[0] = sqrt(1 + w1w1); /* det w = 1 to the last digit */
+    w[0] = sqrt(1 + w1w1); /* det w = 1 to the last digit */
+    return dz*iz*is;
+}
+
+/* The same for n <= CPSI_SOC_MAX, by value. */
+static inline CpsiSocScaling cpsi_soc_scaling(const double *s, const double *z, const int n) {
+    CpsiSocScaling out;
+    out.g = cpsi_soc_scale(out.w, s, z, n);
     return out;
 }
 
@@ -93,6 +97,16 @@ static inline double cpsi_soc_inverse_step(const double *x, const double *d, con
     /* written so that NaN comes out as NaN */
     if (disc <= 0 && b >= 0) return 0;
     return inverse <= 0 ? 0 : inverse;
+}
+
+/* out = W^-1 (x \ (ds o dz)), the second-order term of a predictor: x = W z, ds = g W^-1 (direction of s), dz = W (direction
+ * of z). */
+static inline void cpsi_soc_second_order(double *out, const double *w, const double *x, const double *ds, const double *dz,
+                                         const int n) {
+    double product[CPSI_SOC_MAX], scaled[CPSI_SOC_MAX];
+    cpsi_soc_product(product, ds, dz, n);
+    cpsi_soc_divide(scaled, x, product, n);
+    cpsi_soc_apply(out, w, scaled, -1, n);
 }
 
 #endif

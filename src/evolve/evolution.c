@@ -120,7 +120,7 @@ static void fill_line(CpsiLine *line, const CpsScene *scene, const CpsLine *def)
 }
 
 static void fill(CpsEvolution *evolution, const CpsScene *scene) {
-    evolution->options = (CpsiStepOptions){.solver = scene->solver, .contact = scene->contact};
+    evolution->options = (CpsiStepOptions){.solver = scene->solver, .friction = scene->friction, .contact = scene->contact};
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
@@ -214,7 +214,7 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     if (line->iterations > step->iterations) step->iterations = line->iterations;
     step->dissipated += line->dissipated;
     to->primal += from->primal, to->dual += from->dual, to->gap += from->gap, to->scale += from->scale;
-    to->law_residual += from->law_residual, to->contact_residual += from->contact_residual;
+    to->friction_residual += from->friction_residual, to->law_residual += from->law_residual, to->contact_residual += from->contact_residual;
     to->tension_bound = cpsi_larger(to->tension_bound, from->tension_bound);
     to->tension_estimate = cpsi_larger(to->tension_estimate, from->tension_estimate);
     to->force_residual = cpsi_larger(to->force_residual, from->force_residual);

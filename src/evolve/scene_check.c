@@ -351,7 +351,7 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
     if (solver->linear_system != CPS_LINEAR_SYSTEM_CHAIN && solver->linear_system != CPS_LINEAR_SYSTEM_DENSE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "solver: linear_system has the unknown value %d",
                          (int)solver->linear_system);
-    if (scene->friction != CPS_FRICTION_FROZEN)
+    if (scene->friction != CPS_FRICTION_FROZEN && scene->friction != CPS_FRICTION_CONSISTENT)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "friction: unknown value %d", (int)scene->friction);
     if (scene->contact != CPS_CONTACT_GAINED && scene->contact != CPS_CONTACT_STRICT)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "contact: unknown value %d", (int)scene->contact);

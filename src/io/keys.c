@@ -29,8 +29,9 @@ static const CpsiKey KEYS[] = {
      "what the lines lie on, by name; at most one"},
     {CPSI_SCENE, "lines", CPSI_MAPPING, CPSI_REQUIRED, "", MAP(CPSI_LINES), NULL,
      "the lines by name; they do not touch one another"},
-    {CPSI_SCENE, "friction", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "frozen", "\"frozen\"",
-     "frozen: the friction bound of a step is taken from the configuration the step starts from"},
+    {CPSI_SCENE, "friction", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "frozen consistent", "\"frozen\"",
+     "frozen: the friction bound of a step is taken from the configuration the step starts from; consistent: it is mu "
+     "times the reaction in the configuration reached, for nodes that land in the step as well"},
     {CPSI_SCENE, "contact", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "gained strict", "\"gained\"",
      "gained: no node ends a step below the obstacle; strict: only nodes that touch it when the step starts are kept out"},
     {CPSI_SCENE, "solver", CPSI_MAPPING, CPSI_OPTIONAL, "", MAP(CPSI_SOLVER), "{}", "how steps are solved"},

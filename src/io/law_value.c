@@ -54,7 +54,7 @@ CpsStatus cpsi_law_count(const CpsiLawFile *f, const CpsiYaml *node, const char 
     return cpsi_law_wrong(f, node, what, expected);
 }
 
-static CpsStatus out_of_memory(const CpsiLawFile *f) {
+CpsStatus cpsi_law_no_memory(const CpsiLawFile *f) {
     return cpsi_fail_at(f->err, CPS_ERR_MEMORY, f->name, 0, 0, "out of memory while reading the law");
 }
 
@@ -71,7 +71,7 @@ CpsStatus cpsi_law_vector(const CpsiLawFile *f, const CpsiYaml *node, const char
         return cpsi_law_wrong(f, node, what, "a list of numbers, as in [1, 2]");
     *count = node->count;
     *out = CPSI_POOL_TAKE(f->pool, node->count, double);
-    return *out ? numbers(f, node, what, *out) : out_of_memory(f);
+    return *out ? numbers(f, node, what, *out) : cpsi_law_no_memory(f);
 }
 
 CpsStatus cpsi_law_matrix(const CpsiLawFile *f, const CpsiYaml *node, const char *what, int *rows, int *columns,
@@ -86,9 +86,9 @@ CpsStatus cpsi_law_matrix(const CpsiLawFile *f, const CpsiYaml *node, const char
 
     /* both counts are numbers of values in the file: their product is at most that number squared, checked below */
     size_t size;
-    if (__builtin_mul_overflow((size_t)*rows, (size_t)*columns, &size)) return out_of_memory(f);
+    if (__builtin_mul_overflow((size_t)*rows, (size_t)*columns, &size)) return cpsi_law_no_memory(f);
     double *x = *out = CPSI_POOL_TAKE(f->pool, size, double);
-    if (!x) return out_of_memory(f);
+    if (!x) return cpsi_law_no_memory(f);
     CpsStatus status = CPS_OK;
     for (const CpsiYaml *row = node->child; row && status == CPS_OK; row = row->next, x += *columns)
         status = numbers(f, row, what, x);

@@ -28,9 +28,11 @@ CpsStatus cpsi_law_vector(const CpsiLawFile *f, const CpsiYaml *node, const char
 CpsStatus cpsi_law_matrix(const CpsiLawFile *f, const CpsiYaml *node, const char *what, int *rows, int *columns,
                           double **out);
 
-/* The node is a mapping that holds exactly the given keys (at most 4, NULL behind the last; one that begins with '?' may
- * be absent); child[i] is the value of key i. */
+/* The node is a mapping that holds exactly the given keys (NULL behind the last; one that begins with '?'
+ * may be absent); child[i] is the value of key i. */
 CpsStatus cpsi_law_keys(const CpsiLawFile *f, const CpsiYaml *node, const char *what, const char *const *key,
                         const CpsiYaml **child);
+
+CpsStatus cpsi_law_no_memory(const CpsiLawFile *f);
 
 #endif

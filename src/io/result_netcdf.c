@@ -70,6 +70,8 @@ static const Number NUMBER[] = {
     {"largest_force", "largest force in the line or on it", "N", REPORT(certificate.largest_force)},
     {"law_residual", "sum of dissipation and friction power", "J", REPORT(certificate.law_residual)},
     {"contact_residual", "sum of reaction times distance", "J", REPORT(certificate.contact_residual)},
+    {"friction_residual", "sum of friction bounds used less mu times the reactions found, in size", "N",
+     REPORT(certificate.friction_residual)},
     {"stretch_residual", "largest stretch of an inextensible element", "1", REPORT(certificate.stretch_residual)},
     {"penetration", "depth of the deepest node below the obstacle", "m", REPORT(certificate.penetration)},
     {"dissipated", "energy dissipated by friction in the step", "J", REPORT(dissipated)},
@@ -155,6 +157,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names)
     snprintf(source, sizeof source, "capstan %s", cps_version());
     add_text(nc, NC_GLOBAL, "source", source);
     add_text(nc, NC_GLOBAL, "lines", names);
+    add_text(nc, NC_GLOBAL, "friction", scene->friction == CPS_FRICTION_CONSISTENT ? "consistent" : "frozen");
     if (nc->status == NC_NOERR)
         keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "gravity", NC_DOUBLE, 3, scene->gravity));
     if (nc->status == NC_NOERR)

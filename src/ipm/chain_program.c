@@ -25,6 +25,8 @@ static void layout_rub(CpsiRub *rub, CpsiArena *arena, int n) {
     rub->s = cpsi_arena_take(arena, (size_t)n, sizeof *rub->s);
     rub->z = cpsi_arena_take(arena, (size_t)n, sizeof *rub->z);
     rub->w = cpsi_arena_take(arena, (size_t)n, sizeof *rub->w);
+    rub->stop = CPSI_TAKE(arena, n, int);
+    rub->friction = CPSI_TAKE(arena, n, double);
     rub->g = CPSI_TAKE(arena, n, double);
     rub->q = cpsi_arena_take(arena, (size_t)n, sizeof *rub->q);
     rub->ds = cpsi_arena_take(arena, (size_t)n, sizeof *rub->ds);
@@ -45,6 +47,7 @@ static void layout_stop(CpsiStop *stop, CpsiArena *arena, int n) {
 static void clear(CpsiProgram *program) {
     CpsiMatrix *matrix = &cpsi_chain(program)->matrix;
     memset(matrix->diagonal, 0, 6*(size_t)matrix->n*sizeof *matrix->diagonal);
+    memset(matrix->skew, 0, 2*(size_t)matrix->n*sizeof *matrix->skew);
 }
 
 static bool factor(CpsiProgram *program) {
@@ -73,7 +76,7 @@ void cpsi_chain_program_resize(CpsiChainProgram *program, int n) {
 }
 
 void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, const CpsiLinsysOps *ops) {
-    static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_rub, &cpsi_stop};
+    static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_stop, &cpsi_rub};
     const size_t size = 3*(size_t)n;
     program->base = (CpsiProgram){
         .load = CPSI_TAKE(arena, size, double),
@@ -95,6 +98,7 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
     program->matrix = (CpsiMatrix){
         .held = program->held,
         .diagonal = CPSI_TAKE(arena, 6*(size_t)n, double),
+        .skew = CPSI_TAKE(arena, 2*(size_t)n, double),
         .stiffness = CPSI_TAKE(arena, n, double),
         .direction = CPSI_TAKE(arena, 3*(size_t)n, double),
         .compliance = CPSI_TAKE(arena, n, double),

@@ -36,9 +36,11 @@ typedef struct CpsiStretch {
 typedef struct CpsiRub {
     int count;
     int *node;
-    double *weight; /* (count) w_k > 0 */
+    double *weight; /* (count) w_k > 0, that of its stop */
     double (*s)[3]; /* (count) (t, u_x, u_y) */
-    double (*z)[3]; /* (count) (A, F_x, F_y): z[0] never changes */
+    double (*z)[3]; /* (count) (A, F_x, F_y) */
+    int *stop;        /* (count) the stop whose reaction bounds it, A = friction R; -1: A is given and stays */
+    double *friction; /* (count) */
     double (*w)[3];
     double *g;
     double (*q)[3], (*ds)[3], (*dz)[3];
@@ -74,6 +76,13 @@ void cpsi_chain_program_resize(CpsiChainProgram *program, int n);
 
 static inline CpsiChainProgram *cpsi_chain(CpsiProgram *program) { return (CpsiChainProgram *)program; }
 
-extern const CpsiKind cpsi_stretch, cpsi_rub, cpsi_stop;
+/* rho = gap + u_z - s of stop k. */
+static inline double cpsi_stop_residual(const CpsiChainProgram *program, int k) {
+    const CpsiStop *stop = &program->stop;
+    return stop->gap[k] + program->base.u[3*stop->node[k] + 2] - stop->s[k];
+}
+
+/* In this order: a rub reads the pass of its stop. */
+extern const CpsiKind cpsi_stretch, cpsi_stop, cpsi_rub;
 
 #endif

@@ -45,12 +45,12 @@ static bool scale_and_factor(CpsiProgram *program) {
 }
 
 /* Solve for the direction that the elements' q ask for, removing the share `keep` of the residuals. */
-static CpsiSums direction(CpsiProgram *program, double keep) {
+static CpsiSums direction(CpsiProgram *program, double keep, bool predictor) {
     CpsiSums sums = {0};
     for (int i = 0; i < program->size; i++) program->du[i] = keep*program->residual[i];
     for (int k = 0; k < program->kind_count; k++) program->kind[k]->load(program, keep);
     program->solve(program);
-    for (int k = 0; k < program->kind_count; k++) program->kind[k]->direct(program, keep, &sums);
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->direct(program, keep, predictor, &sums);
     return sums;
 }
 
@@ -109,14 +109,15 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
 
         /* predictor: straight for s o z = 0 */
         if (!scale_and_factor(program)) { report.outcome = CPSI_IPM_STALLED; break; }
-        const CpsiSums predictor = direction(program, 1);
+        const CpsiSums predictor = direction(program, 1, true);
         const double reach = step_length(&predictor, 1);
         const double aim = (sums.sz + reach*predictor.first + reach*reach*predictor.second)/sums.sz;
         const double sigma = aim > 0 ? fmin(1, aim*aim*aim) : 0;
 
-        /* corrector: for s o z = sigma mu e */
-        correct(program, sigma*mu);
-        const CpsiSums corrector = direction(program, 1 - sigma);
+        /* corrector: for s o z = sigma mu e, but never below what the target asks: residuals may still need room */
+        const double least = 0.1*options->target*(options->scale + sums.scale)/sums.weight;
+        correct(program, fmax(sigma*mu, least));
+        const CpsiSums corrector = direction(program, 1 - sigma, false);
         const double alpha = step_length(&corrector, FRACTION);
         if (!(alpha >= LEAST_STEP)) { report.outcome = CPSI_IPM_STALLED; break; }
         advance(program, alpha);

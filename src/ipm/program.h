@@ -36,8 +36,8 @@ typedef struct CpsiKind {
     void (*scale)(CpsiProgram *program);
     /* add to du, the right-hand side, the forces that q and the residuals put on the unknowns */
     void (*load)(CpsiProgram *program, double keep);
-    /* direction (ds, dz) from du; step to the boundary and sums */
-    void (*direct)(CpsiProgram *program, double keep, CpsiSums *sums);
+    /* direction (ds, dz) from du; step to the boundary and sums; a predictor may leave its second-order term in q */
+    void (*direct)(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums);
     /* q of the corrector: s o z -> target e, less the second-order term of the predictor just taken */
     void (*correct)(CpsiProgram *program, double target);
     /* s += alpha ds, z += alpha dz */

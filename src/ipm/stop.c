@@ -7,11 +7,6 @@
 #include "base/larger.h"
 #include "ipm/chain_program.h"
 
-static inline double residual_of(const CpsiChainProgram *program, int k) {
-    const CpsiStop *stop = &program->stop;
-    return stop->gap[k] + program->base.u[3*stop->node[k] + 2] - stop->s[k];
-}
-
 static void start(CpsiProgram *base, double mu, double margin) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
@@ -26,10 +21,10 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     const CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
-        const double rho = fabs(residual_of(program, k));
+        const double rho = fabs(cpsi_stop_residual(program, k));
         sums->weight += stop->weight[k];
         sums->sz += stop->weight[k]*stop->s[k]*stop->z[k];
-        sums->ray -= stop->weight[k]*stop->z[k]*(stop->s[k] + residual_of(program, k));
+        sums->ray -= stop->weight[k]*stop->z[k]*(stop->s[k] + cpsi_stop_residual(program, k));
         sums->residual = cpsi_larger(sums->residual, rho);
         if (stop->z[k] > sums->largest) sums->largest = stop->z[k];
         base->residual[3*stop->node[k] + 2] += stop->weight[k]*stop->z[k];
@@ -50,18 +45,19 @@ static void load(CpsiProgram *base, double keep) {
     const CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++)
         base->du[3*stop->node[k] + 2] +=
-            stop->weight[k]*(stop->q[k] - stop->z[k]/stop->s[k]*keep*residual_of(program, k));
+            stop->weight[k]*(stop->q[k] - stop->z[k]/stop->s[k]*keep*cpsi_stop_residual(program, k));
 }
 
-static void direct(CpsiProgram *base, double keep, CpsiSums *sums) {
+static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
         const double s = stop->s[k], z = stop->z[k];
-        const double ds = base->du[3*stop->node[k] + 2] + keep*residual_of(program, k), dz = stop->q[k] - z/s*ds;
+        const double ds = base->du[3*stop->node[k] + 2] + keep*cpsi_stop_residual(program, k), dz = stop->q[k] - z/s*ds;
         const double step_s = -ds/s, step_z = -dz/z, step = cpsi_larger(step_s, step_z);
         stop->ds[k] = ds;
         stop->dz[k] = dz;
+        if (predictor) stop->q[k] = ds*dz/s;
         sums->inverse_step = cpsi_larger(sums->inverse_step, step);
         sums->first += stop->weight[k]*(s*dz + z*ds);
         sums->second += stop->weight[k]*ds*dz;
@@ -72,7 +68,7 @@ static void correct(CpsiProgram *base, double target) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++)
-        stop->q[k] = -stop->z[k] + (target - stop->ds[k]*stop->dz[k])/stop->s[k];
+        stop->q[k] = -stop->z[k] + target/stop->s[k] - stop->q[k];
 }
 
 static void advance(CpsiProgram *base, double alpha) {

@@ -110,7 +110,7 @@ static void load(CpsiProgram *base, double keep) {
     }
 }
 
-static void direct(CpsiProgram *base, double keep, CpsiSums *sums) {
+static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStretch *st = &program->stretch;
     const double *du = base->du;
@@ -139,8 +139,8 @@ static void direct(CpsiProgram *base, double keep, CpsiSums *sums) {
         cpsi_soc_apply(scaled_ds, w, ds, -1, 4);
         for (int a = 0; a < 4; a++) scaled_ds[a] *= g;
         const double step_s = cpsi_soc_inverse_step(point, scaled_ds, 4), step_z = cpsi_soc_inverse_step(point, scaled_dz, 4);
-        const double step = cpsi_larger(step_s, step_z);
-        sums->inverse_step = cpsi_larger(sums->inverse_step, step);
+        sums->inverse_step = cpsi_larger(sums->inverse_step, cpsi_larger(step_s, step_z));
+        if (predictor) cpsi_soc_second_order(st->q[i], w, point, scaled_ds, scaled_dz, 4);
         for (int a = 0; a < 4; a++) {
             sums->first += l*(s[a]*dz[a] + z[a]*ds[a]);
             sums->second += l*ds[a]*dz[a];
@@ -152,17 +152,10 @@ static void correct(CpsiProgram *base, double target) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStretch *st = &program->stretch;
     for (int i = 1; i < program->n; i++) {
-        const double *w = st->w[i], *s = st->s[i], *z = st->z[i];
-        double point[4], a[4], b[4], second[4], scaled[4], correction[4];
-        cpsi_soc_apply(point, w, z, 1, 4);
-        cpsi_soc_apply(a, w, st->dz[i], 1, 4);
-        cpsi_soc_apply(b, w, st->ds[i], -1, 4);
-        cpsi_soc_product(second, a, b, 4);
-        cpsi_soc_divide(scaled, point, second, 4);
-        cpsi_soc_apply(correction, w, scaled, -1, 4);
-        const double k = target/cpsi_soc_det(s, 4), g = st->g[i];
-        st->q[i][0] = -z[0] + k*s[0] - g*correction[0];
-        for (int j = 1; j < 4; j++) st->q[i][j] = -z[j] - k*s[j] - g*correction[j];
+        const double *s = st->s[i], *z = st->z[i], inverse = target/cpsi_soc_det(s, 4);
+        double *q = st->q[i];
+        q[0] = -z[0] + inverse*s[0] - q[0];
+        for (int a = 1; a < 4; a++) q[a] = -z[a] - inverse*s[a] - q[a];
     }
 }
 

@@ -144,7 +144,8 @@ CpsStatus cps_law_contacts(int n, int count, const CpsLaw *const *contact, const
     CpsStatus status = check_laws(count, contact, out, err);
     if (status != CPS_OK) return status;
     if (!map || n < 1 || n > CPS_SET_MAX_SPACE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the maps are NULL, or n = %d is not from 1 to %d", n, CPS_SET_MAX_SPACE);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the maps are NULL, or n = %d is not from 1 to %d", n,
+                         CPS_SET_MAX_SPACE);
     for (int i = 0; i < count; i++) {
         const int rows = cps_law_space(contact[i]);
         const bool finite = map[i] && cpsi_all_finite(rows * n, map[i]);
@@ -152,7 +153,7 @@ CpsStatus cps_law_contacts(int n, int count, const CpsLaw *const *contact, const
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "map %d is NULL or holds a number that is not finite", i + 1);
     }
 
-    CpsSet **image = calloc((size_t)count, sizeof *image), *sum = NULL;
+    CpsSet **image = calloc((unsigned)count, sizeof *image), *sum = NULL;
     if (!image) return out_of_memory(err);
     for (int i = 0; i < count && status == CPS_OK; i++)
         status = image_of_contact(n, map[i], contact[i]->set, &image[i], err);
@@ -180,8 +181,8 @@ const char *cps_composition_sentence(CpsComposition composition) {
     return (unsigned)composition < 4 ? SENTENCE[composition] : "?";
 }
 
-/* Where the point lies in one factor: interior, relative interior, or boundary. By the dimension of the normal cone, which is that
- * of the complement of the affine hull exactly on the relative interior. */
+/* Where the point lies in one factor: interior, relative interior, or boundary. By the dimension of the normal cone,
+ * which is that of the complement of the affine hull exactly on the relative interior. */
 static CpsStatus place_in_factor(const CpsSet *factor, const double *point, CpsComposition *place, CpsError *err) {
     CpsSetFacts facts, cone_facts;
     CpsSetAnswer answer;
@@ -196,15 +197,15 @@ static CpsStatus place_in_factor(const CpsSet *factor, const double *point, CpsC
             *place = CPS_COMPOSE_INTERIOR;
         else if (cone_facts.dimension == cps_set_space(factor) - facts.dimension)
             *place = CPS_COMPOSE_RELATIVE_INTERIOR;
-        else if (cps_set_polyhedral(factor))
+        else if (cpsi_law_polyhedral(factor))
             *place = CPS_COMPOSE_POLYHEDRAL;
     }
     cps_set_release(cone);
     return status;
 }
 
-/* The worst place of the factors at L x, x in the relative interior of L^-1(C): if any force of range(L) lies in the relative
- * interiors of the factors that need it, so does this one (Rockafellar 6.1 and 6.7). */
+/* The worst place of the factors at L x, x in the relative interior of L^-1(C): if any force of range(L) lies in the
+ * relative interiors of the factors that need it, so does this one (Rockafellar 6.1 and 6.7). */
 static CpsStatus find_composition(int n, const double *map, const CpsLaw *law, const CpsSet *reduced,
                                   CpsComposition *composition, CpsError *err) {
     const int rows = cps_law_space(law);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a friction law is inside, and small vectors of any length. */
+/* What a friction law is inside, and checks that its files share. */
 #ifndef CAPSTAN_SRC_LAW_LAW_H
 #define CAPSTAN_SRC_LAW_LAW_H
 
 #include <math.h>
 
 #include "capstan/law.h"
+#include "linsys/small.h"
 
 /* C, and the factors it is a product of (itself, where it is none): the composition rule looks at each on its own. */
 struct CpsLaw {
@@ -13,21 +14,6 @@ struct CpsLaw {
     int factor_count;
     CpsSet *factor[]; /* (factor_count), each with a hold */
 };
-
-static inline double cpsi_dot(int n, const double *a, const double *b) {
-    double sum = 0;
-    for (int i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
-/* without overflow or underflow */
-static inline double cpsi_length(int n, const double *a) {
-    double largest = 0, sum = 0;
-    for (int i = 0; i < n; i++) largest = fmax(largest, fabs(a[i]));
-    if (!(largest > 0)) return 0;
-    for (int i = 0; i < n; i++) sum += (a[i] / largest) * (a[i] / largest);
-    return largest * sqrt(sum);
-}
 
 /* are all components finite numbers? */
 static inline bool cpsi_all_finite(int n, const double *a) {
@@ -38,5 +24,8 @@ static inline bool cpsi_all_finite(int n, const double *a) {
 
 /* CPS_OK, or CPS_ERR_ARGUMENT with a message that calls the vector `what`. */
 CpsStatus cpsi_law_check_vector(const char *what, int n, const double *a, CpsError *err);
+
+/* Is the set polyhedral by construction? */
+bool cpsi_law_polyhedral(const CpsSet *set);
 
 #endif

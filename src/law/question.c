@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Questions to a friction law or a loaded law: dissipation, forces, velocities, and how far a pair is from the law in the five
- * forms of M77 sections 3-7. */
+/* Questions to a friction law or a loaded law: dissipation, forces, velocities, and how far a pair is from the law in
+ * the five forms of M77 sections 3-7. */
 #include <stdlib.h>
 
 #include "base/status.h"
@@ -45,7 +45,8 @@ CpsStatus cps_law_velocities(const CpsSet *set, const double *force, double tole
                              CpsSetAnswer *answer, CpsError *err) {
     if (!set || !velocities) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law's set or velocities is NULL");
     CpsSet *cone = NULL;
-    CpsStatus status = cps_set_normal_cone(set, force, tolerance, &cone, answer, err);
+    CpsStatus status = cpsi_law_check_vector("force", cps_set_space(set), force, err);
+    if (status == CPS_OK) status = cps_set_normal_cone(set, force, tolerance, &cone, answer, err);
     CpsSet *turned = NULL;
     if (status == CPS_OK && cone) status = cps_set_scale(-1, cone, &turned, err);
     cps_set_release(cone);
@@ -69,7 +70,7 @@ static CpsStatus normal_cone_form(const CpsSet *set, const double *force, const 
         return CPS_OK;
     }
     for (int i = 0; i < n; i++) nearest[i] = force[i] - nearest[i];
-    r->normal_cone = cpsi_length(n, nearest);
+    r->normal_cone = cpsi_norm(n, nearest);
     r->gap = fmax(r->gap, answer.gap);
     return CPS_OK;
 }
@@ -84,8 +85,8 @@ static void power_forms(int n, const double *force, const double *velocity, cons
     r->variational = difference;
     r->maximum_dissipation = power - cpsi_dot(n, velocity, maximal);
     r->dissipation = phi + power;
-    const double size = cpsi_length(n, force) + cpsi_length(n, maximal);
-    r->scale = cpsi_length(n, velocity) * size;
+    const double size = cpsi_norm(n, force) + cpsi_norm(n, maximal);
+    r->scale = cpsi_norm(n, velocity) * size;
     r->inverse = r->outside <= ON_BOUNDARY * size ? r->dissipation : INFINITY;
 }
 
@@ -98,8 +99,9 @@ CpsStatus cps_law_residual(const CpsSet *set, const double *force, const double 
     CpsStatus status = cpsi_law_check_vector("force", n, force, err);
     if (status == CPS_OK) status = cpsi_law_check_vector("velocity", n, velocity, err);
     if (status != CPS_OK) return status;
-    double *maximal = malloc(3 * (size_t)n * sizeof *maximal), *work = maximal + n;
+    double *maximal = malloc(3 * (size_t)n * sizeof *maximal);
     if (!maximal) return out_of_memory(err);
+    double *work = maximal + n;
 
     /* distance from C; then phi(V) with a force that attains it */
     CpsSetAnswer nearest, phi;
@@ -118,8 +120,8 @@ CpsStatus cps_law_residual(const CpsSet *set, const double *force, const double 
         }
 
         /* a step that makes step V as long as the forces are large */
-        const double speed = cpsi_length(n, velocity);
-        const double largest = fmax(cpsi_length(n, force), isfinite(phi.value) ? cpsi_length(n, maximal) : 0);
+        const double speed = cpsi_norm(n, velocity);
+        const double largest = fmax(cpsi_norm(n, force), isfinite(phi.value) ? cpsi_norm(n, maximal) : 0);
         if (step == 0) r.step = speed > 0 && largest > 0 ? largest / speed : 1;
         if (!isfinite(r.step)) r.step = 1;
         status = normal_cone_form(set, force, velocity, work, &r, err);

@@ -3,25 +3,27 @@
  *
  * Take the unknowns as blocks (x_j, t_j). Eliminating blocks 0..j-1 leaves on block j the 4 x 4 matrix
  *
- *     S_j = [ X   v ; v^T  -b ],   X = D_j + (k_j + k_{j+1}) I - k_j^2 C,   v = m_j - k_j C m_j,   b = a_j + m_j.C m_j,
+ *     S_j = [ X   v ; v'^T  -b ],   X = D_j + (k_j + k_{j+1}) I - k_j^2 C,   v = m_j - k_j C m_j,   v' = m_j - k_j C^T m_j,
+ *                                   b = a_j + m_j.C m_j,
  *
- * where C = (S_{j-1}^-1)_xx is the compliance of all that lies before, seen at node j-1 (0 where it is held). With
- * Y = X^-1, y = Y v, beta = b + v.y:
+ * where C = (S_{j-1}^-1)_xx is the compliance of all that lies before, seen at node j-1 (0 where it is held); it is symmetric
+ * where no skew is. With Y = X^-1, y = Y v, y' = Y^T v', beta = b + v'.y:
  *
- *     (S_j^-1)_xx = Y - y y^T/beta = C_j,      (S_j^-1)_xt = y/beta,      (S_j^-1)_tt = -1/beta.
+ *     (S_j^-1)_xx = Y - y y'^T/beta = C_j,     (S_j^-1)_xt = y/beta,     (S_j^-1)_tx = y'^T/beta,     (S_j^-1)_tt = -1/beta.
  *
- * So one pass keeps three small quantities per node, and a solve is two passes of 3 x 3 products. Compliances in series add
+ * So one pass keeps a few small quantities per node, and a solve is two passes of 3 x 3 products. Compliances in series add
  * without cancellation, which is why the tension is kept: an element's own stiffness 1/a_j never meets k_j in one number. */
 #include <float.h>
 #include <math.h>
 
 #include "linsys/linsys.h"
 
-/* The factor of one node: 80 bytes that every pass reads together. */
+/* The factor of one node: two cache lines that every pass reads together. */
 typedef struct ChainBlock {
-    double c[6];   /* C_j as xx, xy, yy, xz, yz, zz */
-    double y[3];   /* y/beta */
-    double tt;     /* 1/beta */
+    double c[9];  /* C_j, row by row */
+    double y[3];  /* y/beta */
+    double yt[3]; /* y'/beta */
+    double tt;    /* 1/beta */
 } ChainBlock;
 
 typedef struct Chain {
@@ -35,103 +37,105 @@ static CpsiLinsys *chain_layout(CpsiArena *arena, int n) {
     return (CpsiLinsys *)chain;
 }
 
-/* out = A x for symmetric A (6). */
-static inline void sym_apply(double out[3], const double a[6], const double x[3]) {
-    out[0] = a[0]*x[0] + a[1]*x[1] + a[3]*x[2];
-    out[1] = a[1]*x[0] + a[2]*x[1] + a[4]*x[2];
-    out[2] = a[3]*x[0] + a[4]*x[1] + a[5]*x[2];
+static inline double dot(const double a[3], const double b[3]) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
+
+/* out = A x and out = A^T x for A (3, 3). */
+static inline void apply(double out[3], const double a[9], const double x[3]) {
+    for (int i = 0; i < 3; i++) out[i] = dot(&a[3*i], x);
 }
 
-/* out = A^-1 for symmetric positive A (6), by L D L^T in the order z, y, x: along z stands the obstacle's normal, the
- * stiffest direction where there is contact. A pivot lost to rounding is lifted to the rounding level. */
-static inline void sym_inverse(double out[6], const double a[6]) {
+static inline void apply_transposed(double out[3], const double a[9], const double x[3]) {
+    for (int i = 0; i < 3; i++) out[i] = a[i]*x[0] + a[3 + i]*x[1] + a[6 + i]*x[2];
+}
+
+/* out = A^-1, by elimination in the order z, y, x: along z stands the obstacle's normal, the stiffest direction where
+ * there is contact. A pivot lost to rounding is lifted to the rounding level; skew may turn one negative. */
+static inline void inverse(double out[9], const double a[9]) {
     const double tiny = 4*DBL_EPSILON, least = DBL_MIN/DBL_EPSILON;
-    const double dz = a[5] > least ? a[5] : least, iz = 1/dz;
-    const double lxz = a[3]*iz, lyz = a[4]*iz;
-    double dy = a[2] - a[4]*lyz;
-    dy = dy > tiny*a[2] ? dy : tiny*a[2] + least;
-    const double iy = 1/dy, ayx = a[1] - a[3]*lyz, lxy = ayx*iy;
-    double dx = a[0] - a[3]*lxz - ayx*lxy;
-    dx = dx > tiny*a[0] ? dx : tiny*a[0] + least;
-    /* A^-1 = L^-T D^-1 L^-1 with x eliminated last */
-    const double ix = 1/dx, mxz = lxy*lyz - lxz;
-    out[0] = ix;
-    out[1] = -lxy*ix;
-    out[2] = iy + lxy*lxy*ix;
-    out[3] = mxz*ix;
-    out[4] = -lyz*iy - lxy*mxz*ix;
-    out[5] = iz + lyz*lyz*iy + mxz*mxz*ix;
+    const double iz = 1/(a[8] > least ? a[8] : least), lx = a[2]*iz, ly = a[5]*iz;
+    /* the 2 x 2 block of x and y without z, and its inverse by way of y */
+    const double yx = a[3] - ly*a[6], xy = a[1] - lx*a[7];
+    double yy = a[4] - ly*a[7], xx = a[0] - lx*a[6];
+    yy = fabs(yy) > tiny*fabs(a[4]) ? yy : tiny*fabs(a[4]) + least;
+    const double iy = 1/yy, l = xy*iy;
+    xx -= l*yx;
+    xx = fabs(xx) > tiny*fabs(a[0]) ? xx : tiny*fabs(a[0]) + least;
+    const double ix = 1/xx, r = yx*iy;
+    out[0] = ix, out[1] = -l*ix;
+    out[3] = -r*ix, out[4] = iy + r*l*ix;
+    /* back to z */
+    out[2] = -out[0]*lx - out[1]*ly;
+    out[5] = -out[3]*lx - out[4]*ly;
+    out[6] = -iz*(a[6]*out[0] + a[7]*out[3]);
+    out[7] = -iz*(a[6]*out[1] + a[7]*out[4]);
+    out[8] = iz - iz*(a[6]*out[2] + a[7]*out[5]);
+}
+
+/* X of node j: its own block, its elements' stiffness, less what the chain before takes. */
+static inline void node_block(double x[9], const CpsiMatrix *a, int j, double k, const double c[9]) {
+    const double *d = &a->diagonal[6*j], *skew = &a->skew[2*j], next = j + 1 < a->n ? a->stiffness[j + 1] : 0;
+    const double own[9] = {d[0], d[1], d[3] + skew[0], d[1], d[2], d[4] + skew[1], d[3], d[4], d[5]};
+    for (int i = 0; i < 9; i++) x[i] = own[i] - k*k*c[i];
+    x[0] += k + next, x[4] += k + next, x[8] += k + next;
 }
 
 static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
-    Chain *chain = (Chain *)self;
-    const int n = a->n;
-    static const double zero[6] = {0};
-    const double *c = zero;
+    static const ChainBlock nothing = {{0}, {0}, {0}, 0};
+    ChainBlock *block = ((Chain *)self)->block;
+    const double *c = nothing.c;
     double check = 0;
-    for (int j = 0; j < n; j++) {
-        ChainBlock *block = &chain->block[j];
-        const double *m = &a->direction[3*j], *d = &a->diagonal[6*j];
-        const double k = j > 0 ? a->stiffness[j] : 0, k_next = j + 1 < n ? a->stiffness[j + 1] : 0;
-        double x[6], v[3] = {0, 0, 0}, beta = 1;
-        /* what the chain before leaves on this node and its tension */
-        for (int i = 0; i < 6; i++) x[i] = d[i] - k*k*c[i];
-        x[0] += k + k_next, x[2] += k + k_next, x[5] += k + k_next;
+    for (int j = 0; j < a->n; c = block[j].c, j++) {
+        const double *m = &a->direction[3*j], k = j > 0 ? a->stiffness[j] : 0;
+        double v[3] = {0, 0, 0}, vt[3] = {0, 0, 0}, beta = 1;
         if (j > 0) {
-            double cm[3];
-            sym_apply(cm, c, m);
-            for (int i = 0; i < 3; i++) v[i] = m[i] - k*cm[i];
-            const double series = m[0]*cm[0] + m[1]*cm[1] + m[2]*cm[2];
-            beta = a->compliance[j] + (series > 0 ? series : 0);
+            double cm[3], ctm[3];
+            apply(cm, c, m);
+            apply_transposed(ctm, c, m);
+            for (int i = 0; i < 3; i++) v[i] = m[i] - k*cm[i], vt[i] = m[i] - k*ctm[i];
+            beta = a->compliance[j] + dot(m, cm);
         }
         if (a->held[j]) {
-            for (int i = 0; i < 6; i++) block->c[i] = 0;
-            for (int i = 0; i < 3; i++) block->y[i] = 0;
-            block->tt = 1/beta;
+            block[j] = nothing;
+            block[j].tt = 1/beta;
         } else {
-            double inverse[6], y[3];
-            sym_inverse(inverse, x);
-            sym_apply(y, inverse, v);
-            beta += v[0]*y[0] + v[1]*y[1] + v[2]*y[2];
-            const double ib = 1/beta;
-            for (int i = 0; i < 3; i++) block->y[i] = y[i]*ib;
-            const double *b = block->y;
-            block->c[0] = inverse[0] - y[0]*b[0], block->c[1] = inverse[1] - y[0]*b[1];
-            block->c[2] = inverse[2] - y[1]*b[1], block->c[3] = inverse[3] - y[0]*b[2];
-            block->c[4] = inverse[4] - y[1]*b[2], block->c[5] = inverse[5] - y[2]*b[2];
-            block->tt = ib;
+            double x[9], y[3], yt[3], ix[9];
+            node_block(x, a, j, k, c);
+            inverse(ix, x);
+            apply(y, ix, v);
+            apply_transposed(yt, ix, vt);
+            const double ib = 1/(beta + dot(vt, y));
+            block[j].tt = ib;
+            for (int i = 0; i < 3; i++) {
+                block[j].y[i] = y[i]*ib, block[j].yt[i] = yt[i]*ib;
+                for (int l = 0; l < 3; l++) block[j].c[3*i + l] = ix[3*i + l] - y[i]*(yt[l]*ib);
+            }
         }
-        c = block->c;
-        check += block->tt + c[0] + c[2] + c[5];
+        check += block[j].tt + block[j].c[0] + block[j].c[4] + block[j].c[8];
     }
     return isfinite(check);
 }
 
 static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, double *t) {
-    const Chain *chain = (const Chain *)self;
+    const ChainBlock *block = ((const Chain *)self)->block;
     const int n = a->n;
     /* forward: x_j, t_j as if nothing came after */
     double before[3] = {0, 0, 0};
     for (int j = 0; j < n; j++) {
-        const ChainBlock *block = &chain->block[j];
-        const double *m = &a->direction[3*j], *y = block->y;
-        double *xj = &x[3*j], f[3], h = 0;
-        const double k = j > 0 ? a->stiffness[j] : 0;
+        const double k = j > 0 ? a->stiffness[j] : 0, h = j > 0 ? t[j] + dot(&a->direction[3*j], before) : 0;
+        double *xj = &x[3*j], f[3];
         for (int i = 0; i < 3; i++) f[i] = a->held[j] ? 0 : xj[i] + k*before[i];
-        if (j > 0) h = t[j] + m[0]*before[0] + m[1]*before[1] + m[2]*before[2];
-        sym_apply(xj, block->c, f);
-        for (int i = 0; i < 3; i++) before[i] = xj[i] += y[i]*h;
-        t[j] = j > 0 ? y[0]*f[0] + y[1]*f[1] + y[2]*f[2] - block->tt*h : 0;
+        apply(xj, block[j].c, f);
+        for (int i = 0; i < 3; i++) before[i] = xj[i] += block[j].y[i]*h;
+        t[j] = j > 0 ? dot(block[j].yt, f) - block[j].tt*h : 0;
     }
     /* backward: what comes after pulls on node j with k_{j+1} x_{j+1} + m_{j+1} t_{j+1} */
     for (int j = n - 2; j >= 0; j--) {
-        const ChainBlock *block = &chain->block[j];
-        const double *m = &a->direction[3*(j + 1)], *y = block->y, k = a->stiffness[j + 1], tension = t[j + 1];
+        const double *m = &a->direction[3*(j + 1)], k = a->stiffness[j + 1], tension = t[j + 1];
         double *xj = &x[3*j], pull[3], dx[3];
         for (int i = 0; i < 3; i++) pull[i] = k*xj[3 + i] + m[i]*tension;
-        sym_apply(dx, block->c, pull);
+        apply(dx, block[j].c, pull);
         for (int i = 0; i < 3; i++) xj[i] += dx[i];
-        if (j > 0) t[j] += y[0]*pull[0] + y[1]*pull[1] + y[2]*pull[2];
+        if (j > 0) t[j] += dot(block[j].yt, pull);
     }
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The dense back end: the same matrix in full, L D L^T without pivoting in the order "all nodes, then all tensions".
+/* The dense back end: the same matrix in full, L U with row exchanges.
  *
- * A quasi-definite matrix has such a factor in every symmetric order (Vanderbei, SIAM J. Optim. 5 (1995)). The unknowns are
- * x_0, ..., x_{n-1} (3 each), then t_1, ..., t_{n-1}. Cost (4n)^3/3: for small lines and for testing the chain. */
+ * The unknowns are x_0, ..., x_{n-1} (3 each), then t_1, ..., t_{n-1}. Cost 2 (4n)^3/3: for small lines, and as a second way to
+ * the same answer that shares no idea with the chain. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -10,68 +10,83 @@
 #include "linsys/linsys.h"
 
 typedef struct Dense {
-    double *l; /* (4n, 4n) lower triangle: L below, D on the diagonal; t_0 is kept as an idle unknown */
-    double *b; /* (4n) scratch of a solve */
+    double *lu; /* (4n, 4n) row by row, L below its unit diagonal; t_0 is kept as an idle unknown */
+    int *row;   /* (4n) row i of the factors is row[i] of the matrix */
+    double *b;  /* (4n) scratch of a solve */
 } Dense;
 
 static CpsiLinsys *dense_layout(CpsiArena *arena, int n) {
     Dense *dense = CPSI_TAKE(arena, 1, Dense);
     const size_t size = 4*(size_t)n;
-    double *l = CPSI_TAKE(arena, size*size, double), *b = CPSI_TAKE(arena, size, double);
-    if (dense) *dense = (Dense){.l = l, .b = b};
+    double *lu = CPSI_TAKE(arena, size*size, double), *b = CPSI_TAKE(arena, size, double);
+    int *row = CPSI_TAKE(arena, size, int);
+    if (dense) *dense = (Dense){.lu = lu, .row = row, .b = b};
     return (CpsiLinsys *)dense;
 }
 
-/* Fill the lower triangle. */
+/* Entry (r, c) of D_j. */
+static double node_entry(const CpsiMatrix *a, int j, int r, int c) {
+    static const int place[3][3] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
+    return a->diagonal[6*j + place[r][c]] + (c == 2 && r < 2 ? a->skew[2*j + r] : 0);
+}
+
 static void dense_fill(Dense *dense, const CpsiMatrix *a) {
-    static const int row[6] = {0, 1, 1, 2, 2, 2}, column[6] = {0, 0, 1, 0, 1, 2};
-    const int n = a->n;
-    const size_t size = 4*(size_t)n;
-    double *l = dense->l;
-    memset(l, 0, size*size*sizeof *l);
-    for (int j = 0; j < n; j++) {
-        const size_t xj = 3*(size_t)j, tj = 3*(size_t)n + (size_t)j;
-        const double k = j > 0 ? a->stiffness[j] : 0, k_next = j + 1 < n ? a->stiffness[j + 1] : 0;
-        /* the node's own block */
-        for (size_t i = 0; i < 6; i++) {
-            const size_t r = (size_t)row[i], c = (size_t)column[i];
-            l[(xj + r)*size + xj + c] = (a->held[j] ? 0 : a->diagonal[6*j + (int)i]) + (r == c ? k + k_next + a->held[j] : 0);
-        }
-        l[tj*size + tj] = j > 0 ? -a->compliance[j] : -1;
+    const size_t n = (size_t)a->n, size = 4*n;
+    double *m = dense->lu;
+    memset(m, 0, size*size*sizeof *m);
+    for (int node = 0; node < a->n; node++) {
+        const size_t j = (size_t)node, xj = 3*j, tj = 3*n + j;
+        const double k = j > 0 ? a->stiffness[j] : 0, both = k + (j + 1 < n ? a->stiffness[j + 1] : 0);
+        /* the node's own block, or x_j = 0 */
+        for (size_t r = 0; r < 3; r++)
+            for (size_t c = 0; c < 3; c++)
+                m[(xj + r)*size + xj + c] =
+                    a->held[j] ? (r == c) : node_entry(a, node, (int)r, (int)c) + (r == c ? both : 0);
+        m[tj*size + tj] = j > 0 ? -a->compliance[j] : 1;
         if (j == 0) continue;
-        /* the element before it: stiffness to the node before, and its tension's row */
+        /* the element before it: stiffness between the nodes, and the tension's row and column; x_j = 0 takes no part */
         for (size_t i = 0; i < 3; i++) {
-            if (!a->held[j] && !a->held[j - 1]) l[(xj + i)*size + xj - 3 + i] = -k;
-            if (!a->held[j]) l[tj*size + xj + i] = a->direction[3*j + (int)i];
-            if (!a->held[j - 1]) l[tj*size + xj - 3 + i] = -a->direction[3*j + (int)i];
+            const double along = a->direction[3*j + i];
+            if (!a->held[j]) m[tj*size + xj + i] = m[(xj + i)*size + tj] = along;
+            if (!a->held[j - 1]) m[tj*size + xj - 3 + i] = m[(xj - 3 + i)*size + tj] = -along;
+            if (!a->held[j] && !a->held[j - 1]) m[(xj + i)*size + xj - 3 + i] = m[(xj - 3 + i)*size + xj + i] = -k;
         }
     }
+}
+
+/* Bring the largest entry of column k to the diagonal; its size is the pivot's. */
+static void exchange_rows(Dense *dense, size_t size, size_t k) {
+    size_t best = k;
+    for (size_t i = k + 1; i < size; i++)
+        if (fabs(dense->lu[i*size + k]) > fabs(dense->lu[best*size + k])) best = i;
+    if (best == k) return;
+    for (size_t c = 0; c < size; c++) {
+        const double swap = dense->lu[k*size + c];
+        dense->lu[k*size + c] = dense->lu[best*size + c];
+        dense->lu[best*size + c] = swap;
+    }
+    const int swap = dense->row[k];
+    dense->row[k] = dense->row[best];
+    dense->row[best] = swap;
 }
 
 static bool dense_factor(CpsiLinsys *self, const CpsiMatrix *matrix) {
     Dense *dense = (Dense *)self;
     const size_t size = 4*(size_t)matrix->n;
-    double *l = dense->l;
+    double *lu = dense->lu, largest = 0;
     dense_fill(dense, matrix);
-    for (size_t i = 0; i < size; i++) {
-        double *li = &l[i*size];
-        for (size_t j = 0; j < i; j++) {
-            const double *lj = &l[j*size];
-            double sum = li[j];
-            for (size_t k = 0; k < j; k++) sum -= li[k]*lj[k];
-            li[j] = sum; /* L_ij D_j for now */
-        }
-        const double entry = li[i], least = 4*DBL_EPSILON*fabs(entry);
-        double pivot = entry;
-        for (size_t j = 0; j < i; j++) {
-            const double scaled = li[j]/l[j*size + j];
-            pivot -= scaled*li[j];
-            li[j] = scaled;
-        }
+    for (size_t i = 0; i < size; i++) dense->row[i] = (int)i;
+    for (size_t i = 0; i < size*size; i++) largest = fmax(largest, fabs(lu[i]));
+    for (size_t k = 0; k < size; k++) {
+        exchange_rows(dense, size, k);
         /* a pivot lost to rounding is lifted to the rounding level */
-        if (fabs(pivot) < least) pivot = entry < 0 ? -least : least;
-        if (!isfinite(pivot) || pivot == 0) return false;
-        li[i] = pivot;
+        const double least = DBL_EPSILON*DBL_EPSILON*largest;
+        if (fabs(lu[k*size + k]) < least) lu[k*size + k] = least;
+        if (!isfinite(lu[k*size + k]) || lu[k*size + k] == 0) return false;
+        for (size_t i = k + 1; i < size; i++) {
+            const double l = lu[i*size + k] /= lu[k*size + k];
+            for (size_t c = k + 1; c < size && l != 0; c++) lu[i*size + c] -= l*lu[k*size + c];
+        }
     }
     return true;
 }
@@ -79,18 +94,18 @@ static bool dense_factor(CpsiLinsys *self, const CpsiMatrix *matrix) {
 static void dense_solve(const CpsiLinsys *self, const CpsiMatrix *matrix, double *x, double *t) {
     const Dense *dense = (const Dense *)self;
     const size_t n = (size_t)matrix->n, size = 4*n;
-    const double *l = dense->l;
+    const double *lu = dense->lu;
     double *b = dense->b;
-    /* the right-hand side, held nodes and t_0 at zero */
-    for (size_t j = 0; j < n; j++)
-        for (size_t i = 0; i < 3; i++) b[3*j + i] = matrix->held[j] ? 0 : x[3*j + i];
-    for (size_t j = 0; j < n; j++) b[3*n + j] = j > 0 ? t[j] : 0;
-    /* L y = b, D z = y, L^T x = z */
-    for (size_t i = 0; i < size; i++)
-        for (size_t j = 0; j < i; j++) b[i] -= l[i*size + j]*b[j];
-    for (size_t i = 0; i < size; i++) b[i] /= l[i*size + i];
-    for (size_t i = size; i-- > 0;)
-        for (size_t j = i + 1; j < size; j++) b[i] -= l[j*size + i]*b[j];
+    /* L y = P b; held nodes and t_0 have zero on the right */
+    for (size_t i = 0; i < size; i++) {
+        const size_t from = (size_t)dense->row[i];
+        b[i] = from < 3*n ? (matrix->held[from/3] ? 0 : x[from]) : from > 3*n ? t[from - 3*n] : 0;
+        for (size_t j = 0; j < i; j++) b[i] -= lu[i*size + j]*b[j];
+    }
+    for (size_t i = size; i-- > 0;) {
+        for (size_t j = i + 1; j < size; j++) b[i] -= lu[i*size + j]*b[j];
+        b[i] /= lu[i*size + i];
+    }
     memcpy(x, b, 3*n*sizeof *x);
     memcpy(t, b + 3*n, n*sizeof *t);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The contract of a linear system: one symmetric quasi-definite matrix over a chain of nodes.
+/* The contract of a linear system: one matrix over a chain of nodes, quasi-definite up to a coupling inside each node.
  *
  * Unknowns: x_j in R^3 at the nodes j = 0..n-1, and one tension t_i for each element i = 1..n-1 (element i joins node i-1
  * and node i; index 0 of element arrays is unused). With d_i = x_i - x_{i-1}:
@@ -8,9 +8,11 @@
  *     element i:    m_i . d_i - a_i t_i = h_i
  *     held node:    x_j = 0, its equation is dropped
  *
- * D_j symmetric >= 0, k_i >= 0, a_i > 0; or a_i < 0 as long as k_i I + m_i m_i^T/a_i >= 0 (an element softer along itself than
- * across). Eliminating the tensions would leave a positive definite matrix, so no pivot vanishes in the orders used. Keeping the tension t_i as an unknown keeps stiff elements exact: a_i may be as
- * small as 0+ beside k_i of order one, where the condensed stiffness m m^T/a would drown everything else. */
+ * D_j is symmetric >= 0, plus `skew` in the column z of its rows x and y (friction that follows the reaction); k_i >= 0; a_i > 0, or
+ * a_i < 0 as long as k_i I + m_i m_i^T/a_i >= 0 (an element softer along itself than across). Without skew, eliminating the
+ * tensions would leave a positive definite matrix, so no pivot vanishes in the orders used. Keeping the tension t_i as an
+ * unknown keeps stiff elements exact: a_i may be as small as 0+ beside k_i of order one, where the condensed stiffness
+ * m m^T/a would drown everything else. */
 #ifndef CAPSTAN_SRC_LINSYS_LINSYS_H
 #define CAPSTAN_SRC_LINSYS_LINSYS_H
 
@@ -24,6 +26,7 @@ typedef struct CpsiMatrix {
     int n;                     /* nodes >= 1 */
     const unsigned char *held; /* (n) 1: x_j = 0 */
     double *diagonal;          /* (n, 6) D_j as xx, xy, yy, xz, yz, zz */
+    double *skew;              /* (n, 2) added to D_j at xz and yz, not at zx and zy */
     double *stiffness;         /* (n) k_i */
     double *direction;         /* (n, 3) m_i */
     double *compliance;        /* (n) a_i */

@@ -53,6 +53,11 @@ int source_open(const char *path, Source *source, FILE *log) {
     if (status) return complain(log, "cannot read dimension", "step", status);
     status = nc_get_att_double(source->nc, NC_GLOBAL, "tolerance", &source->tolerance);
     if (status) return complain(log, "cannot read attribute", "tolerance", status);
+    char friction[32] = "";
+    size_t length = 0;
+    if (nc_inq_attlen(source->nc, NC_GLOBAL, "friction", &length) == NC_NOERR && length < sizeof friction)
+        nc_get_att_text(source->nc, NC_GLOBAL, "friction", friction);
+    source->consistent = strcmp(friction, "consistent") == 0;
 
     size_t bytes;
     status = nc_inq_attlen(source->nc, NC_GLOBAL, "lines", &bytes);

@@ -3,6 +3,7 @@
 #ifndef CAPSTAN_CHECKER_RECORD_H
 #define CAPSTAN_CHECKER_RECORD_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -47,6 +48,7 @@ typedef struct Source {
     size_t steps, lines;
     char **line_name;
     double tolerance;
+    bool consistent; /* friction bounds follow the reactions of the same step */
 } Source;
 
 /* All return 0, or -1 after one sentence on log. */

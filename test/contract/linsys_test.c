@@ -16,7 +16,7 @@ enum { BACK_ENDS = sizeof back_ends/sizeof *back_ends };
 typedef struct Case {
     int n;
     unsigned char held[NODES];
-    double diagonal[6*NODES], stiffness[NODES], direction[3*NODES], compliance[NODES];
+    double diagonal[6*NODES], skew[2*NODES], stiffness[NODES], direction[3*NODES], compliance[NODES];
     double f[3*NODES], h[NODES];
 } Case;
 
@@ -36,6 +36,8 @@ static Case random_case(uint64_t *state, double least) {
         const double r = 0.1 + uniform(state), contact = j%2 ? pow(10, 12*uniform(state)) : 0;
         double *d = &c.diagonal[6*j], *m = &c.direction[3*j];
         d[0] = r, d[2] = r, d[5] = r + contact, d[1] = 0.1*r*sign(state);
+        /* friction that follows the reaction: mu < 1 times the contact's stiffness */
+        for (int a = 0; a < 2; a++) c.skew[2*j + a] = 0.5*contact*sign(state);
         c.stiffness[j] = 0.01 + uniform(state);
         c.compliance[j] = pow(least, uniform(state));
         double size = 0;
@@ -49,7 +51,7 @@ static Case random_case(uint64_t *state, double least) {
 
 static void solve(const Case *c, const CpsiLinsysOps *ops, double *x, double *t) {
     Case copy = *c;
-    const CpsiMatrix matrix = {c->n, copy.held, copy.diagonal, copy.stiffness, copy.direction, copy.compliance};
+    const CpsiMatrix matrix = {c->n, copy.held, copy.diagonal, copy.skew, copy.stiffness, copy.direction, copy.compliance};
     CpsiArena arena = {0};
     ops->layout(&arena, c->n);
     assert_true(cpsi_arena_allocate(&arena));
@@ -61,9 +63,9 @@ static void solve(const Case *c, const CpsiLinsysOps *ops, double *x, double *t)
     cpsi_arena_free(&arena);
 }
 
-static double matrix_entry(const double *d, int r, int col) {
+static double matrix_entry(const Case *c, int j, int r, int col) {
     static const int place[3][3] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
-    return d[place[r][col]];
+    return c->diagonal[6*j + place[r][col]] + (col == 2 && r < 2 ? c->skew[2*j + r] : 0);
 }
 
 /* Largest residual of the equations of linsys.h, relative to the sum of the terms of each. */
@@ -73,7 +75,7 @@ static double residual(const Case *c, const double *x, const double *t) {
         for (int a = 0; a < 3 && !c->held[j]; a++) {
             double sum = -c->f[3*j + a], terms = fabs(sum);
             for (int b = 0; b < 3; b++) {
-                const double term = matrix_entry(&c->diagonal[6*j], a, b)*x[3*j + b];
+                const double term = matrix_entry(c, j, a, b)*x[3*j + b];
                 sum += term, terms += fabs(term);
             }
             if (j > 0) {
@@ -133,7 +135,7 @@ static void nan_is_refused(void **state_) {
     c.n = NODES/2;
     c.diagonal[6] = NAN;
     c.held[1] = 0;
-    const CpsiMatrix matrix = {c.n, c.held, c.diagonal, c.stiffness, c.direction, c.compliance};
+    const CpsiMatrix matrix = {c.n, c.held, c.diagonal, c.skew, c.stiffness, c.direction, c.compliance};
     CpsiArena arena = {0};
     ops->layout(&arena, c.n);
     assert_true(cpsi_arena_allocate(&arena));

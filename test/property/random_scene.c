@@ -463,6 +463,17 @@ const char *random_scene_class_name(int class_index) {
     return NAME[class_index];
 }
 
+/* a scene of another class with Coulomb's law itself, from the stiffest of its kind down to soft lines */
+static void make_consistent(Maker *maker) {
+    switch (below(&maker->random, 4)) {
+    case 0: make_slope(maker); break;
+    case 1: make_imposed(maker); break;
+    case 2: make_long_history(maker); break;
+    default: make_common(maker, 0), any_stiffness(maker); break;
+    }
+    maker->out->scene.friction = CPS_FRICTION_CONSISTENT;
+}
+
 void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
     *out = (RandomScene){0};
     Maker maker = {.random = {seed * 0x2545f4914f6cdd1du + (uint64_t)class_index}, .out = out};
@@ -512,6 +523,9 @@ void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
     case SCENE_TAUT:
         make_stretched(&maker, 0, chance(random, 0.6));
         out->expected = CPS_TAUT;
+        break;
+    case SCENE_CONSISTENT:
+        make_consistent(&maker);
         break;
     default: { // ea_k
         double force = make_common(&maker, 0);

@@ -26,7 +26,8 @@ enum { SCENE_LINES = 4, SCENE_POINTS = 6, SCENE_ELEMENTS = 60, SCENE_STAGES = 20
     X(SCENE_HANGING, "hanging") /* no obstacle */                                                                      \
     X(SCENE_INFEASIBLE, "infeasible")                                                                                  \
     X(SCENE_UNBOUNDED, "unbounded")                                                                                    \
-    X(SCENE_TAUT, "taut")
+    X(SCENE_TAUT, "taut")                                                                                              \
+    X(SCENE_CONSISTENT, "consistent") /* friction that follows the reaction: any of common, slope, imposed, history */
 
 enum {
     SCENE_BEFORE_FIRST = SCENE_EA_CLASSES - 1,

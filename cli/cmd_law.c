@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan law: read a law; answer velocities with sets of forces and forces with sets of velocities; draw it. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "capstan/law_io.h"
+#include "law_answer.h"
+#include "law_query.h"
+
+typedef struct LawRun {
+    const CpsLawFile *file;
+    const CpsSet *set; /* NULL: a resistance law */
+    const CpsResistance *resistance;
+    int n;
+    bool json;
+    bool answered; /* every question so far: what has no mathematical answer ends with EXIT_NOT_CERTIFIED */
+    CpsError err;
+} LawRun;
+
+/* does the outcome leave the question open? */
+static bool is_open(CpsSetOutcome outcome) { return outcome == CPS_SET_NOT_AVAILABLE || outcome == CPS_SET_INACCURATE; }
+
+static const char *separator(int i) { return i ? ",\n    " : "\n    "; }
+
+/* ---- the law itself ---- */
+
+/* the set's expression, cut with an ellipsis where it is long */
+static void set_text(const LawRun *run, char *text, size_t size) {
+    const size_t length = cps_set_text(run->set, text, size);
+    if (length >= size) memcpy(text + size - 4, "...", 4);
+}
+
+static bool tell_law(LawRun *run) {
+    char text[400];
+    CpsComposition composition;
+    int line;
+    const bool composed = cps_law_file_composition(run->file, &composition, &line);
+    const char *kind = run->resistance                          ? "resistance law"
+                       : cps_law_file_loaded(run->file) != NULL ? "loaded law"
+                                                                : "friction law";
+    CpsSetMeasure measure = {.outcome = CPS_SET_NOT_PLANAR};
+    CpsSetFacts facts = {.outcome = CPS_SET_NOT_AVAILABLE};
+    if (run->set && cps_set_facts(run->set, 0, &facts, NULL, NULL, &run->err) != CPS_OK) return false;
+    if (run->set && run->n == 2 && facts.bounded && cps_set_measure(run->set, &measure, &run->err) != CPS_OK)
+        return false;
+    if (run->set) set_text(run, text, sizeof text);
+    const bool measured = measure.outcome == CPS_SET_ANSWERED;
+    if (!run->json) {
+        if (*cps_law_file_title(run->file)) printf("%s\n", cps_law_file_title(run->file));
+        printf("%s, %d component%s", kind, run->n, run->n == 1 ? "" : "s");
+        if (run->set) printf("\nset of forces: %s", text);
+        if (measured) printf("\narea %.10g, perimeter %.10g", measure.area, measure.perimeter);
+        if (composed)
+            printf("\ncomposition rule (line %d): %s: %s", line, cps_composition_name(composition),
+                   cps_composition_sentence(composition));
+        puts("");
+        return true;
+    }
+    fputs("{\"title\": ", stdout);
+    law_json_text(cps_law_file_title(run->file), stdout);
+    printf(", \"kind\": \"%s\", \"components\": %d", kind, run->n);
+    if (run->set) {
+        fputs(", \"set\": ", stdout);
+        law_json_text(text, stdout);
+    }
+    if (facts.outcome == CPS_SET_ANSWERED)
+        printf(", \"dimension\": %d, \"bounded\": %s", facts.dimension, facts.bounded ? "true" : "false");
+    if (measured) {
+        fputs(", \"area\": ", stdout);
+        law_json_number(measure.area, stdout);
+        fputs(", \"perimeter\": ", stdout);
+        law_json_number(measure.perimeter, stdout);
+    }
+    if (composed)
+        printf(", \"composition\": {\"condition\": \"%s\", \"line\": %d}", cps_composition_name(composition), line);
+    return true;
+}
+
+/* ---- questions ---- */
+
+/* phi or the dissipated power at V, and the forces */
+static CpsStatus ask_velocity(LawRun *run, const double *velocity, double *power, CpsSet **forces,
+                              CpsSetAnswer *answer) {
+    if (run->resistance) {
+        const CpsStatus status = cps_resistance_forces(run->resistance, velocity, 0, forces, answer, &run->err);
+        *power = answer->value;
+        return status;
+    }
+    const CpsStatus status = cps_law_forces(run->set, velocity, 0, forces, answer, &run->err);
+    *power = status == CPS_OK && answer->outcome == CPS_SET_UNBOUNDED ? INFINITY : answer->value + 0.0;
+    return status;
+}
+
+static bool tell_forces(LawRun *run, const double *velocity, int i) {
+    CpsSet *forces = NULL;
+    CpsSetAnswer answer;
+    SetAnswer about = {.n = run->n};
+    double power = NAN;
+    CpsStatus status = ask_velocity(run, velocity, &power, &forces, &answer);
+    if (status == CPS_OK && forces) status = law_answer_ask(forces, false, &about, &run->err);
+    cps_set_release(forces);
+    if (status != CPS_OK) {
+        law_answer_free(&about);
+        return false;
+    }
+    const bool some = answer.outcome == CPS_SET_ANSWERED;
+    run->answered = run->answered && !is_open(answer.outcome) && !(some && is_open(about.facts.outcome));
+    if (run->json) {
+        printf("%s{\"velocity\": ", separator(i));
+        law_json_vector(run->n, velocity, stdout);
+        fputs(", \"dissipation_W\": ", stdout);
+        law_json_number(some ? power : NAN, stdout);
+        fputs(", \"forces\": ", stdout);
+        if (some)
+            law_answer_json(&about, false, stdout);
+        else
+            printf("{\"outcome\": \"%s\"}", cps_set_outcome_name(answer.outcome));
+        fputs(", \"gap\": ", stdout);
+        law_json_number(answer.gap, stdout);
+        printf(", \"exact\": %s}", answer.exact ? "true" : "false");
+    } else {
+        printf("velocity ");
+        law_print_vector(run->n, velocity);
+        if (some) printf("\n  dissipates %.12g W%s (gap %.2g W)", power, answer.exact ? ", exact" : "", answer.gap);
+        printf("\n  forces: ");
+        if (some)
+            law_answer_print(&about, false);
+        else
+            printf("none: %s", cps_set_outcome_sentence(answer.outcome));
+        puts("");
+    }
+    law_answer_free(&about);
+    return true;
+}
+
+/* the velocities at a force; of a resistance law one velocity, whose set is a point */
+static CpsStatus ask_force(LawRun *run, const double *force, CpsSet **velocities, CpsSetAnswer *answer) {
+    if (run->set) return cps_law_velocities(run->set, force, 0, velocities, answer, &run->err);
+    double *velocity = malloc((size_t)run->n * sizeof *velocity);
+    if (!velocity) {
+        run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
+        return CPS_ERR_MEMORY;
+    }
+    CpsStatus status = cps_resistance_conjugate(run->resistance, force, velocity, answer, &run->err);
+    if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED)
+        status = cps_set_point(run->n, velocity, velocities, &run->err);
+    free(velocity);
+    return status;
+}
+
+static bool tell_velocities(LawRun *run, const double *force, int i) {
+    const bool cone = run->set != NULL;
+    CpsSet *velocities = NULL;
+    CpsSetAnswer answer;
+    SetAnswer about = {.n = run->n};
+    CpsStatus status = ask_force(run, force, &velocities, &answer);
+    if (status == CPS_OK && velocities) status = law_answer_ask(velocities, cone, &about, &run->err);
+    cps_set_release(velocities);
+    if (status != CPS_OK) {
+        law_answer_free(&about);
+        return false;
+    }
+    const bool some = answer.outcome == CPS_SET_ANSWERED;
+    run->answered = run->answered && !is_open(answer.outcome) && !(some && is_open(about.facts.outcome));
+    if (run->json) {
+        printf("%s{\"force\": ", separator(i));
+        law_json_vector(run->n, force, stdout);
+        fputs(", \"velocities\": ", stdout);
+        if (some)
+            law_answer_json(&about, cone, stdout);
+        else
+            printf("{\"outcome\": \"%s\"}", cps_set_outcome_name(answer.outcome));
+        fputs(", \"gap\": ", stdout);
+        law_json_number(answer.gap, stdout);
+        fputc('}', stdout);
+    } else {
+        printf("force ");
+        law_print_vector(run->n, force);
+        printf("\n  velocities: ");
+        if (some)
+            law_answer_print(&about, cone);
+        else
+            printf("none: %s", cps_set_outcome_sentence(answer.outcome));
+        puts("");
+    }
+    law_answer_free(&about);
+    return true;
+}
+
+/* as many forces as velocities: how far each pair is from the law */
+static bool tell_pair(LawRun *run, const double *force, const double *velocity, int i) {
+    double gap = NAN, distance = NAN;
+    CpsLawResidual r = {.outcome = CPS_SET_ANSWERED};
+    const CpsStatus status =
+        run->set ? cps_law_residual(run->set, force, velocity, 0, &r, &run->err)
+                 : cps_resistance_residual(run->resistance, force, velocity, &gap, &distance, &run->err);
+    if (status != CPS_OK) return false;
+    if (run->set) gap = r.dissipation, distance = r.normal_cone;
+    if (run->json) {
+        printf("%s{\"gap_W\": ", separator(i));
+        law_json_number(gap, stdout);
+        fputs(", \"distance_N\": ", stdout);
+        law_json_number(distance, stdout);
+        if (run->set) {
+            fputs(", \"outside_N\": ", stdout);
+            law_json_number(r.outside, stdout);
+            fputs(", \"scale_W\": ", stdout);
+            law_json_number(r.scale, stdout);
+        }
+        fputc('}', stdout);
+    } else {
+        printf("pair %d: gap %.3g W, distance %.3g N\n", i + 1, gap, distance);
+    }
+    return true;
+}
+
+static bool tell_all(LawRun *run, const QueryList *velocity, const QueryList *force) {
+    const size_t n = (size_t)run->n;
+    if (!tell_law(run)) return false;
+    if (run->json) fputs(",\n  \"answers\": [", stdout);
+    for (int i = 0; i < velocity->count; i++)
+        if (!tell_forces(run, velocity->row + (size_t)i * n, i)) return false;
+    for (int i = 0; i < force->count; i++)
+        if (!tell_velocities(run, force->row + (size_t)i * n, velocity->count + i)) return false;
+    if (run->json) fputs("]", stdout);
+    if (force->count == velocity->count && force->count > 0) {
+        if (run->json) fputs(",\n  \"pairs\": [", stdout);
+        for (int i = 0; i < force->count; i++)
+            if (!tell_pair(run, force->row + (size_t)i * n, velocity->row + (size_t)i * n, i)) return false;
+        if (run->json) fputs("]", stdout);
+    }
+    if (run->json) puts("}");
+    return true;
+}
+
+/* ---- the picture ---- */
+
+static bool read_axes(const char *text, int n, int axis[2]) {
+    char end;
+    if (!text) {
+        axis[0] = 0, axis[1] = 1;
+        return true;
+    }
+    if (sscanf(text, "%4d,%4d%c", &axis[0], &axis[1], &end) != 2) return false;
+    axis[0]--, axis[1]--;
+    return axis[0] >= 0 && axis[0] < n && axis[1] >= 0 && axis[1] < n && axis[0] != axis[1];
+}
+
+static int draw(LawRun *run, const CliOptions *options, const QueryList *velocity, const QueryList *force) {
+    CpsLawPicture picture = {.title = cps_law_file_title(run->file),
+                             .velocity_count = velocity->count,
+                             .velocity = velocity->row,
+                             .force_count = force->count,
+                             .force = force->row};
+    if (!run->set || run->n < 2) {
+        fprintf(stderr, "capstan law: --plot draws friction laws of two components or more\n");
+        return EXIT_USAGE;
+    }
+    if (!read_axes(options->axes, run->n, picture.axis)) {
+        fprintf(stderr, "capstan law: --axes: found '%.40s', expected two components from 1 to %d, as in 1,2\n",
+                options->axes, run->n);
+        return EXIT_USAGE;
+    }
+    FILE *out = fopen(options->plot, "w");
+    if (!out) {
+        fprintf(stderr, "capstan: %s: cannot write: %s\n", options->plot, strerror(errno));
+        return EXIT_IO;
+    }
+    const CpsStatus status = cps_law_draw(run->set, &picture, out, &run->err);
+    const bool failed = ferror(out) != 0;
+    if (fclose(out) != 0 || failed) {
+        fprintf(stderr, "capstan: %s: cannot write\n", options->plot);
+        return EXIT_IO;
+    }
+    if (status == CPS_OK) return EXIT_OK;
+    remove(options->plot);
+    return cli_report(&run->err);
+}
+
+/* ---- all together ---- */
+
+static int answer(LawRun *run, const CliOptions *options) {
+    QueryList velocity = {.n = run->n}, force = {.n = run->n};
+    int code = law_query_read(&options->velocity, "velocity", &velocity);
+    if (code == EXIT_OK) code = law_query_read(&options->force, "force", &force);
+    if (code == EXIT_OK && !tell_all(run, &velocity, &force)) code = cli_report(&run->err);
+    if (code == EXIT_OK && options->plot) code = draw(run, options, &velocity, &force);
+    free(velocity.row);
+    free(force.row);
+    return code == EXIT_OK && !run->answered ? EXIT_NOT_CERTIFIED : code;
+}
+
+int cmd_law(int argc, char **argv) {
+    CliOptions options;
+    if (!cli_parse(argc, argv, FOR_LAW, true, &options)) return EXIT_USAGE;
+
+    CpsLawFile *file = NULL;
+    CpsError err;
+    if (cps_law_read(options.scene, NULL, &file, &err) != CPS_OK) return cli_report(&err);
+    LawRun run = {.file = file,
+                  .set = cps_law_file_set(file),
+                  .resistance = cps_law_file_resistance(file),
+                  .n = cps_law_file_space(file),
+                  .json = options.json,
+                  .answered = true};
+    const int code = answer(&run, &options);
+    cps_law_file_destroy(file);
+    return code;
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan law: sets as answers, readable and as JSON. */
+#ifndef CAPSTAN_CLI_LAW_ANSWER_H
+#define CAPSTAN_CLI_LAW_ANSWER_H
+
+#include <stdio.h>
+
+#include "capstan/law.h"
+
+/* What is told of a set: facts, extent along an orthonormal basis of its directions, vertices or rays. */
+typedef struct SetAnswer {
+    int n;
+    CpsSetFacts facts;
+    double gap;         /* of the extents */
+    double *center;     /* (n) of the relative interior */
+    double *basis;      /* (n x n), the first `dimension` rows count */
+    double *low, *high; /* (n) extent along them; the first `dimension` count */
+    int vertex_count;   /* -1: not known */
+    double *vertex;     /* (vertex_count x n) */
+    int ray_count;      /* -1: not known, or no cone */
+    double *ray;        /* (ray_count x n) unit generators */
+    double *block;      /* all of the above */
+} SetAnswer;
+
+/* Ask a set (a cone if `cone`). Returns CPS_OK or the library's error; free with law_answer_free. */
+CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *answer, CpsError *err);
+void law_answer_free(SetAnswer *answer);
+
+/* "a segment from (..) to (..)", "all velocities between the directions (..) and (..)", ... */
+void law_answer_print(const SetAnswer *answer, bool cone);
+/* {"dimension": 1, "center": [..], "vertices": [..], "extent": [..]} */
+void law_answer_json(const SetAnswer *answer, bool cone, FILE *out);
+
+void law_print_vector(int n, const double *x);           /* (1, 2) */
+void law_json_number(double x, FILE *out);               /* null when not finite */
+void law_json_vector(int n, const double *x, FILE *out); /* [1, 2] */
+void law_json_text(const char *text, FILE *out);         /* in quotes */
+
+#endif

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan law: velocities and forces from the command line, or as CSV from standard input. */
+#ifndef CAPSTAN_CLI_LAW_QUERY_H
+#define CAPSTAN_CLI_LAW_QUERY_H
+
+#include "commands.h"
+#include "options.h"
+
+/* Rows of n numbers. */
+typedef struct QueryList {
+    int n, count, room;
+    double *row; /* (count x n) */
+} QueryList;
+
+/* Add the arguments of one option, "1,2" each, or "-" for all rows of standard input.
+ * Returns EXIT_OK, or another exit code after a message on standard error. */
+int law_query_read(const CliList *given, const char *option, QueryList *list);
+
+#endif

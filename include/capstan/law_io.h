@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/law_io.h: laws read from YAML, and pictures of them.       (library capstan-io; docs/formats.md, "Laws") */
+#ifndef CAPSTAN_LAW_IO_H
+#define CAPSTAN_LAW_IO_H
+
+#include <stdio.h>
+
+#include "capstan/io.h"
+#include "capstan/law.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A law read from a file. */
+typedef struct CpsLawFile CpsLawFile;
+
+/* Read a law. As cps_scene_read: `path` is a regular file, or "-" for standard input; of `limits` (NULL: defaults)
+ * bytes and depth count; on bad input `err` has file, line and column. */
+CPS_API CpsStatus cps_law_read(const char *path, const CpsReadLimits *limits, CpsLawFile **out, CpsError *err);
+CPS_API void cps_law_file_destroy(CpsLawFile *file); /* NULL is accepted */
+
+/* All owned by the file. */
+CPS_API const char *cps_law_file_title(const CpsLawFile *file); /* "" without */
+CPS_API int cps_law_file_space(const CpsLawFile *file);
+/* The set of forces: of the friction law, or of the loaded law where the file has a load; NULL for a resistance law. */
+CPS_API const CpsSet *cps_law_file_set(const CpsLawFile *file);
+CPS_API const CpsLoadedLaw *cps_law_file_loaded(const CpsLawFile *file);      /* NULL without a load */
+CPS_API const CpsResistance *cps_law_file_resistance(const CpsLawFile *file); /* NULL for a friction law */
+/* Has the law a preimage? Then *composition is the weakest condition among them, found in *line of the file. */
+CPS_API bool cps_law_file_composition(const CpsLawFile *file, CpsComposition *composition, int *line);
+
+/* What a picture shows. */
+typedef struct CpsLawPicture {
+    const char *title;
+    int axis[2]; /* components drawn to the right and up, from 0 */
+    int velocity_count;
+    const double *velocity; /* (velocity_count x n) drawn with their force sets */
+    int force_count;
+    const double *force; /* (force_count x n) drawn with their velocities */
+} CpsLawPicture;
+
+/* Draw a set of forces as SVG: a planar one with the normal cones at its corners; of more dimensions the section
+ * through 0 along two axes and, dashed, the shadow on them; with each velocity and its set of forces.
+ *
+ * Returns CPS_OK, CPS_ERR_ARGUMENT (also where the set is unbounded, empty, or has one dimension) or CPS_ERR_MEMORY. */
+CPS_API CpsStatus cps_law_draw(const CpsSet *set, const CpsLawPicture *picture, FILE *out, CpsError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

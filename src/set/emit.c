@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* "X in t C" as conic rows, node by node; X and t are affine in the unknowns. With t >= 0 the rows describe the closure of
+ * the cone over C x {1} (its perspective), which is what hulls, gauges and polars need; with t = 1 the set itself.
+ *
+ *     product, intersection, preimage, translate, scale     rows of the parts on parts of X
+ *     image       X = L y, y in t C                          new unknowns y
+ *     sum         X = X_1 + ... + X_k, X_i in t C_i          new unknowns X_2 .. X_k
+ *     hull        the same with X_i in t_i C_i, sum t_i = t, t_i >= 0
+ *     polar       h_C(X) <= t by conic duality: with C = {origin + P v + Q'l : A v + b in K},
+ *                 Q X = 0,  A'z + P'X = 0,  <origin, X> + b.z <= t,  z in K                                      */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "set/node.h"
+
+static void count_own(const CpsSet *set, CpsiCount *count) {
+    const size_t n = (size_t)set->n, items = (size_t)set->count;
+    switch (set->kind) {
+    case CPSI_SET_POINTS:
+        count->equations += n;
+        if (items == 1) break;
+        count->equations += 1, count->unknowns += items, count->rows += items, count->cones += items;
+        break;
+    case CPSI_SET_BALL:
+    case CPSI_SET_ELLIPSOID: count->rows += n + 1, count->cones += 1; break;
+    case CPSI_SET_BOX: count->rows += 2*n, count->cones += 2*n, count->equations += n; break;
+    case CPSI_SET_INEQUALITIES: count->rows += items, count->cones += items; break;
+    case CPSI_SET_SUBSPACE: count->equations += n - items; break;
+    case CPSI_SET_RAYS: count->unknowns += items, count->rows += items, count->cones += items, count->equations += n; break;
+    case CPSI_SET_CONIC:
+        count->unknowns += (size_t)(set->form->unknowns + set->form->lines), count->equations += n + 1;
+        count->rows += (size_t)set->form->rows, count->cones += (size_t)set->form->cones;
+        break;
+    case CPSI_SET_IMAGE: count->unknowns += (size_t)set->part[0]->n, count->equations += n; break;
+    case CPSI_SET_SUM: count->unknowns += (items - 1)*n; break;
+    case CPSI_SET_HULL:
+        count->unknowns += (items - 1)*(n + 1), count->rows += items, count->cones += items;
+        break;
+    case CPSI_SET_POLAR:
+        if (!set->dual) break;
+        count->unknowns += (size_t)set->dual->rows;
+        count->equations += (size_t)(set->dual->unknowns + set->dual->lines);
+        count->rows += (size_t)set->dual->rows + 1, count->cones += (size_t)set->dual->cones + 1;
+        break;
+    default: break;
+    }
+}
+
+void cpsi_raw_count(const CpsSet *set, CpsiCount *count) {
+    count_own(set, count);
+    if (!set->part || set->kind == CPSI_SET_POLAR) return;
+    for (int k = 0; k < set->count; k++) cpsi_raw_count(set->part[k], count);
+}
+
+/* ---- rows of primitives ---- */
+
+/* out += factor in, both affine */
+static void add(const CpsiRaw *raw, double factor, const double *in, double *out) {
+    for (int j = 0; j < raw->width; j++) out[j] += factor*in[j];
+}
+
+static double *unknown(CpsiRaw *raw, double *affine) {
+    affine[raw->next++] = 1;
+    return affine;
+}
+
+static void emit_points(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    const int n = set->n, first = raw->next;
+    /* X = sum factor_k point_k, factors >= 0 that add up to t */
+    double *equation = NULL;
+    for (int i = 0; i < n; i++) {
+        equation = cpsi_raw_equation(raw);
+        add(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
+        if (set->count == 1) add(raw, set->a[i], t, equation);
+        else
+            for (int k = 0; k < set->count; k++) equation[first + k] += set->a[(size_t)k*(size_t)n + (size_t)i];
+    }
+    if (set->count == 1) return;
+    equation = cpsi_raw_equation(raw);
+    add(raw, -1, t, equation);
+    for (int k = 0; k < set->count; k++) equation[first + k] += 1, unknown(raw, cpsi_raw_cone(raw, 1));
+}
+
+static void emit_ball(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    const int n = set->n;
+    const size_t w = (size_t)raw->width;
+    double *rows = cpsi_raw_cone(raw, n + 1);
+    const bool ball = set->kind == CPSI_SET_BALL;
+    add(raw, ball ? set->scalar : 1, t, rows);
+    for (int i = 0; i < n; i++) {
+        double *row = &rows[(size_t)(i + 1)*w];
+        for (int j = ball ? i : 0; j <= i; j++) {
+            const double factor = ball ? 1 : set->c[i*n + j];
+            add(raw, factor, &x[(size_t)j*w], row);
+            add(raw, -factor*set->a[j], t, row);
+        }
+    }
+}
+
+static void emit_box(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    for (int i = 0; i < set->n; i++) {
+        const double *xi = &x[(size_t)i*(size_t)raw->width];
+        if (set->a[i] == set->b[i]) {
+            double *equation = cpsi_raw_equation(raw);
+            add(raw, 1, xi, equation), add(raw, -set->a[i], t, equation);
+            continue;
+        }
+        if (isfinite(set->a[i])) {
+            double *row = cpsi_raw_cone(raw, 1);
+            add(raw, 1, xi, row), add(raw, -set->a[i], t, row);
+        }
+        if (isfinite(set->b[i])) {
+            double *row = cpsi_raw_cone(raw, 1);
+            add(raw, -1, xi, row), add(raw, set->b[i], t, row);
+        }
+    }
+}
+
+/* out += sum of a_i X_i */
+static void add_product(const CpsiRaw *raw, int n, double factor, const double *a, const double *x, double *out) {
+    for (int i = 0; i < n; i++)
+        if (a[i] != 0) add(raw, factor*a[i], &x[(size_t)i*(size_t)raw->width], out);
+}
+
+static void emit_inequalities(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    for (int k = 0; k < set->count; k++) {
+        double *row = cpsi_raw_cone(raw, 1);
+        add_product(raw, set->n, -1, &set->a[(size_t)k*(size_t)set->n], x, row);
+        add(raw, set->b[k], t, row);
+    }
+}
+
+static void emit_subspace(CpsiRaw *raw, const CpsSet *set, const double *x) {
+    for (int k = set->count; k < set->n; k++)
+        add_product(raw, set->n, 1, &set->a[(size_t)k*(size_t)set->n], x, cpsi_raw_equation(raw));
+}
+
+static void emit_rays(CpsiRaw *raw, const CpsSet *set, const double *x) {
+    const int n = set->n, first = raw->next;
+    for (int i = 0; i < n; i++) {
+        double *equation = cpsi_raw_equation(raw);
+        add(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
+        for (int k = 0; k < set->count; k++) equation[first + k] += set->a[(size_t)k*(size_t)n + (size_t)i];
+    }
+    for (int k = 0; k < set->count; k++) unknown(raw, cpsi_raw_cone(raw, 1));
+}
+
+static void emit_conic(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    const CpsiForm *form = set->form;
+    const int n = set->n, u = form->unknowns, first = raw->next;
+    raw->next += u + form->lines;
+    for (int i = 0; i < n; i++) {
+        double *equation = cpsi_raw_equation(raw);
+        add(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
+        add(raw, form->origin[i], t, equation);
+        for (int j = 0; j < u; j++) equation[first + j] += form->p[(size_t)i*(size_t)u + (size_t)j];
+        for (int l = 0; l < form->lines; l++) equation[first + u + l] += form->q[l*n + i];
+    }
+    if (form->empty) add(raw, 1, t, cpsi_raw_equation(raw)); /* t = 0 has no solution with t = 1 */
+    for (int k = 0, i = 0; k < form->cones; k++) {
+        double *rows = cpsi_raw_cone(raw, form->dim[k]);
+        for (int r = 0; r < form->dim[k]; r++, i++, rows += raw->width) {
+            for (int j = 0; j < u; j++) rows[first + j] += form->a[(size_t)i*(size_t)u + (size_t)j];
+            add(raw, form->b[i], t, rows);
+        }
+    }
+}
+
+static void emit_polar(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    const CpsiForm *form = set->dual;
+    if (!form || form->empty) return; /* the polar of nothing is everything */
+    const int n = set->n, u = form->unknowns, first = raw->next;
+    raw->next += form->rows;
+    for (int l = 0; l < form->lines; l++) add_product(raw, n, 1, &form->q[l*n], x, cpsi_raw_equation(raw));
+    for (int j = 0; j < u; j++) {
+        double *equation = cpsi_raw_equation(raw);
+        for (int i = 0; i < form->rows; i++) equation[first + i] += form->a[(size_t)i*(size_t)u + (size_t)j];
+        for (int i = 0; i < n; i++)
+            add(raw, form->p[(size_t)i*(size_t)u + (size_t)j]/form->size, &x[(size_t)i*(size_t)raw->width], equation);
+    }
+    double *row = cpsi_raw_cone(raw, 1);
+    add(raw, 1, t, row);
+    add_product(raw, n, -1, form->origin, x, row);
+    for (int i = 0; i < form->rows; i++) row[first + i] -= form->size*form->b[i];
+    for (int k = 0, i = 0; k < form->cones; k++) {
+        double *rows = cpsi_raw_cone(raw, form->dim[k]);
+        for (int r = 0; r < form->dim[k]; r++, i++, rows += raw->width) rows[first + i] += 1;
+    }
+}
+
+/* ---- rows of operations ---- */
+
+static bool emit_parts_of(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    const bool product = set->kind == CPSI_SET_PRODUCT;
+    for (int k = 0; k < set->count; k++) {
+        if (!cpsi_raw_emit(raw, set->part[k], x, t)) return false;
+        if (product) x += (size_t)set->part[k]->n*(size_t)raw->width;
+    }
+    return true;
+}
+
+/* the part of a map, translate or scale, on the X that goes with it */
+static bool emit_mapped(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    const CpsSet *part = set->part[0];
+    const int n = set->n;
+    const size_t w = (size_t)raw->width;
+    double *y = calloc((size_t)part->n*w, sizeof *y);
+    if (!y) return false;
+    for (int i = 0; i < part->n; i++) {
+        double *yi = &y[(size_t)i*w];
+        switch (set->kind) {
+        case CPSI_SET_PREIMAGE:
+            add_product(raw, n, 1, &set->a[(size_t)i*(size_t)n], x, yi);
+            add(raw, set->b[i], t, yi);
+            break;
+        case CPSI_SET_IMAGE: unknown(raw, yi); break;
+        case CPSI_SET_TRANSLATE: add(raw, 1, &x[(size_t)i*w], yi), add(raw, -set->a[i], t, yi); break;
+        default: add(raw, 1/set->scalar, &x[(size_t)i*w], yi); break; /* scale by a factor other than 0 */
+        }
+    }
+    for (int i = 0; set->kind == CPSI_SET_IMAGE && i < n; i++) {
+        double *equation = cpsi_raw_equation(raw);
+        add(raw, -1, &x[(size_t)i*w], equation);
+        add_product(raw, part->n, 1, &set->a[(size_t)i*(size_t)part->n], y, equation);
+    }
+    const bool done = cpsi_raw_emit(raw, part, y, t);
+    free(y);
+    return done;
+}
+
+static bool emit_sum(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    const int n = set->n;
+    const bool hull = set->kind == CPSI_SET_HULL;
+    const size_t w = (size_t)raw->width, each = ((size_t)n + 1)*w;
+    double *parts = calloc((size_t)set->count*each, sizeof *parts);
+    if (!parts) return false;
+    /* X_k and t_k are new unknowns but for the first, which is what is left */
+    memcpy(parts, x, (size_t)n*w*sizeof *x);
+    memcpy(&parts[(size_t)n*w], t, w*sizeof *t);
+    for (int k = 1; k < set->count; k++) {
+        double *part = &parts[(size_t)k*each];
+        for (int i = 0; i < n; i++) unknown(raw, &part[(size_t)i*w]), add(raw, -1, &part[(size_t)i*w], &parts[(size_t)i*w]);
+        if (hull) unknown(raw, &part[(size_t)n*w]), add(raw, -1, &part[(size_t)n*w], &parts[(size_t)n*w]);
+        else add(raw, 1, t, &part[(size_t)n*w]);
+    }
+    bool done = true;
+    for (int k = 0; done && k < set->count; k++) {
+        const double *part = &parts[(size_t)k*each];
+        if (hull) add(raw, 1, &part[(size_t)n*w], cpsi_raw_cone(raw, 1));
+        done = cpsi_raw_emit(raw, set->part[k], part, &part[(size_t)n*w]);
+    }
+    free(parts);
+    return done;
+}
+
+bool cpsi_raw_emit(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    switch (set->kind) {
+    case CPSI_SET_POINTS: emit_points(raw, set, x, t); return true;
+    case CPSI_SET_BALL:
+    case CPSI_SET_ELLIPSOID: emit_ball(raw, set, x, t); return true;
+    case CPSI_SET_BOX: emit_box(raw, set, x, t); return true;
+    case CPSI_SET_INEQUALITIES: emit_inequalities(raw, set, x, t); return true;
+    case CPSI_SET_SUBSPACE: emit_subspace(raw, set, x); return true;
+    case CPSI_SET_RAYS: emit_rays(raw, set, x); return true;
+    case CPSI_SET_CONIC: emit_conic(raw, set, x, t); return true;
+    case CPSI_SET_POLAR: emit_polar(raw, set, x, t); return true;
+    case CPSI_SET_PRODUCT:
+    case CPSI_SET_INTERSECTION: return emit_parts_of(raw, set, x, t);
+    case CPSI_SET_SUM:
+    case CPSI_SET_HULL: return emit_sum(raw, set, x, t);
+    case CPSI_SET_PREIMAGE:
+    case CPSI_SET_IMAGE:
+    case CPSI_SET_TRANSLATE:
+    case CPSI_SET_SCALE: return emit_mapped(raw, set, x, t);
+    case CPSI_SET_USER: return true; /* asked for by nobody: cpsi_set_has_user comes first */
+    }
+    return true;
+}

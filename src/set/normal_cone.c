@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The normal cone N = {w : <w, x - p> <= 0 for every x of C} as a set of its own.
+ *
+ * With C = {origin + P v + Q'l : A v + b in K} and a point v of the fibre over p whose s = A v + b lies as far inside K as it can:
+ *
+ *     N = {w : Q w = 0,  P'w + A'z = 0,  z in K,  z.s = 0}         (Rockafellar 1970, theorem 23.9 and its proof)
+ *
+ * and z.s = 0 says cone by cone: s inside, z = 0; s on the boundary, z on the ray of Js; s = 0, z anywhere in the cone.
+ * Products, translates and scales of sets go down to their parts first (M77 §8). */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "linsys/small.h"
+#include "set/node.h"
+
+/* Equations that differ by less than this share are one. */
+static const double SAME_EQUATION = 1e-7;
+/* A fibre that the solver looked through is known by the root of its complementarity: its distances, and its directions. */
+static const double SOLVED = 1e-6, SOLVED_EQUATION = 1e-5;
+
+/* What each cone of the form does at p. */
+typedef enum Touch { FREE, RAY, TIP } Touch;
+
+static Touch touch_of(const double *s, int d, double tolerance) {
+    const double size = cpsi_norm(d - 1, s + 1);
+    if (s[0] - size > tolerance) return FREE;
+    return d > 1 && s[0] > tolerance ? RAY : TIP;
+}
+
+/* The fibre over p: v = v0 + (what P does not see), as rows  A v + b + tau e in K, tau >= 0;  minimising tau takes s as far inside as
+ * it goes. Fills s (rows of the form); *given: no unknown is left and s is b at v0. */
+static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, bool *solved, CpsSetOutcome *outcome,
+                       CpsError *err) {
+    const int n = form->n, u = form->unknowns;
+    CpsiRaw *raw = NULL;
+    CpsiForm *reduced = NULL;
+    const CpsiCount count = {.unknowns = (size_t)u + 1, .equations = (size_t)n, .rows = (size_t)form->rows + 1,
+                             .cones = (size_t)form->cones + 1};
+    CpsStatus status = cpsi_raw_new(count, u + 1, &raw, err);
+    if (status) return status;
+    for (int i = 0; i < n; i++) {
+        double *row = cpsi_raw_equation(raw), gap = p[i] - form->origin[i];
+        /* what p has along the lines does not matter */
+        for (int l = 0; l < form->lines; l++)
+            for (int j = 0; j < n; j++) gap -= form->q[l*n + i]*form->q[l*n + j]*(p[j] - form->origin[j]);
+        memcpy(row, &form->p[(size_t)i*(size_t)u], (size_t)u*sizeof *row);
+        row[u + 1] = -gap;
+        if (cpsi_norm(u, row) <= 1e-12*form->size) raw->equations--, memset(row, 0, ((size_t)u + 2)*sizeof *row);
+    }
+    for (int k = 0, i = 0; k < form->cones; k++) {
+        double *rows = cpsi_raw_cone(raw, form->dim[k]);
+        rows[u] = 1;
+        for (int r = 0; r < form->dim[k]; r++, i++, rows += raw->width) {
+            memcpy(rows, &form->a[(size_t)i*(size_t)u], (size_t)u*sizeof *rows);
+            rows[u + 1] = form->b[i];
+        }
+    }
+    cpsi_raw_cone(raw, 1)[u] = 1;
+    double *map = calloc(((size_t)u + 1)*(size_t)raw->width, sizeof *map);
+    if (!map) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
+    for (size_t j = 0; map && j <= (size_t)u; j++) map[j*(size_t)raw->width + j] = 1;
+    if (!status) status = cpsi_form_reduce(raw, u + 1, map, 0, NULL, SAME_EQUATION, &reduced, err);
+    free(map);
+    cpsi_raw_free(raw);
+    if (status) return status;
+
+    /* v at the relative interior of the fibre, tau = 0 */
+    CpsiSolution solution = {.outcome = CPS_SET_INACCURATE};
+    double *c = calloc((size_t)u + 1, sizeof *c);
+    if (!c) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
+    else {
+        c[u] = 1;
+        status = cpsi_form_minimise(reduced, c, &solution, err);
+    }
+    *solved = reduced->unknowns > 1;
+    *outcome = solution.outcome;
+    if (!status && solution.outcome == CPS_SET_ANSWERED)
+        for (int i = 0; i < form->rows; i++)
+            s[i] = cpsi_dot(u, &form->a[(size_t)i*(size_t)u], solution.x) + form->b[i];
+    cpsi_solution_free(&solution);
+    cpsi_form_free(reduced);
+    free(c);
+    return status;
+}
+
+/* A simplicial cone of half-lines is its rays: {P v : A v >= 0} = columns of P A^-1. */
+static CpsStatus as_rays(CpsiForm *form, CpsSet **out, CpsError *err) {
+    const size_t n = (size_t)form->n, u = (size_t)form->unknowns, lines = (size_t)form->lines;
+    bool simple = form->rows == form->unknowns && form->largest_cone <= 1;
+    double *inverse = malloc((u*u + u + (u + 2*lines)*n + 1)*sizeof *inverse), *column = inverse ? inverse + u*u : NULL;
+    int *pivot = malloc((u + 1)*sizeof *pivot);
+    CpsStatus status = CPS_OK;
+    if (!inverse || !pivot) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone"), simple = false;
+    if (simple) {
+        memcpy(inverse, form->a, u*u*sizeof *inverse);
+        simple = u == 0 || cpsi_lu_factor(form->unknowns, inverse, pivot);
+    }
+    if (simple) {
+        double *rays = column + u;
+        for (size_t k = 0; k < u; k++) {
+            memset(column, 0, u*sizeof *column);
+            column[k] = 1;
+            cpsi_lu_solve(form->unknowns, inverse, pivot, column);
+            double *ray = &rays[k*n];
+            for (size_t i = 0; i < n; i++) ray[i] = cpsi_dot(form->unknowns, &form->p[i*u], column);
+            const double size = cpsi_norm(form->n, ray);
+            for (size_t i = 0; i < n; i++) ray[i] = size > 0 ? ray[i]/size : 0;
+        }
+        for (size_t l = 0; l < lines; l++)
+            for (size_t i = 0; i < n; i++) {
+                rays[(u + 2*l)*n + i] = form->q[l*n + i];
+                rays[(u + 2*l + 1)*n + i] = -form->q[l*n + i];
+            }
+        status = cps_set_cone_of_rays(form->n, (int)(u + 2*lines), rays, out, err);
+    }
+    free(inverse);
+    free(pivot);
+    if (!simple && !status) return cpsi_set_from_form(form, out, err);
+    cpsi_form_free(form);
+    return status;
+}
+
+/* The z of one cone as new unknowns: its part of P'w + A'z = 0, and what keeps it in the cone. */
+static void write_touch(CpsiRaw *raw, const CpsiForm *form, const double *s, int i, int d, Touch touch, double *equations) {
+    const int u = form->unknowns;
+    if (touch == FREE) return;
+    const int count = touch == RAY || d == 1 ? 1 : d;
+    double *rows = cpsi_raw_cone(raw, count);
+    const double size = cpsi_norm(d - 1, s + 1);
+    for (int k = 0; k < count; k++, raw->next++) {
+        rows[(size_t)k*(size_t)raw->width + (size_t)raw->next] = 1;
+        for (int r = 0; r < d; r++) {
+            const double z = count > 1 || d == 1 ? r == k : r ? -s[r]/size : 1;
+            for (int j = 0; z != 0 && j < u; j++)
+                equations[(size_t)j*(size_t)raw->width + (size_t)raw->next] += z*form->a[(size_t)(i + r)*(size_t)u + (size_t)j];
+        }
+    }
+}
+
+static CpsStatus build_cone(const CpsiForm *form, const double *s, double tolerance, double same, CpsSet **out,
+                            CpsError *err) {
+    const int n = form->n, u = form->unknowns;
+    CpsiRaw *raw = NULL;
+    CpsiForm *reduced = NULL;
+    CpsiCount count = {.unknowns = (size_t)(n + form->rows), .equations = (size_t)(u + form->lines),
+                       .rows = (size_t)form->rows, .cones = (size_t)form->cones};
+    CpsStatus status = cpsi_raw_new(count, n, &raw, err);
+    if (status) return status;
+    /* P'w + A'z = 0, divided by the length in P */
+    double *equations = raw->equation;
+    for (int j = 0; j < u; j++) {
+        double *row = cpsi_raw_equation(raw);
+        for (int i = 0; i < n; i++) row[i] = form->p[(size_t)i*(size_t)u + (size_t)j]/form->size;
+    }
+    for (int l = 0; l < form->lines; l++) memcpy(cpsi_raw_equation(raw), &form->q[l*n], (size_t)n*sizeof *form->q);
+    for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
+        write_touch(raw, form, &s[i], i, form->dim[k], touch_of(&s[i], form->dim[k], tolerance), equations);
+    /* unknowns that no cone took stay 0 */
+    CpsiRaw *whole = NULL;
+    count = (CpsiCount){.unknowns = (size_t)raw->next, .equations = (size_t)raw->equations, .rows = (size_t)raw->rows,
+                        .cones = (size_t)raw->cones};
+    status = cpsi_raw_new(count, raw->next, &whole, err);
+    double *map = status ? NULL : calloc((size_t)n*(size_t)whole->width, sizeof *map);
+    if (!status && !map) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
+    if (!status) {
+        for (int i = 0; i < raw->equations; i++) {
+            double *row = cpsi_raw_equation(whole);
+            memcpy(row, &raw->equation[(size_t)i*(size_t)raw->width], (size_t)raw->next*sizeof *row);
+            if (cpsi_norm(raw->next, row) <= 0.01*same) whole->equations--, memset(row, 0, (size_t)raw->next*sizeof *row);
+        }
+        for (int k = 0, i = 0; k < raw->cones; k++) {
+            double *rows = cpsi_raw_cone(whole, raw->dim[k]);
+            for (int r = 0; r < raw->dim[k]; r++, i++, rows += whole->width)
+                memcpy(rows, &raw->row[(size_t)i*(size_t)raw->width], (size_t)raw->next*sizeof *rows);
+        }
+        for (int i = 0; i < n; i++) map[(size_t)i*(size_t)whole->width + (size_t)i] = 1;
+        status = cpsi_form_reduce(whole, n, map, 0, NULL, same, &reduced, err);
+    }
+    free(map);
+    cpsi_raw_free(whole);
+    cpsi_raw_free(raw);
+    return status ? status : as_rays(reduced, out, err);
+}
+
+static CpsStatus conic_cone(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
+                            CpsError *err) {
+    const CpsiForm *form;
+    CpsiForm *made;
+    CpsStatus status = cpsi_set_form(set, &form, &made, err);
+    if (status) return status;
+    double *s = calloc((size_t)form->rows + 1, sizeof *s);
+    bool solved = false;
+    if (!s) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
+    else status = fibre(form, p, s, &solved, &answer->outcome, err);
+    answer->tolerance = solved ? fmax(tolerance, SOLVED) : tolerance;
+    if (!status && answer->outcome == CPS_SET_ANSWERED) status = build_cone(form, s, answer->tolerance, solved ? SOLVED_EQUATION : SAME_EQUATION, out, err);
+    free(s);
+    cpsi_form_free(made);
+    return status;
+}
+
+static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
+                         CpsError *err);
+
+static CpsStatus cone_of_product(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
+                                 CpsError *err) {
+    CpsSet **cone = calloc((size_t)set->count, sizeof(CpsSet *));
+    if (!cone) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
+    CpsStatus status = CPS_OK;
+    for (int k = 0, at = 0; !status && answer->outcome == CPS_SET_ANSWERED && k < set->count; at += set->part[k++]->n)
+        status = cone_at(set->part[k], p + at, tolerance, &cone[k], answer, err);
+    if (!status && answer->outcome == CPS_SET_ANSWERED)
+        status = cps_set_product(set->count, (const CpsSet *const *)cone, out, err);
+    for (int k = 0; k < set->count; k++) cps_set_release(cone[k]);
+    free(cone);
+    return status;
+}
+
+static CpsStatus cone_of_moved(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
+                               CpsError *err) {
+    const int n = set->n;
+    const bool shift = set->kind == CPSI_SET_TRANSLATE;
+    double *y = malloc((size_t)n*sizeof *y);
+    if (!y) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
+    for (int i = 0; i < n; i++) y[i] = shift ? p[i] - set->a[i] : p[i]/set->scalar;
+    CpsSet *cone = NULL;
+    CpsStatus status = cone_at(set->part[0], y, tolerance, &cone, answer, err);
+    free(y);
+    if (status || answer->outcome != CPS_SET_ANSWERED) return status;
+    if (shift || set->scalar > 0) *out = cone;
+    else {
+        status = cps_set_scale(-1, cone, out, err);
+        cps_set_release(cone);
+    }
+    return status;
+}
+
+static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
+                         CpsError *err) {
+    switch (set->kind) {
+    case CPSI_SET_PRODUCT: return cone_of_product(set, p, tolerance, out, answer, err);
+    case CPSI_SET_TRANSLATE:
+    case CPSI_SET_SCALE: return cone_of_moved(set, p, tolerance, out, answer, err);
+    default: return conic_cone(set, p, tolerance, out, answer, err);
+    }
+}
+
+CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tolerance, CpsSet **cone,
+                              CpsSetAnswer *answer, CpsError *err) {
+    static const char *const CALL = "cps_set_normal_cone";
+    if (!set || !point || !cone || !answer)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", CALL, !set ? "set" : !point ? "point" : "an answer");
+    CpsStatus status = cpsi_set_finite(CALL, "point", (size_t)set->n, point, err);
+    if (status) return status;
+    if (!(tolerance >= 0) || tolerance > 0.1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected a share from 0 to 0.1", CALL, tolerance);
+    const double share = tolerance > 0 ? tolerance : 1e-9;
+    *cone = NULL;
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE, .tolerance = share};
+    if (cpsi_set_has_user(set)) return CPS_OK;
+
+    /* how far off is the point? */
+    double *nearest = malloc((size_t)set->n*sizeof *nearest);
+    if (!nearest) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
+    CpsSet *found = NULL;
+    status = cps_set_project(set, point, NULL, nearest, answer, err);
+    const double distance = answer->value, size = cpsi_set_size(set);
+    answer->tolerance = share;
+    if (!status && answer->outcome == CPS_SET_ANSWERED && distance > fmax(share, 1e-9)*size) answer->outcome = CPS_SET_OUTSIDE;
+    if (!status && answer->outcome == CPS_SET_ANSWERED) status = cone_at(set, point, share, &found, answer, err);
+    free(nearest);
+    answer->value = distance;
+    answer->exact = false;
+    if (!status && answer->outcome == CPS_SET_ANSWERED) *cone = found;
+    else cps_set_release(found);
+    return status;
+}

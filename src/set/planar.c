@@ -1,0 +1,383 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Planar sets: corners, area, perimeter, rays, by going once round the normal angle.
+ *
+ * x(theta) attains h(theta) = max <w, x>, w = (cos theta, sin theta). Over an interval of angles the boundary is one of
+ *     a corner   x at both ends is the same point, and then in between as well
+ *     an edge    both ends lie on one line of support: a corner up to its angle and the other after it
+ *     an arc     neither, however small the interval gets (a tolerance): x moves all the time
+ * Intervals are halved until they are one of the three. With h known on each piece (Cauchy; Santalo 1976, I.1):
+ *     perimeter = integral of h,      area = 1/2 integral of (h^2 - h'^2),      h' = <w', x>,
+ * in closed form along a corner, by Gauss-Legendre quadrature with halving along arcs. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "linsys/small.h"
+#include "set/node.h"
+
+static const double TURN = 6.283185307179586476925;
+/* A corner that opens less than this is not told from an arc. */
+static const double LEAST_OPENING = 6.283185307179586/720;
+
+typedef struct Piece {
+    bool corner;
+    double from, to; /* angles */
+    double x[2];     /* of a corner */
+} Piece;
+
+/* The set seen in its plane: x = center + basis' (two numbers). */
+typedef struct Walk {
+    const CpsSet *set;
+    const double *center, *basis;
+    double *w, *point; /* (n) scratch */
+    double size;       /* points closer than 1e-9 of it are one */
+    double opening;
+    Piece *piece;
+    int count, room;
+    bool exact;
+    double gap;
+    CpsSetOutcome outcome;
+    CpsStatus status;
+    CpsError *err;
+} Walk;
+
+static bool going(const Walk *walk) { return walk->status == CPS_OK && walk->outcome == CPS_SET_ANSWERED; }
+
+/* x(theta) in the plane's two numbers; returns h. */
+static double look(Walk *walk, double theta, double x[2]) {
+    const int n = walk->set->n;
+    const double c = cos(theta), s = sin(theta);
+    CpsSetAnswer answer = {.outcome = CPS_SET_INACCURATE};
+    for (int i = 0; i < n; i++) walk->w[i] = c*walk->basis[i] + s*walk->basis[n + i];
+    if (going(walk)) walk->status = cpsi_support(walk->set, walk->w, walk->point, &answer, walk->err);
+    if (walk->status == CPS_OK && answer.outcome != CPS_SET_ANSWERED) walk->outcome = answer.outcome;
+    walk->exact = walk->exact && answer.exact;
+    walk->gap = fmax(walk->gap, answer.gap);
+    x[0] = x[1] = 0;
+    for (int i = 0; i < n; i++) {
+        x[0] += (walk->point[i] - walk->center[i])*walk->basis[i];
+        x[1] += (walk->point[i] - walk->center[i])*walk->basis[n + i];
+    }
+    return c*x[0] + s*x[1];
+}
+
+static void add_piece(Walk *walk, bool corner, double from, double to, const double *x) {
+    Piece *last = walk->count > 0 ? &walk->piece[walk->count - 1] : NULL;
+    /* go on with the last piece where it is the same */
+    if (last && corner == last->corner && (!corner || hypot(x[0] - last->x[0], x[1] - last->x[1]) <= 1e-8*walk->size)) {
+        last->to = to;
+        return;
+    }
+    if (walk->count == walk->room) {
+        const int room = walk->room ? 2*walk->room : 64;
+        Piece *piece = realloc(walk->piece, (size_t)room*sizeof *piece);
+        if (!piece) {
+            walk->status = cpsi_fail(walk->err, CPS_ERR_MEMORY, "no memory for the outline of a set");
+            return;
+        }
+        walk->piece = piece;
+        walk->room = room;
+    }
+    walk->piece[walk->count++] = (Piece){corner, from, to, {corner ? x[0] : 0, corner ? x[1] : 0}};
+}
+
+/* The angle up to which (sign 1: from `at`; -1: down to) the corner x answers, on this side of `limit`. */
+static double corner_ends(Walk *walk, const double x[2], double at, double limit) {
+    for (int k = 0; k < 60 && going(walk) && fabs(limit - at) > 1e-13; k++) {
+        const double middle = 0.5*(at + limit);
+        double y[2];
+        look(walk, middle, y);
+        if (hypot(y[0] - x[0], y[1] - x[1]) <= 1e-8*walk->size) at = middle;
+        else limit = middle;
+    }
+    return at;
+}
+
+/* The pieces from angle a, where x answers, to b, where y does. */
+static void divide(Walk *walk, double a, const double x[2], double b, const double y[2], int depth) {
+    if (!going(walk)) return;
+    const double dx = y[0] - x[0], dy = y[1] - x[1], chord = hypot(dx, dy);
+    if (chord <= 1e-9*walk->size) {
+        add_piece(walk, true, a, b, x);
+        return;
+    }
+    /* the normal of the chord, between a and b; does the chord support the set there? */
+    double m = atan2(-dx, dy), z[2];
+    while (m < a) m += TURN;
+    while (m > b + 1e-9 && m > a) m -= TURN;
+    m = fmin(b, fmax(a, m));
+    const double h = look(walk, m, z), at = cos(m)*x[0] + sin(m)*x[1];
+    if (h - at <= 1e-13*walk->size + 1e-9*chord*fmin(1, chord/walk->size)*1e-3) {
+        add_piece(walk, true, a, m, x);
+        add_piece(walk, true, m, b, y);
+        return;
+    }
+    if (depth == 0) {
+        add_piece(walk, false, a, b, NULL);
+        return;
+    }
+    /* halves of the angle while it is large, so that no corner is missed; then at the chord, which ends on polygons */
+    const double cut = b - a > walk->opening ? 0.5*(a + b) : m;
+    const int left = b - a > walk->opening ? depth : depth - 1;
+    if (cut != m) look(walk, cut, z);
+    divide(walk, a, x, cut, z, left);
+    divide(walk, cut, z, b, y, left);
+}
+
+/* Where an arc meets a corner the corner's end is sharpened; arcs then carry smooth functions. */
+static void sharpen(Walk *walk) {
+    for (int k = 0; k < walk->count && going(walk); k++) {
+        Piece *piece = &walk->piece[k], *before = k > 0 ? piece - 1 : NULL, *after = k + 1 < walk->count ? piece + 1 : NULL;
+        if (!piece->corner) continue;
+        if (before && !before->corner) before->to = piece->from = corner_ends(walk, piece->x, piece->from, before->from);
+        if (after && !after->corner) after->from = piece->to = corner_ends(walk, piece->x, piece->to, after->to);
+    }
+}
+
+/* Once round from an angle that is no special one. */
+static void walk_round(Walk *walk) {
+    enum { STARTS = 8 };
+    double x[STARTS + 1][2];
+    const double first = 0.1234567;
+    for (int k = 0; k < STARTS; k++) look(walk, first + k*TURN/STARTS, x[k]);
+    memcpy(x[STARTS], x[0], sizeof x[0]);
+    for (int k = 0; k < STARTS; k++)
+        divide(walk, first + k*TURN/STARTS, x[k], first + (k + 1)*TURN/STARTS, x[k + 1], 3);
+    sharpen(walk);
+}
+
+/* ---- what is asked ---- */
+
+static CpsStatus start_walk(const CpsSet *set, double tolerance, Walk *walk, CpsSetFacts *facts, double **room, CpsError *err) {
+    const size_t n = (size_t)set->n;
+    *room = malloc((n*n + 3*n)*sizeof **room);
+    if (!*room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the outline of a set");
+    double *center = *room, *basis = center + n;
+    *walk = (Walk){.set = set, .center = center, .basis = basis, .w = basis + n*n, .point = basis + n*n + n,
+                   .size = cpsi_set_size(set), .opening = tolerance > 0 ? tolerance : LEAST_OPENING, .exact = true, .err = err};
+    const CpsStatus status = cps_set_facts(set, 0, facts, center, basis, err);
+    if (status) return status;
+    if (facts->outcome == CPS_SET_NOT_AVAILABLE && facts->dimension >= 0) facts->outcome = CPS_SET_ANSWERED;
+    if (facts->outcome == CPS_SET_ANSWERED && !facts->bounded) facts->outcome = CPS_SET_UNBOUNDED;
+    walk->outcome = facts->outcome;
+    /* in the plane R^2 its own axes, so that corners come counterclockwise */
+    if (set->n == 2) basis[0] = basis[3] = 1, basis[1] = basis[2] = 0;
+    return CPS_OK;
+}
+
+static void put_point(const Walk *walk, const double x[2], int capacity, double *points, int *count) {
+    const int n = walk->set->n;
+    for (int i = 0; *count < capacity && i < n; i++)
+        points[*count*n + i] = walk->center[i] + x[0]*walk->basis[i] + (n > 1 ? x[1]*walk->basis[n + i] : 0);
+    ++*count;
+}
+
+/* The two ends of a set of dimension 1. */
+static void put_ends(Walk *walk, int capacity, double *points, int *count) {
+    const int n = walk->set->n;
+    for (int sign = -1; sign <= 1 && going(walk); sign += 2) {
+        CpsSetAnswer answer = {.outcome = CPS_SET_INACCURATE};
+        for (int i = 0; i < n; i++) walk->w[i] = sign*walk->basis[i];
+        walk->status = cpsi_support(walk->set, walk->w, walk->point, &answer, walk->err);
+        if (walk->status == CPS_OK) walk->outcome = answer.outcome;
+        walk->exact = walk->exact && answer.exact;
+        walk->gap = fmax(walk->gap, answer.gap);
+        if (*count < capacity) memcpy(&points[*count*n], walk->point, (size_t)n*sizeof *points);
+        ++*count;
+    }
+}
+
+/* The vertices of a set of dimension 3 and more: those that it was made of. */
+static bool put_known(const CpsSet *set, int capacity, double *points, int *count) {
+    const int n = set->n;
+    if (set->kind == CPSI_SET_POINTS) {
+        *count = set->count;
+        for (int k = 0; k < set->count && k < capacity; k++)
+            memcpy(&points[k*n], &set->a[(size_t)k*(size_t)n], (size_t)n*sizeof *points);
+        return true;
+    }
+    if (set->kind != CPSI_SET_BOX) return false;
+    int open = 0;
+    for (int i = 0; i < n; i++) open += set->a[i] < set->b[i];
+    if (open > 16) return false;
+    *count = 1 << open;
+    for (int k = 0; k < *count && k < capacity; k++)
+        for (int i = 0, bit = 0; i < n; i++) {
+            points[k*n + i] = set->a[i] < set->b[i] && (k >> bit & 1) ? set->b[i] : set->a[i];
+            bit += set->a[i] < set->b[i];
+        }
+    return true;
+}
+
+CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, double *points, int *count,
+                           CpsSetAnswer *answer, CpsError *err) {
+    static const char *const CALL = "cps_set_vertices";
+    if (!set || !count || !answer || (!points && capacity > 0) || capacity < 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set, count, answer or points is NULL, or capacity is negative", CALL);
+    if (!(tolerance >= 0) || tolerance > 0.5)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected an angle from 0 to 0.5", CALL, tolerance);
+    Walk walk;
+    CpsSetFacts facts;
+    double *room;
+    *count = 0;
+    CpsStatus status = start_walk(set, tolerance, &walk, &facts, &room, err);
+    if (!status && walk.outcome == CPS_SET_ANSWERED) {
+        if (facts.dimension == 0) put_point(&walk, (const double[]){0, 0}, capacity, points, count);
+        else if (facts.dimension == 1) put_ends(&walk, capacity, points, count);
+        else if (facts.dimension == 2) {
+            walk_round(&walk);
+            for (int k = 0; k < walk.count && going(&walk); k++) {
+                const Piece *piece = &walk.piece[k], *first = walk.piece;
+                /* the walk starts inside a piece, which then ends it as well */
+                const bool again = k > 0 && k == walk.count - 1 && first->corner && piece->corner &&
+                                   hypot(piece->x[0] - first->x[0], piece->x[1] - first->x[1]) <= 1e-8*walk.size;
+                if (piece->corner && !again) put_point(&walk, piece->x, capacity, points, count);
+            }
+        } else if (!put_known(set, capacity, points, count)) walk.outcome = CPS_SET_NOT_PLANAR;
+    }
+    *answer = (CpsSetAnswer){.outcome = walk.outcome, .exact = walk.exact, .gap = walk.gap, .value = *count,
+                             .tolerance = walk.opening};
+    if (!status) status = walk.status;
+    free(walk.piece);
+    free(room);
+    return status;
+}
+
+/* ---- area and perimeter ---- */
+
+typedef struct Pair {
+    double length, area;
+} Pair;
+
+/* Gauss-Legendre with eight points from a to b. */
+static Pair gauss(Walk *walk, double a, double b) {
+    static const double NODE[] = {0.1834346424956498049, 0.5255324099163289858, 0.7966664774136267396, 0.9602898564975362317};
+    static const double WEIGHT[] = {0.3626837833783619830, 0.3137066458778872873, 0.2223810344533744706, 0.1012285362903762592};
+    Pair sum = {0, 0};
+    for (int k = 0; k < 8; k++) {
+        const double t = 0.5*(a + b) + (k & 1 ? -0.5 : 0.5)*(b - a)*NODE[k/2];
+        double x[2];
+        const double h = look(walk, t, x), slope = cos(t)*x[1] - sin(t)*x[0];
+        sum.length += 0.5*(b - a)*WEIGHT[k/2]*h;
+        sum.area += 0.25*(b - a)*WEIGHT[k/2]*(h*h - slope*slope);
+    }
+    return sum;
+}
+
+static void along_arc(Walk *walk, double a, double b, Pair whole, int depth, CpsSetMeasure *measure) {
+    if (!going(walk)) return;
+    const double m = 0.5*(a + b), size = walk->size;
+    const Pair left = gauss(walk, a, m), right = gauss(walk, m, b);
+    const double off = fabs(left.length + right.length - whole.length), off_area = fabs(left.area + right.area - whole.area);
+    if (depth > 0 && (off > 1e-12*size*(b - a) + 1e-15*size || off_area > 1e-12*size*size*(b - a) + 1e-15*size*size)) {
+        along_arc(walk, a, m, left, depth - 1, measure);
+        along_arc(walk, m, b, right, depth - 1, measure);
+        return;
+    }
+    measure->perimeter += left.length + right.length;
+    measure->area += left.area + right.area;
+    measure->perimeter_gap += off;
+    measure->area_gap += off_area;
+}
+
+/* A corner x = r (cos phi, sin phi): h = r cos(theta - phi), h' = -r sin(theta - phi). */
+static void along_corner(const Piece *piece, CpsSetMeasure *measure) {
+    const double r = hypot(piece->x[0], piece->x[1]), phi = atan2(piece->x[1], piece->x[0]);
+    const double a = piece->from - phi, b = piece->to - phi;
+    measure->perimeter += r*(sin(b) - sin(a));
+    measure->area += 0.25*r*r*(sin(2*b) - sin(2*a));
+}
+
+CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *err) {
+    if (!set || !measure) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_measure: %s is NULL", set ? "measure" : "set");
+    Walk walk;
+    CpsSetFacts facts;
+    double *room;
+    CpsStatus status = start_walk(set, 0, &walk, &facts, &room, err);
+    *measure = (CpsSetMeasure){.outcome = CPS_SET_ANSWERED};
+    if (set->n != 2) walk.outcome = CPS_SET_NOT_PLANAR;
+    if (!status && walk.outcome == CPS_SET_ANSWERED && facts.dimension > 0) {
+        walk_round(&walk);
+        bool arcs = false;
+        for (int k = 0; k < walk.count && going(&walk); k++) {
+            const Piece *piece = &walk.piece[k];
+            arcs = arcs || !piece->corner;
+            if (piece->corner) along_corner(piece, measure);
+            else along_arc(&walk, piece->from, piece->to, gauss(&walk, piece->from, piece->to), 12, measure);
+        }
+        measure->exact = walk.exact && !arcs;
+        measure->perimeter_gap += TURN*walk.gap;
+        measure->area_gap += walk.gap*measure->perimeter;
+    }
+    measure->outcome = walk.outcome;
+    if (!status) status = walk.status;
+    free(walk.piece);
+    free(room);
+    return status;
+}
+
+/* ---- rays of a cone ---- */
+
+/* The extreme rays of a planar cone: the corners of its cut with a box round 0, other than 0 itself. */
+static CpsStatus planar_rays(const CpsSet *set, const double *center, const double *basis, int dimension, int capacity,
+                             double *rays, int *count, CpsSetAnswer *answer, CpsError *err) {
+    const int n = set->n;
+    /* from the centre, a direction inside the cone, turn both ways until the cone ends */
+    double *d = malloc(2*(size_t)n*sizeof *d), *zero = d ? d + n : NULL;
+    if (!d) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the rays of a cone");
+    memset(zero, 0, (size_t)n*sizeof *zero);
+    CpsStatus status = CPS_OK;
+    const double middle = atan2(dimension > 1 ? cpsi_dot(n, center, basis + n) : 0, cpsi_dot(n, center, basis));
+    for (int sign = -1; !status && sign <= 1 && answer->outcome == CPS_SET_ANSWERED; sign += 2) {
+        double in = 0, out = dimension > 1 ? 0.5*TURN : 0;
+        for (int k = 0; k <= 50 && !status; k++) {
+            const double t = middle + sign*(k == 0 ? out : 0.5*(in + out)), c = cos(t), s = dimension > 1 ? sin(t) : 0;
+            CpsSetAnswer reach;
+            for (int i = 0; i < n; i++) d[i] = c*basis[i] + (dimension > 1 ? s*basis[n + i] : 0);
+            status = cpsi_reach(set, zero, d, &reach, err);
+            const bool inside = !status && reach.outcome == CPS_SET_ANSWERED && reach.value > 1e3;
+            if (k == 0 && (inside || dimension == 1)) break;
+            if (inside) in = 0.5*(in + out);
+            else out = 0.5*(in + out);
+        }
+        const double t = middle + sign*in;
+        if (*count < capacity)
+            for (int i = 0; i < n; i++) rays[*count*n + i] = cos(t)*basis[i] + (dimension > 1 ? sin(t)*basis[n + i] : 0);
+        ++*count;
+        if (dimension == 1) break;
+    }
+    answer->tolerance = 1e-9;
+    free(d);
+    return status;
+}
+
+CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double *rays, int *count, CpsSetAnswer *answer,
+                       CpsError *err) {
+    static const char *const CALL = "cps_set_rays";
+    if (!set || !count || !answer || (!rays && capacity > 0) || capacity < 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set, count, answer or rays is NULL, or capacity is negative", CALL);
+    if (!(tolerance >= 0)) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected >= 0", CALL, tolerance);
+    const size_t n = (size_t)set->n;
+    *count = 0;
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
+    if (set->kind == CPSI_SET_RAYS || set->kind == CPSI_SET_SUBSPACE) {
+        const int sides = set->kind == CPSI_SET_RAYS ? 1 : 2;
+        for (int k = 0; k < sides*set->count; k++, ++*count) {
+            const double *ray = &set->a[(size_t)(k/sides)*n], size = cpsi_norm(set->n, ray)*(sides == 2 && k % 2 ? -1 : 1);
+            for (size_t i = 0; *count < capacity && i < n; i++) rays[(size_t)k*n + i] = ray[i]/size;
+        }
+        return CPS_OK;
+    }
+    double *room = malloc((n*n + n)*sizeof *room);
+    if (!room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the rays of a cone");
+    CpsSetFacts facts;
+    CpsStatus status = cps_set_facts(set, 0, &facts, room, room + n, err);
+    answer->outcome = facts.outcome;
+    answer->exact = false;
+    if (!status && facts.outcome == CPS_SET_ANSWERED && facts.dimension > 0) {
+        if (facts.dimension > 2 || facts.bounded || !facts.has_zero) answer->outcome = CPS_SET_NOT_PLANAR;
+        else status = planar_rays(set, room, room + n, facts.dimension, capacity, rays, count, answer, err);
+    }
+    free(room);
+    return status;
+}
