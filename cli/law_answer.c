@@ -67,6 +67,13 @@ static bool take_block(SetAnswer *a) {
     return true;
 }
 
+/* a segment's center is its middle */
+static void take_middle(SetAnswer *a) {
+    double along = 0.5 * (a->low[0] + a->high[0]);
+    for (int i = 0; i < a->n; i++) along -= a->basis[i] * a->center[i];
+    for (int i = 0; i < a->n; i++) a->center[i] += along * a->basis[i];
+}
+
 CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *err) {
     *a = (SetAnswer){.n = cps_set_space(set), .vertex_count = -1, .ray_count = -1};
     if (!take_block(a)) {
@@ -82,6 +89,7 @@ CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *e
         a->low[i] = extent.low, a->high[i] = extent.high;
         a->gap = fmax(a->gap, extent.gap);
     }
+    if (status == CPS_OK && !cone && a->facts.dimension == 1 && a->facts.bounded) take_middle(a);
 
     /* what can be listed; a cone's rays, else the corners of what is bounded */
     CpsSetAnswer listed;

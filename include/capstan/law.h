@@ -109,7 +109,8 @@ CPS_API CpsStatus cps_law_velocities(const CpsSet *set, const double *force, dou
  *     normal_cone^2 <= step x dissipation                                   (square-root bound)
  *
  * since p = P_C(F - step V) has <F - step V - p, F - p> <= 0. With F outside by d = outside, normal_cone <= 2d + sqrt
- * of the same with P_C(F) for F. */
+ * of the same with P_C(F) for F. The two distances, and inverse, are NAN where the projection has no answer (a user's
+ * set; lost to rounding). */
 typedef struct CpsLawResidual {
     CpsSetOutcome outcome;      /* UNBOUNDED: no force goes with V; the power forms are then INFINITY */
     double outside;             /* [N] dist(F, C), part of every form */

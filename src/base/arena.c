@@ -4,7 +4,6 @@
 
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { CACHE_LINE = 64 };
 
@@ -23,15 +22,16 @@ void *cpsi_arena_take(CpsiArena *arena, size_t count, size_t size) {
 
 bool cpsi_arena_allocate(CpsiArena *arena) {
     if (arena->overflow || arena->used > SIZE_MAX/2) return false;
-    const size_t bytes = arena->used ? arena->used : CACHE_LINE;
-    arena->base = aligned_alloc(CACHE_LINE, bytes);
-    if (!arena->base) return false;
-    memset(arena->base, 0, bytes);
+    /* calloc and a line more, not aligned_alloc, whose blocks the C library is slow to take back */
+    arena->block = calloc(1, arena->used + CACHE_LINE);
+    if (!arena->block) return false;
+    const size_t over = (uintptr_t)arena->block%CACHE_LINE;
+    arena->base = (char *)arena->block + (over > 0 ? CACHE_LINE - over : 0);
     arena->used = 0;
     return true;
 }
 
 void cpsi_arena_free(CpsiArena *arena) {
-    free(arena->base);
+    free(arena->block);
     *arena = (CpsiArena){0};
 }

@@ -13,7 +13,8 @@
 #include <stddef.h>
 
 typedef struct CpsiArena {
-    char *base;    /* NULL while measuring */
+    char *base;    /* NULL while measuring; aligned, inside block */
+    void *block;   /* what was allocated */
     size_t used;   /* bytes so far */
     bool overflow; /* a size did not fit into size_t */
 } CpsiArena;

@@ -87,7 +87,7 @@ static void power_forms(int n, const double *force, const double *velocity, cons
     r->dissipation = phi + power;
     const double size = cpsi_norm(n, force) + cpsi_norm(n, maximal);
     r->scale = cpsi_norm(n, velocity) * size;
-    r->inverse = r->outside <= ON_BOUNDARY * size ? r->dissipation : INFINITY;
+    r->inverse = isnan(r->outside) ? NAN : r->outside <= ON_BOUNDARY * size ? r->dissipation : INFINITY;
 }
 
 CpsStatus cps_law_residual(const CpsSet *set, const double *force, const double *velocity, double step,

@@ -6,7 +6,6 @@
  *     box         h = sum max(w_i low_i, w_i high_i)     cone        h = 0 on its polar, else infinite
  *     gauge of a ball with 0 inside: the positive root of (r^2 - |c|^2) t^2 + 2 <c, x> t - |x|^2 = 0            */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "linsys/small.h"
@@ -14,14 +13,6 @@
 
 /* Directions closer than this (radians) are taken as parallel, where a set is unbounded across. */
 static const double PARALLEL = 1e-12;
-
-double *cpsi_scratch_take(CpsiScratch *scratch, size_t count) {
-    const size_t few = sizeof scratch->few/sizeof *scratch->few;
-    scratch->many = count > few ? malloc(count*sizeof(double)) : NULL;
-    return count > few ? scratch->many : scratch->few;
-}
-
-void cpsi_scratch_give(CpsiScratch *scratch) { free(scratch->many); }
 
 /* ---- support ---- */
 

@@ -89,6 +89,14 @@ bool cpsi_set_has_user(const CpsSet *set) {
     return false;
 }
 
+double *cpsi_scratch_take(CpsiScratch *scratch, size_t count) {
+    const size_t few = sizeof scratch->few/sizeof *scratch->few;
+    scratch->many = count > few ? malloc(count*sizeof(double)) : NULL;
+    return count > few ? scratch->many : scratch->few;
+}
+
+void cpsi_scratch_give(CpsiScratch *scratch) { free(scratch->many); }
+
 /* ---- a typical length ---- */
 
 static double largest(size_t count, const double *numbers) {

@@ -90,7 +90,7 @@ CpsStatus cpsi_form_minimise(const CpsiForm *form, const double *c, CpsiSolution
     Layout layout;
     lay(&arena, &layout, form);
     if (!cpsi_arena_allocate(&arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory to solve on a set");
-    *solution = (CpsiSolution){.outcome = CPS_SET_ANSWERED, .scale = 1, .block = arena.base};
+    *solution = (CpsiSolution){.outcome = CPS_SET_ANSWERED, .scale = 1, .block = arena.block};
     lay(&arena, &layout, form);
     layout.program->dim = form->dim;
     layout.program->a = form->a;

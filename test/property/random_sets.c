@@ -13,8 +13,8 @@
  *   preimage   L^-1(C) for invertible L = image of C by the inverse; of a polyhedron = the rows times L
  *   cone       w in the normal cone at x exactly where x lies on the face of w
  *
- * A case ends answered, refused for a reason of the fixed list (empty, unbounded, ...; fine where both ways say the same), or
- * undecided (CPS_SET_INACCURATE). At least 98 % must not be undecided, and none may be wrong. */
+ * A case ends answered, refused for a reason of the fixed list (empty, unbounded, ...; fine where both ways say the
+ * same), or undecided (CPS_SET_INACCURATE). At least 98 % must not be undecided, and none may be wrong. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -77,7 +77,9 @@ static CpsSet *primitive(int n, bool bounded) {
     CpsSet *set;
     fill(n, 0.3, a);
     switch (below(bounded ? 7 : 11)) {
-    case 0: DO(cps_set_ball(n, a, uniform(0.3, 2), &set, &err)); return set;
+    case 0:
+        DO(cps_set_ball(n, a, uniform(0.3, 2), &set, &err));
+        return set;
     case 1: {
         double shape[MAX * MAX];
         fill(n * n, 1, b);
@@ -100,12 +102,23 @@ static CpsSet *primitive(int n, bool bounded) {
         fill(n, 2, b);
         DO(cps_set_segment(n, a, b, &set, &err));
         return set;
-    case 5: return polyhedron(n);
-    case 6: DO(cps_set_point(n, a, &set, &err)); return set;
-    case 7: DO(cps_set_half_space(n, (fill(n, 1, b), b), uniform(0.1, 1), &set, &err)); return set;
-    case 8: DO(cps_set_strip(n, (fill(n, 1, b), b), -uniform(0, 1), uniform(0, 1), &set, &err)); return set;
-    case 9: DO(cps_set_subspace(n, below(n + 1), (fill(n * n, 1, b), b), &set, &err)); return set;
-    default: DO(cps_set_cone_of_rays(n, below(n + 1), (fill(n * n, 1, b), b), &set, &err)); return set;
+    case 5:
+        return polyhedron(n);
+    case 6:
+        DO(cps_set_point(n, a, &set, &err));
+        return set;
+    case 7:
+        DO(cps_set_half_space(n, (fill(n, 1, b), b), uniform(0.1, 1), &set, &err));
+        return set;
+    case 8:
+        DO(cps_set_strip(n, (fill(n, 1, b), b), -uniform(0, 1), uniform(0, 1), &set, &err));
+        return set;
+    case 9:
+        DO(cps_set_subspace(n, below(n + 1), (fill(n * n, 1, b), b), &set, &err));
+        return set;
+    default:
+        DO(cps_set_cone_of_rays(n, below(n + 1), (fill(n * n, 1, b), b), &set, &err));
+        return set;
     }
 }
 
@@ -249,7 +262,8 @@ static Verdict case_sum(int n, const double *w) {
     DO(cps_set_support(part[1], w, NULL, &b, &err));
     DO(cps_set_support(form, w, NULL, &c, &err));
     Verdict verdict = REFUSED;
-    if (a.outcome == CPS_SET_INACCURATE || b.outcome == CPS_SET_INACCURATE) verdict = UNDECIDED;
+    if (a.outcome == CPS_SET_INACCURATE || b.outcome == CPS_SET_INACCURATE)
+        verdict = UNDECIDED;
     else if (a.outcome == CPS_SET_ANSWERED && b.outcome == CPS_SET_ANSWERED) {
         a.value += b.value;
         verdict = compare(&a, &c, scale_of(set, w));
@@ -322,7 +336,8 @@ static Verdict case_facet(int n, double *w) {
     if (face) second = face_at(face, u, &two, &verdict);
     if (second) {
         verdict = attains(face, second, u, two.value, scale_of(set, u), center);
-        if (verdict == ANSWERED) verdict = same(dot(n, w, center), one.value, scale_of(set, w) * fmax(1, norm(n, center)));
+        if (verdict == ANSWERED)
+            verdict = same(dot(n, w, center), one.value, scale_of(set, w) * fmax(1, norm(n, center)));
     }
     cps_set_release(set), cps_set_release(face), cps_set_release(second);
     return verdict;
@@ -368,7 +383,8 @@ static Verdict case_moreau(int n, const double *p) {
         for (int i = 0; i < n; i++) sum[i] = x[i] + y[i] - p[i];
         verdict = norm(n, sum) <= 1e-6 * norm(n, p) ? same(dot(n, x, y), 0, 1e2 * dot(n, p, p)) : WRONG;
         if (verdict == ANSWERED) verdict = same(a.value * a.value + b.value * b.value, dot(n, p, p), dot(n, p, p));
-    } else if (a.outcome != CPS_SET_INACCURATE && b.outcome != CPS_SET_INACCURATE) verdict = WRONG;
+    } else if (a.outcome != CPS_SET_INACCURATE && b.outcome != CPS_SET_INACCURATE)
+        verdict = WRONG;
     cps_set_release(cone), cps_set_release(polar);
     return verdict;
 }
@@ -428,7 +444,8 @@ static Verdict case_cone(int n, double *w) {
 int main(int argc, char **argv) {
     static const char *const NAME[] = {"form", "sum", "polar", "face", "facet", "meet", "moreau", "preimage", "cone"};
     enum { KINDS = sizeof NAME / sizeof *NAME };
-    const unsigned long first = argc > 1 ? strtoul(argv[1], NULL, 10) : 1, count = argc > 2 ? strtoul(argv[2], NULL, 10) : 1000;
+    const unsigned long first = argc > 1 ? strtoul(argv[1], NULL, 10) : 1,
+                        count = argc > 2 ? strtoul(argv[2], NULL, 10) : 1000;
     unsigned long tally[KINDS][4] = {{0}}, total[4] = {0};
     for (unsigned long seed = first; seed < first + count; seed++) {
         state = seed * 0x2545f4914f6cdd1du;
@@ -437,15 +454,33 @@ int main(int argc, char **argv) {
         fill(MAX, 1, w);
         Verdict verdict = WRONG;
         switch (kind) {
-        case 0: verdict = case_form(n, w); break;
-        case 1: verdict = case_sum(n, w); break;
-        case 2: verdict = case_polar(n, w); break;
-        case 3: verdict = case_face(n, w); break;
-        case 4: verdict = case_facet(n, w); break;
-        case 5: verdict = case_meet(n, w); break;
-        case 6: verdict = case_moreau(n, w); break;
-        case 7: verdict = case_preimage(n, w); break;
-        default: verdict = case_cone(n, w); break;
+        case 0:
+            verdict = case_form(n, w);
+            break;
+        case 1:
+            verdict = case_sum(n, w);
+            break;
+        case 2:
+            verdict = case_polar(n, w);
+            break;
+        case 3:
+            verdict = case_face(n, w);
+            break;
+        case 4:
+            verdict = case_facet(n, w);
+            break;
+        case 5:
+            verdict = case_meet(n, w);
+            break;
+        case 6:
+            verdict = case_moreau(n, w);
+            break;
+        case 7:
+            verdict = case_preimage(n, w);
+            break;
+        default:
+            verdict = case_cone(n, w);
+            break;
         }
         tally[kind][verdict]++;
         total[verdict]++;

@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sets: arguments, holds, degenerate sets, users' sets, projections and gauges with known answers. */
+#include "check.h"
+
+#include <string.h>
+
+#include "capstan/set.h"
+
+static CpsError err;
+#define DO(call)           assert_int_equal((call), CPS_OK)
+#define REFUSED(call, why) refused_((call), (why))
+
+static void refused_(CpsStatus status, const char *why) {
+    assert_int_equal(status, CPS_ERR_ARGUMENT);
+    assert_int_equal(err.status, CPS_ERR_ARGUMENT);
+    if (!strstr(err.message, why)) print_error("%s\n", err.message);
+    assert_non_null(strstr(err.message, why));
+}
+
+static void bad_arguments_are_refused(void **state) {
+    (void)state;
+    const double nan[4] = {0, NAN, 0, 0}, zero[4] = {0}, one[2] = {1, 1}, skew[4] = {1, 0.5, 0, 1},
+                 flat[4] = {1, 1, 1, 1};
+    CpsSet *set = NULL, *disc, *line;
+    REFUSED(cps_set_point(2, nan, &set, &err), "point[1] is nan");
+    REFUSED(cps_set_point(0, one, &set, &err), "n is 0");
+    REFUSED(cps_set_ball(2, NULL, -1, &set, &err), "radius is -1");
+    REFUSED(cps_set_ball(2, NULL, NAN, &set, &err), "radius is nan");
+    REFUSED(cps_set_ellipsoid(2, NULL, skew, &set, &err), "not symmetric");
+    REFUSED(cps_set_ellipsoid(2, NULL, flat, &set, &err), "not positive definite");
+    REFUSED(cps_set_box(2, one, zero, &set, &err), "from 1 to 0");
+    REFUSED(cps_set_half_space(2, zero, 1, &set, &err), "row 0 is 0");
+    REFUSED(cps_set_strip(2, one, 1, -1, &set, &err), "from 1 to -1");
+    REFUSED(cps_set_hull_of_points(2, 0, NULL, &set, &err), "count is 0");
+    REFUSED(cps_set_product(0, NULL, &set, &err), "0 parts");
+    REFUSED(cps_set_user(2, NULL, NULL, &set, &err), "support is NULL");
+    DO(cps_set_ball(2, NULL, 1, &disc, &err));
+    DO(cps_set_interval(-1, 1, &line, &err));
+    const CpsSet *mixed[2] = {disc, line};
+    REFUSED(cps_set_intersection(2, mixed, &set, &err), "part 1 lies in R^1");
+    REFUSED(cps_set_preimage(2, nan, NULL, disc, &set, &err), "map[1] is nan");
+    REFUSED(cps_set_scale(NAN, disc, &set, &err), "factor[0] is nan");
+    assert_null(set);
+    CpsSetAnswer answer;
+    double x[2];
+    REFUSED(cps_set_support(disc, nan, x, &answer, &err), "direction[1] is nan");
+    REFUSED(cps_set_project(disc, one, flat, x, &answer, &err), "metric is not symmetric positive definite");
+    REFUSED(cps_set_face(disc, one, -1, &set, &answer, &err), "tolerance is -1");
+    cps_set_release(disc), cps_set_release(line), cps_set_release(NULL);
+}
+
+/* Parts live as long as what was made of them, whoever lets go first. */
+static void parts_are_held(void **state) {
+    (void)state;
+    CpsSet *disc, *moved, *sum;
+    DO(cps_set_ball(2, NULL, 1, &disc, &err));
+    DO(cps_set_translate((const double[]){3, 0}, disc, &moved, &err));
+    const CpsSet *both[2] = {disc, moved};
+    DO(cps_set_sum(2, both, &sum, &err));
+    cps_set_release(disc), cps_set_release(moved);
+    CpsSetAnswer answer;
+    DO(cps_set_support(sum, (const double[]){1, 0}, NULL, &answer, &err));
+    CHECK_NEAR(answer.value, 5, 1e-15);
+    assert_true(answer.exact);
+    char text[80];
+    assert_int_equal(cps_set_text(sum, text, sizeof text),
+                     strlen("sum(ball(0 0; r 1), translate(3 0, ball(0 0; r 1)))"));
+    assert_string_equal(text, "sum(ball(0 0; r 1), translate(3 0, ball(0 0; r 1)))");
+    cps_set_release(sum);
+}
+
+static void degenerate_sets_are_answered(void **state) {
+    (void)state;
+    const double low[2] = {0, 0}, high[2] = {1, 0}, far[2] = {5, 5}, w[2] = {0, 1}, s[2] = {1, 0};
+    CpsSet *thin, *point, *none, *strip, *face;
+    CpsSetFacts facts;
+    CpsSetAnswer answer;
+    double x[2];
+    DO(cps_set_box(2, low, high, &thin, &err));
+    DO(cps_set_facts(thin, 0, &facts, NULL, NULL, &err));
+    CHECK_INT(facts.dimension, 1);
+    assert_true(facts.bounded && facts.has_zero && !facts.zero_relative);
+    DO(cps_set_point(2, far, &point, &err));
+    const CpsSet *apart[2] = {thin, point};
+    DO(cps_set_intersection(2, apart, &none, &err));
+    DO(cps_set_support(none, w, x, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_EMPTY);
+    assert_true(answer.value == -INFINITY);
+    DO(cps_set_facts(none, 0, &facts, NULL, NULL, &err));
+    assert_int_equal(facts.outcome, CPS_SET_EMPTY);
+    CHECK_INT(facts.dimension, -1);
+    DO(cps_set_face(none, w, 0, &face, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_EMPTY);
+    assert_null(face);
+    DO(cps_set_strip(2, w, -1, 1, &strip, &err));
+    DO(cps_set_support(strip, s, x, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_UNBOUNDED);
+    CHECK_GREATER(x[0], 0);
+    DO(cps_set_normal_cone(strip, far, 0, &face, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
+    CHECK_NEAR(answer.value, 4, 1e-12);
+    DO(cps_set_gauge(point, w, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_NO_ZERO);
+    CpsSetMeasure measure;
+    DO(cps_set_measure(strip, &measure, &err));
+    assert_int_equal(measure.outcome, CPS_SET_UNBOUNDED);
+    DO(cps_set_measure(thin, &measure, &err));
+    CHECK_NEAR(measure.perimeter, 2, 1e-14);
+    CHECK_NEAR(measure.area, 0, 1e-14);
+    cps_set_release(thin), cps_set_release(point), cps_set_release(none), cps_set_release(strip);
+}
+
+/* the l1 ball scaled by *user */
+static bool cross(void *user, int n, const double *w, double *value, double *point) {
+    const double size = *(const double *)user;
+    int best = 0;
+    memset(point, 0, (size_t)n * sizeof *point);
+    for (int i = 1; i < n; i++)
+        if (fabs(w[i]) > fabs(w[best])) best = i;
+    point[best] = copysign(size, w[best]);
+    *value = size * fabs(w[best]);
+    return true;
+}
+
+static void users_sets_answer_their_support(void **state) {
+    (void)state;
+    double size = 2;
+    CpsSet *user, *ball, *sum, *face;
+    CpsSetAnswer answer;
+    double x[3];
+    DO(cps_set_user(3, cross, &size, &user, &err));
+    DO(cps_set_ball(3, NULL, 1, &ball, &err));
+    const CpsSet *both[2] = {user, ball};
+    DO(cps_set_sum(2, both, &sum, &err));
+    DO(cps_set_support(sum, (const double[]){0, -3, 0}, x, &answer, &err));
+    CHECK_NEAR(answer.value, 9, 1e-15);
+    CHECK_NEAR(x[1], -3, 1e-15);
+    DO(cps_set_project(sum, x, NULL, x, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_NOT_AVAILABLE);
+    DO(cps_set_face(user, x, 0, &face, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_NOT_AVAILABLE);
+    cps_set_release(user), cps_set_release(ball), cps_set_release(sum);
+}
+
+/* Projections against hand calculation: disc ∩ half plane, and a box in a skew metric. */
+static void projections_and_gauges(void **state) {
+    (void)state;
+    CpsSet *disc, *half, *set, *box;
+    CpsSetAnswer answer;
+    double x[2], w[2];
+    DO(cps_set_ball(2, NULL, 5, &disc, &err));
+    DO(cps_set_half_space(2, (const double[]){0, 1}, 3, &half, &err));
+    const CpsSet *both[2] = {disc, half};
+    DO(cps_set_intersection(2, both, &set, &err));
+    DO(cps_set_project(set, (const double[]){10, 6}, NULL, x, &answer, &err));
+    CHECK_NEAR(x[0], 4, 1e-9); /* the corner; 1e-9 is what the conic solver promises */
+    CHECK_NEAR(x[1], 3, 1e-9);
+    CHECK_NEAR(answer.value, sqrt(45), 1e-9);
+    DO(cps_set_contains(set, (const double[]){10, 6}, w, &answer, &err));
+    CHECK_NEAR(answer.value, -sqrt(45), 1e-9);
+    CHECK_NEAR(w[0], 6 / sqrt(45), 1e-9);
+    DO(cps_set_contains(set, (const double[]){0, 1}, w, &answer, &err));
+    assert_true(answer.exact);
+    CHECK_NEAR(answer.value, 2, 1e-14);
+    DO(cps_set_gauge(set, (const double[]){0, 6}, &answer, &err));
+    CHECK_NEAR(answer.value, 2, 1e-14);
+    /* min (x - p)'M(x - p) over x <= 0: with x1 = 0 free x2 = p2 + M12/M22 p1 */
+    DO(cps_set_box(2, (const double[]){-INFINITY, -INFINITY}, (const double[]){0, INFINITY}, &box, &err));
+    DO(cps_set_project(box, (const double[]){1, 0}, (const double[]){2, 1, 1, 1}, x, &answer, &err));
+    CHECK_NEAR(x[0], 0, 1e-9);
+    CHECK_NEAR(x[1], 1, 1e-9);
+    CHECK_NEAR(answer.value, 1, 1e-9);
+    cps_set_release(disc), cps_set_release(half), cps_set_release(set), cps_set_release(box);
+}
+
+/* A cube by its inequalities: faces, cones and vertices of every dimension. */
+static void faces_and_cones_of_a_cube(void **state) {
+    (void)state;
+    double rows[18] = {0}, offsets[6], center[3], ray[9];
+    for (int i = 0; i < 6; i++) rows[3 * i + i / 2] = i % 2 ? -1 : 1, offsets[i] = 1;
+    CpsSet *cube, *face, *cone;
+    DO(cps_set_inequalities(3, 6, rows, offsets, &cube, &err));
+    for (int d = 1; d <= 3; d++) {
+        const double w[3] = {1, d > 1, d > 2};
+        CpsSetAnswer answer;
+        CpsSetFacts facts;
+        int count;
+        DO(cps_set_face(cube, w, 0, &face, &answer, &err));
+        CHECK_NEAR(answer.value, d, 1e-10);
+        DO(cps_set_facts(face, 0, &facts, center, NULL, &err));
+        CHECK_INT(facts.dimension, 3 - d);
+        DO(cps_set_normal_cone(cube, center, 0, &cone, &answer, &err));
+        DO(cps_set_rays(cone, 0, 3, ray, &count, &answer, &err));
+        CHECK_INT(count, d);
+        DO(cps_set_facts(cone, 0, &facts, NULL, NULL, &err));
+        CHECK_INT(facts.dimension, d);
+        cps_set_release(face), cps_set_release(cone);
+    }
+    cps_set_release(cube);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_arguments_are_refused),    cmocka_unit_test(parts_are_held),
+        cmocka_unit_test(degenerate_sets_are_answered), cmocka_unit_test(users_sets_answer_their_support),
+        cmocka_unit_test(projections_and_gauges),       cmocka_unit_test(faces_and_cones_of_a_cube),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
