@@ -65,7 +65,7 @@ static inline CpsiSocScaling cpsi_soc_scaling(const double *s, const double *z, 
 static inline void cpsi_soc_apply(double *out, const double *w, const double *x, const double sign, const int n) {
     double w1x1 = 0;
     for (int i = 1; i < n; i++) w1x1 += w[i]*x[i];
-    const double k = sign*x[0] + w1x1/(1 + w[0]);
+    const double k = sign*x[0] + w1x1*(1/(1 + w[0])); /* as a product: one division serves all calls with this w */
     out[0] = w[0]*x[0] + sign*w1x1;
     for (int i = 1; i < n; i++) out[i] = x[i] + k*w[i];
 }
@@ -93,7 +93,7 @@ static inline double cpsi_soc_inverse_step(const double *x, const double *d, con
     double a = d[0]*d[0], b = x[0]*d[0];
     for (int i = 1; i < n; i++) a -= d[i]*d[i], b -= x[i]*d[i];
     const double c = cpsi_soc_det(x, n), disc = b*b - a*c;
-    const double inverse = (sqrt(disc < 0 ? 0 : disc) - b)/c;
+    const double inverse = (sqrt(disc < 0 ? 0 : disc) - b)*(1/c);
     /* written so that NaN comes out as NaN */
     if (disc <= 0 && b >= 0) return 0;
     return inverse <= 0 ? 0 : inverse;

@@ -24,17 +24,22 @@ static const double STIFF = 0.5;
 /* omega -> 0 means no preferred direction; 1/omega is kept finite. */
 static const double LEAST_OMEGA = 1e-24;
 
-/* What scale, load and direct share about one element. */
+/* What scale, load and direct share about one element; the inverses come out of one division. */
 typedef struct Segment {
-    double omega, d, stiffening; /* |w1|^2, D, 1 - c g */
+    double omega, d, stiffening;                          /* |w1|^2, D, 1 - c g */
+    double inverse_d, inverse_stiffening, inverse_length;
 } Segment;
 
-static inline Segment segment(const double w[4], double g, double c) {
+static inline Segment segment(const double w[4], double g, double c, double l) {
     Segment out;
     const double omega = w[1]*w[1] + w[2]*w[2] + w[3]*w[3], stiffening = 1 - c*g;
     out.omega = omega > LEAST_OMEGA ? omega : LEAST_OMEGA;
     out.d = 1 + c*g*(1 + 2*omega);
     out.stiffening = fabs(stiffening) > LEAST_STIFFENING ? stiffening : LEAST_STIFFENING;
+    const double inverse = 1/(out.d*out.stiffening*l);
+    out.inverse_d = inverse*out.stiffening*l;
+    out.inverse_stiffening = inverse*out.d*l;
+    out.inverse_length = inverse*out.d*out.stiffening;
     return out;
 }
 
@@ -82,11 +87,11 @@ static void scale(CpsiProgram *base) {
     for (int i = 1; i < program->n; i++) {
         const CpsiSocScaling scaling = cpsi_soc_scaling(st->s[i], st->z[i], 4);
         const double g = scaling.g, l = st->length[i];
-        const Segment seg = segment(scaling.w, g, st->compliance[i]);
+        const Segment seg = segment(scaling.w, g, st->compliance[i], l);
         const double in = 1/sqrt(seg.omega);
         for (int a = 0; a < 4; a++) st->w[i][a] = scaling.w[a];
         st->g[i] = g;
-        matrix->stiffness[i] = g/l;
+        matrix->stiffness[i] = g*seg.inverse_length;
         matrix->compliance[i] = l*seg.d/(2*seg.omega*g*seg.stiffening);
         for (int a = 0; a < 3; a++) matrix->direction[3*i + a] = in*scaling.w[1 + a];
         for (int a = 0; a < 4; a++) st->q[i][a] = -st->z[i][a];
@@ -99,9 +104,9 @@ static void load(CpsiProgram *base, double keep) {
     double *f = base->du;
     for (int i = 1; i < program->n; i++) {
         const double *w = st->w[i], *q = st->q[i], g = st->g[i], c = st->compliance[i];
-        const Segment seg = segment(w, g, c);
+        const Segment seg = segment(w, g, c, st->length[i]);
         const double rho = keep*(1 + c*st->z[i][0] - st->s[i][0]);
-        const double k = 2*g*w[0]*(rho + c*q[0])/seg.d;
+        const double k = 2*g*w[0]*(rho + c*q[0])*seg.inverse_d;
         for (int a = 0; a < 3; a++) {
             const double force = q[1 + a] + k*w[1 + a];
             f[3*(i - 1) + a] -= force;
@@ -118,19 +123,19 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         const double *w = st->w[i], *q = st->q[i], *s = st->s[i], *z = st->z[i];
         const double g = st->g[i], c = st->compliance[i], l = st->length[i], t = program->dt[i];
         double *ds = st->ds[i], *dz = st->dz[i];
-        const Segment seg = segment(w, g, c);
+        const Segment seg = segment(w, g, c, l);
         const double rho = keep*(1 + c*z[0] - s[0]);
-        const double k = 2*g*w[0]*(rho + c*q[0])/seg.d, in = 1/sqrt(seg.omega), il = 1/l;
+        const double k = 2*g*w[0]*(rho + c*q[0])*seg.inverse_d, in = 1/sqrt(seg.omega);
         /* elongation and force */
         double along = 0; /* w1.de */
         for (int a = 0; a < 3; a++) {
-            const double de = (du[3*i + a] - du[3*(i - 1) + a])*il;
+            const double de = (du[3*i + a] - du[3*(i - 1) + a])*seg.inverse_length;
             ds[1 + a] = de;
             dz[1 + a] = q[1 + a] + k*w[1 + a] - g*de - in*w[1 + a]*t;
             along += w[1 + a]*de;
         }
-        const double pull = seg.stiffening > STIFF ? in*t/seg.stiffening : 2*g*along/seg.d;
-        dz[0] = (q[0] - g*(1 + 2*seg.omega)*rho)/seg.d + w[0]*pull;
+        const double pull = seg.stiffening > STIFF ? in*t*seg.inverse_stiffening : 2*g*along*seg.inverse_d;
+        dz[0] = (q[0] - g*(1 + 2*seg.omega)*rho)*seg.inverse_d + w[0]*pull;
         ds[0] = c*dz[0] + rho;
         /* step to the boundary in the scaled frame, and sums */
         double point[4], scaled_ds[4], scaled_dz[4];

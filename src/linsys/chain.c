@@ -48,21 +48,16 @@ static inline void apply_transposed(double out[3], const double a[9], const doub
     for (int i = 0; i < 3; i++) out[i] = a[i]*x[0] + a[3 + i]*x[1] + a[6 + i]*x[2];
 }
 
-/* out = A^-1, by elimination in the order z, y, x: along z stands the obstacle's normal, the stiffest direction where
- * there is contact. A pivot lost to rounding is lifted to the rounding level; skew may turn one negative. */
+/* out = A^-1: z first, along which stands the obstacle's normal, the stiffest direction where there is contact; then the 2 x 2
+ * block of x and y that is left, by its determinant. What is lost to rounding is lifted to the rounding level. */
 static inline void inverse(double out[9], const double a[9]) {
     const double tiny = 4*DBL_EPSILON, least = DBL_MIN/DBL_EPSILON;
     const double iz = 1/(a[8] > least ? a[8] : least), lx = a[2]*iz, ly = a[5]*iz;
-    /* the 2 x 2 block of x and y without z, and its inverse by way of y */
-    const double yx = a[3] - ly*a[6], xy = a[1] - lx*a[7];
-    double yy = a[4] - ly*a[7], xx = a[0] - lx*a[6];
-    yy = fabs(yy) > tiny*fabs(a[4]) ? yy : tiny*fabs(a[4]) + least;
-    const double iy = 1/yy, l = xy*iy;
-    xx -= l*yx;
-    xx = fabs(xx) > tiny*fabs(a[0]) ? xx : tiny*fabs(a[0]) + least;
-    const double ix = 1/xx, r = yx*iy;
-    out[0] = ix, out[1] = -l*ix;
-    out[3] = -r*ix, out[4] = iy + r*l*ix;
+    const double xx = a[0] - lx*a[6], xy = a[1] - lx*a[7], yx = a[3] - ly*a[6], yy = a[4] - ly*a[7];
+    const double product = xx*yy, det = product - xy*yx, floor = tiny*fabs(product) + least;
+    const double inverse_det = 1/(fabs(det) > floor ? det : floor);
+    out[0] = yy*inverse_det, out[1] = -xy*inverse_det;
+    out[3] = -yx*inverse_det, out[4] = xx*inverse_det;
     /* back to z */
     out[2] = -out[0]*lx - out[1]*ly;
     out[5] = -out[3]*lx - out[4]*ly;

@@ -20,13 +20,15 @@ bool cpsi_lu_factor(int n, double *a, int *pivot);
 /* x = A^-1 x with the factor. */
 void cpsi_lu_solve(int n, const double *lu, const int *pivot, double *x);
 
-/* Lower Cholesky factor of the symmetric matrix a (n, n) into l (n, n), zeros above; false where a is not positive definite. */
+/* Lower Cholesky factor of the symmetric matrix a (n, n) into l (n, n), zeros above; false where a is not positive
+ * definite. */
 bool cpsi_cholesky(int n, const double *a, double *l);
 /* The inverse of a lower triangle l into out (n, n), zeros above. */
 void cpsi_lower_inverse(int n, const double *l, double *out);
 
 /* Orthonormal rows by Gram-Schmidt, largest remainder first, each taken twice: on return the first `rank` of the rows
- * (count, n) are orthonormal and span them all. The right-hand sides rhs (count, or NULL) of the equations <row_i, x> = rhs_i
+ * (count, n) are orthonormal and span them all. The right-hand sides rhs (count, or NULL) of the equations <row_i,
+ * x> = rhs_i
  * follow, so that x = sum rhs_k row_k solves the first rank of them, and the others are left with what contradicts.
  * A row counts as dependent when no more than the share `tolerance` of it remains. Returns the rank. */
 int cpsi_orthonormal_rows(int count, int n, double *rows, double *rhs, double tolerance);
