@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Time of one support function: closed form of a ball in R^3, conic form of the braked wheel's set.   usage: set_bench [--check]
+/* Time of one support function: closed form of a ball in R^3, conic form of the braked wheel's set.   usage:
+ * set_bench [--check]
  * With --check the exit status tells whether they stay under 50 ns and 20 microseconds. */
 #include <stdio.h>
 #include <string.h>

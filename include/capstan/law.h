@@ -54,14 +54,18 @@ CPS_API const char *cps_composition_name(CpsComposition composition);
 CPS_API const char *cps_composition_sentence(CpsComposition composition);
 
 /* The law of a system whose forces G (n) act through L: C' = L^-1(C), L (space of law x n); velocities are W = L* V
- * (M77 section 10). composition  what holds of the list above, decided with relative tolerance 1e-9; NULL: not wanted
- */
+ * (M77 section 10).
+ *
+ *   composition  what holds of the list above, decided with relative tolerance 1e-9; NULL: not wanted */
 CPS_API CpsStatus cps_law_preimage(int n, const double *map, const CpsLaw *law, CpsComposition *composition,
                                    CpsLaw **out, CpsError *err);
 
 /* A rigid body on several contacts, or area contact as a sum over small areas: contact k has velocity B_k W, so the
  * body has C = sum over k of B_k* C_k, phi(W) = sum of phi_k(B_k W). The boundary of C is the limit surface of planar
- * sliding. contact  (count) laws map      (count) matrices B_k, (space of contact k x n) */
+ * sliding.
+ *
+ *   contact  (count) laws
+ *   map      (count) matrices B_k, (space of contact k x n) */
 CPS_API CpsStatus cps_law_contacts(int n, int count, const CpsLaw *const *contact, const double *const *map,
                                    CpsLaw **out, CpsError *err);
 

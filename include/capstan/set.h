@@ -2,7 +2,8 @@
 /* capstan/set.h: closed convex sets in R^n as expressions, and questions answered with sets and certificates.
  *
  * A set is an immutable expression: primitives (ball, box, strip, ...) joined by operations (product, intersection,
- * preimage, ...). Constructors copy their arrays and keep their own hold on the sets they are given, so the caller releases
+ * preimage, ...). Constructors copy their arrays and keep their own hold on the sets they are given, so the caller
+ * releases
  * each set that it made, in any order. Holds are counted atomically: a set may be shared between threads.
  *
  * Matrices are row-major. Directions and points have the set's n components. <w, x> is the dual pairing.
@@ -55,7 +56,8 @@ CPS_API void cps_set_release(CpsSet *set);
 
 /* n of R^n. */
 CPS_API int cps_set_space(const CpsSet *set);
-/* The expression as text, "intersection(ball(2; 0 0; r 500), strip(0 1; -200 .. 200))", cut to `size` with a final zero;
+/* The expression as text, "intersection(ball(2; 0 0; r 500), strip(0 1; -200 .. 200))", cut to `size` with a final
+ * zero;
  * returns the length that the whole text has, as snprintf does. */
 CPS_API size_t cps_set_text(const CpsSet *set, char *text, size_t size);
 
@@ -68,7 +70,8 @@ CPS_API size_t cps_set_text(const CpsSet *set, char *text, size_t size);
 CPS_API CpsStatus cps_set_point(int n, const double *point, CpsSet **out, CpsError *err);
 /* {x : |x - center| <= radius}, radius >= 0; center NULL means 0 (here and below). */
 CPS_API CpsStatus cps_set_ball(int n, const double *center, double radius, CpsSet **out, CpsError *err);
-/* {x : (x - center)' S^-1 (x - center) <= 1}, S symmetric positive definite (n x n): support <w, center> + sqrt(w'Sw). */
+/* {x : (x - center)' S^-1 (x - center) <= 1}, S symmetric positive definite (n x n): support <w, center> +
+ * sqrt(w'Sw). */
 CPS_API CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, CpsSet **out, CpsError *err);
 /* [low, high] in R; ends may be infinite. */
 CPS_API CpsStatus cps_set_interval(double low, double high, CpsSet **out, CpsError *err);
@@ -90,8 +93,9 @@ CPS_API CpsStatus cps_set_cone_of_rays(int n, int count, const double *rays, Cps
 CPS_API CpsStatus cps_set_segment(int n, const double *from, const double *to, CpsSet **out, CpsError *err);
 
 /* A set known by its support function: write max over x of <direction, x> to *value and a point that attains it to `point`;
- * return false when there is none. It answers support, face-free questions built on it, sums, images, products, translates,
- * scales and hulls; everything else is CPS_SET_NOT_AVAILABLE. The set must be closed, convex, bounded and not empty. */
+ * return false when there is none. The set must be closed, convex, bounded and not empty, and the function fit for every
+ * thread that asks. It answers support and extent, also inside sums, images, products, translates, scales and hulls, and
+ * what only needs these (dimension, vertices, area of the plane); everything else is CPS_SET_NOT_AVAILABLE. */
 typedef bool CpsSetSupport(void *user, int n, const double *direction, double *value, double *point);
 CPS_API CpsStatus cps_set_user(int n, CpsSetSupport *support, void *user, CpsSet **out, CpsError *err);
 
@@ -140,12 +144,14 @@ typedef struct CpsSetExtent {
 CPS_API CpsStatus cps_set_extent(const CpsSet *set, const double *direction, CpsSetExtent *extent, CpsError *err);
 
 /* Margin of a point: minus its distance from the set where it lies outside, with the unit `separating` direction
- * (n, or NULL): <separating, x> <= <separating, point> - distance for every x of the set. Inside: the radius of a ball round the
+ * (n, or NULL): <separating, x> <= <separating, point> - distance for every x of the set. Inside: the radius of a
+ * ball round the
  * point that fits in the set: the largest where `exact`, else one that is certain to fit (gap: INFINITY). */
 CPS_API CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separating, CpsSetAnswer *answer,
                                    CpsError *err);
 
-/* The nearest point of the set in the norm sqrt(d'Md), M symmetric positive definite (n x n; NULL: the identity); value: the
+/* The nearest point of the set in the norm sqrt(d'Md), M symmetric positive definite (n x n; NULL: the identity);
+ * value: the
  * distance in that norm. */
 CPS_API CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *metric, double *nearest,
                                   CpsSetAnswer *answer, CpsError *err);
@@ -159,13 +165,15 @@ CPS_API CpsStatus cps_set_gauge(const CpsSet *set, const double *point, CpsSetAn
 CPS_API CpsStatus cps_set_face(const CpsSet *set, const double *direction, double tolerance, CpsSet **face,
                                CpsSetAnswer *answer, CpsError *err);
 
-/* The normal cone {w : <w, x - point> <= 0 for every x of the set} as a set; value: the distance of the point from the set.
+/* The normal cone {w : <w, x - point> <= 0 for every x of the set} as a set; value: the distance of the point from
+ * the set.
  * `tolerance`: relative to the size of the set, how far from a constraint the point still touches it; 0 picks 1e-9.
  * A point outside by more is CPS_SET_OUTSIDE. *cone is a new set or NULL. */
 CPS_API CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tolerance, CpsSet **cone,
                                       CpsSetAnswer *answer, CpsError *err);
 
-/* What a set is like. `tolerance`: width below which the set counts as flat, relative to its largest width; 0 picks 1e-7. */
+/* What a set is like. `tolerance`: width below which the set counts as flat, relative to its largest width; 0 picks
+ * 1e-7. */
 typedef struct CpsSetFacts {
     CpsSetOutcome outcome;     /* CPS_SET_EMPTY: dimension -1 */
     bool exact;
@@ -176,14 +184,17 @@ typedef struct CpsSetFacts {
     int dimension;             /* of its affine hull */
     double tolerance;          /* the width used, a length */
 } CpsSetFacts;
-/* Also a point of the relative interior (n, or NULL) and, in its first `dimension` rows, an orthonormal basis of the directions
+/* Also a point of the relative interior (n, or NULL) and, in its first `dimension` rows, an orthonormal basis of the
+ * directions
  * of the affine hull, completed to one of R^n (n x n, or NULL). */
 CPS_API CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts, double *center, double *basis,
                                 CpsError *err);
 
-/* The extreme points of a set of dimension <= 2 (in any R^n), counterclockwise in the plane R^2: the ends of a segment, the
+/* The extreme points of a set of dimension <= 2 (in any R^n), counterclockwise in the plane R^2: the ends of a
+ * segment, the
  * corners of a planar set, which may have arcs between them; points whose normal cone has full dimension. Other sets:
- * the points of a hull of points or a box with at most 2^16 corners, else CPS_SET_NOT_PLANAR. At most `capacity` are written to points
+ * the points of a hull of points or a box with at most 2^16 corners, else CPS_SET_NOT_PLANAR. At most `capacity` are
+ * written to points
  * (capacity x n); *count is how many there are. */
 CPS_API CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, double *points, int *count,
                                    CpsSetAnswer *answer, CpsError *err);

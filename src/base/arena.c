@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { CACHE_LINE = 64 };
 
@@ -22,9 +23,11 @@ void *cpsi_arena_take(CpsiArena *arena, size_t count, size_t size) {
 
 bool cpsi_arena_allocate(CpsiArena *arena) {
     if (arena->overflow || arena->used > SIZE_MAX/2) return false;
-    /* calloc and a line more, not aligned_alloc, whose blocks the C library is slow to take back */
-    arena->block = calloc(1, arena->used + CACHE_LINE);
+    /* a line more and aligned by hand: the C library is slow to take blocks of aligned_alloc back */
+    const size_t bytes = arena->used + CACHE_LINE;
+    arena->block = malloc(bytes);
     if (!arena->block) return false;
+    memset(arena->block, 0, bytes); /* every page is there before the first step */
     const size_t over = (uintptr_t)arena->block%CACHE_LINE;
     arena->base = (char *)arena->block + (over > 0 ? CACHE_LINE - over : 0);
     arena->used = 0;

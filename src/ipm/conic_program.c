@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two kinds of elements make the homogeneous self-dual form (conic_program.h): the cones, each on its rows of G u, and tau,
+/* Two kinds of elements make the homogeneous self-dual form (conic_program.h): the cones, each on its rows of G u,
+ * and tau,
  * a half-line with dual kappa that also brings the skew term. Their directions:
  *
  *     cones:  ds = G du + keep rho,   dz = q - H ds,   H = g W^-2      (soc.h; a half-line has W = 1, g = z/s)
  *     tau:    dkappa = q - (kappa/tau) dtau
  *     u:      (G'H G + kappa/tau e e' - S) du = keep residual + G'(q - H keep rho) + e q
  *
- * Near a solution G'H G holds numbers from 1/mu to mu, of which its rounding keeps the large ones only. So the scaled dual
+ * Near a solution G'H G holds numbers from 1/mu to mu, of which its rounding keeps the large ones only. So the
+ * scaled dual
  * directions y = W dz/sqrt(g) stay unknowns beside du, with B = sqrt(g) W^-1 G:
  *
  *     [ kappa/tau e e' - S   -B' ] [du]   [ keep residual + e q           ]
- *     [ B                     I  ] [y ] = [ W q/sqrt(g) - keep sqrt(g) W^-1 rho ]                                      */
+ *     [ B                     I  ] [y ] = [ W q/sqrt(g) - keep sqrt(g) W^-1 rho ]
+ * */
 #include "ipm/conic_program.h"
 
 #include <float.h>
@@ -22,7 +25,7 @@
 #include "linsys/small.h"
 
 /* Merit at which an iterate is good enough to stop; below it rounding rules. */
-static const double TARGET = 1e-15;
+static const double TARGET = 1e-14;
 static const int MAX_ITERATIONS = 60;
 
 static inline CpsiConicProgram *conic(CpsiProgram *program) { return (CpsiConicProgram *)program; }
@@ -107,7 +110,8 @@ static void cones_load(CpsiProgram *base, double keep) {
     }
 }
 
-/* 1/alpha of the nearest boundary of one cone: s and z are the same point of the scaled space, and well inside there. */
+/* 1/alpha of the nearest boundary of one cone: s and z are the same point of the scaled space, and well inside
+ * there. */
 static double cone_step(CpsiConicProgram *program, int k, int i) {
     const int d = program->dim[k];
     const double *s = &program->s[i], *z = &program->z[i], *ds = &program->ds[i], *dz = &program->dz[i];

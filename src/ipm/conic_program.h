@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A small dense conic program for the interior-point loop:
  *
- *     min c.v   s.t.  A v + b in K,      K a product of half-lines (dimension 1) and second-order cones (dimension >= 2)
+ *     min c.v   s.t.  A v + b in K,      K a product of half-lines (dimension 1) and second-order cones (dimension
+ * >= 2)
  *
- * solved in its homogeneous self-dual form (Ye, Todd and Mizuno 1994), which has an interior start and ends in a solution or in a proof
+ * solved in its homogeneous self-dual form (Ye, Todd and Mizuno 1994), which has an interior start and ends in a
+ * solution or in a proof
  * that there is none. With tau, kappa >= 0:
  *
  *     s = A v + b tau  in K,    A'z = c tau,  z in K,    kappa = - c.v - b.z,
  *
- * that is  G'z + e kappa + S u = 0  for u = (v, tau), G = [A b], e = (0, 1), S u = (-c tau, c.v): cones on linear maps of u and a
- * skew term. tau > 0 in the limit: v/tau solves, z/tau is its dual. tau = 0: b.z < 0 proves that nothing is feasible, c.v < 0 that
+ * that is  G'z + e kappa + S u = 0  for u = (v, tau), G = [A b], e = (0, 1), S u = (-c tau, c.v): cones on linear
+ * maps of u and a
+ * skew term. tau > 0 in the limit: v/tau solves, z/tau is its dual. tau = 0: b.z < 0 proves that nothing is
+ * feasible, c.v < 0 that
  * the objective falls without end. A has full column rank. Sets are written so that A and b are of order one. */
 #ifndef CAPSTAN_SRC_IPM_CONIC_PROGRAM_H
 #define CAPSTAN_SRC_IPM_CONIC_PROGRAM_H

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* "X in t C" as conic rows, node by node; X and t are affine in the unknowns. With t >= 0 the rows describe the closure of
+/* "X in t C" as conic rows, node by node; X and t are affine in the unknowns. With t >= 0 the rows describe the
+ * closure of
  * the cone over C x {1} (its perspective), which is what hulls, gauges and polars need; with t = 1 the set itself.
  *
  *     product, intersection, preimage, translate, scale     rows of the parts on parts of X

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The face {x in C : <w, x> = h(w)} as a set of its own.
  *
- * Down the expression as far as it goes: the face of a product, sum, image, translate or scale is the same operation on the parts'
- * faces at w's image; of a hull the hull of the faces that reach the maximum; of the primitives a point, a smaller hull, a
- * smaller box. On a conic form the interior-point solution (v, s, z) lies in the relative interior of the optimal set, so z
+ * Down the expression as far as it goes: the face of a product, sum, image, translate or scale is the same operation
+ * on the parts'
+ * faces at w's image; of a hull the hull of the faces that reach the maximum; of the primitives a point, a smaller
+ * hull, a
+ * smaller box. On a conic form the interior-point solution (v, s, z) lies in the relative interior of the optimal
+ * set, so z
  * tells the face cone by cone:
  *
  *     z = 0                    the cone's rows stay as they are
@@ -161,7 +164,8 @@ static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, Cp
     if (!status) status = cpsi_form_minimise(form, c, &solution, err);
     if (!status && solution.outcome == CPS_SET_ANSWERED) {
         const double angle = fmax(slack/cpsi_norm(n, w), LEAST_ANGLE);
-        *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .value = -solution.value, .gap = solution.gap, .tolerance = angle};
+        *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .value = -solution.value, .gap = solution.gap,
+                                 .tolerance = angle};
         /* a form without cones is an affine space, and all of it is the face */
         if (!solution.s) *out = cps_set_retain(set);
         else status = restrict_form(form, &solution, angle, &face, err);
@@ -212,7 +216,8 @@ static CpsStatus face_of_rays(const CpsSet *set, const double *w, double slack, 
     int count = 0;
     for (int k = 0; k < set->count; k++) {
         double *ray = &(*out)->a[(size_t)k*n];
-        if (cpsi_dot(set->n, w, ray) >= -slack*cpsi_norm(set->n, ray)) memmove(&(*out)->a[(size_t)count++*n], ray, n*sizeof *ray);
+        if (cpsi_dot(set->n, w, ray) < -slack*cpsi_norm(set->n, ray)) continue;
+        memmove(&(*out)->a[(size_t)count++*n], ray, n*sizeof *ray);
     }
     (*out)->count = count;
     return CPS_OK;

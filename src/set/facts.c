@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Dimension, boundedness and the place of 0, from the support function alone.
  *
- * Directions D in which the set has been seen to extend are collected one by one: a unit w normal to D and to the directions found flat
- * is asked for the points x+, x- where <w, .> is largest and least; x+ - x- joins D where the width h(w) + h(-w) is more
- * than the tolerance, else w is flat. The mean of all points found (a ray counts as a step along it) lies in the relative
+ * Directions D in which the set has been seen to extend are collected one by one: a unit w normal to D and to the
+ * directions found flat
+ * is asked for the points x+, x- where <w, .> is largest and least; x+ - x- joins D where the width h(w) + h(-w) is
+ * more
+ * than the tolerance, else w is flat. The mean of all points found (a ray counts as a step along it) lies in the
+ * relative
  * interior: their hull has the set's dimension. */
 #include <math.h>
 #include <stdlib.h>
@@ -139,12 +142,14 @@ static CpsStatus place_zero(const CpsSet *set, const double *basis, double *zero
     facts->has_zero = answer.value <= 1e-9*cpsi_set_size(set);
     facts->zero_relative = facts->has_zero;
     double margin;
-    if (facts->dimension == set->n && cpsi_closed_margin(set, zero, NULL, &margin)) facts->zero_relative = margin > facts->tolerance;
+    if (facts->dimension == set->n && cpsi_closed_margin(set, zero, NULL, &margin))
+        facts->zero_relative = margin > facts->tolerance;
     else
         for (int k = 0; !status && facts->zero_relative && k < 2*facts->dimension; k++) {
             for (size_t i = 0; i < n; i++) work[i] = (k & 1 ? -1 : 1)*basis[(size_t)(k/2)*n + i];
             status = cpsi_reach(set, zero, work, &answer, err);
-            if (!status && !(answer.outcome == CPS_SET_ANSWERED && answer.value > facts->tolerance)) facts->zero_relative = false;
+            const bool out = answer.outcome == CPS_SET_ANSWERED && answer.value > facts->tolerance;
+            if (!status && !out) facts->zero_relative = false;
         }
     facts->zero_interior = facts->zero_relative && facts->dimension == set->n;
     return status;

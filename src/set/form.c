@@ -83,7 +83,8 @@ static void lay_work(CpsiArena *arena, Work *work, const CpsiRaw *raw, int n, in
     work->lines = CPSI_TAKE(arena, ((size_t)lines + u)*(size_t)n, double);
 }
 
-/* Rows (count, from + 1) over v rewritten over t, v = start + basis' t, basis (to, from); basis NULL is the identity. */
+/* Rows (count, from + 1) over v rewritten over t, v = start + basis' t, basis (to, from); basis NULL is the
+ * identity. */
 static void substitute(int count, int from, int to, const double *start, const double *basis, const double *in,
                        double *out) {
     for (int i = 0; i < count; i++) {
@@ -95,7 +96,8 @@ static void substitute(int count, int from, int to, const double *start, const d
     }
 }
 
-/* Solve the equations: start, and in the rows from the rank on a basis of what they leave free. Returns the rank, or -1. */
+/* Solve the equations: start, and in the rows from the rank on a basis of what they leave free. Returns the rank, or
+ * -1. */
 static int eliminate(const CpsiRaw *raw, Work *work, double tolerance) {
     const int u = raw->unknowns;
     double largest = 0;
@@ -207,7 +209,8 @@ static CpsiForm *assemble(const CpsiRaw *raw, int n, int left, int lines, const 
     return form;
 }
 
-/* The unknowns that the rows see, as an orthonormal basis in work->span, and the lines of x that the others make. Returns how
+/* The unknowns that the rows see, as an orthonormal basis in work->span, and the lines of x that the others make.
+ * Returns how
  * many are seen; *lines grows. */
 static int split(const CpsiRaw *raw, int n, int left, Work *work, int *lines) {
     const size_t l = (size_t)left, w = l + 1;

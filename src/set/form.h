@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The conic form of a set and the solver on it.
  *
- * Every expression without user's sets is  { x : exists y, E (x, y) = e, A (x, y) + b in K },  K a product of half-lines and
+ * Every expression without user's sets is  { x : exists y, E (x, y) = e, A (x, y) + b in K },  K a product of
+ * half-lines and
  * second-order cones, built node by node (emit.c): "X in t C" for affine X and t of the unknowns is a list of rows for
  * each kind of C. Eliminating the equations by an orthonormal basis of their null space leaves the reduced form
  *
@@ -59,7 +60,8 @@ double *cpsi_raw_cone(CpsiRaw *raw, int dim);
 /* Write "X in t set": X (set's n, width) and t (width) affine; the closure at t = 0. False: no memory. */
 bool cpsi_raw_emit(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t);
 
-/* The reduced form of { x (n, width) : the rows }. A row of the equations counts as dependent when no more than the share
+/* The reduced form of { x (n, width) : the rows }. A row of the equations counts as dependent when no more than the
+ * share
  * `tolerance` of it is left by the others. `lines` more rows q (lines, n) or NULL are directions known to be lines. */
 CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines, const double *q, double tolerance,
                            CpsiForm **out, CpsError *err);

@@ -73,7 +73,8 @@ void cpsi_scratch_give(CpsiScratch *scratch);
 
 /* Of primitives. point may be NULL; a value INFINITY puts a ray there. */
 bool cpsi_closed_support(const CpsSet *set, const double *w, double *point, double *value);
-/* The radius of the largest ball round p inside, or minus the distance of p and the unit separating direction (may be NULL). */
+/* The radius of the largest ball round p inside, or minus the distance of p and the unit separating direction (may
+ * be NULL). */
 bool cpsi_closed_margin(const CpsSet *set, const double *p, double *separating, double *margin);
 /* Nearest point in the Euclidean norm. */
 bool cpsi_closed_project(const CpsSet *set, const double *p, double *nearest);

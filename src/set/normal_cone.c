@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The normal cone N = {w : <w, x - p> <= 0 for every x of C} as a set of its own.
  *
- * With C = {origin + P v + Q'l : A v + b in K} and a point v of the fibre over p whose s = A v + b lies as far inside K as it can:
+ * With C = {origin + P v + Q'l : A v + b in K} and a point v of the fibre over p whose s = A v + b lies as far
+ * inside K as it can:
  *
  *     N = {w : Q w = 0,  P'w + A'z = 0,  z in K,  z.s = 0}         (Rockafellar 1970, theorem 23.9 and its proof)
  *
@@ -16,8 +17,9 @@
 
 /* Equations that differ by less than this share are one. */
 static const double SAME_EQUATION = 1e-7;
-/* A fibre that the solver looked through is known by the root of its complementarity: its distances, and its directions. */
-static const double SOLVED = 1e-6, SOLVED_EQUATION = 1e-5;
+/* A fibre that the solver looked through is known by the root of its complementarity: its distances, and its
+ * directions. */
+static const double SOLVED = 3e-6, SOLVED_EQUATION = 3e-5;
 
 /* What each cone of the form does at p. */
 typedef enum Touch { FREE, RAY, TIP } Touch;
@@ -28,8 +30,8 @@ static Touch touch_of(const double *s, int d, double tolerance) {
     return d > 1 && s[0] > tolerance ? RAY : TIP;
 }
 
-/* The fibre over p: v = v0 + (what P does not see), as rows  A v + b + tau e in K, tau >= 0;  minimising tau takes s as far inside as
- * it goes. Fills s (rows of the form); *given: no unknown is left and s is b at v0. */
+/* The fibre over p: v = v0 + (what P does not see), as rows  A v + b + tau e in K, tau >= 0; minimising tau takes s as far
+ * inside as it goes. Fills s (rows of the form); *solved: there was something to look for, s is known by the solver only. */
 static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, bool *solved, CpsSetOutcome *outcome,
                        CpsError *err) {
     const int n = form->n, u = form->unknowns;
@@ -194,7 +196,9 @@ static CpsStatus conic_cone(const CpsSet *set, const double *p, double tolerance
     if (!s) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     else status = fibre(form, p, s, &solved, &answer->outcome, err);
     answer->tolerance = solved ? fmax(tolerance, SOLVED) : tolerance;
-    if (!status && answer->outcome == CPS_SET_ANSWERED) status = build_cone(form, s, answer->tolerance, solved ? SOLVED_EQUATION : SAME_EQUATION, out, err);
+    const double same = solved ? SOLVED_EQUATION : SAME_EQUATION;
+    if (!status && answer->outcome == CPS_SET_ANSWERED)
+        status = build_cone(form, s, answer->tolerance, same, out, err);
     free(s);
     cpsi_form_free(made);
     return status;

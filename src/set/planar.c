@@ -150,6 +150,8 @@ static void walk_round(Walk *walk) {
 
 static CpsStatus start_walk(const CpsSet *set, double tolerance, Walk *walk, CpsSetFacts *facts, double **room, CpsError *err) {
     const size_t n = (size_t)set->n;
+    *walk = (Walk){.outcome = CPS_SET_INACCURATE};
+    *facts = (CpsSetFacts){.outcome = CPS_SET_INACCURATE};
     *room = malloc((n*n + 3*n)*sizeof **room);
     if (!*room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the outline of a set");
     double *center = *room, *basis = center + n;

@@ -356,7 +356,10 @@ CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *
         if (!lower) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a metric");
         bool good = cpsi_cholesky(set->n, metric, lower);
         for (size_t i = 0; good && i < n; i++)
-            for (size_t j = 0; j < i; j++) good = good && fabs(metric[i*n + j] - metric[j*n + i]) <= 1e-12*fabs(metric[i*n + i] + metric[j*n + j]);
+            for (size_t j = 0; j < i; j++) {
+                const double off = fabs(metric[i*n + j] - metric[j*n + i]);
+                good = good && off <= 1e-12*(metric[i*n + i] + metric[j*n + j]);
+            }
         if (!good) status = cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_project: metric is not symmetric positive definite");
     }
     if (!status && cpsi_set_has_user(set)) *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE};

@@ -28,12 +28,14 @@ static const double POWER_TOLERANCE = 2e-8;
 /* Two ways to the same number: rounding, where everything is a closed form; else the solver's promise. */
 static const double ROUNDING = 1e-12;
 
-/* [W] Rounding of the sets' data, of order 1, where the force asked about is 0 and so is the power's scale. */
-static const double TINY = 1e-14;
+/* [W] Rounding of sums of tens of products of order 10, where the force asked about is 0 and so is the power's scale.
+ */
+static const double TINY = 1e-12;
 
 /* Distance of V from the cone of velocities, relative to |V|. A force off by d turns the normal of a curved part by
- * d/radius: the root of the power's tolerance. */
-static const double TURN_TOLERANCE = 2e-4;
+ * d/radius; d is the root of the power's tolerance, 1e-4, and radii go down to a hundredth of the set. A wrong cone is
+ * off by order 1. */
+static const double TURN_TOLERANCE = 1e-2;
 
 /* The share of questions that may stay open, in per cent (issue: at least 98 % answered). */
 static const double MOST_OPEN = 2;

@@ -152,13 +152,13 @@ static void projections_and_gauges(void **state) {
     DO(cps_set_half_space(2, (const double[]){0, 1}, 3, &half, &err));
     const CpsSet *both[2] = {disc, half};
     DO(cps_set_intersection(2, both, &set, &err));
-    DO(cps_set_project(set, (const double[]){10, 6}, NULL, x, &answer, &err));
+    DO(cps_set_project(set, (const double[]){6, 8}, NULL, x, &answer, &err));
     CHECK_NEAR(x[0], 4, 1e-9); /* the corner; 1e-9 is what the conic solver promises */
     CHECK_NEAR(x[1], 3, 1e-9);
-    CHECK_NEAR(answer.value, sqrt(45), 1e-9);
-    DO(cps_set_contains(set, (const double[]){10, 6}, w, &answer, &err));
-    CHECK_NEAR(answer.value, -sqrt(45), 1e-9);
-    CHECK_NEAR(w[0], 6 / sqrt(45), 1e-9);
+    CHECK_NEAR(answer.value, sqrt(29), 1e-9);
+    DO(cps_set_contains(set, (const double[]){6, 8}, w, &answer, &err));
+    CHECK_NEAR(answer.value, -sqrt(29), 1e-9);
+    CHECK_NEAR(w[0], 2 / sqrt(29), 1e-9);
     DO(cps_set_contains(set, (const double[]){0, 1}, w, &answer, &err));
     assert_true(answer.exact);
     CHECK_NEAR(answer.value, 2, 1e-14);
