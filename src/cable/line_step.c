@@ -22,8 +22,7 @@
 
 /* The interior point is driven to this relative gap: what the arithmetic allows, well below any tolerance asked. */
 static const double TARGET = 1e-13;
-/* In an answer that is called solved, the loop's own residuals are below this: tensions and elongations, positions and
- * distances, bounds and mu R agree. Consistent friction whose gap stops short of it is solved again in rounds. */
+/* Consistent friction whose bounds do not agree with mu R to this, or whose loop stops short of it, is solved again in rounds. */
 static const double CLEAN = 1e-11;
 /* |distance - L| <= TAUT L: an inextensible line is pulled straight, its tension has no upper bound. */
 static const double TAUT = 1e-12;
@@ -292,13 +291,14 @@ static void report_ends(CpsiLine *line) {
     }
 }
 
-/* The iterate of the loop as a certified answer, or what it is instead. */
+/* The iterate of the loop as a certified answer, or what it is instead. The loop's own residuals (tensions against
+ * elongations, positions against distances) must be well below the tolerance too. */
 static CpsOutcome judge(const CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
     const CpsCertificate *c = &line->report.certificate;
     const double tolerance = options->solver.tolerance;
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
     const bool consistent = options->friction == CPS_FRICTION_FROZEN || c->friction_residual <= CLEAN*c->largest_force;
-    if (finite && consistent && ipm->residual <= CLEAN && c->gap <= tolerance*c->scale && c->stretch_residual <= tolerance)
+    if (finite && consistent && ipm->residual <= 0.01*tolerance && c->gap <= tolerance*c->scale && c->stretch_residual <= tolerance)
         return is_taut(line) ? CPS_TAUT : CPS_SOLVED;
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }

@@ -132,8 +132,6 @@ static void cones_direct(CpsiProgram *base, double keep, bool predictor, CpsiSum
         apply(program, k, i, -1, sqrt(program->g[k]), &base->du[program->unknowns + 1 + i], &program->dz[i]);
         for (int r = i; r < end; r++) {
             program->ds[r] = row_times(program, r, base->du) + keep*program->rho[r];
-            sums->first += program->s[r]*program->dz[r] + program->z[r]*program->ds[r];
-            sums->second += program->ds[r]*program->dz[r];
         }
         sums->inverse_step = cpsi_larger(sums->inverse_step, cone_step(program, k, i));
     }
@@ -254,8 +252,6 @@ static void tau_direct(CpsiProgram *base, double keep, bool predictor, CpsiSums 
     CpsiConicProgram *program = conic(base);
     const double tau = base->u[program->unknowns], d_tau = base->du[program->unknowns];
     program->d_kappa = program->q_tau - program->kappa/tau*d_tau;
-    sums->first += tau*program->d_kappa + program->kappa*d_tau;
-    sums->second += d_tau*program->d_kappa;
     sums->inverse_step = cpsi_larger(sums->inverse_step, cpsi_larger(-d_tau/tau, -program->d_kappa/program->kappa));
 }
 

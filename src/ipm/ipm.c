@@ -107,12 +107,11 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
         if (waited == 0) best = merit;
         if (waited > PATIENCE) { report.outcome = CPSI_IPM_STALLED; break; }
 
-        /* predictor: straight for s o z = 0 */
+        /* predictor: straight for s o z = 0; the less of the way it gets, the more the corrector centres */
         if (!scale_and_factor(program)) { report.outcome = CPSI_IPM_STALLED; break; }
         const CpsiSums predictor = direction(program, 1, true);
         const double reach = step_length(&predictor, 1);
-        const double aim = (sums.sz + reach*predictor.first + reach*reach*predictor.second)/sums.sz;
-        const double sigma = aim > 0 ? fmin(1, aim*aim*aim) : 0;
+        const double sigma = (1 - reach)*(1 - reach);
 
         /* corrector: for s o z = sigma mu e, but never below what the target asks: residuals may still need room */
         const double least = 0.1*options->target*(options->scale + sums.scale)/sums.weight;

@@ -17,7 +17,7 @@ typedef struct CpsiProgram CpsiProgram;
 typedef struct CpsiSums {
     double inverse_step; /* 1/alpha of the nearest boundary */
     double weight;       /* sum of weights */
-    double sz, first, second; /* sum w (s.z),  w (s.dz + z.ds),  w (ds.dz) */
+    double sz;           /* sum of w (s.z) */
     double residual;     /* largest |rho| */
     double scale;        /* sum w s0 z0 over the cones */
     double bound;        /* sum w A of what a dual ray neglects: forces bounded by friction */
@@ -36,7 +36,7 @@ typedef struct CpsiKind {
     void (*scale)(CpsiProgram *program);
     /* add to du, the right-hand side, the forces that q and the residuals put on the unknowns */
     void (*load)(CpsiProgram *program, double keep);
-    /* direction (ds, dz) from du; step to the boundary and sums; a predictor may leave its second-order term in q */
+    /* direction (ds, dz) from du; step to the boundary; a predictor may leave its second-order term in q */
     void (*direct)(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums);
     /* q of the corrector: s o z -> target e, less the second-order term of the predictor just taken */
     void (*correct)(CpsiProgram *program, double target);

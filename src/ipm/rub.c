@@ -95,8 +95,8 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     (void)keep; /* the stop's direction, already known, has it */
     CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
-        const double *w = rub->w[k], *q = rub->q[k], *s = rub->s[k], *z = rub->z[k], *du = &base->du[3*rub->node[k]];
-        const double g = rub->g[k], weight = rub->weight[k], share = 1/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
+        const double *w = rub->w[k], *q = rub->q[k], *z = rub->z[k], *du = &base->du[3*rub->node[k]];
+        const double g = rub->g[k], share = 1/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
         double *ds = rub->ds[k], *dz = rub->dz[k];
         dz[0] = bound_direction(program, k);
         const double wu = w[1]*du[0] + w[2]*du[1], pull = 2*share*(w[0]*(q[0] - dz[0]) + g*wu);
@@ -113,10 +113,6 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         const double step_s = cpsi_soc_inverse_step(point, scaled_ds, 3), step_z = cpsi_soc_inverse_step(point, scaled_dz, 3);
         sums->inverse_step = cpsi_larger(sums->inverse_step, cpsi_larger(step_s, step_z));
         if (predictor) cpsi_soc_second_order(rub->q[k], w, point, scaled_ds, scaled_dz, 3);
-        for (int a = 0; a < 3; a++) {
-            sums->first += weight*(s[a]*dz[a] + z[a]*ds[a]);
-            sums->second += weight*ds[a]*dz[a];
-        }
     }
 }
 

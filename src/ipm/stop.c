@@ -59,8 +59,6 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         stop->dz[k] = dz;
         if (predictor) stop->q[k] = ds*dz/s;
         sums->inverse_step = cpsi_larger(sums->inverse_step, step);
-        sums->first += stop->weight[k]*(s*dz + z*ds);
-        sums->second += stop->weight[k]*ds*dz;
     }
 }
 

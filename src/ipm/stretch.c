@@ -146,10 +146,6 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         const double step_s = cpsi_soc_inverse_step(point, scaled_ds, 4), step_z = cpsi_soc_inverse_step(point, scaled_dz, 4);
         sums->inverse_step = cpsi_larger(sums->inverse_step, cpsi_larger(step_s, step_z));
         if (predictor) cpsi_soc_second_order(st->q[i], w, point, scaled_ds, scaled_dz, 4);
-        for (int a = 0; a < 4; a++) {
-            sums->first += l*(s[a]*dz[a] + z[a]*ds[a]);
-            sums->second += l*ds[a]*dz[a];
-        }
     }
 }
 
