@@ -82,7 +82,7 @@ static inline void cpsi_soc_product(double *out, const double *x, const double *
 static inline void cpsi_soc_divide(double *out, const double *x, const double *y, const int n) {
     double x1y1 = 0;
     for (int i = 1; i < n; i++) x1y1 += x[i]*y[i];
-    const double first = (x[0]*y[0] - x1y1)/cpsi_soc_det(x, n), inverse = 1/x[0];
+    const double first = (x[0]*y[0] - x1y1)*(1/cpsi_soc_det(x, n)), inverse = 1/x[0];
     for (int i = 1; i < n; i++) out[i] = (y[i] - first*x[i])*inverse;
     out[0] = first;
 }

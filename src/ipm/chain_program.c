@@ -14,6 +14,7 @@ static void layout_stretch(CpsiStretch *st, CpsiArena *arena, int n) {
     st->z = cpsi_arena_take(arena, (size_t)n, sizeof *st->z);
     st->w = cpsi_arena_take(arena, (size_t)n, sizeof *st->w);
     st->g = CPSI_TAKE(arena, n, double);
+    st->inverse_w = CPSI_TAKE(arena, n, double);
     st->q = cpsi_arena_take(arena, (size_t)n, sizeof *st->q);
     st->ds = cpsi_arena_take(arena, (size_t)n, sizeof *st->ds);
     st->dz = cpsi_arena_take(arena, (size_t)n, sizeof *st->dz);

@@ -28,6 +28,7 @@ typedef struct CpsiStretch {
     double (*z)[4];       /* (n) (T, -p) */
     double (*w)[4];       /* (n) Nesterov-Todd scaling */
     double *g;            /* (n) and its factor */
+    double *inverse_w;    /* (n) 1/|w1| */
     double (*q)[4];       /* (n) right-hand side of the complementarity equation */
     double (*ds)[4];      /* (n) direction */
     double (*dz)[4];      /* (n) */

@@ -91,6 +91,7 @@ static void scale(CpsiProgram *base) {
         const double in = 1/sqrt(seg.omega);
         for (int a = 0; a < 4; a++) st->w[i][a] = scaling.w[a];
         st->g[i] = g;
+        st->inverse_w[i] = in;
         matrix->stiffness[i] = g*seg.inverse_length;
         matrix->compliance[i] = l*seg.d/(2*seg.omega*g*seg.stiffening);
         for (int a = 0; a < 3; a++) matrix->direction[3*i + a] = in*scaling.w[1 + a];
@@ -125,7 +126,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         double *ds = st->ds[i], *dz = st->dz[i];
         const Segment seg = segment(w, g, c, l);
         const double rho = keep*(1 + c*z[0] - s[0]);
-        const double k = 2*g*w[0]*(rho + c*q[0])*seg.inverse_d, in = 1/sqrt(seg.omega);
+        const double k = 2*g*w[0]*(rho + c*q[0])*seg.inverse_d, in = st->inverse_w[i];
         /* elongation and force */
         double along = 0; /* w1.de */
         for (int a = 0; a < 3; a++) {
