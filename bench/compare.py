@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Solve the same load step with capstan and with general conic solvers, to the same accuracy, and compare.
 
-    compare.py [--bench STEP_BENCH] [--case souza|oc3] [--elements 100,1000,...] [--solvers a,b] [--limit SECONDS] [--csv FILE]
+    compare.py [--bench STEP_BENCH] [--case souza|oc3] [--elements 100,1000,...] [--solvers a,b] [--limit SECONDS] [--as-written] [--csv FILE]
 
 The solvers are Clarabel, ECOS, QOCO and SCS, as far as the package index gives them; they are installed, at the first run,
 into a virtual environment of their own in build/bench-venv. Nothing else of the project depends on them.
@@ -37,6 +37,7 @@ VENV = os.path.join(ROOT, "build", "bench-venv")
 PACKAGES = ["numpy", "scipy", "clarabel", "ecos", "qoco", "scs"]
 ACCURACY = 1e-8
 TOLERANCES = [10.0**-k for k in range(4, 15)]
+AS_WRITTEN = [("1", "1")]  # rows, cost: the step as it stands above
 SCALINGS = [("sqrt(l)", "N"), ("l", "1"), ("1", "N"), ("sqrt(l)", "1"), ("l", "N"), ("1", "1")]  # rows, cost
 REPEATS = 3
 PATIENCE = 4      # tightenings in a row that do not halve the norm end the search in one scaling
@@ -380,12 +381,12 @@ def first_to_reach(name, conic, limit, left, slowest):
     return best
 
 
-def best_of(name, problem, limit):
+def best_of(name, problem, limit, scalings):
     """The fastest way for this solver to reach the norm, or the best norm that it reaches: a row of the table."""
     best, left = None, ALL_SOLVES*limit
     nan = float("nan")
     nothing = {"norm": float("inf"), "iterations": 0, "seconds": nan, "wall": nan, "tolerance": nan, "note": "no answer"}
-    for count, scaling in enumerate(SCALINGS):
+    for count, scaling in enumerate(scalings):
         reached = best is not None and best["norm"] <= ACCURACY
         conic = Conic(problem, scaling)
         begin = time.perf_counter()
@@ -397,7 +398,7 @@ def best_of(name, problem, limit):
             best, chosen = row, conic
         if left <= 0:
             break
-    late = f"; out of time after {count + 1} of {len(SCALINGS)} scalings" if left <= 0 else ""
+    late = f"; out of time after {count + 1} of {len(scalings)} scalings" if left <= 0 else ""
     if best is None or best["norm"] > ACCURACY:
         best = best or nothing
         return {**best, "note": f"NOT REACHED; {best['note']}{late}"}
@@ -431,7 +432,7 @@ def capstan_seconds(bench, case, elements, stop):
 COLUMNS = ["case", "elements", "solver", "iterations", "norm", "solve_s", "wall_s", "ratio", "own_tolerance", "note"]
 
 
-def compare(bench, case, elements, solvers, limit):
+def compare(bench, case, elements, solvers, limit, scalings):
     """Rows of one size."""
     modes = {"capstan": ["--stop", str(ACCURACY)], "capstan polished": []}
     rows = {}
@@ -444,7 +445,7 @@ def compare(bench, case, elements, solvers, limit):
         if importlib.util.find_spec(name) is None:
             print(f"compare: {name} is not installed: left out", file=sys.stderr)
             continue
-        rows[name] = best_of(name, problem, limit)
+        rows[name] = best_of(name, problem, limit, scalings)
     # once more after the others, as they too had more than one chance on a machine that may be busy
     for name, stop in modes.items():
         rows[name]["seconds"] = min(rows[name]["seconds"], capstan_seconds(bench, case, elements, stop))
@@ -469,6 +470,7 @@ def main():
     parser.add_argument("--elements", default="100,1000,10000,100000")
     parser.add_argument("--solvers", default=",".join(SOLVERS))
     parser.add_argument("--limit", type=float, default=120, help="seconds that one solve may take (default: %(default)s)")
+    parser.add_argument("--as-written", action="store_true", help="one scaling for all instead of the best of six")
     parser.add_argument("--csv", help="also write the rows to this file")
     options = parser.parse_args()
     if not os.access(options.bench, os.X_OK):
@@ -480,10 +482,10 @@ def main():
     form = ("{case:6} {elements:>8} {solver:17} {iterations:>10} {norm:>9} {solve_s:>9} {wall_s:>9} {ratio:>8} "
             "{own_tolerance:>7}  {note}")
     print(form.format(**{name: name for name in COLUMNS} | {"own_tolerance": "own tol"}), flush=True)
-    rows = []
+    rows, scalings = [], AS_WRITTEN if options.as_written else SCALINGS
     for case in ["souza", "oc3"] if options.case == "all" else [options.case]:
         for elements in map(int, options.elements.split(",")):
-            for row in compare(options.bench, case, elements, options.solvers.split(","), options.limit):
+            for row in compare(options.bench, case, elements, options.solvers.split(","), options.limit, scalings):
                 print(form.format(**row), flush=True)
                 rows.append(row)
     if options.csv:
