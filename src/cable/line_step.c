@@ -292,13 +292,14 @@ static void report_ends(CpsiLine *line) {
 }
 
 /* The iterate of the loop as a certified answer, or what it is instead. The loop's own residuals (tensions against
- * elongations, positions against distances) must be well below the tolerance too. */
+ * elongations, positions against distances) must be well below the tolerance too, but not below what rounding leaves. */
 static CpsOutcome judge(const CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
     const CpsCertificate *c = &line->report.certificate;
     const double tolerance = options->solver.tolerance;
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
     const bool consistent = options->friction == CPS_FRICTION_FROZEN || c->friction_residual <= CLEAN*c->largest_force;
-    if (finite && consistent && ipm->residual <= 0.01*tolerance && c->gap <= tolerance*c->scale && c->stretch_residual <= tolerance)
+    if (finite && consistent && ipm->residual <= fmax(0.01*tolerance, CLEAN) && c->gap <= tolerance*c->scale &&
+        c->stretch_residual <= tolerance)
         return is_taut(line) ? CPS_TAUT : CPS_SOLVED;
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }

@@ -198,8 +198,8 @@ static void judge_bounds(const Record *r, const Record *before, double *mu, Judg
         double w = r->friction_bound[j], R = before->reaction[j];
         if (held || (w == 0 && (was_held || isnan(*mu) || R <= 1e-3 * largest + NOTHING))) continue;
         if (isnan(*mu)) *mu = w / R;
-        // one product and its rounding; consistent bounds may be found in rounds, to 1e-8 of the largest force
-        if (!(fabs(w - *mu * R) <= (before == r ? 1e-8 * largest : 1e-14 * w))) {
+        // one product and its rounding
+        if (!(fabs(w - *mu * R) <= 1e-14 * w)) {
             find(judge, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g", w, j, *mu, R);
             return;
         }
