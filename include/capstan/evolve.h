@@ -109,11 +109,13 @@ typedef struct CpsLineView {
     const double *reference;          /* (n, 3) [m] x_R of this step */
     const double *position;           /* (n, 3) [m] */
     const double *load;               /* (n, 3) [N] weight and free-end forces */
-    const double *normal;             /* (n, 3) [-] the obstacle's, 0 0 0 without one */
-    const double *gap;                /* (n) [m] distance that n.u may close: n.u >= -gap; INFINITY: no contact looked for */
-    const double *friction_bound;     /* (n) [N] w = A h, 0 where friction does not act */
-    const double *friction;           /* (n, 3) [N] F, |F| <= w */
+    const double *normal;             /* (n, 3) [-] that of the obstacle touched or nearest, at the configuration reached; 0 0 0 without */
+    const double *gap;                /* (n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked for */
+    const double *friction_bound;     /* (n) [N] w = A h, of the larger coefficient; 0 where friction does not act */
+    const double *friction;           /* (n, 3) [N] F, in the set of forces that w bounds */
     const double *reaction;           /* (n) [N] R >= 0, along the normal */
+    const double *slide;              /* (n, 3) [m] way on the obstacle in this step, tangential, on a curved one along the
+                                         surface; NULL on one plane with isotropic friction: the part of u in it */
     const double *segment_force;      /* (elements, 3) [N] p: what the B side does to the A side */
     const double *tension;            /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
     const unsigned char *state;       /* (n) CpsNodeState */

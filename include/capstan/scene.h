@@ -12,13 +12,31 @@
 extern "C" {
 #endif
 
-/* A plane obstacle: the side `normal` points to is free. */
+typedef enum CpsObstacleKind {
+    CPS_OBSTACLE_PLANE,    /* a plane: the side `normal` points to is free */
+    CPS_OBSTACLE_CYLINDER, /* a solid cylinder without ends: a bollard, a pipe, a drum */
+    CPS_OBSTACLE_SPHERE    /* a solid ball */
+} CpsObstacleKind;
+
+/* How two coefficients make a set of friction forces (M77 section 4: the force is normal to the set's boundary against the sliding). */
+typedef enum CpsFrictionShape {
+    CPS_FRICTION_ELLIPSE, /* (F1/mu1)^2 + (F2/mu2)^2 <= R^2; the disc of Coulomb's law where mu1 = mu2 */
+    CPS_FRICTION_BOX      /* |F1| <= mu1 R and |F2| <= mu2 R: two independent laws */
+} CpsFrictionShape;
+
+/* An obstacle. Lines stay on its free side and rub on it. */
 typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
-    double point[3];  /* [m] a point of the plane, default 0 0 0 */
-    double normal[3]; /* [-] any non-zero length, default 0 0 1 */
-    double friction;  /* [-] Coulomb coefficient mu >= 0, default 0 */
+    CpsObstacleKind kind; /* default plane */
+    double point[3];      /* [m] a point of the plane or of the cylinder's axis, the sphere's centre; default 0 0 0 */
+    double normal[3];     /* [-] plane: any non-zero length, default 0 0 1 */
+    double axis[3];       /* [-] of the cylinder, and of the turn of cylinder and sphere; any non-zero length, default 0 1 0 */
+    double radius;        /* [m] cylinder, sphere: > 0 */
+    double friction;         /* [-] coefficient mu >= 0, default 0; where two directions differ, that along the first one */
+    double friction_lateral; /* [-] across the first direction; default -1: the same as `friction` */
+    CpsFrictionShape friction_shape; /* default ellipse */
+    double grain[3]; /* [-] the first direction, its part in the tangent plane, fixed in space; default 0 0 0: along the line */
 } CpsObstacle;
 
 typedef enum CpsEndKind {
@@ -71,12 +89,20 @@ typedef struct CpsChange {
     CpsEnd to;
 } CpsChange;
 
+/* A cylinder or sphere turns about its axis, and takes along what sticks to it. */
+typedef struct CpsTurn {
+    int obstacle; /* index in the scene */
+    double angle; /* [rad] by which it turns in this stage, right-hand rule */
+} CpsTurn;
+
 /* An entry of the history, reached in `steps` equal load steps. */
 typedef struct CpsStage {
     const char *name;
     int steps; /* >= 1 */
     int change_count;
     const CpsChange *change;
+    int turn_count;
+    const CpsTurn *turn;
 } CpsStage;
 
 typedef enum CpsFriction {
@@ -104,7 +130,7 @@ typedef struct CpsScene {
     uint32_t cookie;
     const char *title; /* may be NULL */
     double gravity[3]; /* [m/s2] default 0 0 -9.81; its direction is that of the lines' weight */
-    int obstacle_count; /* 0 or 1 */
+    int obstacle_count; /* >= 0 */
     const CpsObstacle *obstacle;
     int line_count; /* >= 1 */
     const CpsLine *line;

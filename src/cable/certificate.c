@@ -5,16 +5,18 @@
  *
  *     segment    l [W(e) + W*(p) - p.e] = l [ (c/2) (T_x - |p|)^2 + (|p||e| - p.e) ]     |e| >= 1, T_x = (|e| - 1)/c
  *                                       = l [ |p| (1 - |e|) + (c/2) |p|^2 + (|p||e| - p.e) ]      |e| < 1
- *     friction   w |u_T| + F.u_T = (w - |F|) |u_T| + (|F||u_T| + F.u_T)
+ *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s)
  *     contact    R (n.u + gap)
  *
- * each >= 0, where |p||e| - p.e = |p x e|^2/(|p||e| + p.e) has no cancellation. An inextensible element is taken as long as it
+ * with s the way slid, u_T on a plane. Each is >= 0, where |p||e| - p.e = |p x e|^2/(|p||e| + p.e) has no cancellation. An inextensible element is taken as long as it
  * is found, |e| <= 1 up to rounding; the excess is reported as stretch_residual. */
 #include "cable/certificate.h"
 
 #include <math.h>
 
 #include "base/larger.h"
+#include "cable/rub_set.h"
+#include "linsys/frame.h"
 
 /* |a||b| - a.b for any two vectors, without cancellation. */
 static double angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
@@ -35,17 +37,30 @@ static Vec3 node_force(const CpsiLine *line, int j) {
 
 static Vec3 segment_force(const CpsiLine *line, int e) { return vec3_load(&line->segment_force[3*e]); }
 
+/* The friction set of node j, with force or way in its tangent axes. */
+static CpsiRubSet rub_set(const CpsiLine *line, int j, const double vector[3], double local[3]) {
+    cpsi_frame_to(local, cpsi_line_axes(line, j), vector);
+    return cpsi_rub_set(cpsi_line_obstacle(line, j));
+}
+
+/* How much more friction node j could give, in whatever direction. */
+static double room_of(const CpsiLine *line, int j) {
+    double f[3];
+    const CpsiRubSet set = rub_set(line, j, &line->friction_force[3*j], f);
+    return cpsi_rub_room(&set, line->friction_bound[j], f);
+}
+
 /* Share out the force `rest` that a line free at both ends has in excess: its tangential part among frictions in proportion
  * to the room they have, its normal part among reactions in proportion to their size. */
 static void share_out(CpsiLine *line, Vec3 rest) {
     double room = 0, reaction = 0;
     for (int j = 0; j < line->n; j++) {
-        room += line->friction_bound[j] - vec3_norm(vec3_load(&line->friction_force[3*j]));
+        room += room_of(line, j);
         reaction += line->reaction[j];
     }
     for (int j = 0; j < line->n; j++) {
         const Vec3 n = vec3_load(&line->normal[3*j]), f = vec3_load(&line->friction_force[3*j]);
-        const double share = line->friction_bound[j] - vec3_norm(f);
+        const double share = room_of(line, j);
         if (room > 0) vec3_store(&line->friction_force[3*j], vec3_axpy(-share/room, tangential(rest, n), f));
         if (reaction > 0) line->reaction[j] *= fmax(0, 1 - vec3_dot(rest, n)/reaction);
     }
@@ -113,7 +128,7 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3*j]), reference = vec3_load(&line->reference[3*j]);
         const Vec3 n = vec3_load(&line->normal[3*j]), b = vec3_load(&line->load[3*j]);
-        const Vec3 f = vec3_load(&line->friction_force[3*j]), u = vec3_sub(x, reference), ut = tangential(u, n);
+        const Vec3 f = vec3_load(&line->friction_force[3*j]), u = vec3_sub(x, reference);
         const bool held = (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
                           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
         out->primal -= vec3_dot(b, x);
@@ -122,19 +137,26 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         Vec3 balance = b;
         if (j > 0) balance = vec3_sub(balance, segment_force(line, j - 1));
         if (j + 1 < line->n) balance = vec3_add(balance, segment_force(line, j));
-        if (line->has_obstacle) raise_to(&out->penetration, -cpsi_plane_gap(&line->plane, &line->position[3*j]));
+        double distance;
+        if (cpsi_line_nearest(line, x, &distance) >= 0) raise_to(&out->penetration, -distance);
         if (held) { /* the held end's share of D: what its support does, times where it is */
             out->dual -= vec3_dot(balance, x);
             continue;
         }
         raise_to(&out->largest_force, vec3_norm(f));
-        const double slide = vec3_norm(ut), size = vec3_norm(f), w = line->friction_bound[j];
-        const double law = (w - size)*slide + (size*slide + vec3_dot(f, ut));
+        double force[3], way[3];
+        const double w = line->friction_bound[j];
+        double slide[3];
+        vec3_store(slide, cpsi_line_slide(line, j));
+        const CpsiRubSet set = rub_set(line, j, slide, way);
+        cpsi_frame_to(force, cpsi_line_axes(line, j), &line->friction_force[3*j]);
+        const double law = cpsi_rub_gap(&set, w, force, way), dissipation = cpsi_rub_dissipation(&set, w, way);
         out->law_residual += law > 0 ? law : 0;
-        out->friction_residual += fabs(w - line->friction*line->reaction[j]);
-        out->primal += w*slide;
-        out->scale += w*slide;
-        out->dual += vec3_dot(f, reference);
+        out->friction_residual += fabs(w - set.friction*line->reaction[j]);
+        out->primal += dissipation;
+        out->scale += dissipation;
+        /* the place from which it slid, on the tangent plane: the reference there */
+        out->dual += vec3_dot(f, vec3_sub(x, vec3_load(slide)));
         if (line->reaction[j] > 0) {
             const double contact = line->reaction[j]*fmax(0, vec3_dot(n, u) + line->gap[j]);
             out->contact_residual += contact;

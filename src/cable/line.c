@@ -18,6 +18,23 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->segment_force = CPSI_TAKE(arena, 3*n, double);
     line->tension = CPSI_TAKE(arena, n, double);
     line->state = CPSI_TAKE(arena, n, unsigned char);
+    line->slide = line->follows ? CPSI_TAKE(arena, 3*n, double) : NULL;
+    line->base = line->follows ? CPSI_TAKE(arena, 3*n, double) : NULL;
+    line->axes = line->follows ? CPSI_TAKE(arena, 9*n, double) : NULL;
+    line->curvature = line->follows ? CPSI_TAKE(arena, 3*n, double) : NULL;
+    line->on = line->follows ? CPSI_TAKE(arena, n, int) : NULL;
+}
+
+int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {
+    int nearest = -1;
+    *gap = INFINITY;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const double distance = cpsi_obstacle_gap(&line->obstacle[k], x);
+        if (!(distance < *gap)) continue;
+        *gap = distance;
+        nearest = k;
+    }
+    return nearest;
 }
 
 void cpsi_line_measure(CpsiLine *line) {
@@ -48,11 +65,14 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
     for (int j = 0; j < line->n; j++) {
         line->reaction[j] = 0;
         line->state[j] = CPS_NODE_FREE;
-        if (!line->has_obstacle || cpsi_plane_gap(&line->plane, &line->position[3*j]) > touch) continue;
+        const Vec3 x = vec3_load(&line->position[3*j]);
+        double gap;
+        const int on = cpsi_line_nearest(line, x, &gap);
+        if (!(gap <= touch)) continue;
         Vec3 sum = vec3_scale(line->share[j], vec3_load(line->weight));
         if (j > 0) sum = vec3_sub(sum, start_force(line, j - 1));
         if (j + 1 < line->n) sum = vec3_add(sum, start_force(line, j));
-        const double reaction = -vec3_dot(sum, line->plane.axis[2]);
+        const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));
         line->reaction[j] = reaction > 0 ? reaction : 0;
         line->state[j] = CPS_NODE_STICK;
     }

@@ -4,13 +4,16 @@
  *   pose      reference x_R, friction bounds w = mu R_R where the reference touches, gaps, loads
  *   decide    is there an equilibrium at all?  An inextensible line shorter than the distance of its ends has none; a line
  *             with no end held needs friction and reactions that can carry its loads
- *   solve     scale to lengths of one and forces of one, turn the obstacle's normal into the third axis, run ipm/
+ *   solve     write the step as a program (step_program.c), run ipm/
  *   conclude  back to world axes; balance the forces; classify nodes; certificate; report
  *
  * Consistent friction is solved in one go, the bound of each rub tied to the reaction beside it (ipm/rub.c). That problem is no
  * minimisation and may stall; then the bounds are found in rounds, each a convex step with the last round's mu R.
  *
- * Lengths are divided by the line's length L, forces by a force F0 of the size of the tension to come. */
+ * On curved obstacles, or where friction follows the line's direction, each round is such a program on the tangent planes where the
+ * last one ended. It is Newton's method on the step's equations with the inequalities kept whole: the reaction turns with the normal in
+ * the program itself, the other turns are taken from the last round. What the last round leaves is in the certificate, which is
+ * taken at the place reached, with its own normals. Frozen friction keeps the planes of the reference, as S90 has it. */
 #include "cable/line_step.h"
 
 #include <float.h>
@@ -18,7 +21,12 @@
 #include <string.h>
 
 #include "cable/certificate.h"
+#include "cable/contact.h"
+#include "cable/line_report.h"
+#include "cable/rub_set.h"
+#include "cable/step_program.h"
 #include "ipm/ipm.h"
+#include "linsys/frame.h"
 
 /* The interior point is driven to this relative gap: what the arithmetic allows, well below any tolerance asked. */
 static const double TARGET = 1e-13;
@@ -28,17 +36,12 @@ static const double CLEAN = 1e-11;
 static const double TAUT = 1e-12;
 /* A taut line's forces are those of a line longer by this share. */
 static const double TAUT_SLACK = 1e-9;
-/* A node this near to the obstacle, per length of the line, touches it. */
-static const double TOUCH = 1e-9;
-/* Friction below this share of the force scale is none: it could not be told from rounding. */
-static const double LEAST_FRICTION = 1e-14;
-/* Rounds with given bounds before consistent friction is given up. */
+/* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
 static const int ROUNDS = 12;
-
-static bool is_held(const CpsiLine *line, int j) {
-    return (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
-           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
-}
+/* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
+static const double SETTLED = 1e-8;
+/* ... and bounds that were tried differ by no more than this share, in sum, from mu R. */
+static const double MATCHED = 1e-8;
 
 static bool both(const CpsiLine *line, CpsEndKind kind) {
     return line->end[CPS_END_A].kind == kind && line->end[CPS_END_B].kind == kind;
@@ -50,26 +53,14 @@ static double end_distance(const CpsiLine *line) {
 
 /* pose ---------------------------------------------------------------------------------------------------------- */
 
+/* Contact, and the loads: weight, half of each element to each of its nodes, and the forces at free ends. */
 static void pose(CpsiLine *line, const CpsiStepOptions *options) {
-    const int n = line->n;
-    memcpy(line->reference, line->position, 3*(size_t)n*sizeof *line->reference);
-    for (int j = 0; j < n; j++) {
-        const double *x = &line->reference[3*j];
-        const bool touches = line->has_obstacle && line->state[j] != CPS_NODE_FREE, held = is_held(line, j);
-        /* the friction bound is that of the reference; for consistent friction it is a first guess */
-        line->friction_bound[j] = touches && !held && !options->frictionless ? line->friction*line->reaction[j] : 0;
-        /* contact: everywhere, or only where the reference touches (S90 (35)) */
-        const double gap = line->has_obstacle ? cpsi_plane_gap(&line->plane, x) : 0;
-        const bool watched = line->has_obstacle && !held &&
-                             (options->contact == CPS_CONTACT_GAINED || touches || gap <= TOUCH*line->length);
-        line->gap[j] = !watched ? INFINITY : gap > 0 ? gap : 0;
-        /* weight, half of each element to each of its nodes, and the forces at free ends */
+    cpsi_contact_pose(line, options);
+    for (int j = 0; j < line->n; j++)
         for (int a = 0; a < 3; a++) line->load[3*j + a] = line->share[j]*line->weight[a];
-        if (line->has_obstacle) vec3_store(&line->normal[3*j], line->plane.axis[2]);
-    }
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_FREE)
-            for (int a = 0; a < 3; a++) line->load[3*(end == CPS_END_A ? 0 : n - 1) + a] += line->end[end].value[a];
+            for (int a = 0; a < 3; a++) line->load[3*(end == CPS_END_A ? 0 : line->n - 1) + a] += line->end[end].value[a];
 }
 
 /* decide -------------------------------------------------------------------------------------------------------- */
@@ -87,9 +78,10 @@ static bool too_short(CpsiLine *line) {
 }
 
 /* No end held: a rigid translation v with B.v > sum w |v_T| lowers the energy for ever, B the sum of loads. The best v has
- * the part of B that friction cannot carry, and its normal part where the obstacle does not stop it. */
+ * the part of B that friction cannot carry, and its normal part where the obstacle does not stop it. On one plane with isotropic
+ * friction, or none; elsewhere the loop has to find out. */
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
-    if (!both(line, CPS_END_FREE)) return false;
+    if (!both(line, CPS_END_FREE) || line->follows) return false;
     Vec3 sum = vec3(0, 0, 0);
     double friction = 0, loads = 0;
     bool stopped = false;
@@ -100,11 +92,11 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
         friction += line->friction_bound[j];
         stopped = stopped || isfinite(line->gap[j]);
     }
-    const Vec3 n = line->plane.axis[2];
+    const Vec3 n = vec3_load(&line->common[6]);
     const double normal = vec3_dot(sum, n), along = stopped && normal < 0 ? 0 : normal;
     const Vec3 tangent = vec3_axpy(-normal, n, sum);
     /* all reactions together balance B.n */
-    if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) friction = line->friction*fmax(0, -normal);
+    if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) friction = cpsi_rub_set(cpsi_line_obstacle(line, 0)).friction*fmax(0, -normal);
     const double pull = vec3_norm(tangent), beyond = pull > friction ? pull - friction : 0;
     const double fall = sqrt(beyond*beyond + along*along);
     if (!(fall > TAUT*loads)) return false;
@@ -139,156 +131,13 @@ static double force_scale(const CpsiLine *line, double distance) {
     return high < 1e300 ? high : scale;
 }
 
-/* The first guess: the reference, its ends moved to where they are held, the rest along in proportion. */
-static void guess(const CpsiLine *line, CpsiChainProgram *program) {
-    double shift[2][3] = {{0}};
-    const int last = line->n - 1;
-    for (int end = 0; end < 2; end++) {
-        if (line->end[end].kind != CPS_END_HELD) continue;
-        double move[3];
-        for (int a = 0; a < 3; a++) move[a] = line->end[end].value[a] - line->reference[3*(end ? last : 0) + a];
-        cpsi_plane_to_frame(&line->plane, shift[end], move);
-    }
-    for (int j = 0; j < line->n; j++) {
-        const double b = line->arc_length[j]/line->length;
-        for (int a = 0; a < 3; a++) {
-            const double value = j == 0 ? shift[0][a] : j == last ? shift[1][a] : (1 - b)*shift[0][a] + b*shift[1][a];
-            program->base.u[3*j + a] = value/line->length;
-        }
-    }
-}
-
-/* `follow`: friction bounds follow the reactions; else they are those of the line. */
-static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, double force, bool follow) {
-    CpsiRub *rub = &program->rub;
-    CpsiStop *stop = &program->stop;
-    rub->count = stop->count = 0;
-    for (int j = 0; j < line->n; j++) {
-        const double share = line->share[j]/line->length;
-        program->held[j] = is_held(line, j);
-        cpsi_plane_to_frame(&line->plane, &program->base.load[3*j], &line->load[3*j]);
-        for (int a = 0; a < 3; a++) program->base.load[3*j + a] /= force;
-        const bool watched = isfinite(line->gap[j]);
-        if (watched) {
-            stop->node[stop->count] = j;
-            stop->weight[stop->count] = share;
-            stop->gap[stop->count++] = line->gap[j]/line->length;
-        }
-        if (follow ? !watched : line->friction_bound[j] < LEAST_FRICTION*force) continue;
-        rub->node[rub->count] = j;
-        rub->weight[rub->count] = share;
-        rub->stop[rub->count] = follow ? stop->count - 1 : -1;
-        rub->friction[rub->count] = line->friction;
-        rub->z[rub->count++][0] = line->friction_bound[j]/(force*share);
-    }
-}
-
-static void fill_elements(const CpsiLine *line, CpsiChainProgram *program, double force, double longer) {
-    CpsiStretch *st = &program->stretch;
-    for (int i = 1; i < line->n; i++) {
-        const double l = line->element_length[i - 1]*longer;
-        double dx[3], frame[3];
-        for (int a = 0; a < 3; a++) dx[a] = (line->reference[3*i + a] - line->reference[3*(i - 1) + a])/l;
-        cpsi_plane_to_frame(&line->plane, frame, dx);
-        st->length[i] = l/line->length;
-        st->compliance[i] = line->compliance*force;
-        for (int a = 0; a < 3; a++)
-            st->s[i][1 + a] = frame[a] + (program->base.u[3*i + a] - program->base.u[3*(i - 1) + a])/st->length[i];
-    }
-}
-
 /* conclude ------------------------------------------------------------------------------------------------------ */
-
-/* Positions and forces in world axes. */
-static void unpack(CpsiLine *line, const CpsiChainProgram *program, double force, bool follow) {
-    for (int j = 0; j < line->n; j++) {
-        double u[3], shift[3];
-        for (int a = 0; a < 3; a++) u[a] = line->length*program->base.u[3*j + a];
-        if (isfinite(line->gap[j]) && u[2] < -line->gap[j]) u[2] = -line->gap[j];
-        cpsi_plane_from_frame(&line->plane, shift, u);
-        for (int a = 0; a < 3; a++) line->position[3*j + a] = line->reference[3*j + a] + shift[a];
-        line->reaction[j] = 0;
-        for (int a = 0; a < 3; a++) line->friction_force[3*j + a] = 0;
-    }
-    for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_HELD)
-            memcpy(&line->position[3*(end == CPS_END_A ? 0 : line->n - 1)], line->end[end].value, sizeof line->end[end].value);
-    for (int k = 0; k < program->stop.count; k++)
-        line->reaction[program->stop.node[k]] = force*program->stop.weight[k]*program->stop.z[k];
-    for (int j = 0; j < line->n; j++)
-        if (follow || line->friction_bound[j] < LEAST_FRICTION*force) line->friction_bound[j] = 0;
-    for (int k = 0; k < program->rub.count; k++) {
-        const int j = program->rub.node[k];
-        const double *z = program->rub.z[k], scale = force*program->rub.weight[k], size = scale*sqrt(z[1]*z[1] + z[2]*z[2]);
-        if (follow) line->friction_bound[j] = line->friction*line->reaction[j];
-        const double keep = size > line->friction_bound[j] ? line->friction_bound[j]/size : 1;
-        cpsi_plane_from_frame(&line->plane, &line->friction_force[3*j],
-                              (double[3]){keep*scale*z[1], keep*scale*z[2], 0});
-    }
-    for (int i = 1; i < line->n; i++) {
-        const double *z = program->stretch.z[i];
-        cpsi_plane_from_frame(&line->plane, &line->segment_force[3*(i - 1)],
-                              (double[3]){-force*z[1], -force*z[2], -force*z[3]});
-        line->tension[i - 1] = force*z[0];
-    }
-}
 
 /* A taut line is straight, each element at its share of the span. */
 static void straighten(CpsiLine *line) {
     const Vec3 a = vec3_load(line->end[CPS_END_A].value), b = vec3_load(line->end[CPS_END_B].value);
     for (int j = 1; j + 1 < line->n; j++)
         vec3_store(&line->position[3*j], vec3_axpy(line->arc_length[j]/line->length, vec3_sub(b, a), a));
-}
-
-/* Free, stick or slip, and slack: of two complementary quantities, the one that is larger at its own scale is the one that is
- * not zero. */
-static void classify(CpsiLine *line, const CpsiChainProgram *program) {
-    const double weight = vec3_norm(vec3_load(line->weight));
-    const double density = weight > 0 ? weight : line->report.certificate.largest_force/line->length;
-    CpsLineReport *report = &line->report;
-    memset(line->state, CPS_NODE_FREE, (size_t)line->n);
-    for (int k = 0; k < program->stop.count; k++) {
-        const int j = program->stop.node[k];
-        if (line->reaction[j] <= density*line->share[j]*program->stop.s[k]) continue;
-        line->state[j] = CPS_NODE_STICK;
-        report->grounded += line->share[j];
-    }
-    for (int k = 0; k < program->rub.count; k++) {
-        const int j = program->rub.node[k];
-        const double *z = program->rub.z[k], *s = program->rub.s[k], slide = sqrt(s[1]*s[1] + s[2]*s[2]);
-        report->dissipated += line->friction_bound[j]*slide*line->length;
-        if (line->state[j] == CPS_NODE_FREE || slide*z[0] <= z[0] - sqrt(z[1]*z[1] + z[2]*z[2])) continue;
-        line->state[j] = CPS_NODE_SLIP;
-        report->slipping += line->share[j];
-    }
-    for (int i = 1; i < line->n; i++) {
-        const double *s = program->stretch.s[i], *z = program->stretch.z[i];
-        if (z[0] < s[0] - sqrt(s[1]*s[1] + s[2]*s[2] + s[3]*s[3])) report->slack += line->element_length[i - 1];
-    }
-}
-
-static void report_ends(CpsiLine *line) {
-    for (int end = 0; end < 2; end++) {
-        const int j = end == CPS_END_A ? 0 : line->n - 1, e = end == CPS_END_A ? 0 : line->n - 2;
-        CpsEndReport *out = &line->report.end[end];
-        memcpy(out->position, &line->position[3*j], sizeof out->position);
-        Vec3 force = vec3_load(line->end[end].value);
-        if (line->end[end].kind == CPS_END_HELD) {
-            /* what the support does: the opposite of the element's pull and the node's own weight */
-            const Vec3 pull = vec3_scale(end == CPS_END_A ? 1 : -1, vec3_load(&line->segment_force[3*e]));
-            force = vec3_scale(-1, vec3_add(pull, vec3_load(&line->load[3*j])));
-            /* an end that lies on the obstacle is carried by it */
-            const Vec3 n = line->plane.axis[2];
-            const double up = vec3_dot(force, n);
-            if (line->has_obstacle && up > 0 && cpsi_plane_gap(&line->plane, out->position) <= TOUCH*line->length) {
-                line->reaction[j] = up;
-                line->state[j] = CPS_NODE_STICK; /* let go in the next step, it starts with its friction */
-                force = vec3_axpy(-up, n, force);
-            }
-        }
-        vec3_store(out->force, force);
-        out->tension = vec3_norm(force);
-    }
 }
 
 /* The iterate of the loop as a certified answer, or what it is instead. The loop's own residuals (tensions against
@@ -312,49 +161,122 @@ static void certify(CpsiLine *line, const CpsiStepOptions *options, const CpsiIp
     line->report.outcome = judge(line, options, ipm);
 }
 
-/* Solve once, with bounds that follow the reactions or with the bounds of the line. */
-static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, bool follow) {
-    const bool taut = is_taut(line);
-    const double longer = taut ? 1 + TAUT_SLACK : 1;
-    const double force = force_scale(line, end_distance(line)/longer), unit = force > 0 ? force : 1;
-    cpsi_chain_program_resize(program, line->n);
-    guess(line, program);
-    fill_nodes(line, program, unit, follow);
-    fill_elements(line, program, unit, longer);
-    double scale = 0;
-    for (int i = 0; i < 3*line->n; i++) scale += fabs(program->base.load[i]);
-    const CpsiIpmOptions ipm_options = {
-        .target = TARGET, .scale = scale > 0 ? scale : 1, .max_iterations = options->solver.max_iterations};
-    const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
+/* The unit of force of a step, 0 where nothing asks for any. Bounds that are tried can carry what they add up to. */
+static double unit_force(const CpsiLine *line, CpsiBounds bounds) {
+    double force = force_scale(line, end_distance(line)/(is_taut(line) ? 1 + TAUT_SLACK : 1)), all = 0;
+    for (int j = 0; j < line->n && bounds == CPSI_BOUNDS_TRIED; j++) all += line->friction_bound[j];
+    return fmax(force, all);
+}
 
-    unpack(line, program, force, follow);
+/* Solve once, from the base of the line. */
+static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds,
+                           bool curved) {
+    const bool taut = is_taut(line);
+    const double force = unit_force(line, bounds);
+    CpsiStepScale scale = {.force = force > 0 ? force : 1, .longer = taut ? 1 + TAUT_SLACK : 1, .bounds = bounds, .curved = curved};
+    cpsi_step_program_fill(line, program, &scale);
+    double loads = 0;
+    for (int i = 0; i < 3*line->n; i++) loads += fabs(program->base.load[i]);
+    const CpsiIpmOptions ipm_options = {
+        .target = TARGET, .scale = loads > 0 ? loads : 1, .max_iterations = options->solver.max_iterations};
+    const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
+    scale.force = force;
+    cpsi_step_program_unpack(line, program, &scale);
     if (taut) straighten(line);
-    certify(line, options, &ipm);
     line->report.iterations += ipm.iterations;
     return ipm;
 }
 
+/* Solve with bounds that follow the reactions or with the bounds of the line, on the planes of the pose. */
+static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, bool follow) {
+    const CpsiIpmReport ipm = solve(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN, false);
+    cpsi_contact_slide(line);
+    certify(line, options, &ipm);
+    return ipm;
+}
+
+static bool is_clean(const CpsiIpmReport *ipm) { return ipm->gap + ipm->residual <= CLEAN; }
+
 /* The bounds mu R, and no friction beyond them. */
 static void take_bounds(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) {
-        const double bound = isfinite(line->gap[j]) ? line->friction*line->reaction[j] : 0;
-        double *f = &line->friction_force[3*j];
-        const double size = vec3_norm(vec3_load(f));
-        if (size > bound) vec3_store(f, vec3_scale(bound/size, vec3_load(f)));
-        line->friction_bound[j] = bound;
+        const double *axes = cpsi_line_axes(line, j);
+        const CpsiRubSet set = cpsi_rub_set(cpsi_line_obstacle(line, j));
+        double f[3];
+        line->friction_bound[j] = isfinite(line->gap[j]) ? set.friction*line->reaction[j] : 0;
+        cpsi_frame_to(f, axes, &line->friction_force[3*j]);
+        cpsi_rub_clip(&set, line->friction_bound[j], f);
+        cpsi_frame_from(&line->friction_force[3*j], axes, f);
     }
 }
 
-/* Rounds of convex steps, each with the bounds mu R of the one before; what the last round leaves between A and mu R goes
- * into the gap. */
-static void find_bounds(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
-    for (int round = 0; round < ROUNDS; round++) {
-        take_bounds(line);
-        ipm = attempt(line, program, options, false);
-        if (line->report.outcome <= CPS_TAUT) break;
+/* Sum of |A - mu R| over that of mu R: how far given bounds are from following. */
+static double mismatch(const CpsiLine *line) {
+    double off = 0, all = 0;
+    for (int j = 0; j < line->n; j++) {
+        if (!isfinite(line->gap[j])) continue;
+        const double follow = cpsi_rub_set(cpsi_line_obstacle(line, j)).friction*line->reaction[j];
+        off += fabs(line->friction_bound[j] - follow);
+        all += follow;
     }
-    take_bounds(line);
+    return all > 0 ? off/all : 0;
+}
+
+/* The next round's bounds: mu R as Newton's method foresees it from the last solution, or simply mu R. */
+static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force) {
+    const bool newton = cpsi_chain_program_follow(program);
+    for (int k = 0; k < program->stop.count; k++) {
+        const int j = program->stop.node[k];
+        const double foreseen = program->stop.z[k] + program->stop.dz[k], now = program->stop.z[k];
+        const double reaction = newton && isfinite(foreseen) ? fmax(0, foreseen) : now;
+        line->friction_bound[j] =
+            cpsi_rub_set(cpsi_line_obstacle(line, j)).friction*reaction*force*program->stop.weight[k];
+    }
+}
+
+/* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. */
+static void look_again(CpsiLine *line, double *turned) {
+    for (int j = 0; j < line->n; j++) {
+        double f[3];
+        cpsi_frame_to(f, cpsi_line_axes(line, j), &line->friction_force[3*j]);
+        memcpy(&line->friction_force[3*j], f, sizeof f);
+    }
+    *turned = cpsi_contact_move(line);
+    cpsi_contact_look(line);
+    for (int j = 0; j < line->n; j++) {
+        double f[3];
+        cpsi_frame_from(f, cpsi_line_axes(line, j), &line->friction_force[3*j]);
+        memcpy(&line->friction_force[3*j], f, sizeof f);
+    }
+}
+
+/* One round: solve where the line is, the reactions turning with their normals if that can be solved. */
+static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
+    const CpsiIpmReport ipm = solve(line, program, options, bounds, line->follows);
+    return is_clean(&ipm) || !line->follows ? ipm : solve(line, program, options, bounds, false);
+}
+
+/* Rounds on tangent planes that move to where the nodes are. The bounds follow the reactions within each round; once the loop cannot
+ * make them, they are tried: from no friction towards mu R. */
+static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
+    CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
+    if (line->follows) cpsi_contact_look(line);
+    for (int round = 0; round < ROUNDS; round++) {
+        double turned = 0, off = 0;
+        ipm = solve_round(line, program, options, bounds);
+        if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
+            bounds = CPSI_BOUNDS_TRIED;
+            for (int j = 0; j < line->n; j++) line->friction_bound[j] = line->reaction[j] = 0;
+            ipm = solve_round(line, program, options, bounds);
+        }
+        if (bounds == CPSI_BOUNDS_TRIED) {
+            off = mismatch(line);
+            next_bounds(line, program, unit_force(line, bounds));
+        }
+        if (line->follows) look_again(line, &turned);
+        if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
+    }
+    if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line);
     certify(line, options, &ipm);
 }
 
@@ -364,9 +286,14 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
         memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
     pose(line, options);
     if (too_short(line) || runs_away(line, options)) return;
-    const bool follow = options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless && line->friction > 0;
-    const CpsiIpmReport ipm = attempt(line, program, options, follow);
-    if (follow && !(ipm.gap + ipm.residual <= CLEAN)) find_bounds(line, program, options);
-    classify(line, program);
-    report_ends(line);
+    const bool consistent = options->friction == CPS_FRICTION_CONSISTENT;
+    const bool follow = consistent && !options->frictionless && line->obstacle_count > 0;
+    if (line->follows && (consistent || options->frictionless)) {
+        settle(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN);
+    } else {
+        const CpsiIpmReport ipm = attempt(line, program, options, follow);
+        if (follow && !is_clean(&ipm)) settle(line, program, options, CPSI_BOUNDS_TRIED);
+    }
+    cpsi_line_classify(line, program);
+    cpsi_line_report_ends(line);
 }

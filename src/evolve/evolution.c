@@ -30,8 +30,9 @@ typedef struct Change {
 
 typedef struct Stage {
     const char *name;
-    int steps, change_count;
+    int steps, change_count, turn_count;
     Change *change;
+    CpsTurn *turn;
 } Stage;
 
 struct CpsEvolution {
@@ -40,6 +41,9 @@ struct CpsEvolution {
     char step_name[STEP_NAME];
     CpsiStepOptions options;
     int line_count, stage_count, step_count;
+    int obstacle_count;
+    CpsiObstacle *obstacle; /* (obstacle_count) */
+    double *turn;           /* (obstacle_count) [rad] by which each turns in the step */
     CpsiLine *line;   /* (line_count) */
     Stage *stage;     /* (stage_count) */
     bool laid;        /* the first step is the statics of lines laid */
@@ -59,6 +63,13 @@ static char *take_name(CpsiArena *arena, const char *name) {
     return copy;
 }
 
+/* Do nodes need axes of their own?  Not on one plane with isotropic friction. */
+static bool scene_follows(const CpsScene *scene) {
+    if (scene->obstacle_count != 1) return scene->obstacle_count > 1;
+    const CpsiObstacle only = cpsi_obstacle(scene->obstacle);
+    return cpsi_obstacle_follows(&only);
+}
+
 /* Everything an evolution holds, in one block (base/arena.h); called once to measure and once to place. */
 static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
     CpsEvolution measured = {0};
@@ -69,11 +80,15 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
     evolution->line = CPSI_TAKE(arena, scene->line_count, CpsiLine);
     evolution->is_laid = CPSI_TAKE(arena, scene->line_count, bool);
     evolution->stage = CPSI_TAKE(arena, scene->stage_count + 1, Stage);
+    evolution->obstacle = CPSI_TAKE(arena, scene->obstacle_count + 1, CpsiObstacle);
+    evolution->turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
+    const bool follows = scene_follows(scene);
     int nodes = 0;
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
         line->name = take_name(arena, scene->line[i].name);
         line->n = scene->line[i].elements + 1;
+        line->follows = follows;
         cpsi_line_layout(line, arena);
         if (line->n > nodes) nodes = line->n;
     }
@@ -81,20 +96,38 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
         Stage *stage = real ? &evolution->stage[i] : &none;
         stage->name = take_name(arena, scene->stage[i].name);
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, Change);
+        stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
-    cpsi_chain_program_layout(&evolution->program, arena, nodes,
+    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows,
                         scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain);
     return placed;
 }
 
-static void fill_line(CpsiLine *line, const CpsScene *scene, const CpsLine *def) {
+/* The obstacles of a line, and its axes: those of the one plane, else of the world. */
+static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1};
-    const CpsObstacle *bed = scene->obstacle_count > 0 ? scene->obstacle : NULL;
+    line->obstacle_count = evolution->obstacle_count;
+    line->obstacle = evolution->obstacle;
+    line->turn = evolution->turn;
+    const bool own = line->follows || line->obstacle_count == 0;
+    const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
+    for (int i = 0; i < 3; i++) vec3_store(&line->common[3*i], plane.axis[i]);
+}
+
+/* The first guess of statics lies on the free side. */
+static void lift(CpsiLine *line) {
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 x = vec3_load(&line->position[3*j]);
+        double gap;
+        const int on = cpsi_line_nearest(line, x, &gap);
+        if (gap < 0) vec3_store(&line->position[3*j], vec3_axpy(-gap, cpsi_obstacle_normal(&line->obstacle[on], x), x));
+    }
+}
+
+static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsScene *scene, const CpsLine *def) {
     line->length = def->length;
     line->compliance = isinf(def->stiffness) ? 0 : 1/def->stiffness;
-    line->has_obstacle = bed != NULL;
-    line->friction = bed ? bed->friction : 0;
-    line->plane = bed ? cpsi_plane(bed->point, bed->normal) : cpsi_plane(origin, up);
+    fill_obstacles(line, evolution);
     const Vec3 gravity = vec3_load(scene->gravity);
     const double size = vec3_norm(gravity);
     vec3_store(line->weight, vec3_scale(size > 0 ? def->weight/size : 0, gravity));
@@ -107,12 +140,7 @@ static void fill_line(CpsiLine *line, const CpsScene *scene, const CpsLine *def)
         if (line->end[end].kind == CPS_END_HELD) cpsi_start_end(def, end, line->end[end].value);
     }
     if (def->start.kind == CPS_START_LAID) {
-        /* the first guess of statics lies on the free side */
-        for (int j = 0; j < line->n && bed; j++) {
-            const double gap = cpsi_plane_gap(&line->plane, &line->position[3*j]);
-            const Vec3 x = vec3_load(&line->position[3*j]);
-            if (gap < 0) vec3_store(&line->position[3*j], vec3_axpy(-gap, line->plane.axis[2], x));
-        }
+        lift(line);
     } else {
         cpsi_line_start_reaction(line, START_TOUCH*line->length);
     }
@@ -121,10 +149,12 @@ static void fill_line(CpsiLine *line, const CpsScene *scene, const CpsLine *def)
 
 static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->options = (CpsiStepOptions){.solver = scene->solver, .friction = scene->friction, .contact = scene->contact};
+    evolution->obstacle_count = scene->obstacle_count;
+    for (int k = 0; k < scene->obstacle_count; k++) evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
-        fill_line(&evolution->line[i], scene, &scene->line[i]);
+        fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
         evolution->is_laid[i] = scene->line[i].start.kind == CPS_START_LAID;
         evolution->laid = evolution->laid || evolution->is_laid[i];
     }
@@ -135,6 +165,8 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         stage->change_count = from->change_count;
         for (int k = 0; k < from->change_count; k++)
             stage->change[k] = (Change){.line = from->change[k].line, .end = from->change[k].end, .to = from->change[k].to};
+        stage->turn_count = from->turn_count;
+        for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
         evolution->step_count += from->steps;
     }
     if (evolution->laid) evolution->step_count++;
@@ -186,7 +218,7 @@ static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
     return now;
 }
 
-/* Impose the next load step's ends, and name it. */
+/* Impose the next load step's ends and turns, and name it. */
 static void impose(CpsEvolution *evolution) {
     Stage *stage = &evolution->stage[evolution->current];
     const double share = (double)(evolution->part + 1)/stage->steps;
@@ -201,6 +233,8 @@ static void impose(CpsEvolution *evolution) {
                                 ? change->to.value[a]
                                 : change->from.value[a] + share*(change->to.value[a] - change->from.value[a]);
     }
+    for (int k = 0; k < evolution->obstacle_count; k++) evolution->turn[k] = 0;
+    for (int k = 0; k < stage->turn_count; k++) evolution->turn[stage->turn[k].obstacle] = stage->turn[k].angle/stage->steps;
     if (stage->steps == 1) snprintf(evolution->step_name, STEP_NAME, "%s", stage->name);
     else snprintf(evolution->step_name, STEP_NAME, "%.64s %d/%d", stage->name, evolution->part + 1, stage->steps);
     if (++evolution->part == stage->steps) evolution->part = 0, evolution->current++;
@@ -275,6 +309,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .friction_bound = from->friction_bound,
         .friction = from->friction_force,
         .reaction = from->reaction,
+        .slide = from->slide,
         .segment_force = from->segment_force,
         .tension = from->tension,
         .state = from->state,

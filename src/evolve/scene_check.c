@@ -8,6 +8,7 @@
 #include "base/vec3.h"
 #include "capstan/scene.h"
 #include "evolve/start.h"
+#include "geometry/obstacle.h"
 
 enum { SCENE_COOKIE = 0x5ce9e501, LINE_COOKIE = 0x11e00e02, OBSTACLE_COOKIE = 0x0b57ac03 };
 
@@ -20,7 +21,7 @@ static const double PLACE_TOLERANCE = 1e-9;
 /* How far the elements' lengths may sum up beside the line's, relative: lengths written with 10 digits pass. */
 static const double SUM_TOLERANCE = 1e-9;
 /* What still fits into the memory of a large machine (1 kB per element), and into a list of results. */
-enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000 };
+enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000, MAX_OBSTACLES = 1000 };
 
 CpsScene cps_scene_default(void) {
     return (CpsScene){
@@ -40,7 +41,15 @@ CpsLine cps_line_default(void) {
     };
 }
 
-CpsObstacle cps_obstacle_default(void) { return (CpsObstacle){.cookie = OBSTACLE_COOKIE, .normal = {0, 0, 1}}; }
+CpsObstacle cps_obstacle_default(void) {
+    return (CpsObstacle){
+        .cookie = OBSTACLE_COOKIE,
+        .kind = CPS_OBSTACLE_PLANE,
+        .normal = {0, 0, 1},
+        .axis = {0, 1, 0},
+        .friction_lateral = -1,
+    };
+}
 
 /* ---- the check ----
  *
@@ -76,34 +85,74 @@ static CpsStatus check_name(const char *what, int index, const char *name, CpsEr
         what, index + 1, name ? name : "(none)");
 }
 
-static CpsStatus check_obstacle(const CpsScene *scene, CpsError *err) {
-    if (scene->obstacle_count < 0 || scene->obstacle_count > 1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacles: found %d, at most one obstacle is possible",
-                         scene->obstacle_count);
-    if (scene->obstacle_count == 0) return CPS_OK;
-    const CpsObstacle *o = scene->obstacle;
-    if (!o || o->cookie != OBSTACLE_COOKIE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle 1: not made by cps_obstacle_default()");
-    const CpsStatus status = check_name("obstacle", 0, o->name, err);
-    if (status != CPS_OK) return status;
+static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
+    if (o->kind < CPS_OBSTACLE_PLANE || o->kind > CPS_OBSTACLE_SPHERE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': unknown kind %d", o->name, (int)o->kind);
+    const char *what = o->kind == CPS_OBSTACLE_PLANE ? "plane point" : o->kind == CPS_OBSTACLE_CYLINDER ? "cylinder point" : "sphere center";
     if (!usable3(o->point))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': plane point is (%g, %g, %g) m, expected finite numbers",
-                         o->name, o->point[0], o->point[1], o->point[2]);
-    if (!direction(o->normal))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': %s is (%g, %g, %g) m, expected finite numbers", o->name,
+                         what, o->point[0], o->point[1], o->point[2]);
+    const bool plane = o->kind == CPS_OBSTACLE_PLANE;
+    const double *d = plane ? o->normal : o->axis;
+    if (!direction(d))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "obstacle '%s': plane normal is (%g, %g, %g), expected a direction: finite numbers, not all 0",
-                         o->name, o->normal[0], o->normal[1], o->normal[2]);
-    if (!not_negative(o->friction))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
-                         o->friction);
+                         "obstacle '%s': %s is (%g, %g, %g), expected a direction: finite numbers, not all 0", o->name,
+                         plane ? "plane normal" : "axis", d[0], d[1], d[2]);
+    if (!plane && !positive(o->radius))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': radius is %g m, expected a positive finite number", o->name,
+                         o->radius);
     return CPS_OK;
 }
 
-/* [m] distance of a point above the obstacle; INFINITY without one. */
-static double height(const CpsScene *scene, Vec3 x) {
-    if (scene->obstacle_count == 0) return INFINITY;
-    const Vec3 normal = vec3_load(scene->obstacle->normal);
-    return vec3_dot(vec3_sub(x, vec3_load(scene->obstacle->point)), normal) / vec3_norm(normal);
+static CpsStatus check_rubbing(const CpsObstacle *o, CpsError *err) {
+    if (!not_negative(o->friction))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
+                         o->friction);
+    if (o->friction_lateral != -1 && !not_negative(o->friction_lateral))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "obstacle '%s': friction: lateral is %g, expected a finite number >= 0", o->name,
+                         o->friction_lateral);
+    if (o->friction_shape != CPS_FRICTION_ELLIPSE && o->friction_shape != CPS_FRICTION_BOX)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': friction: unknown shape %d", o->name,
+                         (int)o->friction_shape);
+    const double *g = o->grain;
+    if (!usable3(g) || ((g[0] != 0 || g[1] != 0 || g[2] != 0) && !direction(g)))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "obstacle '%s': friction: grain is (%g, %g, %g), expected a direction: finite numbers, or all 0 for "
+                         "the line's own",
+                         o->name, g[0], g[1], g[2]);
+    return CPS_OK;
+}
+
+static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
+    if (scene->obstacle_count < 0 || scene->obstacle_count > MAX_OBSTACLES)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacles: found %d, expected 0 to %d", scene->obstacle_count,
+                         (int)MAX_OBSTACLES);
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsObstacle *o = scene->obstacle ? &scene->obstacle[k] : NULL;
+        if (!o || o->cookie != OBSTACLE_COOKIE)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle %d: not made by cps_obstacle_default()", k + 1);
+        CpsStatus status = check_name("obstacle", k, o->name, err);
+        for (int i = 0; i < k && status == CPS_OK; i++)
+            if (strcmp(scene->obstacle[i].name, o->name) == 0)
+                status = cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': obstacles %d and %d have the same name", o->name,
+                                   i + 1, k + 1);
+        if (status == CPS_OK) status = check_surface(o, err);
+        if (status == CPS_OK) status = check_rubbing(o, err);
+        if (status != CPS_OK) return status;
+    }
+    return CPS_OK;
+}
+
+/* [m] distance of a point above the nearest obstacle and its name; INFINITY without one. */
+static double height(const CpsScene *scene, Vec3 x, const char **name) {
+    double least = INFINITY;
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
+        const double gap = cpsi_obstacle_gap(&obstacle, x);
+        if (gap < least) least = gap, *name = scene->obstacle[k].name;
+    }
+    return least;
 }
 
 static CpsStatus check_elements(const CpsLine *line, CpsError *err) {
@@ -185,13 +234,6 @@ static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
 static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
     const double shape = cpsi_start_length(line), length = line->length;
     const bool elastic = isfinite(line->stiffness);
-    if (line->start.kind == CPS_START_ARC) {
-        const double full = 2 * acos(-1.0) * cpsi_start_arc(line).radius;
-        if (!(length <= full * (1 + LENGTH_TOLERANCE)))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "line '%s': start: the line is %.10g m long, more than one full turn of the arc, %.10g m",
-                             line->name, length, full);
-    }
     if (!(shape >= length * (1 - LENGTH_TOLERANCE)))
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
@@ -215,12 +257,13 @@ static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, 
     if (scene->obstacle_count == 0 || line->start.kind == CPS_START_LAID) return CPS_OK;
     CpsiStartWalk walk = cpsi_start_walk(line);
     for (int i = 0; i <= line->elements; i++) {
-        const double above = height(scene, cpsi_start_next(&walk));
+        const char *name = "";
+        const double above = height(scene, cpsi_start_next(&walk), &name);
         if (!(above >= -PLACE_TOLERANCE * line->length))
             return cpsi_fail(
                 err, CPS_ERR_ARGUMENT,
                 "line '%s': start: node %d lies %g m below obstacle '%s': lift the shape, or turn the normal",
-                line->name, i, -above, scene->obstacle->name);
+                line->name, i, -above, name);
     }
     return CPS_OK;
 }
@@ -248,10 +291,11 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
     if (!usable3(v))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': ends: end %s is at (%g, %g, %g) m, expected finite numbers",
                          line->name, letter, v[0], v[1], v[2]);
-    const double above = height(scene, vec3_load(v));
+    const char *name = "";
+    const double above = height(scene, vec3_load(v), &name);
     if (!(above >= -PLACE_TOLERANCE * line->length))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': ends: end %s is %g m below obstacle '%s'", line->name,
-                         letter, -above, scene->obstacle->name);
+                         letter, -above, name);
     if (laid) return CPS_OK;
 
     /* where the start puts the end: ask as if no value were given */
@@ -310,10 +354,34 @@ static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsEr
     if (!usable3(v))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: %s.%s gets (%g, %g, %g), expected finite numbers", stage + 1,
                          line->name, letter, v[0], v[1], v[2]);
-    const double above = change->to.kind == CPS_END_HELD ? height(scene, vec3_load(v)) : INFINITY;
+    const char *name = "";
+    const double above = change->to.kind == CPS_END_HELD ? height(scene, vec3_load(v), &name) : INFINITY;
     if (!(above >= -PLACE_TOLERANCE * line->length))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: %s.%s is moved to %g m below obstacle '%s'", stage + 1,
-                         line->name, letter, -above, scene->obstacle->name);
+                         line->name, letter, -above, name);
+    return CPS_OK;
+}
+
+static CpsStatus check_turns(const CpsScene *scene, int index, CpsError *err) {
+    const CpsStage *stage = &scene->stage[index];
+    if (stage->turn_count < 0 || (stage->turn_count > 0 && !stage->turn))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d turns, expected 0 or more", index + 1, stage->turn_count);
+    for (int i = 0; i < stage->turn_count; i++) {
+        const CpsTurn *turn = &stage->turn[i];
+        if (turn->obstacle < 0 || turn->obstacle >= scene->obstacle_count)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: turn %d names obstacle %d: there are %d", index + 1, i + 1,
+                             turn->obstacle, scene->obstacle_count);
+        const CpsObstacle *obstacle = &scene->obstacle[turn->obstacle];
+        if (obstacle->kind == CPS_OBSTACLE_PLANE)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: obstacle '%s' is a plane: only a cylinder or a sphere turns",
+                             index + 1, obstacle->name);
+        if (!usable(turn->angle))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: obstacle '%s' turns by %g, expected a finite angle", index + 1,
+                             obstacle->name, turn->angle);
+        for (int k = 0; k < i; k++)
+            if (stage->turn[k].obstacle == turn->obstacle)
+                return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: obstacle '%s' is turned twice", index + 1, obstacle->name);
+    }
     return CPS_OK;
 }
 
@@ -333,10 +401,9 @@ static CpsStatus check_history(const CpsScene *scene, CpsError *err) {
         if (stage->change_count < 0 || (stage->change_count > 0 && !stage->change))
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d changes, expected 0 or more", k + 1,
                              stage->change_count);
-        for (int i = 0; i < stage->change_count; i++) {
-            const CpsStatus status = check_change(scene, k, i, err);
-            if (status != CPS_OK) return status;
-        }
+        CpsStatus status = check_turns(scene, k, err);
+        for (int i = 0; i < stage->change_count && status == CPS_OK; i++) status = check_change(scene, k, i, err);
+        if (status != CPS_OK) return status;
     }
     return CPS_OK;
 }
@@ -365,7 +432,7 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
     if (!scene || scene->cookie != SCENE_COOKIE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the scene was not made by cps_scene_default()");
     CpsStatus status = check_options(scene, err);
-    if (status == CPS_OK) status = check_obstacle(scene, err);
+    if (status == CPS_OK) status = check_obstacles(scene, err);
     if (status != CPS_OK) return status;
     if (scene->line_count < 1 || !scene->line)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "lines: found %d, expected at least one", scene->line_count);

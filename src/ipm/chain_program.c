@@ -71,12 +71,40 @@ static double imbalance(const CpsiProgram *program) {
     return largest;
 }
 
-void cpsi_chain_program_resize(CpsiChainProgram *program, int n) {
-    program->n = program->matrix.n = n;
-    program->base.size = 3*n;
+bool cpsi_chain_program_follow(CpsiChainProgram *program) {
+    CpsiProgram *base = &program->base;
+    CpsiRub *rub = &program->rub;
+    CpsiSums unused = {0};
+    rub->follow = true;
+    clear(base);
+    for (int k = 0; k < base->kind_count; k++) base->kind[k]->scale(base);
+    /* dA = friction dR + (friction R - A): the mismatch stands where q0 stands */
+    memset(program->stretch.q, 0, (size_t)program->n*sizeof *program->stretch.q);
+    memset(program->stop.q, 0, (size_t)program->stop.count*sizeof *program->stop.q);
+    for (int k = 0; k < rub->count; k++) {
+        rub->q[k][0] = rub->z[k][0] - rub->friction[k]*program->stop.z[rub->stop[k]];
+        rub->q[k][1] = rub->q[k][2] = 0;
+    }
+    if (!factor(base)) return false;
+    memset(base->du, 0, (size_t)base->size*sizeof *base->du);
+    for (int k = 0; k < base->kind_count; k++) base->kind[k]->load(base, 0);
+    solve(base);
+    for (int k = 0; k < base->kind_count; k++) base->kind[k]->direct(base, 0, false, &unused);
+    return true;
 }
 
-void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, const CpsiLinsysOps *ops) {
+void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes) {
+    program->n = program->matrix.n = n;
+    program->base.size = 3*n;
+    program->frame = own_axes ? program->own.frame : NULL;
+    program->matrix.frame = program->frame;
+    program->rub.offset = own_axes ? program->own.offset : NULL;
+    program->rub.map = own_axes ? program->own.map : NULL;
+    program->stop.curvature = own_axes ? program->own.curvature : NULL;
+}
+
+void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, bool own_axes,
+                               const CpsiLinsysOps *ops) {
     static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_stop, &cpsi_rub};
     const size_t size = 3*(size_t)n;
     program->base = (CpsiProgram){
@@ -92,8 +120,12 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
         .imbalance = imbalance,
     };
     layout_stretch(&program->stretch, arena, n);
-    layout_rub(&program->rub, arena, n);
+    layout_rub(&program->rub, arena, own_axes ? 2*n : n);
     layout_stop(&program->stop, arena, n);
+    program->own.frame = own_axes ? CPSI_TAKE(arena, 9*(size_t)n, double) : NULL;
+    program->own.offset = own_axes ? cpsi_arena_take(arena, 2*(size_t)n, sizeof *program->own.offset) : NULL;
+    program->own.map = own_axes ? cpsi_arena_take(arena, 2*(size_t)n, sizeof *program->own.map) : NULL;
+    program->own.curvature = own_axes ? cpsi_arena_take(arena, (size_t)n, sizeof *program->own.curvature) : NULL;
     program->held = CPSI_TAKE(arena, n, unsigned char);
     program->dt = CPSI_TAKE(arena, n, double);
     program->matrix = (CpsiMatrix){
@@ -106,5 +138,5 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
     };
     program->ops = ops;
     program->linsys = ops->layout(arena, n);
-    cpsi_chain_program_resize(program, n);
+    cpsi_chain_program_resize(program, n, false);
 }

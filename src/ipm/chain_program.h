@@ -3,9 +3,13 @@
  *
  *     min   sum_i l_i d_i^2/(2 c_i)  +  sum_k w_k A_k t_k  -  sum_j b_j.u_j
  *     s.t.  (1 + d_i, e_i) in Q4,       e_i = e_i^0 + (u_i - u_{i-1})/l_i       stretch, one per element i = 1..n-1
- *           (t_k, u_xy) in Q3           at node k                               rub,     a disc of forces of radius A_k
+ *           (t_k, o_k + B_k u_xy) in Q3 at node k                               rub,     a disc of forces of radius A_k,
+ *                                                                                        mapped by B_k^T
  *           g_k + u_z >= 0              at node k                               stop,    a half-line
  *           u_j = given at held nodes
+ *
+ * Where the nodes have axes of their own (`frame`), u_j and the loads are in them: x, y tangent to the obstacle there, z its normal; e_i
+ * is in the common axes. On a curved obstacle the normal follows the node: R turns by u_xy over the radius, the stop's `curvature`.
  *
  * All quantities are dimensionless and of order one; the program knows no mechanics, but its names are those of a line:
  * stretch duals are (T, -p), rub duals (A, F), stop duals R, each per unit weight, where the weight of an element is its share
@@ -40,7 +44,10 @@ typedef struct CpsiRub {
     double *weight; /* (count) w_k > 0, that of its stop */
     double (*s)[3]; /* (count) (t, u_x, u_y) */
     double (*z)[3]; /* (count) (A, F_x, F_y) */
-    int *stop;        /* (count) the stop whose reaction bounds it, A = friction R; -1: A is given and stays */
+    double (*offset)[2]; /* (count) o_k; NULL: none */
+    double (*map)[4];    /* (count) B_k (2, 2) row by row; NULL: the identity */
+    bool follow;      /* the bounds follow the reactions, A = friction R; else A is given and stays */
+    int *stop;        /* (count) the stop whose reaction bounds it, where they follow */
     double *friction; /* (count) */
     double (*w)[3];
     double *g;
@@ -52,6 +59,8 @@ typedef struct CpsiStop {
     int *node;
     double *weight; /* (count) w_k > 0 */
     double *gap;    /* (count) g_k >= 0 */
+    double (*curvature)[3]; /* (count) R0 times the curvature of the surface, xx, xy, yy: the force R n gains that times u_xy;
+                               NULL: none */
     double *s, *z;  /* (count) distance, reaction */
     double *q, *ds, *dz;
 } CpsiStop;
@@ -60,6 +69,10 @@ typedef struct CpsiChainProgram {
     CpsiProgram base;    /* u (n, 3) and so on: node after node */
     int n;               /* nodes */
     unsigned char *held; /* (n) */
+    double *frame;       /* (n, 9) axes of the nodes (linsys/frame.h); NULL: the common axes */
+    struct {
+        double *frame, (*offset)[2], (*map)[4], (*curvature)[3];
+    } own;               /* room for what only nodes with axes of their own have */
     CpsiStretch stretch;
     CpsiRub rub;
     CpsiStop stop;
@@ -69,11 +82,17 @@ typedef struct CpsiChainProgram {
     CpsiLinsys *linsys;
 } CpsiChainProgram;
 
-/* Place a program for at most n nodes in the arena. */
-void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, const CpsiLinsysOps *ops);
+/* Place a program for at most n nodes in the arena; `own_axes`: nodes may have axes of their own, and two rubs each. */
+void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, bool own_axes,
+                               const CpsiLinsysOps *ops);
 
-/* Use n of the nodes it was laid out for. */
-void cpsi_chain_program_resize(CpsiChainProgram *program, int n);
+/* Use n of the nodes it was laid out for, with axes of their own or without. */
+void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes);
+
+/* Newton's step from bounds that were given to bounds that follow. At a solution with rub.z[.][0] = A given, and rub.stop set: what
+ * the reactions become when every A moves to friction R and all else keeps its s o z. The change goes to stop.dz; s, z, u stay.
+ * False: the matrix is singular. */
+bool cpsi_chain_program_follow(CpsiChainProgram *program);
 
 static inline CpsiChainProgram *cpsi_chain(CpsiProgram *program) { return (CpsiChainProgram *)program; }
 

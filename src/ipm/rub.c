@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rub: dry friction with the disc of radius A as its set of forces, the cone (t, u) in Q3 with energy A t.
  *
+ * u = o + B v, v the node's tangential displacement: the set of forces on v is the disc mapped by B^T, an ellipse, or a segment where
+ * B is singular; several rubs on one node add up to the sum of their sets. What follows is written for u.
+ *
  * t is private and linear in the energy, so the first dual is A itself, dual pair (A, F) in Q3: |F| <= A. Eliminating t
  * from dz + H ds = q leaves, omega = |w1|^2, c = 2 w0/(1 + 2 omega):
  *
@@ -12,21 +15,46 @@
  * Two kinds of bound. Given A (S90's frozen friction): dA = 0, and the problem is convex. A = mu R, R the dual of the node's stop:
  * dA = mu dR with dR = q_R - (R/s)(du_z + rho), known as soon as du is. This is Coulomb's law itself, no longer the minimum of an energy: it
  * adds c w1 mu R/s to the rows x, y of the node's block in the column z, and nothing to the row z. */
+#include <stdbool.h>
+
 #include "base/larger.h"
 #include "cone/soc.h"
 #include "ipm/chain_program.h"
 
-/* The stop whose reaction bounds rub k, or -1; mu R, and its direction less the part that goes with du_z. */
+/* mu R of the stop beside rub k where the bound follows it: its direction less the part that goes with du_z, and the whole. */
 static inline double bound_load(const CpsiChainProgram *program, int k, double keep) {
     const int i = program->rub.stop[k];
-    if (i < 0) return 0;
+    if (!program->rub.follow) return 0;
     const CpsiStop *stop = &program->stop;
     return program->rub.friction[k]*(stop->q[i] - stop->z[i]/stop->s[i]*keep*cpsi_stop_residual(program, i));
 }
 
 static inline double bound_direction(const CpsiChainProgram *program, int k) {
     const int i = program->rub.stop[k];
-    return i < 0 ? 0 : program->rub.friction[k]*program->stop.dz[i];
+    return !program->rub.follow ? 0 : program->rub.friction[k]*program->stop.dz[i];
+}
+
+/* u and du: what v does to the rub. */
+static inline void slide(const CpsiRub *rub, int k, const double v[2], bool whole, double u[2]) {
+    u[0] = v[0], u[1] = v[1];
+    if (rub->map) {
+        const double *b = rub->map[k];
+        u[0] = b[0]*v[0] + b[1]*v[1], u[1] = b[2]*v[0] + b[3]*v[1];
+    }
+    if (whole && rub->offset) u[0] += rub->offset[k][0], u[1] += rub->offset[k][1];
+}
+
+/* Add weight x B^T f to the node's force. */
+static inline void push(const CpsiRub *rub, int k, const double f[2], double *force) {
+    const double weight = rub->weight[k];
+    if (rub->map) {
+        const double *b = rub->map[k];
+        force[0] += weight*(b[0]*f[0] + b[2]*f[1]);
+        force[1] += weight*(b[1]*f[0] + b[3]*f[1]);
+    } else {
+        force[0] += weight*f[0];
+        force[1] += weight*f[1];
+    }
 }
 
 static void start(CpsiProgram *base, double mu, double margin) {
@@ -34,8 +62,10 @@ static void start(CpsiProgram *base, double mu, double margin) {
     (void)margin; /* mu and the iterate fix the pair */
     CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
-        if (rub->stop[k] >= 0) rub->z[k][0] = rub->friction[k]*program->stop.z[rub->stop[k]];
-        const double *u = &base->u[3*rub->node[k]], bound = rub->z[k][0];
+        if (rub->follow) rub->z[k][0] = rub->friction[k]*program->stop.z[rub->stop[k]];
+        const double bound = rub->z[k][0];
+        double u[2];
+        slide(rub, k, &base->u[3*rub->node[k]], true, u);
         /* F = -beta A u/|u| with s o z = mu e:  |u| = mu beta/(A (1 - beta^2)),  t = mu/(A (1 - beta^2)) */
         const double size = sqrt(u[0]*u[0] + u[1]*u[1]), ratio = 2*size*bound/mu;
         const double beta = ratio/(1 + sqrt(1 + ratio*ratio)), pull = size > 0 ? -beta*bound/size : 0;
@@ -48,14 +78,27 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     const CpsiRub *rub = &cpsi_chain(base)->rub;
     for (int k = 0; k < rub->count; k++) {
         const double *s = rub->s[k], *z = rub->z[k], weight = rub->weight[k];
-        double *residual = &base->residual[3*rub->node[k]];
         sums->weight += weight;
         sums->sz += weight*(s[0]*z[0] + s[1]*z[1] + s[2]*z[2]);
         sums->scale += weight*s[0]*z[0];
         sums->bound += weight*z[0];
-        residual[0] += weight*z[1];
-        residual[1] += weight*z[2];
+        push(rub, k, &z[1], &base->residual[3*rub->node[k]]);
     }
+}
+
+/* M as xx, xy, yy becomes B^T M B, a vector B^T v. */
+static inline void map_back(const double b[4], double m[3], double v[2]) {
+    const double col[2][2] = {{b[0], b[2]}, {b[1], b[3]}};
+    double mb[2][2], out[2];
+    for (int a = 0; a < 2; a++) {
+        mb[a][0] = m[0]*col[a][0] + m[1]*col[a][1];
+        mb[a][1] = m[1]*col[a][0] + m[2]*col[a][1];
+        out[a] = col[a][0]*v[0] + col[a][1]*v[1];
+    }
+    m[0] = col[0][0]*mb[0][0] + col[0][1]*mb[0][1];
+    m[1] = col[0][0]*mb[1][0] + col[0][1]*mb[1][1];
+    m[2] = col[1][0]*mb[1][0] + col[1][1]*mb[1][1];
+    v[0] = out[0], v[1] = out[1];
 }
 
 static void scale(CpsiProgram *base) {
@@ -67,12 +110,12 @@ static void scale(CpsiProgram *base) {
         const double share = 1/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
         const int node = rub->node[k], i = rub->stop[k];
         double *diagonal = &program->matrix.diagonal[6*node], *skew = &program->matrix.skew[2*node];
-        diagonal[0] += weight*g*share*(1 + 2*w[2]*w[2]);
-        diagonal[1] -= weight*g*share*2*w[1]*w[2];
-        diagonal[2] += weight*g*share*(1 + 2*w[1]*w[1]);
-        if (i >= 0) {
+        double m[3] = {1 + 2*w[2]*w[2], -2*w[1]*w[2], 1 + 2*w[1]*w[1]}, across[2] = {w[1], w[2]};
+        if (rub->map) map_back(rub->map[k], m, across);
+        for (int a = 0; a < 3; a++) diagonal[a] += weight*g*share*m[a];
+        if (rub->follow) {
             const double rate = rub->friction[k]*program->stop.z[i]/program->stop.s[i];
-            for (int a = 0; a < 2; a++) skew[a] -= weight*rate*2*share*w[0]*w[1 + a];
+            for (int a = 0; a < 2; a++) skew[a] -= weight*rate*2*share*w[0]*across[a];
         }
         for (int a = 0; a < 3; a++) rub->w[k][a] = w[a], rub->q[k][a] = -rub->z[k][a];
         rub->g[k] = g;
@@ -83,10 +126,10 @@ static void load(CpsiProgram *base, double keep) {
     const CpsiChainProgram *program = cpsi_chain(base);
     const CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
-        const double *w = rub->w[k], *q = rub->q[k], weight = rub->weight[k];
+        const double *w = rub->w[k], *q = rub->q[k];
         const double pull = 2*w[0]*(q[0] - bound_load(program, k, keep))/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
-        double *f = &base->du[3*rub->node[k]];
-        for (int a = 0; a < 2; a++) f[a] += weight*(q[1 + a] + pull*w[1 + a]);
+        const double force[2] = {q[1] + pull*w[1], q[2] + pull*w[2]};
+        push(rub, k, force, &base->du[3*rub->node[k]]);
     }
 }
 
@@ -95,7 +138,9 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     (void)keep; /* the stop's direction, already known, has it */
     CpsiRub *rub = &program->rub;
     for (int k = 0; k < rub->count; k++) {
-        const double *w = rub->w[k], *q = rub->q[k], *z = rub->z[k], *du = &base->du[3*rub->node[k]];
+        const double *w = rub->w[k], *q = rub->q[k], *z = rub->z[k];
+        double du[2];
+        slide(rub, k, &base->du[3*rub->node[k]], false, du);
         const double g = rub->g[k], share = 1/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
         double *ds = rub->ds[k], *dz = rub->dz[k];
         dz[0] = bound_direction(program, k);

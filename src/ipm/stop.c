@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stop: unilateral contact along the third axis, s = gap + u_z >= 0 with reaction z >= 0, s z = 0.
  *
+ * On a curved obstacle the reaction turns with the normal as the node moves along it (`curvature`, see chain_program.h).
+ *
  * Linearised: dz = q - (z/s) ds,  ds = du_z + rho,  rho = gap + u_z - s. */
 #include <math.h>
 
@@ -28,6 +30,12 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
         sums->residual = cpsi_larger(sums->residual, rho);
         if (stop->z[k] > sums->largest) sums->largest = stop->z[k];
         base->residual[3*stop->node[k] + 2] += stop->weight[k]*stop->z[k];
+        if (stop->curvature) {
+            const double *b = stop->curvature[k], *u = &base->u[3*stop->node[k]];
+            double *residual = &base->residual[3*stop->node[k]];
+            residual[0] += stop->weight[k]*(b[0]*u[0] + b[1]*u[1]);
+            residual[1] += stop->weight[k]*(b[1]*u[0] + b[2]*u[1]);
+        }
     }
 }
 
@@ -37,6 +45,8 @@ static void scale(CpsiProgram *base) {
     for (int k = 0; k < stop->count; k++) {
         program->matrix.diagonal[6*stop->node[k] + 5] += stop->weight[k]*stop->z[k]/stop->s[k];
         stop->q[k] = -stop->z[k];
+        for (int a = 0; stop->curvature && a < 3; a++)
+            program->matrix.diagonal[6*stop->node[k] + a] -= stop->weight[k]*stop->curvature[k][a];
     }
 }
 

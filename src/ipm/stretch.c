@@ -16,6 +16,7 @@
 #include "base/larger.h"
 #include "cone/soc.h"
 #include "ipm/chain_program.h"
+#include "linsys/frame.h"
 
 /* 1 - c g is kept this far from 0, so that a stays finite: the step is inexact by as much. */
 static const double LEAST_STIFFENING = 1e-13;
@@ -41,6 +42,21 @@ static inline Segment segment(const double w[4], double g, double c, double l) {
     out.inverse_stiffening = inverse*out.d*l;
     out.inverse_length = inverse*out.d*out.stiffening;
     return out;
+}
+
+/* Add sign x force, given in the common axes, to a node's force in its own. */
+static inline void add_force(const CpsiChainProgram *program, double *f, int node, double sign, const double force[3]) {
+    double own[3];
+    const double *here = force;
+    if (program->frame) cpsi_frame_to(own, &program->frame[9*node], force), here = own;
+    for (int a = 0; a < 3; a++) f[3*node + a] += sign*here[a];
+}
+
+/* A node's vector in the common axes. */
+static inline const double *common(const CpsiChainProgram *program, const double *u, int node, double room[3]) {
+    if (!program->frame) return &u[3*node];
+    cpsi_frame_from(room, &program->frame[9*node], &u[3*node]);
+    return room;
 }
 
 static void start(CpsiProgram *base, double mu, double margin) {
@@ -73,10 +89,8 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
         sums->residual = cpsi_larger(sums->residual, rho);
         if (z[0] > sums->largest) sums->largest = z[0];
         /* the force p = -z1 pulls node i-1 towards i and node i back */
-        for (int a = 0; a < 3; a++) {
-            residual[3*(i - 1) + a] -= z[1 + a];
-            residual[3*i + a] += z[1 + a];
-        }
+        add_force(program, residual, i - 1, -1, &z[1]);
+        add_force(program, residual, i, 1, &z[1]);
     }
 }
 
@@ -108,11 +122,10 @@ static void load(CpsiProgram *base, double keep) {
         const Segment seg = segment(w, g, c, st->length[i]);
         const double rho = keep*(1 + c*st->z[i][0] - st->s[i][0]);
         const double k = 2*g*w[0]*(rho + c*q[0])*seg.inverse_d;
-        for (int a = 0; a < 3; a++) {
-            const double force = q[1 + a] + k*w[1 + a];
-            f[3*(i - 1) + a] -= force;
-            f[3*i + a] += force;
-        }
+        double force[3];
+        for (int a = 0; a < 3; a++) force[a] = q[1 + a] + k*w[1 + a];
+        add_force(program, f, i - 1, -1, force);
+        add_force(program, f, i, 1, force);
     }
 }
 
@@ -128,9 +141,10 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         const double rho = keep*(1 + c*z[0] - s[0]);
         const double k = 2*g*w[0]*(rho + c*q[0])*seg.inverse_d, in = st->inverse_w[i];
         /* elongation and force */
-        double along = 0; /* w1.de */
+        double along = 0, far[3], near[3]; /* w1.de */
+        const double *du1 = common(program, du, i, far), *du0 = common(program, du, i - 1, near);
         for (int a = 0; a < 3; a++) {
-            const double de = (du[3*i + a] - du[3*(i - 1) + a])*seg.inverse_length;
+            const double de = (du1[a] - du0[a])*seg.inverse_length;
             ds[1 + a] = de;
             dz[1 + a] = q[1 + a] + k*w[1 + a] - g*de - in*w[1 + a]*t;
             along += w[1 + a]*de;

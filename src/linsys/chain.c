@@ -11,11 +11,15 @@
  *
  *     (S_j^-1)_xx = Y - y y'^T/beta = C_j,     (S_j^-1)_xt = y/beta,     (S_j^-1)_tx = y'^T/beta,     (S_j^-1)_tt = -1/beta.
  *
+ * C and m are meant in the axes of node j; where nodes have their own, they are turned on the way.
+ *
  * So one pass keeps a few small quantities per node, and a solve is two passes of 3 x 3 products. Compliances in series add
  * without cancellation, which is why the tension is kept: an element's own stiffness 1/a_j never meets k_j in one number. */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
+#include "linsys/frame.h"
 #include "linsys/linsys.h"
 
 /* The factor of one node: two cache lines that every pass reads together. */
@@ -74,13 +78,30 @@ static inline void node_block(double x[9], const CpsiMatrix *a, int j, double k,
     x[0] += k + next, x[4] += k + next, x[8] += k + next;
 }
 
+/* C of the node before and m_j as node j sees them: in its own axes. */
+static inline void seen_from(const CpsiMatrix *a, int j, double c[9], double m[3]) {
+    double relative[9], other_c[9], other_m[3];
+    for (int i = 0; i < 9; i++) other_c[i] = c[i];
+    for (int i = 0; i < 3; i++) other_m[i] = m[i];
+    cpsi_frame_relative(relative, &a->frame[9*j], &a->frame[9*(j - 1)]);
+    cpsi_frame_turn(c, relative, other_c);
+    cpsi_frame_to(m, &a->frame[9*j], other_m);
+}
+
 static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
     static const ChainBlock nothing = {{0}, {0}, {0}, 0};
     ChainBlock *block = ((Chain *)self)->block;
-    const double *c = nothing.c;
+    const double *before = nothing.c;
     double check = 0;
-    for (int j = 0; j < a->n; c = block[j].c, j++) {
-        const double *m = &a->direction[3*j], k = j > 0 ? a->stiffness[j] : 0;
+    for (int j = 0; j < a->n; before = block[j].c, j++) {
+        const double k = j > 0 ? a->stiffness[j] : 0;
+        const double *c = before, *m = &a->direction[3*j];
+        double turned_c[9], turned_m[3];
+        if (a->frame && j > 0) {
+            memcpy(turned_c, c, sizeof turned_c), memcpy(turned_m, m, sizeof turned_m);
+            seen_from(a, j, turned_c, turned_m);
+            c = turned_c, m = turned_m;
+        }
         double v[3] = {0, 0, 0}, vt[3] = {0, 0, 0}, beta = 1;
         if (j > 0) {
             double cm[3], ctm[3];
@@ -110,13 +131,32 @@ static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
     return isfinite(check);
 }
 
+/* A vector of node `from` in the axes of node `to`. */
+static inline void carry(const CpsiMatrix *a, int to, int from, double v[3]) {
+    if (!a->frame) return;
+    double common[3];
+    cpsi_frame_from(common, &a->frame[9*from], v);
+    cpsi_frame_to(v, &a->frame[9*to], common);
+}
+
+/* m_i in the axes of node j. */
+static inline void direction_at(const CpsiMatrix *a, int i, int j, double m[3]) {
+    if (a->frame) cpsi_frame_to(m, &a->frame[9*j], &a->direction[3*i]);
+    else memcpy(m, &a->direction[3*i], 3*sizeof *m);
+}
+
 static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, double *t) {
     const ChainBlock *block = ((const Chain *)self)->block;
     const int n = a->n;
     /* forward: x_j, t_j as if nothing came after */
     double before[3] = {0, 0, 0};
     for (int j = 0; j < n; j++) {
-        const double k = j > 0 ? a->stiffness[j] : 0, h = j > 0 ? t[j] + dot(&a->direction[3*j], before) : 0;
+        double m[3], k = 0, h = 0;
+        if (j > 0) {
+            carry(a, j, j - 1, before);
+            direction_at(a, j, j, m);
+            k = a->stiffness[j], h = t[j] + dot(m, before);
+        }
         double *xj = &x[3*j], f[3];
         for (int i = 0; i < 3; i++) f[i] = a->held[j] ? 0 : xj[i] + k*before[i];
         apply(xj, block[j].c, f);
@@ -125,9 +165,12 @@ static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, 
     }
     /* backward: what comes after pulls on node j with k_{j+1} x_{j+1} + m_{j+1} t_{j+1} */
     for (int j = n - 2; j >= 0; j--) {
-        const double *m = &a->direction[3*(j + 1)], k = a->stiffness[j + 1], tension = t[j + 1];
-        double *xj = &x[3*j], pull[3], dx[3];
-        for (int i = 0; i < 3; i++) pull[i] = k*xj[3 + i] + m[i]*tension;
+        const double k = a->stiffness[j + 1], tension = t[j + 1];
+        double *xj = &x[3*j], m[3], pull[3], dx[3];
+        memcpy(pull, &x[3*(j + 1)], sizeof pull);
+        carry(a, j, j + 1, pull);
+        direction_at(a, j + 1, j, m);
+        for (int i = 0; i < 3; i++) pull[i] = k*pull[i] + m[i]*tension;
         apply(dx, block[j].c, pull);
         for (int i = 0; i < 3; i++) xj[i] += dx[i];
         if (j > 0) t[j] += dot(block[j].yt, pull);

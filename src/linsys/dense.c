@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "linsys/frame.h"
 #include "linsys/linsys.h"
 
 typedef struct Dense {
@@ -45,11 +46,18 @@ static void dense_fill(Dense *dense, const CpsiMatrix *a) {
         m[tj*size + tj] = j > 0 ? -a->compliance[j] : 1;
         if (j == 0) continue;
         /* the element before it: stiffness between the nodes, and the tension's row and column; x_j = 0 takes no part */
+        double turn[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, here[3], there[3];
+        for (size_t i = 0; i < 3; i++) here[i] = there[i] = a->direction[3*j + i];
+        if (a->frame) {
+            cpsi_frame_relative(turn, &a->frame[9*j], &a->frame[9*(j - 1)]);
+            cpsi_frame_to(here, &a->frame[9*j], &a->direction[3*j]);
+            cpsi_frame_to(there, &a->frame[9*(j - 1)], &a->direction[3*j]);
+        }
         for (size_t i = 0; i < 3; i++) {
-            const double along = a->direction[3*j + i];
-            if (!a->held[j]) m[tj*size + xj + i] = m[(xj + i)*size + tj] = along;
-            if (!a->held[j - 1]) m[tj*size + xj - 3 + i] = m[(xj - 3 + i)*size + tj] = -along;
-            if (!a->held[j] && !a->held[j - 1]) m[(xj + i)*size + xj - 3 + i] = m[(xj - 3 + i)*size + xj + i] = -k;
+            if (!a->held[j]) m[tj*size + xj + i] = m[(xj + i)*size + tj] = here[i];
+            if (!a->held[j - 1]) m[tj*size + xj - 3 + i] = m[(xj - 3 + i)*size + tj] = -there[i];
+            for (size_t l = 0; l < 3 && !a->held[j] && !a->held[j - 1]; l++)
+                m[(xj + i)*size + xj - 3 + l] = m[(xj - 3 + l)*size + xj + i] = -k*turn[3*i + l];
         }
     }
 }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The contract of a linear system: one matrix over a chain of nodes, quasi-definite up to a coupling inside each node.
  *
- * Unknowns: x_j in R^3 at the nodes j = 0..n-1, and one tension t_i for each element i = 1..n-1 (element i joins node i-1
- * and node i; index 0 of element arrays is unused). With d_i = x_i - x_{i-1}:
+ * Unknowns: x_j in R^3 at the nodes j = 0..n-1, in the node's own axes Q_j, and one tension t_i for each element i = 1..n-1
+ * (element i joins node i-1 and node i; index 0 of element arrays is unused). With d_i = Q_i^T x_i - Q_{i-1}^T x_{i-1}:
  *
- *     node j:       D_j x_j + k_j d_j + m_j t_j - k_{j+1} d_{j+1} - m_{j+1} t_{j+1} = f_j      (terms beyond the ends absent)
+ *     node j:       D_j x_j + Q_j (k_j d_j + m_j t_j - k_{j+1} d_{j+1} - m_{j+1} t_{j+1}) = f_j    (terms beyond the ends absent)
  *     element i:    m_i . d_i - a_i t_i = h_i
  *     held node:    x_j = 0, its equation is dropped
  *
- * D_j is symmetric >= 0, plus `skew` in the column z of its rows x and y (friction that follows the reaction); k_i >= 0; a_i > 0, or
+ * The third axis of a node is the one that may be stiffest, an obstacle's normal. D_j is symmetric >= 0, plus `skew` in the column z of its rows x and y (friction that follows the reaction); k_i >= 0; a_i > 0, or
  * a_i < 0 as long as k_i I + m_i m_i^T/a_i >= 0 (an element softer along itself than across). Without skew, eliminating the
  * tensions would leave a positive definite matrix, so no pivot vanishes in the orders used. Keeping the tension t_i as an
  * unknown keeps stiff elements exact: a_i may be as small as 0+ beside k_i of order one, where the condensed stiffness
@@ -28,8 +28,9 @@ typedef struct CpsiMatrix {
     double *diagonal;          /* (n, 6) D_j as xx, xy, yy, xz, yz, zz */
     double *skew;              /* (n, 2) added to D_j at xz and yz, not at zx and zy */
     double *stiffness;         /* (n) k_i */
-    double *direction;         /* (n, 3) m_i */
+    double *direction;         /* (n, 3) m_i, in the common axes */
     double *compliance;        /* (n) a_i */
+    const double *frame;       /* (n, 9) Q_j, its rows orthonormal (frame.h); NULL: the common axes everywhere */
 } CpsiMatrix;
 
 typedef struct CpsiLinsys CpsiLinsys;

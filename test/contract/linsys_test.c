@@ -18,6 +18,8 @@ typedef struct Case {
     unsigned char held[NODES];
     double diagonal[6*NODES], skew[2*NODES], stiffness[NODES], direction[3*NODES], compliance[NODES];
     double f[3*NODES], h[NODES];
+    bool framed; /* nodes have their own axes */
+    double frame[9*NODES];
 } Case;
 
 static double uniform(uint64_t *state) {
@@ -26,6 +28,20 @@ static double uniform(uint64_t *state) {
 }
 
 static double sign(uint64_t *state) { return 2*uniform(state) - 1; }
+
+/* Random axes: a product of turns about x, y and z. */
+static void random_frame(uint64_t *state, double q[9]) {
+    double product[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    for (int axis = 0; axis < 3; axis++) {
+        const double angle = 3*sign(state), c = cos(angle), s = sin(angle);
+        const int a = (axis + 1)%3, b = (axis + 2)%3;
+        for (int col = 0; col < 3; col++) {
+            const double u = product[3*a + col], v = product[3*b + col];
+            product[3*a + col] = c*u - s*v, product[3*b + col] = s*u + c*v;
+        }
+    }
+    memcpy(q, product, sizeof product);
+}
 
 /* A random line: contact stiff along z at every other node, compliances down to `least`. */
 static Case random_case(uint64_t *state, double least) {
@@ -45,13 +61,16 @@ static Case random_case(uint64_t *state, double least) {
         for (int a = 0; a < 3; a++) m[a] /= sqrt(size);
         for (int a = 0; a < 3; a++) c.f[3*j + a] = sign(state);
         c.h[j] = 1e-3*sign(state);
+        random_frame(state, &c.frame[9*j]);
     }
+    c.framed = uniform(state) < 0.5;
     return c;
 }
 
 static void solve(const Case *c, const CpsiLinsysOps *ops, double *x, double *t) {
     Case copy = *c;
-    const CpsiMatrix matrix = {c->n, copy.held, copy.diagonal, copy.skew, copy.stiffness, copy.direction, copy.compliance};
+    const CpsiMatrix matrix = {c->n, copy.held, copy.diagonal, copy.skew, copy.stiffness, copy.direction, copy.compliance,
+                               copy.framed ? copy.frame : NULL};
     CpsiArena arena = {0};
     ops->layout(&arena, c->n);
     assert_true(cpsi_arena_allocate(&arena));
@@ -68,23 +87,40 @@ static double matrix_entry(const Case *c, int j, int r, int col) {
     return c->diagonal[6*j + place[r][col]] + (col == 2 && r < 2 ? c->skew[2*j + r] : 0);
 }
 
+/* Component a of node j's unknown in the common axes; and of a common vector in the node's axes. */
+static double common(const Case *c, const double *x, int j, int a) {
+    if (!c->framed) return x[3*j + a];
+    double sum = 0;
+    for (int i = 0; i < 3; i++) sum += c->frame[9*j + 3*i + a]*x[3*j + i];
+    return sum;
+}
+
+static double own(const Case *c, const double v[3], int j, int a) {
+    const double *q = &c->frame[9*j + 3*a];
+    return c->framed ? q[0]*v[0] + q[1]*v[1] + q[2]*v[2] : v[a];
+}
+
+/* The pull of element i on its later node, in the common axes, and the size of its terms. */
+static void element_force(const Case *c, const double *x, const double *t, int i, double force[3], double *terms) {
+    for (int a = 0; a < 3; a++) {
+        const double far = common(c, x, i, a), near = common(c, x, i - 1, a), m = c->direction[3*i + a]*t[i];
+        force[a] = c->stiffness[i]*(far - near) + m;
+        *terms += c->stiffness[i]*(fabs(far) + fabs(near)) + fabs(m);
+    }
+}
+
 /* Largest residual of the equations of linsys.h, relative to the sum of the terms of each. */
 static double residual(const Case *c, const double *x, const double *t) {
     double worst = 0;
     for (int j = 0; j < c->n; j++) {
+        double before[3] = {0}, after[3] = {0}, pulls = 0;
+        if (j > 0) element_force(c, x, t, j, before, &pulls);
+        if (j + 1 < c->n) element_force(c, x, t, j + 1, after, &pulls);
         for (int a = 0; a < 3 && !c->held[j]; a++) {
-            double sum = -c->f[3*j + a], terms = fabs(sum);
+            double sum = own(c, before, j, a) - own(c, after, j, a) - c->f[3*j + a], terms = fabs(c->f[3*j + a]) + pulls;
             for (int b = 0; b < 3; b++) {
                 const double term = matrix_entry(c, j, a, b)*x[3*j + b];
                 sum += term, terms += fabs(term);
-            }
-            if (j > 0) {
-                const double k = c->stiffness[j]*(x[3*j + a] - x[3*(j - 1) + a]), m = c->direction[3*j + a]*t[j];
-                sum += k + m, terms += c->stiffness[j]*(fabs(x[3*j + a]) + fabs(x[3*(j - 1) + a])) + fabs(m);
-            }
-            if (j + 1 < c->n) {
-                const double k = c->stiffness[j + 1]*(x[3*(j + 1) + a] - x[3*j + a]), m = c->direction[3*(j + 1) + a]*t[j + 1];
-                sum -= k + m, terms += c->stiffness[j + 1]*(fabs(x[3*j + a]) + fabs(x[3*(j + 1) + a])) + fabs(m);
             }
             worst = fmax(worst, fabs(sum)/terms);
         }
@@ -92,8 +128,9 @@ static double residual(const Case *c, const double *x, const double *t) {
         if (j == 0) continue;
         double sum = -c->h[j] - c->compliance[j]*t[j], terms = fabs(c->h[j]) + fabs(c->compliance[j]*t[j]);
         for (int a = 0; a < 3; a++) {
-            sum += c->direction[3*j + a]*(x[3*j + a] - x[3*(j - 1) + a]);
-            terms += fabs(c->direction[3*j + a])*(fabs(x[3*j + a]) + fabs(x[3*(j - 1) + a]));
+            const double far = common(c, x, j, a), near = common(c, x, j - 1, a), m = c->direction[3*j + a];
+            sum += m*(far - near);
+            terms += fabs(m)*(fabs(far) + fabs(near));
         }
         worst = fmax(worst, fabs(sum)/terms);
     }
@@ -135,7 +172,7 @@ static void nan_is_refused(void **state_) {
     c.n = NODES/2;
     c.diagonal[6] = NAN;
     c.held[1] = 0;
-    const CpsiMatrix matrix = {c.n, c.held, c.diagonal, c.skew, c.stiffness, c.direction, c.compliance};
+    const CpsiMatrix matrix = {c.n, c.held, c.diagonal, c.skew, c.stiffness, c.direction, c.compliance, NULL};
     CpsiArena arena = {0};
     ops->layout(&arena, c.n);
     assert_true(cpsi_arena_allocate(&arena));

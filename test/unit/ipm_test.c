@@ -17,9 +17,9 @@ typedef struct Fixture {
 static void make(Fixture *fixture, const CpsiLinsysOps *ops, double c, double span, bool held) {
     CpsiChainProgram *program = &fixture->program;
     fixture->arena = (CpsiArena){0};
-    cpsi_chain_program_layout(program, &fixture->arena, NODES, ops);
+    cpsi_chain_program_layout(program, &fixture->arena, NODES, false, ops);
     assert_true(cpsi_arena_allocate(&fixture->arena));
-    cpsi_chain_program_layout(program, &fixture->arena, NODES, ops);
+    cpsi_chain_program_layout(program, &fixture->arena, NODES, false, ops);
     program->rub.count = program->stop.count = 0;
     program->held[0] = program->held[2] = held;
     program->base.load[3*1 + 2] = -1;

@@ -57,10 +57,10 @@ static void make_scene(Fixture *f) {
     f->change[1] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {9.5, 4, 5}}};
     f->change[2] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {8.5, 4, 5}}};
     f->change[3] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {9, 4, 5}}};
-    f->stage[0] = (CpsStage){HOSTILE, 1, 1, &f->change[0]};
-    f->stage[1] = (CpsStage){"surge out", CYCLE, 1, &f->change[1]};
-    f->stage[2] = (CpsStage){"surge in", 2 * CYCLE, 1, &f->change[2]};
-    f->stage[3] = (CpsStage){"surge home", CYCLE, 1, &f->change[3]};
+    f->stage[0] = (CpsStage){.name = HOSTILE, .steps = 1, .change_count = 1, .change = &f->change[0]};
+    f->stage[1] = (CpsStage){.name = "surge out", .steps = CYCLE, .change_count = 1, .change = &f->change[1]};
+    f->stage[2] = (CpsStage){.name = "surge in", .steps = 2 * CYCLE, .change_count = 1, .change = &f->change[2]};
+    f->stage[3] = (CpsStage){.name = "surge home", .steps = CYCLE, .change_count = 1, .change = &f->change[3]};
     f->scene = cps_scene_default();
     f->scene.title = HOSTILE;
     f->scene.obstacle_count = 1;

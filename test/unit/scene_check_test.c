@@ -92,7 +92,13 @@ static void refuses_wrong_values(void **state) {
     make(&p), p.line.name = "a/b", refused(&p, "line 1: its name is 'a/b'");
     make(&p), p.line.start.point = NULL, refused(&p, "line 'cable': start has 0 points");
     make(&p), p.line.end[0].value[1] = 0, refused(&p, "ends: end A is at (nan, 0, nan)");
-    make(&p), p.scene.obstacle_count = 2, refused(&p, "at most one obstacle");
+    make(&p), p.scene.obstacle_count = -1, refused(&p, "obstacles: found -1");
+    make(&p), p.obstacle.kind = 7, refused(&p, "unknown kind 7");
+    make(&p), p.obstacle.kind = CPS_OBSTACLE_CYLINDER, refused(&p, "radius is 0 m");
+    make(&p), p.obstacle.kind = CPS_OBSTACLE_SPHERE, p.obstacle.radius = 1, p.obstacle.axis[1] = 0, refused(&p, "axis is (0, 0, 0)");
+    make(&p), p.obstacle.friction_lateral = -2, refused(&p, "lateral is -2");
+    make(&p), p.obstacle.friction_shape = 5, refused(&p, "unknown shape 5");
+    make(&p), p.obstacle.grain[0] = NAN, refused(&p, "grain is (nan");
     make(&p), p.scene.line_count = 0, refused(&p, "lines: found 0");
     make(&p), p.scene.solver.max_iterations = 0, refused(&p, "solver: max_iterations is 0");
     make(&p), p.scene.contact = (CpsContact)7, refused(&p, "contact: unknown value 7");

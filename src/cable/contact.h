@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the nodes of a line see of the obstacles: normals, gaps, axes, and the way slid so far. */
+#ifndef CAPSTAN_SRC_CABLE_CONTACT_H
+#define CAPSTAN_SRC_CABLE_CONTACT_H
+
+#include "cable/line_step.h"
+
+/* A node this near to the obstacle, per length of the line, touches it. */
+#define CPSI_TOUCH 1e-9
+
+/* At the reference, where a step begins: base, axes, normals, gaps; friction bounds of the reference, a first guess
+ * where friction is consistent. */
+void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options);
+
+/* From another place of the nodes (a line that follows): on, axes, curvature, normal, slide and gap at `base`. */
+void cpsi_contact_look(CpsiLine *line);
+
+/* The way slid from the reference to `position` on the tangent planes of the pose: where nothing follows, or friction
+ * is frozen. */
+void cpsi_contact_slide(CpsiLine *line);
+
+/* Along the surface: what `base` becomes when the nodes move by `position` - base, where they touch. Returns the
+ * largest angle [rad] by which a touching node's axes turn on the way: what the next look changes. */
+double cpsi_contact_move(CpsiLine *line);
+
+#endif

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a step leaves to be told: the state of each node, lengths and sums, the ends. */
+#ifndef CAPSTAN_SRC_CABLE_LINE_REPORT_H
+#define CAPSTAN_SRC_CABLE_LINE_REPORT_H
+
+#include "cable/line.h"
+#include "ipm/chain_program.h"
+
+/* Free, stick or slip, and slack, from the pairs of the solution; grounded, slipping and slack lengths, dissipation. */
+void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program);
+
+/* Forces and tensions at the ends. */
+void cpsi_line_report_ends(CpsiLine *line);
+
+#endif

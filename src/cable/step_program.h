@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One step of a line as a program over a chain, and back: dimensionless, in the axes of the nodes, measured from their
+ * base. */
+#ifndef CAPSTAN_SRC_CABLE_STEP_PROGRAM_H
+#define CAPSTAN_SRC_CABLE_STEP_PROGRAM_H
+
+#include <stdbool.h>
+
+#include "cable/line.h"
+#include "ipm/chain_program.h"
+
+/* The friction bounds of a step. */
+typedef enum CpsiBounds {
+    CPSI_BOUNDS_GIVEN,  /* those of the line stay */
+    CPSI_BOUNDS_FOLLOW, /* they follow the reactions: part of the program */
+    CPSI_BOUNDS_TRIED   /* as given, but wherever contact is possible: a round towards bounds that follow */
+} CpsiBounds;
+
+typedef struct CpsiStepScale {
+    double force;  /* [N] */
+    double longer; /* the elements are this much longer than they are */
+    CpsiBounds bounds;
+    bool curved; /* the reactions turn with the normals */
+} CpsiStepScale;
+
+bool cpsi_is_held(const CpsiLine *line, int j);
+
+/* Write the step into the program. */
+void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale);
+
+/* Positions and forces of the solution in world axes and SI units. */
+void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program, const CpsiStepScale *scale);
+
+#endif

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Plane, cylinder, sphere (obstacle.h). Curved ones are solid: the free side is outside. */
+#include "geometry/obstacle.h"
+
+/* A direction this short beside a unit vector has no direction left after rounding. */
+static const double LEAST = 1e-12;
+
+CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
+    CpsiObstacle out = {.kind = def->kind, .radius = def->radius, .shape = def->friction_shape};
+    out.frame = cpsi_plane(def->point, def->kind == CPS_OBSTACLE_PLANE ? def->normal : def->axis);
+    out.friction[0] = def->friction;
+    out.friction[1] = def->friction_lateral >= 0 ? def->friction_lateral : def->friction;
+    out.grain = vec3_load(def->grain);
+    out.has_grain = vec3_norm(out.grain) > 0;
+    return out;
+}
+
+static bool is_isotropic(const CpsiObstacle *o) {
+    return o->friction[0] == o->friction[1] && o->shape == CPS_FRICTION_ELLIPSE;
+}
+
+bool cpsi_obstacle_follows(const CpsiObstacle *o) { return o->kind != CPS_OBSTACLE_PLANE || !is_isotropic(o); }
+
+static Vec3 unit(Vec3 v, Vec3 otherwise) {
+    const double size = vec3_norm(v);
+    return size > 0 ? vec3_scale(1/size, v) : otherwise;
+}
+
+static Vec3 reject(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
+
+/* From the plane's point, the cylinder's axis or the sphere's centre to x. */
+static Vec3 spoke(const CpsiObstacle *o, Vec3 x) {
+    const Vec3 from = vec3_sub(x, o->frame.point);
+    return o->kind == CPS_OBSTACLE_CYLINDER ? reject(from, o->frame.axis[2]) : from;
+}
+
+double cpsi_obstacle_gap(const CpsiObstacle *o, Vec3 x) {
+    if (o->kind == CPS_OBSTACLE_PLANE) return vec3_dot(spoke(o, x), o->frame.axis[2]);
+    return vec3_norm(spoke(o, x)) - o->radius;
+}
+
+Vec3 cpsi_obstacle_normal(const CpsiObstacle *o, Vec3 x) {
+    if (o->kind == CPS_OBSTACLE_PLANE) return o->frame.axis[2];
+    return unit(spoke(o, x), o->frame.axis[0]);
+}
+
+void cpsi_obstacle_axes(const CpsiObstacle *o, Vec3 x, Vec3 along, double axes[9], double curvature[3]) {
+    const Vec3 n = cpsi_obstacle_normal(o, x), wanted = o->has_grain ? o->grain : along;
+    Vec3 t = reject(wanted, n);
+    /* a direction along the normal has no tangent: any other */
+    for (int i = 0; i < 3 && !(vec3_norm(t) > LEAST*vec3_norm(wanted)); i++) {
+        t = reject(o->frame.axis[i], n);
+        if (vec3_norm(t) < 0.5) t = vec3(0, 0, 0);
+    }
+    t = unit(t, o->frame.axis[0]);
+    const Vec3 b = vec3_cross(n, t);
+    vec3_store(&axes[0], t), vec3_store(&axes[3], b), vec3_store(&axes[6], n);
+    const double kappa = o->kind == CPS_OBSTACLE_PLANE ? 0 : 1/fmax(vec3_norm(spoke(o, x)), 0.5*o->radius);
+    const Vec3 straight = o->kind == CPS_OBSTACLE_CYLINDER ? o->frame.axis[2] : vec3(0, 0, 0);
+    const double c = vec3_dot(straight, t), s = vec3_dot(straight, b);
+    curvature[0] = kappa*(1 - c*c), curvature[1] = -kappa*c*s, curvature[2] = kappa*(1 - s*s);
+}
+
+/* v turned about a unit axis. */
+static Vec3 turned(Vec3 v, Vec3 axis, double angle) {
+    const Vec3 along = vec3_scale(vec3_dot(v, axis), axis), across = vec3_sub(v, along);
+    return vec3_add(along, vec3_axpy(cos(angle), across, vec3_scale(sin(angle), vec3_cross(axis, across))));
+}
+
+Vec3 cpsi_obstacle_move(const CpsiObstacle *o, Vec3 x, Vec3 u) {
+    if (o->kind == CPS_OBSTACLE_PLANE) return vec3_add(x, u);
+    const Vec3 n = cpsi_obstacle_normal(o, x), s = spoke(o, x);
+    const double rise = vec3_dot(u, n), distance = vec3_norm(s);
+    Vec3 tangent = reject(u, n), straight = vec3(0, 0, 0);
+    if (o->kind == CPS_OBSTACLE_CYLINDER) {
+        straight = vec3_scale(vec3_dot(tangent, o->frame.axis[2]), o->frame.axis[2]);
+        tangent = vec3_sub(tangent, straight);
+    }
+    const double way = vec3_norm(tangent);
+    if (!(way > 0 && distance > 0)) return vec3_add(x, u);
+    /* along the circle of x in the plane of n and the tangent */
+    const double angle = way/distance, reach = distance + rise;
+    const Vec3 t = vec3_scale(1/way, tangent), centre = vec3_sub(x, s);
+    const Vec3 arm = vec3_axpy(cos(angle), n, vec3_scale(sin(angle), t));
+    return vec3_add(vec3_axpy(reach, arm, centre), straight);
+}
+
+Vec3 cpsi_obstacle_way(const CpsiObstacle *o, Vec3 from, Vec3 to) {
+    if (o->kind == CPS_OBSTACLE_PLANE) return reject(vec3_sub(to, from), o->frame.axis[2]);
+    const Vec3 n0 = cpsi_obstacle_normal(o, from), n1 = cpsi_obstacle_normal(o, to), axis = o->frame.axis[2];
+    Vec3 straight = vec3(0, 0, 0);
+    if (o->kind == CPS_OBSTACLE_CYLINDER) straight = vec3_scale(vec3_dot(vec3_sub(to, from), axis), axis);
+    /* the great circle from n0 to n1, its direction at n1 */
+    const Vec3 pole = vec3_cross(n0, n1);
+    const double sine = vec3_norm(pole), angle = atan2(sine, vec3_dot(n0, n1));
+    if (!(sine > 0)) return straight;
+    const Vec3 arrival = vec3_cross(vec3_scale(1/sine, pole), n1);
+    return vec3_axpy(o->radius*angle, arrival, straight);
+}
+
+Vec3 cpsi_obstacle_turn(const CpsiObstacle *o, Vec3 x, double angle) {
+    if (angle == 0) return x;
+    return vec3_add(o->frame.point, turned(vec3_sub(x, o->frame.point), o->frame.axis[2], angle));
+}

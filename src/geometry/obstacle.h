@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Obstacles: distance, axes of contact, and motion along the surface.
+ *
+ * A surface is seen from the point x of a node. Its normal n(x) is that of the foot of x, the nearest point of the
+ * surface; on the surfaces here (plane, cylinder, sphere) that map is closed form, and so are the geodesics. */
+#ifndef CAPSTAN_SRC_GEOMETRY_OBSTACLE_H
+#define CAPSTAN_SRC_GEOMETRY_OBSTACLE_H
+
+#include "capstan/scene.h"
+#include "geometry/plane.h"
+
+typedef struct CpsiObstacle {
+    CpsObstacleKind kind;
+    CpsiPlane frame;    /* plane: the surface. Cylinder: axis[2] is its axis. Sphere: axis[2] is what it turns about */
+    double radius;      /* [m] cylinder, sphere */
+    double friction[2]; /* [-] along the first tangent of the contact and across it */
+    CpsFrictionShape shape;
+    bool has_grain; /* the first tangent is that of `grain`, not of the line */
+    Vec3 grain;
+} CpsiObstacle;
+
+CpsiObstacle cpsi_obstacle(const CpsObstacle *def);
+
+/* Does the step problem change as nodes move on it: a curved surface, or friction that follows the line's direction? */
+bool cpsi_obstacle_follows(const CpsiObstacle *obstacle);
+
+/* [m] Signed distance of x, positive on the free side. */
+double cpsi_obstacle_gap(const CpsiObstacle *obstacle, Vec3 x);
+/* Unit normal at the foot of x, towards the free side. */
+Vec3 cpsi_obstacle_normal(const CpsiObstacle *obstacle, Vec3 x);
+
+/* Axes of contact at x: rows first tangent, second tangent, normal. The first tangent is the grain's or `along`'s (any
+ * vector) part in the tangent plane; curvature [1/m] of the surface through x as xx, xy, yy in these axes. */
+void cpsi_obstacle_axes(const CpsiObstacle *obstacle, Vec3 x, Vec3 along, double axes[9], double curvature[3]);
+
+/* Where x comes to lie when it moves by u: the tangential part of u along the surface's geodesic, the normal part after
+ * it. */
+Vec3 cpsi_obstacle_move(const CpsiObstacle *obstacle, Vec3 x, Vec3 u);
+
+/* The way from one point's foot to another's along the surface, as a tangent vector at the second: its length is that
+ * of the geodesic, its direction the one of arrival. On a cylinder the shorter way round. */
+Vec3 cpsi_obstacle_way(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
+
+/* x carried along as the obstacle turns about its axis by `angle` [rad], right-hand rule. */
+Vec3 cpsi_obstacle_turn(const CpsiObstacle *obstacle, Vec3 x, double angle);
+
+#endif
