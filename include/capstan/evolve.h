@@ -70,11 +70,25 @@ typedef struct CpsEndReport {
     double tension;     /* [N] |force| */
 } CpsEndReport;
 
+/* Where the energy of a step went [J]: ends + obstacles = elastic + gravity + dissipated + imbalance. */
+typedef struct CpsLedger {
+    double elastic;    /* growth of the energy of elongation */
+    double gravity;    /* growth of the weight's potential */
+    double ends;       /* work of the forces at the ends, held or free: mean of the force before and after, times the way */
+    double obstacles;  /* work of the friction of obstacles that turn */
+    double dissipated; /* by friction, >= 0 */
+    double imbalance;  /* vanishes at first order as load steps get smaller; large and positive in a snap: energy that is set free */
+} CpsLedger;
+
 typedef struct CpsLineReport {
-    CpsOutcome outcome;
-    int iterations;
-    CpsCertificate certificate;
+    CpsOutcome outcome; /* the worst of the parts that the step was taken in */
+    int iterations;     /* of all parts */
+    CpsCertificate certificate; /* of the last part */
     double dissipated; /* [J] in this step */
+    CpsLedger ledger;  /* of this step; zero for a start laid by statics */
+    int parts;         /* in which the step was taken, 1 or more */
+    int snaps;         /* parts in which the line jumped, however small the load */
+    double jump;       /* [m] the longest way of a node in such a part */
     CpsEndReport end[2];
     double grounded; /* [m] natural length in contact with a reaction */
     double slipping; /* [m] natural length that slid on the obstacle in this step */
@@ -94,6 +108,10 @@ typedef struct CpsStepReport {
     CpsCertificate certificate; /* energies, gap, scale and J residuals summed, all else the largest of the lines; a
                                    tension_bound of NaN on any line makes it NaN */
     double dissipated; /* [J] */
+    CpsLedger ledger;  /* sum of the lines */
+    int parts;         /* largest over the lines */
+    int snaps;         /* sum of the lines */
+    double jump;       /* [m] largest of the lines */
     double wall;       /* [s] */
 } CpsStepReport;
 

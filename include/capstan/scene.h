@@ -124,6 +124,9 @@ typedef struct CpsSolverOptions {
     double tolerance;              /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8 */
     int max_iterations;            /* per step and line, 1..1000, default 60 */
     CpsLinearSystem linear_system; /* default chain */
+    double path_tolerance; /* [-] a step is cut until going in halves changes ways per length and tensions per largest force by no
+                              more, 1e-9..1; default 0: steps are as given */
+    int halvings;          /* how often a step may be halved, for the path or because it does not converge, 0..30, default 10 */
 } CpsSolverOptions;
 
 typedef struct CpsScene {

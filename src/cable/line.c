@@ -6,7 +6,6 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n;
     line->arc_length = CPSI_TAKE(arena, n, double);
     line->element_length = CPSI_TAKE(arena, n, double);
-    line->share = CPSI_TAKE(arena, n, double);
     line->reference = CPSI_TAKE(arena, 3*n, double);
     line->position = CPSI_TAKE(arena, 3*n, double);
     line->load = CPSI_TAKE(arena, 3*n, double);
@@ -46,11 +45,6 @@ void cpsi_line_measure(CpsiLine *line) {
         carry = (total - sum) - next;
         sum = line->arc_length[e + 1] = total;
     }
-    for (int j = 0; j < line->n; j++) {
-        const double before = j > 0 ? line->element_length[j - 1] : 0;
-        const double after = j + 1 < line->n ? line->element_length[j] : 0;
-        line->share[j] = 0.5*(before + after);
-    }
 }
 
 /* The force K (|x'| - 1)^+ t of element e at `position`; 0 for an inextensible line, whose tension shapes do not tell. */
@@ -69,7 +63,7 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
         if (!(gap <= touch)) continue;
-        Vec3 sum = vec3_scale(line->share[j], vec3_load(line->weight));
+        Vec3 sum = vec3_scale(cpsi_line_share(line, j), vec3_load(line->weight));
         if (j > 0) sum = vec3_sub(sum, start_force(line, j - 1));
         if (j + 1 < line->n) sum = vec3_add(sum, start_force(line, j));
         const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));

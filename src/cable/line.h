@@ -17,13 +17,12 @@ typedef struct CpsiLine {
     double weight[3];   /* [N/m] per natural length */
     int obstacle_count;
     const CpsiObstacle *obstacle; /* (obstacle_count) */
-    const double *turn; /* (obstacle_count) [rad] by which each turns in this step */
+    const double *turn; /* (obstacle_count) [rad] by which each turns in this part of the step */
     bool follows;       /* nodes have axes of their own, which follow them: more than one plane with isotropic friction */
     double common[9];   /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];      /* imposed now */
     double *arc_length;      /* (n) [m] */
     double *element_length;  /* (n - 1) [m] element e joins nodes e and e + 1 */
-    double *share;           /* (n) [m] natural length that a node stands for: half of its elements */
     /* the step */
     double *reference;      /* (n, 3) [m] */
     double *position;       /* (n, 3) [m] */
@@ -48,8 +47,15 @@ typedef struct CpsiLine {
 /* Place the arrays of a line of line->n nodes in the arena; line->follows is set. */
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 
-/* Fill arc length and shares from element_length. */
+/* Fill the arc length from element_length. */
 void cpsi_line_measure(CpsiLine *line);
+
+/* [m] Natural length that node j stands for: half of its elements. */
+static inline double cpsi_line_share(const CpsiLine *line, int j) {
+    const double before = j > 0 ? line->element_length[j - 1] : 0;
+    const double after = j + 1 < line->n ? line->element_length[j] : 0;
+    return 0.5*(before + after);
+}
 
 /* The obstacle that node j is nearest to, or NULL; the axes of contact there. */
 static inline const CpsiObstacle *cpsi_line_obstacle(const CpsiLine *line, int j) {

@@ -17,9 +17,9 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     memset(line->state, CPS_NODE_FREE, (size_t)line->n);
     for (int k = 0; k < program->stop.count; k++) {
         const int j = program->stop.node[k];
-        if (line->reaction[j] <= density*line->share[j]*program->stop.s[k]) continue;
+        if (line->reaction[j] <= density*cpsi_line_share(line, j)*program->stop.s[k]) continue;
         line->state[j] = CPS_NODE_STICK;
-        report->grounded += line->share[j];
+        report->grounded += cpsi_line_share(line, j);
     }
     for (int j = 0; j < line->n; j++) {
         if (!(line->friction_bound[j] > 0)) continue;
@@ -34,7 +34,7 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
         const double *z = program->rub.z[k], *s = program->rub.s[k], slide = sqrt(s[1]*s[1] + s[2]*s[2]);
         if (line->state[j] != CPS_NODE_STICK || slide*z[0] <= z[0] - sqrt(z[1]*z[1] + z[2]*z[2])) continue;
         line->state[j] = CPS_NODE_SLIP;
-        report->slipping += line->share[j];
+        report->slipping += cpsi_line_share(line, j);
     }
     for (int i = 1; i < line->n; i++) {
         const double *s = program->stretch.s[i], *z = program->stretch.z[i];

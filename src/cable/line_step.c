@@ -57,7 +57,7 @@ static double end_distance(const CpsiLine *line) {
 static void pose(CpsiLine *line, const CpsiStepOptions *options) {
     cpsi_contact_pose(line, options);
     for (int j = 0; j < line->n; j++)
-        for (int a = 0; a < 3; a++) line->load[3*j + a] = line->share[j]*line->weight[a];
+        for (int a = 0; a < 3; a++) line->load[3*j + a] = cpsi_line_share(line, j)*line->weight[a];
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_FREE)
             for (int a = 0; a < 3; a++) line->load[3*(end == CPS_END_A ? 0 : line->n - 1) + a] += line->end[end].value[a];

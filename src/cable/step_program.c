@@ -46,7 +46,7 @@ static void guess(const CpsiLine *line, CpsiChainProgram *program) {
 static void fill_rubs(const CpsiLine *line, CpsiChainProgram *program, int j, const CpsiStepScale *scale) {
     CpsiRub *rub = &program->rub;
     const CpsiRubSet set = cpsi_rub_set(cpsi_line_obstacle(line, j));
-    const double share = line->share[j]/line->length;
+    const double share = cpsi_line_share(line, j)/line->length;
     const int count = line->follows && set.box ? 2 : 1;
     double way[3] = {0};
     if (line->follows) cpsi_frame_to(way, cpsi_line_axes(line, j), &line->slide[3*j]);
@@ -69,7 +69,7 @@ static void fill_rubs(const CpsiLine *line, CpsiChainProgram *program, int j, co
 
 static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int j, const CpsiStepScale *scale) {
     CpsiStop *stop = &program->stop;
-    const double share = line->share[j]/line->length;
+    const double share = cpsi_line_share(line, j)/line->length;
     double gap = line->gap[j];
     if (line->follows)
         for (int a = 0; a < 3; a++)
@@ -111,6 +111,7 @@ static void common(const CpsiChainProgram *program, int j, double out[3]) {
 static void fill_elements(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale) {
     CpsiStretch *st = &program->stretch;
     const double *base = base_of(line);
+    st->compliance = line->compliance*scale->force;
     for (int i = 1; i < line->n; i++) {
         const double l = line->element_length[i - 1]*scale->longer;
         double dx[3], e[3], far[3], near[3];
@@ -118,7 +119,6 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program, const
         cpsi_frame_to(e, line->common, dx);
         common(program, i, far), common(program, i - 1, near);
         st->length[i] = l/line->length;
-        st->compliance[i] = line->compliance*scale->force;
         for (int a = 0; a < 3; a++) st->s[i][1 + a] = e[a] + (far[a] - near[a])/st->length[i];
     }
 }

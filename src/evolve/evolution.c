@@ -14,7 +14,8 @@
 
 #include "base/larger.h"
 #include "base/status.h"
-#include "cable/line_step.h"
+#include "evolve/advance.h"
+#include "evolve/ledger.h"
 #include "evolve/start.h"
 
 enum { STEP_NAME = 96 };
@@ -43,7 +44,9 @@ struct CpsEvolution {
     int line_count, stage_count, step_count;
     int obstacle_count;
     CpsiObstacle *obstacle; /* (obstacle_count) */
-    double *turn;           /* (obstacle_count) [rad] by which each turns in the step */
+    double *angle;          /* (obstacle_count) [rad] by which each turns in the step */
+    CpsiMove *move;         /* (line_count) what the step does to each line */
+    CpsiAdvance room;
     CpsiLine *line;   /* (line_count) */
     Stage *stage;     /* (stage_count) */
     bool laid;        /* the first step is the statics of lines laid */
@@ -81,7 +84,9 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
     evolution->is_laid = CPSI_TAKE(arena, scene->line_count, bool);
     evolution->stage = CPSI_TAKE(arena, scene->stage_count + 1, Stage);
     evolution->obstacle = CPSI_TAKE(arena, scene->obstacle_count + 1, CpsiObstacle);
-    evolution->turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
+    evolution->angle = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
+    evolution->room.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
+    evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
     const bool follows = scene_follows(scene);
     int nodes = 0;
     for (int i = 0; i < scene->line_count; i++) {
@@ -98,6 +103,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, Change);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
+    cpsi_advance_layout(&evolution->room, arena, nodes, scene->solver.path_tolerance > 0);
     cpsi_chain_program_layout(&evolution->program, arena, nodes, follows,
                         scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain);
     return placed;
@@ -108,7 +114,7 @@ static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     line->obstacle_count = evolution->obstacle_count;
     line->obstacle = evolution->obstacle;
-    line->turn = evolution->turn;
+    line->turn = evolution->room.turn;
     const bool own = line->follows || line->obstacle_count == 0;
     const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
     for (int i = 0; i < 3; i++) vec3_store(&line->common[3*i], plane.axis[i]);
@@ -155,6 +161,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
         fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
+        evolution->move[i].angle = evolution->angle;
         evolution->is_laid[i] = scene->line[i].start.kind == CPS_START_LAID;
         evolution->laid = evolution->laid || evolution->is_laid[i];
     }
@@ -218,26 +225,46 @@ static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
     return now;
 }
 
-/* Impose the next load step's ends and turns, and name it. */
-static void impose(CpsEvolution *evolution) {
+/* An end at `part` of the `steps` of its stage. */
+static CpsEnd end_at(const Change *change, int part, int steps) {
+    CpsEnd end = change->to;
+    const double share = (double)part/steps;
+    for (int a = 0; a < 3 && part < steps; a++)
+        end.value[a] = change->from.value[a] + share*(change->to.value[a] - change->from.value[a]);
+    return end;
+}
+
+/* What the next load step does to each line, and its name. */
+static void plan(CpsEvolution *evolution) {
     Stage *stage = &evolution->stage[evolution->current];
-    const double share = (double)(evolution->part + 1)/stage->steps;
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++)
+            evolution->move[i].from[end] = evolution->move[i].to[end] = evolution->line[i].end[end];
     for (int k = 0; k < stage->change_count; k++) {
         Change *change = &stage->change[k];
-        CpsiLine *line = &evolution->line[change->line];
-        if (evolution->part == 0) change->from = end_now(line, change->end, change->to.kind);
-        CpsEnd *end = &line->end[change->end];
-        end->kind = change->to.kind;
-        for (int a = 0; a < 3; a++)
-            end->value[a] = evolution->part + 1 == stage->steps
-                                ? change->to.value[a]
-                                : change->from.value[a] + share*(change->to.value[a] - change->from.value[a]);
+        if (evolution->part == 0)
+            change->from = end_now(&evolution->line[change->line], change->end, change->to.kind);
+        CpsiMove *move = &evolution->move[change->line];
+        move->from[change->end] = evolution->part == 0 ? change->from : end_at(change, evolution->part, stage->steps);
+        move->to[change->end] = end_at(change, evolution->part + 1, stage->steps);
     }
-    for (int k = 0; k < evolution->obstacle_count; k++) evolution->turn[k] = 0;
-    for (int k = 0; k < stage->turn_count; k++) evolution->turn[stage->turn[k].obstacle] = stage->turn[k].angle/stage->steps;
+    for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
+    for (int k = 0; k < stage->turn_count; k++) evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle/stage->steps;
     if (stage->steps == 1) snprintf(evolution->step_name, STEP_NAME, "%s", stage->name);
     else snprintf(evolution->step_name, STEP_NAME, "%.64s %d/%d", stage->name, evolution->part + 1, stage->steps);
     if (++evolution->part == stage->steps) evolution->part = 0, evolution->current++;
+}
+
+/* Statics: lines laid find their first equilibrium, the others theirs under the ends as they are. */
+static void lay(CpsEvolution *evolution) {
+    snprintf(evolution->step_name, STEP_NAME, "laid");
+    for (int i = 0; i < evolution->line_count; i++) {
+        CpsiLine *line = &evolution->line[i];
+        CpsiStepOptions options = evolution->options;
+        if (evolution->is_laid[i]) options.frictionless = true, options.contact = CPS_CONTACT_GAINED;
+        cpsi_line_step(line, &evolution->program, &options);
+        line->report.parts = 1;
+    }
 }
 
 /* Add a line's report to the step's. */
@@ -247,6 +274,10 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     if (line->outcome > step->outcome) step->outcome = line->outcome;
     if (line->iterations > step->iterations) step->iterations = line->iterations;
     step->dissipated += line->dissipated;
+    cpsi_ledger_add(&step->ledger, &line->ledger);
+    if (line->parts > step->parts) step->parts = line->parts;
+    step->snaps += line->snaps;
+    step->jump = cpsi_larger(step->jump, line->jump);
     to->primal += from->primal, to->dual += from->dual, to->gap += from->gap, to->scale += from->scale;
     to->friction_residual += from->friction_residual, to->law_residual += from->law_residual, to->contact_residual += from->contact_residual;
     to->tension_bound = cpsi_larger(to->tension_bound, from->tension_bound);
@@ -268,16 +299,16 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     if (cps_evolution_remaining(evolution) == 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "no load step remains: ask cps_evolution_remaining first");
     const double begin = seconds();
-    const bool statics = evolution->laid && evolution->done == 0;
-    if (statics) snprintf(evolution->step_name, STEP_NAME, "laid");
-    else impose(evolution);
-    evolution->report = (CpsStepReport){.name = evolution->step_name, .index = evolution->done};
-    for (int i = 0; i < evolution->line_count; i++) {
-        CpsiStepOptions options = evolution->options;
-        if (statics && evolution->is_laid[i]) options.frictionless = true, options.contact = CPS_CONTACT_GAINED;
-        cpsi_line_step(&evolution->line[i], &evolution->program, &options);
-        add_report(&evolution->report, &evolution->line[i].report);
+    if (evolution->laid && evolution->done == 0) {
+        lay(evolution);
+    } else {
+        plan(evolution);
+        for (int i = 0; i < evolution->line_count; i++)
+            cpsi_line_advance(&evolution->line[i], &evolution->program, &evolution->options, &evolution->move[i],
+                              &evolution->room, evolution->done > 0);
     }
+    evolution->report = (CpsStepReport){.name = evolution->step_name, .index = evolution->done};
+    for (int i = 0; i < evolution->line_count; i++) add_report(&evolution->report, &evolution->line[i].report);
     evolution->done++;
     evolution->ended = evolution->report.outcome >= CPS_UNBOUNDED;
     evolution->report.wall = seconds() - begin;

@@ -27,7 +27,7 @@ CpsScene cps_scene_default(void) {
     return (CpsScene){
         .cookie = SCENE_COOKIE,
         .gravity = {0, 0, -9.81},
-        .solver = {.tolerance = 1e-8, .max_iterations = 60, .linear_system = CPS_LINEAR_SYSTEM_CHAIN},
+        .solver = {.tolerance = 1e-8, .max_iterations = 60, .linear_system = CPS_LINEAR_SYSTEM_CHAIN, .halvings = 10},
     };
 }
 
@@ -415,6 +415,11 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
     if (solver->max_iterations < 1 || solver->max_iterations > 1000)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "solver: max_iterations is %d, expected 1 to 1000",
                          solver->max_iterations);
+    if (!(solver->path_tolerance == 0 || (solver->path_tolerance >= 1e-9 && solver->path_tolerance <= 1)))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "solver: path_tolerance is %g, expected 0 or 1e-9 to 1",
+                         solver->path_tolerance);
+    if (solver->halvings < 0 || solver->halvings > 30)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "solver: halvings is %d, expected 0 to 30", solver->halvings);
     if (solver->linear_system != CPS_LINEAR_SYSTEM_CHAIN && solver->linear_system != CPS_LINEAR_SYSTEM_DENSE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "solver: linear_system has the unknown value %d",
                          (int)solver->linear_system);

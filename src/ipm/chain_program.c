@@ -9,7 +9,6 @@
 
 static void layout_stretch(CpsiStretch *st, CpsiArena *arena, int n) {
     st->length = CPSI_TAKE(arena, n, double);
-    st->compliance = CPSI_TAKE(arena, n, double);
     st->s = cpsi_arena_take(arena, (size_t)n, sizeof *st->s);
     st->z = cpsi_arena_take(arena, (size_t)n, sizeof *st->z);
     st->w = cpsi_arena_take(arena, (size_t)n, sizeof *st->w);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A program over a chain of nodes in space, three unknowns each: the line of cable/.
  *
- *     min   sum_i l_i d_i^2/(2 c_i)  +  sum_k w_k A_k t_k  -  sum_j b_j.u_j
+ *     min   sum_i l_i d_i^2/(2 c)  +  sum_k w_k A_k t_k  -  sum_j b_j.u_j
  *     s.t.  (1 + d_i, e_i) in Q4,       e_i = e_i^0 + (u_i - u_{i-1})/l_i       stretch, one per element i = 1..n-1
  *           (t_k, o_k + B_k u_xy) in Q3 at node k                               rub,     a disc of forces of radius A_k,
  *                                                                                        mapped by B_k^T
@@ -27,7 +27,7 @@
 /* Element i = 1..n-1 between nodes i-1 and i; index 0 is unused. */
 typedef struct CpsiStretch {
     double *length;       /* (n) l_i > 0, their sum is 1 */
-    double *compliance;   /* (n) c_i >= 0 */
+    double compliance;    /* c >= 0, of every element */
     double (*s)[4];       /* (n) (1 + d, e) */
     double (*z)[4];       /* (n) (T, -p) */
     double (*w)[4];       /* (n) Nesterov-Todd scaling */

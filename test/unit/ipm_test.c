@@ -23,9 +23,9 @@ static void make(Fixture *fixture, const CpsiLinsysOps *ops, double c, double sp
     program->rub.count = program->stop.count = 0;
     program->held[0] = program->held[2] = held;
     program->base.load[3*1 + 2] = -1;
+    program->stretch.compliance = c;
     for (int i = 1; i < NODES; i++) {
         program->stretch.length[i] = 0.5;
-        program->stretch.compliance[i] = c;
         program->stretch.s[i][1] = span; /* e = (span/2)/0.5 along x */
     }
 }

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A load step in parts (advance.h).
+ *
+ * Friction depends on the path, and a step goes straight from one load to the next. A part of a step is accepted
+ *   - when it converged, if the path's accuracy is not asked for;
+ *   - when besides going it in two halves leads to the same place and tensions within the path tolerance: the two halves are kept.
+ * Otherwise it is halved, at most `halvings` times. A part that small is accepted; if it still ends elsewhere than its halves it is a
+ * snap, and reported: the line jumps by a way that does not get smaller with the load. A part that small which does not converge is
+ * not cut further: the rest of the step is taken in one go and reported as it is. */
+#include "evolve/advance.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/larger.h"
+#include "evolve/ledger.h"
+
+/* A part whose halves agree this much better than asked is followed by one twice as long. */
+static const double EASY = 0.25;
+
+void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, bool path_tolerance) {
+    room->reaction = CPSI_TAKE(arena, n, double);
+    room->state = CPSI_TAKE(arena, n, unsigned char);
+    room->position = path_tolerance ? CPSI_TAKE(arena, 3*(size_t)n, double) : NULL;
+    room->trial = path_tolerance ? CPSI_TAKE(arena, 4*(size_t)n, double) : NULL;
+}
+
+static void save(const CpsiLine *line, CpsiAdvance *room) {
+    const size_t n = (size_t)line->n;
+    memcpy(room->reaction, line->reaction, n*sizeof *line->reaction);
+    memcpy(room->state, line->state, n*sizeof *line->state);
+    memcpy(room->end, line->report.end, sizeof room->end);
+    if (room->position) memcpy(room->position, line->position, 3*n*sizeof *line->position);
+}
+
+/* Back to the start of the part; one step after `save` the reference still is where it started. */
+static void restore(CpsiLine *line, const CpsiAdvance *room) {
+    const size_t n = (size_t)line->n;
+    memcpy(line->reaction, room->reaction, n*sizeof *line->reaction);
+    memcpy(line->state, room->state, n*sizeof *line->state);
+    memcpy(line->report.end, room->end, sizeof room->end);
+    memcpy(line->position, room->position ? room->position : line->reference, 3*n*sizeof *line->position);
+}
+
+/* What a part of a step did. */
+typedef struct Part {
+    CpsLineReport report;
+    CpsLedger ledger;
+} Part;
+
+/* The part of the move from share `from` to share `to`. */
+static Part take(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
+                 CpsiAdvance *room, double from, double to, bool known) {
+    for (int end = 0; end < 2; end++) {
+        line->end[end].kind = move->to[end].kind;
+        for (int a = 0; a < 3; a++) {
+            const double start = move->from[end].value[a], last = move->to[end].value[a];
+            line->end[end].value[a] = to >= 1 ? last : start + to*(last - start);
+        }
+    }
+    for (int k = 0; k < line->obstacle_count; k++) room->turn[k] = (to - from)*move->angle[k];
+    const CpsiLedgerStart start = cpsi_ledger_start(line, known);
+    cpsi_line_step(line, program, options);
+    Part part = {.report = line->report};
+    if (line->report.outcome < CPS_UNBOUNDED) part.ledger = cpsi_ledger_close(line, &start);
+    return part;
+}
+
+static bool converged(const Part *part) { return part->report.outcome <= CPS_TAUT; }
+
+/* Add a part to the whole: sums, the worst outcome, else the later state. */
+static void add(CpsLineReport *whole, CpsLedger *ledger, const Part *part) {
+    const CpsLineReport before = *whole;
+    *whole = part->report;
+    whole->parts = before.parts + 1;
+    whole->snaps = before.snaps;
+    whole->jump = before.jump;
+    if (before.outcome > whole->outcome) whole->outcome = before.outcome;
+    whole->iterations += before.iterations;
+    whole->dissipated += before.dissipated;
+    cpsi_ledger_add(ledger, &part->ledger);
+    whole->ledger = *ledger;
+}
+
+static void keep_trial(const CpsiLine *line, double *trial) {
+    for (int j = 0; j < line->n; j++) {
+        memcpy(&trial[4*j], &line->position[3*j], 3*sizeof *trial);
+        trial[4*j + 3] = j > 0 ? line->tension[j - 1] : 0;
+    }
+}
+
+/* How far the line is from where the trial went. */
+typedef struct Apart {
+    double way;     /* largest, per length of the line */
+    double tension; /* largest, per largest force */
+} Apart;
+
+static Apart apart(const CpsiLine *line, const double *trial) {
+    double way = 0, tension = 0;
+    for (int j = 0; j < line->n; j++) {
+        way = cpsi_larger(way, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&trial[4*j]))));
+        if (j > 0) tension = cpsi_larger(tension, fabs(line->tension[j - 1] - trial[4*j + 3]));
+    }
+    const double force = line->report.certificate.largest_force;
+    return (Apart){way/line->length, force > 0 ? tension/force : 0};
+}
+
+/* [m] The longest way of a node in the part just taken. */
+static double jump_of(const CpsiLine *line, const CpsiAdvance *room) {
+    double jump = 0;
+    for (int j = 0; j < line->n; j++)
+        jump = cpsi_larger(jump, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&room->position[3*j]))));
+    return jump;
+}
+
+void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
+                       CpsiAdvance *room, bool known) {
+    const double tolerance = options->solver.path_tolerance, least = ldexp(1, -options->solver.halvings);
+    CpsLineReport whole = {0};
+    CpsLedger ledger = {0};
+    for (double at = 0, part = 1; at < 1;) {
+        const double to = at + part < 1 ? at + part : 1, middle = at + 0.5*(to - at);
+        save(line, room);
+        Part taken = take(line, program, options, move, room, at, to, known), second = {0};
+        if (taken.report.outcome >= CPS_UNBOUNDED || (!converged(&taken) && part == 1 && least == 1)) {
+            add(&whole, &ledger, &taken);
+            break;
+        }
+        bool good = converged(&taken);
+        const bool halves = tolerance > 0 && good;
+        Apart error = {0};
+        if (halves) {
+            keep_trial(line, room->trial);
+            restore(line, room);
+            taken = take(line, program, options, move, room, at, middle, known);
+            if (converged(&taken)) second = take(line, program, options, move, room, middle, to, true);
+            good = converged(&taken) && converged(&second);
+            if (good) error = apart(line, room->trial);
+        }
+        if (!(good && error.way <= tolerance && error.tension <= tolerance) && part > least) {
+            restore(line, room);
+            part *= 0.5;
+            continue;
+        }
+        if (!good) { /* no smaller: the rest in one go */
+            restore(line, room);
+            taken = take(line, program, options, move, room, at, 1, known);
+            add(&whole, &ledger, &taken);
+            break;
+        }
+        add(&whole, &ledger, &taken);
+        if (halves) add(&whole, &ledger, &second);
+        if (error.way > tolerance) {
+            whole.snaps++;
+            whole.jump = cpsi_larger(whole.jump, jump_of(line, room));
+        }
+        known = true;
+        at = to;
+        if (error.way <= EASY*tolerance && error.tension <= EASY*tolerance) part *= 2;
+    }
+    line->report = whole;
+}

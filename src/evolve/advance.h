@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A load step of one line, in as many parts as it needs. */
+#ifndef CAPSTAN_SRC_EVOLVE_ADVANCE_H
+#define CAPSTAN_SRC_EVOLVE_ADVANCE_H
+
+#include "cable/line_step.h"
+
+/* What a load step does to a line: each end from a value to another of the same kind, obstacles by an angle. */
+typedef struct CpsiMove {
+    CpsEnd from[2], to[2];
+    const double *angle; /* (obstacles) [rad] */
+} CpsiMove;
+
+/* Room for the start of a part, and for what one part reached in one go. */
+typedef struct CpsiAdvance {
+    double *reaction;     /* (n) */
+    unsigned char *state; /* (n) */
+    CpsEndReport end[2];
+    double *position;     /* (n, 3), NULL where the path's accuracy is not asked for */
+    double *trial;        /* (n, 4), the same */
+    double *turn;         /* (obstacles) what line->turn points to */
+} CpsiAdvance;
+
+void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, bool path_tolerance);
+
+/* Take the step. The line's report is that of the whole: sums of what adds up, the worst outcome, else that of the last part; the views
+ * are those of the last part.
+ *
+ *   known   the forces at the ends are those of an equilibrium (cpsi_ledger_start) */
+void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
+                       CpsiAdvance *room, bool known);
+
+#endif

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The ledger of one step:
+ *
+ *     ends + obstacles = elastic + gravity + dissipated + imbalance
+ *
+ * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched, gravity = - sum (weight of the node) . x.
+ * Work of an end is the mean of its force before and after times its way, the trapezium rule; where no force was there before, the one
+ * after. Friction works with the force at the end of the step, on the way slid (dissipated) and on the way of the obstacle that turns
+ * under it (obstacles). So the imbalance of a step is of second order in its size where nothing slides, and over a path it vanishes at
+ * first order with the steps; on a path along which forces are linear in the ways and nothing slides it is rounding. */
+#include "evolve/ledger.h"
+
+static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
+    const Vec3 weight = vec3_load(line->weight), origin = vec3_load(line->position);
+    *elastic = *gravity = 0;
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 x = vec3_load(&line->position[3*j]);
+        /* from the line's own end, so that a far origin of the axes costs no digits; the end's own height comes last */
+        *gravity -= cpsi_line_share(line, j)*vec3_dot(weight, vec3_sub(x, origin));
+        if (j == 0 || !(line->compliance > 0)) continue;
+        const double l = line->element_length[j - 1];
+        const double strain = vec3_norm(vec3_sub(x, vec3_load(&line->position[3*(j - 1)])))/l - 1;
+        if (strain > 0) *elastic += l*strain*(strain/(2*line->compliance));
+    }
+    *gravity -= line->length*vec3_dot(weight, origin);
+}
+
+CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, bool known) {
+    CpsiLedgerStart start = {.known = known};
+    potentials(line, &start.elastic, &start.gravity);
+    for (int end = 0; end < 2; end++) {
+        start.end[end] = line->report.end[end];
+        const int j = end == CPS_END_A ? 0 : line->n - 1;
+        for (int a = 0; a < 3; a++) start.end[end].position[a] = line->position[3*j + a];
+    }
+    return start;
+}
+
+/* Work of an end's force. */
+static double end_work(const CpsEndReport *before, const CpsEndReport *after, bool known) {
+    double work = 0;
+    for (int a = 0; a < 3; a++) {
+        const double force = known ? 0.5*(before->force[a] + after->force[a]) : after->force[a];
+        work += force*(after->position[a] - before->position[a]);
+    }
+    return work;
+}
+
+/* Work of obstacles that turn: friction on the way of the surface under the node, which is the node's own way less the way slid. */
+static double obstacle_work(const CpsiLine *line) {
+    double work = 0;
+    for (int j = 0; j < line->n && line->follows; j++) {
+        const int k = line->on[j];
+        if (k < 0 || line->turn[k] == 0) continue;
+        const CpsiObstacle *obstacle = &line->obstacle[k];
+        const Vec3 x = vec3_load(&line->position[3*j]), from = vec3_load(&line->reference[3*j]);
+        const Vec3 own = cpsi_obstacle_way(obstacle, from, x);
+        work += vec3_dot(vec3_load(&line->friction_force[3*j]), vec3_sub(own, cpsi_line_slide(line, j)));
+    }
+    return work;
+}
+
+CpsLedger cpsi_ledger_close(const CpsiLine *line, const CpsiLedgerStart *start) {
+    CpsLedger ledger = {.dissipated = line->report.dissipated, .obstacles = obstacle_work(line)};
+    double elastic, gravity;
+    potentials(line, &elastic, &gravity);
+    ledger.elastic = elastic - start->elastic;
+    ledger.gravity = gravity - start->gravity;
+    for (int end = 0; end < 2; end++) ledger.ends += end_work(&start->end[end], &line->report.end[end], start->known);
+    ledger.imbalance = ledger.ends + ledger.obstacles - ledger.elastic - ledger.gravity - ledger.dissipated;
+    return ledger;
+}
+
+void cpsi_ledger_add(CpsLedger *sum, const CpsLedger *part) {
+    sum->elastic += part->elastic;
+    sum->gravity += part->gravity;
+    sum->ends += part->ends;
+    sum->obstacles += part->obstacles;
+    sum->dissipated += part->dissipated;
+    sum->imbalance += part->imbalance;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The energy ledger of a line's step: what went in, what is stored, what was dissipated. */
+#ifndef CAPSTAN_SRC_EVOLVE_LEDGER_H
+#define CAPSTAN_SRC_EVOLVE_LEDGER_H
+
+#include "cable/line.h"
+
+/* What must be remembered of the start of a step. */
+typedef struct CpsiLedgerStart {
+    double elastic, gravity; /* [J] */
+    CpsEndReport end[2];
+    bool known;              /* forces at the ends are those of an equilibrium */
+} CpsiLedgerStart;
+
+/* Before a step: `known` as above. */
+CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, bool known);
+
+/* After it. */
+CpsLedger cpsi_ledger_close(const CpsiLine *line, const CpsiLedgerStart *start);
+
+/* sum += part */
+void cpsi_ledger_add(CpsLedger *sum, const CpsLedger *part);
+
+#endif
