@@ -107,7 +107,7 @@ typedef struct CpsStage {
 
 typedef enum CpsFriction {
     CPS_FRICTION_FROZEN,    /* the bound A = mu R is that of the reference configuration   (S90 section 2 d) */
-    CPS_FRICTION_CONSISTENT /* Coulomb's law: A = mu R with the reaction of the configuration reached */
+    CPS_FRICTION_CONSISTENT /* the default, Coulomb's law: A = mu R with the reaction of the configuration reached */
 } CpsFriction;
 
 typedef enum CpsContact {

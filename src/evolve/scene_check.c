@@ -27,6 +27,7 @@ CpsScene cps_scene_default(void) {
     return (CpsScene){
         .cookie = SCENE_COOKIE,
         .gravity = {0, 0, -9.81},
+        .friction = CPS_FRICTION_CONSISTENT,
         .solver = {.tolerance = 1e-8, .max_iterations = 60, .linear_system = CPS_LINEAR_SYSTEM_CHAIN, .halvings = 10},
     };
 }

@@ -29,7 +29,7 @@ static const CpsiKey KEYS[] = {
      "what the lines lie on, by name; at most one"},
     {CPSI_SCENE, "lines", CPSI_MAPPING, CPSI_REQUIRED, "", MAP(CPSI_LINES), NULL,
      "the lines by name; they do not touch one another"},
-    {CPSI_SCENE, "friction", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "frozen consistent", "\"frozen\"",
+    {CPSI_SCENE, "friction", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "frozen consistent", "\"consistent\"",
      "frozen: the friction bound of a step is taken from the configuration the step starts from; consistent: it is mu "
      "times the reaction in the configuration reached, for nodes that land in the step as well"},
     {CPSI_SCENE, "contact", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "gained strict", "\"gained\"",
@@ -81,6 +81,10 @@ static const CpsiKey KEYS[] = {
     {CPSI_SOLVER, "tolerance", CPSI_NUMBER, CPSI_OPTIONAL, "", 1e-14, 1e-2, false, 0, NULL, "1e-8",
      "a step is certified when its duality gap is at most this times the scale of its energies"},
     {CPSI_SOLVER, "max_iterations", CPSI_INTEGER, CPSI_OPTIONAL, "", 1, 1000, false, 0, NULL, "60", "per step and line"},
+    {CPSI_SOLVER, "path_tolerance", CPSI_NUMBER, CPSI_OPTIONAL, "", 0, 1, false, 0, NULL, "0",
+     "a step is cut until going in halves changes ways per length and tensions per largest force by no more; 0: steps as given"},
+    {CPSI_SOLVER, "halvings", CPSI_INTEGER, CPSI_OPTIONAL, "", 0, 30, false, 0, NULL, "10",
+     "how often a step may be halved, for the path or because it does not converge"},
     {CPSI_SOLVER, "linear_system", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "chain dense", "\"chain\"",
      "dense: for comparison on small lines"},
 

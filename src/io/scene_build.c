@@ -270,6 +270,8 @@ CpsStatus cpsi_scene_build(const char *file, const CpsiYaml *root, const CpsRead
     const CpsiYaml *solver = cpsi_yaml_child(root, "solver");
     get_number(solver, "tolerance", &scene->solver.tolerance);
     scene->solver.max_iterations = get_int(solver, "max_iterations", scene->solver.max_iterations);
+    get_number(solver, "path_tolerance", &scene->solver.path_tolerance);
+    scene->solver.halvings = get_int(solver, "halvings", scene->solver.halvings);
     scene->solver.linear_system = (CpsLinearSystem)get_int(solver, "linear_system", (int)scene->solver.linear_system);
 
     CpsStatus status = build_obstacles(&b, cpsi_yaml_child(root, "obstacles"));

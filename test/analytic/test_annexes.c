@@ -11,6 +11,7 @@ enum { ELEMENTS = 200 };
 
 static void unit_line(Case *c, double friction, double x_to) {
     case_begin(c, 1, ELEMENTS, 1, 1);
+    c->scene.friction = CPS_FRICTION_FROZEN; /* the annexes speak of P2.1 */
     case_bed(c, friction);
     case_straight(c, 0, x_to);
 }
