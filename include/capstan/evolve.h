@@ -16,6 +16,7 @@
 #define CAPSTAN_EVOLVE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "capstan/scene.h"
 
@@ -157,6 +158,17 @@ CPS_API int cps_evolution_remaining(const CpsEvolution *evolution);
  * After an infeasible or unbounded step the lines stay where they were.
  * Returns CPS_ERR_ARGUMENT when no step remains. */
 CPS_API CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err);
+
+/* The state between two steps as bytes, for going on later: the steps that follow a load give the same bits as if they had followed the
+ * save.
+ *
+ *   state  (cps_evolution_state_size) bytes, written; of the same program and the same kind of machine
+ *
+ * cps_evolution_load takes a state saved from an evolution of the same scene. Returns CPS_OK, or CPS_ERR_ARGUMENT when the state is of
+ * another scene, of other settings or not whole; the evolution is untouched then. */
+CPS_API size_t cps_evolution_state_size(const CpsEvolution *evolution);
+CPS_API void cps_evolution_save(const CpsEvolution *evolution, void *state);
+CPS_API CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t size, CpsError *err);
 
 /* Report on the last step taken; before the first one: index -1 and the start configuration in the views. */
 CPS_API CpsStepReport cps_evolution_report(const CpsEvolution *evolution);

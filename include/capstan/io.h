@@ -59,6 +59,33 @@ CPS_API CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError 
 /* Close without keeping unfinished files; accepts NULL; needed after cps_results_finish too. */
 CPS_API void cps_results_destroy(CpsResults *results);
 
+/* A journal of the steps taken, `directory`/.journal: after a run has been killed, another one goes on from it and ends with the same bits.
+ *
+ *     cps_journal_open(directory, evolution, resume, &journal, &err);
+ *     for (found = resume; found;) {                      the steps that are there already
+ *         cps_journal_next(journal, evolution, &found, &err);
+ *         if (found) cps_results_append(results, evolution, &err);
+ *     }
+ *     while (cps_evolution_remaining(evolution) > 0) {    and those that are not
+ *         cps_evolution_step(evolution, &err);
+ *         cps_journal_append(journal, evolution, &err);
+ *         cps_results_append(results, evolution, &err);
+ *     }
+ *     cps_journal_remove(journal); */
+typedef struct CpsJournal CpsJournal;
+
+/* Open the journal in an existing directory: an empty one, or with `resume` the one that is there, if any. */
+CPS_API CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution, bool resume, CpsJournal **out,
+                                   CpsError *err);
+/* Load the next step into the evolution: *found tells whether there was one. A record that is not whole ends the journal.
+ * Returns CPS_OK, CPS_ERR_IO, or CPS_ERR_ARGUMENT where the journal is of another scene. */
+CPS_API CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *found, CpsError *err);
+/* Append the step just taken; on return it is on the disk. */
+CPS_API CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *evolution, CpsError *err);
+/* Remove the file, once its run is finished; destroy the journal all the same. */
+CPS_API void cps_journal_remove(CpsJournal *journal);
+CPS_API void cps_journal_destroy(CpsJournal *journal); /* NULL is accepted */
+
 /* A running JSON summary, the object that `capstan run --json` prints. */
 CPS_API CpsStatus cps_results_write_summary(const CpsResults *results, double wall, FILE *out, CpsError *err);
 

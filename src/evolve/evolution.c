@@ -14,48 +14,13 @@
 
 #include "base/larger.h"
 #include "base/status.h"
-#include "evolve/advance.h"
+#include "evolve/checkpoint.h"
+#include "evolve/evolution.h"
 #include "evolve/ledger.h"
 #include "evolve/start.h"
 
-enum { STEP_NAME = 96 };
-
 /* How near to the obstacle a node of a start shape counts as touching, per length of the line. */
 static const double START_TOUCH = 1e-9;
-
-/* What one stage does to one end. */
-typedef struct Change {
-    int line, end;
-    CpsEnd from, to; /* `from` is found when the stage begins */
-} Change;
-
-typedef struct Stage {
-    const char *name;
-    int steps, change_count, turn_count;
-    Change *change;
-    CpsTurn *turn;
-} Stage;
-
-struct CpsEvolution {
-    CpsiArena arena;
-    CpsStepReport report;
-    char step_name[STEP_NAME];
-    CpsiStepOptions options;
-    int line_count, stage_count, step_count;
-    int obstacle_count;
-    CpsiObstacle *obstacle; /* (obstacle_count) */
-    double *angle;          /* (obstacle_count) [rad] by which each turns in the step */
-    CpsiMove *move;         /* (line_count) what the step does to each line */
-    CpsiAdvance room;
-    CpsiLine *line;   /* (line_count) */
-    Stage *stage;     /* (stage_count) */
-    bool laid;        /* the first step is the statics of lines laid */
-    bool *is_laid;    /* (line_count) */
-    int done;         /* steps taken */
-    int current, part; /* next stage, steps already taken of it */
-    bool ended;       /* an infeasible or unbounded step ends the history */
-    CpsiChainProgram program;
-};
 
 /* create -------------------------------------------------------------------------------------------------------- */
 
@@ -77,12 +42,12 @@ static bool scene_follows(const CpsScene *scene) {
 static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
     CpsEvolution measured = {0};
     CpsiLine any = {0};
-    Stage none = {0};
+    CpsiEvolutionStage none = {0};
     CpsEvolution *placed = CPSI_TAKE(arena, 1, CpsEvolution), *evolution = placed ? placed : &measured;
     const bool real = placed != NULL;
     evolution->line = CPSI_TAKE(arena, scene->line_count, CpsiLine);
     evolution->is_laid = CPSI_TAKE(arena, scene->line_count, bool);
-    evolution->stage = CPSI_TAKE(arena, scene->stage_count + 1, Stage);
+    evolution->stage = CPSI_TAKE(arena, scene->stage_count + 1, CpsiEvolutionStage);
     evolution->obstacle = CPSI_TAKE(arena, scene->obstacle_count + 1, CpsiObstacle);
     evolution->angle = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->room.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
@@ -98,9 +63,9 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
         if (line->n > nodes) nodes = line->n;
     }
     for (int i = 0; i < scene->stage_count; i++) {
-        Stage *stage = real ? &evolution->stage[i] : &none;
+        CpsiEvolutionStage *stage = real ? &evolution->stage[i] : &none;
         stage->name = take_name(arena, scene->stage[i].name);
-        stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, Change);
+        stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
     cpsi_advance_layout(&evolution->room, arena, nodes, scene->solver.path_tolerance > 0);
@@ -167,11 +132,11 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     }
     for (int i = 0; i < scene->stage_count; i++) {
         const CpsStage *from = &scene->stage[i];
-        Stage *stage = &evolution->stage[i];
+        CpsiEvolutionStage *stage = &evolution->stage[i];
         stage->steps = from->steps;
         stage->change_count = from->change_count;
         for (int k = 0; k < from->change_count; k++)
-            stage->change[k] = (Change){.line = from->change[k].line, .end = from->change[k].end, .to = from->change[k].to};
+            stage->change[k] = (CpsiChange){.line = from->change[k].line, .end = from->change[k].end, .to = from->change[k].to};
         stage->turn_count = from->turn_count;
         for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
         evolution->step_count += from->steps;
@@ -179,10 +144,11 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     if (evolution->laid) evolution->step_count++;
     if (evolution->step_count == 0) {
         /* no history: one step to the equilibrium under the ends as they are */
-        evolution->stage[0] = (Stage){.name = "equilibrium", .steps = 1};
+        evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium", .steps = 1};
         evolution->stage_count = evolution->step_count = 1;
     }
     evolution->report = (CpsStepReport){.name = evolution->step_name, .index = -1};
+    evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
 }
 
 CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err) {
@@ -226,7 +192,7 @@ static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
 }
 
 /* An end at `part` of the `steps` of its stage. */
-static CpsEnd end_at(const Change *change, int part, int steps) {
+static CpsEnd end_at(const CpsiChange *change, int part, int steps) {
     CpsEnd end = change->to;
     const double share = (double)part/steps;
     for (int a = 0; a < 3 && part < steps; a++)
@@ -236,12 +202,12 @@ static CpsEnd end_at(const Change *change, int part, int steps) {
 
 /* What the next load step does to each line, and its name. */
 static void plan(CpsEvolution *evolution) {
-    Stage *stage = &evolution->stage[evolution->current];
+    CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++)
             evolution->move[i].from[end] = evolution->move[i].to[end] = evolution->line[i].end[end];
     for (int k = 0; k < stage->change_count; k++) {
-        Change *change = &stage->change[k];
+        CpsiChange *change = &stage->change[k];
         if (evolution->part == 0)
             change->from = end_now(&evolution->line[change->line], change->end, change->to.kind);
         CpsiMove *move = &evolution->move[change->line];
@@ -250,14 +216,14 @@ static void plan(CpsEvolution *evolution) {
     }
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int k = 0; k < stage->turn_count; k++) evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle/stage->steps;
-    if (stage->steps == 1) snprintf(evolution->step_name, STEP_NAME, "%s", stage->name);
-    else snprintf(evolution->step_name, STEP_NAME, "%.64s %d/%d", stage->name, evolution->part + 1, stage->steps);
+    if (stage->steps == 1) snprintf(evolution->step_name, CPSI_STEP_NAME, "%s", stage->name);
+    else snprintf(evolution->step_name, CPSI_STEP_NAME, "%.64s %d/%d", stage->name, evolution->part + 1, stage->steps);
     if (++evolution->part == stage->steps) evolution->part = 0, evolution->current++;
 }
 
 /* Statics: lines laid find their first equilibrium, the others theirs under the ends as they are. */
 static void lay(CpsEvolution *evolution) {
-    snprintf(evolution->step_name, STEP_NAME, "laid");
+    snprintf(evolution->step_name, CPSI_STEP_NAME, "laid");
     for (int i = 0; i < evolution->line_count; i++) {
         CpsiLine *line = &evolution->line[i];
         CpsiStepOptions options = evolution->options;

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Saving and loading an evolution between two steps (cps_evolution_save, cps_evolution_load in capstan/evolve.h). */
+#ifndef CAPSTAN_SRC_EVOLVE_CHECKPOINT_H
+#define CAPSTAN_SRC_EVOLVE_CHECKPOINT_H
+
+#include "evolve/evolution.h"
+
+/* A number that differs, in all likelihood, between evolutions of different scenes. */
+uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution);
+
+#endif

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What an evolution holds. */
+#ifndef CAPSTAN_SRC_EVOLVE_EVOLUTION_H
+#define CAPSTAN_SRC_EVOLVE_EVOLUTION_H
+
+#include "evolve/advance.h"
+
+enum { CPSI_STEP_NAME = 96 };
+
+/* What one stage does to one end. */
+typedef struct CpsiChange {
+    int line, end;
+    CpsEnd from, to; /* `from` is found when the stage begins */
+} CpsiChange;
+
+typedef struct CpsiEvolutionStage {
+    const char *name;
+    int steps, change_count, turn_count;
+    CpsiChange *change;
+    CpsTurn *turn;
+} CpsiEvolutionStage;
+
+struct CpsEvolution {
+    CpsiArena arena;
+    CpsStepReport report;
+    char step_name[CPSI_STEP_NAME];
+    CpsiStepOptions options;
+    int line_count, stage_count, step_count;
+    int obstacle_count;
+    CpsiObstacle *obstacle; /* (obstacle_count) */
+    double *angle;          /* (obstacle_count) [rad] by which each turns in the step */
+    CpsiMove *move;         /* (line_count) what the step does to each line */
+    CpsiAdvance room;
+    CpsiLine *line;   /* (line_count) */
+    CpsiEvolutionStage *stage;     /* (stage_count) */
+    bool laid;        /* the first step is the statics of lines laid */
+    bool *is_laid;    /* (line_count) */
+    int done;         /* steps taken */
+    int current, part; /* next stage, steps already taken of it */
+    bool ended;       /* an infeasible or unbounded step ends the history */
+    CpsiChainProgram program;
+    uint64_t fingerprint; /* of everything that does not change: which scene this is */
+};
+
+#endif
