@@ -48,18 +48,26 @@ typedef struct Part {
     CpsLedger ledger;
 } Part;
 
+/* An end at a share of the move. */
+static CpsEnd end_at(const CpsiMove *move, int end, double share) {
+    CpsEnd at = move->to[end];
+    for (int a = 0; a < 3 && share < 1; a++) {
+        const double from = move->from[end].value[a];
+        at.value[a] = from + share*(at.value[a] - from);
+    }
+    return at;
+}
+
 /* The part of the move from share `from` to share `to`. */
 static Part take(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
                  CpsiAdvance *room, double from, double to, bool known) {
+    CpsEnd before[2];
     for (int end = 0; end < 2; end++) {
-        line->end[end].kind = move->to[end].kind;
-        for (int a = 0; a < 3; a++) {
-            const double start = move->from[end].value[a], last = move->to[end].value[a];
-            line->end[end].value[a] = to >= 1 ? last : start + to*(last - start);
-        }
+        before[end] = end_at(move, end, from);
+        line->end[end] = end_at(move, end, to);
     }
     for (int k = 0; k < line->obstacle_count; k++) room->turn[k] = (to - from)*move->angle[k];
-    const CpsiLedgerStart start = cpsi_ledger_start(line, known);
+    const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
     cpsi_line_step(line, program, options);
     Part part = {.report = line->report};
     if (line->report.outcome < CPS_UNBOUNDED) part.ledger = cpsi_ledger_close(line, &start);

@@ -25,13 +25,17 @@ static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
     *gravity -= line->length*vec3_dot(weight, origin);
 }
 
-CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, bool known) {
-    CpsiLedgerStart start = {.known = known};
+CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], bool known) {
+    CpsiLedgerStart start = {0};
     potentials(line, &start.elastic, &start.gravity);
-    for (int end = 0; end < 2; end++) {
-        start.end[end] = line->report.end[end];
-        const int j = end == CPS_END_A ? 0 : line->n - 1;
-        for (int a = 0; a < 3; a++) start.end[end].position[a] = line->position[3*j + a];
+    for (int i = 0; i < 2; i++) {
+        const bool is_free = end[i].kind == CPS_END_FREE;
+        const int j = i == CPS_END_A ? 0 : line->n - 1;
+        start.known[i] = known || is_free;
+        for (int a = 0; a < 3; a++) {
+            start.end[i].position[a] = line->position[3*j + a];
+            start.end[i].force[a] = is_free ? end[i].value[a] : line->report.end[i].force[a];
+        }
     }
     return start;
 }
@@ -66,7 +70,7 @@ CpsLedger cpsi_ledger_close(const CpsiLine *line, const CpsiLedgerStart *start) 
     potentials(line, &elastic, &gravity);
     ledger.elastic = elastic - start->elastic;
     ledger.gravity = gravity - start->gravity;
-    for (int end = 0; end < 2; end++) ledger.ends += end_work(&start->end[end], &line->report.end[end], start->known);
+    for (int end = 0; end < 2; end++) ledger.ends += end_work(&start->end[end], &line->report.end[end], start->known[end]);
     ledger.imbalance = ledger.ends + ledger.obstacles - ledger.elastic - ledger.gravity - ledger.dissipated;
     return ledger;
 }

@@ -9,11 +9,12 @@
 typedef struct CpsiLedgerStart {
     double elastic, gravity; /* [J] */
     CpsEndReport end[2];
-    bool known;              /* forces at the ends are those of an equilibrium */
+    bool known[2];           /* is the force at this end known? */
 } CpsiLedgerStart;
 
-/* Before a step: `known` as above. */
-CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, bool known);
+/* Before a step, with the ends as they are imposed then: a free end's force is what it is given; that of a held end is known where
+ * `known`, from the report of the equilibrium before. */
+CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], bool known);
 
 /* After it. */
 CpsLedger cpsi_ledger_close(const CpsiLine *line, const CpsiLedgerStart *start);

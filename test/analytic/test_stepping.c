@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Load steps in parts, the energy ledger and snaps, on cases whose answer is known. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "cases.h"
+#include "check.h"
+
+/* Work, energies and dissipation summed over a history. */
+typedef struct Sum {
+    CpsLedger ledger;
+    double exchanged; /* [J] sum of |work of the ends| */
+    int parts, snaps;
+    double jump;
+} Sum;
+
+static Sum run_all(const CpsScene *scene) {
+    CpsError err;
+    CpsEvolution *evolution = NULL;
+    assert_int_equal(cps_evolution_create(scene, &evolution, &err), CPS_OK);
+    Sum sum = {0};
+    while (cps_evolution_remaining(evolution) > 0) {
+        assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
+        const CpsStepReport report = cps_evolution_report(evolution);
+        assert_int_equal(report.outcome, CPS_SOLVED);
+        const CpsLedger *l = &report.ledger;
+        /* the ledger closes by its own definition, and friction only takes */
+        CHECK_NEAR(l->ends + l->obstacles, l->elastic + l->gravity + l->dissipated + l->imbalance,
+                   1e-12*(fabs(l->ends) + fabs(l->elastic) + fabs(l->gravity) + l->dissipated));
+        assert_true(l->dissipated >= 0);
+        sum.ledger.ends += l->ends, sum.ledger.elastic += l->elastic, sum.ledger.gravity += l->gravity;
+        sum.ledger.dissipated += l->dissipated, sum.ledger.imbalance += l->imbalance;
+        sum.exchanged += fabs(l->ends);
+        sum.parts += report.parts, sum.snaps += report.snaps;
+        sum.jump = fmax(sum.jump, report.jump);
+    }
+    cps_evolution_destroy(evolution);
+    return sum;
+}
+
+/* A straight elastic line without weight, pulled along itself: force and way are linear, so the ledger closes to rounding:
+ * F L/EA = 2 x 3/100, work F u/2. */
+static void linear_path_closes(void **state) {
+    (void)state;
+    Case c;
+    case_begin(&c, 3, 30, 0, 100);
+    case_straight(&c, 0, 3);
+    case_force(&c, 8, 2, 0, 0);
+    const Sum sum = run_all(&c.scene);
+    CHECK_NEAR(sum.ledger.ends, 0.5*2*0.06, 1e-8*0.06);
+    CHECK_NEAR(sum.ledger.elastic, 0.5*2*0.06, 1e-8*0.06);
+    /* rounding of energies and the solver's gap, 1e-13 of its scale */
+    CHECK_NEAR(sum.ledger.imbalance, 0, 1e-8*sum.exchanged);
+    assert_int_equal(sum.parts, 8);
+}
+
+/* Straight drag on a bed (dissipation on loading P^3/(6 A K)), in more and more load steps. */
+static double drag(int steps, Sum *sum) {
+    Case c;
+    case_begin(&c, 6.28, 200, 9.81, 10);
+    case_bed(&c, 0.25/9.81);
+    case_straight(&c, 0, 6.28);
+    case_force(&c, steps, 0.5, 0, 0);
+    *sum = run_all(&c.scene);
+    return fabs(sum->ledger.imbalance)/sum->exchanged;
+}
+
+static void ledger_closes_with_the_steps(void **state) {
+    (void)state;
+    Sum sum;
+    const double coarse = drag(4, &sum), middle = drag(16, &sum), fine = drag(200, &sum);
+    print_message("imbalance/exchanged: %.2e %.2e %.2e at 4, 16, 200 steps\n", coarse, middle, fine);
+    /* first order would be 1/4 and 1/12.5; here the trapezium rule makes it the second */
+    CHECK_LESS(middle, coarse/8);
+    CHECK_LESS(fine, middle/60);
+    CHECK_LESS(fine, 1e-3);
+    /* dissipated on loading P^3/(6 A K) (0.5, 0.25, 10): 1/120 J, to first order in the load step, 1/200 */
+    CHECK_NEAR(sum.ledger.dissipated, 1.0/120, 1e-2/120);
+}
+
+/* A line on a bed, its end taken sideways: how far it comes to lie, and what it costs, depend on the path. */
+static double sideways(int steps, double path_tolerance, Sum *sum) {
+    Case c;
+    case_begin(&c, 6.28, 60, 9.81, 1e3);
+    case_bed(&c, 0.5);
+    case_straight(&c, 0, 6.28);
+    case_move(&c, steps, 4, 4, 0);
+    c.scene.solver.path_tolerance = path_tolerance;
+    *sum = run_all(&c.scene);
+    return sum->ledger.dissipated;
+}
+
+/* One step asked for, a path tolerance given: the step is cut, and the dissipation is that of small steps. */
+static void path_tolerance_cuts(void **state) {
+    (void)state;
+    Sum one, cut, fine;
+    const double whole = sideways(1, 0, &one), halved = sideways(1, 1e-3, &cut), reference = sideways(256, 0, &fine);
+    print_message("dissipated %.6f in one step, %.6f in %d parts, %.6f in 256 steps\n", whole, halved, cut.parts, reference);
+    assert_int_equal(one.parts, 1);
+    assert_true(cut.parts > 8);
+    assert_int_equal(cut.snaps, 0);
+    CHECK_LESS(fabs(halved - reference), 0.1*fabs(whole - reference));
+}
+
+/* Nothing is cut that need not be: proportional loading of a straight line leads to the same place in one step or in many. */
+static void easy_steps_stay_whole(void **state) {
+    (void)state;
+    Case c;
+    case_begin(&c, 6.28, 200, 9.81, 10);
+    case_bed(&c, 0.25/9.81);
+    case_straight(&c, 0, 6.28);
+    case_force(&c, 1, 0.5, 0, 0);
+    c.scene.solver.path_tolerance = 1e-6;
+    assert_int_equal(run_all(&c.scene).parts, 2); /* the two halves that were compared */
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(linear_path_closes),
+        cmocka_unit_test(ledger_closes_with_the_steps),
+        cmocka_unit_test(path_tolerance_cuts),
+        cmocka_unit_test(easy_steps_stay_whole),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
