@@ -167,6 +167,19 @@ CPS_API CpsStatus cps_resistance_power(const CpsLaw *law, double degree, double 
 CPS_API CpsStatus cps_resistance_table(const CpsLaw *law, int count, const double *speed, const double *factor,
                                        CpsResistance **out, CpsError *err);
 
+/* A convex h of the user's: write h(speed) and its slope h'(speed) >= 0 at a speed >= 0 [W, a value of g], INFINITY for
+ * both beyond the end of its domain; false: no answer. h(0) = 0, h and h' do not fall and h' is continuous. The
+ * optional conjugate writes h*(slope) and a speed that attains it, INFINITY for both where none does; without it h*
+ * comes from h by bisection. Both must be fit for every thread that asks, and `user` must outlive the law and its sums.
+ *
+ * Whatever is evaluated is checked. Refused (CPS_ERR_ARGUMENT), at the making on pairs of speeds from 2^-40 to 2^40 and
+ * later by the question that finds it: a slope that falls (no subdifferential), a value or slope below 0 (power to the
+ * motion), values that are not the integral of the slopes, a conjugate that is not that of h. */
+typedef bool CpsSpeedLaw(void *user, double speed, double *value, double *slope);
+typedef bool CpsSpeedConjugate(void *user, double slope, double *value, double *speed);
+CPS_API CpsStatus cps_resistance_function(const CpsLaw *law, CpsSpeedLaw *h, CpsSpeedConjugate *conjugate, void *user,
+                                          CpsResistance **out, CpsError *err);
+
 /* All terms of all parts together. */
 CPS_API CpsStatus cps_resistance_sum(int count, const CpsResistance *const *parts, CpsResistance **out, CpsError *err);
 
@@ -187,14 +200,23 @@ CPS_API CpsStatus cps_resistance_value(const CpsResistance *law, const double *v
 CPS_API CpsStatus cps_resistance_forces(const CpsResistance *law, const double *velocity, double tolerance,
                                         CpsSet **forces, CpsSetAnswer *answer, CpsError *err);
 
-/* phi*(-F), and a velocity of the law at F (n, or NULL; unique with a viscous term). Answered for one term, and for any
- * number of dry and viscous terms together (Bingham): V = -D^-1 (F - P F), P the projection on the dry set in the
- * metric D^-1. Other sums: CPS_SET_NOT_AVAILABLE. INFINITY where no velocity goes with F (outcome OUTSIDE). */
+/* phi*(-F), and a velocity of the law at F (n, or NULL; unique with a viscous term, else one of several). A sum shares
+ * F among its terms at least cost:
+ *
+ *     phi*(-F) = min sum of h_i*(gauge_i(F_i)), F_1 + F_2 + .. = F     = max over V of -<V, F> - phi(V)
+ *
+ * Closed forms (exact): one term (the velocity is found as for a sum), viscous terms, and dry terms with viscosity c I
+ * where the dry set has a closed projection. Else the value is that of the best split found, and the gap what it is
+ * above the bound of the best velocity, both from the terms' own formulas; CPS_SET_INACCURATE where that is more than
+ * 1e-9 of phi(V) + phi*(-F). The velocity is right to the root of the relative gap where phi is curved. OUTSIDE, value
+ * INFINITY: no velocity goes with F; a force outside by less than answer->tolerance counts as on the boundary.
+ * NOT_AVAILABLE: a user's set.
+ */
 CPS_API CpsStatus cps_resistance_conjugate(const CpsResistance *law, const double *force, double *velocity,
                                            CpsSetAnswer *answer, CpsError *err);
 
-/* How far (F, V) is from the law: the Fenchel gap phi(V) + phi*(-F) + <V, F> >= 0 [W] to *gap, where the conjugate is
- * available (else NAN), and dist(F, forces of the law at V) [N] to *distance. */
+/* How far (F, V) is from the law: the Fenchel gap phi(V) + phi*(-F) + <V, F> >= 0 [W] to *gap (NAN where the conjugate
+ * has no answer), and dist(F, forces of the law at V) [N] to *distance. */
 CPS_API CpsStatus cps_resistance_residual(const CpsResistance *law, const double *force, const double *velocity,
                                           double *gap, double *distance, CpsError *err);
 

@@ -163,6 +163,14 @@ CpsStatus cps_resistance_table(const CpsLaw *law, int count, const double *speed
     return status;
 }
 
+CpsStatus cps_resistance_function(const CpsLaw *law, CpsSpeedLaw *h, CpsSpeedConjugate *conjugate, void *user,
+                                  CpsResistance **out, CpsError *err) {
+    if (!law || !h || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, h or out is NULL");
+    const CpsiTerm term = {.kind = CPSI_FUNCTION, .set = law->set, .h = h, .conjugate = conjugate, .user = user};
+    const CpsStatus status = cpsi_function_check(&term, err);
+    return status == CPS_OK ? make_one(cps_law_space(law), &term, out, err) : status;
+}
+
 CpsStatus cps_resistance_sum(int count, const CpsResistance *const *parts, CpsResistance **out, CpsError *err) {
     if (!parts || !out || count < 1 || count > CPS_SET_MAX_ITEMS)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "parts or out is NULL, or %d parts are not from 1 to %d", count,
@@ -211,18 +219,21 @@ static CpsStatus term_value(int n, const CpsiTerm *term, const double *velocity,
         return CPS_OK;
     }
     CpsSetAnswer g;
-    const CpsStatus status = cps_law_dissipation(term->set, velocity, NULL, &g, err);
+    CpsStatus status = cps_law_dissipation(term->set, velocity, NULL, &g, err);
     if (status != CPS_OK) return status;
     value->outcome = g.outcome;
     if (g.outcome != CPS_SET_ANSWERED && g.outcome != CPS_SET_NOT_ATTAINED) {
         value->potential = value->power = INFINITY;
         return CPS_OK;
     }
-    const double speed = fmax(g.value, 0), slope = cpsi_term_slope(term, speed);
-    value->potential = cpsi_term_potential(term, speed);
+    const double speed = fmax(g.value, 0);
+    double slope, above;
+    status = cpsi_term_at(term, speed, &value->potential, &slope, err);
     value->power = speed * slope;
-    if (g.gap > 0) value->gap = (speed + g.gap) * cpsi_term_slope(term, speed + g.gap) - speed * slope;
-    return CPS_OK;
+    if (status != CPS_OK || !(g.gap > 0)) return status;
+    status = cpsi_term_at(term, speed + g.gap, &above, &slope, err);
+    value->gap = (speed + g.gap) * slope - value->power;
+    return status;
 }
 
 CpsStatus cps_resistance_value(const CpsResistance *law, const double *velocity, CpsResistanceValue *whole,
@@ -263,9 +274,14 @@ static CpsStatus term_forces(int n, const CpsiTerm *term, const double *velocity
     CpsSet *face = NULL;
     CpsStatus status = cps_law_forces(term->set, velocity, tolerance, &face, answer, err);
     if (status == CPS_OK && face) {
-        const double speed = fmax(answer->value, 0), slope = cpsi_term_slope(term, speed);
+        const double speed = fmax(answer->value, 0);
+        double potential, slope;
+        status = cpsi_term_at(term, speed, &potential, &slope, err);
         answer->value = speed * slope;
-        status = cps_set_scale(slope, face, forces, err);
+        if (status == CPS_OK && isinf(slope))
+            answer->outcome = CPS_SET_UNBOUNDED;
+        else if (status == CPS_OK)
+            status = cps_set_scale(slope, face, forces, err);
     }
     cps_set_release(face);
     return status;

@@ -5,7 +5,7 @@
 
 #include "law/law.h"
 
-typedef enum CpsiTermKind { CPSI_DRY, CPSI_VISCOUS, CPSI_POWER, CPSI_TABLE } CpsiTermKind;
+typedef enum CpsiTermKind { CPSI_DRY, CPSI_VISCOUS, CPSI_POWER, CPSI_TABLE, CPSI_FUNCTION } CpsiTermKind;
 
 /* phi = h(g), g the dissipation function of `set`; a viscous term is h = g^2/2 with g^2 = <V, D V>. */
 typedef struct CpsiTerm {
@@ -14,6 +14,9 @@ typedef struct CpsiTerm {
     double degree, factor; /* power: factor g^degree / degree */
     int count;             /* table: points of h' */
     double *data;          /* table: speeds, then factors (2 count); viscous: D (n x n); owned */
+    CpsSpeedLaw *h;        /* function */
+    CpsSpeedConjugate *conjugate;
+    void *user;
 } CpsiTerm;
 
 struct CpsResistance {
@@ -21,12 +24,23 @@ struct CpsResistance {
     CpsiTerm term[]; /* (count) */
 };
 
-/* h and h' at g >= 0. */
-double cpsi_term_potential(const CpsiTerm *term, double g);
-double cpsi_term_slope(const CpsiTerm *term, double g);
+/* h and h' at g >= 0. Fails only for a user's function, with the reason. */
+CpsStatus cpsi_term_at(const CpsiTerm *term, double g, double *h, double *slope, CpsError *err);
 
-/* h*(s) = max over g >= 0 of s g - h(g), and a g that attains it; INFINITY (and g INFINITY) where there is none. s >=
- * 0. */
-double cpsi_term_conjugate(const CpsiTerm *term, double s, double *g);
+/* h*(s) = max over g >= 0 of s g - h(g), and the least and largest g that attain it; all INFINITY where there is none.
+ */
+typedef struct CpsiTermDual {
+    double value, low, high;
+} CpsiTermDual;
+CpsStatus cpsi_term_dual(const CpsiTerm *term, double s, CpsiTermDual *dual, CpsError *err);
+
+/* The same for a user's function (function.c), and the checks at its making. */
+CpsStatus cpsi_function_at(const CpsiTerm *term, double g, double *h, double *slope, CpsError *err);
+CpsStatus cpsi_function_dual(const CpsiTerm *term, double s, CpsiTermDual *dual, CpsError *err);
+CpsStatus cpsi_function_check(const CpsiTerm *term, CpsError *err);
+
+/* cps_resistance_conjugate for any sum of terms (sum.c). */
+CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity, CpsSetAnswer *answer,
+                             CpsError *err);
 
 #endif

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The functions h of speed of resistance laws, their slopes and their conjugates.
  *
- * power   h = c g^p/p           h' = c g^(p-1)      h*(s) = s g (1 - 1/p) at g = (s/c)^(1/(p-1))
- * table   h' piecewise linear   h by trapezia       h*(s) = s g - h(g) where h'(g) = s
- * dry     h = g                 h' = 1              h*(s) = 0 for s <= 1, else infinite */
+ * power     h = c g^p/p           h' = c g^(p-1)      h*(s) = s g (1 - 1/p) at g = (s/c)^(1/(p-1))
+ * table     h' piecewise linear   h by trapezia       h*(s) = s g - h(g) where h'(g) = s
+ * dry       h = g                 h' = 1              h*(s) = 0 for s <= 1, else infinite
+ * function  the user's            (function.c)        h*(s) = s g - h(g) where h'(g) = s, found by bisection */
 #include "law/resistance.h"
+
+static const CpsiTermDual NO_SPEED = {INFINITY, INFINITY, INFINITY};
 
 /* ---- tables: speeds x (count), factors y (count) ---- */
 
@@ -30,60 +33,72 @@ static double table_potential(const CpsiTerm *t, double g) {
     return sum + 0.5 * (y[last] + table_slope(t, g)) * (g - x[last]);
 }
 
-static double table_conjugate(const CpsiTerm *t, double s, double *g) {
+static CpsiTermDual table_dual(const CpsiTerm *t, double s) {
     const double *x = t->data, *y = t->data + t->count;
-    if (s > y[t->count - 1]) return *g = INFINITY;
-    int i = 0;
-    while (i + 1 < t->count && y[i + 1] < s) i++;
-    *g = s <= y[0] ? 0 : x[i] + (x[i + 1] - x[i]) * ((s - y[i]) / (y[i + 1] - y[i]));
-    return s * *g - table_potential(t, *g);
+    const int last = t->count - 1;
+    if (s > y[last]) return NO_SPEED;
+    int i = 0, j = last;
+    while (i < last && y[i + 1] < s) i++;
+    while (j > 0 && y[j - 1] > s) j--;
+    CpsiTermDual dual = {.low = 0, .high = INFINITY};
+    if (s > y[0]) dual.low = x[i] + (x[i + 1] - x[i]) * ((s - y[i]) / (y[i + 1] - y[i]));
+    if (s < y[0])
+        dual.high = 0;
+    else if (s < y[last])
+        dual.high = x[j - 1] + (x[j] - x[j - 1]) * ((s - y[j - 1]) / (y[j] - y[j - 1]));
+    dual.high = fmax(dual.low, dual.high);
+    dual.value = s * dual.low - table_potential(t, dual.low);
+    return dual;
 }
 
 /* ---- all kinds ---- */
 
-double cpsi_term_potential(const CpsiTerm *term, double g) {
+CpsStatus cpsi_term_at(const CpsiTerm *term, double g, double *h, double *slope, CpsError *err) {
     switch (term->kind) {
     case CPSI_DRY:
-        return g;
+        *h = g, *slope = 1;
+        return CPS_OK;
     case CPSI_VISCOUS:
-        return 0.5 * g * g;
+        *h = 0.5 * g * g, *slope = g;
+        return CPS_OK;
     case CPSI_POWER:
-        return term->factor * pow(g, term->degree) / term->degree;
+        /* without a factor there is no force, however large the power */
+        *slope = term->factor > 0 ? term->factor * pow(g, term->degree - 1) : 0;
+        *h = *slope * g / term->degree;
+        return CPS_OK;
     case CPSI_TABLE:
-        return isinf(g) ? INFINITY : table_potential(term, g);
+        *h = table_potential(term, g), *slope = table_slope(term, g);
+        return CPS_OK;
+    case CPSI_FUNCTION:
+        return cpsi_function_at(term, g, h, slope, err);
     }
-    return NAN;
+    return CPS_ERR_ARGUMENT;
 }
 
-double cpsi_term_slope(const CpsiTerm *term, double g) {
+CpsStatus cpsi_term_dual(const CpsiTerm *term, double s, CpsiTermDual *dual, CpsError *err) {
+    *dual = (CpsiTermDual){0};
     switch (term->kind) {
     case CPSI_DRY:
-        return 1;
+        if (s > 1) *dual = NO_SPEED;
+        if (s == 1) dual->high = INFINITY;
+        return CPS_OK;
     case CPSI_VISCOUS:
-        return g;
+        if (s > 0) *dual = (CpsiTermDual){0.5 * s * s, s, s};
+        return CPS_OK;
     case CPSI_POWER:
-        return term->factor * pow(g, term->degree - 1);
+        if (!(s > 0)) return CPS_OK;
+        if (!(term->factor > 0) || isinf(s)) {
+            *dual = NO_SPEED;
+            return CPS_OK;
+        }
+        dual->low = dual->high = pow(s / term->factor, 1 / (term->degree - 1));
+        dual->value = s * dual->low * (1 - 1 / term->degree);
+        return CPS_OK;
     case CPSI_TABLE:
-        return table_slope(term, g);
+        *dual = table_dual(term, fmax(s, 0));
+        return CPS_OK;
+    case CPSI_FUNCTION:
+        return cpsi_function_dual(term, s, dual, err);
     }
-    return NAN;
-}
-
-double cpsi_term_conjugate(const CpsiTerm *term, double s, double *g) {
-    *g = 0;
-    if (!(s > 0)) return 0;
-    switch (term->kind) {
-    case CPSI_DRY:
-        return s <= 1 ? 0 : (*g = INFINITY);
-    case CPSI_VISCOUS:
-        *g = s;
-        return 0.5 * s * s;
-    case CPSI_POWER:
-        if (!(term->factor > 0) || isinf(s)) return *g = INFINITY;
-        *g = pow(s / term->factor, 1 / (term->degree - 1));
-        return s * *g * (1 - 1 / term->degree);
-    case CPSI_TABLE:
-        return table_conjugate(term, s, g);
-    }
-    return NAN;
+    return CPS_ERR_ARGUMENT;
 }

@@ -235,6 +235,88 @@ static void bingham(void **state) {
     cps_law_destroy(disc);
 }
 
+/* ---- sums of any terms: phi*(-F) is the least of shared costs ---- */
+
+/* The gap at which the conjugate may end, and the root of it that is left of a velocity. */
+static const double SHARED = 1e-11, SHARED_VELOCITY = 3e-6;
+
+static CpsResistance *sum_of(int count, CpsResistance **part) {
+    CpsResistance *sum = NULL;
+    assert_int_equal(cps_resistance_sum(count, (const CpsResistance *const *)part, &sum, NULL), CPS_OK);
+    for (int i = 0; i < count; i++) cps_resistance_destroy(part[i]);
+    return sum;
+}
+
+/* phi = k|V| + c |V|^p/p: |V| = (x/c)^(1/(p-1)) at x = |F| - k, phi* = x |V| (1 - 1/p) */
+static void dry_and_power(void **state) {
+    (void)state;
+    static const double DEGREE[] = {1.1, 1.5, 2, 3.7, 6};
+    const double k = 3, c = 2, force[2] = {-4.8, 3.6}, x = 6 - k;
+    for (size_t i = 0; i < sizeof DEGREE / sizeof DEGREE[0]; i++) {
+        const double p = DEGREE[i], speed = pow(x / c, 1 / (p - 1));
+        CpsLaw *disc = disc_law(k), *unit = disc_law(1);
+        CpsResistance *part[2] = {NULL};
+        double found[2];
+        CpsSetAnswer answer;
+        assert_int_equal(cps_resistance_dry(disc, &part[0], NULL), CPS_OK);
+        assert_int_equal(cps_resistance_power(unit, p, c, &part[1], NULL), CPS_OK);
+        CpsResistance *law = sum_of(2, part);
+        assert_int_equal(cps_resistance_conjugate(law, force, found, &answer, NULL), CPS_OK);
+        assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+        /* phi + phi* is up to k/x + 1 and p/(p - 1) times phi* */
+        CHECK_RELATIVE(answer.value, x * speed * (1 - 1 / p), SHARED * 20);
+        CHECK_RELATIVE(found[0], 0.8 * speed, SHARED_VELOCITY * 10);
+        CHECK_RELATIVE(found[1], -0.6 * speed, SHARED_VELOCITY * 10);
+        cps_resistance_destroy(law);
+        cps_law_destroy(disc);
+        cps_law_destroy(unit);
+    }
+}
+
+/* Two powers of one component, phi = a v^2/2 + b v^3/3: a v + b v^2 = f. Then each axis on its own, phi = sum of c_i
+ * |V_i|^p_i/p_i from sets that are segments: V_i = (F_i/c_i)^(1/(p_i-1)), phi* the sum of the parts'. */
+static void powers_side_by_side(void **state) {
+    (void)state;
+    const double a = 2, b = 5, f = 7, v = (sqrt(a * a + 4 * b * f) - a) / (2 * b);
+    CpsSet *interval = NULL;
+    CpsLaw *law = NULL;
+    CpsResistance *part[3] = {NULL};
+    CpsSetAnswer answer;
+    double found[3];
+    assert_int_equal(cps_set_interval(-1, 1, &interval, NULL), CPS_OK);
+    assert_int_equal(cps_law_friction(interval, &law, NULL), CPS_OK);
+    assert_int_equal(cps_resistance_power(law, 2, a, &part[0], NULL), CPS_OK);
+    assert_int_equal(cps_resistance_power(law, 3, b, &part[1], NULL), CPS_OK);
+    CpsResistance *sum = sum_of(2, part);
+    assert_int_equal(cps_resistance_conjugate(sum, &f, found, &answer, NULL), CPS_OK);
+    CHECK_RELATIVE(answer.value, f * v - a * v * v / 2 - b * v * v * v / 3, SHARED * 3);
+    CHECK_RELATIVE(found[0], -v, SHARED_VELOCITY);
+    cps_resistance_destroy(sum);
+    cps_law_destroy(law);
+    cps_set_release(interval);
+
+    const double degree[3] = {1.5, 2.5, 4}, factor[3] = {3, 0.5, 20}, force[3] = {2, -1, 0.25};
+    double expected = 0;
+    for (int i = 0; i < 3; i++) {
+        double end[3] = {0}, other[3] = {0};
+        CpsSet *segment = NULL;
+        end[i] = 1, other[i] = -1;
+        assert_int_equal(cps_set_segment(3, other, end, &segment, NULL), CPS_OK);
+        assert_int_equal(cps_law_friction(segment, &law, NULL), CPS_OK);
+        assert_int_equal(cps_resistance_power(law, degree[i], factor[i], &part[i], NULL), CPS_OK);
+        expected += fabs(force[i]) * pow(fabs(force[i]) / factor[i], 1 / (degree[i] - 1)) * (1 - 1 / degree[i]);
+        cps_law_destroy(law);
+        cps_set_release(segment);
+    }
+    sum = sum_of(3, part);
+    assert_int_equal(cps_resistance_conjugate(sum, force, found, &answer, NULL), CPS_OK);
+    CHECK_RELATIVE(answer.value, expected, SHARED * 5);
+    for (int i = 0; i < 3; i++)
+        CHECK_RELATIVE(found[i], -copysign(pow(fabs(force[i]) / factor[i], 1 / (degree[i] - 1)), force[i]),
+                       SHARED_VELOCITY * 10);
+    cps_resistance_destroy(sum);
+}
+
 /* ---- limit surfaces: contacts k at (x, y) with share w of the load, unit friction; twist (vx, vy, omega) ---- */
 
 typedef struct Place {
@@ -365,6 +447,8 @@ int main(void) {
         cmocka_unit_test(wheel_measure_and_limits),
         cmocka_unit_test(composition_on_a_boundary),
         cmocka_unit_test(bingham),
+        cmocka_unit_test(dry_and_power),
+        cmocka_unit_test(powers_side_by_side),
         cmocka_unit_test(ring_surface),
         cmocka_unit_test(disc_surface),
         cmocka_unit_test(rod_surface),

@@ -8,6 +8,9 @@
 /* Closed forms of a few operations. */
 static const double ROUNDING = 1e-13;
 
+/* The gap at which the conjugate of a sum may end, and what that leaves of a velocity: phi is quadratic round it. */
+static const double CONIC = 1e-11, ROOT = 3e-6;
+
 #define OK(call) assert_int_equal((call), CPS_OK)
 
 /* the call is refused with CPS_ERR_ARGUMENT and a message with `part` in it */
@@ -183,7 +186,7 @@ static void check_pair(const CpsResistance *law, const double *force) {
     OK(cps_resistance_residual(law, force, velocity, &gap, &distance, NULL));
     const double power = fabs(velocity[0] * force[0] + velocity[1] * force[1]);
     CHECK_NEAR(gap, 0, 1e-11 * fmax(power, 1));
-    CHECK_NEAR(distance, 0, 1e-11 * hypot(force[0], force[1]));
+    CHECK_NEAR(distance, 0, ROOT * hypot(force[0], force[1]));
 }
 
 static void power_law(void **state) {
@@ -260,22 +263,251 @@ static void viscous_law(void **state) {
     cps_resistance_destroy(sum);
 }
 
-static void mixed_sums_say_what_is_missing(void **state) {
+static void mixed_sum(void **state) {
     (void)state;
+    /* phi = |V| + 2 |V|^3/3: the force at |V| = 1 is 1 + 2, and phi* = 3 - 5/3 */
     CpsLaw *disc = coulomb(1);
     CpsResistance *part[2] = {NULL}, *sum = NULL;
     CpsSetAnswer answer;
-    double gap, distance;
-    const double velocity[2] = {1, 0}, force[2] = {-3, 0};
+    double gap, distance, found[2];
+    const double velocity[2] = {1, 0}, force[2] = {-3, 0}, weak[2] = {0.6, -0.7}, none[2] = {0, 0};
     OK(cps_resistance_dry(disc, &part[0], NULL));
     OK(cps_resistance_power(disc, 3, 2, &part[1], NULL));
     OK(cps_resistance_sum(2, (const CpsResistance *const *)part, &sum, NULL));
-    OK(cps_resistance_conjugate(sum, force, NULL, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_NOT_AVAILABLE);
-    /* the force at V = (1, 0) is 1 + 2 |V|^2 against it */
+    OK(cps_resistance_conjugate(sum, force, found, &answer, NULL));
+    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    CHECK_RELATIVE(answer.value, 4.0 / 3, CONIC);
+    CHECK_NEAR(answer.gap, 0, CONIC * 3);
+    CHECK_NEAR(found[0], 1, ROOT);
+    CHECK_NEAR(found[1], 0, ROOT);
     OK(cps_resistance_residual(sum, force, velocity, &gap, &distance, NULL));
-    assert_true(isnan(gap));
+    CHECK_NEAR(gap, 0, CONIC * 3);
     CHECK_NEAR(distance, 0, 1e-12);
+    /* what rest bears, and nothing */
+    OK(cps_resistance_conjugate(sum, weak, found, &answer, NULL));
+    CHECK_NEAR(answer.value, 0, 0);
+    CHECK_NEAR(hypot(found[0], found[1]), 0, 0);
+    OK(cps_resistance_conjugate(sum, none, found, &answer, NULL));
+    CHECK_NEAR(answer.value, 0, 0);
+    for (int i = 0; i < 2; i++) cps_resistance_destroy(part[i]);
+    cps_resistance_destroy(sum);
+    cps_law_destroy(disc);
+}
+
+/* one dry and one viscous term: phi* and V at F */
+static void check_dry_and_viscous(CpsSet *dry, const double *force, double value, double v0, double v1) {
+    const double d[4] = {2, 0.5, 0.5, 1};
+    CpsLaw *law = NULL;
+    CpsResistance *part[2] = {NULL}, *sum = NULL;
+    CpsSetAnswer answer;
+    double found[2];
+    OK(cps_law_friction(dry, &law, NULL));
+    OK(cps_resistance_dry(law, &part[0], NULL));
+    OK(cps_resistance_viscous(2, d, &part[1], NULL));
+    OK(cps_resistance_sum(2, (const CpsResistance *const *)part, &sum, NULL));
+    OK(cps_resistance_conjugate(sum, force, found, &answer, NULL));
+    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    CHECK_NEAR(answer.value, value, CONIC * 3 * value);
+    CHECK_NEAR(found[0], v0, ROOT * hypot(v0, v1));
+    CHECK_NEAR(found[1], v1, ROOT * hypot(v0, v1));
+    for (int i = 0; i < 2; i++) cps_resistance_destroy(part[i]);
+    cps_resistance_destroy(sum);
+    cps_law_destroy(law);
+}
+
+static void unbounded_terms(void **state) {
+    (void)state;
+    const double rail[2] = {1, 0}, force[2] = {3, 7}, across[2] = {0.5, -40};
+    const double low[2] = {-1, -1}, high[2] = {INFINITY, 1}, against[2] = {6.9, 3};
+    const double rays[4] = {1, 0.3, 1, -0.3}, away[2] = {-5, 3};
+    CpsSet *set = NULL;
+    /* |F_x| <= 1 and any F_y: a rail along x. V_y = 0, V_x = -(F_x - 1)/2, phi* = (F_x - 1)^2/4 */
+    OK(cps_set_strip(2, rail, -1, 1, &set, NULL));
+    check_dry_and_viscous(set, force, 1, -1, 0);
+    check_dry_and_viscous(set, across, 0, 0, 0);
+    cps_set_release(set);
+    /* a ratchet: no motion to -x; V_y = -(F_y - 1) */
+    OK(cps_set_box(2, low, high, &set, NULL));
+    check_dry_and_viscous(set, against, 2, 0, -2);
+    cps_set_release(set);
+    /* a wedge that bears nothing: V = -D^-1 F */
+    OK(cps_set_cone_of_rays(2, 2, rays, &set, NULL));
+    check_dry_and_viscous(set, away, 0.5 * (5 * 6.5 + 3 * 8.5) / 1.75, 6.5 / 1.75, -8.5 / 1.75);
+    cps_set_release(set);
+}
+
+static bool unit_ball(void *user, int n, const double *direction, double *value, double *point) {
+    (void)user;
+    *value = 0;
+    for (int i = 0; i < n; i++) *value = hypot(*value, direction[i]);
+    for (int i = 0; i < n; i++) point[i] = *value > 0 ? direction[i] / *value : 0;
+    return true;
+}
+
+static void sums_without_an_answer(void **state) {
+    (void)state;
+    /* dry and a table that ends: forces up to 1 + 2 x 2 along x, none along y */
+    const double from[2] = {-1, 0}, to[2] = {1, 0}, speed[2] = {0, 1}, factor[2] = {0, 2}, d[4] = {2, 1, 1, 2};
+    const double inside[2] = {4.9, 0}, outside[2] = {5.1, 0}, beside[2] = {1, 0.1};
+    CpsSet *segment = NULL, *user = NULL;
+    CpsLaw *law = NULL;
+    CpsResistance *part[3] = {NULL}, *sum = NULL, *same = NULL;
+    CpsSetAnswer answer;
+    double found[2];
+    OK(cps_set_segment(2, from, to, &segment, NULL));
+    OK(cps_law_unit_load(segment, 2, &law, NULL));
+    OK(cps_resistance_table(law, 2, speed, factor, &part[0], NULL));
+    cps_law_destroy(law);
+    OK(cps_law_friction(segment, &law, NULL));
+    OK(cps_resistance_dry(law, &part[1], NULL));
+    OK(cps_resistance_sum(2, (const CpsResistance *const *)part, &sum, NULL));
+    OK(cps_resistance_conjugate(sum, inside, found, &answer, NULL));
+    /* the table bears 3.9 = 2 h', h' = 2 g, g = 2 |V|; h*(s) = s^2/4 */
+    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    CHECK_RELATIVE(answer.value, 1.95 * 1.95 / 4, CONIC);
+    CHECK_NEAR(found[0], -0.4875, ROOT);
+    OK(cps_resistance_conjugate(sum, outside, found, &answer, NULL));
+    assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
+    assert_true(isinf(answer.value));
+    OK(cps_resistance_conjugate(sum, beside, found, &answer, NULL));
+    assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
+
+    /* a user's set has no gauge */
+    OK(cps_resistance_viscous(2, d, &part[2], NULL));
+    OK(cps_set_user(2, unit_ball, NULL, &user, NULL));
+    cps_resistance_destroy(part[0]);
+    cps_law_destroy(law);
+    OK(cps_law_friction(user, &law, NULL));
+    OK(cps_resistance_power(law, 3, 1, &part[0], NULL));
+    const CpsResistance *two[2] = {part[0], part[2]};
+    OK(cps_resistance_sum(2, two, &same, NULL));
+    OK(cps_resistance_conjugate(same, inside, found, &answer, NULL));
+    assert_int_equal(answer.outcome, CPS_SET_NOT_AVAILABLE);
+    cps_law_destroy(law);
+    for (int i = 0; i < 3; i++) cps_resistance_destroy(part[i]);
+    cps_resistance_destroy(sum);
+    cps_resistance_destroy(same);
+    cps_set_release(segment);
+    cps_set_release(user);
+}
+
+/* ---- functions of the user's: h and h' by number of the case ---- */
+
+enum { SOFT, FALLING, NEGATIVE, BACKWARD, NOT_ITS_SLOPE, NO_NUMBER, NO_REST, CORNER, GOVERNOR };
+
+static bool function(void *user, double g, double *value, double *slope) {
+    const int which = *(const int *)user;
+    *value = g * g / (1 + g), *slope = g * (2 + g) / ((1 + g) * (1 + g)); /* soft: the slope tends to 1 */
+    if (which == FALLING) *value = log1p(g), *slope = 1 / (1 + g);
+    if (which == NEGATIVE) *value = g * g - g, *slope = 2 * g - 1;
+    if (which == BACKWARD) *value = -g * g, *slope = -2 * g;
+    if (which == NOT_ITS_SLOPE) *value = g * g * g / 3, *slope = 2 * g * g;
+    if (which == NO_NUMBER) *value = g > 3 ? NAN : g, *slope = 1;
+    if (which == NO_REST) *value = 1 + g, *slope = 1;
+    if (which == CORNER) *value = g <= 2 ? g : 2 + 3 * (g - 2), *slope = g <= 2 ? 1 : 3;
+    if (which == GOVERNOR) *value = g <= 1 ? g * g / 2 : INFINITY, *slope = g <= 1 ? g : INFINITY;
+    return true;
+}
+
+static bool soft_conjugate(void *user, double s, double *value, double *g) {
+    /* h' = 1 - 1/(1+g)^2 */
+    *g = s < 1 ? 1 / sqrt(1 - s) - 1 : INFINITY;
+    *value = s < 1 ? (1 - sqrt(1 - s)) * (1 - sqrt(1 - s)) : INFINITY;
+    (void)user;
+    return true;
+}
+
+static bool wrong_conjugate(void *user, double s, double *value, double *g) {
+    (void)soft_conjugate(user, s, value, g);
+    *value *= 1.001;
+    return true;
+}
+
+static void function_refusals(void **state) {
+    (void)state;
+    static const struct {
+        int which;
+        const char *reason;
+    } CASE[] = {{FALLING, "falls with speed"},
+                {NEGATIVE, "power to the motion"},
+                {BACKWARD, "power to the motion"},
+                {NOT_ITS_SLOPE, "not the slope of its values"},
+                {NO_NUMBER, "no value and slope at speed 4"},
+                {NO_REST, "expected 0"}};
+    CpsLaw *disc = coulomb(1);
+    CpsResistance *out = NULL;
+    for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++) {
+        int which = CASE[i].which;
+        REFUSED(cps_resistance_function(disc, function, NULL, &which, &out, &err), CASE[i].reason);
+    }
+    REFUSED(cps_resistance_function(disc, NULL, NULL, NULL, &out, &err), "NULL");
+    assert_null(out);
+
+    /* found when it is asked: a conjugate of something else, and a function that changes its mind */
+    int which = SOFT;
+    const double force[2] = {0.3, 0.4}, velocity[2] = {1, 1};
+    CpsSetAnswer answer;
+    CpsResistanceValue value;
+    OK(cps_resistance_function(disc, function, wrong_conjugate, &which, &out, NULL));
+    REFUSED(cps_resistance_conjugate(out, force, NULL, &answer, &err), "conjugate is");
+    which = FALLING;
+    REFUSED(cps_resistance_value(out, velocity, &value, NULL, &err), "falls with speed");
+    cps_resistance_destroy(out);
+    cps_law_destroy(disc);
+}
+
+static void function_law(void **state) {
+    (void)state;
+    int soft = SOFT, corner = CORNER, governor = GOVERNOR;
+    CpsLaw *disc = coulomb(1);
+    CpsSetAnswer answer;
+    CpsResistanceValue value;
+    const double velocity[2] = {0, 3}, force[2] = {0.3, -0.4}, strong[2] = {2, 0}, level[2] = {0, 2};
+    const double three[2] = {3, 0};
+    double found[2];
+    for (int given = 0; given < 2; given++) {
+        CpsResistance *law = NULL;
+        OK(cps_resistance_function(disc, function, given ? soft_conjugate : NULL, &soft, &law, NULL));
+        OK(cps_resistance_value(law, velocity, &value, NULL, NULL));
+        CHECK_RELATIVE(value.potential, 9.0 / 4, ROUNDING);
+        CHECK_RELATIVE(value.power, 3 * 15.0 / 16, ROUNDING);
+        OK(cps_resistance_conjugate(law, force, found, &answer, NULL));
+        CHECK_RELATIVE(answer.value, (1 - sqrt(0.5)) * (1 - sqrt(0.5)), 1e-12);
+        CHECK_NEAR(hypot(found[0], found[1]), sqrt(2) - 1, ROOT);
+        check_pair(law, force);
+        OK(cps_resistance_conjugate(law, strong, found, &answer, NULL));
+        assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
+        cps_resistance_destroy(law);
+    }
+    /* a jump of the slope from 1 to 3 at speed 2: forces between them go with that speed */
+    CpsResistance *law = NULL;
+    OK(cps_resistance_function(disc, function, NULL, &corner, &law, NULL));
+    OK(cps_resistance_conjugate(law, level, found, &answer, NULL));
+    CHECK_RELATIVE(answer.value, 2 * 2 - 2, 1e-12);
+    CHECK_NEAR(found[1], -2, ROOT * 2);
+    cps_resistance_destroy(law);
+
+    /* a governor allows speeds up to 1: phi* = 3 - 1/2 at |F| = 3; no force goes with more. With as much viscosity: at
+     * |F| = 6 it is 6 - 1/2 - 1/2, and F = 1 is shared in equal parts */
+    const double d[4] = {1, 0, 0, 1}, large[2] = {0, 6}, small[2] = {1, 0};
+    CpsResistance *part[2] = {NULL}, *sum = NULL;
+    CpsSet *forces = NULL;
+    OK(cps_resistance_function(disc, function, NULL, &governor, &part[0], NULL));
+    OK(cps_resistance_conjugate(part[0], three, found, &answer, NULL));
+    CHECK_RELATIVE(answer.value, 2.5, 1e-12);
+    CHECK_NEAR(found[0], -1, ROOT);
+    OK(cps_resistance_forces(part[0], velocity, 0, &forces, &answer, NULL));
+    assert_int_equal(answer.outcome, CPS_SET_UNBOUNDED);
+    assert_null(forces);
+    OK(cps_resistance_viscous(2, d, &part[1], NULL));
+    OK(cps_resistance_sum(2, (const CpsResistance *const *)part, &sum, NULL));
+    OK(cps_resistance_conjugate(sum, large, found, &answer, NULL));
+    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    CHECK_RELATIVE(answer.value, 5, CONIC * 3);
+    CHECK_NEAR(found[1], -1, ROOT);
+    OK(cps_resistance_conjugate(sum, small, found, &answer, NULL));
+    CHECK_RELATIVE(answer.value, 0.25, CONIC * 3);
+    CHECK_NEAR(found[0], -0.5, ROOT);
     for (int i = 0; i < 2; i++) cps_resistance_destroy(part[i]);
     cps_resistance_destroy(sum);
     cps_law_destroy(disc);
@@ -293,7 +525,11 @@ int main(void) {
         cmocka_unit_test(power_law),
         cmocka_unit_test(table_law),
         cmocka_unit_test(viscous_law),
-        cmocka_unit_test(mixed_sums_say_what_is_missing),
+        cmocka_unit_test(mixed_sum),
+        cmocka_unit_test(unbounded_terms),
+        cmocka_unit_test(sums_without_an_answer),
+        cmocka_unit_test(function_refusals),
+        cmocka_unit_test(function_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
