@@ -55,7 +55,7 @@ def enter_environment():
         for name in PACKAGES:
             if subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", name]).returncode:
                 print(f"compare: {name} cannot be installed: left out", file=sys.stderr)
-    os.execv(python, [python, os.path.abspath(__file__)] + sys.argv[1:])
+    os.execv(python, [python, os.path.abspath(sys.argv[0])] + sys.argv[1:])
 
 
 if __name__ == "__main__":

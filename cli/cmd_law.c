@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan law: read a law; answer velocities with sets of forces and forces with sets of velocities; draw it. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "capstan/law_io.h"
 #include "law_answer.h"
+#include "law_plot.h"
 #include "law_query.h"
 
 typedef struct LawRun {
@@ -32,6 +32,15 @@ static void set_text(const LawRun *run, char *text, size_t size) {
     if (length >= size) memcpy(text + size - 4, "...", 4);
 }
 
+/* what is told of the whole set; a sum over very many contacts is too large for it, though not for its answers */
+static bool ask_set(LawRun *run, CpsSetFacts *facts, CpsSetMeasure *measure) {
+    if (!run->set || (!run->json && run->n != 2)) return true;
+    CpsStatus status = cps_set_facts(run->set, 0, facts, NULL, NULL, &run->err);
+    if (status == CPS_OK && run->n == 2 && facts->bounded) status = cps_set_measure(run->set, measure, &run->err);
+    if (status == CPS_ERR_LIMIT) facts->outcome = CPS_SET_NOT_AVAILABLE;
+    return status == CPS_OK || status == CPS_ERR_LIMIT;
+}
+
 static bool tell_law(LawRun *run) {
     char text[400];
     CpsComposition composition;
@@ -42,9 +51,7 @@ static bool tell_law(LawRun *run) {
                                                                 : "friction law";
     CpsSetMeasure measure = {.outcome = CPS_SET_NOT_PLANAR};
     CpsSetFacts facts = {.outcome = CPS_SET_NOT_AVAILABLE};
-    if (run->set && cps_set_facts(run->set, 0, &facts, NULL, NULL, &run->err) != CPS_OK) return false;
-    if (run->set && run->n == 2 && facts.bounded && cps_set_measure(run->set, &measure, &run->err) != CPS_OK)
-        return false;
+    if (!ask_set(run, &facts, &measure)) return false;
     if (run->set) set_text(run, text, sizeof text);
     const bool measured = measure.outcome == CPS_SET_ANSWERED;
     if (!run->json) {
@@ -93,48 +100,6 @@ static CpsStatus ask_velocity(LawRun *run, const double *velocity, double *power
     return status;
 }
 
-static bool tell_forces(LawRun *run, const double *velocity, int i) {
-    CpsSet *forces = NULL;
-    CpsSetAnswer answer;
-    SetAnswer about = {.n = run->n};
-    double power = NAN;
-    CpsStatus status = ask_velocity(run, velocity, &power, &forces, &answer);
-    if (status == CPS_OK && forces) status = law_answer_ask(forces, false, &about, &run->err);
-    cps_set_release(forces);
-    if (status != CPS_OK) {
-        law_answer_free(&about);
-        return false;
-    }
-    const bool some = answer.outcome == CPS_SET_ANSWERED;
-    run->answered = run->answered && !is_open(answer.outcome) && !(some && is_open(about.facts.outcome));
-    if (run->json) {
-        printf("%s{\"velocity\": ", separator(i));
-        law_json_vector(run->n, velocity, stdout);
-        fputs(", \"dissipation_W\": ", stdout);
-        law_json_number(some ? power : NAN, stdout);
-        fputs(", \"forces\": ", stdout);
-        if (some)
-            law_answer_json(&about, false, stdout);
-        else
-            printf("{\"outcome\": \"%s\"}", cps_set_outcome_name(answer.outcome));
-        fputs(", \"gap\": ", stdout);
-        law_json_number(answer.gap, stdout);
-        printf(", \"exact\": %s}", answer.exact ? "true" : "false");
-    } else {
-        printf("velocity ");
-        law_print_vector(run->n, velocity);
-        if (some) printf("\n  dissipates %.12g W%s (gap %.2g W)", power, answer.exact ? ", exact" : "", answer.gap);
-        printf("\n  forces: ");
-        if (some)
-            law_answer_print(&about, false);
-        else
-            printf("none: %s", cps_set_outcome_sentence(answer.outcome));
-        puts("");
-    }
-    law_answer_free(&about);
-    return true;
-}
-
 /* the velocities at a force; of a resistance law one velocity, whose set is a point */
 static CpsStatus ask_force(LawRun *run, const double *force, CpsSet **velocities, CpsSetAnswer *answer) {
     if (run->set) return cps_law_velocities(run->set, force, 0, velocities, answer, &run->err);
@@ -150,14 +115,17 @@ static CpsStatus ask_force(LawRun *run, const double *force, CpsSet **velocities
     return status;
 }
 
-static bool tell_velocities(LawRun *run, const double *force, int i) {
-    const bool cone = run->set != NULL;
-    CpsSet *velocities = NULL;
+/* one velocity with its forces, or one force with its velocities */
+static bool tell_answer(LawRun *run, bool velocity, const double *asked, int i) {
+    const bool cone = !velocity && run->set;
+    CpsSet *set = NULL;
     CpsSetAnswer answer;
     SetAnswer about = {.n = run->n};
-    CpsStatus status = ask_force(run, force, &velocities, &answer);
-    if (status == CPS_OK && velocities) status = law_answer_ask(velocities, cone, &about, &run->err);
-    cps_set_release(velocities);
+    double power = NAN;
+    CpsStatus status =
+        velocity ? ask_velocity(run, asked, &power, &set, &answer) : ask_force(run, asked, &set, &answer);
+    if (status == CPS_OK && set) status = law_answer_ask(set, cone, &about, &run->err);
+    cps_set_release(set);
     if (status != CPS_OK) {
         law_answer_free(&about);
         return false;
@@ -165,20 +133,25 @@ static bool tell_velocities(LawRun *run, const double *force, int i) {
     const bool some = answer.outcome == CPS_SET_ANSWERED;
     run->answered = run->answered && !is_open(answer.outcome) && !(some && is_open(about.facts.outcome));
     if (run->json) {
-        printf("%s{\"force\": ", separator(i));
-        law_json_vector(run->n, force, stdout);
-        fputs(", \"velocities\": ", stdout);
+        printf("%s{\"%s\": ", separator(i), velocity ? "velocity" : "force");
+        law_json_vector(run->n, asked, stdout);
+        if (velocity) fputs(", \"dissipation_W\": ", stdout), law_json_number(some ? power : NAN, stdout);
+        printf(", \"%s\": ", velocity ? "forces" : "velocities");
         if (some)
             law_answer_json(&about, cone, stdout);
         else
             printf("{\"outcome\": \"%s\"}", cps_set_outcome_name(answer.outcome));
         fputs(", \"gap\": ", stdout);
         law_json_number(answer.gap, stdout);
+        if (velocity) printf(", \"exact\": %s", answer.exact ? "true" : "false");
         fputc('}', stdout);
     } else {
-        printf("force ");
-        law_print_vector(run->n, force);
-        printf("\n  velocities: ");
+        fputs(velocity ? "velocity " : "force ", stdout);
+        law_print_vector(run->n, asked);
+        if (velocity && some && !isfinite(power)) fputs("\n  dissipates more than can be written", stdout);
+        if (velocity && some && isfinite(power))
+            printf("\n  dissipates %.12g W%s (gap %.2g W)", power, answer.exact ? ", exact" : "", answer.gap);
+        fputs(velocity ? "\n  forces: " : "\n  velocities: ", stdout);
         if (some)
             law_answer_print(&about, cone);
         else
@@ -221,9 +194,9 @@ static bool tell_all(LawRun *run, const QueryList *velocity, const QueryList *fo
     if (!tell_law(run)) return false;
     if (run->json) fputs(",\n  \"answers\": [", stdout);
     for (int i = 0; i < velocity->count; i++)
-        if (!tell_forces(run, velocity->row + (size_t)i * n, i)) return false;
+        if (!tell_answer(run, true, velocity->row + (size_t)i * n, i)) return false;
     for (int i = 0; i < force->count; i++)
-        if (!tell_velocities(run, force->row + (size_t)i * n, velocity->count + i)) return false;
+        if (!tell_answer(run, false, force->row + (size_t)i * n, velocity->count + i)) return false;
     if (run->json) fputs("]", stdout);
     if (force->count == velocity->count && force->count > 0) {
         if (run->json) fputs(",\n  \"pairs\": [", stdout);
@@ -237,15 +210,22 @@ static bool tell_all(LawRun *run, const QueryList *velocity, const QueryList *fo
 
 /* ---- the picture ---- */
 
-static bool read_axes(const char *text, int n, int axis[2]) {
-    char end;
-    if (!text) {
-        axis[0] = 0, axis[1] = 1;
-        return true;
+/* before the first answer: is there something to draw, and along which axes? */
+static int check_picture(const LawRun *run, const CliOptions *options) {
+    int axis[2];
+    if (options->axes && !options->plot) {
+        fprintf(stderr, "capstan law: --axes goes with --plot\n");
+        return EXIT_USAGE;
     }
-    if (sscanf(text, "%4d,%4d%c", &axis[0], &axis[1], &end) != 2) return false;
-    axis[0]--, axis[1]--;
-    return axis[0] >= 0 && axis[0] < n && axis[1] >= 0 && axis[1] < n && axis[0] != axis[1];
+    if (options->plot && (!run->set || run->n < 2)) {
+        fprintf(stderr, "capstan law: --plot draws friction laws of two components or more: this is a %s of %d\n",
+                run->set ? "law" : "resistance law", run->n);
+        return EXIT_USAGE;
+    }
+    if (!options->plot || law_plot_axes(options->axes, run->n, axis)) return EXIT_OK;
+    fprintf(stderr, "capstan law: --axes: found '%.40s', expected two components from 1 to %d, as in 1,2\n",
+            options->axes, run->n);
+    return EXIT_USAGE;
 }
 
 static int draw(LawRun *run, const CliOptions *options, const QueryList *velocity, const QueryList *force) {
@@ -254,36 +234,16 @@ static int draw(LawRun *run, const CliOptions *options, const QueryList *velocit
                              .velocity = velocity->row,
                              .force_count = force->count,
                              .force = force->row};
-    if (!run->set || run->n < 2) {
-        fprintf(stderr, "capstan law: --plot draws friction laws of two components or more\n");
-        return EXIT_USAGE;
-    }
-    if (!read_axes(options->axes, run->n, picture.axis)) {
-        fprintf(stderr, "capstan law: --axes: found '%.40s', expected two components from 1 to %d, as in 1,2\n",
-                options->axes, run->n);
-        return EXIT_USAGE;
-    }
-    FILE *out = fopen(options->plot, "w");
-    if (!out) {
-        fprintf(stderr, "capstan: %s: cannot write: %s\n", options->plot, strerror(errno));
-        return EXIT_IO;
-    }
-    const CpsStatus status = cps_law_draw(run->set, &picture, out, &run->err);
-    const bool failed = ferror(out) != 0;
-    if (fclose(out) != 0 || failed) {
-        fprintf(stderr, "capstan: %s: cannot write\n", options->plot);
-        return EXIT_IO;
-    }
-    if (status == CPS_OK) return EXIT_OK;
-    remove(options->plot);
-    return cli_report(&run->err);
+    law_plot_axes(options->axes, run->n, picture.axis);
+    return law_plot(run->set, &picture, options->plot);
 }
 
 /* ---- all together ---- */
 
 static int answer(LawRun *run, const CliOptions *options) {
     QueryList velocity = {.n = run->n}, force = {.n = run->n};
-    int code = law_query_read(&options->velocity, "velocity", &velocity);
+    int code = check_picture(run, options);
+    if (code == EXIT_OK) code = law_query_read(&options->velocity, "velocity", &velocity);
     if (code == EXIT_OK) code = law_query_read(&options->force, "force", &force);
     if (code == EXIT_OK && !tell_all(run, &velocity, &force)) code = cli_report(&run->err);
     if (code == EXIT_OK && options->plot) code = draw(run, options, &velocity, &force);
@@ -294,11 +254,13 @@ static int answer(LawRun *run, const CliOptions *options) {
 
 int cmd_law(int argc, char **argv) {
     CliOptions options;
-    if (!cli_parse(argc, argv, FOR_LAW, true, &options)) return EXIT_USAGE;
+    if (!cli_parse(argc, argv, FOR_LAW, "LAW.yaml", &options)) return EXIT_USAGE;
 
     CpsLawFile *file = NULL;
     CpsError err;
-    if (cps_law_read(options.scene, NULL, &file, &err) != CPS_OK) return cli_report(&err);
+    const int input = law_query_check_input(options.operand, &options.velocity, &options.force);
+    if (input != EXIT_OK) return input;
+    if (cps_law_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
     LawRun run = {.file = file,
                   .set = cps_law_file_set(file),
                   .resistance = cps_law_file_resistance(file),

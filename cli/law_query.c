@@ -2,12 +2,16 @@
 /* Velocities and forces as text (see law_query.h). */
 #include "law_query.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Rows read at most: answers are printed one by one, but kept until the picture is drawn. */
 enum { MOST_ROWS = 1000000, LONGEST_LINE = 1 << 20 };
+
+/* Beyond it powers would overflow, as in law files. */
+static const double LARGEST = 1e100;
 
 static int bad(const char *where, int line, const char *what, const char *text) {
     if (line > 0)
@@ -26,10 +30,17 @@ static bool make_room(QueryList *list) {
     return true;
 }
 
-/* one row "1, 2" of list->n finite numbers; line 0: of the command line */
+static void say_expected(const QueryList *list, char *text, size_t size) {
+    snprintf(text, size,
+             list->n == 1 ? "expected %d number of at most 1e100"
+                          : "expected %d numbers separated by commas, at most 1e100",
+             list->n);
+}
+
+/* one row "1, 2" of list->n numbers; line 0: of the command line */
 static int add_row(const char *text, const char *option, int line, QueryList *list) {
     char expected[80];
-    snprintf(expected, sizeof expected, "expected %d number%s separated by commas", list->n, list->n == 1 ? "" : "s");
+    say_expected(list, expected, sizeof expected);
     if (list->count == MOST_ROWS || !make_room(list)) {
         fprintf(stderr, "capstan: out of memory, or more than %d rows\n", (int)MOST_ROWS);
         return EXIT_LIMIT;
@@ -39,7 +50,7 @@ static int add_row(const char *text, const char *option, int line, QueryList *li
     for (int i = 0; i < list->n; i++) {
         char *end;
         row[i] = strtod(at, &end);
-        if (end == at || !isfinite(row[i])) return bad(option, line, expected, text);
+        if (end == at || !(fabs(row[i]) <= LARGEST)) return bad(option, line, expected, text);
         end += strspn(end, " \t");
         if (*end != (i + 1 < list->n ? ',' : '\0')) return bad(option, line, expected, text);
         at = end + 1;
@@ -48,19 +59,36 @@ static int add_row(const char *text, const char *option, int line, QueryList *li
     return EXIT_OK;
 }
 
+/* "vx, vy": as many words as there are columns, each beginning with a letter and no number itself (nan) */
+static bool is_names(const char *text, int columns) {
+    int words = 0;
+    for (;; text++) {
+        char *end;
+        text += strspn(text, " \t\"");
+        const unsigned char c = (unsigned char)*text;
+        strtod(text, &end);
+        if (!(isalpha(c) || c == '_' || c >= 0x80) || (end > text && strchr(", \t", *end))) return false;
+        words++;
+        text += strcspn(text, ",");
+        if (!*text) return words == columns;
+    }
+}
+
 /* rows of standard input; blank lines, comments (#) and a line of column names at the top are passed over */
 static int read_rows(const char *option, QueryList *list) {
-    char *text = NULL;
+    char *text = NULL, expected[80];
     size_t room = 0;
     int code = EXIT_OK, line = 0;
     bool first = true;
+    const int before = list->count;
     for (ssize_t length; code == EXIT_OK && (length = getline(&text, &room, stdin)) >= 0;) {
         line++;
         if (length > LONGEST_LINE) code = bad(option, line, "the line is longer than 1 MiB", "...");
+        if (strlen(text) != (size_t)length) code = bad(option, line, "a zero byte: is this text?", text);
         text[strcspn(text, "\r\n")] = '\0';
         const char *start = text + strspn(text, " \t");
         if (code != EXIT_OK || !*start || *start == '#') continue;
-        const bool names = first && !strchr("+-.0123456789", *start);
+        const bool names = first && is_names(start, list->n);
         first = false;
         if (!names) code = add_row(start, option, line, list);
     }
@@ -68,8 +96,22 @@ static int read_rows(const char *option, QueryList *list) {
     if (code == EXIT_OK && ferror(stdin)) {
         fprintf(stderr, "capstan: cannot read standard input\n");
         code = EXIT_IO;
+    } else if (code == EXIT_OK && list->count == before) {
+        say_expected(list, expected, sizeof expected);
+        fprintf(stderr, "capstan: standard input: found no rows, %s in each\n", expected);
+        code = EXIT_INPUT;
     }
     return code;
+}
+
+int law_query_check_input(const char *file, const CliList *velocity, const CliList *force) {
+    const CliList *list[2] = {velocity, force};
+    int readers = strcmp(file, "-") == 0;
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < list[k]->count; i++) readers += strcmp(list[k]->item[i], "-") == 0;
+    if (readers < 2) return EXIT_OK;
+    fprintf(stderr, "capstan law: '-' is given %d times, but standard input can be read once\n", readers);
+    return EXIT_USAGE;
 }
 
 int law_query_read(const CliList *given, const char *option, QueryList *list) {

@@ -16,7 +16,11 @@ extern "C" {
 typedef struct CpsLawFile CpsLawFile;
 
 /* Read a law. As cps_scene_read: `path` is a regular file, or "-" for standard input; of `limits` (NULL: defaults)
- * bytes and depth count; on bad input `err` has file, line and column. */
+ * bytes and depth count; on bad input `err` has file, line and column.
+ *
+ * A set may have 32 components; sets that are not answered in closed form (intersections, preimages, sums, ..) may have
+ * 300 components, points and rows all together: more is CPS_ERR_LIMIT, so that no file takes longer than about a
+ * minute. Larger ones are made with law.h. */
 CPS_API CpsStatus cps_law_read(const char *path, const CpsReadLimits *limits, CpsLawFile **out, CpsError *err);
 CPS_API void cps_law_file_destroy(CpsLawFile *file); /* NULL is accepted */
 
@@ -30,6 +34,9 @@ CPS_API const CpsResistance *cps_law_file_resistance(const CpsLawFile *file); /*
 /* Has the law a preimage? Then *composition is the weakest condition among them, found in *line of the file. */
 CPS_API bool cps_law_file_composition(const CpsLawFile *file, CpsComposition *composition, int *line);
 
+/* Write the JSON schema (draft 2020-12) of law files, from the same table of words that the reader uses. */
+CPS_API CpsStatus cps_law_write_schema(FILE *out, CpsError *err);
+
 /* What a picture shows. */
 typedef struct CpsLawPicture {
     const char *title;
@@ -41,7 +48,8 @@ typedef struct CpsLawPicture {
 } CpsLawPicture;
 
 /* Draw a set of forces as SVG: a planar one with the normal cones at its corners; of more dimensions the section
- * through 0 along two axes and, dashed, the shadow on them; with each velocity and its set of forces.
+ * through 0 along two axes and, dashed, the shadow on them (alone where the plane misses a set that a load has moved);
+ * with each velocity and its set of forces.
  *
  * Returns CPS_OK, CPS_ERR_ARGUMENT (also where the set is unbounded, empty, or has one dimension) or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_law_draw(const CpsSet *set, const CpsLawPicture *picture, FILE *out, CpsError *err);

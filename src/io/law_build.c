@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Expressions of sets (see law_build.h): one table of words, one small function each. The recursion is as deep as the
- * file, which the YAML reader limits. What the library refuses is reported at the word that asked for it. */
+/* Words and their values, read and made (see law_build.h): read_values and make_word call each other down the file. */
 #include "io/law_build.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "io/keys.h"
 
-static const double ANY = -INFINITY;
+static CpsStatus build_law(CpsiLawBuild *b, const CpsiYaml *node, CpsLaw **out);
 
 /* a message without the name of the C function, which the file's user has not called */
 static const char *without_call(const char *message) {
@@ -18,360 +16,228 @@ static const char *without_call(const char *message) {
     return strncmp(message, "cps_", 4) == 0 && strncmp(message + name, ": ", 2) == 0 ? message + name + 2 : message;
 }
 
-CpsStatus cpsi_law_place(const CpsiLawBuild *b, const CpsiYaml *node, const CpsError *found) {
+CpsStatus cpsi_law_place(const CpsiLawFile *f, const CpsiYaml *node, const CpsError *found) {
     const CpsStatus status = found->status == CPS_ERR_ARGUMENT ? CPS_ERR_INPUT : found->status;
-    if (node->key)
-        return cpsi_fail_at(b->file.err, status, b->file.name, node->line, node->column, "'%.64s': %s", node->key,
-                            without_call(found->message));
-    return cpsi_fail_at(b->file.err, status, b->file.name, node->line, node->column, "%s",
-                        without_call(found->message));
+    const char *message = without_call(found->message);
+    if (found->line > 0) return cpsi_fail_at(f->err, status, f->name, found->line, found->column, "%s", message);
+    if (!node->key) return cpsi_fail_at(f->err, status, f->name, node->line, node->column, "%s", message);
+    return cpsi_fail_at(f->err, status, f->name, node->line, node->column, "'%.64s': %s", node->key, message);
 }
 
-/* ---- primitives ---- */
+/* ---- sizes ---- */
 
-static CpsStatus build_point(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    int n;
-    double *x;
-    const CpsStatus status = cpsi_law_vector(&b->file, node, "'point'", &n, &x);
-    return status != CPS_OK ? status : CPSI_PLACED(b, node, cps_set_point(n, x, out, &found));
-}
-
-/* b stands for [-b, b] */
-static CpsStatus build_interval(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    double end[2];
-    CpsStatus status;
-    if (node->kind == CPSI_YAML_SEQUENCE && node->count == 2) {
-        status = cpsi_law_number(&b->file, node->child, "'interval'", ANY, false, &end[0]);
-        if (status == CPS_OK) status = cpsi_law_number(&b->file, node->child->next, "'interval'", ANY, false, &end[1]);
-    } else if (node->kind == CPSI_YAML_SCALAR) {
-        status = cpsi_law_number(&b->file, node, "'interval'", 0, false, &end[1]);
-        end[0] = -end[1];
-    } else {
-        return cpsi_law_wrong(&b->file, node, "'interval'", "a number b for -b .. b, or two, as in [-1, 2]");
-    }
-    return status != CPS_OK ? status : CPSI_PLACED(b, node, cps_set_interval(end[0], end[1], out, &found));
-}
-
-static CpsStatus build_disc(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    double radius;
-    const CpsStatus status = cpsi_law_number(&b->file, node, "'disc'", 0, false, &radius);
-    return status != CPS_OK ? status : CPSI_PLACED(b, node, cps_set_ball(2, NULL, radius, out, &found));
-}
-
-static CpsStatus build_ball(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    static const char *const KEY[] = {"radius", "dimension", NULL};
-    const CpsiYaml *child[2];
-    CpsError found;
-    double radius = 0;
-    int n = 0;
-    CpsStatus status = cpsi_law_keys(&b->file, node, "'ball'", KEY, child);
-    if (status == CPS_OK) status = cpsi_law_number(&b->file, child[0], "'radius'", 0, false, &radius);
-    if (status == CPS_OK) status = cpsi_law_count(&b->file, child[1], "'dimension'", CPS_SET_MAX_SPACE, &n);
-    return status != CPS_OK ? status : CPSI_PLACED(b, node, cps_set_ball(n, NULL, radius, out, &found));
-}
-
-/* semi-axes along the coordinates */
-static CpsStatus build_ellipse(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    int n;
-    double *axis;
-    CpsStatus status = cpsi_law_vector(&b->file, node, "'ellipse'", &n, &axis);
-    for (const CpsiYaml *x = node->child; x && status == CPS_OK; x = x->next) {
-        double length;
-        status = cpsi_law_number(&b->file, x, "'ellipse'", 0, true, &length);
-    }
-    if (status != CPS_OK) return status;
-    if (n > CPS_SET_MAX_SPACE) return cpsi_law_wrong(&b->file, node, "'ellipse'", "at most 4096 semi-axes");
-    double *shape = CPSI_POOL_TAKE(b->file.pool, (size_t)n * (size_t)n, double);
-    if (!shape) return cpsi_law_no_memory(&b->file);
-    for (int i = 0; i < n; i++) shape[(size_t)i * (size_t)n + (size_t)i] = axis[i] * axis[i];
-    return CPSI_PLACED(b, node, cps_set_ellipsoid(n, NULL, shape, out, &found));
-}
-
-static CpsStatus build_ellipsoid(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    int rows, columns;
-    double *shape;
-    const CpsStatus status = cpsi_law_matrix(&b->file, node, "'ellipsoid'", &rows, &columns, &shape);
-    if (status != CPS_OK) return status;
-    if (rows != columns) return cpsi_law_wrong(&b->file, node, "'ellipsoid'", "a square shape matrix");
-    return CPSI_PLACED(b, node, cps_set_ellipsoid(rows, NULL, shape, out, &found));
-}
-
-/* half widths, or [low, high] for each component */
-static CpsStatus build_box(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
-        return cpsi_law_wrong(&b->file, node, "'box'",
-                              "half widths, as in [300, 100], or sides, as in [[-1, 2], [0, 5]]");
-    double *low = CPSI_POOL_TAKE(b->file.pool, node->count, double);
-    double *high = CPSI_POOL_TAKE(b->file.pool, node->count, double);
-    if (!low || !high) return cpsi_law_no_memory(&b->file);
-    CpsStatus status = CPS_OK;
-    int n = 0;
-    for (const CpsiYaml *x = node->child; x && status == CPS_OK; x = x->next, n++) {
-        if (x->kind == CPSI_YAML_SEQUENCE && x->count == 2) {
-            status = cpsi_law_number(&b->file, x->child, "'box'", ANY, false, &low[n]);
-            if (status == CPS_OK) status = cpsi_law_number(&b->file, x->child->next, "'box'", ANY, false, &high[n]);
-        } else {
-            status = cpsi_law_number(&b->file, x, "'box'", 0, false, &high[n]);
-            low[n] = -high[n];
-        }
-    }
-    return status != CPS_OK ? status : CPSI_PLACED(b, node, cps_set_box(n, low, high, out, &found));
-}
-
-static CpsStatus build_segment(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    int rows, n;
-    double *x;
-    const CpsStatus status = cpsi_law_matrix(&b->file, node, "'segment'", &rows, &n, &x);
-    if (status != CPS_OK) return status;
-    if (rows != 2) return cpsi_law_wrong(&b->file, node, "'segment'", "its two ends");
-    return CPSI_PLACED(b, node, cps_set_segment(n, x, x + n, out, &found));
-}
-
-static CpsStatus build_polytope(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    int rows, n;
-    double *x;
-    const CpsStatus status = cpsi_law_matrix(&b->file, node, "'polytope'", &rows, &n, &x);
-    return status != CPS_OK ? status : CPSI_PLACED(b, node, cps_set_hull_of_points(n, rows, x, out, &found));
-}
-
-/* {x : rows x <= offsets} */
-static CpsStatus build_inequalities(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    static const char *const KEY[] = {"rows", "offsets", NULL};
-    const CpsiYaml *child[2];
-    CpsError found;
-    int rows, n, count;
-    double *x, *offset;
-    CpsStatus status = cpsi_law_keys(&b->file, node, "'inequalities'", KEY, child);
-    if (status == CPS_OK) status = cpsi_law_matrix(&b->file, child[0], "'rows'", &rows, &n, &x);
-    if (status == CPS_OK) status = cpsi_law_vector(&b->file, child[1], "'offsets'", &count, &offset);
-    if (status != CPS_OK) return status;
-    if (count != rows) return cpsi_law_wrong(&b->file, child[1], "'offsets'", "one number for each row");
-    return CPSI_PLACED(b, node, cps_set_inequalities(n, rows, x, offset, out, &found));
-}
-
-static CpsStatus build_strip(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    static const char *const KEY[] = {"normal", "width", NULL};
-    const CpsiYaml *child[2];
-    CpsError found;
-    int n;
-    double *normal, width;
-    CpsStatus status = cpsi_law_keys(&b->file, node, "'strip'", KEY, child);
-    if (status == CPS_OK) status = cpsi_law_vector(&b->file, child[0], "'normal'", &n, &normal);
-    if (status == CPS_OK) status = cpsi_law_number(&b->file, child[1], "'width'", 0, false, &width);
-    return status != CPS_OK ? status
-                            : CPSI_PLACED(b, node, cps_set_strip(n, normal, -0.5 * width, 0.5 * width, out, &found));
-}
-
-static CpsStatus build_half_space(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    static const char *const KEY[] = {"normal", "offset", NULL};
-    const CpsiYaml *child[2];
-    CpsError found;
-    int n;
-    double *normal, offset;
-    CpsStatus status = cpsi_law_keys(&b->file, node, "'half_space'", KEY, child);
-    if (status == CPS_OK) status = cpsi_law_vector(&b->file, child[0], "'normal'", &n, &normal);
-    if (status == CPS_OK) status = cpsi_law_number(&b->file, child[1], "'offset'", ANY, false, &offset);
-    return status != CPS_OK ? status : CPSI_PLACED(b, node, cps_set_half_space(n, normal, offset, out, &found));
-}
-
-static CpsStatus build_subspace(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    int rows, n;
-    double *x;
-    const CpsStatus status = cpsi_law_matrix(&b->file, node, "'subspace'", &rows, &n, &x);
-    return status != CPS_OK ? status : CPSI_PLACED(b, node, cps_set_subspace(n, rows, x, out, &found));
-}
-
-/* ---- operations ---- */
-
-typedef CpsStatus ManySets(int count, const CpsSet *const *parts, CpsSet **out, CpsError *err);
-
-static CpsStatus build_many(CpsiLawBuild *b, const CpsiYaml *node, ManySets *operation, CpsSet **out) {
-    char what[80];
-    CpsError found;
-    CpsSet **part = NULL;
-    snprintf(what, sizeof what, "'%s'", node->key);
-    if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
-        return cpsi_law_wrong(&b->file, node, what, "a list of sets, as in [{interval: 60}, {disc: 500}]");
-    part = CPSI_POOL_TAKE(b->file.pool, node->count, CpsSet *);
-    if (!part) return cpsi_law_no_memory(&b->file);
-    CpsStatus status = CPS_OK;
-    int count = 0;
-    for (const CpsiYaml *item = node->child; item && status == CPS_OK; item = item->next) {
-        status = cpsi_law_build_set(b, item, &part[count]);
-        if (status == CPS_OK) count++;
-    }
-    if (status == CPS_OK) status = CPSI_PLACED(b, node, operation(count, (const CpsSet *const *)part, out, &found));
-    while (count > 0) cps_set_release(part[--count]);
-    return status;
-}
-
-static CpsStatus build_product(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    return build_many(b, node, cps_set_product, out);
-}
-
-static CpsStatus build_intersection(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    return build_many(b, node, cps_set_intersection, out);
-}
-
-static CpsStatus build_sum(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    return build_many(b, node, cps_set_sum, out);
-}
-
-static CpsStatus build_hull(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    return build_many(b, node, cps_set_hull, out);
-}
-
-/* {map: matrix, of: set}: reads both */
-static CpsStatus map_and_set(CpsiLawBuild *b, const CpsiYaml *node, const char *what, int *rows, int *columns,
-                             double **map, CpsSet **set) {
-    static const char *const KEY[] = {"map", "of", NULL};
-    const CpsiYaml *child[2];
-    CpsStatus status = cpsi_law_keys(&b->file, node, what, KEY, child);
-    if (status == CPS_OK) status = cpsi_law_matrix(&b->file, child[0], "'map'", rows, columns, map);
-    return status == CPS_OK ? cpsi_law_build_set(b, child[1], set) : status;
-}
-
-static CpsStatus build_preimage(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    int rows, columns;
-    double *map;
-    CpsSet *set = NULL;
-    CpsStatus status = map_and_set(b, node, "'preimage'", &rows, &columns, &map, &set);
-    if (status == CPS_OK) status = cpsi_law_check_map(b, node, rows, cps_set_space(set), "rows");
-    if (status == CPS_OK) status = CPSI_PLACED(b, node, cps_set_preimage(columns, map, NULL, set, out, &found));
-    cps_set_release(set);
-    return status;
-}
-
-static CpsStatus build_image(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    int rows, columns;
-    double *map;
-    CpsSet *set = NULL;
-    CpsStatus status = map_and_set(b, node, "'image'", &rows, &columns, &map, &set);
-    if (status == CPS_OK) status = cpsi_law_check_map(b, node, columns, cps_set_space(set), "columns");
-    if (status == CPS_OK) status = CPSI_PLACED(b, node, cps_set_image(rows, map, set, out, &found));
-    cps_set_release(set);
-    return status;
-}
-
-static CpsStatus build_translate(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    static const char *const KEY[] = {"by", "of", NULL};
-    const CpsiYaml *child[2];
-    CpsError found;
-    int n;
-    double *shift;
-    CpsSet *set = NULL;
-    CpsStatus status = cpsi_law_keys(&b->file, node, "'translate'", KEY, child);
-    if (status == CPS_OK) status = cpsi_law_vector(&b->file, child[0], "'by'", &n, &shift);
-    if (status == CPS_OK) status = cpsi_law_build_set(b, child[1], &set);
-    if (status == CPS_OK && n != cps_set_space(set)) {
-        char expected[80];
-        snprintf(expected, sizeof expected, "one number for each of the set's %d components", cps_set_space(set));
-        status = cpsi_law_wrong(&b->file, child[0], "'by'", expected);
-    }
-    if (status == CPS_OK) status = CPSI_PLACED(b, node, cps_set_translate(shift, set, out, &found));
-    cps_set_release(set);
-    return status;
-}
-
-static CpsStatus build_scale(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    static const char *const KEY[] = {"by", "of", NULL};
-    const CpsiYaml *child[2];
-    CpsError found;
-    double factor;
-    CpsSet *set = NULL;
-    CpsStatus status = cpsi_law_keys(&b->file, node, "'scale'", KEY, child);
-    if (status == CPS_OK) status = cpsi_law_number(&b->file, child[0], "'by'", ANY, false, &factor);
-    if (status == CPS_OK) status = cpsi_law_build_set(b, child[1], &set);
-    if (status == CPS_OK) status = CPSI_PLACED(b, node, cps_set_scale(factor, set, out, &found));
-    cps_set_release(set);
-    return status;
-}
-
-static CpsStatus build_polar(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsError found;
-    CpsSet *set = NULL;
-    CpsStatus status = cpsi_law_build_set(b, node, &set);
-    if (status == CPS_OK) status = CPSI_PLACED(b, node, cps_set_polar(set, out, &found));
-    cps_set_release(set);
-    return status;
-}
-
-/* coulomb, unit_load and contacts are laws; inside a set they stand for their set of forces */
-static CpsStatus build_law_as_set(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
-    CpsLaw *law = NULL;
-    const CpsStatus status = cpsi_law_build_word(b, node, &law);
-    if (status == CPS_OK) *out = cps_set_retain(cps_law_set(law));
-    cps_law_destroy(law);
-    return status;
+/* A set just made of a word with `items` points or rows: not too large to be asked questions. */
+static CpsStatus weigh(CpsiLawBuild *b, const CpsiYaml *node, int components, int items) {
+    if (components > CPSI_LAW_MOST_COMPONENTS)
+        return cpsi_fail_at(b->file.err, CPS_ERR_LIMIT, b->file.name, node->line, node->column,
+                            "'%.64s': a set of %d components, at most %d", node->key, components,
+                            (int)CPSI_LAW_MOST_COMPONENTS);
+    if (b->solved_depth > 0 && (b->solved_size += components + items) > CPSI_LAW_MOST_SOLVED)
+        return cpsi_fail_at(b->file.err, CPS_ERR_LIMIT, b->file.name, node->line, node->column,
+                            "'%.64s': the sets up to here that are not answered in closed form have %d components, "
+                            "points and rows together, at most %d",
+                            node->key, b->solved_size, (int)CPSI_LAW_MOST_SOLVED);
+    return CPS_OK;
 }
 
 /* ---- words ---- */
 
-typedef struct Word {
-    const char *name;
-    CpsStatus (*build)(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out);
-} Word;
-
-static const Word WORDS[] = {
-    {"point", build_point},
-    {"interval", build_interval},
-    {"disc", build_disc},
-    {"ball", build_ball},
-    {"ellipse", build_ellipse},
-    {"ellipsoid", build_ellipsoid},
-    {"box", build_box},
-    {"segment", build_segment},
-    {"polytope", build_polytope},
-    {"strip", build_strip},
-    {"half_space", build_half_space},
-    {"inequalities", build_inequalities},
-    {"subspace", build_subspace},
-    {"product", build_product},
-    {"intersection", build_intersection},
-    {"sum", build_sum},
-    {"hull", build_hull},
-    {"preimage", build_preimage},
-    {"image", build_image},
-    {"translate", build_translate},
-    {"scale", build_scale},
-    {"polar", build_polar},
-    {"coulomb", build_law_as_set},
-    {"unit_load", build_law_as_set},
-    {"contacts", build_law_as_set},
-};
-enum { WORD_COUNT = sizeof WORDS / sizeof WORDS[0] };
-
-static CpsStatus unknown_word(const CpsiLawBuild *b, const CpsiYaml *node) {
+static CpsStatus unknown_word(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawGroup *group, int groups,
+                              const char *what) {
     CpsiSuggestion suggestion = {.word = node->key};
     char list[400] = "";
-    for (int i = 0; i < WORD_COUNT; i++) {
-        cpsi_suggest(&suggestion, WORDS[i].name);
-        const size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", WORDS[i].name);
+    for (int g = 0; g < groups; g++) {
+        int count;
+        const CpsiLawWord *word = cpsi_law_words(group[g], &count);
+        for (int i = 0; i < count; i++) {
+            if (g > 0 && cpsi_law_word(group[0], word[i].name)) continue;
+            cpsi_suggest(&suggestion, word[i].name);
+            const size_t used = strlen(list);
+            snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", word[i].name);
+        }
     }
     if (suggestion.best)
-        return cpsi_fail_at(b->file.err, CPS_ERR_INPUT, b->file.name, node->line, node->column,
-                            "unknown word '%.64s'; did you mean '%s'?", node->key, suggestion.best);
-    return cpsi_fail_at(b->file.err, CPS_ERR_INPUT, b->file.name, node->line, node->column,
-                        "unknown word '%.64s', expected one of: %s", node->key, list);
+        return cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, node->line, node->column,
+                            "unknown %s '%.64s'; did you mean '%s'?", what, node->key, suggestion.best);
+    return cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, node->line, node->column,
+                        "unknown %s '%.64s', expected one of: %s", what, node->key, list);
 }
 
-CpsStatus cpsi_law_build_set(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
+/* {WORD: value}: read the values, make it of them */
+static CpsStatus make_word(CpsiLawBuild *b, const CpsiYaml *node, const CpsiLawWord *word, CpsiLawMade *made) {
+    char what[80];
+    CpsError found = {.status = CPS_OK};
+    CpsiLawValue value[CPSI_LAW_MOST_KEYS] = {{.node = NULL}};
+    snprintf(what, sizeof what, "'%s'", word->name);
+    b->solved_depth += word->solved;
+    CpsStatus status = cpsi_law_read_values(b, node, word, what, value);
+    if (status == CPS_OK && word->make(value, made, &found) != CPS_OK) status = cpsi_law_place(&b->file, node, &found);
+    cpsi_law_release(value);
+    if (status == CPS_OK && made->set) status = weigh(b, node, cps_set_space(made->set), value[0].rows);
+    if (status == CPS_OK && made->law) status = weigh(b, node, cps_law_space(made->law), 0);
+    b->solved_depth -= word->solved;
+    if (status == CPS_OK && made->composed && (!b->has_preimage || made->composition > b->composition)) {
+        b->has_preimage = true;
+        b->composition = made->composition, b->composition_line = node->line;
+    }
+    return status;
+}
+
+static CpsStatus not_one_word(const CpsiLawFile *f, const CpsiYaml *node, const char *what) {
+    return cpsi_law_wrong(f, node, node->key ? node->key : what, "one word with its value, as in {disc: 500}");
+}
+
+static CpsStatus build_set(CpsiLawBuild *b, const CpsiYaml *node, CpsSet **out) {
+    static const CpsiLawGroup GROUP[] = {CPSI_LAW_SET_WORDS, CPSI_LAW_LAW_WORDS};
+    if (node->kind != CPSI_YAML_MAPPING || node->count != 1) return not_one_word(&b->file, node, "set");
+    const CpsiLawWord *word = cpsi_law_word(GROUP[0], node->child->key);
+    if (!word) word = cpsi_law_word(GROUP[1], node->child->key);
+    if (!word) return unknown_word(&b->file, node->child, GROUP, 2, "word");
+    /* coulomb, unit_load and contacts are laws; inside a set they stand for their set of forces */
+    CpsiLawMade made = {.set = NULL};
+    const CpsStatus status = make_word(b, node->child, word, &made);
+    if (status == CPS_OK) *out = cps_set_retain(made.law ? cps_law_set(made.law) : made.set);
+    cps_set_release(made.set);
+    cps_law_destroy(made.law);
+    return status;
+}
+
+static CpsStatus build_law(CpsiLawBuild *b, const CpsiYaml *node, CpsLaw **out) {
+    const bool one = node->kind == CPSI_YAML_MAPPING && node->count == 1;
+    const CpsiLawWord *word = one ? cpsi_law_word(CPSI_LAW_LAW_WORDS, node->child->key) : NULL;
+    if (word) {
+        CpsiLawMade made = {.set = NULL};
+        const CpsStatus status = make_word(b, node->child, word, &made);
+        if (status == CPS_OK)
+            *out = made.law;
+        else
+            cps_law_destroy(made.law);
+        return status;
+    }
+
+    /* every other word is a set, which must hold 0 */
+    CpsError found;
+    CpsSet *set = NULL;
+    CpsStatus status = build_set(b, node, &set);
+    if (status == CPS_OK && cps_law_friction(set, out, &found) != CPS_OK)
+        status = cpsi_law_place(&b->file, node->child, &found);
+    cps_set_release(set);
+    return status;
+}
+
+static CpsStatus build_term(CpsiLawBuild *b, const CpsiYaml *node, CpsResistance **out) {
+    static const CpsiLawGroup GROUP[] = {CPSI_LAW_TERM_WORDS};
     if (node->kind != CPSI_YAML_MAPPING || node->count != 1)
-        return cpsi_law_wrong(&b->file, node, node->key ? node->key : "set",
-                              "one word with its value, as in {disc: 500}");
-    for (int i = 0; i < WORD_COUNT; i++)
-        if (strcmp(node->child->key, WORDS[i].name) == 0) return WORDS[i].build(b, node->child, out);
-    return unknown_word(b, node->child);
+        return cpsi_law_wrong(&b->file, node, "term", "one of dry, viscous, power, table, as in {dry: {disc: 500}}");
+    const CpsiLawWord *word = cpsi_law_word(GROUP[0], node->child->key);
+    if (!word) return unknown_word(&b->file, node->child, GROUP, 1, "term");
+    CpsiLawMade made = {.set = NULL};
+    const CpsStatus status = make_word(b, node->child, word, &made);
+    *out = made.term;
+    return status;
+}
+
+/* one contact: its law and map join the list's */
+static CpsStatus build_contact(CpsiLawBuild *b, const CpsiYaml *node, int i, CpsiLawValue *list) {
+    CpsError found;
+    CpsiLawValue part[CPSI_LAW_MOST_KEYS] = {{.node = NULL}};
+    CpsStatus status = cpsi_law_read_values(b, node, &cpsi_law_contact_word, "contact", part);
+    const CpsiLawValue *map = &part[CPSI_LAW_CONTACT_MAP];
+    if (status == CPS_OK) {
+        CpsLaw **law = part[CPSI_LAW_CONTACT_OF].law;
+        list->law[i] = law[0], list->map[i] = map->x;
+        law[0] = NULL;
+        if (i == 0) list->columns = map->columns;
+        if (cpsi_law_match(map, "map", map->rows, "rows", cps_law_space(list->law[i]), "its law has components",
+                           &found) ||
+            cpsi_law_match(map, "map", map->columns, "columns", list->columns, "the first contact's map has", &found))
+            status = cpsi_law_place(&b->file, node, &found);
+    }
+    cpsi_law_release(part);
+    return status;
+}
+
+/* ---- values ---- */
+
+/* room for `count` sets, laws or terms, all NULL */
+static CpsStatus take_parts(const CpsiLawFile *f, CpsiLawType type, int count, CpsiLawValue *value) {
+    bool room;
+    switch (type) {
+    case CPSI_LAW_SET:
+    case CPSI_LAW_SETS:
+        room = (value->set = CPSI_POOL_TAKE(f->pool, count, CpsSet *)) != NULL;
+        break;
+    case CPSI_LAW_TERMS:
+        room = (value->term = CPSI_POOL_TAKE(f->pool, count, CpsResistance *)) != NULL;
+        break;
+    case CPSI_LAW_CONTACTS:
+        value->map = CPSI_POOL_TAKE(f->pool, count, const double *);
+        room = value->map && (value->law = CPSI_POOL_TAKE(f->pool, count, CpsLaw *));
+        break;
+    default:
+        room = (value->law = CPSI_POOL_TAKE(f->pool, count, CpsLaw *)) != NULL;
+    }
+    if (room) value->count = count;
+    return room ? CPS_OK : cpsi_law_no_memory(f);
+}
+
+static CpsStatus build_part(CpsiLawBuild *b, const CpsiYaml *node, CpsiLawType type, int i, CpsiLawValue *value) {
+    switch (type) {
+    case CPSI_LAW_SET:
+    case CPSI_LAW_SETS:
+        return build_set(b, node, &value->set[i]);
+    case CPSI_LAW_TERMS:
+        return build_term(b, node, &value->term[i]);
+    case CPSI_LAW_CONTACTS:
+        return build_contact(b, node, i, value);
+    default:
+        return build_law(b, node, &value->law[i]);
+    }
+}
+
+static CpsStatus read_value(CpsiLawBuild *b, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+                            CpsiLawValue *value) {
+    const CpsiLawType type = key->type;
+    value->node = node;
+    if (type < CPSI_LAW_SET) return cpsi_law_value(&b->file, node, key, what, value);
+    if (type == CPSI_LAW_SET || type == CPSI_LAW_LAW) {
+        const CpsStatus status = take_parts(&b->file, type, 1, value);
+        return status ? status : build_part(b, node, type, 0, value);
+    }
+    if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
+        return cpsi_law_wrong(&b->file, node, what,
+                              type == CPSI_LAW_TERMS ? "a list of terms, as in [{dry: {disc: 500}}]"
+                              : type == CPSI_LAW_CONTACTS
+                                  ? "a list of contacts, as in [{map: [[1, 0]], of: {interval: 5}}]"
+                              : type == CPSI_LAW_LAWS ? "a list of laws, as in [{interval: 60}, {disc: 500}]"
+                                                      : "a list of sets, as in [{interval: 60}, {disc: 500}]");
+    CpsStatus status = take_parts(&b->file, type, node->count, value);
+    int i = 0;
+    for (const CpsiYaml *item = node->child; item && status == CPS_OK; item = item->next)
+        status = build_part(b, item, type, i++, value);
+    return status;
+}
+
+CpsStatus cpsi_law_read_values(CpsiLawBuild *b, const CpsiYaml *node, const CpsiLawWord *word, const char *what,
+                               CpsiLawValue value[CPSI_LAW_MOST_KEYS]) {
+    const CpsiLawKey *key = word->key;
+    if (!key[0].name) return read_value(b, node, &key[0], what, &value[0]);
+    const CpsiYaml *child[CPSI_LAW_MOST_KEYS] = {NULL};
+    CpsStatus status = cpsi_law_keys(&b->file, node, what, key, child);
+    for (int i = 0; i < CPSI_LAW_MOST_KEYS && status == CPS_OK; i++) {
+        char name[80];
+        if (!child[i]) continue;
+        snprintf(name, sizeof name, "'%s'", key[i].name);
+        status = read_value(b, child[i], &key[i], name, &value[i]);
+    }
+    return status;
+}
+
+void cpsi_law_release(CpsiLawValue value[CPSI_LAW_MOST_KEYS]) {
+    for (int k = 0; k < CPSI_LAW_MOST_KEYS; k++)
+        for (int i = 0; i < value[k].count; i++) {
+            if (value[k].set) cps_set_release(value[k].set[i]);
+            if (value[k].law) cps_law_destroy(value[k].law[i]);
+            if (value[k].term) cps_resistance_destroy(value[k].term[i]);
+        }
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Read a law file: bytes -> tree (scene_yaml.h) -> sets and laws (law_build.h). */
+/* Read a law file: bytes -> tree (scene_yaml.h) -> sets and laws (law_build.h). The file is read as one more word,
+ * whose values are kept. */
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +11,7 @@
 #include "io/law_build.h"
 
 struct CpsLawFile {
-    char title[256];
+    char title[CPSI_LAW_LONGEST_TITLE + 1];
     CpsLaw *law;
     CpsLoadedLaw *loaded;
     CpsResistance *resistance;
@@ -48,45 +49,47 @@ bool cps_law_file_composition(const CpsLawFile *file, CpsComposition *compositio
     return file->has_preimage;
 }
 
-static CpsStatus take_title(const CpsiLawFile *f, const CpsiYaml *node, CpsLawFile *out) {
-    if (!node) return CPS_OK;
-    if (node->kind != CPSI_YAML_SCALAR || strlen(node->text) >= sizeof out->title)
-        return cpsi_law_wrong(f, node, "'title'", "a text of at most 255 bytes");
-    memcpy(out->title, node->text, strlen(node->text) + 1);
-    return CPS_OK;
+static CpsStatus take_load(const CpsiLawFile *f, const CpsiLawValue *load, CpsLawFile *out) {
+    CpsError found;
+    if (!load->node) return CPS_OK;
+    if (!out->law)
+        return cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, load->node->line, load->node->column,
+                            "'load': goes with 'law'; a resistance law takes no load");
+    if (cpsi_law_match(load, "load", load->columns, "numbers", cps_law_space(out->law), "the law has components",
+                       &found) == CPS_OK &&
+        cps_law_load(out->law, load->x, &out->loaded, &found) == CPS_OK)
+        return CPS_OK;
+    return cpsi_law_place(f, load->node, &found);
 }
 
-static CpsStatus take_load(CpsiLawBuild *b, const CpsiYaml *node, CpsLawFile *out) {
-    int n;
-    double *load;
+static CpsStatus take_resistance(const CpsiLawFile *f, const CpsiLawValue *terms, CpsLawFile *out) {
     CpsError found;
-    const CpsStatus status = cpsi_law_vector(&b->file, node, "'load'", &n, &load);
-    if (status != CPS_OK) return status;
-    if (n != cps_law_space(out->law))
-        return cpsi_fail_at(b->file.err, CPS_ERR_INPUT, b->file.name, node->line, node->column,
-                            "'load': found %d components, but the law has %d", n, cps_law_space(out->law));
-    return cps_law_load(out->law, load, &out->loaded, &found) == CPS_OK ? CPS_OK : cpsi_law_place(b, node, &found);
+    if (cps_resistance_sum(terms->count, (const CpsResistance *const *)terms->term, &out->resistance, &found) == CPS_OK)
+        return CPS_OK;
+    return cpsi_law_place(f, terms->node, &found);
 }
 
 static CpsStatus build(CpsiLawBuild *b, const CpsiYaml *root, CpsLawFile *out) {
-    static const char *const KEY[] = {"capstan", "?title", "?law", "?load", "?resistance", NULL};
-    enum { VERSION, TITLE, LAW, LOAD, RESISTANCE, KEYS };
-    const CpsiYaml *child[KEYS];
-    int version;
-    CpsStatus status = cpsi_law_keys(&b->file, root, "law file", KEY, child);
-    if (status == CPS_OK) status = cpsi_law_count(&b->file, child[VERSION], "'capstan'", 1, &version);
-    if (status == CPS_OK) status = take_title(&b->file, child[TITLE], out);
-    if (status != CPS_OK) return status;
-    if (!child[LAW] == !child[RESISTANCE])
+    if (cpsi_yaml_child(root, "lines"))
         return cpsi_fail_at(b->file.err, CPS_ERR_INPUT, b->file.name, root->line, root->column,
-                            "law file: %s, expected exactly one of 'law', 'resistance'",
-                            child[LAW] ? "too much given" : "nothing given");
-    if (child[LOAD] && !child[LAW])
-        return cpsi_fail_at(b->file.err, CPS_ERR_INPUT, b->file.name, child[LOAD]->line, child[LOAD]->column,
-                            "'load': goes with 'law'; a resistance law takes no load");
-    if (child[RESISTANCE]) return cpsi_law_build_resistance(b, child[RESISTANCE], &out->resistance);
-    status = cpsi_law_build_law(b, child[LAW], &out->law);
-    return status == CPS_OK && child[LOAD] ? take_load(b, child[LOAD], out) : status;
+                            "found a scene ('lines'), expected a law");
+    CpsiLawValue value[CPSI_LAW_MOST_KEYS] = {{.node = NULL}};
+    CpsiLawValue *law = &value[CPSI_LAW_OF_FRICTION], *terms = &value[CPSI_LAW_OF_RESISTANCE];
+    CpsStatus status = cpsi_law_read_values(b, root, &cpsi_law_file_word, cpsi_law_file_word.name, value);
+    if (status == CPS_OK && !law->node == !terms->node)
+        status = cpsi_fail_at(b->file.err, CPS_ERR_INPUT, b->file.name, root->line, root->column,
+                              "law file: %s, expected exactly one of 'law', 'resistance'",
+                              law->node ? "too much given" : "nothing given");
+    if (status == CPS_OK) {
+        if (value[CPSI_LAW_TITLE].node) strcpy(out->title, value[CPSI_LAW_TITLE].text);
+        if (law->node)
+            out->law = law->law[0], law->law[0] = NULL;
+        else
+            status = take_resistance(&b->file, terms, out);
+    }
+    if (status == CPS_OK) status = take_load(&b->file, &value[CPSI_LAW_LOAD], out);
+    cpsi_law_release(value);
+    return status;
 }
 
 static CpsStatus read_law(const char *path, const CpsReadLimits *limits, CpsLawFile *out, CpsError *err) {
@@ -96,7 +99,7 @@ static CpsStatus read_law(const char *path, const CpsReadLimits *limits, CpsLawF
     CpsiPool tree = {0};
     CpsiYaml *root = NULL;
     CpsStatus status = cpsi_read_file(path, name, limits->max_bytes, &bytes, &size, err);
-    if (status == CPS_OK) status = cpsi_yaml_parse(name, bytes, size, limits->max_depth, &tree, &root, err);
+    if (status == CPS_OK) status = cpsi_yaml_parse(name, "law", bytes, size, limits->max_depth, &tree, &root, err);
     free(bytes);
     CpsiLawBuild b = {.file = {.name = name, .pool = &tree, .err = err}};
     if (status == CPS_OK) status = build(&b, root, out);

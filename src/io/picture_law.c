@@ -45,7 +45,9 @@ typedef struct Sheet {
     double *shadow_map; /* (2 x n) picks the two components */
     CpsiFrame frame;
     CpsiUnit unit;
-    double size; /* of the set [N] */
+    double size;   /* of the set [N] */
+    bool in_space; /* more than two components: section and shadow */
+    int corners;   /* drawn */
 } Sheet;
 
 typedef struct Curve {
@@ -57,7 +59,7 @@ static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_ME
 
 /* ---- sets to curves ---- */
 
-/* points of contact all round a set of R^2 */
+/* points of contact all round a set of R^2; none of an empty one */
 static CpsStatus trace(const CpsSet *set, Curve *curve, CpsError *err) {
     curve->count = 0;
     for (int i = 0; i < DIRECTIONS; i++) {
@@ -67,6 +69,7 @@ static CpsStatus trace(const CpsSet *set, Curve *curve, CpsError *err) {
         CpsSetAnswer answer;
         const CpsStatus status = cps_set_support(set, w, point, &answer, err);
         if (status != CPS_OK) return status;
+        if (answer.outcome == CPS_SET_EMPTY) return CPS_OK;
         if (answer.outcome != CPS_SET_ANSWERED)
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "cannot draw the set of forces: %s",
                              cps_set_outcome_sentence(answer.outcome));
@@ -166,7 +169,7 @@ static CpsStatus put_cone(const Sheet *s, const CpsSet *cone, const double apex[
 }
 
 /* the corners of a set of R^2, each with its sector of normals */
-static CpsStatus put_corners(const Sheet *s, const CpsSet *set) {
+static CpsStatus put_corners(Sheet *s, const CpsSet *set) {
     double *corner = malloc(2 * MOST_CORNERS * sizeof *corner);
     if (!corner) return out_of_memory(s->err);
     int count = 0;
@@ -183,6 +186,7 @@ static CpsStatus put_corners(const Sheet *s, const CpsSet *set) {
             status = put_cone(s, cone, at, false,
                               "fill=\"#f6dca6\" fill-opacity=\"0.75\" stroke=\"#c98a1b\" stroke-width=\"0.8\"", &rays);
         cps_set_release(cone);
+        s->corners += rays >= 2;
         if (rays >= 2)
             fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"#2b5fa8\"/>\n", px(s, at[0]), py(s, at[1]));
     }
@@ -340,16 +344,19 @@ static void put_axes(const Sheet *s) {
             py(s, 0), SIDE, px(s, 0), s->frame.top, s->frame.height);
 }
 
-static void put_legend(const Sheet *s, bool section) {
+static void put_legend(const Sheet *s, bool some) {
     double x = LEFT, y = TOP + s->frame.height + 58;
     cpsi_legend(s->out, &x, y,
                 "<rect x=\"-11\" y=\"-5\" width=\"22\" height=\"10\" fill=\"#dfe9f6\" stroke=\"#2b5fa8\"/>",
-                section ? "section of the set of forces" : "set of forces");
-    if (section)
+                !s->in_space ? "set of forces"
+                : some       ? "section of the set of forces"
+                             : "no section: the plane misses the set");
+    if (s->in_space)
         cpsi_legend(s->out, &x, y, "<line x1=\"-11\" x2=\"11\" stroke=\"#2b5fa8\" stroke-dasharray=\"4 3\"/>",
                     "its shadow");
-    cpsi_legend(s->out, &x, y, "<path d=\"M-9 4L9 4A18 18 0 0 0 4 -7Z\" fill=\"#f6dca6\" stroke=\"#c98a1b\"/>",
-                "directions of \xE2\x88\x92V at a corner");
+    if (s->corners > 0)
+        cpsi_legend(s->out, &x, y, "<path d=\"M-9 4L9 4A18 18 0 0 0 4 -7Z\" fill=\"#f6dca6\" stroke=\"#c98a1b\"/>",
+                    "directions of \xE2\x88\x92V at a corner");
     if (s->picture->velocity_count > 0)
         cpsi_legend(s->out, &x, y,
                     "<path d=\"M-10 0H10M4 -4L10 0L4 4\" stroke=\"#a03070\" fill=\"none\" stroke-width=\"1.8\"/>",
@@ -357,26 +364,29 @@ static void put_legend(const Sheet *s, bool section) {
 }
 
 static CpsStatus put_all(Sheet *s, const CpsSet *section, const CpsSet *shadow, Curve *curve) {
-    const bool has_section = section != shadow;
     CpsStatus status = trace(shadow, curve, s->err);
+    if (status == CPS_OK && curve->count == 0)
+        status = cpsi_fail(s->err, CPS_ERR_ARGUMENT, "cannot draw the set of forces: it is empty");
     if (status != CPS_OK) return status;
     fit_frame(s, curve);
     const int asked = s->picture->velocity_count;
     const double list = TOP + 51.0 * (asked < MOST_LISTED ? asked : MOST_LISTED + 1);
     const char *title = s->picture->title && *s->picture->title ? s->picture->title : "friction law";
     cpsi_svg_begin(s->out, LEFT + SIDE + (asked ? LIST : 40), fmax(TOP + s->frame.height + 76, list), title,
-                   has_section ? "section through 0, and shadow, of the set of forces" : "set of forces");
+                   s->in_space ? "section through 0, and shadow, of the set of forces" : "set of forces");
     put_axes(s);
-    if (has_section) {
+    if (s->in_space) {
         put_curve(s, curve, "fill=\"#f6f8fc\" stroke=\"#2b5fa8\" stroke-width=\"1\" stroke-dasharray=\"5 4\"");
         status = trace(section, curve, s->err);
     }
-    if (status == CPS_OK) put_curve(s, curve, "fill=\"#dfe9f6\" stroke=\"#2b5fa8\" stroke-width=\"1.8\"");
-    if (status == CPS_OK) status = put_corners(s, section);
+    /* the plane through 0 may miss a set that a load has moved: its shadow is left */
+    const bool some = curve->count > 0;
+    if (status == CPS_OK && some) put_curve(s, curve, "fill=\"#dfe9f6\" stroke=\"#2b5fa8\" stroke-width=\"1.8\"");
+    if (status == CPS_OK && some) status = put_corners(s, section);
     for (int i = 0; i < s->picture->force_count && status == CPS_OK; i++) status = put_force(s, i);
     cpsi_frame_end(s->out);
     for (int i = 0; i < s->picture->velocity_count && status == CPS_OK; i++) status = put_velocity(s, i);
-    put_legend(s, has_section);
+    put_legend(s, some);
     cpsi_svg_finish(s->out);
     return status;
 }
@@ -400,7 +410,7 @@ CpsStatus cps_law_draw(const CpsSet *set, const CpsLawPicture *picture, FILE *ou
     if (axis[0] < 0 || axis[1] < 0 || axis[0] >= n || axis[1] >= n || axis[0] == axis[1])
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "axes %d and %d are not two different components from 0 to %d", axis[0],
                          axis[1], n - 1);
-    Sheet s = {.out = out, .err = err, .picture = picture, .set = set, .n = n};
+    Sheet s = {.out = out, .err = err, .picture = picture, .set = set, .n = n, .in_space = n > 2};
     s.shadow_map = calloc(2 * (size_t)n, sizeof *s.shadow_map);
     const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     CpsStatus status;

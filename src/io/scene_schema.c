@@ -9,6 +9,7 @@
 #include "capstan/io.h"
 #include "io/keys.h"
 #include "io/result_text.h"
+#include "io/scene_schema.h"
 
 static void put_number(FILE *out, const char *key, double x) {
     fprintf(out, ", \"%s\": ", key);
@@ -74,6 +75,13 @@ static void put_type(FILE *out, const CpsiKey *key) {
         put_reference(out, key->inside);
         fprintf(out, "}]");
         break;
+    case CPSI_NUMBER_OR_MAPPING:
+        fprintf(out, "\"oneOf\": [{\"type\": \"number\"");
+        put_range(out, key);
+        fprintf(out, "}, {");
+        put_reference(out, key->inside);
+        fprintf(out, "}]");
+        break;
     case CPSI_LIST:
         fprintf(out, "\"type\": \"array\", \"items\": {");
         put_reference(out, key->inside);
@@ -93,16 +101,22 @@ static void put_row(FILE *out, const CpsiKey *key) {
     fprintf(out, "}");
 }
 
+/* The form of a row's key as a regular expression; NULL where it has a fixed name. */
+static const char *pattern_of(const CpsiKey *key) {
+    if (strcmp(key->name, "NAME") == 0) return "^[A-Za-z][A-Za-z0-9_-]{0,63}$";
+    if (strcmp(key->name, "LINE.END") == 0) return "^[A-Za-z][A-Za-z0-9_-]{0,63}\\.[AB]$";
+    if (strcmp(key->name, "OBSTACLE.turn") == 0) return "^[A-Za-z][A-Za-z0-9_-]{0,63}\\.turn$";
+    return NULL;
+}
+
 /* Keys with a fixed name (or, if `patterns`, those of a form), one line each. */
 static int put_rows(FILE *out, const CpsiKey *keys, int count, bool patterns) {
     int written = 0;
     for (int i = 0; i < count; i++) {
-        const bool name = strcmp(keys[i].name, "NAME") == 0, end = strcmp(keys[i].name, "LINE.END") == 0;
-        if ((name || end) != patterns) continue;
+        const char *pattern = pattern_of(&keys[i]);
+        if ((pattern != NULL) != patterns) continue;
         fprintf(out, "%s\n        ", written++ ? "," : "");
-        cpsi_put_json_string(out, name  ? "^[A-Za-z][A-Za-z0-9_-]{0,63}$"
-                                  : end ? "^[A-Za-z][A-Za-z0-9_-]{0,63}\\.[AB]$"
-                                        : keys[i].name);
+        cpsi_put_json_string(out, pattern ? pattern : keys[i].name);
         fprintf(out, ": ");
         put_row(out, &keys[i]);
     }
@@ -141,14 +155,16 @@ static void put_schema(FILE *out) {
     fprintf(out, "  }\n}\n");
 }
 
-CpsStatus cps_scene_write_schema(FILE *out, CpsError *err) {
+CpsStatus cpsi_write_schema(FILE *out, void (*put)(FILE *out), CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected an open file");
     const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     const locale_t before = uselocale(numbers);
-    put_schema(out);
+    put(out);
     uselocale(before);
     freelocale(numbers);
     if (fflush(out) != 0 || ferror(out)) return cpsi_fail(err, CPS_ERR_IO, "the schema could not be written");
     return CPS_OK;
 }
+
+CpsStatus cps_scene_write_schema(FILE *out, CpsError *err) { return cpsi_write_schema(out, put_schema, err); }

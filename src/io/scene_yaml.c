@@ -12,7 +12,7 @@
 #include "base/status.h"
 #include "io/result_text.h"
 
-/* Values of a file, and bytes of one scalar: far more than a scene needs, few enough to stay within memory. */
+/* Values of a file, and bytes of one scalar: far more than a file needs, few enough to stay within memory. */
 enum { MAX_VALUES = 4000000, MAX_SCALAR = 65536 };
 
 typedef struct Open {      /* a collection not yet closed */
@@ -22,7 +22,7 @@ typedef struct Open {      /* a collection not yet closed */
 } Open;
 
 typedef struct Parse {
-    const char *file;
+    const char *file, *what;
     CpsiPool *pool;
     CpsError *err;
     Open *open; /* (max_depth) */
@@ -134,7 +134,7 @@ static CpsStatus check_characters(const Parse *p, const char *bytes, size_t size
 /* ---- events ---- */
 
 static CpsStatus out_of_memory(const Parse *p) {
-    return cpsi_fail_at(p->err, CPS_ERR_MEMORY, p->file, 0, 0, "out of memory while reading the scene");
+    return cpsi_fail_at(p->err, CPS_ERR_MEMORY, p->file, 0, 0, "out of memory while reading the %s", p->what);
 }
 
 /* The text of a scalar, copied; NULL after an error. Without memory libfyaml gives an empty text. */
@@ -215,21 +215,26 @@ static CpsStatus check_duplicates(const Parse *p, const CpsiYaml *mapping) {
     return status;
 }
 
-static CpsStatus refuse(const Parse *p, int line, int column, const char *what) {
-    return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column, "found %s", what);
+static CpsStatus refuse(const Parse *p, int line, int column, const char *found) {
+    return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column, "found %s", found);
+}
+
+static CpsStatus refuse_nothing(const Parse *p, const char *found) {
+    return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, 1, 1, "found %s: a %s begins with 'capstan: 1'", found,
+                        p->what);
 }
 
 /* where an anchor or a tag stands, not the value behind it */
-static CpsStatus refuse_token(const Parse *p, struct fy_token *token, const char *what) {
+static CpsStatus refuse_token(const Parse *p, struct fy_token *token, const char *found) {
     const struct fy_mark *mark = fy_token_start_mark(token);
-    return refuse(p, mark ? mark->line + 1 : 1, mark ? mark->column + 1 : 1, what);
+    return refuse(p, mark ? mark->line + 1 : 1, mark ? mark->column + 1 : 1, found);
 }
 
 /* A scalar or the beginning of a collection. */
 static CpsStatus take_value(Parse *p, struct fy_event *event, int line, int column) {
     struct fy_token *anchor = fy_event_get_anchor_token(event), *tag = fy_event_get_tag_token(event);
-    if (anchor) return refuse_token(p, anchor, "an anchor ('&'): scenes have none, write the value out");
-    if (tag) return refuse_token(p, tag, "a tag ('!'): scenes have none, remove it");
+    if (anchor) return refuse_token(p, anchor, "an anchor ('&'): write the value out instead");
+    if (tag) return refuse_token(p, tag, "a tag ('!'): remove it");
 
     /* a key waits for its value */
     CpsStatus status = CPS_OK;
@@ -269,10 +274,11 @@ static CpsStatus take_event(Parse *p, struct fy_event *event) {
     }
     switch (event->type) {
     case FYET_DOCUMENT_START:
-        if (++p->documents == 2) return refuse(p, line, column, "a second document ('---'): a file holds one scene");
-        return CPS_OK;
+        if (++p->documents < 2) return CPS_OK;
+        return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column,
+                            "found a second document ('---'): a file holds one %s", p->what);
     case FYET_ALIAS:
-        return refuse(p, line, column, "an alias ('*'): scenes have none, write the value out");
+        return refuse(p, line, column, "an alias ('*'): write the value out instead");
     case FYET_SCALAR:
     case FYET_MAPPING_START:
     case FYET_SEQUENCE_START:
@@ -305,17 +311,17 @@ static CpsStatus take_all(Parse *p, struct fy_parser *parser, struct fy_diag *di
         fy_parser_event_free(parser, event);
         if (status != CPS_OK) return status;
     }
-    if (!p->root) return refuse(p, 1, 1, "nothing: a scene begins with 'capstan: 1'");
+    if (!p->root) return refuse_nothing(p, "nothing");
     return CPS_OK;
 }
 
-CpsStatus cpsi_yaml_parse(const char *file, const char *bytes, size_t size, int max_depth, CpsiPool *pool,
-                          CpsiYaml **root, CpsError *err) {
-    Parse p = {.file = file, .pool = pool, .err = err, .max_depth = max_depth};
+CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes, size_t size, int max_depth,
+                          CpsiPool *pool, CpsiYaml **root, CpsError *err) {
+    Parse p = {.file = file, .what = what, .pool = pool, .err = err, .max_depth = max_depth};
     *root = NULL;
     CpsStatus status = check_characters(&p, bytes, size);
     if (status != CPS_OK) return status;
-    if (size == 0) return refuse(&p, 1, 1, "an empty file: a scene begins with 'capstan: 1'");
+    if (size == 0) return refuse_nothing(&p, "an empty file");
 
     /* messages are collected instead of printed */
     struct fy_diag_cfg quiet;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A YAML file as a tree, with the place of every value; only what a scene needs.
+/* A YAML file as a tree, with the place of every value; only what scenes and laws need.
  *
  * One document of mappings, sequences and scalars. Refused, with line and column: anchors, aliases and tags (so nothing
  * can expand), a second document, keys given twice or that are no scalars, text that is not UTF-8 or holds control
@@ -26,10 +26,11 @@ typedef struct CpsiYaml {
     struct CpsiYaml *child, *next; /* first child; next of the same parent */
 } CpsiYaml;
 
-/* Parse `size` bytes, which a NUL follows. `file` only serves the messages. The tree lives in the pool.
+/* Parse `size` bytes, which a NUL follows. `file` and `what` it holds ("scene", "law") only serve the messages. The
+ * tree lives in the pool.
  * Returns CPS_OK, CPS_ERR_INPUT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
-CpsStatus cpsi_yaml_parse(const char *file, const char *bytes, size_t size, int max_depth, CpsiPool *pool,
-                          CpsiYaml **root, CpsError *err);
+CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes, size_t size, int max_depth,
+                          CpsiPool *pool, CpsiYaml **root, CpsError *err);
 
 /* The value of a key of a mapping; NULL if absent (or node is NULL or no mapping). */
 const CpsiYaml *cpsi_yaml_child(const CpsiYaml *node, const char *key);

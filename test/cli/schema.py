@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The JSON schema of scenes: valid JSON, complete references, every key documented; the examples are accepted.
+"""The JSON schemas of scenes and laws: valid JSON, complete references, every key documented; the examples are accepted.
 
 usage: schema.py CAPSTAN SOURCE_FOLDER
 
-Where the Python packages jsonschema and yaml are installed, the examples are also validated against the schema, and
-scenes that the schema must refuse are tried.
+Where the Python packages jsonschema and yaml are installed, the examples are also validated against the schemas, and
+scenes that the schema must refuse are tried, and all the laws that bad_laws.py tries.
 """
 import copy
 import glob
@@ -14,6 +14,9 @@ import os
 import re
 import subprocess
 import sys
+
+sys.dont_write_bytecode = True  # nothing is left in the source folder
+import bad_laws  # noqa: E402
 
 EXAMPLES = ["souza-de-cursi-1990.yaml", "souza-de-cursi-1990-half-circle.yaml", "souza-de-cursi-1990-circle.yaml",
             "oc3-hywind-line.yaml"]
@@ -46,7 +49,43 @@ def check_schema(schema, documentation):
             assert row["description"], key
             assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of {name}"
     for pattern in (p for d in definitions.values() for p in d["patternProperties"]):
-        assert re.match(pattern, "cable.B" if "AB" in pattern else "cable") and not re.match(pattern, "9"), pattern
+        example = "cable.B" if "AB" in pattern else "drum.turn" if "turn" in pattern else "cable"
+        assert re.match(pattern, example) and not re.match(pattern, "9"), pattern
+
+
+def check_law_schema(schema, documentation):
+    definitions = schema["$defs"]
+    assert set(references(schema)) == {f"#/$defs/{name}" for name in definitions}, set(references(schema))
+    described = [schema, definitions["contact"], definitions["set"], definitions["term"]]
+    described += [word for name in ("set", "term") for word in definitions[name]["properties"].values() if "properties" in word]
+    for mapping in described:
+        assert mapping["additionalProperties"] is False and mapping["properties"], mapping
+        for key, row in mapping["properties"].items():
+            assert row["description"], key
+            assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of laws"
+
+
+def check_law_validation(schema, folder):
+    try:
+        import jsonschema
+        import yaml
+    except ImportError:
+        return 0
+    jsonschema.Draft202012Validator.check_schema(schema)
+    validator = jsonschema.Draft202012Validator(schema)
+    paths = sorted(glob.glob(os.path.join(folder, "*.yaml")))
+    for path in paths:
+        with open(path) as f:
+            errors = [e.message for e in validator.iter_errors(yaml.safe_load(f))]
+        assert not errors, (path, errors)
+    for name, text, _ in bad_laws.CASES:
+        try:
+            law = yaml.safe_load(text)
+        except yaml.YAMLError:
+            continue  # two documents
+        accepted = validator.is_valid(law)
+        assert accepted == (name in bad_laws.BEYOND_A_SCHEMA), f"{name}: the schema {'accepts' if accepted else 'refuses'} it"
+    return len(paths)
 
 
 def check_validation(schema, folder):
@@ -69,7 +108,8 @@ def check_validation(schema, folder):
 
     changes = [("capstan", 2), ("lines", []), ("gravity", [0, 0]), ("contact", "lost"), ("unknown", 1),
                ("history", [{"steps": 0}]), ("history", [{"cable.C": {}}]), ("history", [{"cable.B": {}}]),
-               ("obstacles", {"bed": {}}), ("solver", {"tolerance": 1})]
+               ("obstacles", {"bed": {}}), ("obstacles", {"bed": {"plane": {}, "friction": [1]}}),
+               ("obstacles", {"pipe": {"cylinder": {}}}), ("history", [{"drum.turn": "half"}]), ("solver", {"tolerance": 1})]
     for key, value in changes:
         bad = copy.deepcopy(scene)
         bad[key] = value
@@ -93,6 +133,14 @@ def main():
     for name in sorted(found):
         assert "The scene is valid." in output(capstan, "check", os.path.join(folder, name)), name
     check_validation(schema, folder)
+
+    law_schema = json.loads(output(capstan, "schema", "law"))
+    check_law_schema(law_schema, documentation)
+    laws = check_law_validation(law_schema, os.path.join(folder, "laws"))
+    assert output(capstan, "schema") == output(capstan, "schema", "scene")
+    refused = subprocess.run([capstan, "schema", "lines"], capture_output=True, text=True, check=False)
+    assert refused.returncode == 2 and "expected scene or law" in refused.stderr, refused
+    print(f"schema of laws with {len(law_schema['$defs']['set']['properties'])} words, {laws} examples validated: good")
     print(f"schema with {len(schema['$defs'])} definitions, {len(found)} examples: good")
 
 

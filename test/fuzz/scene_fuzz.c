@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Fuzzing the scene reader: any bytes give a scene that passed its check, or an error with a sentence.
  *
- *   cmake --preset dev -B build/fuzz -DCMAKE_C_COMPILER=clang -DCAPSTAN_FUZZ=ON && cmake --build build/fuzz
+ *   cmake --preset dev -B build/fuzz -DCMAKE_C_COMPILER=clang -DCAPSTAN_FUZZ=ON \
+ *     -DCMAKE_C_FLAGS=-fsanitize=fuzzer-no-link
+ *   cmake --build build/fuzz --target scene_fuzz
  *   mkdir corpus && ASAN_OPTIONS=detect_leaks=0 build/fuzz/test/fuzz/scene_fuzz -max_total_time=60 corpus examples
  *
  * New inputs go to the first folder. libfyaml leaks on some broken keys, hence the option. */

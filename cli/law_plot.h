@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan law --plot: the picture of a law as a file that appears whole or not at all. */
+#ifndef CAPSTAN_CLI_LAW_PLOT_H
+#define CAPSTAN_CLI_LAW_PLOT_H
+
+#include "capstan/law_io.h"
+
+/* Two components "I,J", from 1, of n; NULL: the first two. False: no such pair. */
+bool law_plot_axes(const char *text, int n, int axis[2]);
+
+/* Draw to `path`. A regular file is written beside its place and renamed, so that a failure leaves what was there; into
+ * a device or pipe it is written straight. Returns EXIT_OK, or another exit code after a message on standard error. */
+int law_plot(const CpsSet *set, const CpsLawPicture *picture, const char *path);
+
+#endif

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Writing a JSON schema. */
+#ifndef CAPSTAN_SRC_IO_SCENE_SCHEMA_H
+#define CAPSTAN_SRC_IO_SCENE_SCHEMA_H
+
+#include <stdio.h>
+
+#include "capstan/base.h"
+
+/* Let `put` write all of it, with decimal points whatever the locale. Returns CPS_OK, CPS_ERR_ARGUMENT (out is NULL),
+ * CPS_ERR_IO or CPS_ERR_MEMORY. */
+CpsStatus cpsi_write_schema(FILE *out, void (*put)(FILE *out), CpsError *err);
+
+#endif
