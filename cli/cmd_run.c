@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan run: solve a scene step by step, write its results, print a short table.
  *
- * The first SIGINT or SIGTERM lets the load step end and keeps the results so far; the second ends at once. */
+ * The first SIGINT or SIGTERM lets the load step end and keeps the results so far; the second ends at once. A journal of the steps is kept
+ * beside the results until the run is finished: after a stop, of whatever kind, --resume goes on from there. */
 #include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include "capstan/io.h"
+#include "cautions.h"
 #include "commands.h"
 #include "options.h"
 #include "progress.h"
@@ -118,86 +120,140 @@ static int exit_code(CpsOutcome worst) {
     return EXIT_NOT_CERTIFIED;
 }
 
-/* All steps, or until a signal; *code is the exit code of the outcomes. */
-static CpsStatus take_steps(const CpsScene *scene, CpsEvolution *evolution, CpsResults *results, Progress *progress,
-                            FILE *table, int *code, CpsError *err) {
-    const int steps = cps_evolution_step_count(evolution);
-    CpsOutcome worst = CPS_SOLVED;
-    while (cps_evolution_remaining(evolution) > 0 && !stop_signal) {
-        CpsStatus status = cps_evolution_step(evolution, err);
-        if (!status) status = cps_results_append(results, evolution, err);
-        if (status) return status;
-        const CpsStepReport report = cps_evolution_report(evolution);
-        progress_step(progress, report.index + 1, report.name);
-        if (is_shown(scene, steps, report.index) || report.outcome != CPS_SOLVED || stop_signal)
-            put_rows(table, evolution);
-        if (report.outcome != CPS_SOLVED) {
-            progress_end(progress);
-            report_outcomes(evolution);
-        }
-        if (report.outcome > worst) worst = report.outcome;
+/* A run: what is solved, where it goes, what is told of it. */
+typedef struct Run {
+    const CpsScene *scene;
+    CpsEvolution *evolution;
+    CpsResults *results;
+    CpsJournal *journal;
+    Progress progress;
+    Cautions cautions;
+    FILE *table;
+    CpsOutcome worst;
+} Run;
+
+/* The step that the evolution stands at goes into the results and the table. */
+static CpsStatus keep_step(Run *run, CpsError *err) {
+    const CpsStatus status = cps_results_append(run->results, run->evolution, err);
+    if (status) return status;
+    const CpsStepReport report = cps_evolution_report(run->evolution);
+    progress_step(&run->progress, report.index + 1, report.name);
+    cautions_step(&run->cautions, run->scene, run->evolution);
+    const int steps = cps_evolution_step_count(run->evolution);
+    if (is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED || stop_signal)
+        put_rows(run->table, run->evolution);
+    if (report.outcome != CPS_SOLVED) {
+        progress_end(&run->progress);
+        report_outcomes(run->evolution);
     }
-    *code = exit_code(worst);
+    if (report.outcome > run->worst) run->worst = report.outcome;
     return CPS_OK;
+}
+
+/* The steps of an earlier run into the same directory. */
+static CpsStatus take_back(Run *run, CpsError *err) {
+    int steps = 0;
+    for (bool found = true; found;) {
+        CpsStatus status = cps_journal_next(run->journal, run->evolution, &found, err);
+        if (!status && found) status = keep_step(run, err);
+        if (status) return status;
+        steps += found;
+    }
+    progress_end(&run->progress);
+    fprintf(stderr, "capstan: %d of %d steps were done before\n", steps, cps_evolution_step_count(run->evolution));
+    return CPS_OK;
+}
+
+/* All steps, or until a signal. */
+static CpsStatus take_steps(Run *run, CpsError *err) {
+    while (cps_evolution_remaining(run->evolution) > 0 && !stop_signal) {
+        CpsStatus status = cps_evolution_step(run->evolution, err);
+        if (!status) status = cps_journal_append(run->journal, run->evolution, err);
+        if (!status) status = keep_step(run, err);
+        if (status) return status;
+    }
+    progress_end(&run->progress);
+    if (!run->progress.quiet) cautions_say(&run->cautions);
+    return CPS_OK;
+}
+
+/* Open what a run needs, take the steps, finish. */
+static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *options, CpsError *err) {
+    const double begun = cli_now();
+    CpsStatus status = cps_evolution_create(run->scene, &run->evolution, err);
+    if (!status) status = cps_results_open(directory, run->scene, run->evolution, &run->results, err);
+    if (!status) status = cps_journal_open(directory, run->evolution, options->resume, &run->journal, err);
+    if (status) return status;
+    run->progress = progress_begin(cps_evolution_step_count(run->evolution), options->quiet);
+    if (options->resume) status = take_back(run, err);
+    if (!status) status = take_steps(run, err);
+    progress_end(&run->progress);
+    const double wall = cli_now() - begun;
+    if (!status) status = cps_results_finish(run->results, wall, err);
+    if (!status && cps_evolution_remaining(run->evolution) == 0) cps_journal_remove(run->journal);
+    if (!status && options->json) status = cps_results_write_summary(run->results, wall, stdout, err);
+    return status;
 }
 
 static void say_where(const char *directory, const CpsEvolution *evolution) {
     const int steps = cps_evolution_step_count(evolution), left = cps_evolution_remaining(evolution);
-    if (stop_signal) fprintf(stderr, "capstan: stopped by a signal after %d of %d steps\n", steps - left, steps);
+    if (stop_signal)
+        fprintf(stderr, "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n", steps - left,
+                steps);
     printf("\nresults   %s: summary.json, history.csv, result.nc, result.pvd (ParaView)\n", directory);
     printf("pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg, loop-*.svg of closed cycles\n", directory);
 }
 
 static int run(const CpsScene *scene, const char *directory, const CliOptions *options) {
-    const double begun = cli_now();
     CpsError err;
-    CpsEvolution *evolution = NULL;
-    CpsResults *results = NULL;
     char *text = NULL;
     size_t size = 0;
-    int code = EXIT_OK;
-    FILE *table = open_memstream(&text, &size);
-    if (!table) {
+    Run run = {.scene = scene, .table = open_memstream(&text, &size)};
+    if (!run.table) {
         fprintf(stderr, "capstan: out of memory\n");
         return EXIT_LIMIT;
     }
-    put_head(table);
-
-    CpsStatus status = cps_evolution_create(scene, &evolution, &err);
-    if (!status) status = cps_results_open(directory, scene, evolution, &results, &err);
-    if (!status) {
-        Progress progress = progress_begin(cps_evolution_step_count(evolution), options->quiet);
-        status = take_steps(scene, evolution, results, &progress, table, &code, &err);
-        progress_end(&progress);
-    }
-    const double wall = cli_now() - begun;
-    if (!status) status = cps_results_finish(results, wall, &err);
-    if (!status && options->json) status = cps_results_write_summary(results, wall, stdout, &err);
-    if (fclose(table) == 0 && !status && !options->json) {
+    put_head(run.table);
+    const CpsStatus status = carry_out(&run, directory, options, &err);
+    if (fclose(run.table) == 0 && !status && !options->json) {
         fwrite(text, 1, size, stdout);
-        say_where(directory, evolution);
+        say_where(directory, run.evolution);
     }
-    if (status)
-        code = cli_report(&err);
-    else if (stop_signal)
-        code = 128 + stop_signal;
+    const int code = status ? cli_report(&err) : stop_signal ? 128 + stop_signal : exit_code(run.worst);
     free(text);
-    cps_results_destroy(results);
-    cps_evolution_destroy(evolution);
+    cps_journal_destroy(run.journal);
+    cps_results_destroy(run.results);
+    cps_evolution_destroy(run.evolution);
     return code;
+}
+
+/* The scene, with what the command line says otherwise. False: a message has been written. */
+static bool adjust(CpsScene *scene, const CliOptions *options) {
+    if (!options->tol) return true;
+    char *end = NULL;
+    errno = 0;
+    scene->solver.path_tolerance = strtod(options->tol, &end);
+    if (end != options->tol && *end == '\0' && errno == 0) return true;
+    fprintf(stderr, "capstan run: --tol '%s': expected a number, 0 or 1e-9 to 1\n", options->tol);
+    return false;
 }
 
 int cmd_run(int argc, char **argv) {
     CliOptions options;
-    if (!cli_parse(argc, argv, FOR_RUN, true, &options)) return EXIT_USAGE;
+    if (!cli_parse(argc, argv, FOR_RUN, "SCENE.yaml", &options)) return EXIT_USAGE;
     catch_signals();
 
     CpsSceneFile *file = NULL;
     CpsError err;
-    if (cps_scene_read(options.scene, NULL, &file, &err) != CPS_OK) return cli_report(&err);
+    if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
 
+    CpsScene scene = *cps_scene_file_scene(file);
+    if (!adjust(&scene, &options)) {
+        cps_scene_file_destroy(file);
+        return EXIT_USAGE;
+    }
     /* the results directory itself is made by the library; its parent only where it is ours */
-    char *directory = options.output ? strdup(options.output) : default_directory(options.scene);
+    char *directory = options.output ? strdup(options.output) : default_directory(options.operand);
     int code = EXIT_LIMIT;
     if (!directory)
         fprintf(stderr, "capstan: out of memory\n");
@@ -205,7 +261,7 @@ int cmd_run(int argc, char **argv) {
         fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n", strerror(errno));
         code = EXIT_IO;
     } else
-        code = run(cps_scene_file_scene(file), directory, &options);
+        code = run(&scene, directory, &options);
     free(directory);
     cps_scene_file_destroy(file);
     return code;

@@ -16,9 +16,13 @@ typedef struct Option {
 } Option;
 
 static const Option OPTIONS[] = {
-    {"output", 'o', "DIR", FOR_RUN, offsetof(CliOptions, output), false,
+    {"output", 'o', "DIR", FOR_RUN | FOR_STUDY, offsetof(CliOptions, output), false,
      "directory of the results (default: results/SCENE)"},
     {"json", 0, NULL, FOR_RUN | FOR_LAW, offsetof(CliOptions, json), false, "print one JSON object on standard output"},
+    {"tol", 't', "TOL", FOR_RUN, offsetof(CliOptions, tol), false,
+     "path tolerance: cut steps until halves agree (0: steps as given)"},
+    {"resume", 'r', NULL, FOR_RUN, offsetof(CliOptions, resume), false,
+     "go on where a run into the same directory was stopped or killed"},
     {"velocity", 'v', "V,..", FOR_LAW, offsetof(CliOptions, velocity), true,
      "forces of the law at this velocity; - reads CSV"},
     {"force", 'f', "F,..", FOR_LAW, offsetof(CliOptions, force), true,
@@ -26,7 +30,10 @@ static const Option OPTIONS[] = {
     {"plot", 'p', "FILE.svg", FOR_LAW, offsetof(CliOptions, plot), false,
      "draw the set of forces, with what was asked"},
     {"axes", 0, "I,J", FOR_LAW, offsetof(CliOptions, axes), false, "components drawn by --plot (default: 1,2)"},
-    {"quiet", 'q', NULL, FOR_RUN, offsetof(CliOptions, quiet), false, "no progress, no table; only errors"},
+    {"history", 0, NULL, FOR_STUDY, offsetof(CliOptions, history), false, "all steps by three methods side by side, instead of one"},
+    {"step", 's', "NAME", FOR_STUDY, offsetof(CliOptions, step), false, "the step to study (default: the first)"},
+    {"line", 'l', "NAME", FOR_STUDY, offsetof(CliOptions, line), false, "the line to study (default: the first)"},
+    {"quiet", 'q', NULL, FOR_RUN | FOR_STUDY, offsetof(CliOptions, quiet), false, "no progress, no table; only errors"},
     {"help", 'h', NULL, FOR_ALL, offsetof(CliOptions, help), false, "show this help"},
     {"version", 'V', NULL, FOR_ALL, offsetof(CliOptions, version), false, "show version, commit and build flags"},
 };
@@ -121,7 +128,7 @@ static bool take_option(int argc, char **argv, int *i, unsigned command, CliOpti
     return true;
 }
 
-bool cli_parse(int argc, char **argv, unsigned command, bool takes_scene, CliOptions *out) {
+bool cli_parse(int argc, char **argv, unsigned command, const char *operand, CliOptions *out) {
     *out = (CliOptions){0};
     bool options_ended = false;
     for (int i = 1; i < argc; i++) {
@@ -130,18 +137,17 @@ bool cli_parse(int argc, char **argv, unsigned command, bool takes_scene, CliOpt
             options_ended = true;
         } else if (!options_ended && word[0] == '-' && word[1]) {
             if (!take_option(argc, argv, &i, command, out)) return false;
-        } else if (takes_scene && !out->scene && *word) {
-            out->scene = word;
+        } else if (operand && !out->operand && *word) {
+            out->operand = word;
         } else {
             begin_message(argv[0]);
             fprintf(stderr, "unexpected '%s'", word);
             return end_message(argv[0]);
         }
     }
-    if (takes_scene && !out->scene && !out->help && !out->version) {
+    if (operand && operand[0] != '[' && !out->operand && !out->help && !out->version) {
         begin_message(argv[0]);
-        const char *what = command == FOR_LAW ? "law" : "scene", *name = command == FOR_LAW ? "LAW" : "SCENE";
-        fprintf(stderr, "no %s given: capstan %s %s.yaml ('-' reads standard input)", what, argv[0], name);
+        fprintf(stderr, "no file given: capstan %s %s ('-' reads standard input)", argv[0], operand);
         return end_message(argv[0]);
     }
     return true;

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 /* Which commands an option belongs to. */
-enum { FOR_RUN = 1, FOR_CHECK = 2, FOR_SCHEMA = 4, FOR_LAW = 8, FOR_ALL = 15 };
+enum { FOR_RUN = 1, FOR_CHECK = 2, FOR_SCHEMA = 4, FOR_LAW = 8, FOR_STUDY = 16, FOR_ALL = 31 };
 
 /* The arguments of an option that may be given more than once. */
 enum { CLI_LIST_MOST = 256 };
@@ -18,22 +18,26 @@ typedef struct CliList {
 
 typedef struct CliOptions {
     bool help, version;
-    bool json, quiet;
-    const char *output; /* NULL: not given */
-    const char *scene;  /* the scene or law file, "-" for standard input; NULL: not given */
-    const char *plot;   /* law: picture, NULL: none */
-    const char *axes;   /* law: components drawn, NULL: the first two */
+    bool json, quiet, resume;
+    const char *output;  /* NULL: not given */
+    const char *tol;     /* run: path tolerance, NULL: the scene's */
+    const char *operand; /* the scene or law file, "-" for standard input; NULL: not given */
+    const char *plot;    /* law: picture, NULL: none */
+    const char *axes;    /* law: components drawn, NULL: the first two */
+    bool history;        /* study: all steps by three methods */
+    const char *step;    /* study: name of a step, NULL: the first */
+    const char *line;    /* study: name of a line, NULL: the first */
     CliList velocity, force;
 } CliOptions;
 
 /* Parse argv[1..argc-1] for one command.
  *
- *   command      a FOR_ bit: options of other commands are refused
- *   takes_scene  exactly one file name must be given
+ *   command  a FOR_ bit: options of other commands are refused
+ *   operand  what must be given besides, "SCENE.yaml"; in brackets what may be, "[scene|law]"; NULL: nothing
  *
  * Returns true; or false after a message on standard error (exit with EXIT_USAGE). With --help or --version
- * given, a missing scene is accepted. */
-bool cli_parse(int argc, char **argv, unsigned command, bool takes_scene, CliOptions *out);
+ * given, a missing operand is accepted. */
+bool cli_parse(int argc, char **argv, unsigned command, const char *operand, CliOptions *out);
 
 /* List the options of `commands` (FOR_ bits), one line each. */
 void cli_print_options(FILE *out, unsigned commands);
