@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a user must know of a step with frozen friction or strict contact (see cautions.h).
+ *
+ * Frozen friction (S90 section 2 d) takes its bound A from the reference. Where the reaction has changed much within
+ * the step, A is not mu R any more (example 11.2); where the line has left the obstacle, friction still acts on it, and
+ * an equilibrium without it may be the true one (example 11.3). Strict contact keeps out only what touched before
+ * (11.1). */
+#include "cautions.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "progress.h"
+
+/* parts of all bounds from which a user is told; a sunk node from a part of the line's length that is no rounding */
+static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6;
+
+static double length3(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+static void note(Cautions *cautions, int kind, double value, double of, const char *step, const char *line) {
+    cautions->kind[kind].steps++;
+    if (!(value > cautions->kind[kind].value)) return;
+    cautions->kind[kind].value = value;
+    cautions->kind[kind].of = of;
+    snprintf(cautions->kind[kind].step, sizeof cautions->kind[kind].step, "%s", step);
+    snprintf(cautions->kind[kind].line, sizeof cautions->kind[kind].line, "%s", line);
+}
+
+/* friction on nodes that have left the obstacle, and all bounds together [N] */
+static double lifted_friction(const CpsLineView *view, double *bounds) {
+    double lifted = 0;
+    const double length = view->arc_length[view->elements];
+    *bounds = 0;
+    for (int j = 0; j <= view->elements; ++j) {
+        const size_t k = 3 * (size_t)j;
+        double distance = view->gap[j];
+        for (size_t x = 0; x < 3; ++x)
+            distance += view->normal[k + x] * (view->position[k + x] - view->reference[k + x]);
+        *bounds += view->friction_bound[j];
+        if (distance > 1e-9 * length) lifted += length3(view->friction + k);
+    }
+    return lifted;
+}
+
+void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution *evolution) {
+    const char *step = cps_evolution_report(evolution).name;
+    for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
+        const CpsLineReport line = cps_evolution_line_report(evolution, i);
+        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        if (line.outcome != CPS_SOLVED) continue;
+        const double residual = line.certificate.friction_residual, length = view.arc_length[view.elements];
+        double bounds;
+        const double lifted = lifted_friction(&view, &bounds);
+        if (scene->friction == CPS_FRICTION_FROZEN && lifted > TOLD_LIFTED * bounds)
+            note(cautions, CAUTION_LIFTED, lifted, bounds, step, view.name);
+        if (scene->friction == CPS_FRICTION_FROZEN && residual > TOLD_BOUND * bounds && bounds > 0)
+            note(cautions, CAUTION_BOUND, residual, bounds, step, view.name);
+        if (line.certificate.penetration > TOLD_SUNK * length)
+            note(cautions, CAUTION_SUNK, line.certificate.penetration, length, step, view.name);
+    }
+}
+
+static void put_figures(int kind, double value, double of) {
+    if (kind == CAUTION_BOUND)
+        fprintf(
+            stderr,
+            "the friction bounds of the reference differ from mu R by %.4g N, of %.4g N in all; 'friction: consistent' "
+            "follows R",
+            value, of);
+    else if (kind == CAUTION_LIFTED)
+        fprintf(stderr,
+                "friction of %.4g N, of bounds of %.4g N in all, acts where the line has left the obstacle, and an "
+                "equilibrium "
+                "without it is no solution of this step; 'friction: consistent' has none there",
+                value, of);
+    else
+        fprintf(stderr,
+                "the line is %.4g m inside the obstacle, of %.4g m of length: 'contact: strict' keeps out only what "
+                "touched "
+                "before; 'contact: gained' keeps all out",
+                value, of);
+}
+
+void cautions_say(const Cautions *cautions) {
+    for (int k = 0; k < CAUTIONS; ++k) {
+        if (cautions->kind[k].steps == 0) continue;
+        fputs("capstan: caution: step ", stderr);
+        cli_put_text(stderr, cautions->kind[k].step, 80, false);
+        fputs(", line ", stderr);
+        cli_put_text(stderr, cautions->kind[k].line, 80, false);
+        fputs(": ", stderr);
+        put_figures(k, cautions->kind[k].value, cautions->kind[k].of);
+        if (cautions->kind[k].steps > 1) fprintf(stderr, " (the worst of %d)", cautions->kind[k].steps);
+        fputc('\n', stderr);
+    }
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a user must know of a step with frozen friction or strict contact, though it is solved and certified: S90
+ * annex 6. */
+#ifndef CAPSTAN_CLI_CAUTIONS_H
+#define CAPSTAN_CLI_CAUTIONS_H
+
+#include "capstan/evolve.h"
+
+enum { CAUTION_BOUND, CAUTION_LIFTED, CAUTION_SUNK, CAUTIONS };
+
+/* The worst case of each kind. */
+typedef struct Cautions {
+    struct {
+        int steps;        /* in how many steps it was met */
+        double value, of; /* the figure, and what it is a part of */
+        char step[96], line[96];
+    } kind[CAUTIONS];
+} Cautions;
+
+/* Look at the step just taken. */
+void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution *evolution);
+
+/* A line on standard error for each kind met, with its figures and what to do. */
+void cautions_say(const Cautions *cautions);
+
+#endif

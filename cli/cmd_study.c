@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan study: solve a scene up to one of its steps, then that step once more by the methods of Souza de Cursi's
+ * paper of 1990: regularised, with h, lambda, n and delta on their way to the limits; and to first order. Tables,
+ * pictures, a verdict.
+ *
+ * The first SIGINT or SIGTERM lets the solve end and keeps what there is; the second ends at once. */
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "capstan/classic_io.h"
+#include "capstan/solutions.h"
+#include "commands.h"
+#include "options.h"
+#include "progress.h"
+#include "study_methods.h"
+
+static volatile sig_atomic_t stop_signal;
+
+static void on_signal(int signal_number) {
+    if (stop_signal) _exit(128 + signal_number);
+    stop_signal = signal_number;
+}
+
+static void catch_signals(void) {
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+/* ---- the step ---- */
+
+/* is `name` the step asked for, or the last one of the stage asked for ("pull 10/10" for "pull")? */
+static bool is_asked(const char *name, const char *asked) {
+    const size_t length = strlen(asked);
+    int k, n;
+    char end;
+    if (strcmp(name, asked) == 0) return true;
+    return strncmp(name, asked, length) == 0 && sscanf(name + length, " %9d/%9d%c", &k, &n, &end) == 2 && k == n;
+}
+
+/* Solve up to the step asked for, the first one that is not laid when `asked` is NULL. The exit code, EXIT_OK when
+ * there. */
+static int reach_step(CpsEvolution *evolution, const char *asked) {
+    CpsError err;
+    while (cps_evolution_remaining(evolution) > 0 && !stop_signal) {
+        if (cps_evolution_step(evolution, &err) != CPS_OK) return cli_report(&err);
+        const CpsStepReport step = cps_evolution_report(evolution);
+        if (step.outcome != CPS_SOLVED) {
+            fputs("capstan study: step ", stderr);
+            cli_put_text(stderr, step.name, 80, false);
+            fprintf(stderr, ": %s; there is nothing to compare with\n", cps_outcome_sentence(step.outcome));
+            return step.outcome >= CPS_UNBOUNDED ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
+        }
+        if (asked ? is_asked(step.name, asked) : strcmp(step.name, "laid") != 0) return EXIT_OK;
+    }
+    if (stop_signal) return 128 + stop_signal;
+    if (asked)
+        fprintf(stderr, "capstan study: --step: found '%.80s', expected the name of a step: 'capstan run' lists them\n",
+                asked);
+    else
+        fprintf(stderr, "capstan study: the scene has no step but a laid one: give it a history\n");
+    return EXIT_USAGE;
+}
+
+/* the line asked for, the first one when `asked` is NULL; -1 after a message */
+static int find_line(const CpsEvolution *evolution, const char *asked) {
+    if (!asked) return 0;
+    for (int i = 0; i < cps_evolution_line_count(evolution); ++i)
+        if (strcmp(cps_evolution_line_view(evolution, i).name, asked) == 0) return i;
+    fprintf(stderr, "capstan study: --line: found '%.80s', expected the name of a line of the scene\n", asked);
+    return -1;
+}
+
+/* ---- what is said ---- */
+
+typedef struct Teller {
+    Progress progress;
+    CpsClassicStep step;
+    bool converged; /* every solve so far */
+} Teller;
+
+static void put_rate(double rate) {
+    if (isfinite(rate))
+        printf(" %5.2f", rate);
+    else
+        printf(" %5s", "-");
+}
+
+static void put_row(const CpsStudyRow *row, const CpsClassicStep *step) {
+    const CpsClassicReport *r = &row->report;
+    const CpsClassicParameters *p = &row->parameters;
+    const int cells = p->cells > 0 ? p->cells : step->elements;
+    printf("%-6s %9.3g %9.2g %9.2g %9.2g %5d %11.3e", cps_study_stage_key(row->stage), step->length / cells, p->penalty,
+           p->stiffness, p->delta, r->iterations, r->energy_error);
+    put_rate(row->rate_energy);
+    printf(" %10.2e", r->tension_rms);
+    put_rate(row->rate_tension);
+    printf(" %9.1e %9.1e %9.1e %9.1e%s\n", r->compression, r->penetration, r->creep, r->friction_excess,
+           r->converged ? "" : "  not converged");
+}
+
+static void put_head(void) {
+    printf("%-6s %9s %9s %9s %9s %5s %11s %5s %10s %5s %9s %9s %9s %9s\n", "stage", "h", "lambda", "1/n", "delta",
+           "iter", "energy", "rate", "tension", "rate", "push", "sunk", "creep", "uncarried");
+    printf("%-6s %9s %9s %9s %9s %5s %11s %5s %10s %5s %9s %9s %9s %9s\n", "", "m", "N/m2", "N m2", "m", "", "J", "",
+           "N rms", "", "N", "m", "m", "N");
+}
+
+static bool on_row(void *user, const CpsStudyRow *row, int done, int of) {
+    Teller *teller = user;
+    teller->progress.steps = of;
+    progress_step(&teller->progress, done, cps_study_stage_key(row->stage));
+    teller->converged = teller->converged && row->report.converged;
+    return !stop_signal;
+}
+
+static void tell_first_order(const CpsFirstOrderReport *r) {
+    printf("\nconsistent first-order problem P10.1: %s\n", cps_first_order_sentence(r->verdict));
+    switch (r->verdict) {
+    case CPS_FIRST_ORDER_SHORTENS:
+        printf("  t_R.u' = %.6g at a = %.6g m; (86) fails on %.6g m of %.6g m without tension in the reference\n",
+               r->least_strain, r->least_strain_arc, r->shortened, r->slack);
+        break;
+    case CPS_FIRST_ORDER_UNBALANCED: {
+        const double *f = r->unbalanced;
+        printf("  (%.6g, %.6g, %.6g) N at a = %.6g m is carried by nothing, (89)\n", f[0], f[1], f[2],
+               r->unbalanced_arc);
+        break;
+    }
+    case CPS_FIRST_ORDER_SOLVED:
+        printf("  x_R + u is at most %.4g m from the solution of P2.1; forces fail by at most %.2g N\n",
+               r->against_step, r->residual);
+        break;
+    case CPS_FIRST_ORDER_UNDECIDED:
+        printf("  forces still fail by %.4g N after %d rounds\n", r->residual, r->rounds);
+        break;
+    }
+    if (r->outside > 0)
+        printf("  (on %.6g m the reference has |x_R'| < 1, outside Kin: taken as slack and just straight)\n",
+               r->outside);
+}
+
+enum { SHOWN_PARTS = 8 };
+
+/* gaps up to this part of the scale are none; the study's step is certified to it */
+static const double JUDGED = 1e-8;
+
+/* results 4.3 and 4.4: which slack is free, and a solution in Kin */
+static void tell_slack(const CpsLineView *view) {
+    CpsSlackPart part[SHOWN_PARTS];
+    CpsError err;
+    const int parts = cps_solution_slack(view, SHOWN_PARTS, part);
+    printf("\nslack: %s\n", parts == 0 ? "none, the configuration is unique (result 4.4)" : "");
+    for (int i = 0; i < parts && i < SHOWN_PARTS; ++i)
+        printf("  %10.6g to %10.6g m  %s%s\n", part[i].from, part[i].to,
+               part[i].loose ? "loose" : "held by friction or an end", part[i].grounded ? ", on the obstacle" : "");
+    if (parts > SHOWN_PARTS) printf("  and %d more\n", parts - SHOWN_PARTS);
+    double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
+    if (!position) return;
+    CpsSlackReport slack;
+    CpsJudgementReport found, laid;
+    if (cps_solution_judge(view, view->position, JUDGED, &found, &err) == CPS_OK)
+        printf("  as found: %s\n", cps_judgement_sentence(found.judgement));
+    if (parts > 0 && cps_solution_complete(view, CPS_COMPLETION_MEANDER, position, &slack, &err) == CPS_OK &&
+        slack.parts > 0 && cps_solution_judge(view, position, JUDGED, &laid, &err) == CPS_OK)
+        printf("  laid out in a meander, %.6g m of it: %s\n", slack.loose, cps_judgement_sentence(laid.judgement));
+    free(position);
+}
+
+static void tell(const CpsStudy *study, const CpsFirstOrder *first_order, const CpsLineView *view, const Teller *teller,
+                 const char *directory) {
+    printf("exact: J** + j = %.10g J on %d elements; everything below is against it\n\n", teller->step.energy,
+           teller->step.elements);
+    put_head();
+    for (int i = 0; i < cps_study_row_count(study); ++i) put_row(cps_study_row(study, i), &teller->step);
+    const CpsFirstOrderReport report = cps_first_order_report(first_order);
+    tell_first_order(&report);
+    tell_slack(view);
+    printf("\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, relaxed.svg\n",
+           directory, directory);
+}
+
+/* ---- all together ---- */
+
+static int study_step(const CpsLineView *view, const char *title, const char *directory, const CliOptions *options) {
+    CpsError err;
+    CpsClassic *classic = NULL;
+    CpsStudy *study = NULL;
+    CpsFirstOrder *first_order = NULL;
+    Teller teller = {.converged = true};
+    CpsStatus status = cps_classic_create(view, &classic, &err);
+    if (status == CPS_OK) {
+        const CpsStudyOptions how = cps_study_options(classic);
+        teller.step = cps_classic_step(classic);
+        teller.progress = progress_begin(1, options->quiet);
+        status = cps_study_run(classic, &how, on_row, &teller, &study, &err);
+        progress_end(&teller.progress);
+    }
+    if (status == CPS_OK) status = cps_first_order_solve(classic, &first_order, &err);
+    if (status == CPS_OK) {
+        const CpsStudyFiles files = {title, classic, study, first_order};
+        status = cps_study_write(directory, &files, &err);
+    }
+    if (status == CPS_OK && !options->quiet) tell(study, first_order, view, &teller, directory);
+    const int code = status != CPS_OK   ? cli_report(&err)
+                     : stop_signal      ? 128 + stop_signal
+                     : teller.converged ? EXIT_OK
+                                        : EXIT_NOT_CERTIFIED;
+    cps_first_order_destroy(first_order);
+    cps_study_destroy(study);
+    cps_classic_destroy(classic);
+    return code;
+}
+
+static int study(const CpsScene *scene, const char *directory, const CliOptions *options) {
+    CpsError err;
+    CpsEvolution *evolution = NULL;
+    if (cps_evolution_create(scene, &evolution, &err) != CPS_OK) return cli_report(&err);
+    const int line = find_line(evolution, options->line);
+    int code = line < 0 ? EXIT_USAGE : reach_step(evolution, options->step);
+    if (code == EXIT_OK) {
+        char title[256];
+        const CpsStepReport step = cps_evolution_report(evolution);
+        const CpsLineView view = cps_evolution_line_view(evolution, line);
+        const int parts = cps_evolution_line_report(evolution, line).parts;
+        if (parts > 1)
+            fprintf(stderr, "capstan study: the step was taken in %d parts: this is about the last one\n", parts);
+        snprintf(title, sizeof title, "%.120s: %.60s, %.60s", scene->title ? scene->title : "capstan", step.name,
+                 view.name);
+        if (!options->quiet) {
+            cli_put_text(stdout, title, 240, false);
+            putchar('\n');
+        }
+        code = study_step(&view, title, directory, options);
+    }
+    cps_evolution_destroy(evolution);
+    return code;
+}
+
+/* results/NAME-study for a scene .../NAME.yaml; the caller frees it */
+static char *default_directory(const char *scene) {
+    const char *slash = strrchr(scene, '/');
+    const char *stem = strcmp(scene, "-") == 0 ? "scene" : slash ? slash + 1 : scene;
+    const char *dot = strrchr(stem, '.');
+    const int length = dot && dot != stem ? (int)(dot - stem) : (int)strlen(stem);
+    const size_t size = sizeof "results/-study" + (size_t)length;
+    char *path = malloc(size);
+    if (path) snprintf(path, size, "results/%.*s-study", length, stem);
+    return path;
+}
+
+int cmd_study(int argc, char **argv) {
+    CliOptions options;
+    if (!cli_parse(argc, argv, FOR_STUDY, "SCENE.yaml", &options)) return EXIT_USAGE;
+    catch_signals();
+
+    CpsSceneFile *file = NULL;
+    CpsError err;
+    if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
+    char *directory = options.output ? strdup(options.output) : default_directory(options.operand);
+    int code = EXIT_LIMIT;
+    if (!directory)
+        fprintf(stderr, "capstan: out of memory\n");
+    else if (!options.output && mkdir("results", 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n", strerror(errno));
+        code = EXIT_IO;
+    } else if (options.history)
+        code = study_methods(cps_scene_file_scene(file), options.line, directory, options.quiet);
+    else
+        code = study(cps_scene_file_scene(file), directory, &options);
+    free(directory);
+    cps_scene_file_destroy(file);
+    return code;
+}

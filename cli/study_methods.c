@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A whole history by three methods (see study_methods.h). The regularised one goes on from its own configurations and
+ * reactions; loads and ends are those of the frozen history. */
+#include "study_methods.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "capstan/classic_io.h"
+#include "commands.h"
+#include "progress.h"
+
+enum { REGULARISED, FROZEN, CONSISTENT, METHODS, NEWTON_LIMIT = 5000, NAME_SIZE = 96 };
+
+static const char *const METHOD[METHODS] = {"regularised, 1990", "frozen friction", "consistent friction"};
+
+typedef struct Histories {
+    const CpsScene *scene;
+    const char *line;  /* as asked for */
+    int steps, points; /* the start is step 0 */
+    double *position[METHODS];
+    char (*name)[NAME_SIZE]; /* (steps) */
+    bool converged;
+} Histories;
+
+static int out_of_memory(void) {
+    fprintf(stderr, "capstan: out of memory\n");
+    return EXIT_LIMIT;
+}
+
+/* index of the line, -1 after a message */
+static int find_line(const Histories *h) {
+    for (int i = 0; i < h->scene->line_count; ++i)
+        if (!h->line || strcmp(h->scene->line[i].name, h->line) == 0) return i;
+    fprintf(stderr, "capstan study: --line: found '%.80s', expected the name of a line of the scene\n", h->line);
+    return -1;
+}
+
+static void store(Histories *h, int method, int step, const double *position) {
+    const size_t size = 3 * (size_t)h->points;
+    memcpy(h->position[method] + (size_t)step * size, position, size * sizeof(double));
+}
+
+/* the step once more by the regularised method, going on from *last */
+static int regularise(Histories *h, const CpsLineView *view, int step, CpsClassic **last) {
+    CpsError err;
+    CpsClassic *next = NULL;
+    CpsClassicReport report;
+    const double mu = h->scene->obstacle_count > 0 ? h->scene->obstacle[0].friction : 0;
+    CpsStatus status = *last ? cps_classic_next(view, mu, *last, &next, &err) : cps_classic_create(view, &next, &err);
+    cps_classic_destroy(*last);
+    *last = next;
+    if (status != CPS_OK) return cli_report(&err);
+    const CpsClassicParameters fine = cps_classic_fine(next);
+    status = cps_classic_solve(next, &fine, NEWTON_LIMIT, &report, &err);
+    if (status != CPS_OK) return cli_report(&err);
+    h->converged = h->converged && report.converged;
+    store(h, REGULARISED, step, cps_classic_view(next).position);
+    return EXIT_OK;
+}
+
+/* all steps of one evolution; the frozen one takes the regularised method along */
+static int run_evolution(Histories *h, int method, int line) {
+    CpsScene scene = *h->scene;
+    scene.friction = method == FROZEN ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+    CpsError err;
+    CpsEvolution *evolution = NULL;
+    CpsClassic *last = NULL;
+    if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
+    int code = EXIT_OK;
+    store(h, method, 0, cps_evolution_line_view(evolution, line).position);
+    if (method == FROZEN) store(h, REGULARISED, 0, cps_evolution_line_view(evolution, line).position);
+    for (int step = 1; step < h->steps && code == EXIT_OK; ++step) {
+        if (cps_evolution_step(evolution, &err) != CPS_OK) {
+            code = cli_report(&err);
+            break;
+        }
+        const CpsStepReport report = cps_evolution_report(evolution);
+        snprintf(h->name[step], NAME_SIZE, "%s", report.name);
+        if (report.outcome != CPS_SOLVED) {
+            fprintf(stderr, "capstan study: step %d, %s: %s\n", report.index, METHOD[method],
+                    cps_outcome_sentence(report.outcome));
+            code = report.outcome >= CPS_UNBOUNDED ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
+            break;
+        }
+        const CpsLineView view = cps_evolution_line_view(evolution, line);
+        store(h, method, step, view.position);
+        if (method == FROZEN) code = regularise(h, &view, step, &last);
+    }
+    cps_classic_destroy(last);
+    cps_evolution_destroy(evolution);
+    return code;
+}
+
+static void tell(const Histories *h) {
+    printf("%-20s %-20s %12s %12s %12s %12s\n%-20s %-20s %12s %12s %12s %12s\n", "step", "method", "B.x", "B.y", "B.z",
+           "from frozen", "", "", "m", "m", "m", "m");
+    for (int s = 0; s < h->steps; ++s)
+        for (int m = 0; m < METHODS; ++m) {
+            const size_t size = 3 * (size_t)h->points, from = (size_t)s * size;
+            double most = 0;
+            for (size_t p = from; p < from + size; p += 3) {
+                const double *a = h->position[m] + p, *b = h->position[FROZEN] + p;
+                most = fmax(most, sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                                       (a[2] - b[2]) * (a[2] - b[2])));
+            }
+            const double *tip = h->position[m] + from + size - 3;
+            cli_put_text(stdout, m == 0 ? h->name[s] : "", 20, true);
+            printf(" %-20s %12.6f %12.6f %12.6f %12.3e\n", METHOD[m], tip[0], tip[1], tip[2], most);
+        }
+}
+
+static int run_all(Histories *h, const char *directory, bool quiet) {
+    const int line = find_line(h);
+    if (line < 0) return EXIT_USAGE;
+    int code = run_evolution(h, FROZEN, line);
+    if (code == EXIT_OK) code = run_evolution(h, CONSISTENT, line);
+    if (code != EXIT_OK) return code;
+    const char **name = malloc((size_t)h->steps * sizeof *name);
+    if (!name) return out_of_memory();
+    for (int s = 0; s < h->steps; ++s) name[s] = h->name[s];
+    CpsMethodHistory method[METHODS];
+    for (int m = 0; m < METHODS; ++m) method[m] = (CpsMethodHistory){METHOD[m], h->position[m]};
+    CpsError err;
+    const char *title = h->scene->title ? h->scene->title : "capstan";
+    const CpsStatus status = cps_methods_write(directory, title, METHODS, method, h->steps, h->points, name, &err);
+    free(name);
+    if (status != CPS_OK) return cli_report(&err);
+    if (!quiet) tell(h);
+    if (!quiet) printf("\nresults   %s: methods.csv, methods.svg\n", directory);
+    if (!h->converged) fprintf(stderr, "capstan study: a regularised solve did not converge\n");
+    return h->converged ? EXIT_OK : EXIT_NOT_CERTIFIED;
+}
+
+int study_methods(const CpsScene *scene, const char *line, const char *directory, bool quiet) {
+    CpsEvolution *evolution = NULL;
+    CpsError err;
+    if (scene->obstacle_count > 1) {
+        fprintf(stderr, "capstan study: --history: found %d obstacles, expected one plane or none\n",
+                scene->obstacle_count);
+        return EXIT_INPUT;
+    }
+    if (cps_evolution_create(scene, &evolution, &err) != CPS_OK) return cli_report(&err);
+    Histories h = {.scene = scene, .line = line, .steps = 1 + cps_evolution_step_count(evolution), .converged = true};
+    cps_evolution_destroy(evolution);
+    const int index = find_line(&h);
+    if (index < 0) return EXIT_USAGE;
+    h.points = scene->line[index].elements + 1;
+    bool whole = true;
+    for (int m = 0; m < METHODS; ++m) {
+        h.position[m] = calloc((size_t)h.steps * 3 * (size_t)h.points, sizeof(double));
+        whole = whole && h.position[m];
+    }
+    h.name = calloc((size_t)h.steps, sizeof *h.name);
+    whole = whole && h.name;
+    if (whole) snprintf(h.name[0], NAME_SIZE, "start");
+    const int code = whole ? run_all(&h, directory, quiet) : out_of_memory();
+    for (int m = 0; m < METHODS; ++m) free(h.position[m]);
+    free(h.name);
+    return code;
+}

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A whole history by three methods: regularised, frozen, consistent. */
+#ifndef CAPSTAN_CLI_STUDY_METHODS_H
+#define CAPSTAN_CLI_STUDY_METHODS_H
+
+#include "capstan/io.h"
+
+/* Run the scene three times, print where end B of the line goes, write methods.csv and methods.svg; returns the exit
+ * code. line  name of the line, NULL: the first */
+int study_methods(const CpsScene *scene, const char *line, const char *directory, bool quiet);
+
+#endif

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/solutions.h: all solutions of a step (S90 results 4.3, 4.4, theorem 6.3, formula (55)).
+ *
+ * A step's tensions are unique, its configuration only where nothing is slack. From one solution and its forces:
+ *   - is a given configuration another solution, and if not, why;
+ *   - which slack parts are held in place by friction or contact, and which are free;
+ *   - a solution in Kin, with |x'| >= 1 everywhere, by laying the free slack out at its full length.
+ *
+ * The step is a view of one line after cps_evolution_step, on plane obstacles with isotropic friction. */
+#ifndef CAPSTAN_SOLUTIONS_H
+#define CAPSTAN_SOLUTIONS_H
+
+#include "capstan/evolve.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- is it a solution? ---- */
+
+/* The energy of a configuration above the minimum is the sum of three gaps against the step's own forces, none
+ * negative: a configuration in C is a solution of P4.2 exactly where all three vanish, and of P3.1 if it also shortens
+ * nothing (result 4.3). What fails first, in this order, is the verdict. */
+#define CPS_JUDGEMENT_LIST(X)                                                                                          \
+    X(CPS_JUDGED_SOLUTION, 0, "solution", "a solution of P3.1: same tensions, contact and friction, |x'| >= 1")        \
+    X(CPS_JUDGED_RELAXED, 1, "relaxed", "a solution of P4.2 but not of P3.1: somewhere |x'| < 1, outside Kin")         \
+    X(CPS_JUDGED_ENDS, 2, "ends", "no solution: a held end is elsewhere")                                              \
+    X(CPS_JUDGED_PENETRATES, 3, "penetrates", "no solution: a node is inside the obstacle, outside C")                 \
+    X(CPS_JUDGED_TENSION, 4, "tension", "no solution: other tensions, or tensions in another direction")               \
+    X(CPS_JUDGED_CONTACT, 5, "contact", "no solution: contact is lost where the obstacle pushes, R > 0")               \
+    X(CPS_JUDGED_SLIDING, 6, "sliding", "no solution: sliding outside the normal cone of the friction force")
+
+typedef enum CpsJudgement {
+#define CPS_JUDGEMENT_ENUM(name, number, key, sentence) name = number,
+    CPS_JUDGEMENT_LIST(CPS_JUDGEMENT_ENUM)
+#undef CPS_JUDGEMENT_ENUM
+} CpsJudgement;
+
+CPS_API const char *cps_judgement_key(CpsJudgement judgement);
+CPS_API const char *cps_judgement_sentence(CpsJudgement judgement);
+
+typedef struct CpsJudgementReport {
+    CpsJudgement judgement;
+    double energy;  /* [J] above the step's minimum: the sum of the next three, and exact up to the step's own gap */
+    double tension; /* [J] sum of l (W(x') + W*(p) - p.x') */
+    double contact; /* [J] sum of R (n.u + gap) */
+    double sliding; /* [J] sum of A |u_T| + F.u_T */
+    double penetration; /* [m] deepest node inside what contact allows */
+    double end_error;   /* [m] largest distance of a held end from its place */
+    double shortening;  /* [-] largest 1 - |x'| */
+    double arc_length;  /* [m] where what fails is largest; of a solution 0 */
+} CpsJudgementReport;
+
+/* Judge a configuration.
+ *
+ *   step       a solved step; elastic or inextensible
+ *   position   (elements + 1, 3) [m], finite
+ *   tolerance  [-] 0 < tolerance < 1: gaps up to tolerance times the scale S of docs/theory.md, lengths up to
+ *              sqrt(tolerance) times the line's length, and strains up to sqrt(tolerance), are none
+ *
+ * Returns CPS_OK or CPS_ERR_ARGUMENT. */
+CPS_API CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, double tolerance,
+                                     CpsJudgementReport *report, CpsError *err);
+
+/* ---- slack ---- */
+
+/* A stretch of line without tension, all of it loose or all of it not. */
+typedef struct CpsSlackPart {
+    double from, to; /* [m] natural abscissas */
+    bool loose;      /* its nodes may move and stay a solution; else friction below its bound or an end holds each */
+    bool grounded;   /* the obstacle pushes on one of its nodes at least */
+} CpsSlackPart;
+
+/* List the slack of a step from end A to end B; returns how many parts there are, of which the first `room` are filled.
+ * 0: the configuration is unique (result 4.4 (ii)); with held parts only it still is. */
+CPS_API int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part);
+
+typedef enum CpsCompletion {
+    CPS_COMPLETION_TENT,   /* out and back in two straight pieces, the first one longer */
+    CPS_COMPLETION_MEANDER /* element by element to one side and the other, close to the chord */
+} CpsCompletion;
+
+/* The slack of a step. Lengths are natural lengths of elements without tension. */
+typedef struct CpsSlackReport {
+    double slack;    /* [m] in all; 0: the configuration is unique (result 4.4 (ii)) */
+    double held;     /* [m] of it between nodes both held in place: by friction below its bound, or ends */
+    double loose;    /* [m] of it with a node that may move and stay a solution */
+    double straight; /* [m] of the slack with |x'| >= 1 already, as found */
+    double left;     /* [m] with |x'| < 1 also after completion: between two nodes held closer than their length */
+    int parts;       /* pieces of line completed */
+} CpsSlackReport;
+
+/* Complete the slack so that |x'| = 1 there: nodes without friction between two that stay are laid out, within the
+ * plane they rest on, at the full length of their elements. (55) with a tangent of one's own choice.
+ *
+ *   step       a solved step
+ *   position   (elements + 1, 3) [m] out: the step's configuration with the slack laid out
+ *   report     may be NULL
+ *
+ * Returns CPS_OK or CPS_ERR_ARGUMENT. */
+CPS_API CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, double *position,
+                                        CpsSlackReport *report, CpsError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""capstan study: its files, its words and its exit codes.                     usage: study.py CAPSTAN EXAMPLES"""
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+
+CAPSTAN, EXAMPLES = sys.argv[1:]
+EXAMPLE = os.path.join(EXAMPLES, "souza-de-cursi-1990.yaml")
+ANNEX_5 = os.path.join(EXAMPLES, "souza-de-cursi-1990-annex-5.yaml")
+
+faults = []
+
+
+def check(condition, text):
+    if not condition:
+        faults.append(text)
+
+
+def study(folder, *arguments):
+    return subprocess.run([CAPSTAN, "study", *arguments], cwd=folder, capture_output=True, text=True, timeout=120)
+
+
+def table(path):
+    """Rows as dictionaries, without the row of units."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))[1:]
+
+
+with tempfile.TemporaryDirectory() as folder:
+    # the default directory; every file whole; numbers that mean something
+    done = study(folder, EXAMPLE, "--step", "Y3")
+    check(done.returncode == 0, f"Y3: exit code {done.returncode}\n{done.stderr}")
+    place = os.path.join(folder, "results", "souza-de-cursi-1990-study")
+    names = sorted(os.listdir(place))
+    check(names == ["first-order.csv", "first-order.svg", "relaxed.svg", "study.csv", "study.svg"], f"files: {names}")
+    for name in names:
+        if name.endswith(".svg"):
+            root = xml.parse(os.path.join(place, name)).getroot()
+            check(root.tag.endswith("svg"), f"{name}: no SVG")
+            check("nan" not in xml.tostring(root, encoding="unicode"), f"{name}: draws NaN")
+    rows = table(os.path.join(place, "study.csv"))
+    check([row["stage"] for row in rows] == sorted((row["stage"] for row in rows), key="h lambda n delta".split().index),
+          "study.csv: stages out of order")
+    check(all(row["converged"] == "1" for row in rows), "study.csv: a solve did not converge")
+    first, last = rows[0], rows[-1]
+    check(float(last["tension_rms_error"]) < 1e-4 * float(first["tension_rms_error"]), "study.csv: tensions do not converge")
+    check(abs(float(last["total"]) - sum(float(last[part]) for part in
+                                         ("elastic", "potential", "friction", "bending", "contact"))) < 1e-9,
+          "study.csv: the total is not the sum of its parts")
+    check(len(table(os.path.join(place, "first-order.csv"))) == 801, "first-order.csv: not one row per node")
+
+    # the counter-example: no solution is an answer, with its condition
+    done = study(folder, ANNEX_5, "-o", "annex")
+    check(done.returncode == 0, f"annex 5: exit code {done.returncode}\n{done.stderr}")
+    check("no solution" in done.stdout and "(86)" in done.stdout, f"annex 5: said\n{done.stdout}")
+    strain = [float(row["strain"]) for row in table(os.path.join(folder, "annex", "first-order.csv"))[1:]]
+    check(abs(min(strain) + 0.3975) < 1e-6, f"annex 5: least strain {min(strain)}")
+
+    # three methods side by side: the regularised and the frozen one agree to their parameters where nothing is loose
+    done = study(folder, EXAMPLE, "--history", "-o", "methods")
+    check(done.returncode == 0, f"history: exit code {done.returncode}\n{done.stderr}")
+    rows = table(os.path.join(folder, "methods", "methods.csv"))
+    check(len(rows) == 15, f"methods.csv: {len(rows)} rows, expected 3 methods at the start and in 4 steps")
+    apart = {(row["step"], row["method"]): float(row["farthest_from_first"]) for row in rows}
+    check(apart["Y3", "frozen friction"] < 2e-5, f"methods.csv: regularised and frozen Y3 are {apart['Y3', 'frozen friction']} m apart")
+    check(0.01 < apart["Y3", "consistent friction"] < 0.1, "methods.csv: consistent friction is the frozen one")
+    xml.parse(os.path.join(folder, "methods", "methods.svg"))
+
+    # quiet says nothing
+    done = study(folder, ANNEX_5, "-q", "-o", "annex")
+    check(done.returncode == 0 and not done.stdout and not done.stderr, "quiet: is not")
+
+    # what is wrong, and what to do
+    for arguments, code, words in (
+            ([EXAMPLE, "--step", "Y9"], 2, ["--step", "Y9", "capstan run"]),
+            ([EXAMPLE, "--line", "rope"], 2, ["--line", "rope"]),
+            ([EXAMPLE, "--step"], 2, ["needs an argument"]),
+            (["missing.yaml"], 4, ["missing.yaml"]),
+            ([ANNEX_5, "-o", os.path.join("no", "such", "place")], 4, ["no"]),
+            ([], 2, ["SCENE.yaml"])):
+        done = study(folder, *arguments)
+        check(done.returncode == code, f"{arguments}: exit code {done.returncode}, expected {code}")
+        for word in words:
+            check(word in done.stderr, f"{arguments}: '{word}' not in: {done.stderr}")
+
+    # an inextensible line is refused with the reason
+    scene = open(ANNEX_5, encoding="utf-8").read().replace("stiffness: 1 ", "stiffness: .inf ")
+    with open(os.path.join(folder, "stiff.yaml"), "w", encoding="utf-8") as file:
+        file.write(scene)
+    done = study(folder, "stiff.yaml", "-o", "stiff")
+    check(done.returncode == 3 and "inextensible" in done.stderr, f"inextensible: {done.returncode} {done.stderr}")
+    check(not os.path.exists(os.path.join(folder, "stiff")), "inextensible: a directory was left behind")
+
+print("\n".join(faults) or "study: files, words and exit codes as documented")
+sys.exit(1 if faults else 0)
