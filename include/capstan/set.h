@@ -3,8 +3,7 @@
  *
  * A set is an immutable expression: primitives (ball, box, strip, ...) joined by operations (product, intersection,
  * preimage, ...). Constructors copy their arrays and keep their own hold on the sets they are given, so the caller
- * releases
- * each set that it made, in any order. Holds are counted atomically: a set may be shared between threads.
+ * releases each set that it made, in any order. Holds are counted atomically: a set may be shared between threads.
  *
  * Matrices are row-major. Directions and points have the set's n components. <w, x> is the dual pairing.
  *
@@ -31,7 +30,7 @@ typedef struct CpsSet CpsSet;
     X(CPS_SET_ANSWERED, 0, "answered")                                                           \
     X(CPS_SET_EMPTY, 1, "the set is empty")                                                      \
     X(CPS_SET_UNBOUNDED, 2, "the set is unbounded where the question needs a bound")             \
-    X(CPS_SET_NOT_ATTAINED, 3, "the least upper bound is reached by no point of the set")        \
+    X(CPS_SET_NOT_ATTAINED, 3, "the least upper bound is reached by no point that is near enough") \
     X(CPS_SET_OUTSIDE, 4, "the point lies outside the set by more than the tolerance")           \
     X(CPS_SET_NO_ZERO, 5, "the set does not contain 0")                                          \
     X(CPS_SET_NOT_PLANAR, 6, "the set has a dimension other than the question is for")           \
@@ -57,8 +56,7 @@ CPS_API void cps_set_release(CpsSet *set);
 /* n of R^n. */
 CPS_API int cps_set_space(const CpsSet *set);
 /* The expression as text, "intersection(ball(2; 0 0; r 500), strip(0 1; -200 .. 200))", cut to `size` with a final
- * zero;
- * returns the length that the whole text has, as snprintf does. */
+ * zero; returns the length that the whole text has, as snprintf does. */
 CPS_API size_t cps_set_text(const CpsSet *set, char *text, size_t size);
 
 /* ---- primitives: *out is a new set, or untouched on failure ---- */
@@ -92,10 +90,11 @@ CPS_API CpsStatus cps_set_subspace(int n, int count, const double *spanning, Cps
 CPS_API CpsStatus cps_set_cone_of_rays(int n, int count, const double *rays, CpsSet **out, CpsError *err);
 CPS_API CpsStatus cps_set_segment(int n, const double *from, const double *to, CpsSet **out, CpsError *err);
 
-/* A set known by its support function: write max over x of <direction, x> to *value and a point that attains it to `point`;
- * return false when there is none. The set must be closed, convex, bounded and not empty, and the function fit for every
- * thread that asks. It answers support and extent, also inside sums, images, products, translates, scales and hulls, and
- * what only needs these (dimension, vertices, area of the plane); everything else is CPS_SET_NOT_AVAILABLE. */
+/* A set known by its support function: write max over x of <direction, x> to *value and a point that attains it to
+ * `point`; return false when there is none. The set must be closed, convex, bounded and not empty, and the function
+ * fit for every thread that asks. It answers support and extent, also inside sums, images, products, translates,
+ * scales and hulls, and what only needs these (dimension, vertices, area of the plane); everything else is
+ * CPS_SET_NOT_AVAILABLE. */
 typedef bool CpsSetSupport(void *user, int n, const double *direction, double *value, double *point);
 CPS_API CpsStatus cps_set_user(int n, CpsSetSupport *support, void *user, CpsSet **out, CpsError *err);
 
@@ -125,34 +124,35 @@ CPS_API CpsStatus cps_set_polar(const CpsSet *set, CpsSet **out, CpsError *err);
 typedef struct CpsSetAnswer {
     CpsSetOutcome outcome;
     bool exact;       /* by a closed form: wrong by rounding only */
+    bool closure;     /* a sum, image or hull of unbounded sets need not be closed: that of its closure */
     double value;
     double gap;       /* |value - true value| <= gap, in the units of value; 0 where exact */
     double tolerance; /* the angle or length that decided between dimensions, 0 where none did */
 } CpsSetAnswer;
 
 /* h(w) = sup over the set of <w, x>, and a point that attains it (n, or NULL). Empty: value -INFINITY. Unbounded: value
- * INFINITY and the point is a ray of the set with <w, ray> > 0. Not attained: the value holds, the point is near it. */
+ * INFINITY and the point is a ray of the set with <w, ray> > 0. Not attained: the value holds to its gap, and no point
+ * within a million times the size of the data reaches it (w along the normal of an asymptote); the point is one that
+ * comes near. */
 CPS_API CpsStatus cps_set_support(const CpsSet *set, const double *direction, double *point, CpsSetAnswer *answer,
                                   CpsError *err);
 
 /* Least and largest <w, x> over the set; an end that is not there is infinite and its `..._attained` false. */
 typedef struct CpsSetExtent {
     CpsSetOutcome outcome;
-    bool exact, low_attained, high_attained;
+    bool exact, closure, low_attained, high_attained;
     double low, high, gap;
 } CpsSetExtent;
 CPS_API CpsStatus cps_set_extent(const CpsSet *set, const double *direction, CpsSetExtent *extent, CpsError *err);
 
-/* Margin of a point: minus its distance from the set where it lies outside, with the unit `separating` direction
- * (n, or NULL): <separating, x> <= <separating, point> - distance for every x of the set. Inside: the radius of a
- * ball round the
- * point that fits in the set: the largest where `exact`, else one that is certain to fit (gap: INFINITY). */
+/* Margin of a point: minus its distance from the set where it lies outside, with the unit `separating` direction (n,
+ * or NULL): <separating, x> <= <separating, point> - distance for every x of the set. Inside: the radius of a ball
+ * round the point that fits in the set: the largest where `exact`, else one that is certain to fit (gap: INFINITY). */
 CPS_API CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separating, CpsSetAnswer *answer,
                                    CpsError *err);
 
 /* The nearest point of the set in the norm sqrt(d'Md), M symmetric positive definite (n x n; NULL: the identity);
- * value: the
- * distance in that norm. */
+ * value: the distance in that norm. */
 CPS_API CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *metric, double *nearest,
                                   CpsSetAnswer *answer, CpsError *err);
 
@@ -165,10 +165,9 @@ CPS_API CpsStatus cps_set_gauge(const CpsSet *set, const double *point, CpsSetAn
 CPS_API CpsStatus cps_set_face(const CpsSet *set, const double *direction, double tolerance, CpsSet **face,
                                CpsSetAnswer *answer, CpsError *err);
 
-/* The normal cone {w : <w, x - point> <= 0 for every x of the set} as a set; value: the distance of the point from
- * the set.
- * `tolerance`: relative to the size of the set, how far from a constraint the point still touches it; 0 picks 1e-9.
- * A point outside by more is CPS_SET_OUTSIDE. *cone is a new set or NULL. */
+/* The normal cone {w : <w, x - point> <= 0 for every x of the set} as a set; value: the distance of the point from the
+ * set. `tolerance`: relative to the size of the set, how far from a constraint the point still touches it; 0 picks
+ * 1e-9. A point outside by more is CPS_SET_OUTSIDE. *cone is a new set or NULL. */
 CPS_API CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tolerance, CpsSet **cone,
                                       CpsSetAnswer *answer, CpsError *err);
 
@@ -177,6 +176,7 @@ CPS_API CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, do
 typedef struct CpsSetFacts {
     CpsSetOutcome outcome;     /* CPS_SET_EMPTY: dimension -1 */
     bool exact;
+    bool closure;              /* see CpsSetAnswer */
     bool bounded;
     bool has_zero;             /* 0 in the set */
     bool zero_interior;        /* ... in its interior */
@@ -185,17 +185,15 @@ typedef struct CpsSetFacts {
     double tolerance;          /* the width used, a length */
 } CpsSetFacts;
 /* Also a point of the relative interior (n, or NULL) and, in its first `dimension` rows, an orthonormal basis of the
- * directions
- * of the affine hull, completed to one of R^n (n x n, or NULL). */
+ * directions of the affine hull, completed to one of R^n (n x n, or NULL). */
 CPS_API CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts, double *center, double *basis,
                                 CpsError *err);
 
 /* The extreme points of a set of dimension <= 2 (in any R^n), counterclockwise in the plane R^2: the ends of a
- * segment, the
- * corners of a planar set, which may have arcs between them; points whose normal cone has full dimension. Other sets:
- * the points of a hull of points or a box with at most 2^16 corners, else CPS_SET_NOT_PLANAR. At most `capacity` are
- * written to points
- * (capacity x n); *count is how many there are. */
+ * segment, the corners of a planar set, which may have arcs between them; points whose normal cone has full dimension.
+ * Other sets: the points of a hull of points or a box with at most 2^16 corners, else CPS_SET_NOT_PLANAR. At most
+ * `capacity` are written to points (capacity x n); *count is how many there are. `tolerance`: the least angle [rad] by
+ * which the normal cone of a corner opens, up to 0.5; 0 picks 1e-6. */
 CPS_API CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, double *points, int *count,
                                    CpsSetAnswer *answer, CpsError *err);
 

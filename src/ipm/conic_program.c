@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two kinds of elements make the homogeneous self-dual form (conic_program.h): the cones, each on its rows of G u,
- * and tau,
- * a half-line with dual kappa that also brings the skew term. Their directions:
+/* Two kinds of elements make the homogeneous self-dual form (conic_program.h): the cones, each on its rows of G u, and
+ * tau, a half-line with dual kappa that also brings the skew term. Their directions:
  *
  *     cones:  ds = G du + keep rho,   dz = q - H ds,   H = g W^-2      (soc.h; a half-line has W = 1, g = z/s)
  *     tau:    dkappa = q - (kappa/tau) dtau
  *     u:      (G'H G + kappa/tau e e' - S) du = keep residual + G'(q - H keep rho) + e q
  *
- * Near a solution G'H G holds numbers from 1/mu to mu, of which its rounding keeps the large ones only. So the
- * scaled dual
- * directions y = W dz/sqrt(g) stay unknowns beside du, with B = sqrt(g) W^-1 G:
+ * Near a solution G'H G holds numbers from 1/mu to mu, of which its rounding keeps the large ones only. So the scaled
+ * dual directions y = W dz/sqrt(g) stay unknowns beside du, with B = sqrt(g) W^-1 G:
  *
  *     [ kappa/tau e e' - S   -B' ] [du]   [ keep residual + e q           ]
  *     [ B                     I  ] [y ] = [ W q/sqrt(g) - keep sqrt(g) W^-1 rho ]
@@ -92,7 +90,8 @@ static void cones_scale(CpsiProgram *base) {
 }
 
 /* out = W x (sign 1) or W^-1 x (sign -1) times factor, for cone k on rows i.. */
-static void apply(const CpsiConicProgram *program, int k, int i, double sign, double factor, const double *x, double *out) {
+static void apply(const CpsiConicProgram *program, int k, int i, double sign, double factor, const double *x,
+                  double *out) {
     const int d = program->dim[k];
     if (d == 1) out[0] = x[0];
     else cpsi_soc_apply(out, &program->w[i], x, sign, d);
@@ -309,10 +308,12 @@ CpsiConicProgram *cpsi_conic_layout(CpsiArena *arena, int unknowns, int rows, in
     double *at = CPSI_TAKE(arena, 7*m + (size_t)cones + 4*(size_t)largest_cone + 7*size + m, double);
     double *matrices = CPSI_TAKE(arena, 2*size*size, double);
     int *pivot = CPSI_TAKE(arena, size, int);
+    CpsiActive *active = CPSI_TAKE(arena, cones, CpsiActive);
     if (!program) return NULL;
-    *program = (CpsiConicProgram){.unknowns = unknowns, .rows = rows, .cones = cones, .pivot = pivot,
+    *program = (CpsiConicProgram){.unknowns = unknowns, .rows = rows, .cones = cones, .pivot = pivot, .active = active,
                                   .matrix = matrices, .lu = matrices + size*size};
-    double **of_rows[] = {&program->s, &program->z, &program->ds, &program->dz, &program->q, &program->w, &program->rho};
+    double **of_rows[] = {&program->s, &program->z, &program->ds, &program->dz,
+                          &program->q, &program->w, &program->rho};
     for (size_t k = 0; k < sizeof of_rows/sizeof *of_rows; k++, at += m) *of_rows[k] = at;
     program->g = at, at += cones;
     program->scratch = at, at += 4*(size_t)largest_cone;
@@ -329,16 +330,20 @@ CpsiConicResult cpsi_conic_solve(CpsiConicProgram *program, double accept) {
     cpsi_ipm_solve(&program->base, &options);
     CpsiConicResult result = program->found;
     const CpsiConicOutcome ending = result.outcome;
-    if (!(result.residual <= accept && result.gap <= accept)) result.outcome = CPSI_CONIC_FAILED;
 
     /* the best iterate, divided by what normalises it: tau, the pull of the dual ray, the gain of the primal ray */
     const size_t n = (size_t)program->unknowns, m = (size_t)program->rows;
     const double *u = program->best, *s = u + n + 1, *z = s + m;
-    double by = u[n];
+    double by = u[n], scale = 1;
     if (ending == CPSI_CONIC_INFEASIBLE) by = -cpsi_dot(program->rows, program->b, z);
     if (ending == CPSI_CONIC_UNBOUNDED) by = -cpsi_dot(program->unknowns, program->c, u);
     for (size_t j = 0; j < n; j++) program->base.u[j] = u[j]/by;
     for (size_t i = 0; i < m; i++) program->s[i] = s[i]/by, program->z[i] = z[i]/by;
-    if (ending == CPSI_CONIC_SOLVED) result.gap = fabs(cpsi_dot(program->rows, program->s, program->z));
+    if (ending == CPSI_CONIC_SOLVED) {
+        result.gap = fabs(cpsi_dot(program->rows, program->s, program->z));
+        cpsi_conic_polish(program, &result);
+        scale += fabs(cpsi_dot(program->unknowns, program->c, program->base.u));
+    }
+    if (!(result.residual <= accept && result.gap <= accept*scale)) result.outcome = CPSI_CONIC_FAILED;
     return result;
 }

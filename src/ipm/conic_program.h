@@ -5,16 +5,14 @@
  * >= 2)
  *
  * solved in its homogeneous self-dual form (Ye, Todd and Mizuno 1994), which has an interior start and ends in a
- * solution or in a proof
- * that there is none. With tau, kappa >= 0:
+ * solution or in a proof that there is none. With tau, kappa >= 0:
  *
  *     s = A v + b tau  in K,    A'z = c tau,  z in K,    kappa = - c.v - b.z,
  *
- * that is  G'z + e kappa + S u = 0  for u = (v, tau), G = [A b], e = (0, 1), S u = (-c tau, c.v): cones on linear
- * maps of u and a
- * skew term. tau > 0 in the limit: v/tau solves, z/tau is its dual. tau = 0: b.z < 0 proves that nothing is
- * feasible, c.v < 0 that
- * the objective falls without end. A has full column rank. Sets are written so that A and b are of order one. */
+ * that is  G'z + e kappa + S u = 0  for u = (v, tau), G = [A b], e = (0, 1), S u = (-c tau, c.v): cones on linear maps
+ * of u and a skew term. tau > 0 in the limit: v/tau solves, z/tau is its dual. tau = 0: b.z < 0 proves that nothing is
+ * feasible, c.v < 0 that the objective falls without end. A has full column rank. Sets are written so that A and b are
+ * of order one. */
 #ifndef CAPSTAN_SRC_IPM_CONIC_PROGRAM_H
 #define CAPSTAN_SRC_IPM_CONIC_PROGRAM_H
 
@@ -29,6 +27,9 @@ typedef enum CpsiConicOutcome {
     CPSI_CONIC_UNBOUNDED,  /* v: A v in K, c.v = -1 */
     CPSI_CONIC_FAILED      /* the residuals stayed above what the caller would accept */
 } CpsiConicOutcome;
+
+/* How a cone binds the solution (conic_polish.c). */
+typedef enum CpsiActive { CPSI_FREE, CPSI_RAY, CPSI_TIP } CpsiActive;
 
 /* What came out; v, s, z are divided by what normalises the outcome and lie in the program's arrays (base.u, s, z). */
 typedef struct CpsiConicResult {
@@ -51,8 +52,9 @@ typedef struct CpsiConicProgram {
     double *matrix;        /* (size, size), size = unknowns + 1 + rows: du and the scaled dz */
     double *lu, *fix;      /* its factor; scratch of the refinement (2 size) */
     int *pivot;
+    CpsiActive *active;    /* (cones) of the polish */
     double kappa, d_kappa, q_tau;
-    double *best;          /* (unknowns + 1 + 2 rows) u, s, z of the best iterate so far: late steps may only add rounding */
+    double *best;          /* (unknowns + 1 + 2 rows) u, s, z of the best iterate: late steps may only add rounding */
     CpsiConicResult found; /* its judgement */
 } CpsiConicProgram;
 
@@ -61,5 +63,9 @@ CpsiConicProgram *cpsi_conic_layout(CpsiArena *arena, int unknowns, int rows, in
 
 /* Minimise; a, b, c, dim are set. `accept`: residual and gap above which the outcome is FAILED. */
 CpsiConicResult cpsi_conic_solve(CpsiConicProgram *program, double accept);
+
+/* Sharpen the solution in base.u, s, z by Newton's method on what is active (conic_polish.c); the residual then bounds
+ * |s0 - |s1|| and |s| of active cones too. Part of the above. */
+void cpsi_conic_polish(CpsiConicProgram *program, CpsiConicResult *found);
 
 #endif

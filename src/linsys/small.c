@@ -98,6 +98,11 @@ int cpsi_orthonormal_rows(int count, int n, double *rows, double *rhs, double to
         for (size_t j = 0; j < w; j++) rows[(size_t)i*w + j] /= size;
         if (rhs) rhs[i] /= size;
     }
+    return cpsi_orthonormal_span(count, n, rows, rhs, tolerance);
+}
+
+int cpsi_orthonormal_span(int count, int n, double *rows, double *rhs, double tolerance) {
+    const size_t w = (size_t)n;
     int rank = 0;
     for (; rank < count && rank < n; rank++) {
         int best = rank;

@@ -32,6 +32,8 @@ void cpsi_lower_inverse(int n, const double *l, double *out);
  * follow, so that x = sum rhs_k row_k solves the first rank of them, and the others are left with what contradicts.
  * A row counts as dependent when no more than the share `tolerance` of it remains. Returns the rank. */
 int cpsi_orthonormal_rows(int count, int n, double *rows, double *rhs, double tolerance);
+/* The same for rows of the caller's scaling: dependent when no more than the length `tolerance` remains. */
+int cpsi_orthonormal_span(int count, int n, double *rows, double *rhs, double tolerance);
 
 /* Complete `rank` orthonormal rows of q (n, n) to n. */
 void cpsi_complete_rows(int rank, int n, double *q);

@@ -134,9 +134,11 @@ static void project_segment(const CpsSet *set, const double *p, double *nearest)
     const int n = set->n;
     const double *from = set->a, *to = set->a + (set->count - 1)*n;
     double along = 0, square = 0;
-    for (int i = 0; i < n; i++) along += (p[i] - from[i])*(to[i] - from[i]), square += (to[i] - from[i])*(to[i] - from[i]);
+    for (int i = 0; i < n; i++)
+        along += (p[i] - from[i])*(to[i] - from[i]), square += (to[i] - from[i])*(to[i] - from[i]);
     const double t = square > 0 ? fmin(1, fmax(0, along/square)) : 0;
-    for (int i = 0; i < n; i++) nearest[i] = t < 0.5 ? from[i] + t*(to[i] - from[i]) : to[i] - (1 - t)*(to[i] - from[i]);
+    for (int i = 0; i < n; i++)
+        nearest[i] = t < 0.5 ? from[i] + t*(to[i] - from[i]) : to[i] - (1 - t)*(to[i] - from[i]);
 }
 
 static void project_strip(const CpsSet *set, const double *p, double *nearest) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* "X in t C" as conic rows, node by node; X and t are affine in the unknowns. With t >= 0 the rows describe the
- * closure of
- * the cone over C x {1} (its perspective), which is what hulls, gauges and polars need; with t = 1 the set itself.
+ * closure of the cone over C x {1} (its perspective), which is what hulls, gauges and polars need; with t = 1 the set
+ * itself.
  *
  *     product, intersection, preimage, translate, scale     rows of the parts on parts of X
  *     image       X = L y, y in t C                          new unknowns y
@@ -28,7 +28,9 @@ static void count_own(const CpsSet *set, CpsiCount *count) {
     case CPSI_SET_BOX: count->rows += 2*n, count->cones += 2*n, count->equations += n; break;
     case CPSI_SET_INEQUALITIES: count->rows += items, count->cones += items; break;
     case CPSI_SET_SUBSPACE: count->equations += n - items; break;
-    case CPSI_SET_RAYS: count->unknowns += items, count->rows += items, count->cones += items, count->equations += n; break;
+    case CPSI_SET_RAYS:
+        count->unknowns += items, count->rows += items, count->cones += items, count->equations += n;
+        break;
     case CPSI_SET_CONIC:
         count->unknowns += (size_t)(set->form->unknowns + set->form->lines), count->equations += n + 1;
         count->rows += (size_t)set->form->rows, count->cones += (size_t)set->form->cones;
@@ -61,6 +63,12 @@ static void add(const CpsiRaw *raw, double factor, const double *in, double *out
     for (int j = 0; j < raw->width; j++) out[j] += factor*in[j];
 }
 
+/* The same for an equation, whose constants may cancel: the largest tells what is left from rounding. */
+static void balance(CpsiRaw *raw, double factor, const double *in, double *equation) {
+    add(raw, factor, in, equation);
+    raw->constant = fmax(raw->constant, fabs(factor*in[raw->width - 1]));
+}
+
 static double *unknown(CpsiRaw *raw, double *affine) {
     affine[raw->next++] = 1;
     return affine;
@@ -72,14 +80,14 @@ static void emit_points(CpsiRaw *raw, const CpsSet *set, const double *x, const 
     double *equation = NULL;
     for (int i = 0; i < n; i++) {
         equation = cpsi_raw_equation(raw);
-        add(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
-        if (set->count == 1) add(raw, set->a[i], t, equation);
+        balance(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
+        if (set->count == 1) balance(raw, set->a[i], t, equation);
         else
             for (int k = 0; k < set->count; k++) equation[first + k] += set->a[(size_t)k*(size_t)n + (size_t)i];
     }
     if (set->count == 1) return;
     equation = cpsi_raw_equation(raw);
-    add(raw, -1, t, equation);
+    balance(raw, -1, t, equation);
     for (int k = 0; k < set->count; k++) equation[first + k] += 1, unknown(raw, cpsi_raw_cone(raw, 1));
 }
 
@@ -104,7 +112,7 @@ static void emit_box(CpsiRaw *raw, const CpsSet *set, const double *x, const dou
         const double *xi = &x[(size_t)i*(size_t)raw->width];
         if (set->a[i] == set->b[i]) {
             double *equation = cpsi_raw_equation(raw);
-            add(raw, 1, xi, equation), add(raw, -set->a[i], t, equation);
+            balance(raw, 1, xi, equation), balance(raw, -set->a[i], t, equation);
             continue;
         }
         if (isfinite(set->a[i])) {
@@ -133,15 +141,18 @@ static void emit_inequalities(CpsiRaw *raw, const CpsSet *set, const double *x, 
 }
 
 static void emit_subspace(CpsiRaw *raw, const CpsSet *set, const double *x) {
-    for (int k = set->count; k < set->n; k++)
-        add_product(raw, set->n, 1, &set->a[(size_t)k*(size_t)set->n], x, cpsi_raw_equation(raw));
+    for (int k = set->count; k < set->n; k++) {
+        double *equation = cpsi_raw_equation(raw);
+        for (int i = 0; i < set->n; i++)
+            balance(raw, set->a[(size_t)k*(size_t)set->n + (size_t)i], &x[(size_t)i*(size_t)raw->width], equation);
+    }
 }
 
 static void emit_rays(CpsiRaw *raw, const CpsSet *set, const double *x) {
     const int n = set->n, first = raw->next;
     for (int i = 0; i < n; i++) {
         double *equation = cpsi_raw_equation(raw);
-        add(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
+        balance(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
         for (int k = 0; k < set->count; k++) equation[first + k] += set->a[(size_t)k*(size_t)n + (size_t)i];
     }
     for (int k = 0; k < set->count; k++) unknown(raw, cpsi_raw_cone(raw, 1));
@@ -153,8 +164,8 @@ static void emit_conic(CpsiRaw *raw, const CpsSet *set, const double *x, const d
     raw->next += u + form->lines;
     for (int i = 0; i < n; i++) {
         double *equation = cpsi_raw_equation(raw);
-        add(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
-        add(raw, form->origin[i], t, equation);
+        balance(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
+        balance(raw, form->origin[i], t, equation);
         for (int j = 0; j < u; j++) equation[first + j] += form->p[(size_t)i*(size_t)u + (size_t)j];
         for (int l = 0; l < form->lines; l++) equation[first + u + l] += form->q[l*n + i];
     }
@@ -222,7 +233,7 @@ static bool emit_mapped(CpsiRaw *raw, const CpsSet *set, const double *x, const 
     }
     for (int i = 0; set->kind == CPSI_SET_IMAGE && i < n; i++) {
         double *equation = cpsi_raw_equation(raw);
-        add(raw, -1, &x[(size_t)i*w], equation);
+        balance(raw, -1, &x[(size_t)i*w], equation);
         add_product(raw, part->n, 1, &set->a[(size_t)i*(size_t)part->n], y, equation);
     }
     const bool done = cpsi_raw_emit(raw, part, y, t);
@@ -241,7 +252,8 @@ static bool emit_sum(CpsiRaw *raw, const CpsSet *set, const double *x, const dou
     memcpy(&parts[(size_t)n*w], t, w*sizeof *t);
     for (int k = 1; k < set->count; k++) {
         double *part = &parts[(size_t)k*each];
-        for (int i = 0; i < n; i++) unknown(raw, &part[(size_t)i*w]), add(raw, -1, &part[(size_t)i*w], &parts[(size_t)i*w]);
+        for (int i = 0; i < n; i++)
+            unknown(raw, &part[(size_t)i*w]), add(raw, -1, &part[(size_t)i*w], &parts[(size_t)i*w]);
         if (hull) unknown(raw, &part[(size_t)n*w]), add(raw, -1, &part[(size_t)n*w], &parts[(size_t)n*w]);
         else add(raw, 1, t, &part[(size_t)n*w]);
     }

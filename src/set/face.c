@@ -2,12 +2,9 @@
 /* The face {x in C : <w, x> = h(w)} as a set of its own.
  *
  * Down the expression as far as it goes: the face of a product, sum, image, translate or scale is the same operation
- * on the parts'
- * faces at w's image; of a hull the hull of the faces that reach the maximum; of the primitives a point, a smaller
- * hull, a
- * smaller box. On a conic form the interior-point solution (v, s, z) lies in the relative interior of the optimal
- * set, so z
- * tells the face cone by cone:
+ * on the parts' faces at w's image; of a hull the hull of the faces that reach the maximum; of the primitives a point,
+ * a smaller hull, a smaller box. On a conic form the interior-point solution (v, s, z) lies in the relative interior
+ * of the optimal set, so z tells the face cone by cone:
  *
  *     z = 0                    the cone's rows stay as they are
  *     z on the boundary        s stays on the ray of Jz:  its other components are equations, s along it >= 0
@@ -28,7 +25,8 @@ static const double SAME_EQUATION = 1e-7;
 /* Coefficients of rows of size one below this are rounding. */
 static const double NOISE = 1e-9;
 
-static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSet **out, CpsSetAnswer *answer, CpsError *err);
+static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSet **out, CpsSetAnswer *answer,
+                         CpsError *err);
 
 /* ---- conic forms ---- */
 
@@ -50,12 +48,14 @@ static void equation(CpsiRaw *raw, const CpsiForm *form, int i, int d, const dou
 }
 
 /* The rows of one cone on the face. a (d) is scratch. */
-static void cone_on_face(CpsiRaw *raw, const CpsiForm *form, const CpsiSolution *at, int i, int d, double angle, double *a) {
+static void cone_on_face(CpsiRaw *raw, const CpsiForm *form, const CpsiSolution *at, int i, int d, double angle,
+                         double *a) {
     const double *s = &at->s[i], *z = &at->z[i];
     double *rows, size = cpsi_norm(d - 1, z + 1);
     if (z[0] <= angle) { /* not pressed */
         rows = cpsi_raw_cone(raw, d);
-        for (int r = 0; r < d; r++) combine(form, i + r, 1, (const double[]){1}, s[r], &rows[(size_t)r*(size_t)raw->width]);
+        for (int r = 0; r < d; r++)
+            combine(form, i + r, 1, (const double[]){1}, s[r], &rows[(size_t)r*(size_t)raw->width]);
         return;
     }
     if (d == 1 || z[0] - size > angle) { /* at the tip */
@@ -75,7 +75,8 @@ static void cone_on_face(CpsiRaw *raw, const CpsiForm *form, const CpsiSolution 
 }
 
 /* The restricted form round the solution. */
-static CpsStatus restrict_form(const CpsiForm *form, const CpsiSolution *at, double angle, CpsiForm **out, CpsError *err) {
+static CpsStatus restrict_form(const CpsiForm *form, const CpsiSolution *at, double angle, CpsiForm **out,
+                               CpsError *err) {
     const int n = form->n, u = form->unknowns;
     CpsiRaw *raw = NULL;
     const CpsiCount count = {.unknowns = (size_t)u, .equations = (size_t)form->rows + 1, .rows = (size_t)form->rows,
@@ -110,7 +111,8 @@ static int directions(const CpsiForm *form, double *first, double *scratch) {
     }
     size_t kept = 0;
     for (size_t k = 0; k < count; k++)
-        if (cpsi_norm(form->n, &scratch[k*n]) > NOISE*most) memmove(&scratch[kept++*n], &scratch[k*n], n*sizeof *scratch);
+        if (cpsi_norm(form->n, &scratch[k*n]) > NOISE*most)
+            memmove(&scratch[kept++*n], &scratch[k*n], n*sizeof *scratch);
     memcpy(&scratch[kept*n], form->q, (size_t)form->lines*n*sizeof *scratch);
     kept += (size_t)form->lines;
     const int rank = cpsi_orthonormal_rows((int)kept, form->n, scratch, NULL, SAME_EQUATION);
@@ -162,6 +164,7 @@ static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, Cp
     for (int i = 0; i < n; i++) c[i] = -w[i];
     CpsStatus status = cpsi_set_form(set, &form, &made, err);
     if (!status) status = cpsi_form_minimise(form, c, &solution, err);
+    if (!status) cpsi_judge_attained(form, c, &solution);
     if (!status && solution.outcome == CPS_SET_ANSWERED) {
         const double angle = fmax(slack/cpsi_norm(n, w), LEAST_ANGLE);
         *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .value = -solution.value, .gap = solution.gap,
@@ -237,7 +240,9 @@ static CpsStatus face_of_parts(const CpsSet *set, const double *w, double slack,
         if (set->kind == CPSI_SET_HULL) {
             status = cpsi_support(set->part[k], w, NULL, &one, err);
             const double size = cpsi_set_size(set);
-            if (status || one.outcome == CPS_SET_EMPTY || one.value + one.gap < value - slack*size - 1e-12*fabs(value)) continue;
+            if (status || one.outcome == CPS_SET_EMPTY ||
+                one.value + one.gap < value - slack*size - 1e-12*fabs(value))
+                continue;
         }
         status = face_of(set->part[k], w + at, slack, &face[count], &one, err);
         answer->tolerance = fmax(answer->tolerance, one.tolerance);
@@ -267,8 +272,7 @@ static CpsStatus face_of_mapped(const CpsSet *set, const double *w, double slack
     if (!back) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
     if (set->kind == CPSI_SET_IMAGE) {
         size = cpsi_norm(set->n*m, set->a);
-        for (int i = 0; i < set->n; i++)
-            for (int j = 0; j < m; j++) back[j] += set->a[i*m + j]*w[i];
+        cpsi_pull_back(set, w, back);
     } else {
         if (set->kind == CPSI_SET_SCALE) size = set->scalar;
         for (int j = 0; j < m; j++) back[j] = size*w[j];
@@ -284,7 +288,8 @@ static CpsStatus face_of_mapped(const CpsSet *set, const double *w, double slack
 }
 
 /* slack: what w may be off by, in the units of w. */
-static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSet **out, CpsSetAnswer *answer, CpsError *err) {
+static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSet **out, CpsSetAnswer *answer,
+                         CpsError *err) {
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
     if (cpsi_norm(set->n, w) <= slack) {
         *out = cps_set_retain(set);
@@ -327,18 +332,22 @@ static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSe
     return status;
 }
 
-CpsStatus cps_set_face(const CpsSet *set, const double *direction, double tolerance, CpsSet **face, CpsSetAnswer *answer,
-                       CpsError *err) {
+CpsStatus cps_set_face(const CpsSet *set, const double *direction, double tolerance, CpsSet **face,
+                       CpsSetAnswer *answer, CpsError *err) {
     static const char *const CALL = "cps_set_face";
     if (!set || !direction || !face || !answer)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", CALL, !set ? "set" : !direction ? "direction" : "an answer");
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", CALL,
+                         !set ? "set" : !direction ? "direction" : "an answer");
     CpsStatus status = cpsi_set_finite(CALL, "direction", (size_t)set->n, direction, err);
     if (status) return status;
     if (!(tolerance >= 0) || tolerance > 0.1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected an angle from 0 to 0.1", CALL, tolerance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected an angle from 0 to 0.1", CALL,
+                         tolerance);
     CpsSet *found = NULL;
-    status = face_of(set, direction, (tolerance > 0 ? tolerance : 1e-9)*cpsi_norm(set->n, direction), &found, answer, err);
+    const double slack = (tolerance > 0 ? tolerance : 1e-9)*cpsi_norm(set->n, direction);
+    status = face_of(set, direction, slack, &found, answer, err);
     if (status) return status;
+    answer->closure = set->closure;
     if (answer->outcome == CPS_SET_ANSWERED) *face = found;
     else *face = NULL, cps_set_release(found);
     return CPS_OK;

@@ -2,12 +2,9 @@
 /* Dimension, boundedness and the place of 0, from the support function alone.
  *
  * Directions D in which the set has been seen to extend are collected one by one: a unit w normal to D and to the
- * directions found flat
- * is asked for the points x+, x- where <w, .> is largest and least; x+ - x- joins D where the width h(w) + h(-w) is
- * more
- * than the tolerance, else w is flat. The mean of all points found (a ray counts as a step along it) lies in the
- * relative
- * interior: their hull has the set's dimension. */
+ * directions found flat is asked for the points x+, x- where <w, .> is largest and least; x+ - x- joins D where the
+ * width h(w) + h(-w) is more than the tolerance, else w is flat. The mean of all points found (a ray counts as a step
+ * along it) lies in the relative interior: their hull has the set's dimension. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +38,8 @@ static bool join_direction(Search *search, const double *v) {
         }
     const double size = cpsi_norm((int)n, row);
     if (!(size > 1e-14*before)) return false;
-    memmove(&basis[(size_t)(search->dimension + 1)*n], &basis[(size_t)search->dimension*n], (size_t)search->flat*n*sizeof *row);
+    memmove(&basis[(size_t)(search->dimension + 1)*n], &basis[(size_t)search->dimension*n],
+            (size_t)search->flat*n*sizeof *row);
     for (size_t i = 0; i < n; i++) basis[(size_t)search->dimension*n + i] = row[i]/size;
     search->dimension++;
     return true;
@@ -61,7 +59,7 @@ static CpsStatus probe(Search *search, CpsSetOutcome *outcome, CpsError *err) {
     const CpsSetAnswer *both[] = {&high, &low};
     for (int k = 0; k < 2; k++) {
         search->exact = search->exact && both[k]->exact;
-        if (both[k]->outcome != CPS_SET_ANSWERED && both[k]->outcome != CPS_SET_UNBOUNDED) {
+        if (both[k]->outcome > CPS_SET_NOT_ATTAINED || both[k]->outcome == CPS_SET_EMPTY) {
             *outcome = both[k]->outcome;
             return CPS_OK;
         }
@@ -80,7 +78,8 @@ static CpsStatus probe(Search *search, CpsSetOutcome *outcome, CpsError *err) {
         search->flat++;
         return CPS_OK;
     }
-    if (up || down) search->bounded = false;
+    if (up || down || high.outcome == CPS_SET_NOT_ATTAINED || low.outcome == CPS_SET_NOT_ATTAINED)
+        search->bounded = false;
     for (size_t i = 0; i < n; i++)
         search->plus[i] = up ? search->plus[i] : down ? search->minus[i] : search->plus[i] - search->minus[i];
     if (!join_direction(search, search->plus)) search->flat++;
@@ -121,7 +120,7 @@ static CpsStatus check_bounded(const CpsSet *set, double *w, bool *bounded, CpsE
         for (int sign = -1; !status && sign <= 1; sign += 2) {
             w[i] = sign;
             status = cpsi_support(set, w, NULL, &answer, err);
-            if (answer.outcome == CPS_SET_UNBOUNDED) *bounded = false;
+            if (answer.outcome == CPS_SET_UNBOUNDED || answer.outcome == CPS_SET_NOT_ATTAINED) *bounded = false;
         }
         w[i] = 0;
     }
@@ -159,7 +158,8 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
                         CpsError *err) {
     if (!set || !facts) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_facts: %s is NULL", set ? "facts" : "set");
     if (!(tolerance >= 0) || tolerance > 0.1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_facts: tolerance is %g, expected a share from 0 to 0.1", tolerance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_facts: tolerance is %g, expected a share from 0 to 0.1",
+                         tolerance);
     const size_t n = (size_t)set->n;
     double *room = calloc(n*n + 6*n, sizeof *room);
     if (!room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the facts of a set");
@@ -167,7 +167,8 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
                      .sum = room + n*n, .plus = room + n*n + n, .minus = room + n*n + 2*n, .turned = room + n*n + 3*n,
                      .bounded = true, .exact = true};
     double *rays = room + n*n + 4*n, *work = room + n*n + 5*n;
-    *facts = (CpsSetFacts){.outcome = CPS_SET_ANSWERED, .dimension = -1, .tolerance = search.width};
+    *facts = (CpsSetFacts){.outcome = CPS_SET_ANSWERED, .closure = set->closure, .dimension = -1,
+                           .tolerance = search.width};
     CpsStatus status = search_all(&search, rays, &facts->outcome, err);
     if (!status && facts->outcome == CPS_SET_ANSWERED) {
         facts->exact = search.exact;

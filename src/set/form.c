@@ -8,13 +8,15 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/status.h"
 #include "linsys/small.h"
-#include "set/node.h"
 
 /* Unknowns, and numbers in one matrix, that a dense solver takes. */
 static const size_t MOST_UNKNOWNS = 2000, MOST_NUMBERS = 32u << 20;
 /* Equations contradict each other beyond this share of the size of the data. */
 static const double CONTRADICTION = 1e-9;
+/* What is left of constants that cancel each other, some tens, beside the largest of them. */
+static const double ROUNDING = 1e-14;
 /* Numbers below this share of what they were before an elimination are rounding. */
 static const double NOISE = 1e-11;
 
@@ -23,7 +25,8 @@ CpsStatus cpsi_raw_new(CpsiCount count, int used, CpsiRaw **out, CpsError *err) 
     if (count.unknowns > MOST_UNKNOWNS || high > MOST_NUMBERS/width)
         return cpsi_fail(err, CPS_ERR_LIMIT,
                          "the set's conic form has %zu unknowns and %zu rows; at most %zu unknowns and %zu numbers "
-                         "are solved for: use fewer parts or points", count.unknowns, high, MOST_UNKNOWNS, MOST_NUMBERS);
+                         "are solved for: use fewer parts or points",
+                         count.unknowns, high, MOST_UNKNOWNS, MOST_NUMBERS);
     CpsiRaw *raw = calloc(1, sizeof *raw);
     if (!raw) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");
     *raw = (CpsiRaw){.unknowns = (int)count.unknowns, .width = (int)width, .next = used,
@@ -100,23 +103,28 @@ static void substitute(int count, int from, int to, const double *start, const d
  * -1. */
 static int eliminate(const CpsiRaw *raw, Work *work, double tolerance) {
     const int u = raw->unknowns;
-    double largest = 0;
+    double largest = 0, noise = 0;
     for (int i = 0; i < raw->equations; i++) {
         const double *row = &raw->equation[(size_t)i*(size_t)raw->width];
         memcpy(&work->equation[(size_t)i*(size_t)u], row, (size_t)u*sizeof *row);
         work->rhs[i] = -row[u];
         const double size = cpsi_norm(u, row);
-        if (size == 0 && row[u] != 0) return -1;
+        noise = fmax(noise, ROUNDING*raw->constant/(size > 0 ? size : 1));
         if (size > 0) largest = fmax(largest, fabs(row[u])/size);
+        else if (fabs(row[u]) > noise) return -1;
     }
-    for (int i = 0; i < raw->rows; i++) {
-        const double *row = &raw->row[(size_t)i*(size_t)raw->width], size = cpsi_norm(u, row);
-        if (size > 0) largest = fmax(largest, fabs(row[u])/size);
+    for (int k = 0, i = 0; k < raw->cones; k++) {
+        double size = 0, constant = 0;
+        for (int r = 0; r < raw->dim[k]; r++, i++) {
+            const double *row = &raw->row[(size_t)i*(size_t)raw->width];
+            size = fmax(size, cpsi_norm(u, row)), constant = fmax(constant, fabs(row[u]));
+        }
+        if (size > 0) largest = fmax(largest, constant/size);
     }
     work->length = largest;
     const int rank = cpsi_orthonormal_rows(raw->equations, u, work->equation, work->rhs, tolerance);
     for (int i = rank; i < raw->equations; i++)
-        if (fabs(work->rhs[i]) > CONTRADICTION*largest) return -1;
+        if (fabs(work->rhs[i]) > CONTRADICTION*largest + noise) return -1;
     memset(work->start, 0, (size_t)u*sizeof *work->start);
     for (int k = 0; k < rank; k++)
         for (int j = 0; j < u; j++) work->start[j] += work->rhs[k]*work->equation[(size_t)k*(size_t)u + (size_t)j];
@@ -195,6 +203,7 @@ static CpsiForm *assemble(const CpsiRaw *raw, int n, int left, int lines, const 
     memcpy(form->q, q, (size_t)lines*(size_t)n*sizeof *q);
     for (int i = 0; i < n; i++) {
         form->origin[i] = map[(size_t)i*((size_t)left + 1) + (size_t)left];
+        if (fabs(form->origin[i]) < ROUNDING*raw->constant) form->origin[i] = 0;
         for (int j = 0; j < left; j++)
             form->p[(size_t)i*(size_t)left + (size_t)j] = map[(size_t)i*((size_t)left + 1) + (size_t)j]*form->size;
     }
@@ -210,8 +219,7 @@ static CpsiForm *assemble(const CpsiRaw *raw, int n, int left, int lines, const 
 }
 
 /* The unknowns that the rows see, as an orthonormal basis in work->span, and the lines of x that the others make.
- * Returns how
- * many are seen; *lines grows. */
+ * Returns how many are seen; *lines grows. */
 static int split(const CpsiRaw *raw, int n, int left, Work *work, int *lines) {
     const size_t l = (size_t)left, w = l + 1;
     for (int i = 0; i < n; i++) {
@@ -222,9 +230,10 @@ static int split(const CpsiRaw *raw, int n, int left, Work *work, int *lines) {
         double *row = &work->rows[(size_t)i*w];
         const double before = cpsi_norm(raw->unknowns, &raw->row[(size_t)i*(size_t)raw->width]);
         if (!(cpsi_norm(left, row) > NOISE*before)) memset(row, 0, l*sizeof *row);
-        memcpy(&work->span[(size_t)i*l], row, l*sizeof *row);
+        /* what a row has left is told from rounding by what it was */
+        for (size_t j = 0; j < l; j++) work->span[(size_t)i*l + j] = before > 0 ? row[j]/before : 0;
     }
-    const int seen = cpsi_orthonormal_rows(raw->rows, left, work->span, NULL, NOISE);
+    const int seen = cpsi_orthonormal_span(raw->rows, left, work->span, NULL, NOISE);
     if (seen == left) return seen;
     cpsi_complete_rows(seen, left, work->span);
     for (int k = seen; k < left; k++) {
@@ -282,19 +291,20 @@ CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines
 }
 
 CpsStatus cpsi_form_make(const CpsSet *set, CpsiForm **out, CpsError *err) {
-    const size_t n = (size_t)set->n;
+    const size_t n = (size_t)cps_set_space(set);
     CpsiCount count = {.unknowns = n};
     cpsi_raw_count(set, &count);
     CpsiRaw *raw = NULL;
-    CpsStatus status = cpsi_raw_new(count, set->n, &raw, err);
+    CpsStatus status = cpsi_raw_new(count, (int)n, &raw, err);
     if (status) return status;
     double *x = calloc((n + 1)*(size_t)raw->width, sizeof *x), *t = x ? x + n*(size_t)raw->width : NULL;
     if (x) {
         for (size_t i = 0; i < n; i++) x[i*(size_t)raw->width + i] = 1;
         t[raw->unknowns] = 1;
     }
-    if (!x || !cpsi_raw_emit(raw, set, x, t)) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");
-    else status = cpsi_form_reduce(raw, set->n, x, 0, NULL, 1e-11, out, err);
+    if (!x || !cpsi_raw_emit(raw, set, x, t))
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");
+    else status = cpsi_form_reduce(raw, (int)n, x, 0, NULL, 1e-11, out, err);
     free(x);
     cpsi_raw_free(raw);
     return status;

@@ -2,9 +2,9 @@
 /* The conic form of a set and the solver on it.
  *
  * Every expression without user's sets is  { x : exists y, E (x, y) = e, A (x, y) + b in K },  K a product of
- * half-lines and
- * second-order cones, built node by node (emit.c): "X in t C" for affine X and t of the unknowns is a list of rows for
- * each kind of C. Eliminating the equations by an orthonormal basis of their null space leaves the reduced form
+ * half-lines and second-order cones, built node by node (emit.c): "X in t C" for affine X and t of the unknowns is a
+ * list of rows for each kind of C. Eliminating the equations by an orthonormal basis of their null space leaves the
+ * reduced form
  *
  *     C = { origin + P v + Q' l :  A v + b in K },     A of full column rank, l free,
  *
@@ -40,6 +40,7 @@ typedef struct CpsiRaw {
     double *equation;            /* (equations, width) = 0 */
     double *row;                 /* (rows, width) in K */
     int *dim;                    /* (cones) */
+    double constant;             /* largest one that went into an equation, before others cancelled it */
     int max_equations, max_rows, max_cones;
 } CpsiRaw;
 
@@ -61,8 +62,8 @@ double *cpsi_raw_cone(CpsiRaw *raw, int dim);
 bool cpsi_raw_emit(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t);
 
 /* The reduced form of { x (n, width) : the rows }. A row of the equations counts as dependent when no more than the
- * share
- * `tolerance` of it is left by the others. `lines` more rows q (lines, n) or NULL are directions known to be lines. */
+ * share `tolerance` of it is left by the others. `lines` more rows q (lines, n) or NULL are directions known to be
+ * lines. */
 CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines, const double *q, double tolerance,
                            CpsiForm **out, CpsError *err);
 /* The reduced form of a set; the caller frees it. */
@@ -81,5 +82,7 @@ typedef struct CpsiSolution {
 } CpsiSolution;
 CpsStatus cpsi_form_minimise(const CpsiForm *form, const double *c, CpsiSolution *solution, CpsError *err);
 void cpsi_solution_free(CpsiSolution *solution);
+/* Make the outcome CPS_SET_NOT_ATTAINED where the point that attains the value is too far away to be one. */
+void cpsi_judge_attained(const CpsiForm *form, const double *c, CpsiSolution *solution);
 
 #endif

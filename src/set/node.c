@@ -41,7 +41,10 @@ CpsStatus cpsi_set_new(CpsiSetKind kind, int n, int count, const CpsSet *const *
     set->count = count;
     set->a = (double *)(void *)((char *)set + head);
     if (parts) set->part = (CpsSet **)(void *)((char *)set + sizeof(CpsSet));
-    for (size_t k = 0; k < held; k++) set->part[k] = cps_set_retain(parts[k]);
+    for (size_t k = 0; k < held; k++) {
+        set->part[k] = cps_set_retain(parts[k]);
+        set->closure = set->closure || (parts[k]->closure && kind != CPSI_SET_POLAR);
+    }
     *out = set;
     return CPS_OK;
 }
@@ -167,15 +170,27 @@ static void put_numbers(Text *text, size_t count, const double *numbers) {
 }
 
 static void put_set(Text *text, const CpsSet *set) {
-    static const char *const NAME[] = {
-        [CPSI_SET_POINTS] = "points", [CPSI_SET_BALL] = "ball", [CPSI_SET_ELLIPSOID] = "ellipsoid", [CPSI_SET_BOX] = "box",
-        [CPSI_SET_INEQUALITIES] = "inequalities", [CPSI_SET_SUBSPACE] = "subspace", [CPSI_SET_RAYS] = "rays",
-        [CPSI_SET_USER] = "user", [CPSI_SET_CONIC] = "conic", [CPSI_SET_PRODUCT] = "product",
-        [CPSI_SET_INTERSECTION] = "intersection", [CPSI_SET_PREIMAGE] = "preimage", [CPSI_SET_IMAGE] = "image",
-        [CPSI_SET_SUM] = "sum", [CPSI_SET_TRANSLATE] = "translate", [CPSI_SET_SCALE] = "scale",
-        [CPSI_SET_HULL] = "hull", [CPSI_SET_POLAR] = "polar"};
+    static const char *const NAME[] = {[CPSI_SET_POINTS] = "points",
+                                       [CPSI_SET_BALL] = "ball",
+                                       [CPSI_SET_ELLIPSOID] = "ellipsoid",
+                                       [CPSI_SET_BOX] = "box",
+                                       [CPSI_SET_INEQUALITIES] = "inequalities",
+                                       [CPSI_SET_SUBSPACE] = "subspace",
+                                       [CPSI_SET_RAYS] = "rays",
+                                       [CPSI_SET_USER] = "user",
+                                       [CPSI_SET_CONIC] = "conic",
+                                       [CPSI_SET_PRODUCT] = "product",
+                                       [CPSI_SET_INTERSECTION] = "intersection",
+                                       [CPSI_SET_PREIMAGE] = "preimage",
+                                       [CPSI_SET_IMAGE] = "image",
+                                       [CPSI_SET_SUM] = "sum",
+                                       [CPSI_SET_TRANSLATE] = "translate",
+                                       [CPSI_SET_SCALE] = "scale",
+                                       [CPSI_SET_HULL] = "hull",
+                                       [CPSI_SET_POLAR] = "polar"};
     const size_t n = (size_t)set->n, count = (size_t)set->count;
-    const bool point = set->kind == CPSI_SET_POINTS && count == 1, strip = set->kind == CPSI_SET_INEQUALITIES && count == 1;
+    const bool point = set->kind == CPSI_SET_POINTS && count == 1,
+               strip = set->kind == CPSI_SET_INEQUALITIES && count == 1;
     put(text, "%s(", point ? "point" : strip ? "half_space" : NAME[set->kind]);
     switch (set->kind) {
     case CPSI_SET_BALL: put_numbers(text, n, set->a), put(text, "; r %.9g", set->scalar); break;

@@ -16,7 +16,7 @@ typedef enum CpsiSetKind {
     CPSI_SET_ELLIPSOID,    /* a: center (n); b: shape (n, n); c: inverse of its lower Cholesky factor (n, n) */
     CPSI_SET_BOX,          /* a: low (n); b: high (n) */
     CPSI_SET_INEQUALITIES, /* a: rows (count, n); b: offsets (count): half-space, strip, polyhedron */
-    CPSI_SET_SUBSPACE,     /* a: orthonormal rows (n, n), the first `count` span the subspace, the others what is normal */
+    CPSI_SET_SUBSPACE,     /* a: orthonormal rows (n, n), the first `count` span the subspace, the others its normals */
     CPSI_SET_RAYS,         /* a: rays (count, n) */
     CPSI_SET_USER,
     CPSI_SET_CONIC,        /* own form: a face or cone that the solver found */
@@ -36,6 +36,7 @@ struct CpsSet {
     CpsiSetKind kind;
     int n;                 /* of R^n */
     int count;             /* points, rows, rays or parts */
+    bool closure;          /* it need not be closed as it is written: its closure is meant */
     CpsSet **part;         /* (count) for operations */
     double *a, *b, *c;     /* see the kind; inside the node's own block */
     double scalar;
@@ -57,6 +58,9 @@ CpsStatus cpsi_set_finite(const char *call, const char *name, size_t count, cons
 
 /* Does the expression hold a user's set? */
 bool cpsi_set_has_user(const CpsSet *set);
+
+/* A point further away than this many sizes counts as none. */
+#define CPSI_SET_FAR 1e6
 
 /* A length typical of the data, > 0: what a relative tolerance is relative to. */
 double cpsi_set_size(const CpsSet *set);
@@ -84,6 +88,8 @@ bool cpsi_closed_gauge(const CpsSet *set, const double *p, double *value);
 /* ---- questions without the checks of the public calls ---- */
 
 CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer, CpsError *err);
+/* back = L'w for an image by L; what cancels to rounding is 0, so that no unbounded part makes infinity of it. */
+void cpsi_pull_back(const CpsSet *image, const double *w, double *back);
 /* The largest t with p + t d in the set (INFINITY if all are), for p in the set. */
 CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSetAnswer *answer, CpsError *err);
 CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, CpsError *err);

@@ -15,11 +15,9 @@
 #include "linsys/small.h"
 #include "set/node.h"
 
-/* Equations that differ by less than this share are one. */
-static const double SAME_EQUATION = 1e-7;
-/* A fibre that the solver looked through is known by the root of its complementarity: its distances, and its
- * directions. */
-static const double SOLVED = 3e-6, SOLVED_EQUATION = 3e-5;
+/* Equations that differ by less than this share are one. A point off by `tolerance` turns a normal by
+ * tolerance/radius, for radii down to a hundredth of the set. */
+static const double SAME_EQUATION = 1e-7, TURN = 100;
 
 /* What each cone of the form does at p. */
 typedef enum Touch { FREE, RAY, TIP } Touch;
@@ -30,10 +28,10 @@ static Touch touch_of(const double *s, int d, double tolerance) {
     return d > 1 && s[0] > tolerance ? RAY : TIP;
 }
 
-/* The fibre over p: v = v0 + (what P does not see), as rows  A v + b + tau e in K, tau >= 0; minimising tau takes s as far
- * inside as it goes. Fills s (rows of the form); *solved: there was something to look for, s is known by the solver only. */
-static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, bool *solved, CpsSetOutcome *outcome,
-                       CpsError *err) {
+/* The fibre over p: v = v0 + (what P does not see), with rows  A v + b + tau e in K. The least tau takes s as far
+ * inside as it goes: tau = 0 for p on the boundary, and where rounding has put p beside it the solution is still
+ * unique and well conditioned. tau >= -1 ends what has no boundary. Fills s (rows of the form). */
+static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetOutcome *outcome, CpsError *err) {
     const int n = form->n, u = form->unknowns;
     CpsiRaw *raw = NULL;
     CpsiForm *reduced = NULL;
@@ -58,7 +56,8 @@ static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, bool *s
             rows[u + 1] = form->b[i];
         }
     }
-    cpsi_raw_cone(raw, 1)[u] = 1;
+    double *last = cpsi_raw_cone(raw, 1);
+    last[u] = last[u + 1] = 1;
     double *map = calloc(((size_t)u + 1)*(size_t)raw->width, sizeof *map);
     if (!map) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     for (size_t j = 0; map && j <= (size_t)u; j++) map[j*(size_t)raw->width + j] = 1;
@@ -67,7 +66,7 @@ static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, bool *s
     cpsi_raw_free(raw);
     if (status) return status;
 
-    /* v at the relative interior of the fibre, tau = 0 */
+    /* v at the deepest point of the fibre */
     CpsiSolution solution = {.outcome = CPS_SET_INACCURATE};
     double *c = calloc((size_t)u + 1, sizeof *c);
     if (!c) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
@@ -75,7 +74,6 @@ static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, bool *s
         c[u] = 1;
         status = cpsi_form_minimise(reduced, c, &solution, err);
     }
-    *solved = reduced->unknowns > 1;
     *outcome = solution.outcome;
     if (!status && solution.outcome == CPS_SET_ANSWERED)
         for (int i = 0; i < form->rows; i++)
@@ -124,7 +122,8 @@ static CpsStatus as_rays(CpsiForm *form, CpsSet **out, CpsError *err) {
 }
 
 /* The z of one cone as new unknowns: its part of P'w + A'z = 0, and what keeps it in the cone. */
-static void write_touch(CpsiRaw *raw, const CpsiForm *form, const double *s, int i, int d, Touch touch, double *equations) {
+static void write_touch(CpsiRaw *raw, const CpsiForm *form, const double *s, int i, int d, Touch touch,
+                        double *equations) {
     const int u = form->unknowns;
     if (touch == FREE) return;
     const int count = touch == RAY || d == 1 ? 1 : d;
@@ -135,7 +134,8 @@ static void write_touch(CpsiRaw *raw, const CpsiForm *form, const double *s, int
         for (int r = 0; r < d; r++) {
             const double z = count > 1 || d == 1 ? r == k : r ? -s[r]/size : 1;
             for (int j = 0; z != 0 && j < u; j++)
-                equations[(size_t)j*(size_t)raw->width + (size_t)raw->next] += z*form->a[(size_t)(i + r)*(size_t)u + (size_t)j];
+                equations[(size_t)j*(size_t)raw->width + (size_t)raw->next] +=
+                    z*form->a[(size_t)(i + r)*(size_t)u + (size_t)j];
         }
     }
 }
@@ -169,7 +169,8 @@ static CpsStatus build_cone(const CpsiForm *form, const double *s, double tolera
         for (int i = 0; i < raw->equations; i++) {
             double *row = cpsi_raw_equation(whole);
             memcpy(row, &raw->equation[(size_t)i*(size_t)raw->width], (size_t)raw->next*sizeof *row);
-            if (cpsi_norm(raw->next, row) <= 0.01*same) whole->equations--, memset(row, 0, (size_t)raw->next*sizeof *row);
+            if (cpsi_norm(raw->next, row) <= 0.01*same)
+                whole->equations--, memset(row, 0, (size_t)raw->next*sizeof *row);
         }
         for (int k = 0, i = 0; k < raw->cones; k++) {
             double *rows = cpsi_raw_cone(whole, raw->dim[k]);
@@ -192,13 +193,10 @@ static CpsStatus conic_cone(const CpsSet *set, const double *p, double tolerance
     CpsStatus status = cpsi_set_form(set, &form, &made, err);
     if (status) return status;
     double *s = calloc((size_t)form->rows + 1, sizeof *s);
-    bool solved = false;
     if (!s) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
-    else status = fibre(form, p, s, &solved, &answer->outcome, err);
-    answer->tolerance = solved ? fmax(tolerance, SOLVED) : tolerance;
-    const double same = solved ? SOLVED_EQUATION : SAME_EQUATION;
+    else status = fibre(form, p, s, &answer->outcome, err);
     if (!status && answer->outcome == CPS_SET_ANSWERED)
-        status = build_cone(form, s, answer->tolerance, same, out, err);
+        status = build_cone(form, s, tolerance, fmax(SAME_EQUATION, TURN*tolerance), out, err);
     free(s);
     cpsi_form_free(made);
     return status;
@@ -207,8 +205,8 @@ static CpsStatus conic_cone(const CpsSet *set, const double *p, double tolerance
 static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
                          CpsError *err);
 
-static CpsStatus cone_of_product(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
-                                 CpsError *err) {
+static CpsStatus cone_of_product(const CpsSet *set, const double *p, double tolerance, CpsSet **out,
+                                 CpsSetAnswer *answer, CpsError *err) {
     CpsSet **cone = calloc((size_t)set->count, sizeof(CpsSet *));
     if (!cone) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     CpsStatus status = CPS_OK;
@@ -271,11 +269,14 @@ CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tol
     status = cps_set_project(set, point, NULL, nearest, answer, err);
     const double distance = answer->value, size = cpsi_set_size(set);
     answer->tolerance = share;
-    if (!status && answer->outcome == CPS_SET_ANSWERED && distance > fmax(share, 1e-9)*size) answer->outcome = CPS_SET_OUTSIDE;
-    if (!status && answer->outcome == CPS_SET_ANSWERED) status = cone_at(set, point, share, &found, answer, err);
+    if (!status && answer->outcome == CPS_SET_ANSWERED && distance > fmax(share, 1e-9)*size)
+        answer->outcome = CPS_SET_OUTSIDE;
+    const double *at = distance > answer->gap ? nearest : point;
+    if (!status && answer->outcome == CPS_SET_ANSWERED) status = cone_at(set, at, share, &found, answer, err);
     free(nearest);
     answer->value = distance;
     answer->exact = false;
+    answer->closure = set->closure;
     if (!status && answer->outcome == CPS_SET_ANSWERED) *cone = found;
     else cps_set_release(found);
     return status;

@@ -7,8 +7,8 @@
 #include "set/node.h"
 
 /* Parts there, as many as allowed; all of the same space unless it is a product. */
-static CpsStatus check_parts(const char *call, bool product, int count, const CpsSet *const *parts, int *n, CpsSet **out,
-                             CpsError *err) {
+static CpsStatus check_parts(const char *call, bool product, int count, const CpsSet *const *parts, int *n,
+                             CpsSet **out, CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: out is NULL, expected a place for the set", call);
     if (count < 1 || count > CPS_SET_MAX_ITEMS || !parts)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %d parts, expected 1 to %d", call, count, CPS_SET_MAX_ITEMS);
@@ -16,11 +16,12 @@ static CpsStatus check_parts(const char *call, bool product, int count, const Cp
     for (int k = 0; k < count; k++) {
         if (!parts[k]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: part %d is NULL, expected a set", call, k);
         if (!product && parts[k]->n != parts[0]->n)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: part %d lies in R^%d and part 0 in R^%d, expected one space", call,
-                             k, parts[k]->n, parts[0]->n);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: part %d lies in R^%d and part 0 in R^%d, expected one space",
+                             call, k, parts[k]->n, parts[0]->n);
         *n = product ? *n + parts[k]->n : parts[k]->n;
         if (*n > CPS_SET_MAX_SPACE)
-            return cpsi_fail(err, CPS_ERR_LIMIT, "%s: the product has more than %d components", call, CPS_SET_MAX_SPACE);
+            return cpsi_fail(err, CPS_ERR_LIMIT, "%s: the product has more than %d components", call,
+                             CPS_SET_MAX_SPACE);
     }
     return CPS_OK;
 }
@@ -35,6 +36,64 @@ static CpsStatus finish(CpsSet *set, CpsSet **out, CpsError *err) {
     if (status) cps_set_release(set);
     else *out = set;
     return status;
+}
+
+/* ---- closed as it is written? ---- */
+
+/* Bounded by the way it is written; false means unknown. */
+static bool known_bounded(const CpsSet *set) {
+    int bounded = 0;
+    switch (set->kind) {
+    case CPSI_SET_POINTS:
+    case CPSI_SET_BALL:
+    case CPSI_SET_ELLIPSOID:
+    case CPSI_SET_USER: return true;
+    case CPSI_SET_BOX:
+        for (int i = 0; i < set->n; i++) bounded += isfinite(set->a[i]) && isfinite(set->b[i]);
+        return bounded == set->n;
+    case CPSI_SET_INEQUALITIES:
+    case CPSI_SET_CONIC:
+    case CPSI_SET_PREIMAGE:
+    case CPSI_SET_POLAR: return false;
+    case CPSI_SET_SUBSPACE:
+    case CPSI_SET_RAYS: return set->count == 0;
+    default: break;
+    }
+    for (int k = 0; k < set->count; k++) bounded += known_bounded(set->part[k]);
+    return set->kind == CPSI_SET_INTERSECTION ? bounded > 0 : bounded == set->count;
+}
+
+/* A polyhedron by the way it is written. */
+static bool known_polyhedral(const CpsSet *set) {
+    switch (set->kind) {
+    case CPSI_SET_POINTS:
+    case CPSI_SET_BOX:
+    case CPSI_SET_INEQUALITIES:
+    case CPSI_SET_SUBSPACE:
+    case CPSI_SET_RAYS: return true;
+    case CPSI_SET_BALL:
+    case CPSI_SET_ELLIPSOID: return set->n == 1;
+    case CPSI_SET_USER: return false;
+    case CPSI_SET_CONIC: return set->form->largest_cone <= 1;
+    default: break;
+    }
+    for (int k = 0; k < set->count; k++)
+        if (!known_polyhedral(set->part[k])) return false;
+    return true;
+}
+
+/* A sum is closed when all parts but one are bounded, or the unbounded ones are polyhedra (Rockafellar 1970, theorem
+ * 19.3 and corollary 9.1.2); an image of a bounded set or a polyhedron is; the hull of bounded sets is (theorem
+ * 17.2). */
+static bool need_not_be_closed(const CpsSet *set) {
+    int unbounded = 0, curved = 0;
+    for (int k = 0; k < set->count; k++) {
+        if (known_bounded(set->part[k])) continue;
+        unbounded++;
+        curved += !known_polyhedral(set->part[k]);
+    }
+    if (set->kind == CPSI_SET_HULL) return unbounded > 0 && set->count > 1;
+    return curved > 0 && (set->kind == CPSI_SET_IMAGE || unbounded > 1);
 }
 
 CpsStatus cps_set_product(int count, const CpsSet *const *parts, CpsSet **out, CpsError *err) {
@@ -53,14 +112,18 @@ CpsStatus cps_set_intersection(int count, const CpsSet *const *parts, CpsSet **o
 
 CpsStatus cps_set_sum(int count, const CpsSet *const *parts, CpsSet **out, CpsError *err) {
     int n;
-    const CpsStatus status = check_parts("cps_set_sum", false, count, parts, &n, out, err);
-    return status ? status : cpsi_set_new(CPSI_SET_SUM, n, count, parts, 0, out, err);
+    CpsStatus status = check_parts("cps_set_sum", false, count, parts, &n, out, err);
+    if (!status) status = cpsi_set_new(CPSI_SET_SUM, n, count, parts, 0, out, err);
+    if (!status) (*out)->closure = (*out)->closure || need_not_be_closed(*out);
+    return status;
 }
 
 CpsStatus cps_set_hull(int count, const CpsSet *const *parts, CpsSet **out, CpsError *err) {
     int n;
-    const CpsStatus status = check_parts("cps_set_hull", false, count, parts, &n, out, err);
-    return status ? status : cpsi_set_new(CPSI_SET_HULL, n, count, parts, 0, out, err);
+    CpsStatus status = check_parts("cps_set_hull", false, count, parts, &n, out, err);
+    if (!status) status = cpsi_set_new(CPSI_SET_HULL, n, count, parts, 0, out, err);
+    if (!status) (*out)->closure = (*out)->closure || need_not_be_closed(*out);
+    return status;
 }
 
 /* One part and a finite array of `count` numbers. */
@@ -72,7 +135,8 @@ static CpsStatus check_one(const char *call, const char *name, const CpsSet *set
     return cpsi_set_finite(call, name, count, numbers, err);
 }
 
-static CpsStatus check_map(const char *call, int rows, const double *map, const CpsSet *set, CpsSet **out, CpsError *err) {
+static CpsStatus check_map(const char *call, int rows, const double *map, const CpsSet *set, CpsSet **out,
+                           CpsError *err) {
     if (rows < 1 || rows > CPS_SET_MAX_SPACE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the space's dimension is %d, expected 1 to %d", call, rows,
                          CPS_SET_MAX_SPACE);
@@ -101,6 +165,7 @@ CpsStatus cps_set_image(int m, const double *map, const CpsSet *part, CpsSet **o
     const size_t size = (size_t)m*(size_t)part->n;
     status = cpsi_set_new(CPSI_SET_IMAGE, m, 1, &part, size, out, err);
     if (!status) memcpy((*out)->a, map, size*sizeof *map);
+    if (!status) (*out)->closure = (*out)->closure || need_not_be_closed(*out);
     return status;
 }
 

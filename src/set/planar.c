@@ -16,8 +16,14 @@
 #include "set/node.h"
 
 static const double TURN = 6.283185307179586476925;
-/* A corner that opens less than this is not told from an arc. */
-static const double LEAST_OPENING = 6.283185307179586/720;
+/* [rad] A corner that opens less than this is not looked for: over such angles arcs of radii below a thousandth of
+ * the size move by less than SAME. */
+static const double LEAST_OPENING = 1e-6;
+/* Points closer than this share of the size are one; an arc is smooth to a tenth of it. */
+static const double SAME = 1e-9;
+/* Supports to be asked for before what is left counts as arcs: a point known to its gap's root only is smooth
+ * nowhere. */
+enum { MOST_LOOKS = 50000 };
 
 typedef struct Piece {
     bool corner;
@@ -30,8 +36,9 @@ typedef struct Walk {
     const CpsSet *set;
     const double *center, *basis;
     double *w, *point; /* (n) scratch */
-    double size;       /* points closer than 1e-9 of it are one */
-    double opening;
+    double size;
+    double opening;    /* least angle of a corner */
+    int looks;         /* made so far */
     Piece *piece;
     int count, room;
     bool exact;
@@ -48,6 +55,7 @@ static double look(Walk *walk, double theta, double x[2]) {
     const int n = walk->set->n;
     const double c = cos(theta), s = sin(theta);
     CpsSetAnswer answer = {.outcome = CPS_SET_INACCURATE};
+    walk->looks++;
     for (int i = 0; i < n; i++) walk->w[i] = c*walk->basis[i] + s*walk->basis[n + i];
     if (going(walk)) walk->status = cpsi_support(walk->set, walk->w, walk->point, &answer, walk->err);
     if (walk->status == CPS_OK && answer.outcome != CPS_SET_ANSWERED) walk->outcome = answer.outcome;
@@ -61,10 +69,14 @@ static double look(Walk *walk, double theta, double x[2]) {
     return c*x[0] + s*x[1];
 }
 
+static bool same(const Walk *walk, const double x[2], const double y[2]) {
+    return hypot(y[0] - x[0], y[1] - x[1]) <= SAME*walk->size;
+}
+
 static void add_piece(Walk *walk, bool corner, double from, double to, const double *x) {
     Piece *last = walk->count > 0 ? &walk->piece[walk->count - 1] : NULL;
-    /* go on with the last piece where it is the same */
-    if (last && corner == last->corner && (!corner || hypot(x[0] - last->x[0], x[1] - last->x[1]) <= 1e-8*walk->size)) {
+    /* go on with the last piece where it is the same; arcs stay as smooth as they were found */
+    if (last && corner && last->corner && hypot(x[0] - last->x[0], x[1] - last->x[1]) <= 10*SAME*walk->size) {
         last->to = to;
         return;
     }
@@ -81,56 +93,90 @@ static void add_piece(Walk *walk, bool corner, double from, double to, const dou
     walk->piece[walk->count++] = (Piece){corner, from, to, {corner ? x[0] : 0, corner ? x[1] : 0}};
 }
 
-/* The angle up to which (sign 1: from `at`; -1: down to) the corner x answers, on this side of `limit`. */
+/* The angle up to which the corner x answers, from `at`, where it does, on this side of `limit`. */
 static double corner_ends(Walk *walk, const double x[2], double at, double limit) {
     for (int k = 0; k < 60 && going(walk) && fabs(limit - at) > 1e-13; k++) {
         const double middle = 0.5*(at + limit);
         double y[2];
         look(walk, middle, y);
-        if (hypot(y[0] - x[0], y[1] - x[1]) <= 1e-8*walk->size) at = middle;
+        if (same(walk, x, y)) at = middle;
         else limit = middle;
     }
     return at;
 }
 
-/* The pieces from angle a, where x answers, to b, where y does. */
-static void divide(Walk *walk, double a, const double x[2], double b, const double y[2], int depth) {
-    if (!going(walk)) return;
-    const double dx = y[0] - x[0], dy = y[1] - x[1], chord = hypot(dx, dy);
-    if (chord <= 1e-9*walk->size) {
-        add_piece(walk, true, a, b, x);
-        return;
+/* Does the polynomial through x at the nine points cos(k pi/8) of [a, b] foretell x elsewhere?  The barycentric formula
+ * (Berrut and Trefethen 2004). A corner or an edge shifts what comes after it, which no polynomial does. */
+static bool smooth(Walk *walk, double a, const double x[2], double b, const double y[2]) {
+    static const double NODE[] = {-1, -0.9238795325112867, -0.7071067811865475, -0.3826834323650898, 0,
+                                  0.3826834323650898, 0.7071067811865475, 0.9238795325112867, 1};
+    static const double PROBE[] = {-0.83, -0.19, 0.57};
+    double value[9][2], found[2];
+    memcpy(value[0], x, sizeof value[0]), memcpy(value[8], y, sizeof value[8]);
+    for (int k = 1; k < 8; k++) look(walk, 0.5*(a + b) + 0.5*(b - a)*NODE[k], value[k]);
+    for (int p = 0; p < 3; p++) {
+        double sum[2] = {0, 0}, weights = 0;
+        for (int k = 0; k < 9; k++) {
+            const double weight = (k & 1 ? -1 : 1)*(k % 8 ? 1 : 0.5)/(PROBE[p] - NODE[k]);
+            weights += weight, sum[0] += weight*value[k][0], sum[1] += weight*value[k][1];
+        }
+        look(walk, 0.5*(a + b) + 0.5*(b - a)*PROBE[p], found);
+        if (!(hypot(sum[0]/weights - found[0], sum[1]/weights - found[1]) <= 0.1*SAME*walk->size)) return false;
     }
-    /* the normal of the chord, between a and b; does the chord support the set there? */
-    double m = atan2(-dx, dy), z[2];
+    return true;
+}
+
+/* The angle in [a, b] whose normal is the chord's, and x there. */
+static double at_chord(Walk *walk, double a, const double x[2], double b, const double y[2], double z[2]) {
+    double m = atan2(x[0] - y[0], y[1] - x[1]);
     while (m < a) m += TURN;
     while (m > b + 1e-9 && m > a) m -= TURN;
     m = fmin(b, fmax(a, m));
-    const double h = look(walk, m, z), at = cos(m)*x[0] + sin(m)*x[1];
-    if (h - at <= 1e-13*walk->size + 1e-9*chord*fmin(1, chord/walk->size)*1e-3) {
+    look(walk, m, z);
+    return m;
+}
+
+/* The pieces from angle a, where x answers, to b, where y does. */
+static void divide(Walk *walk, double a, const double x[2], double b, const double y[2]) {
+    if (!going(walk)) return;
+    if (same(walk, x, y)) {
+        add_piece(walk, true, a, b, x);
+        return;
+    }
+    double z[2], first[2], last[2];
+    const double m = at_chord(walk, a, x, b, y, z);
+    look(walk, m - 0.5*(m - a), first), look(walk, m + 0.5*(b - m), last);
+    const bool edge = (z[0] - x[0])*cos(m) + (z[1] - x[1])*sin(m) <= 1e-13*walk->size;
+    if (edge && same(walk, x, first) && same(walk, y, last)) {
         add_piece(walk, true, a, m, x);
         add_piece(walk, true, m, b, y);
         return;
     }
-    if (depth == 0) {
+    if (b - a <= walk->opening || walk->looks > MOST_LOOKS) {
         add_piece(walk, false, a, b, NULL);
         return;
     }
-    /* halves of the angle while it is large, so that no corner is missed; then at the chord, which ends on polygons */
-    const double cut = b - a > walk->opening ? 0.5*(a + b) : m;
-    const int left = b - a > walk->opening ? depth : depth - 1;
-    if (cut != m) look(walk, cut, z);
-    divide(walk, a, x, cut, z, left);
-    divide(walk, cut, z, b, y, left);
-}
-
-/* Where an arc meets a corner the corner's end is sharpened; arcs then carry smooth functions. */
-static void sharpen(Walk *walk) {
-    for (int k = 0; k < walk->count && going(walk); k++) {
-        Piece *piece = &walk->piece[k], *before = k > 0 ? piece - 1 : NULL, *after = k + 1 < walk->count ? piece + 1 : NULL;
-        if (!piece->corner) continue;
-        if (before && !before->corner) before->to = piece->from = corner_ends(walk, piece->x, piece->from, before->from);
-        if (after && !after->corner) after->from = piece->to = corner_ends(walk, piece->x, piece->to, after->to);
+    /* another corner, as on polygons */
+    if (!edge && (same(walk, z, first) || same(walk, z, last))) {
+        divide(walk, a, x, m, z);
+        divide(walk, m, z, b, y);
+        return;
+    }
+    /* a corner at one end reaches to where it does */
+    const double middle = 0.5*(a + b);
+    double end = middle;
+    look(walk, middle, z);
+    if (same(walk, x, z)) {
+        add_piece(walk, true, a, end = corner_ends(walk, x, middle, b), x);
+        divide(walk, end, x, b, y);
+    } else if (same(walk, y, z)) {
+        divide(walk, a, x, end = corner_ends(walk, y, middle, a), y);
+        add_piece(walk, true, end, b, y);
+    } else if (smooth(walk, a, x, b, y)) {
+        add_piece(walk, false, a, b, NULL);
+    } else {
+        divide(walk, a, x, middle, z);
+        divide(walk, middle, z, b, y);
     }
 }
 
@@ -142,21 +188,28 @@ static void walk_round(Walk *walk) {
     for (int k = 0; k < STARTS; k++) look(walk, first + k*TURN/STARTS, x[k]);
     memcpy(x[STARTS], x[0], sizeof x[0]);
     for (int k = 0; k < STARTS; k++)
-        divide(walk, first + k*TURN/STARTS, x[k], first + (k + 1)*TURN/STARTS, x[k + 1], 3);
-    sharpen(walk);
+        divide(walk, first + k*TURN/STARTS, x[k], first + (k + 1)*TURN/STARTS, x[k + 1]);
 }
 
 /* ---- what is asked ---- */
 
-static CpsStatus start_walk(const CpsSet *set, double tolerance, Walk *walk, CpsSetFacts *facts, double **room, CpsError *err) {
+static CpsStatus start_walk(const CpsSet *set, double tolerance, Walk *walk, CpsSetFacts *facts, double **room,
+                            CpsError *err) {
     const size_t n = (size_t)set->n;
     *walk = (Walk){.outcome = CPS_SET_INACCURATE};
     *facts = (CpsSetFacts){.outcome = CPS_SET_INACCURATE};
     *room = malloc((n*n + 3*n)*sizeof **room);
     if (!*room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the outline of a set");
     double *center = *room, *basis = center + n;
-    *walk = (Walk){.set = set, .center = center, .basis = basis, .w = basis + n*n, .point = basis + n*n + n,
-                   .size = cpsi_set_size(set), .opening = tolerance > 0 ? tolerance : LEAST_OPENING, .exact = true, .err = err};
+    *walk = (Walk){.set = set,
+                   .center = center,
+                   .basis = basis,
+                   .w = basis + n*n,
+                   .point = basis + n*n + n,
+                   .size = cpsi_set_size(set),
+                   .opening = tolerance > 0 ? tolerance : LEAST_OPENING,
+                   .exact = true,
+                   .err = err};
     const CpsStatus status = cps_set_facts(set, 0, facts, center, basis, err);
     if (status) return status;
     if (facts->outcome == CPS_SET_NOT_AVAILABLE && facts->dimension >= 0) facts->outcome = CPS_SET_ANSWERED;
@@ -215,9 +268,11 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
                            CpsSetAnswer *answer, CpsError *err) {
     static const char *const CALL = "cps_set_vertices";
     if (!set || !count || !answer || (!points && capacity > 0) || capacity < 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set, count, answer or points is NULL, or capacity is negative", CALL);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set, count, answer or points is NULL, or capacity is negative",
+                         CALL);
     if (!(tolerance >= 0) || tolerance > 0.5)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected an angle from 0 to 0.5", CALL, tolerance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected an angle from 0 to 0.5", CALL,
+                         tolerance);
     Walk walk;
     CpsSetFacts facts;
     double *room;
@@ -233,7 +288,8 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
                 /* the walk starts inside a piece, which then ends it as well */
                 const bool again = k > 0 && k == walk.count - 1 && first->corner && piece->corner &&
                                    hypot(piece->x[0] - first->x[0], piece->x[1] - first->x[1]) <= 1e-8*walk.size;
-                if (piece->corner && !again) put_point(&walk, piece->x, capacity, points, count);
+                if (piece->corner && !again && (k == 0 || piece->to - piece->from >= walk.opening))
+                    put_point(&walk, piece->x, capacity, points, count);
             }
         } else if (!put_known(set, capacity, points, count)) walk.outcome = CPS_SET_NOT_PLANAR;
     }
@@ -253,8 +309,10 @@ typedef struct Pair {
 
 /* Gauss-Legendre with eight points from a to b. */
 static Pair gauss(Walk *walk, double a, double b) {
-    static const double NODE[] = {0.1834346424956498049, 0.5255324099163289858, 0.7966664774136267396, 0.9602898564975362317};
-    static const double WEIGHT[] = {0.3626837833783619830, 0.3137066458778872873, 0.2223810344533744706, 0.1012285362903762592};
+    static const double NODE[] = {0.1834346424956498049, 0.5255324099163289858, 0.7966664774136267396,
+                                  0.9602898564975362317};
+    static const double WEIGHT[] = {0.3626837833783619830, 0.3137066458778872873, 0.2223810344533744706,
+                                    0.1012285362903762592};
     Pair sum = {0, 0};
     for (int k = 0; k < 8; k++) {
         const double t = 0.5*(a + b) + (k & 1 ? -0.5 : 0.5)*(b - a)*NODE[k/2];
@@ -270,7 +328,8 @@ static void along_arc(Walk *walk, double a, double b, Pair whole, int depth, Cps
     if (!going(walk)) return;
     const double m = 0.5*(a + b), size = walk->size;
     const Pair left = gauss(walk, a, m), right = gauss(walk, m, b);
-    const double off = fabs(left.length + right.length - whole.length), off_area = fabs(left.area + right.area - whole.area);
+    const double off = fabs(left.length + right.length - whole.length),
+                 off_area = fabs(left.area + right.area - whole.area);
     if (depth > 0 && (off > 1e-12*size*(b - a) + 1e-15*size || off_area > 1e-12*size*size*(b - a) + 1e-15*size*size)) {
         along_arc(walk, a, m, left, depth - 1, measure);
         along_arc(walk, m, b, right, depth - 1, measure);
@@ -291,7 +350,8 @@ static void along_corner(const Piece *piece, CpsSetMeasure *measure) {
 }
 
 CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *err) {
-    if (!set || !measure) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_measure: %s is NULL", set ? "measure" : "set");
+    if (!set || !measure)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_measure: %s is NULL", set ? "measure" : "set");
     Walk walk;
     CpsSetFacts facts;
     double *room;
@@ -344,7 +404,8 @@ static CpsStatus planar_rays(const CpsSet *set, const double *center, const doub
         }
         const double t = middle + sign*in;
         if (*count < capacity)
-            for (int i = 0; i < n; i++) rays[*count*n + i] = cos(t)*basis[i] + (dimension > 1 ? sin(t)*basis[n + i] : 0);
+            for (int i = 0; i < n; i++)
+                rays[*count*n + i] = cos(t)*basis[i] + (dimension > 1 ? sin(t)*basis[n + i] : 0);
         ++*count;
         if (dimension == 1) break;
     }
@@ -353,19 +414,22 @@ static CpsStatus planar_rays(const CpsSet *set, const double *center, const doub
     return status;
 }
 
-CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double *rays, int *count, CpsSetAnswer *answer,
-                       CpsError *err) {
+CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double *rays, int *count,
+                       CpsSetAnswer *answer, CpsError *err) {
     static const char *const CALL = "cps_set_rays";
     if (!set || !count || !answer || (!rays && capacity > 0) || capacity < 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set, count, answer or rays is NULL, or capacity is negative", CALL);
-    if (!(tolerance >= 0)) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected >= 0", CALL, tolerance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set, count, answer or rays is NULL, or capacity is negative",
+                         CALL);
+    if (!(tolerance >= 0))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected >= 0", CALL, tolerance);
     const size_t n = (size_t)set->n;
     *count = 0;
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
     if (set->kind == CPSI_SET_RAYS || set->kind == CPSI_SET_SUBSPACE) {
         const int sides = set->kind == CPSI_SET_RAYS ? 1 : 2;
         for (int k = 0; k < sides*set->count; k++, ++*count) {
-            const double *ray = &set->a[(size_t)(k/sides)*n], size = cpsi_norm(set->n, ray)*(sides == 2 && k % 2 ? -1 : 1);
+            const double *ray = &set->a[(size_t)(k/sides)*n],
+                         size = cpsi_norm(set->n, ray)*(sides == 2 && k % 2 ? -1 : 1);
             for (size_t i = 0; *count < capacity && i < n; i++) rays[(size_t)k*n + i] = ray[i]/size;
         }
         return CPS_OK;

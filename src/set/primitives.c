@@ -19,8 +19,8 @@ static CpsStatus check_rows(const char *call, const char *name, int n, int count
     CpsStatus status = check_space(call, n, out, err);
     if (status) return status;
     if (count < least || count > CPS_SET_MAX_ITEMS || (size_t)count > ((size_t)32 << 20)/(size_t)n)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: count is %d, expected %d to %d and count x n at most 2^25", call, count,
-                         least, CPS_SET_MAX_ITEMS);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: count is %d, expected %d to %d and count x n at most 2^25", call,
+                         count, least, CPS_SET_MAX_ITEMS);
     if (!rows && count > 0) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", call, name);
     return rows ? cpsi_set_finite(call, name, (size_t)count*(size_t)n, rows, err) : CPS_OK;
 }
@@ -73,8 +73,9 @@ CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, Cp
     for (size_t i = 0; i < w; i++)
         for (size_t j = 0; j < i; j++)
             if (fabs(shape[i*w + j] - shape[j*w + i]) > 1e-12*most)
-                return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: shape is not symmetric: entries %zu, %zu are %.17g and %.17g",
-                                 CALL, i, j, shape[i*w + j], shape[j*w + i]);
+                return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                 "%s: shape is not symmetric: entries %zu, %zu are %.17g and %.17g", CALL, i, j,
+                                 shape[i*w + j], shape[j*w + i]);
     CpsSet *set = NULL;
     status = cpsi_set_new(CPSI_SET_ELLIPSOID, n, 1, NULL, w + 3*w*w, &set, err);
     if (status) return status;
@@ -99,8 +100,8 @@ CpsStatus cps_set_box(int n, const double *low, const double *high, CpsSet **out
     if (!low || !high) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_box: %s is NULL", low ? "high" : "low");
     for (int i = 0; i < n; i++)
         if (!(low[i] <= high[i]) || low[i] == INFINITY || high[i] == -INFINITY)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_box: component %d runs from %g to %g, expected low <= high", i,
-                             low[i], high[i]);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "cps_set_box: component %d runs from %g to %g, expected low <= high", i, low[i], high[i]);
     status = cpsi_set_new(CPSI_SET_BOX, n, 1, NULL, 2*(size_t)n, out, err);
     if (status) return status;
     (*out)->b = (*out)->a + n;
@@ -132,7 +133,8 @@ CpsStatus cps_set_inequalities(int n, int count, const double *rows, const doubl
     if (!status) status = cpsi_set_new(CPSI_SET_INEQUALITIES, n, count, NULL, size + (size_t)count, out, err);
     if (status) return status;
     (*out)->b = (*out)->a + size;
-    if (count > 0) memcpy((*out)->a, rows, size*sizeof *rows), memcpy((*out)->b, offsets, (size_t)count*sizeof *offsets);
+    if (count > 0)
+        memcpy((*out)->a, rows, size*sizeof *rows), memcpy((*out)->b, offsets, (size_t)count*sizeof *offsets);
     return CPS_OK;
 }
 
@@ -148,7 +150,8 @@ CpsStatus cps_set_strip(int n, const double *normal, double low, double high, Cp
     if (status) return status;
     if (!(low <= high) || !isfinite(low) || !isfinite(high))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "%s: from %g to %g, expected finite low <= high (a half space has one bound)", CALL, low, high);
+                         "%s: from %g to %g, expected finite low <= high (a half space has one bound)", CALL, low,
+                         high);
     const size_t w = (size_t)n;
     status = cpsi_set_new(CPSI_SET_INEQUALITIES, n, 2, NULL, 2*w + 2, out, err);
     if (status) return status;

@@ -12,6 +12,12 @@
 #include "linsys/small.h"
 #include "set/node.h"
 
+/* The gap, relative to value and size, up to which a value that only a far point attains is one. Its certificate
+ * loses what the point is far; what has no bound at all is off by order 1. */
+static const double ASYMPTOTIC = 3e-2;
+/* What is left of terms that cancel to rounding, beside the largest. */
+static const double CANCELLED = 4e-16;
+
 CpsStatus cpsi_set_form(const CpsSet *set, const CpsiForm **form, CpsiForm **made, CpsError *err) {
     *made = NULL;
     *form = set->form;
@@ -22,6 +28,17 @@ CpsStatus cpsi_set_form(const CpsSet *set, const CpsiForm **form, CpsiForm **mad
 }
 
 /* ---- support ---- */
+
+void cpsi_judge_attained(const CpsiForm *form, const double *c, CpsiSolution *solution) {
+    const CpsSetOutcome outcome = solution->outcome;
+    if ((outcome != CPS_SET_ANSWERED && outcome != CPS_SET_INACCURATE) || !solution->s) return;
+    double far = 0;
+    for (int i = 0; i < form->n; i++) far = hypot(far, solution->x[i] - form->origin[i]);
+    const double size = fabs(solution->value) + form->size*cpsi_norm(form->n, c);
+    if (far <= CPSI_SET_FAR*form->size || solution->gap > ASYMPTOTIC*size) return;
+    solution->outcome = CPS_SET_NOT_ATTAINED;
+    solution->gap = fmax(solution->gap, size/CPSI_SET_FAR); /* a hyperbola's distance from its asymptote out there */
+}
 
 static CpsStatus conic_support(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer, CpsError *err) {
     const int n = set->n;
@@ -35,6 +52,7 @@ static CpsStatus conic_support(const CpsSet *set, const double *w, double *point
     CpsStatus status = cpsi_set_form(set, &form, &made, err);
     if (!status) status = cpsi_form_minimise(form, c, &solution, err);
     if (!status) {
+        cpsi_judge_attained(form, c, &solution);
         *answer = (CpsSetAnswer){.outcome = solution.outcome, .value = -solution.value, .gap = solution.gap};
         if (solution.outcome == CPS_SET_EMPTY) answer->value = -INFINITY;
         if (solution.outcome == CPS_SET_UNBOUNDED) answer->value = INFINITY;
@@ -84,19 +102,23 @@ static CpsStatus support_parts(const CpsSet *set, const double *w, double *point
     return status;
 }
 
+void cpsi_pull_back(const CpsSet *image, const double *w, double *back) {
+    const int n = image->n, m = image->part[0]->n;
+    double most = 0;
+    memset(back, 0, (size_t)m*sizeof *back);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < m; j++) back[j] += image->a[i*m + j]*w[i], most = fmax(most, fabs(image->a[i*m + j]*w[i]));
+    for (int j = 0; j < m; j++)
+        if (fabs(back[j]) < CANCELLED*most) back[j] = 0;
+}
+
 static CpsStatus support_image(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer, CpsError *err) {
     const CpsSet *part = set->part[0];
     const int n = set->n, m = part->n;
     CpsiScratch scratch;
     double *back = cpsi_scratch_take(&scratch, 2*(size_t)m), *piece = back ? back + m : NULL;
     if (!back) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
-    double most = 0;
-    memset(back, 0, (size_t)m*sizeof *back);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < m; j++) back[j] += set->a[i*m + j]*w[i], most = fmax(most, fabs(set->a[i*m + j]*w[i]));
-    /* what cancels to rounding is 0: an unbounded part must not turn it into infinity */
-    for (int j = 0; j < m; j++)
-        if (fabs(back[j]) < 4e-16*most) back[j] = 0;
+    cpsi_pull_back(set, w, back);
     const CpsStatus status = cpsi_support(part, back, point ? piece : NULL, answer, err);
     for (int i = 0; !status && point && i < n; i++) point[i] = cpsi_dot(m, &set->a[i*m], piece);
     cpsi_scratch_give(&scratch);
@@ -160,6 +182,21 @@ static CpsStatus support_user(const CpsSet *set, const double *w, double *point,
     return CPS_OK;
 }
 
+/* Far points of the parts may make a near one of an image or sum, which the closure then holds. */
+static CpsStatus in_closure(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer, CpsError *err) {
+    if (answer->outcome != CPS_SET_NOT_ATTAINED) return CPS_OK;
+    if (point) {
+        if (cpsi_norm(set->n, point) <= CPSI_SET_FAR*cpsi_set_size(set)) answer->outcome = CPS_SET_ANSWERED;
+        return CPS_OK;
+    }
+    CpsiScratch scratch;
+    double *place = cpsi_scratch_take(&scratch, (size_t)set->n);
+    if (!place) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
+    const CpsStatus status = cpsi_support(set, w, place, answer, err);
+    cpsi_scratch_give(&scratch);
+    return status;
+}
+
 CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer, CpsError *err) {
     double value;
     if (cpsi_closed_support(set, w, point, &value)) {
@@ -169,9 +206,13 @@ CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSet
     }
     switch (set->kind) {
     case CPSI_SET_USER: return support_user(set, w, point, answer, err);
-    case CPSI_SET_PRODUCT:
-    case CPSI_SET_SUM: return support_parts(set, w, point, answer, err);
-    case CPSI_SET_IMAGE: return support_image(set, w, point, answer, err);
+    case CPSI_SET_PRODUCT: return support_parts(set, w, point, answer, err);
+    case CPSI_SET_SUM:
+    case CPSI_SET_IMAGE: {
+        const bool sum = set->kind == CPSI_SET_SUM;
+        const CpsStatus status = (sum ? support_parts : support_image)(set, w, point, answer, err);
+        return status ? status : in_closure(set, w, point, answer, err);
+    }
     case CPSI_SET_TRANSLATE:
     case CPSI_SET_SCALE: return support_moved(set, w, point, answer, err);
     case CPSI_SET_HULL: return support_hull(set, w, point, answer, err);
@@ -209,7 +250,8 @@ static CpsStatus ask_new(const CpsSet *set, CpsiCount own, Ask *ask, CpsError *e
 }
 
 /* Write the set's rows and minimise sum c_i u_i over the first `outputs` unknowns u. */
-static CpsStatus ask_solve(Ask *ask, const CpsSet *set, int outputs, const double *c, CpsiSolution *solution, CpsError *err) {
+static CpsStatus ask_solve(Ask *ask, const CpsSet *set, int outputs, const double *c, CpsiSolution *solution,
+                           CpsError *err) {
     CpsiForm *form = NULL;
     const size_t w = (size_t)ask->raw->width;
     double *first = calloc((size_t)outputs*w, sizeof *first);
@@ -273,7 +315,8 @@ static CpsStatus conic_project(const CpsSet *set, const double *p, const double 
                                CpsSetAnswer *answer, CpsError *err) {
     const int n = set->n;
     Ask ask;
-    CpsStatus status = ask_new(set, (CpsiCount){.unknowns = (size_t)n + 1, .rows = (size_t)n + 1, .cones = 1}, &ask, err);
+    CpsStatus status =
+        ask_new(set, (CpsiCount){.unknowns = (size_t)n + 1, .rows = (size_t)n + 1, .cones = 1}, &ask, err);
     if (status) return status;
     const size_t w = (size_t)ask.raw->width;
     double *rows = cpsi_raw_cone(ask.raw, n + 1);
@@ -308,13 +351,17 @@ static CpsStatus conic_project(const CpsSet *set, const double *p, const double 
 static CpsStatus check(const char *call, const CpsSet *set, const char *name, const double *numbers, const void *answer,
                        CpsError *err) {
     if (!set) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set is NULL, expected a set", call);
-    if (!numbers || !answer) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", call, numbers ? "the answer" : name);
+    if (!numbers || !answer)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", call, numbers ? "the answer" : name);
     return cpsi_set_finite(call, name, (size_t)set->n, numbers, err);
 }
 
-CpsStatus cps_set_support(const CpsSet *set, const double *direction, double *point, CpsSetAnswer *answer, CpsError *err) {
-    const CpsStatus status = check("cps_set_support", set, "direction", direction, answer, err);
-    return status ? status : cpsi_support(set, direction, point, answer, err);
+CpsStatus cps_set_support(const CpsSet *set, const double *direction, double *point, CpsSetAnswer *answer,
+                          CpsError *err) {
+    CpsStatus status = check("cps_set_support", set, "direction", direction, answer, err);
+    if (!status) status = cpsi_support(set, direction, point, answer, err);
+    if (!status) answer->closure = set->closure;
+    return status;
 }
 
 CpsStatus cps_set_extent(const CpsSet *set, const double *direction, CpsSetExtent *extent, CpsError *err) {
@@ -329,12 +376,14 @@ CpsStatus cps_set_extent(const CpsSet *set, const double *direction, CpsSetExten
     if (!status) status = cpsi_support(set, turned, NULL, &low, err);
     cpsi_scratch_give(&scratch);
     if (status) return status;
-    *extent = (CpsSetExtent){.exact = high.exact && low.exact, .low = -low.value, .high = high.value,
+    *extent = (CpsSetExtent){.exact = high.exact && low.exact, .closure = set->closure,
+                             .low = -low.value, .high = high.value,
                              .low_attained = low.outcome == CPS_SET_ANSWERED,
                              .high_attained = high.outcome == CPS_SET_ANSWERED, .gap = fmax(high.gap, low.gap)};
     const CpsSetAnswer *both[] = {&high, &low};
     for (int k = 0; k < 2; k++)
-        if (both[k]->outcome != CPS_SET_UNBOUNDED && both[k]->outcome != CPS_SET_ANSWERED) extent->outcome = both[k]->outcome;
+        if (both[k]->outcome > CPS_SET_NOT_ATTAINED || both[k]->outcome == CPS_SET_EMPTY)
+            extent->outcome = both[k]->outcome;
     return CPS_OK;
 }
 
@@ -345,7 +394,7 @@ CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *
     const size_t n = set ? (size_t)set->n : 0;
     if (!status && metric) status = cpsi_set_finite("cps_set_project", "metric", n*n, metric, err);
     if (status) return status;
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true, .closure = set->closure};
     if (!metric && cpsi_closed_project(set, point, nearest)) {
         for (size_t i = 0; i < n; i++) answer->value = hypot(answer->value, point[i] - nearest[i]);
         return CPS_OK;
@@ -360,10 +409,12 @@ CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *
                 const double off = fabs(metric[i*n + j] - metric[j*n + i]);
                 good = good && off <= 1e-12*(metric[i*n + i] + metric[j*n + j]);
             }
-        if (!good) status = cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_project: metric is not symmetric positive definite");
+        if (!good)
+            status = cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_project: metric is not symmetric positive definite");
     }
     if (!status && cpsi_set_has_user(set)) *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE};
     else if (!status) status = conic_project(set, point, lower, nearest, answer, err);
+    answer->closure = set->closure;
     free(lower);
     return status;
 }
@@ -399,7 +450,7 @@ CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separ
     CpsStatus status = check("cps_set_contains", set, "point", point, answer, err);
     if (status) return status;
     const int n = set->n;
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true, .closure = set->closure};
     if (cpsi_closed_margin(set, point, separating, &answer->value)) return CPS_OK;
     CpsiScratch scratch;
     double *nearest = cpsi_scratch_take(&scratch, (size_t)n);
@@ -437,5 +488,7 @@ CpsStatus cps_set_gauge(const CpsSet *set, const double *point, CpsSetAnswer *an
         *answer = (CpsSetAnswer){.outcome = CPS_SET_NO_ZERO};
         return CPS_OK;
     }
-    return cpsi_gauge(set, point, answer, err);
+    status = cpsi_gauge(set, point, answer, err);
+    answer->closure = set->closure;
+    return status;
 }

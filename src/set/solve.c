@@ -12,6 +12,9 @@
 /* Residuals and gap, relative to data of order one, below which a solution is taken; the answers promise 1e-9. */
 static const double ACCEPT = 1e-9;
 
+/* What an answer may be off by, relative to its value and to the size of the data. */
+static const double PROMISE = 1e-8;
+
 /* A cost below this share of what it could be is rounding. */
 static const double NOISE = 1e-12;
 
@@ -83,6 +86,10 @@ static void run(const CpsiForm *form, const double *c, const Layout *layout, Cps
     /* what the complementarity and the residuals leave open */
     const double far = 1 + cpsi_norm(u, solution->v) + cpsi_norm(form->rows, solution->z);
     solution->gap = solution->scale*(result.gap + result.residual*far);
+    const double least = form->size + cpsi_norm(n, solution->x);
+    if (!(solution->gap <= PROMISE*(fabs(solution->value) + cpsi_norm(n, c)*least)) &&
+        result.outcome == CPSI_CONIC_SOLVED)
+        solution->outcome = CPS_SET_INACCURATE;
 }
 
 CpsStatus cpsi_form_minimise(const CpsiForm *form, const double *c, CpsiSolution *solution, CpsError *err) {

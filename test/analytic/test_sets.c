@@ -137,6 +137,40 @@ static void wheel_faces(void **state) {
     cps_set_release(set);
 }
 
+/* Two discs of radius 1, their centres 2 sin(a/2) apart: two corners, whose cones open by a, however little that is.
+ * Discs joined smoothly have none. */
+static void corners_between_arcs(void **state) {
+    (void)state;
+    CpsSet *disc, *moved, *set, *box;
+    CpsSetAnswer answer;
+    CpsSetMeasure measure;
+    double corner[16];
+    int count;
+    DO(cps_set_ball(2, NULL, 1, &disc, &err));
+    for (double angle = 1; angle > 5e-6; angle /= 10) {
+        DO(cps_set_translate((const double[]){2 * sin(angle / 2), 0}, disc, &moved, &err));
+        DO(cps_set_intersection(2, (const CpsSet *[]){disc, moved}, &set, &err));
+        DO(cps_set_vertices(set, 0, 8, corner, &count, &answer, &err));
+        CHECK_INT(count, 2);
+        /* over the angle a point moves by a^2/8, which 1e-9 of the size tells from 0 within 1e-9/a */
+        CHECK_NEAR(corner[0], sin(angle / 2), 1e-9);
+        CHECK_NEAR(fabs(corner[1]), cos(angle / 2), 1e-9);
+        DO(cps_set_measure(set, &measure, &err));
+        CHECK_RELATIVE(show("lens of two discs, area", PI - angle - sin(angle), measure.area), PI - angle - sin(angle),
+                       1e-8);
+        CHECK_RELATIVE(measure.perimeter, 2 * (PI - angle), 1e-8);
+        cps_set_release(moved), cps_set_release(set);
+    }
+    DO(cps_set_box(2, (const double[]){-1, -2}, (const double[]){1, 2}, &box, &err));
+    DO(cps_set_sum(2, (const CpsSet *[]){box, disc}, &set, &err));
+    DO(cps_set_vertices(set, 0, 8, corner, &count, &answer, &err));
+    CHECK_INT(count, 0);
+    DO(cps_set_measure(set, &measure, &err)); /* Steiner: 8 + 12 + pi, 12 + 2 pi */
+    CHECK_RELATIVE(show("box and disc, area", 20 + PI, measure.area), 20 + PI, 1e-10);
+    CHECK_RELATIVE(measure.perimeter, 12 + 2 * PI, 1e-10);
+    cps_set_release(disc), cps_set_release(box), cps_set_release(set);
+}
+
 /* ---- limit surfaces: C = sum over contacts of B' D, B' f = (f, x f_y - y f_x), D the disc of the contact's share ----
  */
 
@@ -254,9 +288,9 @@ static void bipod_face(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elementary_sets),    cmocka_unit_test(wheel_support_area_and_corners),
-        cmocka_unit_test(wheel_faces),        cmocka_unit_test(ring_limit_surface),
-        cmocka_unit_test(disc_limit_surface), cmocka_unit_test(rod_limit_surface),
-        cmocka_unit_test(bipod_face),
+        cmocka_unit_test(wheel_faces),        cmocka_unit_test(corners_between_arcs),
+        cmocka_unit_test(ring_limit_surface), cmocka_unit_test(disc_limit_surface),
+        cmocka_unit_test(rod_limit_surface),  cmocka_unit_test(bipod_face),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

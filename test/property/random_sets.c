@@ -1,177 +1,115 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Seeded random set expressions, depth <= 4 in R^n with n <= 6, against the identities of convex analysis.
- *                                                                           usage: random_sets FIRST_SEED COUNT
+/* Random set expressions of depth <= 4 in R^n, n <= 6, against the identities of convex analysis.
+ *                                                                 usage: random_sets [--cases N | --seed S]
  *
- * Each case makes one expression and asks one question whose answer is known in a second way:
+ * Each case asks one question whose answer is known in a second way:
  *   form       support by the calculus = support by the conic form of the whole expression
  *   sum        h of a sum = sum of the h's, by the conic form
  *   polar      C°° = C for C with 0, and the gauge of C° = h
- *   face       <w, x> = h(w) on the face (Fenchel-Young), its points lie in C
+ *   face       <w, x> = h(w) (Fenchel-Young) at the middle and the ends of the face; its points lie in C
  *   facet      a face of a face attains both directions, one after the other
- *   meet       the maximum over A ∩ B lies in both, and is below h_A(u) + h_B(w - u) for every u
- *   moreau     p = P_K p + P_K° p, orthogonal, for a cone K
- *   preimage   L^-1(C) for invertible L = image of C by the inverse; of a polyhedron = the rows times L
- *   cone       w in the normal cone at x exactly where x lies on the face of w
+ *   meet       h of an intersection = inf-convolution: h(w) = h_A(u) + h_B(w - u) at a splitting read off the normal
+ * cones split      the same for balls, ellipsoids, boxes, half-spaces and strips, all in code of its own (split.c)
+ *   moreau     p = P_K p + P_K° p, orthogonal, for cones of rays and for normal cones K
+ *   project    p - P_C p is normal to C at P_C p: <p - P p, P p> = h(p - P p)
+ *   preimage   L^-1(C) = image of C by the (pseudo-)inverse, and endless along the kernel; of a polyhedron: rows times
+ * L cone       w is in the normal cone at x where x attains h(w), and what is in that cone exposes x degenerate points,
+ * segments, flat sets, empty intersections, unbounded sets: the outcome is known beforehand
  *
- * A case ends answered, refused for a reason of the fixed list (empty, unbounded, ...; fine where both ways say the
- * same), or undecided (CPS_SET_INACCURATE). At least 98 % must not be undecided, and none may be wrong. */
+ * At least 98 % must be answered, no matter how rare a refusal for a good reason is, and none may be wrong. */
 #include <math.h>
-#include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "capstan/set.h"
+#include "random_expression.h"
+#include "split.h"
 
-enum { MAX = 6, MOST = 64 };
+/* Values, relative to the size of the data: the solver's promise; two answers add up. */
+static const double VALUE = 2e-9;
+/* Distances of points from where they should be. */
+static const double POINT = 1e-8;
+/* A normal turns by its point's error over the radius; radii go down to a hundredth and less of the set. */
+static const double TURN = 1e-5;
 
-typedef enum Verdict { ANSWERED, REFUSED, UNDECIDED, WRONG } Verdict;
+/* ---- comparing ---- */
 
-static uint64_t state;
+static double worst[2]; /* largest difference seen: of values, of points */
 
-/* splitmix64 */
-static double uniform(double low, double high) {
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
-}
-static int below(int bound) { return (int)uniform(0, bound); }
-static void fill(int count, double size, double *out) {
-    for (int i = 0; i < count; i++) out[i] = uniform(-size, size);
-}
-static double dot(int n, const double *a, const double *b) {
-    double sum = 0;
-    for (int i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-static double norm(int n, const double *a) { return sqrt(dot(n, a, a)); }
-
-/* A call that must work. */
-#define DO(call) done_((call), #call, __LINE__)
-static CpsError err;
-static void done_(CpsStatus status, const char *text, int line) {
-    if (!status) return;
-    fprintf(stderr, "line %d: %s: %s\n", line, text, err.message);
-    exit(2);
+static Verdict same(double a, double b, double scale) {
+    if (a == b) return ANSWERED;
+    const double off = fabs(a - b) / scale;
+    if (!(off <= worst[0])) worst[0] = off;
+    return off <= VALUE ? ANSWERED : WRONG;
 }
 
-/* ---- random expressions; each returns a set with one hold ---- */
-
-static CpsSet *polyhedron(int n) {
-    double rows[MOST * MAX], offsets[MOST];
-    const int count = 2 * n + below(4);
-    fill(count * n, 1, rows);
-    for (int i = 0; i < 2 * n; i++)
-        for (int j = 0; j < n; j++) rows[i * n + j] = (i / 2 == j) * (i & 1 ? -1 : 1) + 0.3 * rows[i * n + j];
-    for (int i = 0; i < count; i++) offsets[i] = uniform(0.2, 2);
-    CpsSet *set;
-    DO(cps_set_inequalities(n, count, rows, offsets, &set, &err));
-    return set;
+static Verdict verdict_of(CpsSetOutcome outcome) {
+    return outcome == CPS_SET_ANSWERED ? ANSWERED : outcome == CPS_SET_INACCURATE ? OPEN : REFUSED;
 }
 
-static CpsSet *primitive(int n, bool bounded) {
-    double a[MAX * MAX], b[MAX * MAX], points[8 * MAX];
-    CpsSet *set;
-    fill(n, 0.3, a);
-    switch (below(bounded ? 7 : 11)) {
-    case 0:
-        DO(cps_set_ball(n, a, uniform(0.3, 2), &set, &err));
-        return set;
-    case 1: {
-        double shape[MAX * MAX];
-        fill(n * n, 1, b);
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n; j++) shape[i * n + j] = dot(n, &b[i * n], &b[j * n]) + (i == j) * 0.2;
-        DO(cps_set_ellipsoid(n, a, shape, &set, &err));
-        return set;
+/* Where an answer is due, a refusal is wrong. */
+static Verdict due(CpsSetOutcome outcome) {
+    const Verdict verdict = verdict_of(outcome);
+    return verdict == REFUSED ? WRONG : verdict;
+}
+
+static Verdict both(Verdict a, Verdict b) { return a > b ? a : b; }
+
+/* Two answers to one question. */
+static Verdict compare(const CpsSetAnswer *a, const CpsSetAnswer *b, double scale) {
+    if (a->outcome == CPS_SET_INACCURATE || b->outcome == CPS_SET_INACCURATE) return OPEN;
+    if (a->outcome != b->outcome) return WRONG;
+    if (a->outcome != CPS_SET_ANSWERED) return REFUSED;
+    /* the gaps must explain the difference, but for rounding of sums of some hundred products */
+    if (fabs(a->value - b->value) > a->gap + b->gap + 1e-12 * scale) return WRONG;
+    return same(a->value, b->value, scale);
+}
+
+static Verdict inside(const CpsSet *set, const double *x, double scale) {
+    CpsSetAnswer answer;
+    double nearest[2 * MAX_SPACE];
+    DO(cps_set_project(set, x, NULL, nearest, &answer, &err));
+    const Verdict verdict = due(answer.outcome);
+    if (verdict != ANSWERED) return verdict;
+    if (!(answer.value / scale <= worst[1])) worst[1] = answer.value / scale;
+    return answer.value <= POINT * scale ? ANSWERED : WRONG;
+}
+
+/* ---- directions ---- */
+
+/* A direction in which the set is bounded: any, half of the time an axis; where that is unbounded one that leads from
+ * the set to a point outside. h, and x that attains it. False: refused. */
+static bool direction(const Sample *sample, double *w, double *x, CpsSetAnswer *h) {
+    const int n = cps_set_space(sample->set);
+    fill(n, 1, w);
+    if (below(2)) {
+        memset(w, 0, (size_t)n * sizeof *w);
+        w[below(n)] = below(2) ? 1 : -1;
     }
-    case 2:
-        for (int i = 0; i < n; i++) b[i] = a[i] + uniform(0, 1.5), a[i] -= uniform(0, 1.5);
-        DO(cps_set_box(n, a, b, &set, &err));
-        return set;
-    case 3: {
-        const int count = 1 + below(8);
-        fill(count * n, 2, points);
-        DO(cps_set_hull_of_points(n, count, points, &set, &err));
-        return set;
+    DO(cps_set_support(sample->set, w, x, h, &err));
+    if (h->outcome != CPS_SET_UNBOUNDED) return true;
+    double p[MAX_SPACE], nearest[MAX_SPACE];
+    for (int k = 0; k < 20; k++) {
+        CpsSetAnswer answer;
+        fill(n, 10, p);
+        for (int i = 0; i < n; i++) p[i] += sample->inside[i];
+        DO(cps_set_project(sample->set, p, NULL, nearest, &answer, &err));
+        if (answer.outcome != CPS_SET_ANSWERED || answer.value < 0.1) continue;
+        for (int i = 0; i < n; i++) w[i] = (p[i] - nearest[i]) / answer.value;
+        DO(cps_set_support(sample->set, w, x, h, &err));
+        return h->outcome != CPS_SET_UNBOUNDED;
     }
-    case 4:
-        fill(n, 2, b);
-        DO(cps_set_segment(n, a, b, &set, &err));
-        return set;
-    case 5:
-        return polyhedron(n);
-    case 6:
-        DO(cps_set_point(n, a, &set, &err));
-        return set;
-    case 7:
-        DO(cps_set_half_space(n, (fill(n, 1, b), b), uniform(0.1, 1), &set, &err));
-        return set;
-    case 8:
-        DO(cps_set_strip(n, (fill(n, 1, b), b), -uniform(0, 1), uniform(0, 1), &set, &err));
-        return set;
-    case 9:
-        DO(cps_set_subspace(n, below(n + 1), (fill(n * n, 1, b), b), &set, &err));
-        return set;
-    default:
-        DO(cps_set_cone_of_rays(n, below(n + 1), (fill(n * n, 1, b), b), &set, &err));
-        return set;
-    }
+    return false;
 }
 
-static CpsSet *expression(int n, int depth, bool bounded) {
-    if (depth == 0 || below(5) == 0) return primitive(n, bounded);
-    double map[MAX * MAX], shift[MAX];
-    CpsSet *part[2] = {NULL, NULL}, *set = NULL;
-    const CpsSet *const *parts = (const CpsSet *const *)part;
-    const int m = 1 + below(MAX), kind = below(bounded ? 7 : 9);
-    fill(MAX * MAX, 1, map);
-    fill(MAX, 0.3, shift);
-    switch (kind) {
-    case 0:
-        if (n == 1) return expression(n, depth - 1, bounded);
-        part[0] = expression(n / 2, depth - 1, bounded), part[1] = expression(n - n / 2, depth - 1, bounded);
-        DO(cps_set_product(2, parts, &set, &err));
-        break;
-    case 1:
-        part[0] = expression(n, depth - 1, bounded), part[1] = expression(n, depth - 1, bounded);
-        DO(cps_set_intersection(2, parts, &set, &err));
-        break;
-    case 2:
-        part[0] = expression(n, depth - 1, bounded), part[1] = expression(n, depth - 1, bounded);
-        DO(cps_set_sum(2, parts, &set, &err));
-        break;
-    case 3:
-        part[0] = expression(m, depth - 1, bounded);
-        DO(cps_set_image(n, map, part[0], &set, &err));
-        break;
-    case 4:
-        part[0] = expression(n, depth - 1, bounded);
-        DO(cps_set_translate(shift, part[0], &set, &err));
-        break;
-    case 5:
-        part[0] = expression(n, depth - 1, bounded);
-        DO(cps_set_scale(uniform(-2, 2), part[0], &set, &err));
-        break;
-    case 6:
-        part[0] = expression(n, depth - 1, true), part[1] = expression(n, depth - 1, true);
-        DO(cps_set_hull(2, parts, &set, &err));
-        break;
-    case 7:
-        part[0] = expression(m, depth - 1, bounded);
-        DO(cps_set_preimage(n, map, shift, part[0], &set, &err));
-        break;
-    default:
-        part[0] = expression(n, depth - 1, bounded);
-        DO(cps_set_polar(part[0], &set, &err));
-        break;
-    }
-    cps_set_release(part[0]);
-    cps_set_release(part[1]);
-    return set;
+/* What differences are measured by: |w| times the set's size along w and at x. */
+static double scale_of(const CpsSet *set, const double *w, const double *x) {
+    const int n = cps_set_space(set);
+    CpsSetExtent extent;
+    DO(cps_set_extent(set, w, &extent, &err));
+    double scale = norm(n, w) * fmax(1, x ? norm(n, x) : 0);
+    if (isfinite(extent.low)) scale = fmax(scale, fabs(extent.low));
+    if (isfinite(extent.high)) scale = fmax(scale, fabs(extent.high));
+    return scale;
 }
 
 /* The same set, asked through the conic form of the whole. */
@@ -181,317 +119,508 @@ static CpsSet *through_form(const CpsSet *set) {
     return out;
 }
 
-/* A bounded expression with 0 well inside. */
-static CpsSet *round_zero(int n, int depth) {
-    CpsSet *part[2] = {expression(n, depth, true), NULL}, *set;
-    DO(cps_set_ball(n, NULL, uniform(0.1, 0.5), &part[1], &err));
-    DO(cps_set_sum(2, (const CpsSet *const *)part, &set, &err));
-    CpsSetAnswer answer;
-    const double zero[MAX] = {0};
-    DO(cps_set_contains(set, zero, NULL, &answer, &err));
-    cps_set_release(part[0]);
-    if (answer.outcome != CPS_SET_ANSWERED || answer.value < 0.02) {
-        cps_set_release(set);
-        set = cps_set_retain(part[1]);
-    }
-    cps_set_release(part[1]);
-    return set;
-}
+/* ---- support ---- */
 
-/* ---- comparing ---- */
-
-static double worst[2]; /* largest difference seen: of values, of points */
-
-/* What differences are measured by: the direction's and the set's size. */
-static double scale_of(const CpsSet *set, const double *w) {
-    const int n = cps_set_space(set);
-    double size = 1, axis[MAX] = {0};
-    for (int i = 0; i < n; i++) {
-        CpsSetExtent extent;
-        axis[i] = 1;
-        DO(cps_set_extent(set, axis, &extent, &err));
-        axis[i] = 0;
-        if (isfinite(extent.low)) size = fmax(size, fabs(extent.low));
-        if (isfinite(extent.high)) size = fmax(size, fabs(extent.high));
-    }
-    return size * (w ? norm(n, w) : 1);
-}
-
-static Verdict same(double a, double b, double scale) {
-    const double off = fabs(a - b) / scale;
-    if (a == b) return ANSWERED;
-    if (off > worst[0]) worst[0] = off;
-    return off <= 1e-8 ? ANSWERED : WRONG; /* two answers to 1e-9 each, the scale a rough one */
-}
-
-/* Two answers to one question. */
-static Verdict compare(const CpsSetAnswer *a, const CpsSetAnswer *b, double scale) {
-    if (a->outcome == CPS_SET_INACCURATE || b->outcome == CPS_SET_INACCURATE) return UNDECIDED;
-    if (a->outcome != b->outcome) return WRONG;
-    return a->outcome == CPS_SET_ANSWERED ? same(a->value, b->value, scale) : REFUSED;
-}
-
-static Verdict inside(const CpsSet *set, const double *x, double scale) {
-    CpsSetAnswer answer;
-    double nearest[MAX];
-    DO(cps_set_project(set, x, NULL, nearest, &answer, &err));
-    if (answer.outcome == CPS_SET_INACCURATE) return UNDECIDED;
-    if (answer.outcome != CPS_SET_ANSWERED) return WRONG;
-    if (answer.value / scale > worst[1]) worst[1] = answer.value / scale;
-    return answer.value <= 1e-6 * scale ? ANSWERED : WRONG; /* points are known to the root of the gap */
-}
-
-/* ---- cases ---- */
-
-static Verdict case_form(int n, const double *w) {
-    CpsSet *set = expression(n, 1 + below(4), false), *form = through_form(set);
+static Verdict case_form(int n) {
+    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(2));
+    CpsSet *form = through_form(sample.set);
     CpsSetAnswer a, b;
-    DO(cps_set_support(set, w, NULL, &a, &err));
-    DO(cps_set_support(form, w, NULL, &b, &err));
-    const Verdict verdict = compare(&a, &b, scale_of(set, w));
-    cps_set_release(set), cps_set_release(form);
-    return verdict;
-}
-
-static Verdict case_sum(int n, const double *w) {
-    CpsSet *part[2] = {expression(n, below(3), false), expression(n, below(3), false)}, *set, *form;
-    DO(cps_set_sum(2, (const CpsSet *const *)part, &set, &err));
-    form = through_form(set);
-    CpsSetAnswer a, b, c;
-    DO(cps_set_support(part[0], w, NULL, &a, &err));
-    DO(cps_set_support(part[1], w, NULL, &b, &err));
-    DO(cps_set_support(form, w, NULL, &c, &err));
+    double w[MAX_SPACE], x[MAX_SPACE];
     Verdict verdict = REFUSED;
-    if (a.outcome == CPS_SET_INACCURATE || b.outcome == CPS_SET_INACCURATE)
-        verdict = UNDECIDED;
-    else if (a.outcome == CPS_SET_ANSWERED && b.outcome == CPS_SET_ANSWERED) {
-        a.value += b.value;
-        verdict = compare(&a, &c, scale_of(set, w));
+    if (direction(&sample, w, x, &a)) {
+        DO(cps_set_support(form, w, NULL, &b, &err));
+        const double scale = scale_of(sample.set, w, x);
+        verdict = compare(&a, &b, scale);
+        if (verdict == ANSWERED) verdict = inside(form, x, scale / norm(n, w));
     }
-    cps_set_release(part[0]), cps_set_release(part[1]), cps_set_release(set), cps_set_release(form);
+    cps_set_release(sample.set), cps_set_release(form);
     return verdict;
 }
 
-static Verdict case_polar(int n, const double *w) {
-    CpsSet *set = round_zero(n, below(3)), *polar, *twice;
+static Verdict case_sum(int n) {
+    const Sample one = random_expression(n, below(MAX_DEPTH), below(2)),
+                 two = random_expression(n, below(MAX_DEPTH), true);
+    CpsSet *set, *form;
+    CpsSetAnswer a, b, c;
+    double w[MAX_SPACE], x[MAX_SPACE];
+    DO(cps_set_sum(2, (const CpsSet *[]){one.set, two.set}, &set, &err));
+    form = through_form(set);
+    Verdict verdict = REFUSED;
+    if (direction(&one, w, x, &a)) {
+        DO(cps_set_support(two.set, w, NULL, &b, &err));
+        DO(cps_set_support(form, w, NULL, &c, &err));
+        verdict = both(verdict_of(a.outcome), verdict_of(b.outcome));
+        a.value += b.value, a.gap += b.gap;
+        if (verdict == ANSWERED) verdict = compare(&a, &c, scale_of(set, w, x));
+    }
+    cps_set_release(one.set), cps_set_release(two.set), cps_set_release(set), cps_set_release(form);
+    return verdict;
+}
+
+static Verdict case_polar(int n) {
+    CpsSet *set = random_round_zero(n, below(MAX_DEPTH - 1)), *polar, *twice;
+    double w[MAX_SPACE], x[MAX_SPACE];
+    CpsSetAnswer a, b, gauge;
+    fill(n, 1, w);
     DO(cps_set_polar(set, &polar, &err));
     DO(cps_set_polar(polar, &twice, &err));
-    CpsSetAnswer a, b, gauge;
-    DO(cps_set_support(set, w, NULL, &a, &err));
+    DO(cps_set_support(set, w, x, &a, &err));
     DO(cps_set_support(twice, w, NULL, &b, &err));
     DO(cps_set_gauge(polar, w, &gauge, &err));
-    const double scale = scale_of(set, w);
-    Verdict verdict = compare(&a, &b, scale);
-    if (verdict == ANSWERED) verdict = compare(&a, &gauge, scale);
+    const double scale = scale_of(set, w, x);
+    Verdict verdict = both(compare(&a, &b, scale), compare(&a, &gauge, scale));
+    if (verdict == ANSWERED) verdict = inside(twice, x, scale / norm(n, w));
     cps_set_release(set), cps_set_release(polar), cps_set_release(twice);
     return verdict;
 }
 
-/* The face of w, and the answers on it; NULL with the verdict where there is none. */
-static CpsSet *face_at(const CpsSet *set, const double *w, CpsSetAnswer *answer, Verdict *verdict) {
-    CpsSet *face = NULL;
-    DO(cps_set_face(set, w, 0, &face, answer, &err));
-    if (!face) *verdict = answer->outcome == CPS_SET_INACCURATE ? UNDECIDED : REFUSED;
-    return face;
-}
+/* ---- faces ---- */
 
-/* Does the centre of the face attain h(w) in the set? */
+/* Does the face attain h(w) in the set, at its middle and at its ends along the first direction that it has? */
 static Verdict attains(const CpsSet *set, const CpsSet *face, const double *w, double h, double scale, double *center) {
+    const int n = cps_set_space(set);
+    double basis[MAX_SPACE * MAX_SPACE], end[MAX_SPACE];
     CpsSetFacts facts;
-    DO(cps_set_facts(face, 0, &facts, center, NULL, &err));
-    if (facts.outcome == CPS_SET_INACCURATE) return UNDECIDED;
-    if (facts.outcome != CPS_SET_ANSWERED) return WRONG;
-    const double far = fmax(1, norm(cps_set_space(set), center)); /* unbounded faces have far centres */
-    const Verdict verdict = same(dot(cps_set_space(set), w, center), h, scale * far);
-    return verdict == ANSWERED ? inside(set, center, scale / norm(cps_set_space(set), w) * far) : verdict;
-}
-
-/* Directions along which edges lie too, half of the time. */
-static void special(int n, double *w) {
-    if (below(2)) return;
-    memset(w, 0, (size_t)n * sizeof *w);
-    w[below(n)] = below(2) ? 1 : -1;
-}
-
-static Verdict case_face(int n, double *w) {
-    CpsSet *set = expression(n, 1 + below(4), false);
     CpsSetAnswer answer;
-    Verdict verdict = WRONG;
-    double center[MAX];
-    special(n, w);
-    CpsSet *face = face_at(set, w, &answer, &verdict);
-    if (face) verdict = attains(set, face, w, answer.value, scale_of(set, w), center);
-    cps_set_release(set), cps_set_release(face);
+    DO(cps_set_facts(face, 0, &facts, center, basis, &err));
+    Verdict verdict = due(facts.outcome);
+    for (int side = 0; verdict == ANSWERED && side <= (facts.dimension > 0 ? 2 : 0); side++) {
+        if (side > 0) {
+            for (int i = 0; i < n; i++) basis[i] = -basis[i];
+            DO(cps_set_support(face, basis, end, &answer, &err));
+            if (answer.outcome == CPS_SET_UNBOUNDED) continue;
+            verdict = due(answer.outcome);
+        } else
+            memcpy(end, center, (size_t)n * sizeof *end);
+        const double far = fmax(1, norm(n, end)); /* unbounded faces have far middles */
+        if (verdict == ANSWERED) verdict = same(dot(n, w, end), h, scale * far);
+        if (verdict == ANSWERED) verdict = inside(set, end, scale / norm(n, w) * far);
+    }
     return verdict;
 }
 
-static Verdict case_facet(int n, double *w) {
-    CpsSet *set = expression(n, 1 + below(3), false), *second = NULL;
-    CpsSetAnswer one, two;
-    Verdict verdict = WRONG;
-    double center[MAX], u[MAX];
-    special(n, w);
+static Verdict case_face(int n) {
+    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(4) > 0);
+    CpsSet *face = NULL;
+    CpsSetAnswer h, answer;
+    double w[MAX_SPACE], x[MAX_SPACE];
+    Verdict verdict = REFUSED;
+    if (direction(&sample, w, x, &h)) {
+        DO(cps_set_face(sample.set, w, 0, &face, &answer, &err));
+        verdict = due(answer.outcome);
+        if (face) verdict = attains(sample.set, face, w, answer.value, scale_of(sample.set, w, x), x);
+    }
+    cps_set_release(sample.set), cps_set_release(face);
+    return verdict;
+}
+
+static Verdict case_facet(int n) {
+    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(4) > 0);
+    CpsSet *face = NULL, *second = NULL;
+    CpsSetAnswer h, one, two;
+    double w[MAX_SPACE], u[MAX_SPACE], x[MAX_SPACE];
+    Verdict verdict = REFUSED;
     fill(n, 1, u);
-    CpsSet *face = face_at(set, w, &one, &verdict);
-    if (face) second = face_at(face, u, &two, &verdict);
+    if (direction(&sample, w, x, &h)) {
+        DO(cps_set_face(sample.set, w, 0, &face, &one, &err));
+        verdict = due(one.outcome);
+    }
+    if (face) {
+        DO(cps_set_face(face, u, 0, &second, &two, &err));
+        verdict = verdict_of(two.outcome);
+    }
     if (second) {
-        verdict = attains(face, second, u, two.value, scale_of(set, u), center);
-        if (verdict == ANSWERED)
-            verdict = same(dot(n, w, center), one.value, scale_of(set, w) * fmax(1, norm(n, center)));
+        verdict = attains(face, second, u, two.value, scale_of(sample.set, u, x), x);
+        if (verdict == ANSWERED) verdict = same(dot(n, w, x), one.value, scale_of(sample.set, w, x));
     }
-    cps_set_release(set), cps_set_release(face), cps_set_release(second);
+    cps_set_release(sample.set), cps_set_release(face), cps_set_release(second);
     return verdict;
 }
 
-static Verdict case_meet(int n, const double *w) {
-    CpsSet *part[2] = {expression(n, below(3), false), expression(n, below(3), false)}, *set;
-    DO(cps_set_intersection(2, (const CpsSet *const *)part, &set, &err));
-    CpsSetAnswer h;
-    double x[MAX], u[MAX], v[MAX];
-    DO(cps_set_support(set, w, x, &h, &err));
-    Verdict verdict = h.outcome == CPS_SET_INACCURATE ? UNDECIDED : h.outcome == CPS_SET_ANSWERED ? ANSWERED : REFUSED;
+/* ---- intersections ---- */
+
+/* u in N_A(x) with w - u in N_B(x): the point of {u : (u, w - u) in N_A x N_B} next to w/2. */
+static Verdict split_by_cones(int n, const CpsSet *const *part, const double *x, const double *w, double *u) {
+    double map[2 * MAX_SPACE * MAX_SPACE] = {0}, shift[2 * MAX_SPACE] = {0}, middle[MAX_SPACE];
+    CpsSet *cone[2] = {NULL, NULL}, *product, *pairs;
+    Verdict verdict = ANSWERED;
+    CpsSetAnswer answer;
+    for (int k = 0; k < 2; k++) {
+        DO(cps_set_normal_cone(part[k], x, 1e-8, &cone[k], &answer, &err));
+        verdict = both(verdict, due(answer.outcome));
+    }
+    for (int i = 0; i < n; i++) {
+        map[i * n + i] = 1, map[(n + i) * n + i] = -1;
+        shift[n + i] = w[i], middle[i] = w[i] / 2;
+    }
     if (verdict == ANSWERED) {
-        const double scale = scale_of(set, w);
-        for (int k = 0; k < 2 && verdict == ANSWERED; k++) verdict = inside(part[k], x, scale / norm(n, w));
-        for (int k = 0; k < 8 && verdict == ANSWERED; k++) {
-            CpsSetAnswer a, b;
-            fill(n, k < 4 ? 1 : 0.1, u);
-            if (k == 0) memcpy(u, w, (size_t)n * sizeof *u);
-            for (int i = 0; i < n; i++) v[i] = k == 1 ? w[i] : w[i] - u[i], u[i] = k == 1 ? 0 : u[i];
-            DO(cps_set_support(part[0], u, NULL, &a, &err));
-            DO(cps_set_support(part[1], v, NULL, &b, &err));
-            if (a.outcome != CPS_SET_ANSWERED || b.outcome != CPS_SET_ANSWERED) continue;
-            if (h.value > a.value + b.value + 1e-8 * scale) verdict = WRONG;
-        }
+        DO(cps_set_product(2, (const CpsSet *const *)cone, &product, &err));
+        DO(cps_set_preimage(n, map, shift, product, &pairs, &err));
+        DO(cps_set_project(pairs, middle, NULL, u, &answer, &err));
+        /* rounding may keep the two cones from meeting */
+        verdict = answer.outcome == CPS_SET_EMPTY ? OPEN : due(answer.outcome);
+        cps_set_release(product), cps_set_release(pairs);
     }
-    cps_set_release(part[0]), cps_set_release(part[1]), cps_set_release(set);
+    cps_set_release(cone[0]), cps_set_release(cone[1]);
     return verdict;
 }
 
-static Verdict case_moreau(int n, const double *p) {
-    double rays[MOST * MAX], x[MAX], y[MAX], sum[MAX];
+static Verdict case_meet(int n) {
+    Sample one = random_expression(n, below(MAX_DEPTH), true), two = random_expression(n, below(MAX_DEPTH), true);
+    double w[MAX_SPACE], x[MAX_SPACE], u[MAX_SPACE], v[MAX_SPACE];
+    for (int i = 0; i < n; i++) v[i] = one.inside[i] - two.inside[i];
+    CpsSet *moved, *set;
+    DO(cps_set_translate(v, two.set, &moved, &err));
+    const CpsSet *part[2] = {one.set, moved};
+    DO(cps_set_intersection(2, part, &set, &err));
+    CpsSetAnswer h, a, b;
+    Verdict verdict = REFUSED;
+    if (direction(&(Sample){.set = set}, w, x, &h)) verdict = due(h.outcome);
+    /* below: x is in both; above: a splitting */
+    const double scale = scale_of(set, w, x);
+    for (int k = 0; verdict == ANSWERED && k < 2; k++) verdict = inside(part[k], x, scale / norm(n, w));
+    if (verdict == ANSWERED) verdict = split_by_cones(n, part, x, w, u);
+    if (verdict == ANSWERED) {
+        for (int i = 0; i < n; i++) v[i] = w[i] - u[i];
+        DO(cps_set_support(one.set, u, NULL, &a, &err));
+        DO(cps_set_support(moved, v, NULL, &b, &err));
+        verdict = both(due(a.outcome), due(b.outcome));
+        if (verdict == ANSWERED)
+            verdict = same(h.value, a.value + b.value, scale_of(one.set, u, x) + scale_of(moved, v, x));
+    }
+    cps_set_release(one.set), cps_set_release(two.set), cps_set_release(moved), cps_set_release(set);
+    return verdict;
+}
+
+/* The library finds the maximum, split.c proves it. */
+static Verdict case_split(int n) {
+    SplitPart part[SPLIT_PARTS];
+    CpsSet *sets[SPLIT_PARTS], *set;
+    const int count = split_random(n, part);
+    for (int k = 0; k < count; k++) sets[k] = split_set(n, &part[k]);
+    DO(cps_set_intersection(count, (const CpsSet *const *)sets, &set, &err));
+    CpsSetAnswer h;
+    double w[MAX_SPACE], x[MAX_SPACE];
+    fill(n, 1, w);
+    DO(cps_set_support(set, w, x, &h, &err));
+    Verdict verdict = due(h.outcome);
+    if (verdict == ANSWERED) {
+        const SplitBounds bounds = split_bounds(n, count, part, w, x);
+        const double scale = norm(n, w) * fmax(1, norm(n, x));
+        verdict = both(same(h.value, bounds.lower, scale), same(h.value, bounds.upper, scale));
+        if (!(bounds.outside <= POINT * scale)) verdict = WRONG;
+        if (!(bounds.upper - h.value <= h.gap + 1e-10 * scale)) verdict = WRONG;
+    }
+    for (int k = 0; k < count; k++) cps_set_release(sets[k]);
+    cps_set_release(set);
+    return verdict;
+}
+
+/* ---- cones and projections ---- */
+
+static Verdict case_moreau(int n) {
+    double rays[2 * MAX_SPACE * MAX_SPACE], p[MAX_SPACE], x[MAX_SPACE], y[MAX_SPACE], sum[MAX_SPACE];
     const int count = below(2 * n + 1);
-    fill(count * n, 1, rays);
-    CpsSet *cone, *polar;
-    DO(cps_set_cone_of_rays(n, count, rays, &cone, &err));
-    DO(cps_set_polar(cone, &polar, &err));
+    CpsSet *cone = NULL, *polar;
     CpsSetAnswer a, b;
+    Verdict verdict = ANSWERED;
+    fill(n, 1, p);
+    if (below(2)) {
+        fill(count * n, 1, rays);
+        DO(cps_set_cone_of_rays(n, count, rays, &cone, &err));
+    } else { /* the normal cone where some direction is attained */
+        const Sample sample = random_expression(n, below(MAX_DEPTH), true);
+        if (direction(&sample, y, x, &a)) verdict = due(a.outcome);
+        if (verdict == ANSWERED) DO(cps_set_normal_cone(sample.set, x, 0, &cone, &a, &err));
+        if (verdict == ANSWERED) verdict = due(a.outcome);
+        cps_set_release(sample.set);
+    }
+    if (verdict != ANSWERED) return verdict;
+    DO(cps_set_polar(cone, &polar, &err));
     DO(cps_set_project(cone, p, NULL, x, &a, &err));
     DO(cps_set_project(polar, p, NULL, y, &b, &err));
-    Verdict verdict = UNDECIDED;
-    if (a.outcome == CPS_SET_ANSWERED && b.outcome == CPS_SET_ANSWERED) {
+    verdict = both(due(a.outcome), due(b.outcome));
+    if (verdict == ANSWERED) {
+        /* a distance off by d moves the nearest point by the root of 2 d times the distance */
+        const double square = dot(n, p, p),
+                     off = sqrt(2 * a.gap * (a.value + a.gap)) + sqrt(2 * b.gap * (b.value + b.gap));
         for (int i = 0; i < n; i++) sum[i] = x[i] + y[i] - p[i];
-        verdict = norm(n, sum) <= 1e-6 * norm(n, p) ? same(dot(n, x, y), 0, 1e2 * dot(n, p, p)) : WRONG;
-        if (verdict == ANSWERED) verdict = same(a.value * a.value + b.value * b.value, dot(n, p, p), dot(n, p, p));
-    } else if (a.outcome != CPS_SET_INACCURATE && b.outcome != CPS_SET_INACCURATE)
-        verdict = WRONG;
+        verdict = both(same(dot(n, x, y), 0, square), same(a.value * a.value + b.value * b.value, square, square));
+        if (!(norm(n, sum) <= off + POINT * norm(n, p))) verdict = WRONG;
+    }
     cps_set_release(cone), cps_set_release(polar);
     return verdict;
 }
 
-/* Gauss-Jordan on a diagonally dominant matrix. */
-static void invert(int n, double *a, double *out) {
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) out[i * n + j] = i == j;
-    for (int k = 0; k < n; k++) {
-        const double d = a[k * n + k];
-        for (int j = 0; j < n; j++) a[k * n + j] /= d, out[k * n + j] /= d;
-        for (int i = 0; i < n; i++) {
-            const double f = i == k ? 0 : a[i * n + k];
-            for (int j = 0; j < n; j++) a[i * n + j] -= f * a[k * n + j], out[i * n + j] -= f * out[k * n + j];
-        }
+static Verdict case_project(int n) {
+    const Sample sample = random_expression(n, below(MAX_DEPTH + 1), below(2));
+    double p[MAX_SPACE], nearest[MAX_SPACE], w[MAX_SPACE];
+    CpsSetAnswer answer, h;
+    fill(n, 4, p);
+    DO(cps_set_project(sample.set, p, NULL, nearest, &answer, &err));
+    Verdict verdict = due(answer.outcome);
+    for (int i = 0; i < n; i++) w[i] = p[i] - nearest[i];
+    const double far = fmax(1, norm(n, nearest));
+    if (verdict == ANSWERED) verdict = same(answer.value, norm(n, w), far);
+    if (verdict == ANSWERED && answer.value > 1e-3) {
+        DO(cps_set_support(sample.set, w, NULL, &h, &err));
+        /* w is known to rounding: a set that is unbounded across it may say so */
+        verdict = verdict_of(h.outcome);
+        if (verdict == ANSWERED) verdict = same(h.value, dot(n, w, nearest), norm(n, w) * far);
+        if (h.outcome == CPS_SET_EMPTY) verdict = WRONG;
     }
-}
-
-static Verdict case_preimage(int n, const double *w) {
-    double map[MAX * MAX], copy[MAX * MAX], inverse[MAX * MAX];
-    fill(n * n, 0.8 / n, map);
-    for (int i = 0; i < n; i++) map[i * n + i] += below(2) ? 1 : -1;
-    memcpy(copy, map, sizeof map);
-    invert(n, copy, inverse);
-    CpsSet *set = expression(n, below(4), false), *pre, *image;
-    DO(cps_set_preimage(n, map, NULL, set, &pre, &err));
-    DO(cps_set_image(n, inverse, set, &image, &err));
-    CpsSetAnswer a, b;
-    DO(cps_set_support(pre, w, NULL, &a, &err));
-    DO(cps_set_support(image, w, NULL, &b, &err));
-    const Verdict verdict = compare(&a, &b, scale_of(set, w));
-    cps_set_release(set), cps_set_release(pre), cps_set_release(image);
+    cps_set_release(sample.set);
     return verdict;
 }
 
-static Verdict case_cone(int n, double *w) {
-    CpsSet *set = expression(n, 1 + below(3), true), *cone = NULL;
-    CpsSetAnswer h, at, in;
-    double x[MAX], nearest[MAX];
-    special(n, w);
-    DO(cps_set_support(set, w, x, &h, &err));
-    Verdict verdict = h.outcome == CPS_SET_INACCURATE ? UNDECIDED : REFUSED;
-    if (h.outcome == CPS_SET_ANSWERED) {
-        DO(cps_set_normal_cone(set, x, 1e-7, &cone, &at, &err));
-        verdict = at.outcome == CPS_SET_INACCURATE ? UNDECIDED : at.outcome == CPS_SET_ANSWERED ? ANSWERED : WRONG;
+static Verdict case_cone(int n) {
+    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(4) > 0);
+    CpsSet *cone = NULL;
+    CpsSetAnswer h, answer;
+    CpsSetFacts facts;
+    double w[MAX_SPACE], x[MAX_SPACE], y[MAX_SPACE];
+    Verdict verdict = REFUSED;
+    if (direction(&sample, w, x, &h)) verdict = due(h.outcome);
+    if (verdict == ANSWERED) {
+        DO(cps_set_normal_cone(sample.set, x, 1e-8, &cone, &answer, &err));
+        verdict = due(answer.outcome);
     }
     if (verdict == ANSWERED) {
-        DO(cps_set_project(cone, w, NULL, nearest, &in, &err));
-        verdict = in.outcome == CPS_SET_INACCURATE ? UNDECIDED : in.outcome == CPS_SET_ANSWERED ? ANSWERED : WRONG;
-        /* x is on the face to the root of the gap, so the cone's rays turn by as much */
-        if (verdict == ANSWERED && in.value > 1e-4 * norm(n, w)) verdict = WRONG;
+        DO(cps_set_project(cone, w, NULL, y, &answer, &err));
+        verdict = due(answer.outcome);
+        if (verdict == ANSWERED && !(answer.value <= TURN * norm(n, w))) verdict = WRONG;
     }
-    cps_set_release(set), cps_set_release(cone);
+    if (verdict == ANSWERED) { /* what is inside the cone exposes x */
+        DO(cps_set_facts(cone, 0, &facts, w, NULL, &err));
+        verdict = due(facts.outcome);
+    }
+    if (verdict == ANSWERED && norm(n, w) > 0) {
+        DO(cps_set_support(sample.set, w, NULL, &h, &err));
+        verdict = verdict_of(h.outcome); /* an unbounded set and a direction off by rounding */
+        if (verdict == ANSWERED) verdict = same(h.value, dot(n, w, x), TURN / VALUE * scale_of(sample.set, w, x));
+    }
+    cps_set_release(sample.set), cps_set_release(cone);
+    return verdict;
+}
+
+/* ---- preimages ---- */
+
+/* What L^-1(C) is beside the kernel of a square or wide L of full rank: L+ (C - shift), L+ = L'(L L')^-1 */
+static CpsSet *eliminated(int n, int m, const double *map, const double *shift, const CpsSet *set) {
+    double square[MAX_SPACE * MAX_SPACE], inverse[MAX_SPACE * MAX_SPACE], plus[MAX_SPACE * MAX_SPACE], back[MAX_SPACE];
+    CpsSet *moved, *image;
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < m; j++) square[i * m + j] = dot(n, &map[i * n], &map[j * n]);
+    if (!invert(m, square, 1e-4, inverse)) return NULL;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < m; j++) {
+            plus[i * m + j] = 0;
+            for (int k = 0; k < m; k++) plus[i * m + j] += map[k * n + i] * inverse[k * m + j];
+        }
+    for (int k = 0; k < m; k++) back[k] = -shift[k];
+    DO(cps_set_translate(back, set, &moved, &err));
+    DO(cps_set_image(n, plus, moved, &image, &err));
+    cps_set_release(moved);
+    return image;
+}
+
+/* {x : rows (L x + shift) <= offsets} */
+static CpsSet *rows_times_map(int n, int m, const double *map, const double *shift, CpsSet **of) {
+    double rows[3 * MAX_SPACE * MAX_SPACE], offsets[3 * MAX_SPACE], through[3 * MAX_SPACE * MAX_SPACE],
+        left[3 * MAX_SPACE];
+    const int count = 3 * m;
+    CpsSet *set;
+    fill(count * m, 1, rows);
+    for (int k = 0; k < count; k++) {
+        offsets[k] = uniform(0.2, 2) + dot(m, &rows[k * m], shift);
+        times(m, n, map, -1, &rows[k * m], &through[k * n]);
+        left[k] = offsets[k] - dot(m, &rows[k * m], shift);
+    }
+    DO(cps_set_inequalities(m, count, rows, offsets, of, &err));
+    DO(cps_set_inequalities(n, count, through, left, &set, &err));
+    return set;
+}
+
+static Verdict case_preimage(int n) {
+    const bool rows = below(2);
+    const int m = rows ? 1 + below(MAX_SPACE) : 1 + below(n);
+    double map[MAX_SPACE * MAX_SPACE], shift[MAX_SPACE], u[MAX_SPACE], w[MAX_SPACE], x[MAX_SPACE];
+    Sample part = {.inside = {0}};
+    CpsSet *second, *pre;
+    CpsSetAnswer a, b;
+    fill(m * n, 1, map), fill(m, 0.3, shift);
+    for (int k = 0; k < m && k < n; k++) map[k * n + k] += map[k * n + k] > 0 ? 1 : -1;
+    if (rows)
+        second = rows_times_map(n, m, map, shift, &part.set);
+    else {
+        part = random_expression(m, below(MAX_DEPTH), below(2));
+        second = eliminated(n, m, map, shift, part.set);
+    }
+    /* w = L'u is bounded where u is */
+    Verdict verdict = REFUSED;
+    if (second && direction(&part, u, x, &a)) {
+        DO(cps_set_preimage(n, map, shift, part.set, &pre, &err));
+        times(m, n, map, -1, u, w);
+        DO(cps_set_support(pre, w, x, &a, &err));
+        DO(cps_set_support(second, w, u, &b, &err));
+        /* endless along what only rounding of L+ has left of w? */
+        const bool rounding = b.outcome == CPS_SET_UNBOUNDED && dot(n, w, u) < 1e-12 * norm(n, w) * norm(n, u);
+        verdict = rounding ? REFUSED : compare(&a, &b, scale_of(pre, w, a.outcome == CPS_SET_ANSWERED ? x : NULL));
+        if (m < n && verdict == ANSWERED) { /* but other directions are not */
+            fill(n, 1, w);
+            DO(cps_set_support(pre, w, x, &a, &err));
+            if (a.outcome != CPS_SET_UNBOUNDED || !(dot(n, w, x) > 0)) verdict = WRONG;
+        }
+        cps_set_release(pre);
+    }
+    cps_set_release(part.set), cps_set_release(second);
+    return verdict;
+}
+
+/* ---- degenerate sets ---- */
+
+/* Does every question about nothing say so? */
+static Verdict check_empty(int n, const CpsSet *set) {
+    CpsSetAnswer support, face, nearest;
+    CpsSetFacts facts;
+    double w[MAX_SPACE], x[MAX_SPACE];
+    CpsSet *out = NULL;
+    fill(n, 1, w);
+    DO(cps_set_support(set, w, x, &support, &err));
+    DO(cps_set_face(set, w, 0, &out, &face, &err));
+    DO(cps_set_project(set, w, NULL, x, &nearest, &err));
+    DO(cps_set_facts(set, 0, &facts, NULL, NULL, &err));
+    const CpsSetOutcome all[] = {support.outcome, face.outcome, nearest.outcome, facts.outcome};
+    Verdict verdict = ANSWERED;
+    for (int k = 0; k < 4; k++)
+        if (all[k] != CPS_SET_EMPTY) verdict = both(verdict, all[k] == CPS_SET_INACCURATE ? OPEN : WRONG);
+    if (verdict == ANSWERED && (support.value != -INFINITY || facts.dimension != -1 || out)) verdict = WRONG;
+    return verdict;
+}
+
+/* A ∩ (A + d), d longer along u than A is wide */
+static Verdict case_empty(int n, const Sample *sample) {
+    double u[MAX_SPACE], x[MAX_SPACE];
+    CpsSetExtent extent;
+    CpsSetAnswer h;
+    if (!direction(sample, u, x, &h)) return REFUSED;
+    DO(cps_set_extent(sample->set, u, &extent, &err));
+    if (!extent.low_attained || !extent.high_attained) return verdict_of(extent.outcome) == OPEN ? OPEN : REFUSED;
+    const double far = (extent.high - extent.low + uniform(0.01, 1)) / dot(n, u, u);
+    for (int i = 0; i < n; i++) u[i] *= far;
+    CpsSet *moved, *none;
+    DO(cps_set_translate(u, sample->set, &moved, &err));
+    DO(cps_set_intersection(2, (const CpsSet *[]){sample->set, moved}, &none, &err));
+    const Verdict verdict = check_empty(n, none);
+    cps_set_release(moved), cps_set_release(none);
+    return verdict;
+}
+
+/* A cut by a hyperplane through its point, or an image in a subspace: flat, and support as ever. */
+static Verdict case_flat(int n, const Sample *sample) {
+    double u[MAX_SPACE], center[MAX_SPACE];
+    CpsSet *plane, *flat;
+    CpsSetFacts facts;
+    fill(n, 1, u);
+    const double at = dot(n, u, sample->inside);
+    DO(cps_set_strip(n, u, at, at, &plane, &err));
+    DO(cps_set_intersection(2, (const CpsSet *[]){sample->set, plane}, &flat, &err));
+    DO(cps_set_facts(flat, 0, &facts, center, NULL, &err));
+    Verdict verdict = due(facts.outcome);
+    if (verdict == ANSWERED && (facts.dimension < 0 || facts.dimension >= n || facts.zero_interior)) verdict = WRONG;
+    if (verdict == ANSWERED) verdict = same(dot(n, u, center), at, norm(n, u) * fmax(1, norm(n, center)));
+    if (verdict == ANSWERED) verdict = inside(sample->set, center, fmax(1, norm(n, center)));
+    cps_set_release(plane), cps_set_release(flat);
+    return verdict;
+}
+
+/* A + cone of one ray: endless along it, and a ray is given; the other way as A. */
+static Verdict case_unbounded(int n, const Sample *sample) {
+    double ray[MAX_SPACE], back[MAX_SPACE], x[MAX_SPACE];
+    CpsSet *cone, *set, *form, *face = NULL;
+    CpsSetAnswer up, down, of;
+    fill(n, 1, ray);
+    for (int i = 0; i < n; i++) back[i] = -ray[i];
+    DO(cps_set_cone_of_rays(n, 1, ray, &cone, &err));
+    DO(cps_set_sum(2, (const CpsSet *[]){sample->set, cone}, &set, &err));
+    form = through_form(set);
+    DO(cps_set_support(form, ray, x, &up, &err));
+    DO(cps_set_face(form, ray, 0, &face, &of, &err));
+    Verdict verdict = up.outcome == CPS_SET_INACCURATE ? OPEN : ANSWERED;
+    if (verdict == ANSWERED && (up.outcome != CPS_SET_UNBOUNDED || up.value != INFINITY || face)) verdict = WRONG;
+    if (verdict == ANSWERED && !(dot(n, x, ray) > 0.999 * norm(n, x) * norm(n, ray))) verdict = WRONG;
+    DO(cps_set_support(form, back, NULL, &down, &err));
+    DO(cps_set_support(sample->set, back, x, &of, &err));
+    if (verdict == ANSWERED) verdict = compare(&down, &of, scale_of(sample->set, back, x));
+    cps_set_release(cone), cps_set_release(set), cps_set_release(form), cps_set_release(face);
+    return verdict;
+}
+
+/* A point or a segment, mapped and moved: its dimension, its ends. */
+static Verdict case_thin(int n) {
+    const int m = 1 + below(MAX_SPACE), count = 1 + below(2);
+    double ends[2 * MAX_SPACE], mapped[2 * MAX_SPACE], map[MAX_SPACE * MAX_SPACE], w[MAX_SPACE], center[MAX_SPACE];
+    CpsSet *segment, *image, *form;
+    CpsSetFacts facts;
+    CpsSetAnswer h;
+    fill(2 * m, 2, ends), fill(n * m, 1, map), fill(n, 1, w);
+    for (int k = 0; k < 2; k++) times(n, m, map, 1, &ends[k * m], &mapped[k * n]);
+    DO(cps_set_hull_of_points(m, count, ends, &segment, &err));
+    DO(cps_set_image(n, map, segment, &image, &err));
+    form = through_form(image);
+    DO(cps_set_facts(form, 0, &facts, center, NULL, &err));
+    DO(cps_set_support(form, w, NULL, &h, &err));
+    const double one = dot(n, w, mapped), two = count > 1 ? dot(n, w, mapped + n) : one;
+    Verdict verdict = both(due(facts.outcome), due(h.outcome));
+    if (verdict == ANSWERED) verdict = same(h.value, fmax(one, two), 4 * norm(n, w));
+    if (verdict == ANSWERED && (facts.dimension != count - 1 || !facts.bounded)) verdict = WRONG;
+    for (int i = 0; verdict == ANSWERED && i < n; i++)
+        verdict = same(center[i], 0.5 * (mapped[i] + mapped[(count - 1) * n + i]), 4);
+    cps_set_release(segment), cps_set_release(image), cps_set_release(form);
+    return verdict;
+}
+
+static Verdict case_degenerate(int n) {
+    const int kind = below(4);
+    if (kind == 3) return case_thin(n);
+    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH - 1), true);
+    const Verdict verdict = kind == 0   ? case_empty(n, &sample)
+                            : kind == 1 ? case_flat(n, &sample)
+                                        : case_unbounded(n, &sample);
+    cps_set_release(sample.set);
     return verdict;
 }
 
 int main(int argc, char **argv) {
-    static const char *const NAME[] = {"form", "sum", "polar", "face", "facet", "meet", "moreau", "preimage", "cone"};
-    enum { KINDS = sizeof NAME / sizeof *NAME };
-    const unsigned long first = argc > 1 ? strtoul(argv[1], NULL, 10) : 1,
-                        count = argc > 2 ? strtoul(argv[2], NULL, 10) : 1000;
-    unsigned long tally[KINDS][4] = {{0}}, total[4] = {0};
-    for (unsigned long seed = first; seed < first + count; seed++) {
-        state = seed * 0x2545f4914f6cdd1du;
-        const int kind = (int)(seed % KINDS), n = 1 + below(MAX);
-        double w[MAX];
-        fill(MAX, 1, w);
-        Verdict verdict = WRONG;
-        switch (kind) {
-        case 0:
-            verdict = case_form(n, w);
-            break;
-        case 1:
-            verdict = case_sum(n, w);
-            break;
-        case 2:
-            verdict = case_polar(n, w);
-            break;
-        case 3:
-            verdict = case_face(n, w);
-            break;
-        case 4:
-            verdict = case_facet(n, w);
-            break;
-        case 5:
-            verdict = case_meet(n, w);
-            break;
-        case 6:
-            verdict = case_moreau(n, w);
-            break;
-        case 7:
-            verdict = case_preimage(n, w);
-            break;
-        default:
-            verdict = case_cone(n, w);
-            break;
-        }
-        tally[kind][verdict]++;
-        total[verdict]++;
-        if (verdict == WRONG) printf("wrong: seed %lu (%s)\n", seed, NAME[kind]);
-        if (verdict == UNDECIDED && argc > 3) printf("undecided: seed %lu (%s)\n", seed, NAME[kind]);
+    static const struct {
+        const char *name;
+        Verdict (*ask)(int n);
+    } CASE[] = {{"form", case_form},   {"sum", case_sum},           {"polar", case_polar},
+                {"face", case_face},   {"facet", case_facet},       {"meet", case_meet},
+                {"split", case_split}, {"moreau", case_moreau},     {"project", case_project},
+                {"cone", case_cone},   {"preimage", case_preimage}, {"degenerate", case_degenerate}};
+    enum { KINDS = sizeof CASE / sizeof *CASE };
+    uint64_t first = 1, count = 1000, tally[KINDS][4] = {{0}}, total[4] = {0};
+    if (!random_cases(argc, argv, &first, &count)) {
+        fprintf(stderr, "usage: random_sets [--cases N | --seed S]\n");
+        return 2;
     }
-    printf("%10s %9s %9s %9s %9s\n", "case", "answered", "refused", "undecided", "wrong");
-    for (int k = 0; k < KINDS; k++)
-        printf("%10s %9lu %9lu %9lu %9lu\n", NAME[k], tally[k][0], tally[k][1], tally[k][2], tally[k][3]);
-    const double share = 100 - 100 * (double)total[UNDECIDED] / (double)count;
-    printf("%lu cases, %.2f %% decided, %lu wrong; largest difference of values %.1e, of points %.1e\n", count, share,
-           total[WRONG], worst[0], worst[1]);
-    return total[WRONG] == 0 && share >= 98 ? 0 : 1;
+    for (uint64_t seed = first; seed < first + count; seed++) {
+        random_seed(seed);
+        const int kind = (int)(seed % KINDS);
+        const Verdict verdict = CASE[kind].ask(1 + below(MAX_SPACE));
+        tally[kind][verdict]++, total[verdict]++;
+        if (verdict == WRONG) printf("wrong: seed %llu (%s)\n", (unsigned long long)seed, CASE[kind].name);
+        if (count == 1 && (verdict == OPEN || verdict == REFUSED)) printf("%s\n", verdict == OPEN ? "open" : "refused");
+    }
+    printf("%10s %9s %9s %9s %9s\n", "case", "answered", "refused", "open", "wrong");
+    for (int k = 0; k < KINDS; k++) {
+        printf("%10s", CASE[k].name);
+        for (int v = 0; v < 4; v++) printf(" %9llu", (unsigned long long)tally[k][v]);
+        printf("\n");
+    }
+    const double share = 100 * (double)total[ANSWERED] / (double)count;
+    printf("%llu cases, %.2f %% answered, %llu wrong; largest difference of values %.1e, of points %.1e\n",
+           (unsigned long long)count, share, (unsigned long long)total[WRONG], worst[0], worst[1]);
+    return total[WRONG] == 0 && (count == 1 || share >= 98) ? 0 : 1;
 }

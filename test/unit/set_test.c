@@ -199,11 +199,83 @@ static void faces_and_cones_of_a_cube(void **state) {
     cps_set_release(cube);
 }
 
+/* The polar of the unit disc round (2, 0) is bounded by a hyperbola, 2 x + |(x, y)| = 1, with its asymptotes at 60
+ * degrees to -x. In their normals the support is 1/sqrt 3, the gauge of the tangent's point, and nothing attains it. */
+static void what_is_not_attained_says_so(void **state) {
+    (void)state;
+    const double w[2] = {sqrt(3) / 2, 0.5}, inner[2] = {1, 0}, outer[2] = {0.8, 0.6};
+    CpsSet *disc, *polar, *face;
+    CpsSetAnswer answer;
+    CpsSetExtent extent;
+    CpsSetFacts facts;
+    double x[2];
+    DO(cps_set_ball(2, (const double[]){2, 0}, 1, &disc, &err));
+    DO(cps_set_polar(disc, &polar, &err));
+    DO(cps_set_support(polar, w, x, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_NOT_ATTAINED);
+    CHECK_NEAR(answer.value, 1 / sqrt(3), 1e-6); /* what a point a million away leaves of 1e-13 */
+    CHECK_NEAR(answer.value, 1 / sqrt(3), answer.gap);
+    CHECK_GREATER(hypot(x[0], x[1]), 1e5);
+    DO(cps_set_face(polar, w, 0, &face, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_NOT_ATTAINED);
+    assert_null(face);
+    DO(cps_set_extent(polar, w, &extent, &err));
+    assert_int_equal(extent.outcome, CPS_SET_ANSWERED);
+    assert_false(extent.high_attained);
+    CHECK_NEAR(extent.high, 1 / sqrt(3), 1e-6);
+    /* inside the barrier cone the point (1, 0)/2 answers, outside it a ray */
+    DO(cps_set_support(polar, inner, x, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    CHECK_NEAR(answer.value, 1. / 3, 1e-12);
+    DO(cps_set_support(polar, outer, x, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_UNBOUNDED);
+    DO(cps_set_facts(polar, 0, &facts, NULL, NULL, &err));
+    assert_int_equal(facts.outcome, CPS_SET_ANSWERED);
+    assert_false(facts.bounded);
+    cps_set_release(disc), cps_set_release(polar);
+}
+
+/* The hyperbola's region has the open half-line below 1/sqrt 3 as its image along the asymptote's normal: the closure
+ * answers, and says that it is one. So do sums of two such sets and hulls of unbounded ones; others are closed. */
+static void closures_say_so(void **state) {
+    (void)state;
+    const double w[2] = {sqrt(3) / 2, 0.5}, one = 1;
+    CpsSet *disc, *polar, *strip, *set;
+    CpsSetAnswer answer;
+    CpsSetFacts facts;
+    double x[2];
+    DO(cps_set_ball(2, (const double[]){2, 0}, 1, &disc, &err));
+    DO(cps_set_polar(disc, &polar, &err));
+    DO(cps_set_strip(2, w, 0, 1, &strip, &err));
+    DO(cps_set_image(1, w, polar, &set, &err));
+    DO(cps_set_support(set, &one, x, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_true(answer.closure);
+    CHECK_NEAR(answer.value, 1 / sqrt(3), 1e-6);
+    CHECK_NEAR(x[0], 1 / sqrt(3), 1e-6);
+    DO(cps_set_facts(set, 0, &facts, NULL, NULL, &err));
+    assert_true(facts.closure);
+    cps_set_release(set);
+    CpsSet *const with[] = {polar, strip, disc};
+    const bool closure[] = {true, false, false};
+    for (int k = 0; k < 3; k++) {
+        DO(cps_set_sum(2, (const CpsSet *[]){k == 1 ? strip : polar, with[k]}, &set, &err));
+        DO(cps_set_support(set, (const double[]){1, 0}, x, &answer, &err));
+        assert_int_equal(answer.closure, closure[k]);
+        cps_set_release(set);
+    }
+    DO(cps_set_hull(2, (const CpsSet *[]){strip, disc}, &set, &err));
+    DO(cps_set_contains(set, w, NULL, &answer, &err));
+    assert_true(answer.closure);
+    cps_set_release(disc), cps_set_release(polar), cps_set_release(strip), cps_set_release(set);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_arguments_are_refused),    cmocka_unit_test(parts_are_held),
         cmocka_unit_test(degenerate_sets_are_answered), cmocka_unit_test(users_sets_answer_their_support),
         cmocka_unit_test(projections_and_gauges),       cmocka_unit_test(faces_and_cones_of_a_cube),
+        cmocka_unit_test(what_is_not_attained_says_so), cmocka_unit_test(closures_say_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
