@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The bounds on gamma(W) and the residuals of all relations, from V, F, G and lambda alone.
+ *
+ * With V any velocity and F_k any forces, r = sum of B_k*F_k + load - D*G - C*lambda,
+ *
+ *     upper = sum of phi_k(U_k) - <load, V>     >=  gamma                       if D V = W, C V = 0
+ *     lower = - <W, G> - sum of phi_k*(-F_k)    <=  gamma                       if r = 0, F_k in C_k
+ *
+ * What is missing of the conditions is rounding; it is multiplied by what it acts on, |V_i|, |U_k|, |G|, |lambda|,
+ * and taken into the bounds, so that lower <= upper shows an honest gap. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/larger.h"
+#include "base/status.h"
+#include "drive/motion.h"
+#include "linsys/small.h"
+
+/* Velocities that one-sided laws forbid count as on the boundary up to this share of the largest velocity. */
+static const double ON_BOUNDARY = 1e-8;
+
+static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a certificate"); }
+
+void cpsi_motion_carry(CpsMotion *motion) {
+    for (int i = 0; i < motion->system->components; i++)
+        motion->law_velocity[i] = cpsi_rows_times(&motion->system->map, i, motion->velocity);
+}
+
+void cpsi_motion_take_forces(CpsMotion *motion, const CpsiDriveProgram *program) {
+    const CpsSystem *system = motion->system;
+    memset(motion->law_force, 0, (size_t)system->components*sizeof *motion->law_force);
+    for (int k = 0; k < system->pieces; k++) {
+        const CpsiPiece *piece = &system->piece[k];
+        double *force = &motion->piece_force[motion->piece_at[k]];
+        double *whole = &motion->law_force[system->law[piece->law].first + piece->offset];
+        cpsi_drive_program_force(program, k, force);
+        for (int i = 0; i < piece->space; i++) whole[i] += force[i];
+    }
+    cpsi_drive_program_multipliers(program, motion->resistance, motion->constraint);
+}
+
+/* What one piece adds. */
+typedef struct Part {
+    double potential, conjugate, outside, forbidden, missing;
+} Part;
+
+/* phi(U) and the distance of F from C by the conic form, F = o + P v: with z of the program, A'z = P'U + e,
+ *
+ *     phi(U) <= -<U, o> + b.z + <e, v'> for every v' of the form,     F is outside by no more than A v + b is
+ *     outside K.
+ *
+ * For sets without a closed form, and for velocities that the recession of an unbounded set forbids by rounding. */
+static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, int k, const double *u) {
+    const CpsiForm *form = program->form[k];
+    const double *z = cpsi_sparse_program_z(program->program) + program->row[k];
+    const double *v = cpsi_sparse_program_x(program->program) + program->first[k];
+    const int space = motion->system->piece[k].space, n = form->unknowns;
+    const double unit = n > 0 ? program->column_scale[program->first[k]] : 1,
+                 power = program->power / unit; /* v in units of `unit` */
+    Part part = {0};
+    for (int i = 0; i < form->rows; i++) part.potential += power*form->b[i]*z[i];
+    for (int i = 0; i < space; i++) part.potential -= u[i]*form->origin[i];
+    for (int j = 0; j < n; j++) {
+        double e = 0;
+        for (int i = 0; i < form->rows; i++) e += power*form->a[(size_t)i*(size_t)n + (size_t)j]*z[i];
+        for (int i = 0; i < space; i++) e -= form->p[(size_t)i*(size_t)n + (size_t)j]*u[i];
+        part.forbidden = fmax(part.forbidden, fabs(e)/form->size);
+        part.missing += fabs(e)*unit*(1 + fabs(v[j])); /* v is of order one */
+    }
+    for (int c = 0, i = 0; c < form->cones; i += form->dim[c++]) {
+        double first = 0, rest = 0;
+        for (int r = 0; r < form->dim[c]; r++) {
+            const double s = form->b[i + r] + unit*cpsi_dot(n, &form->a[(size_t)(i + r)*(size_t)n], v);
+            if (r == 0) first = s;
+            else rest = hypot(rest, s);
+        }
+        part.outside = fmax(part.outside, (rest - first)*form->size);
+    }
+    return part;
+}
+
+static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *program, int k, const double *u,
+                               const double *f, Part *part, CpsError *err) {
+    const CpsiPiece *piece = &motion->system->piece[k];
+    CpsSetAnswer phi, margin;
+    CpsStatus status = cps_law_dissipation(piece->set, u, NULL, &phi, err);
+    if (status == CPS_OK) status = cps_set_contains(piece->set, f, NULL, &margin, err);
+    if (status != CPS_OK) return status;
+    part->potential =
+        phi.outcome == CPS_SET_ANSWERED || phi.outcome == CPS_SET_NOT_ATTAINED ? phi.value + phi.gap : INFINITY;
+    part->outside = margin.outcome == CPS_SET_ANSWERED ? fmax(0, -margin.value) : INFINITY;
+    if (!program || (phi.exact && isfinite(part->potential) && margin.exact)) return CPS_OK;
+
+    /* the tighter of two certificates, each with what it leaves open */
+    const Part form = by_form(motion, program, k, u);
+    if (form.potential + form.missing < part->potential || !isfinite(part->potential)) {
+        part->potential = form.potential, part->missing = form.missing;
+        if (phi.outcome == CPS_SET_UNBOUNDED) part->forbidden = form.forbidden;
+    }
+    part->outside = fmin(part->outside, form.outside);
+    return CPS_OK;
+}
+
+/* h*(gauge of C at F), or <F, D^-1 F>/2 */
+static CpsStatus term_conjugate(const CpsiPiece *piece, const double *f, Part *part, CpsError *err) {
+    const size_t n = (size_t)piece->space;
+    if (piece->term->kind == CPSI_VISCOUS) {
+        double *factor = calloc(2*n*n, sizeof *factor), *inverse = factor + n*n;
+        if (!factor) return out_of_memory(err);
+        if (cpsi_cholesky(piece->space, piece->term->data, factor)) {
+            cpsi_lower_inverse(piece->space, factor, inverse);
+            for (size_t i = 0; i < n; i++) {
+                const double y = cpsi_dot((int)i + 1, &inverse[i*n], f);
+                part->conjugate += 0.5*y*y;
+            }
+        } else part->conjugate = INFINITY;
+        free(factor);
+        return CPS_OK;
+    }
+    CpsSetAnswer gauge;
+    CpsiTermDual dual = {.value = INFINITY};
+    CpsStatus status = cps_set_gauge(piece->set, f, &gauge, err);
+    if (status != CPS_OK) return status;
+    /* past the end of a table: brought back, and the way counted as outside */
+    const double end = piece->term->kind == CPSI_TABLE ? piece->term->data[2*piece->term->count - 1] : INFINITY;
+    const double s = fmin(gauge.value, end);
+    if (gauge.value > end) part->outside = (1 - end/gauge.value)*cpsi_norm(piece->space, f);
+    if (gauge.outcome == CPS_SET_ANSWERED) status = cpsi_term_dual(piece->term, s, &dual, err);
+    part->conjugate = dual.value;
+    return status;
+}
+
+static CpsStatus piece_part(const CpsMotion *motion, const CpsiDriveProgram *program, int k, Part *part,
+                            CpsError *err) {
+    const CpsiPiece *piece = &motion->system->piece[k];
+    const double *u = &motion->law_velocity[motion->system->law[piece->law].first + piece->offset];
+    const double *f = &motion->piece_force[motion->piece_at[k]];
+    *part = (Part){0};
+    if (!piece->term || piece->term->kind == CPSI_DRY) return friction_part(motion, program, k, u, f, part, err);
+    return term_conjugate(piece, f, part, err);
+}
+
+/* Sums over the laws. */
+typedef struct Totals {
+    double potential, conjugate, missing, gap, dissipated, size, outside, forbidden;
+} Totals;
+
+static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, int l, Totals *totals, CpsError *err) {
+    const CpsiSystemLaw *law = &motion->system->law[l];
+    const double *u = &motion->law_velocity[law->first], *f = &motion->law_force[law->first];
+    CpsMotionShare share = {0};
+    double conjugate = 0;
+    for (int k = law->piece; k < law->piece + law->pieces; k++) {
+        Part part;
+        const CpsStatus status = piece_part(motion, program, k, &part, err);
+        if (status != CPS_OK) return status;
+        share.potential += part.potential;
+        share.outside = cpsi_larger(share.outside, part.outside);
+        conjugate += part.conjugate;
+        totals->missing += part.missing;
+        totals->forbidden = cpsi_larger(totals->forbidden, part.forbidden);
+    }
+    if (law->resistance) {
+        CpsResistanceValue value;
+        const CpsStatus status = cps_resistance_value(law->resistance, u, &value, NULL, err);
+        if (status != CPS_OK) return status;
+        share.potential = value.outcome == CPS_SET_ANSWERED || value.outcome == CPS_SET_NOT_ATTAINED
+                              ? value.potential + value.gap
+                              : INFINITY;
+    }
+    const double speed = cpsi_norm(law->space, u), force = cpsi_norm(law->space, f);
+    const double power = cpsi_dot(law->space, u, f);
+    share.dissipated = power == 0 ? 0 : -power;
+    share.gap = share.potential + conjugate + power;
+    motion->share[l] = share;
+    totals->potential += share.potential;
+    totals->conjugate += conjugate;
+    totals->missing += share.outside*speed;
+    totals->gap += share.gap;
+    totals->dissipated += share.dissipated;
+    totals->size += speed*force;
+    if (share.outside > 0) totals->outside = cpsi_larger(totals->outside, share.outside/fmax(force, motion->force));
+    return CPS_OK;
+}
+
+static double largest_of(int n, const double *a) {
+    double largest = 0;
+    for (int i = 0; i < n; i++) largest = cpsi_larger(largest, fabs(a[i]));
+    return largest;
+}
+
+/* Kinematics and equilibrium: residuals, and what they may cost the bounds. */
+static void measure_balance(CpsMotion *motion, double *above, double *below) {
+    const CpsSystem *system = motion->system;
+    CpsMotionReport *report = &motion->report;
+    double *r = motion->balance, moved = 0, held = 0;
+    for (int i = 0; i < system->n; i++) r[i] = system->load ? system->load[i] : 0;
+    for (int i = 0; i < system->components; i++) cpsi_rows_add(&system->map, i, motion->law_force[i], r);
+    double force = cpsi_larger(largest_of(system->components, motion->law_force), largest_of(system->n, r));
+    for (int j = 0; j < system->drive.rows; j++) {
+        const double miss = cpsi_rows_times(&system->drive, j, motion->velocity) - motion->driving[j];
+        cpsi_rows_add(&system->drive, j, -motion->resistance[j], r);
+        moved = cpsi_larger(moved, fabs(miss));
+        *above += fabs(miss*motion->resistance[j]);
+    }
+    for (int j = 0; j < system->constraint.rows; j++) {
+        const double miss = cpsi_rows_times(&system->constraint, j, motion->velocity);
+        cpsi_rows_add(&system->constraint, j, -motion->constraint[j], r);
+        held = cpsi_larger(held, fabs(miss));
+        *above += fabs(miss*motion->constraint[j]);
+    }
+    for (int i = 0; i < system->n; i++) *below += fabs(r[i]*motion->velocity[i]);
+    const double drive = largest_of(system->drive.rows, motion->driving);
+    report->drive = drive > 0 ? moved/drive : moved;
+    report->constraint = motion->speed > 0 ? held/motion->speed : held;
+    force = fmax(force, motion->force);
+    report->equilibrium = largest_of(system->n, r)/force;
+}
+
+CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program, CpsError *err) {
+    const CpsSystem *system = motion->system;
+    CpsMotionReport *report = &motion->report;
+    Totals totals = {0};
+    double above = 0, below = 0, drive_power = 0;
+    cpsi_motion_carry(motion);
+    motion->speed = cpsi_larger(motion->speed, largest_of(system->n, motion->velocity));
+    for (int l = 0; l < system->laws; l++) {
+        const CpsStatus status = law_totals(motion, program, l, &totals, err);
+        if (status != CPS_OK) return status;
+    }
+    measure_balance(motion, &above, &below);
+    for (int j = 0; j < system->drive.rows; j++) drive_power += motion->driving[j]*motion->resistance[j];
+    report->load_power = system->load ? cpsi_dot(system->n, system->load, motion->velocity) : 0;
+    report->upper = totals.potential - report->load_power + above + totals.missing;
+    report->lower = -drive_power - totals.conjugate - below - totals.missing;
+    report->value = report->upper;
+    report->minimum = report->upper - report->lower;
+    report->law = totals.gap;
+    report->dissipated = totals.dissipated;
+    report->outside = totals.outside;
+    const double forbidden = motion->speed > 0 ? totals.forbidden/motion->speed : totals.forbidden;
+    report->constraint = cpsi_larger(report->constraint, forbidden);
+    if (!(forbidden <= ON_BOUNDARY)) report->upper = report->value = report->minimum = INFINITY;
+    report->scale = fmax(fmax(totals.size, motion->force*motion->speed), fabs(report->load_power) + fabs(drive_power));
+    return CPS_OK;
+}

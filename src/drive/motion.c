@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One motion for a driving velocity: kinematics, load factor, the program, its certificate, and where the forces
+ * lie. */
+#include "drive/motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/larger.h"
+#include "base/status.h"
+#include "drive/kinematics.h"
+#include "linsys/small.h"
+
+/* Rows of drive and constraints contradict W beyond this share of it: rounding of W and refinement leave less. */
+static const double CONTRADICTION = 1e-9;
+
+/* [m/s] What nothing drives is at rest below this; without W there is no speed to compare with. */
+static const double REST = 1e-12;
+
+static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion"); }
+
+const char *cps_motion_outcome_name(CpsMotionOutcome outcome) {
+    switch (outcome) {
+#define NAME(name, number, sentence) \
+    case name: return #name;
+        CPS_MOTION_OUTCOME_LIST(NAME)
+#undef NAME
+    }
+    return "CPS_MOTION_UNKNOWN";
+}
+
+const char *cps_motion_outcome_sentence(CpsMotionOutcome outcome) {
+    switch (outcome) {
+#define SENTENCE(name, number, sentence) \
+    case name: return sentence;
+        CPS_MOTION_OUTCOME_LIST(SENTENCE)
+#undef SENTENCE
+    }
+    return "unknown outcome";
+}
+
+CpsMotionOptions cps_motion_options_default(void) {
+    return (CpsMotionOptions){.tolerance = 1e-8, .boundary = 1e-6, .composition = true};
+}
+
+/* ---- memory ---- */
+
+void cps_motion_destroy(CpsMotion *motion) {
+    if (!motion) return;
+    free(motion->driving);
+    free(motion->piece_at);
+    free(motion->share);
+    free(motion);
+}
+
+static CpsStatus motion_new(const CpsSystem *system, const double *driving, CpsMotion **out, CpsError *err) {
+    CpsMotion *motion = calloc(1, sizeof *motion);
+    if (!motion) return out_of_memory(err);
+    const size_t n = (size_t)system->n, m = (size_t)system->drive.rows, rows = (size_t)system->constraint.rows,
+                 components = (size_t)system->components;
+    size_t forces = 0;
+    motion->system = system;
+    motion->piece_at = calloc((size_t)system->pieces + 1, sizeof *motion->piece_at);
+    motion->share = calloc((size_t)system->laws + 1, sizeof *motion->share);
+    for (int k = 0; motion->piece_at && k < system->pieces; k++) {
+        motion->piece_at[k] = forces;
+        forces += (size_t)system->piece[k].space;
+    }
+    motion->driving = calloc(2*m + 2*n + rows + 2*components + forces + 1, sizeof *motion->driving);
+    if (!motion->driving || !motion->piece_at || !motion->share) {
+        cps_motion_destroy(motion);
+        return out_of_memory(err);
+    }
+    motion->resistance = motion->driving + m;
+    motion->velocity = motion->resistance + m;
+    motion->balance = motion->velocity + n;
+    motion->constraint = motion->balance + n;
+    motion->law_velocity = motion->constraint + rows;
+    motion->law_force = motion->law_velocity + components;
+    motion->piece_force = motion->law_force + components;
+    if (m > 0) memcpy(motion->driving, driving, m*sizeof *driving);
+    motion->report.load_factor = INFINITY;
+    motion->report.composition = CPS_COMPOSE_NOT_SATISFIED;
+    *out = motion;
+    return CPS_OK;
+}
+
+static double largest_of(int n, const double *a) {
+    double largest = 0;
+    for (int i = 0; i < n; i++) largest = cpsi_larger(largest, fabs(a[i]));
+    return largest;
+}
+
+/* The largest force that a law or the load is about; where all laws are cones, 1 N. */
+static double force_size(const CpsSystem *system) {
+    double size = system->load ? largest_of(system->n, system->load) : 0;
+    for (int k = 0; k < system->forms; k++) {
+        bool bounded = false; /* a cone has no size */
+        for (int i = 0; i < system->form[k]->rows; i++) bounded = bounded || system->form[k]->b[i] != 0;
+        if (bounded) size = fmax(size, system->form[k]->size);
+    }
+    return size > 0 ? size : 1;
+}
+
+/* ---- the steps ---- */
+
+/* No velocity is allowed: the least dissipation of none is infinite. */
+static void block(CpsMotionReport *report) {
+    report->outcome = CPS_MOTION_BLOCKED;
+    report->value = report->lower = report->upper = INFINITY;
+}
+
+/* The nearest velocity that agrees with W; BLOCKED where there is none. */
+static void start_velocity(CpsMotion *motion, CpsiKinematics *kinematics) {
+    cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
+    motion->speed = largest_of(motion->system->n, motion->velocity);
+    const double left = cpsi_kinematics_contradiction(kinematics, motion->driving, motion->velocity, motion->resistance,
+                                                      motion->constraint);
+    if (left > CONTRADICTION) block(&motion->report);
+    else if (motion->system->drive.rows > 0 || motion->system->constraint.rows > 0) {
+        memset(motion->resistance, 0, (size_t)motion->system->drive.rows*sizeof *motion->resistance);
+        memset(motion->constraint, 0, (size_t)motion->system->constraint.rows*sizeof *motion->constraint);
+    }
+}
+
+/* The largest factor on the load; where it is below one, V of the program proves it: 1 = <load, V>, phi(V) = factor. */
+static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, double band, CpsError *err) {
+    CpsMotionReport *report = &motion->report;
+    CpsiDriveProgram program;
+    CpsStatus status = cpsi_drive_program_new(motion->system, CPSI_AIM_FACTOR, NULL, 1, &program, err);
+    if (status != CPS_OK) return status;
+    cpsi_drive_program_solve(&program);
+    report->iterations += program.result.iterations;
+    if (program.result.outcome == CPSI_CONIC_SOLVED) report->load_factor = cpsi_drive_program_factor(&program);
+    if (program.result.outcome == CPSI_CONIC_FAILED) report->outcome = CPS_MOTION_INACCURATE;
+    if (report->load_factor < 1 + band) report->outcome = CPS_MOTION_LIMIT_LOAD;
+    if (report->load_factor < 1 - band) {
+        report->outcome = CPS_MOTION_NO_BALANCE;
+        memset(motion->driving, 0, (size_t)motion->system->drive.rows*sizeof *motion->driving);
+        cpsi_drive_program_velocity(&program, motion->velocity);
+        cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
+        cpsi_motion_take_forces(motion, &program);
+        status = cpsi_motion_certify(motion, &program, err);
+        report->value = report->lower = report->upper = -INFINITY;
+    }
+    cpsi_drive_program_clear(&program);
+    return status;
+}
+
+static bool has_resistance(const CpsSystem *system) {
+    for (int l = 0; l < system->laws; l++)
+        if (system->law[l].resistance) return true;
+    return false;
+}
+
+/* Are the bounds near, and is what they are made of admissible? `least`: a power that does not count. */
+static bool close_enough(const CpsMotionReport *report, double tolerance, double least) {
+    const double residual = cpsi_larger(cpsi_larger(report->drive, report->constraint),
+                                        cpsi_larger(report->equilibrium, report->outside));
+    return report->minimum <= tolerance*fmax(fmax(report->scale, fabs(report->value)), least) && residual <= tolerance;
+}
+
+/* The program itself, with velocities of size `speed`, and the bounds of what comes out. */
+static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double speed, bool still, CpsError *err) {
+    CpsMotionReport *report = &motion->report;
+    CpsiDriveProgram program;
+    CpsStatus status =
+        cpsi_drive_program_new(motion->system, CPSI_AIM_MOTION, motion->driving, speed, &program, err);
+    if (status != CPS_OK) return status;
+    cpsi_drive_program_solve(&program);
+    report->iterations += program.result.iterations;
+    if (!still) {
+        cpsi_drive_program_velocity(&program, motion->velocity);
+        if (program.result.outcome == CPSI_CONIC_SOLVED || program.result.outcome == CPSI_CONIC_FAILED)
+            cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
+        if (motion->speed == 0 && largest_of(motion->system->n, motion->velocity) <= REST)
+            memset(motion->velocity, 0, (size_t)motion->system->n*sizeof *motion->velocity);
+    }
+    cpsi_motion_take_forces(motion, &program);
+    if (program.result.outcome == CPSI_CONIC_UNBOUNDED) block(report);
+    else status = cpsi_motion_certify(motion, &program, err);
+    cpsi_drive_program_clear(&program);
+    return status;
+}
+
+/* A motion. The size of velocities is a guess, and only resistances are about it: another one where it was wrong. */
+static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics, const CpsMotionOptions *options, CpsError *err) {
+    static const double GUESS[] = {1, 100, 0.01, 1e4};
+    const CpsSystem *system = motion->system;
+    const double speed = motion->speed > 0 ? motion->speed : 1;
+    const bool resistance = has_resistance(system);
+    /* nothing drives, and no load gives power at a rate that a resistance would have to match: rest is a solution */
+    const bool still = motion->speed == 0 && !(resistance && cpsi_system_loaded(system));
+    const double least = motion->force*REST, first = motion->speed;
+    const CpsMotionOutcome so_far = motion->report.outcome;
+    for (size_t k = 0; k < (resistance ? sizeof GUESS/sizeof *GUESS : 1); k++) {
+        motion->speed = first;
+        motion->report.outcome = so_far;
+        const CpsStatus status = attempt(motion, kinematics, speed*GUESS[k], still, err);
+        if (status != CPS_OK || motion->report.outcome == CPS_MOTION_BLOCKED) return status;
+        if (close_enough(&motion->report, options->tolerance, least)) return CPS_OK;
+        motion->report.outcome = CPS_MOTION_INACCURATE;
+    }
+    return CPS_OK;
+}
+
+static CpsStatus check(const CpsSystem *system, const double *driving, const CpsMotionOptions *options, CpsMotion **out,
+                       CpsError *err) {
+    if (!system || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "system or out is NULL");
+    if (system->drive.rows > 0 && !driving)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the driving velocity is NULL, expected %d components",
+                         system->drive.rows);
+    for (int j = 0; j < system->drive.rows; j++)
+        if (!isfinite(driving[j]))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "component %d of the driving velocity is %g, expected a number",
+                             j + 1, driving[j]);
+    if (!(options->tolerance > 0) || !(options->boundary > 0) || !(options->boundary < 1))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "tolerance %g or boundary %g of the options is not positive; start from the default",
+                         options->tolerance, options->boundary);
+    return CPS_OK;
+}
+
+CpsStatus cps_system_solve(const CpsSystem *system, const double *driving, const CpsMotionOptions *options,
+                           CpsMotion **out, CpsError *err) {
+    const CpsMotionOptions chosen = options ? *options : cps_motion_options_default();
+    CpsMotion *motion = NULL;
+    CpsiKinematics *kinematics = NULL;
+    CpsStatus status = check(system, driving, &chosen, out, err);
+    if (status == CPS_OK) status = motion_new(system, driving, &motion, err);
+    if (status == CPS_OK) status = cpsi_kinematics_new(system, &kinematics, err);
+    if (status != CPS_OK) {
+        cps_motion_destroy(motion);
+        return status;
+    }
+    CpsMotionReport *report = &motion->report;
+    motion->force = force_size(system);
+    start_velocity(motion, kinematics);
+
+    /* can the load be balanced at all, and with which forces in hand? */
+    if (report->outcome == CPS_MOTION_SOLVED && cpsi_system_loaded(system))
+        status = balance_load(motion, kinematics, chosen.boundary, err);
+    const bool possible = report->outcome == CPS_MOTION_SOLVED || report->outcome == CPS_MOTION_LIMIT_LOAD;
+    if (status == CPS_OK && possible) status = move(motion, kinematics, &chosen, err);
+    if (status == CPS_OK && possible && chosen.composition)
+        status = cpsi_motion_composition(system, chosen.boundary, &report->composition, &report->iterations, err);
+    cpsi_kinematics_free(kinematics);
+    if (status == CPS_OK) *out = motion;
+    else cps_motion_destroy(motion);
+    return status;
+}
+
+/* ---- Proposition 1's condition ---- */
+
+/* Do the forces of the form fill the space? */
+static CpsStatus full_dimension(const CpsiForm *form, int space, bool *full, CpsError *err) {
+    const size_t n = (size_t)space, count = (size_t)(form->unknowns + form->lines);
+    if (count < n) {
+        *full = false;
+        return CPS_OK;
+    }
+    double *rows = malloc((count*n + 1)*sizeof *rows);
+    if (!rows) return out_of_memory(err);
+    for (size_t j = 0; j < count; j++)
+        for (size_t i = 0; i < n; i++) {
+            const size_t u = (size_t)form->unknowns;
+            rows[j*n + i] = j < u ? form->p[i*u + j] : form->q[(j - u)*(size_t)form->n + i];
+        }
+    *full = cpsi_orthonormal_rows((int)count, space, rows, NULL, 1e-9) == space;
+    free(rows);
+    return CPS_OK;
+}
+
+/* The least margin of a piece's cones, which are of size one. */
+static double margin_of(const CpsiForm *form, const double *s) {
+    double least = INFINITY;
+    for (int c = 0; c < form->cones; s += form->dim[c++])
+        least = fmin(least, s[0] - cpsi_norm(form->dim[c] - 1, s + 1));
+    return least;
+}
+
+CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsComposition *composition,
+                                  int *iterations, CpsError *err) {
+    CpsiDriveProgram program;
+    CpsStatus status = cpsi_drive_program_new(system, CPSI_AIM_MIDDLE, NULL, 1, &program, err);
+    if (status != CPS_OK) return status;
+    cpsi_drive_program_solve(&program);
+    *iterations += program.result.iterations;
+    const bool known = program.result.outcome == CPSI_CONIC_SOLVED;
+    const double *s = cpsi_sparse_program_s(program.program);
+    *composition = known ? CPS_COMPOSE_INTERIOR : CPS_COMPOSE_NOT_SATISFIED;
+    bool full = true;
+    for (int k = 0; status == CPS_OK && known && k < system->pieces; k++) {
+        const CpsiForm *form = program.form[k];
+        const CpsiPiece *piece = &system->piece[k];
+        CpsComposition place = CPS_COMPOSE_INTERIOR;
+        /* neighbours of one set have one dimension */
+        if (k == 0 || form != program.form[k - 1]) status = full_dimension(form, piece->space, &full, err);
+        if (!full) place = CPS_COMPOSE_RELATIVE_INTERIOR;
+        if (margin_of(form, s + program.row[k]) < boundary)
+            place = piece->set && cpsi_law_polyhedral(piece->set) ? CPS_COMPOSE_POLYHEDRAL : CPS_COMPOSE_NOT_SATISFIED;
+        if (place > *composition) *composition = place;
+    }
+    cpsi_drive_program_clear(&program);
+    return status;
+}
+
+/* ---- views ---- */
+
+const CpsMotionReport *cps_motion_report(const CpsMotion *motion) { return &motion->report; }
+const double *cps_motion_velocity(const CpsMotion *motion) { return motion->velocity; }
+const double *cps_motion_resistance(const CpsMotion *motion) { return motion->resistance; }
+const double *cps_motion_constraint_forces(const CpsMotion *motion) { return motion->constraint; }
+
+const double *cps_motion_law_velocity(const CpsMotion *motion, int k) {
+    const bool there = k >= 0 && k < motion->system->laws;
+    return there ? &motion->law_velocity[motion->system->law[k].first] : NULL;
+}
+
+const double *cps_motion_law_force(const CpsMotion *motion, int k) {
+    const bool there = k >= 0 && k < motion->system->laws;
+    return there ? &motion->law_force[motion->system->law[k].first] : NULL;
+}
+
+const CpsMotionShare *cps_motion_law_share(const CpsMotion *motion, int k) {
+    return k >= 0 && k < motion->system->laws ? &motion->share[k] : NULL;
+}

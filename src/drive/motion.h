@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A motion inside, and its certificate. */
+#ifndef CAPSTAN_SRC_DRIVE_MOTION_H
+#define CAPSTAN_SRC_DRIVE_MOTION_H
+
+#include "drive/program.h"
+#include "drive/system.h"
+
+struct CpsMotion {
+    const CpsSystem *system;
+    CpsMotionReport report;
+    double *driving;                     /* (m) W */
+    double *velocity;                    /* (n) V */
+    double *resistance, *constraint;     /* (m), (rows of C) G, lambda */
+    double *law_velocity, *law_force;    /* (components) U, F */
+    double *piece_force;                 /* the forces of all pieces, one after the other */
+    size_t *piece_at;                    /* (pieces) where a piece's begins */
+    double *balance;                     /* (n) scratch */
+    CpsMotionShare *share;               /* (laws) */
+    double speed, force;                 /* sizes of velocities and forces */
+};
+
+/* U_k = B_k V of all laws. */
+void cpsi_motion_carry(CpsMotion *motion);
+/* Forces, G and lambda from a program's solution. */
+void cpsi_motion_take_forces(CpsMotion *motion, const CpsiDriveProgram *program);
+/* Shares, residuals and bounds from V, F, G and lambda alone. `program` (NULL: none) only supplies velocities of
+ * one-sided laws on the boundary of those that are allowed. */
+CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program, CpsError *err);
+
+/* Where the forces in the middle of all that balance lie in the laws' sets. */
+CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsComposition *composition,
+                                  int *iterations, CpsError *err);
+
+#endif

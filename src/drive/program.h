@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A driven system as one conic program over forces (ipm/sparse_program.h):
+ *
+ *     min  <W, G> + sum of costs    s.t.  sum of B_k* F_k + load - D* G - C* lambda = 0,
+ *                                          F_k = o + P v + Q'l,  A v + b in K        the conic form of each piece
+ *
+ * whose multipliers are -V. The cost of a piece is phi*(-F): 0 for friction, an unknown of an epigraph for a term of
+ * a resistance. Equations are divided by the size of the forces in them, the free unknowns by what makes their
+ * largest entry one. */
+#ifndef CAPSTAN_SRC_DRIVE_PROGRAM_H
+#define CAPSTAN_SRC_DRIVE_PROGRAM_H
+
+#include "drive/system.h"
+#include "ipm/sparse_program.h"
+
+/* What the objective is. */
+typedef enum CpsiAim {
+    CPSI_AIM_MOTION, /* the above */
+    CPSI_AIM_FACTOR, /* max mu with mu load in place of load */
+    CPSI_AIM_MIDDLE  /* none: forces in the middle of all that balance */
+} CpsiAim;
+
+typedef struct CpsiDriveProgram {
+    const CpsSystem *system;
+    const CpsiForm **form;  /* (pieces) of each piece */
+    CpsiForm **own;         /* (pieces) made here, for terms; else NULL */
+    int *first, *line, *row; /* (pieces) first unknown v, first unknown l, first row */
+    int unknowns, resistance, constraint, factor; /* and where G, lambda, mu begin */
+    CpsiBlock *block;
+    CpsiRows equation;
+    double *c, *h;          /* (unknowns), (n) */
+    double *row_scale, *column_scale; /* (n), (unknowns) */
+    double power;           /* unit of the objective */
+    CpsiSparseProgram *program;
+    CpsiConicResult result;
+} CpsiDriveProgram;
+
+/* Write the program down and prepare it. For a motion `driving` (m) is W and `speed` > 0 the size of velocities,
+ * for terms. */
+CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving, double speed,
+                                 CpsiDriveProgram *out, CpsError *err);
+void cpsi_drive_program_clear(CpsiDriveProgram *p);
+void cpsi_drive_program_solve(CpsiDriveProgram *p);
+
+/* The force of a piece (its space), or where the outcome is a ray, its part of it. */
+void cpsi_drive_program_force(const CpsiDriveProgram *p, int piece, double *force);
+/* V (n), G (m), lambda. */
+void cpsi_drive_program_velocity(const CpsiDriveProgram *p, double *velocity);
+void cpsi_drive_program_multipliers(const CpsiDriveProgram *p, double *resistance, double *constraint);
+double cpsi_drive_program_factor(const CpsiDriveProgram *p);
+
+/* The epigraph {(F, e) : phi*(-F) <= e} of a term in conic form; speed is the size of velocities. speed 0: {F :
+ * phi*(-F) finite} x {0}. */
+CpsStatus cpsi_term_form(int n, const CpsiTerm *term, double speed, CpsiForm **out, CpsError *err);
+
+#endif

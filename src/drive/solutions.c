@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* All motions and all forces for one W.
+ *
+ * Solutions come in pairs freely: every V of a solution goes with every F of another (phi(V) = - <V, F> for both,
+ * Proposition 2). So with one pair (V*, F*), in coordinates V = V* + N y, F = F* + L t of dense.h,
+ *
+ *     motions   { y : -(U* + B N y) in N_C(F*) }          an intersection of preimages of cones
+ *     forces    { t : F* + L t in the face of C at -U* }   an intersection of preimages of faces
+ *
+ * U* and F* are known to rounding, so a cone or face is moved to the nearest place where it holds them; how far is
+ * reported. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "drive/dense.h"
+#include "drive/motion.h"
+#include "linsys/small.h"
+
+/* How near to rest or to a boundary counts as there, where the caller does not say. */
+static const double TOLERANCE = 1e-6;
+/* A set moved by more than this many tolerances does not belong to the solution. */
+static const double MOST_MOVED = 1000;
+
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the set of solutions");
+}
+
+void cps_solution_set_clear(CpsSolutionSet *all) {
+    if (!all) return;
+    cps_set_release(all->set);
+    *all = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
+}
+
+/* The set being put together: parts in the coordinates y or t. */
+typedef struct Gather {
+    const CpsMotion *motion;
+    CpsiDense dense;
+    int space;           /* of the coordinates */
+    const double *basis; /* (space, size of V or F) */
+    double tolerance;
+    double *map, *point; /* scratch: (components, space), (components) */
+    CpsSet **part;
+    int parts;
+    CpsSolutionSet found;
+} Gather;
+
+static void clear(Gather *g) {
+    for (int k = 0; k < g->parts; k++) cps_set_release(g->part[k]);
+    free(g->part);
+    free(g->map);
+    cpsi_dense_clear(&g->dense);
+}
+
+static CpsStatus begin(const CpsMotion *motion, double tolerance, bool forces, Gather *g, CpsError *err) {
+    *g = (Gather){.motion = motion, .tolerance = tolerance > 0 ? tolerance : TOLERANCE};
+    g->found.tolerance = g->tolerance;
+    CpsStatus status = cpsi_dense_new(motion->system, &g->dense, err);
+    if (status != CPS_OK) return status;
+    const CpsiDense *d = &g->dense;
+    g->space = forces ? d->balanced : d->free;
+    g->basis = forces ? d->forces : d->kernel;
+    g->map = calloc(((size_t)g->space + 1)*(size_t)d->components + 1, sizeof *g->map);
+    g->part = calloc((size_t)motion->system->pieces + 1, sizeof *g->part);
+    if (!g->map || !g->part) return out_of_memory(err);
+    g->point = g->map + (size_t)g->space*(size_t)d->components;
+    return CPS_OK;
+}
+
+/* Require of the coordinates that x + map (y or t) lies in `set`, moved so that x does; `size` is what "how far" is
+ * relative to. */
+static CpsStatus require(Gather *g, const CpsSet *set, const double *x, double size, CpsError *err) {
+    CpsSetAnswer near;
+    CpsStatus status = cps_set_project(set, x, NULL, g->point, &near, err);
+    if (status != CPS_OK) return status;
+    if (near.outcome != CPS_SET_ANSWERED) {
+        g->found.outcome = near.outcome;
+        return CPS_OK;
+    }
+    if (near.value > 0) g->found.moved = fmax(g->found.moved, size > 0 ? near.value/size : near.value);
+    if (g->space == 0) return CPS_OK;
+    status = cps_set_preimage(g->space, g->map, g->point, set, &g->part[g->parts], err);
+    if (status == CPS_OK) g->parts++;
+    return status;
+}
+
+static double scale_of(int n, const double *a) {
+    double largest = 0;
+    for (int i = 0; i < n; i++) largest = fmax(largest, fabs(a[i]));
+    return largest;
+}
+
+/* R^n, where nothing is required */
+static CpsStatus whole_space(int n, CpsSet **out, CpsError *err) {
+    double *ends = malloc(2*(size_t)n*sizeof *ends);
+    if (!ends) return out_of_memory(err);
+    for (int i = 0; i < n; i++) ends[i] = -INFINITY, ends[n + i] = INFINITY;
+    const CpsStatus status = cps_set_box(n, ends, ends + n, out, err);
+    free(ends);
+    return status;
+}
+
+/* Extents of the components, the dimension, and the set in the components of V or F. */
+static CpsStatus finish(Gather *g, int n, const double *origin, double size, double *low, double *high, CpsError *err) {
+    CpsSolutionSet *found = &g->found;
+    const size_t w = (size_t)n, q = (size_t)g->space;
+    if (found->outcome == CPS_SET_ANSWERED && found->moved > MOST_MOVED * g->tolerance)
+        found->outcome = CPS_SET_INACCURATE;
+    if (found->outcome != CPS_SET_ANSWERED) return CPS_OK;
+    found->bounded = true;
+    for (size_t i = 0; i < w; i++) {
+        if (low) low[i] = origin[i];
+        if (high) high[i] = origin[i];
+    }
+    if (q == 0) {
+        found->unique = true;
+        return cps_set_point(n, origin, &found->set, err);
+    }
+    CpsSet *inside = NULL, *image = NULL;
+    double *turned = malloc((w*q + q + 1)*sizeof *turned), *direction = turned ? turned + w*q : NULL, widest = 0;
+    CpsStatus status = turned ? CPS_OK : out_of_memory(err);
+    if (status == CPS_OK && g->parts > 0)
+        status = cps_set_intersection(g->parts, (const CpsSet *const *)g->part, &inside, err);
+    else if (status == CPS_OK) status = whole_space(g->space, &inside, err);
+    for (size_t i = 0; status == CPS_OK && i < w && found->outcome == CPS_SET_ANSWERED; i++) {
+        CpsSetExtent extent;
+        for (size_t j = 0; j < q; j++) direction[j] = turned[i*q + j] = g->basis[j*w + i];
+        if (scale_of(g->space, direction) == 0) continue;
+        status = cps_set_extent(inside, direction, &extent, err);
+        if (status != CPS_OK) break;
+        found->outcome = extent.outcome;
+        if (extent.outcome != CPS_SET_ANSWERED) break;
+        if (!isfinite(extent.low) || !isfinite(extent.high)) found->bounded = false;
+        widest = fmax(widest, extent.high - extent.low);
+        if (low) low[i] = origin[i] + extent.low;
+        if (high) high[i] = origin[i] + extent.high;
+    }
+    /* a set no wider than the tolerance is a point; else widths below it are flat */
+    CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
+    if (status == CPS_OK && found->outcome == CPS_SET_ANSWERED && !(widest <= g->tolerance*size)) {
+        const double flat = isfinite(widest) ? fmin(0.1, g->tolerance*size/widest) : g->tolerance;
+        status = cps_set_facts(inside, fmax(flat, 1e-9), &facts, NULL, NULL, err);
+        found->outcome = facts.outcome;
+    }
+    found->dimension = facts.dimension;
+    found->unique = facts.dimension == 0;
+    if (status == CPS_OK && found->outcome == CPS_SET_ANSWERED) status = cps_set_image(n, turned, inside, &image, err);
+    if (status == CPS_OK && image) status = cps_set_translate(origin, image, &found->set, err);
+    cps_set_release(inside);
+    cps_set_release(image);
+    free(turned);
+    return status;
+}
+
+static bool has_solution(const CpsMotion *motion) {
+    const CpsMotionReport *report = &motion->report;
+    const CpsMotionOutcome outcome = report->outcome;
+    return (outcome == CPS_MOTION_SOLVED || outcome == CPS_MOTION_LIMIT_LOAD || outcome == CPS_MOTION_INACCURATE) &&
+           isfinite(report->value);
+}
+
+/* ---- motions ---- */
+
+/* The velocities of a term at its force: where h' is constant between low and high the gauge is free there. NULL:
+ * not known. */
+static CpsStatus term_velocities(const CpsiPiece *piece, const double *u, const double *f, double tolerance,
+                                 CpsSet **out, CpsError *err) {
+    if (piece->term->kind == CPSI_VISCOUS) return cps_set_point(piece->space, u, out, err);
+    CpsSetAnswer gauge, answer;
+    CpsiTermDual dual = {0};
+    CpsSet *cone = NULL, *strip = NULL;
+    double *point = malloc(((size_t)piece->space + 1)*sizeof *point);
+    if (!point) return out_of_memory(err);
+    CpsStatus status = cps_set_gauge(piece->set, f, &gauge, err);
+    const double s = gauge.outcome == CPS_SET_ANSWERED ? gauge.value*(1 - 4*DBL_EPSILON) : 0;
+    if (status == CPS_OK) status = cpsi_term_dual(piece->term, s, &dual, err);
+    const bool none = !(s > tolerance), known = gauge.outcome == CPS_SET_ANSWERED && (!none || dual.high == 0);
+    for (int i = 0; i < piece->space; i++) point[i] = none ? 0 : f[i]/gauge.value;
+    if (status == CPS_OK && known) status = cps_law_velocities(piece->set, point, tolerance, &cone, &answer, err);
+    /* g = phi(U) = -<U, point> between low and high */
+    if (status == CPS_OK && cone && !none && isfinite(dual.high))
+        status = cps_set_strip(piece->space, point, -dual.high, -dual.low, &strip, err);
+    else if (status == CPS_OK && cone && !none)
+        status = cps_set_half_space(piece->space, point, -dual.low, &strip, err);
+    if (status == CPS_OK && strip)
+        status = cps_set_intersection(2, (const CpsSet *const[]){cone, strip}, out, err);
+    else if (status == CPS_OK && cone) *out = cps_set_retain(cone);
+    cps_set_release(cone);
+    cps_set_release(strip);
+    free(point);
+    return status;
+}
+
+static CpsStatus velocities_of_piece(Gather *g, int k, CpsError *err) {
+    const CpsMotion *motion = g->motion;
+    const CpsiPiece *piece = &motion->system->piece[k];
+    const int first = motion->system->law[piece->law].first + piece->offset, n = g->dense.n;
+    const double *u = &motion->law_velocity[first], *f = &motion->piece_force[motion->piece_at[k]];
+    CpsSet *cone = NULL;
+    CpsSetAnswer answer = {.outcome = CPS_SET_NOT_AVAILABLE};
+    const bool term = piece->term && piece->term->kind != CPSI_DRY;
+    CpsStatus status = term ? term_velocities(piece, u, f, g->tolerance, &cone, err)
+                            : cps_law_velocities(piece->set, f, g->tolerance, &cone, &answer, err);
+    if (status != CPS_OK) return status;
+    if (!cone) {
+        g->found.outcome = term ? CPS_SET_NOT_AVAILABLE : answer.outcome;
+        return CPS_OK;
+    }
+    for (int i = 0; i < piece->space; i++)
+        for (int j = 0; j < g->space; j++)
+            g->map[(size_t)i*(size_t)g->space + (size_t)j] =
+                cpsi_dot(n, &g->dense.map[(size_t)(first + i)*(size_t)n], &g->basis[(size_t)j*(size_t)n]);
+    for (int i = 0; i < piece->space; i++)
+        cpsi_dense_round((size_t)g->space, cpsi_norm(n, &g->dense.map[(size_t)(first + i)*(size_t)n]),
+                         &g->map[(size_t)i*(size_t)g->space]);
+    status = require(g, cone, u, motion->speed, err);
+    cps_set_release(cone);
+    return status;
+}
+
+CpsStatus cps_motion_velocities(const CpsMotion *motion, double tolerance, CpsSolutionSet *all, double *low,
+                                double *high, CpsError *err) {
+    if (!motion || !all) return cpsi_fail(err, CPS_ERR_ARGUMENT, "motion or all is NULL");
+    *all = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
+    if (!has_solution(motion)) return CPS_OK;
+    Gather g;
+    CpsStatus status = begin(motion, tolerance, false, &g, err);
+    for (int k = 0; status == CPS_OK && k < motion->system->pieces && g.found.outcome == CPS_SET_ANSWERED; k++)
+        status = velocities_of_piece(&g, k, err);
+    if (status == CPS_OK) status = finish(&g, motion->system->n, motion->velocity, motion->speed, low, high, err);
+    if (status == CPS_OK) *all = g.found;
+    else cps_set_release(g.found.set);
+    clear(&g);
+    return status;
+}
+
+/* ---- forces ---- */
+
+/* A set for some components of all forces, from `first` on. */
+static CpsStatus require_forces(Gather *g, const CpsSet *face, int first, int space, CpsError *err) {
+    const size_t c = (size_t)g->dense.components, p = (size_t)g->space;
+    for (size_t i = 0; i < (size_t)space; i++)
+        for (size_t j = 0; j < p; j++) g->map[i*p + j] = g->basis[j*c + (size_t)first + i];
+    return require(g, face, &g->motion->law_force[first], g->motion->force, err);
+}
+
+static CpsStatus forces_of_piece(Gather *g, const CpsiPiece *piece, CpsError *err) {
+    const CpsMotion *motion = g->motion;
+    const int first = motion->system->law[piece->law].first + piece->offset;
+    const double *u = &motion->law_velocity[first];
+    CpsSet *face = NULL;
+    CpsSetAnswer answer = {.outcome = CPS_SET_ANSWERED};
+    CpsStatus status = CPS_OK;
+    /* a law at rest bears any of its forces */
+    if (scale_of(piece->space, u) <= g->tolerance*motion->speed) face = cps_set_retain(piece->set);
+    else status = cps_law_forces(piece->set, u, g->tolerance, &face, &answer, err);
+    if (status == CPS_OK && face) status = require_forces(g, face, first, piece->space, err);
+    if (!face) g->found.outcome = answer.outcome;
+    cps_set_release(face);
+    return status;
+}
+
+static CpsStatus forces_of_resistance(Gather *g, const CpsiSystemLaw *law, CpsError *err) {
+    CpsSet *forces = NULL;
+    CpsSetAnswer answer = {.outcome = CPS_SET_NOT_AVAILABLE};
+    const double *u = &g->motion->law_velocity[law->first];
+    double *still = calloc((size_t)law->space + 1, sizeof *still);
+    if (!still) return out_of_memory(err);
+    const bool rest = scale_of(law->space, u) <= g->tolerance*g->motion->speed;
+    CpsStatus status = cps_resistance_forces(law->resistance, rest ? still : u, g->tolerance, &forces, &answer, err);
+    if (status == CPS_OK && forces) status = require_forces(g, forces, law->first, law->space, err);
+    if (!forces) g->found.outcome = answer.outcome;
+    cps_set_release(forces);
+    free(still);
+    return status;
+}
+
+CpsStatus cps_motion_forces(const CpsMotion *motion, double tolerance, CpsSolutionSet *all, double *low, double *high,
+                            CpsError *err) {
+    if (!motion || !all) return cpsi_fail(err, CPS_ERR_ARGUMENT, "motion or all is NULL");
+    *all = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
+    if (!has_solution(motion) || motion->system->components == 0) return CPS_OK;
+    const CpsSystem *system = motion->system;
+    Gather g;
+    CpsStatus status = begin(motion, tolerance, true, &g, err);
+    for (int l = 0; status == CPS_OK && l < system->laws && g.found.outcome == CPS_SET_ANSWERED; l++) {
+        const CpsiSystemLaw *law = &system->law[l];
+        if (law->resistance) {
+            status = forces_of_resistance(&g, law, err);
+            continue;
+        }
+        for (int k = law->piece; status == CPS_OK && k < law->piece + law->pieces; k++)
+            status = forces_of_piece(&g, &system->piece[k], err);
+    }
+    if (status == CPS_OK) status = finish(&g, system->components, motion->law_force, motion->force, low, high, err);
+    if (status == CPS_OK) *all = g.found;
+    else cps_set_release(g.found.set);
+    clear(&g);
+    return status;
+}
