@@ -88,6 +88,7 @@ typedef struct CpsLineReport {
     double dissipated; /* [J] in this step */
     CpsLedger ledger;  /* of this step; zero for a start laid by statics */
     int parts;         /* in which the step was taken, 1 or more */
+    double share;      /* of the step that the last part was, which is what the view shows: 1 where it was not cut */
     int snaps;         /* parts in which the line jumped, however small the load */
     double jump;       /* [m] the longest way of a node in such a part */
     CpsEndReport end[2];

@@ -30,18 +30,22 @@
 
 /* The interior point is driven to this relative gap: what the arithmetic allows, well below any tolerance asked. */
 static const double TARGET = 1e-13;
+/* Steps to the centre once there: what is left of a force's angle to its element is squared by each. */
+static const int CENTRINGS = 2;
 /* Consistent friction whose bounds do not agree with mu R to this, or whose loop stops short of it, is solved again in rounds. */
 static const double CLEAN = 1e-11;
 /* |distance - L| <= TAUT L: an inextensible line is pulled straight, its tension has no upper bound. */
 static const double TAUT = 1e-12;
+/* A reference this much tighter than the loads and the ends explain. */
+static const double HELD = 100;
 /* A taut line's forces are those of a line longer by this share. */
 static const double TAUT_SLACK = 1e-9;
 /* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
 static const int ROUNDS = 12;
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
-static const double SETTLED = 1e-8;
+static const double SETTLED = 1e-10;
 /* ... and bounds that were tried differ by no more than this share, in sum, from mu R. */
-static const double MATCHED = 1e-8;
+static const double MATCHED = 1e-11;
 
 static bool both(const CpsiLine *line, CpsEndKind kind) {
     return line->end[CPS_END_A].kind == kind && line->end[CPS_END_B].kind == kind;
@@ -161,9 +165,22 @@ static void certify(CpsiLine *line, const CpsiStepOptions *options, const CpsiIp
     line->report.outcome = judge(line, options, ipm);
 }
 
-/* The unit of force of a step, 0 where nothing asks for any. Bounds that are tried can carry what they add up to. */
+/* The tension of the reference by its own strain; 0 of an inextensible line. */
+static double reference_tension(const CpsiLine *line) {
+    double most = 0;
+    for (int e = 0; e + 1 < line->n && line->compliance > 0; e++) {
+        const Vec3 dx = vec3_sub(vec3_load(&line->reference[3*(e + 1)]), vec3_load(&line->reference[3*e]));
+        most = fmax(most, (vec3_norm(dx)/line->element_length[e] - 1)/line->compliance);
+    }
+    return most;
+}
+
+/* The unit of force of a step, 0 where nothing asks for any. A line that was far tighter than its loads and ends say is held by
+ * obstacles. Bounds that are tried can carry what they add up to. */
 static double unit_force(const CpsiLine *line, CpsiBounds bounds) {
     double force = force_scale(line, end_distance(line)/(is_taut(line) ? 1 + TAUT_SLACK : 1)), all = 0;
+    const double before = line->obstacle_count > 0 ? reference_tension(line) : 0;
+    if (before > HELD*force) force = before;
     for (int j = 0; j < line->n && bounds == CPSI_BOUNDS_TRIED; j++) all += line->friction_bound[j];
     return fmax(force, all);
 }
@@ -178,7 +195,10 @@ static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const Cpsi
     double loads = 0;
     for (int i = 0; i < 3*line->n; i++) loads += fabs(program->base.load[i]);
     const CpsiIpmOptions ipm_options = {
-        .target = TARGET, .scale = loads > 0 ? loads : 1, .max_iterations = options->solver.max_iterations};
+        .target = TARGET,
+        .scale = loads > 0 ? loads : 1,
+        .max_iterations = options->solver.max_iterations,
+        .centrings = options->centrings};
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
     cpsi_step_program_unpack(line, program, &scale);
@@ -280,12 +300,8 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
     certify(line, options, &ipm);
 }
 
-void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    line->report = (CpsLineReport){0};
-    for (int end = 0; end < 2; end++) /* where they stay if there is no equilibrium */
-        memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
-    pose(line, options);
-    if (too_short(line) || runs_away(line, options)) return;
+/* The step as it is posed, in one go or in rounds. */
+static void solve_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const bool consistent = options->friction == CPS_FRICTION_CONSISTENT;
     const bool follow = consistent && !options->frictionless && line->obstacle_count > 0;
     if (line->follows && (consistent || options->frictionless)) {
@@ -294,6 +310,48 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
         const CpsiIpmReport ipm = attempt(line, program, options, follow);
         if (follow && !is_clean(&ipm)) settle(line, program, options, CPSI_BOUNDS_TRIED);
     }
+}
+
+/* Is every number of the answer one? */
+static bool is_finite(const CpsiLine *line) {
+    const CpsCertificate *c = &line->report.certificate;
+    return isfinite(c->primal) && isfinite(c->dual) && isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
+}
+
+/* Back to the reference, without forces: what is reported where arithmetic has broken down. */
+static void forget(CpsiLine *line, const CpsiStepOptions *options) {
+    const size_t n = (size_t)line->n;
+    const CpsiIpmReport none = {.outcome = CPSI_IPM_STALLED};
+    memcpy(line->position, line->reference, 3*n*sizeof *line->position);
+    memset(line->friction_force, 0, 3*n*sizeof *line->friction_force);
+    memset(line->segment_force, 0, 3*n*sizeof *line->segment_force);
+    memset(line->friction_bound, 0, n*sizeof *line->friction_bound);
+    memset(line->reaction, 0, n*sizeof *line->reaction);
+    memset(line->tension, 0, n*sizeof *line->tension);
+    if (line->follows) {
+        memcpy(line->base, line->reference, 3*n*sizeof *line->base);
+        cpsi_contact_look(line);
+    }
+    certify(line, options, &none);
+    line->report.outcome = CPS_STALLED;
+}
+
+void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    line->report = (CpsLineReport){0};
+    for (int end = 0; end < 2; end++) /* where they stay if there is no equilibrium */
+        memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
+    pose(line, options);
+    if (too_short(line) || runs_away(line, options)) return;
+    CpsiStepOptions with = *options;
+    with.centrings = CENTRINGS;
+    solve_step(line, program, &with);
+    if (line->report.outcome > CPS_TAUT) {
+        /* where hardly any force is left, the centre may lie farther from the boundary than the tolerance lets it */
+        with.centrings = 0;
+        if (line->follows) memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
+        solve_step(line, program, &with);
+    }
+    if (!is_finite(line)) forget(line, options);
     cpsi_line_classify(line, program);
     cpsi_line_report_ends(line);
 }

@@ -11,6 +11,7 @@ typedef struct CpsiStepOptions {
     CpsFriction friction;
     CpsContact contact;
     bool frictionless; /* a start laid by statics */
+    int centrings;     /* set by the step itself */
 } CpsiStepOptions;
 
 /* From the line's position (and its reaction and state there) to the next equilibrium under line->end.

@@ -69,6 +69,7 @@ static Part take(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOption
     for (int k = 0; k < line->obstacle_count; k++) room->turn[k] = (to - from)*move->angle[k];
     const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
     cpsi_line_step(line, program, options);
+    line->report.share = to - from;
     Part part = {.report = line->report};
     if (line->report.outcome < CPS_UNBOUNDED) part.ledger = cpsi_ledger_close(line, &start);
     return part;

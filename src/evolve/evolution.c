@@ -230,6 +230,7 @@ static void lay(CpsEvolution *evolution) {
         if (evolution->is_laid[i]) options.frictionless = true, options.contact = CPS_CONTACT_GAINED;
         cpsi_line_step(line, &evolution->program, &options);
         line->report.parts = 1;
+        line->report.share = 1;
     }
 }
 

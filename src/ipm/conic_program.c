@@ -263,8 +263,8 @@ static void tau_correct(CpsiProgram *base, double target) {
 static void tau_advance(CpsiProgram *base, double alpha) { conic(base)->kappa += alpha*conic(base)->d_kappa; }
 
 static const CpsiKind CONES = {cones_start, cones_measure, cones_scale, cones_load,
-                               cones_direct, cones_correct, cones_advance};
-static const CpsiKind TAU = {tau_start, tau_measure, tau_scale, tau_load, tau_direct, tau_correct, tau_advance};
+                               cones_direct, cones_correct, NULL, cones_advance};
+static const CpsiKind TAU = {tau_start, tau_measure, tau_scale, tau_load, tau_direct, tau_correct, NULL, tau_advance};
 static const CpsiKind *const KINDS[] = {&CONES, &TAU};
 
 /* ---- the linear system ---- */

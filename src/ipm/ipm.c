@@ -67,6 +67,17 @@ static double step_length(const CpsiSums *sums, double fraction) {
     return sums->inverse_step <= fraction ? 1 : fraction/sums->inverse_step; /* NaN stays NaN */
 }
 
+/* A step to the centre of where the iterate is: Newton's method alone, which converges fast so near to it. */
+static bool centre(CpsiProgram *program, double mu) {
+    if (!scale_and_factor(program)) return false;
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->centre(program, mu);
+    const CpsiSums sums = direction(program, 1, false);
+    const double alpha = step_length(&sums, FRACTION);
+    if (!(alpha >= LEAST_STEP)) return false;
+    advance(program, alpha);
+    return true;
+}
+
 /* Are the duals a ray that no primal point can meet?  Its value must outweigh loads, friction and residuals, and it may not
  * strain anything with compliance. */
 static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums, double imbalance) {
@@ -89,7 +100,7 @@ static bool dual_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
 CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options) {
     CpsiIpmReport report = {.outcome = CPSI_IPM_ITERATION_LIMIT};
     double best = INFINITY;
-    int waited = 0;
+    int waited = 0, centrings = 0;
     start(program);
     for (;; report.iterations++) {
         /* where are we, and is it enough? */
@@ -99,7 +110,12 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
         report.residual = cpsi_larger(imbalance, sums.residual);
         const double merit = report.gap + report.residual;
         if (!isfinite(merit)) { report.outcome = CPSI_IPM_STALLED; break; }
-        if (merit <= options->target) { report.outcome = CPSI_IPM_SOLVED; break; }
+        if (merit <= options->target) {
+            report.outcome = CPSI_IPM_SOLVED;
+            if (centrings++ >= options->centrings || !centre(program, mu)) break;
+            continue;
+        }
+        if (centrings > 0) break; /* as near as rounding lets it */
         if (primal_infeasible(program, &sums, imbalance)) { report.outcome = CPSI_IPM_INFEASIBLE; break; }
         if (dual_infeasible(program, &sums)) { report.outcome = CPSI_IPM_UNBOUNDED; break; }
         if (report.iterations >= options->max_iterations) break;

@@ -17,6 +17,7 @@ typedef struct CpsiIpmOptions {
     double target;      /* relative complementarity gap to reach */
     double scale;       /* > 0: what the gap is at least compared with */
     int max_iterations;
+    int centrings;      /* steps to the centre once the target is reached: they turn each dual to its primal, which a gap does not see */
 } CpsiIpmOptions;
 
 typedef struct CpsiIpmReport {

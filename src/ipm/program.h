@@ -40,6 +40,8 @@ typedef struct CpsiKind {
     void (*direct)(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums);
     /* q of the corrector: s o z -> target e, less the second-order term of the predictor just taken */
     void (*correct)(CpsiProgram *program, double target);
+    /* q of a step to the centre, s o z -> target e, without a predictor; NULL where the loop is not asked to centre */
+    void (*centre)(CpsiProgram *program, double target);
     /* s += alpha ds, z += alpha dz */
     void (*advance)(CpsiProgram *program, double alpha);
 } CpsiKind;

@@ -161,16 +161,22 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     }
 }
 
-static void correct(CpsiProgram *base, double target) {
+/* q with s o z -> target e, less the second-order term that stands in q, or without it. */
+static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiRub *rub = &program->rub;
     for (int i = 0; i < rub->count; i++) {
         const double *s = rub->s[i], *z = rub->z[i], inverse = target/cpsi_soc_det(s, 3);
         double *q = rub->q[i];
-        q[0] = -z[0] + inverse*s[0] - q[0];
-        for (int a = 1; a < 3; a++) q[a] = -z[a] - inverse*s[a] - q[a];
+        const double keep = second_order ? 1 : 0;
+        q[0] = -z[0] + inverse*s[0] - keep*q[0];
+        for (int a = 1; a < 3; a++) q[a] = -z[a] - inverse*s[a] - keep*q[a];
     }
 }
+
+static void correct(CpsiProgram *base, double target) { aim(base, target, true); }
+
+static void centre(CpsiProgram *base, double target) { aim(base, target, false); }
 
 static void advance(CpsiProgram *base, double alpha) {
     CpsiRub *rub = &cpsi_chain(base)->rub;
@@ -181,4 +187,4 @@ static void advance(CpsiProgram *base, double alpha) {
         }
 }
 
-const CpsiKind cpsi_rub = {start, measure, scale, load, direct, correct, advance};
+const CpsiKind cpsi_rub = {start, measure, scale, load, direct, correct, centre, advance};

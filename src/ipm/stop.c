@@ -72,12 +72,17 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     }
 }
 
-static void correct(CpsiProgram *base, double target) {
+/* q with s o z -> target e, less the second-order term that stands in q, or without it. */
+static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++)
-        stop->q[k] = -stop->z[k] + target/stop->s[k] - stop->q[k];
+        stop->q[k] = -stop->z[k] + target/stop->s[k] - (second_order ? stop->q[k] : 0);
 }
+
+static void correct(CpsiProgram *base, double target) { aim(base, target, true); }
+
+static void centre(CpsiProgram *base, double target) { aim(base, target, false); }
 
 static void advance(CpsiProgram *base, double alpha) {
     CpsiChainProgram *program = cpsi_chain(base);
@@ -88,4 +93,4 @@ static void advance(CpsiProgram *base, double alpha) {
     }
 }
 
-const CpsiKind cpsi_stop = {start, measure, scale, load, direct, correct, advance};
+const CpsiKind cpsi_stop = {start, measure, scale, load, direct, correct, centre, advance};

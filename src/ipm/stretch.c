@@ -164,16 +164,22 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     }
 }
 
-static void correct(CpsiProgram *base, double target) {
+/* q with s o z -> target e, less the second-order term that stands in q, or without it. */
+static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStretch *st = &program->stretch;
     for (int i = 1; i < program->n; i++) {
         const double *s = st->s[i], *z = st->z[i], inverse = target/cpsi_soc_det(s, 4);
         double *q = st->q[i];
-        q[0] = -z[0] + inverse*s[0] - q[0];
-        for (int a = 1; a < 4; a++) q[a] = -z[a] - inverse*s[a] - q[a];
+        const double keep = second_order ? 1 : 0;
+        q[0] = -z[0] + inverse*s[0] - keep*q[0];
+        for (int a = 1; a < 4; a++) q[a] = -z[a] - inverse*s[a] - keep*q[a];
     }
 }
+
+static void correct(CpsiProgram *base, double target) { aim(base, target, true); }
+
+static void centre(CpsiProgram *base, double target) { aim(base, target, false); }
 
 static void advance(CpsiProgram *base, double alpha) {
     CpsiChainProgram *program = cpsi_chain(base);
@@ -185,4 +191,4 @@ static void advance(CpsiProgram *base, double alpha) {
         }
 }
 
-const CpsiKind cpsi_stretch = {start, measure, scale, load, direct, correct, advance};
+const CpsiKind cpsi_stretch = {start, measure, scale, load, direct, correct, centre, advance};
