@@ -2,14 +2,38 @@
 /* capstan check: read a scene, say what is wrong with it or what is in it; nothing is solved. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "capstan/io.h"
+#include "capstan/law_io.h"
 #include "commands.h"
 #include "options.h"
 
+static void print_friction(const CpsObstacle *o) {
+    const double *g = o->grain, lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
+    if (lateral == o->friction && o->friction_shape == CPS_FRICTION_ELLIPSE) {
+        printf(", friction %g\n", o->friction);
+        return;
+    }
+    printf(", friction %g along ", o->friction);
+    if (g[0] != 0 || g[1] != 0 || g[2] != 0)
+        printf("(%g, %g, %g)", g[0], g[1], g[2]);
+    else
+        printf("the line");
+    printf(" and %g across, %s\n", lateral, o->friction_shape == CPS_FRICTION_BOX ? "box" : "ellipse");
+}
+
 static void print_obstacle(const CpsObstacle *o) {
-    printf("obstacle %s: plane through (%g, %g, %g) m, normal (%g, %g, %g), friction %g\n", o->name, o->point[0],
-           o->point[1], o->point[2], o->normal[0], o->normal[1], o->normal[2], o->friction);
+    const double *p = o->point, *d = o->kind == CPS_OBSTACLE_PLANE ? o->normal : o->axis;
+    printf("obstacle %s: ", o->name);
+    if (o->kind == CPS_OBSTACLE_PLANE)
+        printf("plane through (%g, %g, %g) m, normal (%g, %g, %g)", p[0], p[1], p[2], d[0], d[1], d[2]);
+    else if (o->kind == CPS_OBSTACLE_CYLINDER)
+        printf("cylinder of radius %g m through (%g, %g, %g) m, axis (%g, %g, %g)", o->radius, p[0], p[1], p[2], d[0],
+               d[1], d[2]);
+    else
+        printf("ball of radius %g m around (%g, %g, %g) m", o->radius, p[0], p[1], p[2]);
+    print_friction(o);
 }
 
 static void print_end(char letter, const CpsEnd *end) {
@@ -50,13 +74,25 @@ static void print_scene(const CpsScene *scene) {
            scene->stage_count == 1 ? "y" : "ies", steps, steps == 1 ? "" : "s");
 }
 
+/* A law where a scene was expected: say so. */
+static void hint_law(const char *path) {
+    CpsLawFile *law = NULL;
+    if (!strcmp(path, "-") || cps_law_read(path, NULL, &law, NULL) != CPS_OK) return;
+    fprintf(stderr, "capstan check: this file is a valid law, not a scene: see capstan law\n");
+    cps_law_file_destroy(law);
+}
+
 int cmd_check(int argc, char **argv) {
     CliOptions options;
-    if (!cli_parse(argc, argv, FOR_CHECK, true, &options)) return EXIT_USAGE;
+    if (!cli_parse(argc, argv, FOR_CHECK, "SCENE.yaml", &options)) return EXIT_USAGE;
 
     CpsSceneFile *file = NULL;
     CpsError err;
-    if (cps_scene_read(options.scene, NULL, &file, &err) != CPS_OK) return cli_report(&err);
+    if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) {
+        const int code = cli_report(&err);
+        if (err.status == CPS_ERR_INPUT) hint_law(options.operand);
+        return code;
+    }
     print_scene(cps_scene_file_scene(file));
     cps_scene_file_destroy(file);
     return EXIT_OK;

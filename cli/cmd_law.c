@@ -58,7 +58,9 @@ static bool tell_law(LawRun *run) {
         if (*cps_law_file_title(run->file)) printf("%s\n", cps_law_file_title(run->file));
         printf("%s, %d component%s", kind, run->n, run->n == 1 ? "" : "s");
         if (run->set) printf("\nset of forces: %s", text);
-        if (measured) printf("\narea %.10g, perimeter %.10g", measure.area, measure.perimeter);
+        if (measured)
+            printf("\narea %.10g (gap %.2g), perimeter %.10g (gap %.2g)", measure.area, measure.area_gap,
+                   measure.perimeter, measure.perimeter_gap);
         if (composed)
             printf("\ncomposition rule (line %d): %s: %s", line, cps_composition_name(composition),
                    cps_composition_sentence(composition));
@@ -75,10 +77,9 @@ static bool tell_law(LawRun *run) {
     if (facts.outcome == CPS_SET_ANSWERED)
         printf(", \"dimension\": %d, \"bounded\": %s", facts.dimension, facts.bounded ? "true" : "false");
     if (measured) {
-        fputs(", \"area\": ", stdout);
-        law_json_number(measure.area, stdout);
-        fputs(", \"perimeter\": ", stdout);
-        law_json_number(measure.perimeter, stdout);
+        static const char *const KEY[] = {"area", "area_gap", "perimeter", "perimeter_gap"};
+        const double number[] = {measure.area, measure.area_gap, measure.perimeter, measure.perimeter_gap};
+        for (int k = 0; k < 4; k++) printf(", \"%s\": ", KEY[k]), law_json_number(number[k], stdout);
     }
     if (composed)
         printf(", \"composition\": {\"condition\": \"%s\", \"line\": %d}", cps_composition_name(composition), line);
@@ -241,7 +242,7 @@ static int draw(LawRun *run, const CliOptions *options, const QueryList *velocit
 /* ---- all together ---- */
 
 static int answer(LawRun *run, const CliOptions *options) {
-    QueryList velocity = {.n = run->n}, force = {.n = run->n};
+    QueryList velocity = {.command = "law", .n = run->n}, force = {.command = "law", .n = run->n};
     int code = check_picture(run, options);
     if (code == EXIT_OK) code = law_query_read(&options->velocity, "velocity", &velocity);
     if (code == EXIT_OK) code = law_query_read(&options->force, "force", &force);
@@ -258,7 +259,7 @@ int cmd_law(int argc, char **argv) {
 
     CpsLawFile *file = NULL;
     CpsError err;
-    const int input = law_query_check_input(options.operand, &options.velocity, &options.force);
+    const int input = law_query_check_input("law", options.operand, &options.velocity, &options.force);
     if (input != EXIT_OK) return input;
     if (cps_law_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
     LawRun run = {.file = file,

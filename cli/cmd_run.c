@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan run: solve a scene step by step, write its results, print a short table.
+/* capstan run: solve a scene step by step, write its results, print a short table; or the same by the method of 1990
+ * (regularized.h).
  *
  * The first SIGINT or SIGTERM lets the load step end and keeps the results so far; the second ends at once. A journal of the steps is kept
  * beside the results until the run is finished: after a stop, of whatever kind, --resume goes on from there. */
@@ -15,8 +16,9 @@
 #include "commands.h"
 #include "options.h"
 #include "progress.h"
+#include "regularized.h"
 
-enum { SHORT_TABLE = 40, NAME_WIDTH = 18, LINE_WIDTH = 10 };
+enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
 
 static volatile sig_atomic_t stop_signal;
 
@@ -36,28 +38,16 @@ static void catch_signals(void) {
     signal(SIGXFSZ, SIG_IGN);
 }
 
-/* results/NAME for a scene .../NAME.yaml; the caller frees it */
-static char *default_directory(const char *scene) {
+/* results/NAME and `more` for a scene .../NAME.yaml; the caller frees it */
+static char *default_directory(const char *scene, const char *more) {
     const char *slash = strrchr(scene, '/');
     const char *stem = strcmp(scene, "-") == 0 ? "scene" : slash ? slash + 1 : scene;
     const char *dot = strrchr(stem, '.');
     const int length = dot && dot != stem ? (int)(dot - stem) : (int)strlen(stem);
-    const size_t size = sizeof "results/" + (size_t)length;
+    const size_t size = sizeof "results/" + (size_t)length + strlen(more);
     char *path = malloc(size);
-    if (path) snprintf(path, size, "results/%.*s", length, stem);
+    if (path) snprintf(path, size, "results/%.*s%s", length, stem, more);
     return path;
-}
-
-/* a long history is shown by its first step and the last ones of its stages */
-static bool is_shown(const CpsScene *scene, int steps, int index) {
-    if (steps <= SHORT_TABLE || index == 0 || index == steps - 1) return true;
-    if (scene->stage_count > SHORT_TABLE) return index % (steps / SHORT_TABLE + 1) == 0;
-    int64_t end = steps - 1;
-    for (int i = scene->stage_count - 1; i >= 0 && end >= index; --i) {
-        if (end == index) return true;
-        end -= scene->stage[i].steps;
-    }
-    return false;
 }
 
 static void put_head(FILE *table) {
@@ -140,7 +130,7 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     progress_step(&run->progress, report.index + 1, report.name);
     cautions_step(&run->cautions, run->scene, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
-    if (is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED || stop_signal)
+    if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED || stop_signal)
         put_rows(run->table, run->evolution);
     if (report.outcome != CPS_SOLVED) {
         progress_end(&run->progress);
@@ -215,7 +205,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     }
     put_head(run.table);
     const CpsStatus status = carry_out(&run, directory, options, &err);
-    if (fclose(run.table) == 0 && !status && !options->json) {
+    if (fclose(run.table) == 0 && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
         say_where(directory, run.evolution);
     }
@@ -238,9 +228,22 @@ static bool adjust(CpsScene *scene, const CliOptions *options) {
     return false;
 }
 
+/* False: --method is none, or does not go with the other options, and a message has been written. */
+static bool is_sound(const CliOptions *options, bool *regularized) {
+    *regularized = options->method && strcmp(options->method, "regularized") == 0;
+    if (options->method && !*regularized && strcmp(options->method, "exact") != 0)
+        fprintf(stderr, "capstan run: --method: found '%.40s', expected exact or regularized\n", options->method);
+    else if (*regularized && (options->resume || options->tol))
+        fputs("capstan run: --method regularized: takes the steps as given, without --tol and --resume\n", stderr);
+    else
+        return true;
+    return false;
+}
+
 int cmd_run(int argc, char **argv) {
     CliOptions options;
-    if (!cli_parse(argc, argv, FOR_RUN, "SCENE.yaml", &options)) return EXIT_USAGE;
+    bool regularized;
+    if (!cli_parse(argc, argv, FOR_RUN, "SCENE.yaml", &options) || !is_sound(&options, &regularized)) return EXIT_USAGE;
     catch_signals();
 
     CpsSceneFile *file = NULL;
@@ -253,7 +256,8 @@ int cmd_run(int argc, char **argv) {
         return EXIT_USAGE;
     }
     /* the results directory itself is made by the library; its parent only where it is ours */
-    char *directory = options.output ? strdup(options.output) : default_directory(options.operand);
+    char *directory = options.output ? strdup(options.output)
+                                     : default_directory(options.operand, regularized ? "-regularized" : "");
     int code = EXIT_LIMIT;
     if (!directory)
         fprintf(stderr, "capstan: out of memory\n");
@@ -261,7 +265,8 @@ int cmd_run(int argc, char **argv) {
         fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n", strerror(errno));
         code = EXIT_IO;
     } else
-        code = run(&scene, directory, &options);
+        code = regularized ? run_regularized(&scene, directory, &options, &stop_signal)
+                           : run(&scene, directory, &options);
     free(directory);
     cps_scene_file_destroy(file);
     return code;

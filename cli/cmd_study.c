@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan study: solve a scene up to one of its steps, then that step once more by the methods of Souza de Cursi's
  * paper of 1990: regularised, with h, lambda, n and delta on their way to the limits; and to first order. Tables,
- * pictures, a verdict.
+ * pictures, a verdict. Or all solutions of the step: its slack laid out, a configuration judged.
  *
  * The first SIGINT or SIGTERM lets the solve end and keeps what there is; the second ends at once. */
 #include <errno.h>
@@ -13,11 +13,11 @@
 #include <unistd.h>
 
 #include "capstan/classic_io.h"
-#include "capstan/solutions.h"
 #include "commands.h"
 #include "options.h"
 #include "progress.h"
 #include "study_methods.h"
+#include "study_solutions.h"
 
 static volatile sig_atomic_t stop_signal;
 
@@ -149,33 +149,6 @@ static void tell_first_order(const CpsFirstOrderReport *r) {
                r->outside);
 }
 
-enum { SHOWN_PARTS = 8 };
-
-/* gaps up to this part of the scale are none; the study's step is certified to it */
-static const double JUDGED = 1e-8;
-
-/* results 4.3 and 4.4: which slack is free, and a solution in Kin */
-static void tell_slack(const CpsLineView *view) {
-    CpsSlackPart part[SHOWN_PARTS];
-    CpsError err;
-    const int parts = cps_solution_slack(view, SHOWN_PARTS, part);
-    printf("\nslack: %s\n", parts == 0 ? "none, the configuration is unique (result 4.4)" : "");
-    for (int i = 0; i < parts && i < SHOWN_PARTS; ++i)
-        printf("  %10.6g to %10.6g m  %s%s\n", part[i].from, part[i].to,
-               part[i].loose ? "loose" : "held by friction or an end", part[i].grounded ? ", on the obstacle" : "");
-    if (parts > SHOWN_PARTS) printf("  and %d more\n", parts - SHOWN_PARTS);
-    double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
-    if (!position) return;
-    CpsSlackReport slack;
-    CpsJudgementReport found, laid;
-    if (cps_solution_judge(view, view->position, JUDGED, &found, &err) == CPS_OK)
-        printf("  as found: %s\n", cps_judgement_sentence(found.judgement));
-    if (parts > 0 && cps_solution_complete(view, CPS_COMPLETION_MEANDER, position, &slack, &err) == CPS_OK &&
-        slack.parts > 0 && cps_solution_judge(view, position, JUDGED, &laid, &err) == CPS_OK)
-        printf("  laid out in a meander, %.6g m of it: %s\n", slack.loose, cps_judgement_sentence(laid.judgement));
-    free(position);
-}
-
 static void tell(const CpsStudy *study, const CpsFirstOrder *first_order, const CpsLineView *view, const Teller *teller,
                  const char *directory) {
     printf("exact: J** + j = %.10g J on %d elements; everything below is against it\n\n", teller->step.energy,
@@ -184,7 +157,7 @@ static void tell(const CpsStudy *study, const CpsFirstOrder *first_order, const 
     for (int i = 0; i < cps_study_row_count(study); ++i) put_row(cps_study_row(study, i), &teller->step);
     const CpsFirstOrderReport report = cps_first_order_report(first_order);
     tell_first_order(&report);
-    tell_slack(view);
+    study_tell_slack(view);
     printf("\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, relaxed.svg\n",
            directory, directory);
 }
@@ -215,6 +188,8 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
                      : stop_signal      ? 128 + stop_signal
                      : teller.converged ? EXIT_OK
                                         : EXIT_NOT_CERTIFIED;
+    if (status != CPS_OK && view->compliance == 0)
+        fputs("capstan study: --complete and --judge take inextensible lines too\n", stderr);
     cps_first_order_destroy(first_order);
     cps_study_destroy(study);
     cps_classic_destroy(classic);
@@ -240,7 +215,12 @@ static int study(const CpsScene *scene, const char *directory, const CliOptions 
             cli_put_text(stdout, title, 240, false);
             putchar('\n');
         }
-        code = study_step(&view, title, directory, options);
+        if (options->judge)
+            code = study_judge(&view, options->judge, options->quiet);
+        else if (options->complete)
+            code = study_complete(&view, study_find_completion(options->complete), title, directory, options->quiet);
+        else
+            code = study_step(&view, title, directory, options);
     }
     cps_evolution_destroy(evolution);
     return code;
@@ -258,9 +238,18 @@ static char *default_directory(const char *scene) {
     return path;
 }
 
+/* one thing at a time, and one that there is */
+static bool is_sound(const CliOptions *options) {
+    if (options->history + (options->judge != NULL) + (options->complete != NULL) > 1) {
+        fputs("capstan study: found two of --history, --judge and --complete, expected one at most\n", stderr);
+        return false;
+    }
+    return !options->complete || study_find_completion(options->complete) != CPS_COMPLETIONS;
+}
+
 int cmd_study(int argc, char **argv) {
     CliOptions options;
-    if (!cli_parse(argc, argv, FOR_STUDY, "SCENE.yaml", &options)) return EXIT_USAGE;
+    if (!cli_parse(argc, argv, FOR_STUDY, "SCENE.yaml", &options) || !is_sound(&options)) return EXIT_USAGE;
     catch_signals();
 
     CpsSceneFile *file = NULL;

@@ -21,6 +21,8 @@ int cmd_run(int argc, char **argv);
 int cmd_check(int argc, char **argv);
 int cmd_schema(int argc, char **argv);
 int cmd_law(int argc, char **argv);
+int cmd_drive(int argc, char **argv);
+int cmd_study(int argc, char **argv);
 
 /* Print "capstan: FILE:LINE:COLUMN: message" on standard error; returns the exit code of the error's status. */
 int cli_report(const CpsError *err);

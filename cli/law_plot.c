@@ -25,8 +25,7 @@ static int cannot_write(const char *path, int code) {
 }
 
 /* Draw into an open file and close it; *code: why it could not be written, 0 if it could. */
-static CpsStatus draw_and_close(const CpsSet *set, const CpsLawPicture *picture, int fd, bool sync, int *code,
-                                CpsError *err) {
+static CpsStatus draw_and_close(PlotDraw *draw, void *user, int fd, bool sync, int *code, CpsError *err) {
     *code = 0;
     FILE *out = fdopen(fd, "w");
     if (!out) {
@@ -35,7 +34,7 @@ static CpsStatus draw_and_close(const CpsSet *set, const CpsLawPicture *picture,
         return CPS_OK;
     }
     errno = 0;
-    const CpsStatus status = cps_law_draw(set, picture, out, err);
+    const CpsStatus status = draw(user, out, err);
     const bool failed = ferror(out) != 0 || fflush(out) != 0 || (sync && fsync(fd) != 0);
     if (failed) *code = errno ? errno : EIO;
     if (fclose(out) != 0 && !failed) *code = errno;
@@ -51,7 +50,7 @@ static char *name_beside(const char *path) {
     return beside;
 }
 
-static int plot_beside(const CpsSet *set, const CpsLawPicture *picture, const char *path) {
+static int plot_beside(PlotDraw *draw, void *user, const char *path) {
     char *beside = name_beside(path);
     if (!beside) {
         fprintf(stderr, "capstan: out of memory\n");
@@ -64,7 +63,7 @@ static int plot_beside(const CpsSet *set, const CpsLawPicture *picture, const ch
     if (fd < 0) {
         code = errno;
     } else {
-        status = draw_and_close(set, picture, fd, true, &code, &err);
+        status = draw_and_close(draw, user, fd, true, &code, &err);
         if (status == CPS_OK && code == 0 && rename(beside, path) != 0) code = errno;
         if (status != CPS_OK || code != 0) unlink(beside);
     }
@@ -73,11 +72,11 @@ static int plot_beside(const CpsSet *set, const CpsLawPicture *picture, const ch
     return code ? cannot_write(path, code) : EXIT_OK;
 }
 
-int law_plot(const CpsSet *set, const CpsLawPicture *picture, const char *path) {
+int cli_plot(PlotDraw *draw, void *user, const char *path) {
     struct stat found;
     const bool there = stat(path, &found) == 0;
     if (there && S_ISDIR(found.st_mode)) return cannot_write(path, EISDIR);
-    if (!there || S_ISREG(found.st_mode)) return plot_beside(set, picture, path);
+    if (!there || S_ISREG(found.st_mode)) return plot_beside(draw, user, path);
 
     /* a device or pipe, maybe standard output itself */
     CpsError err;
@@ -85,7 +84,22 @@ int law_plot(const CpsSet *set, const CpsLawPicture *picture, const char *path) 
     fflush(stdout);
     const int fd = open(path, O_WRONLY | O_CLOEXEC | O_NOCTTY);
     if (fd < 0) return cannot_write(path, errno);
-    const CpsStatus status = draw_and_close(set, picture, fd, false, &code, &err);
+    const CpsStatus status = draw_and_close(draw, user, fd, false, &code, &err);
     if (status != CPS_OK) return cli_report(&err);
     return code ? cannot_write(path, code) : EXIT_OK;
+}
+
+typedef struct LawDrawing {
+    const CpsSet *set;
+    const CpsLawPicture *picture;
+} LawDrawing;
+
+static CpsStatus draw_law(void *user, FILE *out, CpsError *err) {
+    const LawDrawing *drawing = user;
+    return cps_law_draw(drawing->set, drawing->picture, out, err);
+}
+
+int law_plot(const CpsSet *set, const CpsLawPicture *picture, const char *path) {
+    LawDrawing drawing = {set, picture};
+    return cli_plot(draw_law, &drawing, path);
 }

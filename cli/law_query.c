@@ -13,11 +13,11 @@ enum { MOST_ROWS = 1000000, LONGEST_LINE = 1 << 20 };
 /* Beyond it powers would overflow, as in law files. */
 static const double LARGEST = 1e100;
 
-static int bad(const char *where, int line, const char *what, const char *text) {
+static int bad(const QueryList *list, const char *where, int line, const char *what, const char *text) {
     if (line > 0)
         fprintf(stderr, "capstan: standard input:%d: %s: found '%.60s'\n", line, what, text);
     else
-        fprintf(stderr, "capstan law: --%s: %s: found '%.60s'\n", where, what, text);
+        fprintf(stderr, "capstan %s: --%s: %s: found '%.60s'\n", list->command, where, what, text);
     return line > 0 ? EXIT_INPUT : EXIT_USAGE;
 }
 
@@ -50,9 +50,9 @@ static int add_row(const char *text, const char *option, int line, QueryList *li
     for (int i = 0; i < list->n; i++) {
         char *end;
         row[i] = strtod(at, &end);
-        if (end == at || !(fabs(row[i]) <= LARGEST)) return bad(option, line, expected, text);
+        if (end == at || !(fabs(row[i]) <= LARGEST)) return bad(list, option, line, expected, text);
         end += strspn(end, " \t");
-        if (*end != (i + 1 < list->n ? ',' : '\0')) return bad(option, line, expected, text);
+        if (*end != (i + 1 < list->n ? ',' : '\0')) return bad(list, option, line, expected, text);
         at = end + 1;
     }
     list->count++;
@@ -83,8 +83,8 @@ static int read_rows(const char *option, QueryList *list) {
     const int before = list->count;
     for (ssize_t length; code == EXIT_OK && (length = getline(&text, &room, stdin)) >= 0;) {
         line++;
-        if (length > LONGEST_LINE) code = bad(option, line, "the line is longer than 1 MiB", "...");
-        if (strlen(text) != (size_t)length) code = bad(option, line, "a zero byte: is this text?", text);
+        if (length > LONGEST_LINE) code = bad(list, option, line, "the line is longer than 1 MiB", "...");
+        if (strlen(text) != (size_t)length) code = bad(list, option, line, "a zero byte: is this text?", text);
         text[strcspn(text, "\r\n")] = '\0';
         const char *start = text + strspn(text, " \t");
         if (code != EXIT_OK || !*start || *start == '#') continue;
@@ -104,13 +104,13 @@ static int read_rows(const char *option, QueryList *list) {
     return code;
 }
 
-int law_query_check_input(const char *file, const CliList *velocity, const CliList *force) {
+int law_query_check_input(const char *command, const char *file, const CliList *velocity, const CliList *force) {
     const CliList *list[2] = {velocity, force};
     int readers = strcmp(file, "-") == 0;
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < list[k]->count; i++) readers += strcmp(list[k]->item[i], "-") == 0;
     if (readers < 2) return EXIT_OK;
-    fprintf(stderr, "capstan law: '-' is given %d times, but standard input can be read once\n", readers);
+    fprintf(stderr, "capstan %s: '-' is given %d times, but standard input can be read once\n", command, readers);
     return EXIT_USAGE;
 }
 

@@ -10,37 +10,36 @@
 typedef struct Command {
     const char *name;
     int (*call)(int argc, char **argv);
-    unsigned options; /* FOR_ bit */
-    bool takes_scene;
+    unsigned options;    /* FOR_ bit */
+    const char *operand; /* see cli_parse */
     const char *help;
 } Command;
 
 static const Command COMMANDS[] = {
-    {"run", cmd_run, FOR_RUN, true, "solve a scene and write its results and pictures"},
-    {"check", cmd_check, FOR_CHECK, true, "read a scene and say what is in it, or what is wrong with it"},
-    {"law", cmd_law, FOR_LAW, true, "forces and velocities of a friction law, with a picture"},
-    {"schema", cmd_schema, FOR_SCHEMA, false, "print the JSON schema of scenes (for editors)"},
+    {"run", cmd_run, FOR_RUN, "SCENE.yaml", "solve a scene and write its results and pictures"},
+    {"check", cmd_check, FOR_CHECK, "SCENE.yaml", "read a scene and say what is in it, or what is wrong with it"},
+    {"law", cmd_law, FOR_LAW, "LAW.yaml", "forces and velocities of a friction law, with a picture"},
+    {"drive", cmd_drive, FOR_DRIVE, "DRIVE.yaml", "driven systems: bodies, vehicles, ropes, planimeters; least dissipation"},
+    {"study", cmd_study, FOR_STUDY, "SCENE.yaml", "a step by the method of 1990: its four limits, and first order"},
+    {"schema", cmd_schema, FOR_SCHEMA, "[scene|law]", "print the JSON schema of scenes, or of laws (for editors)"},
 };
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static void print_help(FILE *out, const Command *command) {
     if (command) {
-        fprintf(out, "usage: capstan %s [options]%s\n\n%s\n\noptions:\n", command->name,
-                !command->takes_scene         ? ""
-                : command->options == FOR_LAW ? " LAW.yaml"
-                                              : " SCENE.yaml",
+        fprintf(out, "usage: capstan %s [options] %s\n\n%s\n\noptions:\n", command->name, command->operand,
                 command->help);
         cli_print_options(out, command->options);
     } else {
-        fprintf(out, "usage: capstan COMMAND [options] [SCENE.yaml]\n\n"
+        fprintf(out, "usage: capstan COMMAND [options] [FILE.yaml]\n\n"
                      "Ropes, cables and mooring lines with exact dry friction, every answer certified.\n\ncommands:\n");
         for (int i = 0; i < COMMAND_COUNT; i++) fprintf(out, "  %-8s %s\n", COMMANDS[i].name, COMMANDS[i].help);
         fprintf(out, "\noptions:\n");
         cli_print_options(out, FOR_ALL);
     }
     fprintf(out,
-            "\nA scene named '-' is read from standard input.\n"
-            "Exit codes: 0 done and certified, 1 not certified, 2 usage, 3 bad scene, 4 file cannot be read or\n"
+            "\nA file named '-' is read from standard input.\n"
+            "Exit codes: 0 done and certified, 1 not certified, 2 usage, 3 bad file, 4 file cannot be read or\n"
             "written, 5 no solution (with proof), 6 out of memory or over a limit, 130/143 stopped by a signal.\n");
 }
 
@@ -88,7 +87,7 @@ static int run_command(int argc, char **argv) {
         const Command *command = &COMMANDS[i];
         if (strcmp(argv[0], command->name) != 0) continue;
         CliOptions options;
-        if (!cli_parse(argc, argv, command->options, command->takes_scene, &options)) return EXIT_USAGE;
+        if (!cli_parse(argc, argv, command->options, command->operand, &options)) return EXIT_USAGE;
         if (options.help) return print_help(stdout, command), EXIT_OK;
         if (options.version) return print_version(), EXIT_OK;
         return command->call(argc, argv);
@@ -105,7 +104,7 @@ int main(int argc, char **argv) {
     } else if (argv[1][0] == '-') {
         CliOptions options;
         argv[0] = "";
-        bool parsed = cli_parse(argc, argv, FOR_ALL, false, &options);
+        bool parsed = cli_parse(argc, argv, FOR_ALL, NULL, &options);
         if (parsed && options.help) print_help(stdout, NULL);
         if (parsed && options.version) print_version();
         code = parsed ? EXIT_OK : EXIT_USAGE;

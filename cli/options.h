@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 /* Which commands an option belongs to. */
-enum { FOR_RUN = 1, FOR_CHECK = 2, FOR_SCHEMA = 4, FOR_LAW = 8, FOR_STUDY = 16, FOR_ALL = 31 };
+enum { FOR_RUN = 1, FOR_CHECK = 2, FOR_SCHEMA = 4, FOR_LAW = 8, FOR_STUDY = 16, FOR_DRIVE = 32, FOR_ALL = 63 };
 
 /* The arguments of an option that may be given more than once. */
 enum { CLI_LIST_MOST = 256 };
@@ -21,11 +21,15 @@ typedef struct CliOptions {
     bool json, quiet, resume;
     const char *output;  /* NULL: not given */
     const char *tol;     /* run: path tolerance, NULL: the scene's */
+    const char *method;  /* run: exact or regularized, NULL: exact */
     const char *operand; /* the scene or law file, "-" for standard input; NULL: not given */
     const char *plot;    /* law: picture, NULL: none */
     const char *axes;    /* law: components drawn, NULL: the first two */
     bool history;        /* study: all steps by three methods */
+    const char *complete; /* study: how slack is laid out, NULL: not asked for */
+    const char *judge;   /* study: file of a configuration, NULL: none */
     const char *step;    /* study: name of a step, NULL: the first */
+    bool eliminate;      /* drive: the reduced law */
     const char *line;    /* study: name of a line, NULL: the first */
     CliList velocity, force;
 } CliOptions;

@@ -6,7 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { BAR_WIDTH = 30, NAME_WIDTH = 24 };
+enum { BAR_WIDTH = 30, NAME_WIDTH = 24, SHORT_TABLE = 40 };
 
 /* a bar drawn more often than this [s] only costs time */
 static const double REDRAW = 0.05;
@@ -32,6 +32,17 @@ void cli_put_text(FILE *out, const char *text, int width, bool pad) {
         ++used;
     }
     while (pad && used++ < width) fputc(' ', out);
+}
+
+bool cli_is_shown(const CpsScene *scene, int steps, int index) {
+    if (steps <= SHORT_TABLE || index == 0 || index == steps - 1) return true;
+    if (scene->stage_count > SHORT_TABLE) return index % (steps / SHORT_TABLE + 1) == 0;
+    int64_t end = steps - 1;
+    for (int i = scene->stage_count - 1; i >= 0 && end >= index; --i) {
+        if (end == index) return true;
+        end -= scene->stage[i].steps;
+    }
+    return false;
 }
 
 Progress progress_begin(int steps, bool quiet) {

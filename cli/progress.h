@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "capstan/scene.h"
+
 typedef struct Progress {
     bool quiet, terminal;
     int steps;
@@ -21,6 +23,10 @@ double cli_now(void);
 /* Text from a scene file with control characters replaced, so that it cannot steer a terminal; at most `width`
  * characters, padded to it when pad is set. */
 void cli_put_text(FILE *out, const char *text, int width, bool pad);
+
+/* Is step `index` of `steps` a row of the table? A long history is shown by its first step and the last ones of its
+ * stages. */
+bool cli_is_shown(const CpsScene *scene, int steps, int index);
 
 Progress progress_begin(int steps, bool quiet);
 void progress_step(Progress *progress, int done, const char *name);

@@ -10,14 +10,16 @@
 #include "capstan/classic_io.h"
 #include "commands.h"
 #include "progress.h"
+#include "regularized.h"
 
-enum { REGULARISED, FROZEN, CONSISTENT, METHODS, NEWTON_LIMIT = 5000, NAME_SIZE = 96 };
+enum { REGULARISED, FROZEN, CONSISTENT, METHODS, NAME_SIZE = 96 };
 
 static const char *const METHOD[METHODS] = {"regularised, 1990", "frozen friction", "consistent friction"};
 
 typedef struct Histories {
     const CpsScene *scene;
     const char *line;  /* as asked for */
+    double friction;   /* mu of the obstacle */
     int steps, points; /* the start is step 0 */
     double *position[METHODS];
     char (*name)[NAME_SIZE]; /* (steps) */
@@ -42,31 +44,24 @@ static void store(Histories *h, int method, int step, const double *position) {
     memcpy(h->position[method] + (size_t)step * size, position, size * sizeof(double));
 }
 
-/* the step once more by the regularised method, going on from *last */
-static int regularise(Histories *h, const CpsLineView *view, int step, CpsClassic **last) {
+/* the step once more by the regularised method */
+static int regularise(Histories *h, const CpsLineView *view, int step, Regularized *method) {
     CpsError err;
-    CpsClassic *next = NULL;
     CpsClassicReport report;
-    const double mu = h->scene->obstacle_count > 0 ? h->scene->obstacle[0].friction : 0;
-    CpsStatus status = *last ? cps_classic_next(view, mu, *last, &next, &err) : cps_classic_create(view, &next, &err);
-    cps_classic_destroy(*last);
-    *last = next;
-    if (status != CPS_OK) return cli_report(&err);
-    const CpsClassicParameters fine = cps_classic_fine(next);
-    status = cps_classic_solve(next, &fine, NEWTON_LIMIT, &report, &err);
-    if (status != CPS_OK) return cli_report(&err);
+    CpsClassicParameters fine;
+    if (regularized_step(method, view, &fine, &report, &err) != CPS_OK) return cli_report(&err);
     h->converged = h->converged && report.converged;
-    store(h, REGULARISED, step, cps_classic_view(next).position);
+    store(h, REGULARISED, step, cps_classic_view(method->last).position);
     return EXIT_OK;
 }
 
 /* all steps of one evolution; the frozen one takes the regularised method along */
 static int run_evolution(Histories *h, int method, int line) {
-    CpsScene scene = *h->scene;
-    scene.friction = method == FROZEN ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+    CpsScene scene = regularized_scene(h->scene);
+    if (method == CONSISTENT) scene.friction = CPS_FRICTION_CONSISTENT, scene.solver = h->scene->solver;
     CpsError err;
     CpsEvolution *evolution = NULL;
-    CpsClassic *last = NULL;
+    Regularized own = {.friction = h->friction};
     if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
     int code = EXIT_OK;
     store(h, method, 0, cps_evolution_line_view(evolution, line).position);
@@ -86,9 +81,9 @@ static int run_evolution(Histories *h, int method, int line) {
         }
         const CpsLineView view = cps_evolution_line_view(evolution, line);
         store(h, method, step, view.position);
-        if (method == FROZEN) code = regularise(h, &view, step, &last);
+        if (method == FROZEN) code = regularise(h, &view, step, &own);
     }
-    cps_classic_destroy(last);
+    cps_classic_destroy(own.last);
     cps_evolution_destroy(evolution);
     return code;
 }
@@ -136,13 +131,14 @@ static int run_all(Histories *h, const char *directory, bool quiet) {
 int study_methods(const CpsScene *scene, const char *line, const char *directory, bool quiet) {
     CpsEvolution *evolution = NULL;
     CpsError err;
-    if (scene->obstacle_count > 1) {
-        fprintf(stderr, "capstan study: --history: found %d obstacles, expected one plane or none\n",
-                scene->obstacle_count);
-        return EXIT_INPUT;
-    }
+    const double friction = regularized_friction(scene, "study");
+    if (friction < 0) return EXIT_INPUT;
     if (cps_evolution_create(scene, &evolution, &err) != CPS_OK) return cli_report(&err);
-    Histories h = {.scene = scene, .line = line, .steps = 1 + cps_evolution_step_count(evolution), .converged = true};
+    Histories h = {.scene = scene,
+                   .line = line,
+                   .friction = friction,
+                   .steps = 1 + cps_evolution_step_count(evolution),
+                   .converged = true};
     cps_evolution_destroy(evolution);
     const int index = find_line(&h);
     if (index < 0) return EXIT_USAGE;

@@ -34,7 +34,7 @@ extern "C" {
     X(CPS_OK, 0, "success")                                                       \
     X(CPS_ERR_ARGUMENT, 1, "an argument is outside what the call accepts")        \
     X(CPS_ERR_MEMORY, 2, "out of memory")                                         \
-    X(CPS_ERR_INPUT, 3, "the input is not a valid scene")                         \
+    X(CPS_ERR_INPUT, 3, "the input file is not valid")                            \
     X(CPS_ERR_IO, 4, "a file could not be read or written")                       \
     X(CPS_ERR_LIMIT, 5, "a size limit was exceeded")
 

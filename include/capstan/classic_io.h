@@ -3,8 +3,11 @@
 #ifndef CAPSTAN_CLASSIC_IO_H
 #define CAPSTAN_CLASSIC_IO_H
 
+#include <stdio.h>
+
 #include "capstan/classic.h"
 #include "capstan/io.h"
+#include "capstan/solutions.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -39,6 +42,45 @@ typedef struct CpsMethodHistory {
 CPS_API CpsStatus cps_methods_write(const char *directory, const char *title, int methods,
                                     const CpsMethodHistory *method, int steps, int points, const char *const *step_name,
                                     CpsError *err);
+
+/* A step with its slack laid out in every way (solutions.h). */
+typedef struct CpsCompletedLine {
+    const char *title;
+    const CpsLineView *view;
+    const double *position[CPS_COMPLETIONS]; /* (elements + 1, 3) [m] each */
+    CpsCompletion chosen;
+} CpsCompletedLine;
+
+/* Write completed.csv (the chosen one, a row per node) and completed.svg (the longest loose part in plan: as found, and
+ * laid out in each way) into `directory`, as cps_study_write. */
+CPS_API CpsStatus cps_completed_write(const char *directory, const CpsCompletedLine *line, CpsError *err);
+
+/* A history of the regularised method by itself. */
+typedef struct CpsRegularizedLine {
+    const char *name;
+    int points;
+    const double *position;                 /* (steps, points, 3) [m]; step 0 is the start */
+    const CpsClassicParameters *parameters; /* (steps); of the start: not used, as below */
+    const CpsClassicReport *report;         /* (steps) errors are against the exact step with frozen friction */
+    const double *tension;                  /* (steps, 2) [N] in the first and in the last element */
+} CpsRegularizedLine;
+
+typedef struct CpsRegularizedRun {
+    const char *title;
+    int steps, lines;
+    const char *const *step_name;
+    const CpsRegularizedLine *line;
+    bool complete; /* no step of the history is missing */
+    double wall;   /* [s] */
+} CpsRegularizedRun;
+
+/* Write history.csv (a row per step and line: parameters, energies, what the parameters leave, ends), summary.json, and
+ * line-1.svg, line-2.svg, .. (plan and elevation of all steps of a line) into `directory`, as cps_study_write. There is
+ * no certificate: the summary says so. */
+CPS_API CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *run, CpsError *err);
+
+/* summary.json alone, on a stream. */
+CPS_API CpsStatus cps_regularized_summary(const CpsRegularizedRun *run, FILE *out, CpsError *err);
 
 #ifdef __cplusplus
 }

@@ -147,7 +147,9 @@ CPS_API CpsStatus cps_set_extent(const CpsSet *set, const double *direction, Cps
 
 /* Margin of a point: minus its distance from the set where it lies outside, with the unit `separating` direction (n,
  * or NULL): <separating, x> <= <separating, point> - distance for every x of the set. Inside: the radius of a ball
- * round the point that fits in the set: the largest where `exact`, else one that is certain to fit (gap: INFINITY). */
+ * round the point that is certain to fit; the largest one is not larger than value + gap. In the plane, and where a
+ * closed form is known, that is the largest one to rounding; in more dimensions the gap may be as large as the value
+ * and more, because the largest ball is no convex problem (docs/sets.md). */
 CPS_API CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separating, CpsSetAnswer *answer,
                                    CpsError *err);
 
@@ -202,12 +204,15 @@ CPS_API CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capa
 CPS_API CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double *rays, int *count,
                                CpsSetAnswer *answer, CpsError *err);
 
-/* Area and perimeter of a bounded set of R^2 (a segment has area 0 and twice its length as perimeter). */
+/* Area and perimeter of a bounded set of R^2 (a segment has area 0 and twice its length as perimeter; what is so flat
+ * that it counts as one has a gap for its width). */
 typedef struct CpsSetMeasure {
     CpsSetOutcome outcome;
     bool exact;
     double area, perimeter;
-    double area_gap, perimeter_gap; /* estimates of what quadrature along arcs leaves */
+    /* 0 where exact. Else what the supports' gaps, corners that were not quite points and quadrature along arcs leave:
+     * bounds, but for the quadrature, which is judged by halving. */
+    double area_gap, perimeter_gap;
 } CpsSetMeasure;
 CPS_API CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *err);
 

@@ -56,7 +56,7 @@ typedef struct CpsJudgementReport {
  *   step       a solved step; elastic or inextensible
  *   position   (elements + 1, 3) [m], finite
  *   tolerance  [-] 0 < tolerance < 1: gaps up to tolerance times the scale S of docs/theory.md, lengths up to
- *              sqrt(tolerance) times the line's length, and strains up to sqrt(tolerance), are none
+ *              tolerance times the line's length, and strains, which cost their square, up to sqrt(tolerance) are none
  *
  * Returns CPS_OK or CPS_ERR_ARGUMENT. */
 CPS_API CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, double tolerance,
@@ -67,23 +67,36 @@ CPS_API CpsStatus cps_solution_judge(const CpsLineView *step, const double *posi
 /* A stretch of line without tension, all of it loose or all of it not. */
 typedef struct CpsSlackPart {
     double from, to; /* [m] natural abscissas */
-    bool loose;      /* its nodes may move and stay a solution; else friction below its bound or an end holds each */
-    bool grounded;   /* the obstacle pushes on one of its nodes at least */
+    bool loose;      /* its nodes may move and stay a solution; else friction or an end holds each */
+    bool rubs;       /* friction holds one of its nodes at least */
+    bool sliding;    /* friction is at its bound on one of them: that node may slide on, against its friction force */
+    bool grounded;   /* the obstacle pushes on one of its nodes at least: contact keeps those down */
 } CpsSlackPart;
 
 /* List the slack of a step from end A to end B; returns how many parts there are, of which the first `room` are filled.
- * 0: the configuration is unique (result 4.4 (ii)); with held parts only it still is. */
+ * 0: the configuration is unique (result 4.4 (ii)); with held parts only, none of them sliding, it still is. */
 CPS_API int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part);
 
+/* How slack is laid out between two nodes that stay. All have |x'| = 1 and keep to the plane. */
+#define CPS_COMPLETION_LIST(X)                                                                                         \
+    X(CPS_COMPLETION_SHORTEST, 0, "shortest", "to and fro along the shortest way")                                     \
+    X(CPS_COMPLETION_STRAIGHT, 1, "straight", "in two straight pieces, or in one to a loose end")                      \
+    X(CPS_COMPLETION_MEANDER, 2, "meander", "in a meander, to one side and the other")
+
 typedef enum CpsCompletion {
-    CPS_COMPLETION_TENT,   /* out and back in two straight pieces, the first one longer */
-    CPS_COMPLETION_MEANDER /* element by element to one side and the other, close to the chord */
+#define CPS_COMPLETION_ENUM(name, number, key, sentence) name = number,
+    CPS_COMPLETION_LIST(CPS_COMPLETION_ENUM)
+#undef CPS_COMPLETION_ENUM
+        CPS_COMPLETIONS
 } CpsCompletion;
+
+CPS_API const char *cps_completion_key(CpsCompletion completion);
+CPS_API const char *cps_completion_sentence(CpsCompletion completion); /* "laid out ..." */
 
 /* The slack of a step. Lengths are natural lengths of elements without tension. */
 typedef struct CpsSlackReport {
     double slack;    /* [m] in all; 0: the configuration is unique (result 4.4 (ii)) */
-    double held;     /* [m] of it between nodes both held in place: by friction below its bound, or ends */
+    double held;     /* [m] of it between nodes both held in place: by friction, or ends */
     double loose;    /* [m] of it with a node that may move and stay a solution */
     double straight; /* [m] of the slack with |x'| >= 1 already, as found */
     double left;     /* [m] with |x'| < 1 also after completion: between two nodes held closer than their length */

@@ -12,11 +12,13 @@
  * is found, |e| <= 1 up to rounding; the excess is reported as stretch_residual. */
 #include "cable/certificate.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/larger.h"
 #include "cable/rub_set.h"
 #include "linsys/frame.h"
+#include "linsys/small.h"
 
 /* |a||b| - a.b for any two vectors, without cancellation. */
 static double angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
@@ -50,28 +52,56 @@ static double room_of(const CpsiLine *line, int j) {
     return cpsi_rub_room(&set, line->friction_bound[j], f);
 }
 
-/* Share out the force `rest` that a line free at both ends has in excess: its tangential part among frictions in proportion
- * to the room they have, its normal part among reactions in proportion to their size. */
+/* Add scale x a b^T to m (3, 3). */
+static void add_outer(double m[9], double scale, Vec3 a, Vec3 b) {
+    const double left[3] = {a.x, a.y, a.z}, right[3] = {b.x, b.y, b.z};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) m[3*i + k] += scale*left[i]*right[k];
+}
+
+/* Does the bound of node j follow its reaction? */
+static bool bound_follows(const CpsiLine *line, int j) {
+    const double bound = cpsi_rub_set(cpsi_line_obstacle(line, j)).friction*line->reaction[j];
+    return bound > 0 && fabs(line->friction_bound[j] - bound) <= 1e-12*bound;
+}
+
+/* Share out the force `rest` that a line free at both ends has in excess. With one vector lambda for all, node j gives
+ * R (n.lambda) n, and what friction its bound allows: F (n.lambda) where that follows R, and room lambda_T; the sum is a 3 x 3 system. */
 static void share_out(CpsiLine *line, Vec3 rest) {
-    double room = 0, reaction = 0;
+    double m[9] = {0}, lambda[3] = {-rest.x, -rest.y, -rest.z}, trace = 0;
+    int pivot[3];
     for (int j = 0; j < line->n; j++) {
-        room += room_of(line, j);
-        reaction += line->reaction[j];
+        const Vec3 n = vec3_load(&line->normal[3*j]);
+        const double room = room_of(line, j);
+        add_outer(m, line->reaction[j] - room, n, n);
+        if (bound_follows(line, j)) add_outer(m, 1, vec3_load(&line->friction_force[3*j]), n);
+        for (int i = 0; i < 3; i++) m[4*i] += room;
+        trace += line->reaction[j] + 2*room;
     }
+    /* directions in which nobody gives anything keep what is in excess: the balance says so */
+    for (int i = 0; i < 3; i++) m[4*i] += DBL_EPSILON*trace;
+    if (!(trace > 0) || !cpsi_lu_factor(3, m, pivot)) return;
+    cpsi_lu_solve(3, m, pivot, lambda);
+    const Vec3 by = vec3_load(lambda);
+    if (!(vec3_norm(by) < 1)) return;
     for (int j = 0; j < line->n; j++) {
         const Vec3 n = vec3_load(&line->normal[3*j]), f = vec3_load(&line->friction_force[3*j]);
-        const double share = room_of(line, j);
-        if (room > 0) vec3_store(&line->friction_force[3*j], vec3_axpy(-share/room, tangential(rest, n), f));
-        if (reaction > 0) line->reaction[j] *= fmax(0, 1 - vec3_dot(rest, n)/reaction);
+        const double along = vec3_dot(n, by), follow = bound_follows(line, j) ? 1 + along : 1;
+        const Vec3 more = vec3_scale(room_of(line, j), tangential(by, n));
+        vec3_store(&line->friction_force[3*j], vec3_axpy(follow, f, more));
+        line->friction_bound[j] *= follow;
+        line->reaction[j] *= 1 + along;
     }
 }
 
 void cpsi_balance_forces(CpsiLine *line) {
     const int n = line->n, elements = n - 1;
     if (line->end[CPS_END_A].kind == CPS_END_FREE && line->end[CPS_END_B].kind == CPS_END_FREE) {
-        Vec3 rest = vec3(0, 0, 0);
-        for (int j = 0; j < n; j++) rest = vec3_add(rest, node_force(line, j));
-        share_out(line, rest);
+        for (int round = 0; round < 2; round++) { /* the second for what the first left by rounding */
+            Vec3 rest = vec3(0, 0, 0);
+            for (int j = 0; j < n; j++) rest = vec3_add(rest, node_force(line, j));
+            share_out(line, rest);
+        }
     }
     /* from B to A, starting from nothing beyond a free end or from the force found in the last element */
     if (line->end[CPS_END_B].kind == CPS_END_FREE || line->end[CPS_END_A].kind == CPS_END_HELD) {

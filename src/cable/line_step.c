@@ -36,6 +36,8 @@ static const int CENTRINGS = 2;
 static const double CLEAN = 1e-11;
 /* |distance - L| <= TAUT L: an inextensible line is pulled straight, its tension has no upper bound. */
 static const double TAUT = 1e-12;
+/* No step takes a node this many lengths away: it was on its way to nowhere. */
+static const double AFAR = 1e4;
 /* A reference this much tighter than the loads and the ends explain. */
 static const double HELD = 100;
 /* A taut line's forces are those of a line longer by this share. */
@@ -144,6 +146,15 @@ static void straighten(CpsiLine *line) {
         vec3_store(&line->position[3*j], vec3_axpy(line->arc_length[j]/line->length, vec3_sub(b, a), a));
 }
 
+/* Is the line where the step can have taken it, and clear of the obstacles?  Frozen friction looks at them from the reference only. */
+static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
+    const bool looked = line->follows && options->friction == CPS_FRICTION_CONSISTENT;
+    if (looked && !(line->report.certificate.penetration <= 0.1*CPSI_TOUCH*line->length)) return false;
+    for (int j = 0; j < 3*line->n; j++)
+        if (!(fabs(line->position[j] - line->reference[j]) <= AFAR*line->length)) return false;
+    return true;
+}
+
 /* The iterate of the loop as a certified answer, or what it is instead. The loop's own residuals (tensions against
  * elongations, positions against distances) must be well below the tolerance too, but not below what rounding leaves. */
 static CpsOutcome judge(const CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
@@ -152,7 +163,7 @@ static CpsOutcome judge(const CpsiLine *line, const CpsiStepOptions *options, co
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
     const bool consistent = options->friction == CPS_FRICTION_FROZEN || c->friction_residual <= CLEAN*c->largest_force;
     if (finite && consistent && ipm->residual <= fmax(0.01*tolerance, CLEAN) && c->gap <= tolerance*c->scale &&
-        c->stretch_residual <= tolerance)
+        c->stretch_residual <= tolerance && c->force_residual <= CLEAN*c->largest_force && is_in_place(line, options))
         return is_taut(line) ? CPS_TAUT : CPS_SOLVED;
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }

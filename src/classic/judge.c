@@ -128,7 +128,7 @@ CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, do
     Case c = {0};
     look(step, position, &c);
     const double gap = tolerance*scale_of(step), strain = sqrt(tolerance);
-    const double length = strain*step->arc_length[step->elements];
+    const double length = tolerance*step->arc_length[step->elements];
     const struct {
         bool fails;
         CpsJudgement judgement;

@@ -26,23 +26,48 @@ static const CpsiKey KEYS[] = {
     {CPSI_SCENE, "gravity", CPSI_VECTOR, CPSI_OPTIONAL, "m/s2", ANY, 0, NULL, "[0, 0, -9.81]",
      "acceleration of gravity; its direction is that of the lines' weight"},
     {CPSI_SCENE, "obstacles", CPSI_MAPPING, CPSI_OPTIONAL, "", MAP(CPSI_OBSTACLES), "{}",
-     "what the lines lie on, by name; at most one"},
+     "what the lines lie on, by name; each node rests on the nearest one"},
     {CPSI_SCENE, "lines", CPSI_MAPPING, CPSI_REQUIRED, "", MAP(CPSI_LINES), NULL,
      "the lines by name; they do not touch one another"},
     {CPSI_SCENE, "friction", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "frozen consistent", "\"consistent\"",
      "frozen: the friction bound of a step is taken from the configuration the step starts from; consistent: it is mu "
      "times the reaction in the configuration reached, for nodes that land in the step as well"},
     {CPSI_SCENE, "contact", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "gained strict", "\"gained\"",
-     "gained: no node ends a step below the obstacle; strict: only nodes that touch it when the step starts are kept out"},
+     "gained: no node ends a step below the obstacle; strict: only nodes that touch it when the step starts are "
+     "kept out"},
     {CPSI_SCENE, "solver", CPSI_MAPPING, CPSI_OPTIONAL, "", MAP(CPSI_SOLVER), "{}", "how steps are solved"},
-    {CPSI_SCENE, "history", CPSI_LIST, CPSI_OPTIONAL, "", MAP(CPSI_STAGE), "[]", "what happens to the lines' ends, in turn"},
+    {CPSI_SCENE, "history", CPSI_LIST, CPSI_OPTIONAL, "", MAP(CPSI_STAGE), "[]",
+     "what happens to the lines' ends and to obstacles that turn, in turn"},
 
     {CPSI_OBSTACLES, "NAME", CPSI_MAPPING, CPSI_OPTIONAL, "", MAP(CPSI_OBSTACLE), NULL, "an obstacle"},
-    {CPSI_OBSTACLE, "plane", CPSI_MAPPING, CPSI_REQUIRED, "", MAP(CPSI_PLANE), NULL, "a plane; lines stay on one side of it"},
-    {CPSI_OBSTACLE, "friction", CPSI_NUMBER, CPSI_OPTIONAL, "", NOT_NEGATIVE, 0, NULL, "0", "Coulomb friction coefficient"},
+    {CPSI_OBSTACLE, "plane", CPSI_MAPPING, CPSI_ONE_OF, "", MAP(CPSI_PLANE), NULL,
+     "a plane; lines stay on one side of it"},
+    {CPSI_OBSTACLE, "cylinder", CPSI_MAPPING, CPSI_ONE_OF, "", MAP(CPSI_CYLINDER), NULL,
+     "a solid cylinder without ends (bollard, pipe, drum); lines stay outside"},
+    {CPSI_OBSTACLE, "sphere", CPSI_MAPPING, CPSI_ONE_OF, "", MAP(CPSI_SPHERE), NULL,
+     "a solid ball; lines stay outside"},
+    {CPSI_OBSTACLE, "friction", CPSI_NUMBER_OR_MAPPING, CPSI_OPTIONAL, "", NOT_NEGATIVE, CPSI_FRICTION, NULL, "0",
+     "Coulomb friction coefficient; or one along the line or the grain and another across it"},
     {CPSI_PLANE, "point", CPSI_VECTOR, CPSI_OPTIONAL, "m", ANY, 0, NULL, "[0, 0, 0]", "a point of the plane"},
     {CPSI_PLANE, "normal", CPSI_VECTOR, CPSI_OPTIONAL, "", ANY, 0, NULL, "[0, 0, 1]",
      "points to the side where lines may be; of any length but zero"},
+    {CPSI_CYLINDER, "point", CPSI_VECTOR, CPSI_OPTIONAL, "m", ANY, 0, NULL, "[0, 0, 0]", "a point of the axis"},
+    {CPSI_CYLINDER, "axis", CPSI_VECTOR, CPSI_OPTIONAL, "", ANY, 0, NULL, "[0, 1, 0]",
+     "direction of the axis, of any length but zero; a turn follows it by the right-hand rule"},
+    {CPSI_CYLINDER, "radius", CPSI_NUMBER, CPSI_REQUIRED, "m", POSITIVE, 0, NULL, NULL, "radius of the cylinder"},
+    {CPSI_SPHERE, "center", CPSI_VECTOR, CPSI_OPTIONAL, "m", ANY, 0, NULL, "[0, 0, 0]", "centre of the ball"},
+    {CPSI_SPHERE, "axis", CPSI_VECTOR, CPSI_OPTIONAL, "", ANY, 0, NULL, "[0, 1, 0]",
+     "what the ball turns about, through its centre; of any length but zero"},
+    {CPSI_SPHERE, "radius", CPSI_NUMBER, CPSI_REQUIRED, "m", POSITIVE, 0, NULL, NULL, "radius of the ball"},
+    {CPSI_FRICTION, "axial", CPSI_NUMBER, CPSI_REQUIRED, "", NOT_NEGATIVE, 0, NULL, NULL,
+     "coefficient along the line, or along the grain"},
+    {CPSI_FRICTION, "lateral", CPSI_NUMBER, CPSI_OPTIONAL, "", NOT_NEGATIVE, 0, NULL, NULL,
+     "coefficient across it; by default the axial one"},
+    {CPSI_FRICTION, "shape", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "ellipse box", "\"ellipse\"",
+     "ellipse: one law for both directions; box: two independent laws"},
+    {CPSI_FRICTION, "grain", CPSI_VECTOR, CPSI_OPTIONAL, "", ANY, 0, NULL, "[0, 0, 0]",
+     "direction of the axial coefficient, fixed in space, as far as it lies in the surface; [0, 0, 0]: that of "
+     "the line"},
 
     {CPSI_LINES, "NAME", CPSI_MAPPING, CPSI_OPTIONAL, "", MAP(CPSI_LINE), NULL, "a line from its end A to its end B"},
     {CPSI_LINE, "length", CPSI_NUMBER, CPSI_REQUIRED, "m", POSITIVE, 0, NULL, NULL, "unstretched length"},
@@ -80,9 +105,11 @@ static const CpsiKey KEYS[] = {
 
     {CPSI_SOLVER, "tolerance", CPSI_NUMBER, CPSI_OPTIONAL, "", 1e-14, 1e-2, false, 0, NULL, "1e-8",
      "a step is certified when its duality gap is at most this times the scale of its energies"},
-    {CPSI_SOLVER, "max_iterations", CPSI_INTEGER, CPSI_OPTIONAL, "", 1, 1000, false, 0, NULL, "60", "per step and line"},
+    {CPSI_SOLVER, "max_iterations", CPSI_INTEGER, CPSI_OPTIONAL, "", 1, 1000, false, 0, NULL, "60",
+     "per step and line"},
     {CPSI_SOLVER, "path_tolerance", CPSI_NUMBER, CPSI_OPTIONAL, "", 0, 1, false, 0, NULL, "0",
-     "a step is cut until going in halves changes ways per length and tensions per largest force by no more; 0: steps as given"},
+     "a step is cut until going in halves changes ways per length and tensions per largest force by no more; 0: "
+     "steps as given"},
     {CPSI_SOLVER, "halvings", CPSI_INTEGER, CPSI_OPTIONAL, "", 0, 30, false, 0, NULL, "10",
      "how often a step may be halved, for the path or because it does not converge"},
     {CPSI_SOLVER, "linear_system", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "chain dense", "\"chain\"",
@@ -90,9 +117,12 @@ static const CpsiKey KEYS[] = {
 
     {CPSI_STAGE, "name", CPSI_TEXT, CPSI_OPTIONAL, "", NO_RANGE, 0, NULL, NULL,
      "name of the entry in the results; by default its number"},
-    {CPSI_STAGE, "steps", CPSI_INTEGER, CPSI_OPTIONAL, "", 1, 1e6, false, 0, NULL, "1", "go there in so many equal load steps"},
+    {CPSI_STAGE, "steps", CPSI_INTEGER, CPSI_OPTIONAL, "", 1, 1e6, false, 0, NULL, "1",
+     "go there in so many equal load steps"},
     {CPSI_STAGE, "LINE.END", CPSI_MAPPING, CPSI_OPTIONAL, "", MAP(CPSI_CHANGE), NULL,
      "what happens to an end of a line, as in cable.B; all other ends stay as they are"},
+    {CPSI_STAGE, "OBSTACLE.turn", CPSI_NUMBER, CPSI_OPTIONAL, "degrees", ANY, 0, NULL, NULL,
+     "turn a cylinder or ball by so much in this entry, as in drum.turn, by the right-hand rule about its axis"},
     {CPSI_CHANGE, "position", CPSI_VECTOR, CPSI_ONE_OF, "m", ANY, 0, NULL, NULL,
      "move the end to this position; a free end is grabbed where it is"},
     {CPSI_CHANGE, "move", CPSI_VECTOR, CPSI_ONE_OF, "m", ANY, 0, NULL, NULL,
@@ -104,8 +134,8 @@ static const CpsiKey KEYS[] = {
 enum { KEY_COUNT = sizeof KEYS / sizeof KEYS[0] };
 
 static const char *const OBJECTS[CPSI_OBJECT_COUNT] = {
-    "scene",    "obstacles", "obstacle", "plane", "lines",  "line",  "start",
-    "straight", "arc",       "ends",     "end",   "solver", "entry", "change",
+    "scene", "obstacles", "obstacle", "plane", "cylinder", "sphere", "friction", "lines",  "line",
+    "start", "straight",  "arc",      "ends",  "end",      "solver", "entry",    "change",
 };
 
 const CpsiKey *cpsi_keys(CpsiObject object, int *count) {
@@ -123,13 +153,19 @@ char cpsi_key_end(const char *written) {
     return dot && dot > written && (dot[1] == 'A' || dot[1] == 'B') && !dot[2] ? dot[1] : 0;
 }
 
+bool cpsi_key_is_turn(const char *written) {
+    const char *dot = strrchr(written, '.');
+    return dot && dot > written && strcmp(dot, ".turn") == 0;
+}
+
 const CpsiKey *cpsi_key_find(CpsiObject object, const char *written) {
     int count;
     const CpsiKey *keys = cpsi_keys(object, &count);
     for (int i = 0; i < count; i++) {
         const bool any = strcmp(keys[i].name, "NAME") == 0;
         const bool end = strcmp(keys[i].name, "LINE.END") == 0 && cpsi_key_end(written);
-        if (any || end || strcmp(keys[i].name, written) == 0) return &keys[i];
+        const bool turn = strcmp(keys[i].name, "OBSTACLE.turn") == 0 && cpsi_key_is_turn(written);
+        if (any || end || turn || strcmp(keys[i].name, written) == 0) return &keys[i];
     }
     return NULL;
 }
@@ -220,12 +256,15 @@ const char *cpsi_key_expected(const CpsiKey *key, char *text, size_t size) {
         else
             snprintf(text, size, "'%s'", key->words);
         break;
-    case CPSI_MAPPING: {
+    case CPSI_MAPPING:
+    case CPSI_NUMBER_OR_MAPPING: {
         /* the keys it may hold */
         int count;
         const CpsiKey *keys = cpsi_keys(key->inside, &count);
-        size_t used = (size_t)snprintf(text, size, "%s%sa mapping with ", key->words ? key->words : "",
-                                       key->words ? ", or " : "");
+        const bool number = key->type == CPSI_NUMBER_OR_MAPPING;
+        size_t used =
+            (size_t)snprintf(text, size, "%s%s%s%sa mapping with ", number ? "a number" : "", number ? range : "",
+                             key->words ? key->words : "", number || key->words ? ", or " : "");
         for (int i = 0; i < count && used < size; i++)
             used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", keys[i].name);
         break;

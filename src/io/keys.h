@@ -13,6 +13,9 @@ typedef enum CpsiObject {
     CPSI_OBSTACLES, /* {NAME: obstacle} */
     CPSI_OBSTACLE,
     CPSI_PLANE,
+    CPSI_CYLINDER,
+    CPSI_SPHERE,
+    CPSI_FRICTION,
     CPSI_LINES, /* {NAME: line} */
     CPSI_LINE,
     CPSI_START,
@@ -30,12 +33,13 @@ typedef enum CpsiKeyType {
     CPSI_NUMBER,
     CPSI_INTEGER,
     CPSI_TEXT,
-    CPSI_WORD,     /* one of `words` */
-    CPSI_VECTOR,   /* [x, y, z] */
-    CPSI_POINTS,   /* [[x, y, z], ...], at least two */
-    CPSI_ELEMENTS, /* a count, or a list of lengths and of [count, length] */
-    CPSI_MAPPING,  /* an object of kind `inside`, or one of `words` in its place */
-    CPSI_LIST      /* of objects of kind `inside` */
+    CPSI_WORD,              /* one of `words` */
+    CPSI_VECTOR,            /* [x, y, z] */
+    CPSI_POINTS,            /* [[x, y, z], ...], at least two */
+    CPSI_ELEMENTS,          /* a count, or a list of lengths and of [count, length] */
+    CPSI_MAPPING,           /* an object of kind `inside`, or one of `words` in its place */
+    CPSI_NUMBER_OR_MAPPING, /* an object of kind `inside`, or a number in its place */
+    CPSI_LIST               /* of objects of kind `inside` */
 } CpsiKeyType;
 
 typedef enum CpsiKeyNeed {
@@ -46,7 +50,7 @@ typedef enum CpsiKeyNeed {
 
 typedef struct CpsiKey {
     CpsiObject where;
-    const char *name; /* "NAME": any name; "LINE.END": an end of a line, as cable.B */
+    const char *name; /* "NAME": any name; "LINE.END": an end of a line, as cable.B; "OBSTACLE.turn": as drum.turn */
     CpsiKeyType type;
     CpsiKeyNeed need;
     const char *unit;     /* "" without */
@@ -64,7 +68,8 @@ const CpsiKey *cpsi_keys(CpsiObject object, int *count);
 /* What an object is called in messages and in the schema: "line", "entry", ... */
 const char *cpsi_object_name(CpsiObject object);
 
-/* The row for a key written in an object; NULL: there is none. A name or LINE.END is recognised by its form alone. */
+/* The row for a key written in an object; NULL: there is none. A name, LINE.END and OBSTACLE.turn are recognised by
+ * their form alone. */
 const CpsiKey *cpsi_key_find(CpsiObject object, const char *written);
 
 /* The number of a word in a row's words, from 0; -1: none of them. */
@@ -72,6 +77,9 @@ int cpsi_key_word(const CpsiKey *key, const char *written);
 
 /* The 'A' or 'B' after the last dot of LINE.END; 0: no such form. */
 char cpsi_key_end(const char *written);
+
+/* Is this of the form OBSTACLE.turn? */
+bool cpsi_key_is_turn(const char *written);
 
 /* Keep the nearest of the candidates offered one after the other: start with {.word = written}. */
 typedef struct CpsiSuggestion {

@@ -16,11 +16,19 @@ typedef struct CpsiView {
     Vec3 right, up, toward; /* unit vectors: along the paper, and from it to the eye */
     char x_label[80], y_label[80];
     double x[2], y[2]; /* ranges of everything drawn */
-    double cut;        /* coordinate along toward at which an elevation cuts the obstacle */
+    double cut;        /* coordinate along toward at which an elevation cuts planes */
+    bool true_scale;   /* heights are not exaggerated: there is something round to be seen */
 } CpsiView;
 
 CpsiView cpsi_view_plan(const CpsResults *results);
 CpsiView cpsi_view_elevation(const CpsResults *results);
+
+/* What the lines lie on, under everything else; turned as after a step, or of all steps (-1). */
+void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame, int step,
+                            FILE *out);
+
+/* Is its silhouette a circle: a ball, or a cylinder seen from its end? */
+bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);
 
 /* Range of the tension over all snapshots [N]. */
 void cpsi_tension_range(const CpsResults *results, double range[2]);

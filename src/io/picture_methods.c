@@ -1,80 +1,61 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same history by several methods, side by side: the projections of S90 figures 5 to 12, and a table. */
-#include <locale.h>
-#include <math.h>
+/* Configurations side by side: the projections of S90 figures 5 to 12 (see picture_methods.h). */
+#include "io/picture_methods.h"
 
-#include "base/status.h"
-#include "base/vec3.h"
-#include "capstan/classic_io.h"
-#include "io/result_file.h"
+#include <math.h>
+#include <string.h>
+
 #include "io/result_text.h"
 #include "io/svg.h"
 
 enum {
-    MAX_METHODS = 4,
     LEFT = 84,
-    COLUMN = 300,
+    NARROW = 300,
+    WIDE = 720,
     GAP = 90,
-    PLAN_TOP = 100,
+    TOP = 100,
     PLAN_HEIGHT = 300,
-    SIDE_TOP = 480,
     SIDE_HEIGHT = 180,
-    SHEET_HEIGHT = 740
+    PITCH = 80,
+    CURVES = 60
 };
 
-typedef struct Methods {
-    const char *title;
-    int methods, steps, points;
-    const CpsMethodHistory *method;
-    const char *const *step_name;
-} Methods;
+/* what is drawn below each other */
+enum { PLAN, ELEVATION, PLAN_NEAR, ELEVATION_NEAR, ROWS };
 
-static const double *place(const Methods *m, int method, int step, int point) {
+typedef struct Sheet {
+    const CpsiMethods *m;
+    int rows;
+    double column;       /* width */
+    double whole[3][2];  /* ranges of all that is drawn, so that columns compare */
+    double around[3][2]; /* the same of end B after the start; heights are all */
+} Sheet;
+
+static const double *place(const CpsiMethods *m, int method, int step, int point) {
     return m->method[method].position + 3 * ((size_t)step * (size_t)m->points + (size_t)point);
 }
 
-/* ---- table ---- */
-
-static double farthest(const Methods *m, int method, int step) {
-    double most = 0;
-    for (int p = 0; p < m->points; ++p) {
-        const Vec3 way = vec3_sub(vec3_load(place(m, method, step, p)), vec3_load(place(m, 0, step, p)));
-        most = fmax(most, vec3_norm(way));
-    }
-    return most;
-}
-
-static void put_table(const Methods *m, FILE *out) {
-    fputs("step,method,B.x,B.y,B.z,farthest_from_first\n,,m,m,m,m\n", out);
-    for (int s = 0; s < m->steps; ++s)
-        for (int k = 0; k < m->methods; ++k) {
-            cpsi_put_csv(out, m->step_name[s]);
-            fputc(',', out);
-            cpsi_put_csv(out, m->method[k].name);
-            for (int x = 0; x < 3; ++x) {
-                fputc(',', out);
-                cpsi_put_csv_number(out, place(m, k, s, m->points - 1)[x]);
-            }
-            fputc(',', out);
-            cpsi_put_csv_number(out, farthest(m, k, s));
-            fputc('\n', out);
-        }
-}
-
-/* ---- picture ---- */
-
-static CpsiColour step_colour(const Methods *m, int step) {
+static CpsiColour step_colour(const CpsiMethods *m, int step) {
     return cpsi_colour(CPSI_SCALE_STEP, m->steps > 1 ? (double)step / (m->steps - 1) : 1);
 }
 
-/* ranges of all methods, so that columns compare */
-static void find_ranges(const Methods *m, double range[3][2]) {
-    for (int x = 0; x < 3; ++x) range[x][0] = INFINITY, range[x][1] = -INFINITY;
+static void find_ranges(Sheet *sheet) {
+    const CpsiMethods *m = sheet->m;
+    for (int x = 0; x < 3; ++x)
+        sheet->whole[x][0] = sheet->around[x][0] = INFINITY, sheet->whole[x][1] = sheet->around[x][1] = -INFINITY;
     for (int k = 0; k < m->methods; ++k)
         for (int s = 0; s < m->steps; ++s)
             for (int p = 0; p < m->points; ++p)
-                for (int x = 0; x < 3; ++x) cpsi_range_include(range[x], place(m, k, s, p)[x]);
-    for (int x = 0; x < 3; ++x) cpsi_range_pad(range[x], 0.06);
+                for (int x = 0; x < 3; ++x) {
+                    const double value = place(m, k, s, p)[x];
+                    cpsi_range_include(sheet->whole[x], value);
+                    if (p == m->points - 1 && s > 0) cpsi_range_include(sheet->around[x], value);
+                }
+    for (int x = 0; x < 3; ++x) {
+        cpsi_range_pad(sheet->whole[x], 0.06);
+        cpsi_range_pad(sheet->around[x], 0.5);
+    }
+    memcpy(sheet->around[2], sheet->whole[2], sizeof sheet->whole[2]);
 }
 
 /* the same metres per pixel along both axes */
@@ -86,99 +67,98 @@ static void make_even(CpsiFrame *frame) {
     narrow[0] -= more, narrow[1] += more;
 }
 
-static void put_point(const Methods *m, const CpsiFrame *frame, int method, int step, int point, int up, FILE *out) {
+static void put_point(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int point, int up,
+                      FILE *out) {
     const double *x = place(m, method, step, point);
     fprintf(out, "%.1f,%.1f ", cpsi_frame_x(frame, x[0]), cpsi_frame_y(frame, x[up]));
 }
 
-/* a point on every second pixel is enough; more only make files large */
-static void put_curve(const Methods *m, const CpsiFrame *frame, int method, int step, int up, FILE *out) {
-    const int last = m->points - 1, stride = last > COLUMN / 2 ? last / (COLUMN / 2) : 1;
-    for (int p = 0; p < last; p += stride) put_point(m, frame, method, step, p, up, out);
+/* the node before the first one inside the frame */
+static int first_inside(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up) {
+    for (int p = 0; p < m->points; ++p) {
+        const double *x = place(m, method, step, p);
+        if (x[0] >= frame->x[0] && x[0] <= frame->x[1] && x[up] >= frame->y[0] && x[up] <= frame->y[1])
+            return p > 0 ? p - 1 : 0;
+    }
+    return m->points - 1;
+}
+
+/* Some 150 points are enough for a whole line, and what is inside the frame for the rest; more only make files large.
+ */
+static void put_curve(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up, bool near,
+                      FILE *out) {
+    const int last = m->points - 1;
+    const int stride = !near && !m->plan_only && last > NARROW / 2 ? last / (NARROW / 2) : 1;
+    for (int p = near ? first_inside(m, frame, method, step, up) : 0; p < last; p += stride)
+        put_point(m, frame, method, step, p, up, out);
     put_point(m, frame, method, step, last, up, out);
 }
 
-static void draw_frame(const Methods *m, int method, int row, double range[3][2], FILE *out) {
-    const int up = row ? 2 : 1;
-    CpsiFrame frame = {.left = LEFT + (COLUMN + GAP) * method,
-                       .top = row ? SIDE_TOP : PLAN_TOP,
-                       .width = COLUMN,
-                       .height = row ? SIDE_HEIGHT : PLAN_HEIGHT,
+static bool is_near(int row) { return row >= PLAN_NEAR; }
+static bool is_plan(int row) { return row % 2 == PLAN; }
+
+static double row_top(int row) {
+    return TOP + (PLAN_HEIGHT + SIDE_HEIGHT + 2 * PITCH) * (row / 2) + (is_plan(row) ? 0 : PLAN_HEIGHT + PITCH);
+}
+
+static double row_bottom(int row) { return row_top(row) + (is_plan(row) ? PLAN_HEIGHT : SIDE_HEIGHT); }
+
+/* a long history by an even selection, with the first and the last step */
+static bool is_drawn(const CpsiMethods *m, int step) {
+    return step % (m->steps / CURVES + 1) == 0 || step == m->steps - 1;
+}
+
+static void draw_frame(const Sheet *sheet, int method, int row, FILE *out) {
+    const CpsiMethods *m = sheet->m;
+    const int up = is_plan(row) ? 1 : 2;
+    const double(*range)[2] = is_near(row) ? sheet->around : sheet->whole;
+    CpsiFrame frame = {.left = LEFT + (sheet->column + GAP) * method,
+                       .top = row_top(row),
+                       .width = sheet->column,
+                       .height = row_bottom(row) - row_top(row),
                        .x = {range[0][0], range[0][1]},
                        .y = {range[up][0], range[up][1]}};
-    if (!row) make_even(&frame);
-    cpsi_frame_axes(out, &frame, "x (m)", row ? "z (m)" : "y (m)");
-    cpsi_frame_begin(out, &frame, 2 * method + row);
+    if (is_plan(row)) make_even(&frame);
+    cpsi_frame_axes(out, &frame, "x (m)", is_plan(row) ? "y (m)" : "z (m)");
+    cpsi_frame_begin(out, &frame, ROWS * method + row);
     for (int s = 0; s < m->steps; ++s) {
+        if (!is_drawn(m, s)) continue;
         fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" points=\"", step_colour(m, s).hex,
-                1.2 + 2.4 * (m->steps - 1 - s) / m->steps);
-        put_curve(m, &frame, method, s, up, out);
+                m->steps > 1 ? 1.2 + 2.4 * (m->steps - 1 - s) / m->steps : 1.6);
+        put_curve(m, &frame, method, s, up, is_near(row), out);
         fputs("\"/>\n", out);
     }
     cpsi_frame_end(out);
-    if (!row)
-        cpsi_svg_text(out, frame.left + frame.width / 2, PLAN_TOP - 10, CPSI_MIDDLE, "font-weight=\"bold\"",
-                      m->method[method].name);
+    if (!is_plan(row)) return;
+    char name[96];
+    snprintf(name, sizeof name, "%.72s%s", m->method[method].name, is_near(row) ? ", around end B" : "");
+    cpsi_svg_text(out, frame.left + frame.width / 2, frame.top - 10, CPSI_MIDDLE, "font-weight=\"bold\"", name);
 }
 
-static void put_picture(const Methods *m, FILE *out) {
-    double range[3][2];
-    find_ranges(m, range);
-    cpsi_svg_begin(out, LEFT + (COLUMN + GAP) * m->methods, SHEET_HEIGHT, m->title,
-                   "Plan and elevation (heights stretched), step by step");
-    for (int k = 0; k < m->methods; ++k)
-        for (int row = 0; row < 2; ++row) draw_frame(m, k, row, range, out);
+static void draw_legend(const Sheet *sheet, double width, double y, FILE *out) {
+    const CpsiMethods *m = sheet->m;
     double x = LEFT;
-    for (int s = 0; s < m->steps && x < LEFT + (COLUMN + GAP) * m->methods - 80; ++s) {
+    for (int s = 0; s < m->steps; ++s) {
         char mark[128], name[24];
+        snprintf(name, sizeof name, "%.*s", (int)cpsi_utf8_cut(m->step_name[s], 18), m->step_name[s]);
+        if (x + 44 + 8 * (double)strlen(name) > width) break;
         snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" y1=\"0\" y2=\"0\" stroke=\"%s\" stroke-width=\"3\"/>",
                  step_colour(m, s).hex);
-        snprintf(name, sizeof name, "%.*s", (int)cpsi_utf8_cut(m->step_name[s], 18), m->step_name[s]);
-        cpsi_legend(out, &x, SHEET_HEIGHT - 14, mark, name);
+        cpsi_legend(out, &x, y, mark, name);
     }
+}
+
+void cpsi_picture_methods(const CpsiMethods *m, FILE *out) {
+    Sheet sheet = {.m = m,
+                   .rows = m->plan_only   ? 1
+                           : m->steps > 1 ? ROWS
+                                          : PLAN_NEAR,
+                   .column = m->methods > 1 ? NARROW : WIDE};
+    find_ranges(&sheet);
+    const double width = LEFT + (sheet.column + GAP) * m->methods, bottom = row_bottom(sheet.rows - 1) + 56;
+    cpsi_svg_begin(out, width, bottom + (m->steps > 1 ? 34 : 0), m->title, m->note);
+    for (int k = 0; k < m->methods; ++k)
+        for (int row = 0; row < sheet.rows; ++row) draw_frame(&sheet, k, row, out);
+    if (m->steps > 1) draw_legend(&sheet, width, bottom + 18, out);
     cpsi_svg_finish(out);
-}
-
-/* ---- files ---- */
-
-static bool nothing_stale(const char *name) {
-    (void)name;
-    return false;
-}
-
-static CpsStatus write_all(CpsiDirectory *directory, const Methods *m, CpsError *err) {
-    static const struct {
-        const char *name;
-        void (*put)(const Methods *m, FILE *out);
-    } FILES[] = {{"methods.csv", put_table}, {"methods.svg", put_picture}};
-    CpsStatus status = CPS_OK;
-    for (size_t i = 0; i < sizeof FILES / sizeof *FILES && status == CPS_OK; ++i) {
-        FILE *out = NULL;
-        status = cpsi_directory_create(directory, FILES[i].name, &out, err);
-        if (status != CPS_OK) break;
-        FILES[i].put(m, out);
-        status = cpsi_directory_close_file(directory, out, err);
-    }
-    return status == CPS_OK ? cpsi_directory_commit(directory, nothing_stale, err) : status;
-}
-
-CpsStatus cps_methods_write(const char *directory, const char *title, int methods, const CpsMethodHistory *method,
-                            int steps, int points, const char *const *step_name, CpsError *err) {
-    if (!directory || !title || !method || !step_name)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory, title, method or step_name is NULL");
-    if (methods < 1 || methods > MAX_METHODS || steps < 1 || points < 2)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "found %d methods, %d steps, %d points; expected 1 to %d, and at least 1 and 2", methods,
-                         steps, points, (int)MAX_METHODS);
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const locale_t before = uselocale(numbers);
-    const Methods m = {title, methods, steps, points, method, step_name};
-    CpsiDirectory *open = NULL;
-    CpsStatus status = cpsi_directory_open(directory, &open, err);
-    if (status == CPS_OK) status = write_all(open, &m, err);
-    cpsi_directory_destroy(open);
-    uselocale(before);
-    freelocale(numbers);
-    return status;
 }

@@ -33,7 +33,8 @@ static double fit(const CpsiView *view, CpsiFrame *frame) {
 
     /* heights: a round exaggeration where they would hardly be seen, none where they are nothing but rounding */
     const double natural = height * scale;
-    if (!view->plan && natural > 1e-5 * frame->width && natural < LOW_HEIGHT) factor = round_down(LOW_HEIGHT / natural);
+    if (!view->plan && !view->true_scale && natural > 1e-5 * frame->width && natural < LOW_HEIGHT)
+        factor = round_down(LOW_HEIGHT / natural);
     const double room = 0.8 * MAX_FRAME_HEIGHT;
     if (natural * factor > room) scale *= room / (natural * factor);
 
@@ -45,52 +46,6 @@ static double fit(const CpsiView *view, CpsiFrame *frame) {
     if (isfinite(dx) && isfinite(mid_x)) frame->x[0] = mid_x - 0.5 * dx, frame->x[1] = mid_x + 0.5 * dx;
     if (isfinite(dy) && isfinite(mid_y)) frame->y[0] = mid_y - 0.5 * dy, frame->y[1] = mid_y + 0.5 * dy;
     return factor;
-}
-
-/* The part of the frame inside the obstacle: the rectangle cut by the half-plane a x + b y <= c. */
-static int cut_frame(const CpsiFrame *frame, double a, double b, double c, double out[8][2]) {
-    const double corner[4][2] = {
-        {frame->x[0], frame->y[0]}, {frame->x[1], frame->y[0]}, {frame->x[1], frame->y[1]}, {frame->x[0], frame->y[1]}};
-    int count = 0;
-    for (int i = 0; i < 4; ++i) {
-        const double *p = corner[i], *q = corner[(i + 1) % 4];
-        const double dp = a * p[0] + b * p[1] - c, dq = a * q[0] + b * q[1] - c;
-        if (dp <= 0) out[count][0] = p[0], out[count++][1] = p[1];
-        if ((dp <= 0) == (dq <= 0)) continue;
-        const double t = dp / (dp - dq);
-        out[count][0] = p[0] + t * (q[0] - p[0]);
-        out[count++][1] = p[1] + t * (q[1] - p[1]);
-    }
-    return count;
-}
-
-/* a bed seen from above fills the frame and shows its slope; what is cut by the paper shows its section */
-static void draw_obstacle(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame, FILE *out) {
-    if (!results->has_obstacle) return;
-    const Vec3 given = vec3_load(results->obstacle.normal);
-    const Vec3 normal = vec3_scale(1 / vec3_norm(given), given);
-    const double a = vec3_dot(normal, view->right), b = vec3_dot(normal, view->up), tilt = hypot(a, b);
-    double corner[8][2];
-    const bool from_above = view->plan && tilt < 0.9;
-    const double c = vec3_dot(normal, vec3_load(results->obstacle.point)) - vec3_dot(normal, view->toward) * view->cut;
-    const int count = from_above ? cut_frame(frame, 0, 0, 0, corner) : cut_frame(frame, a, b, c, corner);
-    if (count == 0) return;
-    fprintf(out, "<polygon fill=\"%s\" stroke=\"%s\" points=\"", from_above ? "#faf7f0" : "#efe7d6",
-            from_above ? "none" : "#b9a67c");
-    for (int i = 0; i < count; ++i)
-        fprintf(out, "%.1f,%.1f ", cpsi_frame_x(frame, corner[i][0]), cpsi_frame_y(frame, corner[i][1]));
-    fputs("\"/>\n", out);
-    if (!from_above || tilt < 1e-3) return;
-
-    /* an arrow down the slope: the horizontal part of the normal */
-    char label[48];
-    const double x = frame->left + 46, y = frame->top + 46, degrees = asin(tilt) * 180 / 3.14159265358979323846;
-    snprintf(label, sizeof label, "downhill, %.3g\xC2\xB0", degrees);
-    fprintf(out,
-            "<path transform=\"translate(%.1f %.1f) rotate(%.2f)\" d=\"M-22,0 H20 M12,-5 L20,0 L12,5\" fill=\"none\" "
-            "stroke=\"#9a8350\" stroke-width=\"1.5\"/>",
-            x, y, atan2(-b, a) * 180 / 3.14159265358979323846);
-    cpsi_svg_text(out, x + 34, y + 4, CPSI_START, "fill=\"#9a8350\" font-size=\"11\"", label);
 }
 
 typedef struct Pen {
@@ -179,7 +134,7 @@ static void draw_step_legend(const CpsResults *results, double y, FILE *out) {
     double x = CPSI_FRAME_LEFT;
     snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"2\"/>", COLOUR_START);
     cpsi_legend(out, &x, y, mark, "start of the step");
-    if (results->has_obstacle) {
+    if (results->obstacle_count > 0) {
         snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_STICK);
         cpsi_legend(out, &x, y, mark, "sticks");
         snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_SLIP);
@@ -192,14 +147,15 @@ static void draw_step_legend(const CpsResults *results, double y, FILE *out) {
     cpsi_legend(out, &x, y, "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>", "free end");
 }
 
-/* Where a step started. Before a line is laid by statics it is nowhere: the first guess of the solver is no shape to show. */
+/* Where a step started. Before a line is laid by statics it is nowhere: the first guess of the solver is no shape to
+ * show. */
 static const double *start_of(const CpsResults *results, const CpsiSnapshot *snapshot, int line) {
     const bool laid = snapshot->step == 0 && strcmp(results->row[0].name, "laid") == 0;
     return laid ? snapshot->shape[line].position : snapshot->shape[line].reference;
 }
 
-/* axes, obstacle, subtitle: what both kinds of sheet begin with */
-static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, const char *what,
+/* axes, obstacles, subtitle: what both kinds of sheet begin with; step as of cpsi_picture_obstacles */
+static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, int step, const char *what,
                         FILE *out) {
     char subtitle[300], label[256], more[64] = "";
     const double factor = fit(view, frame);
@@ -210,7 +166,7 @@ static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFra
     cpsi_frame_begin(out, frame, 0);
     fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#fdfdfd\"/>\n", frame->left,
             frame->top, frame->width, frame->height);
-    draw_obstacle(results, view, frame, out);
+    cpsi_picture_obstacles(results, view, frame, step, out);
     cpsi_frame_end(out);
     snprintf(label, sizeof label, "%s%s", view->y_label, more);
     cpsi_frame_axes(out, frame, view->x_label, label);
@@ -222,7 +178,7 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view, const Cp
     CpsiFrame frame;
     snprintf(what, sizeof what, "  \xC2\xB7  step %d of %d: %.*s  \xC2\xB7  %s", snapshot->step + 1,
              results->planned_steps, 80, row->name, cps_outcome_key(row->report.outcome));
-    begin_sheet(results, view, &frame, what, out);
+    begin_sheet(results, view, &frame, snapshot->step, what, out);
 
     double range[2];
     cpsi_tension_range(results, range);
@@ -247,7 +203,7 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
     CpsiFrame frame;
     cpsi_step_note(results, note, sizeof note);
     snprintf(what, sizeof what, "  \xC2\xB7  %s", note);
-    begin_sheet(results, view, &frame, what, out);
+    begin_sheet(results, view, &frame, -1, what, out);
 
     const Pen pen = {view, &frame, out};
     cpsi_frame_begin(out, &frame, 1);

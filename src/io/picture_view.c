@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Where the pictures look from: plan views against gravity, elevations across the direction in which the lines
- * spread most, or along a slope, which then is a straight line. All pictures of a run share them, so that steps can
+ * spread most, along a slope, which then is a straight line, or along the axis of a cylinder, which then is round. All
+ * pictures of a run share them, so that steps can
  * be laid side by side. */
 #include <math.h>
 
@@ -11,6 +12,14 @@ static const double SNAP_COSINE = 0.985; /* 10 degrees */
 
 /* A plane is level below this slope: not seen in a picture. */
 static const double LEVEL = 1e-3;
+
+/* A cylinder lies when its axis is this long seen from above: 25 degrees from the horizontal at most. */
+static const double HORIZONTAL = 0.9;
+
+/* Silhouettes up to this many times as wide as the lines are shown whole. */
+static const double MOST_ROUND = 2;
+/* ... if they are no farther away than this part of the lines' spread. */
+static const double NEAR = 0.5;
 
 static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
 
@@ -38,6 +47,27 @@ static void label_axis(char *out, size_t size, Vec3 a, const char *otherwise) {
     snprintf(out, size, "%s (%.2f, %.2f, %.2f) (m)", otherwise, a.x + 0.0, a.y + 0.0, a.z + 0.0);
 }
 
+/* How far a range is from reaching c - r .. c + r. */
+static double apart(const double range[2], double c, double r) {
+    return fmax(0, fmax(range[0] - (c + r), (c - r) - range[1]));
+}
+
+/* round silhouettes too, where the lines would not be lost beside them */
+static void include_round(const CpsResults *results, CpsiView *view) {
+    const double spread = hypot(view->x[1] - view->x[0], view->y[1] - view->y[0]);
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        const CpsObstacle *obstacle = &results->obstacle[k];
+        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        view->true_scale = true;
+        const Vec3 centre = vec3_load(obstacle->point);
+        const double x = vec3_dot(view->right, centre), y = vec3_dot(view->up, centre), r = obstacle->radius;
+        const double away = hypot(apart(view->x, x, r), apart(view->y, y, r));
+        if (!cpsi_obstacle_is_circle(obstacle, view) || r > MOST_ROUND * spread || away > NEAR * spread) continue;
+        cpsi_range_include(view->x, x - r), cpsi_range_include(view->x, x + r);
+        cpsi_range_include(view->y, y - r), cpsi_range_include(view->y, y + r);
+    }
+}
+
 /* ranges over all snapshots, of the configurations and of where their steps start */
 static void measure(const CpsResults *results, CpsiView *view) {
     view->x[0] = view->y[0] = INFINITY;
@@ -58,6 +88,7 @@ static void measure(const CpsResults *results, CpsiView *view) {
         }
     }
     view->cut = sum / count;
+    include_round(results, view);
 }
 
 CpsiView cpsi_view_plan(const CpsResults *results) {
@@ -87,12 +118,15 @@ static double widest_angle(const CpsResults *results, Vec3 right, Vec3 up) {
     return 0.5 * atan2(2 * (xy - x * y / n), (xx - x * x / n) - (yy - y * y / n));
 }
 
-/* the direction of a slope, or of the widest spread, as an angle from east */
+/* the direction of a slope, across a horizontal cylinder, or of the widest spread, as an angle from east */
 static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) {
-    if (results->has_obstacle) {
-        const Vec3 normal = unit(vec3_load(results->obstacle.normal));
-        const double x = vec3_dot(normal, east), y = vec3_dot(normal, north);
-        if (hypot(x, y) > LEVEL) return x < 0 ? atan2(-y, -x) : atan2(y, x);
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        const CpsObstacle *obstacle = &results->obstacle[k];
+        if (obstacle->kind == CPS_OBSTACLE_SPHERE) continue;
+        const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE;
+        const Vec3 d = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
+        const double e = vec3_dot(d, east), n = vec3_dot(d, north), x = plane ? e : n, y = plane ? n : -e;
+        if (hypot(x, y) > (plane ? LEVEL : HORIZONTAL)) return x < 0 ? atan2(-y, -x) : atan2(y, x);
     }
     return widest_angle(results, east, north);
 }

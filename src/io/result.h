@@ -46,6 +46,7 @@ typedef struct CpsiSnapshot {
 typedef struct CpsiStage {
     char *name;
     int first, last;
+    double *turn; /* (obstacle_count) [rad] by which each turns in one load step */
 } CpsiStage;
 
 struct CpsResults {
@@ -56,9 +57,8 @@ struct CpsResults {
 
     char *title; /* "" when the scene has none */
     double gravity[3];
-    bool has_obstacle;
-    char *obstacle_name;
-    CpsObstacle obstacle;
+    int obstacle_count;
+    CpsObstacle *obstacle; /* (obstacle_count), without names */
     int line_count;
     char **line_name;
     double *line_length; /* [m] */
@@ -76,6 +76,10 @@ struct CpsResults {
  * ends of its stages, or an even selection, and always the first and the last step. */
 bool cpsi_results_pictured(const CpsResults *results, int step);
 
+/* [rad] By how much an obstacle turns in one step; and since the start, when that step is over. */
+double cpsi_results_turn(const CpsResults *results, int step, int obstacle);
+double cpsi_results_turned(const CpsResults *results, int step, int obstacle);
+
 /* Worst outcome so far. */
 CpsOutcome cpsi_results_outcome(const CpsResults *results);
 
@@ -87,16 +91,18 @@ void cpsi_snapshot_free(CpsiSnapshot *snapshot);
 void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
 void cpsi_history_write(const CpsResults *results, FILE *out);
 
-/* result_netcdf.c: result.nc, every step synced. */
+/* result_netcdf.c: result.nc, every step synced. `turn` is (obstacles) [rad], what they turned in the step. */
 CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution, CpsiNetcdf **out,
                            CpsError *err);
-CpsStatus cpsi_netcdf_append(CpsiNetcdf *netcdf, const CpsEvolution *evolution, CpsError *err);
+CpsStatus cpsi_netcdf_append(CpsiNetcdf *netcdf, const CpsEvolution *evolution, const double *turn, CpsError *err);
 /* Close and free; accepts NULL. Reports what could not be written. */
 CpsStatus cpsi_netcdf_close(CpsiNetcdf *netcdf, CpsError *err);
 
 /* result_paraview.c: one step as .vtp, the list of steps as .pvd. */
 CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution, CpsError *err);
 CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err);
+/* result_obstacles.c: obstacles.vtp, where there is something to lie on. */
+CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err);
 
 /* picture_*.c: all SVG pictures. */
 CpsStatus cpsi_pictures_write(CpsResults *results, CpsError *err);

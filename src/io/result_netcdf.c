@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "base/vec3.h"
 #include "io/result.h"
 #include "io/result_text.h"
 
@@ -41,12 +42,13 @@ static const Field FIELD[] = {
     {"reference", "configuration in which the step starts", "m", PLACE_NODE, true, false, VIEW(reference)},
     {"position", "configuration", "m", PLACE_NODE, true, false, VIEW(position)},
     {"load", "weight and forces on free ends", "N", PLACE_NODE, true, false, VIEW(load)},
-    {"normal", "normal of the obstacle, 0 without one", "1", PLACE_NODE, true, false, VIEW(normal)},
+    {"normal", "normal of the obstacle touched or nearest, 0 without one", "1", PLACE_NODE, true, false, VIEW(normal)},
     {"contact_gap", "distance that the displacement may close, infinite where no contact is looked for", "m",
      PLACE_NODE, false, false, VIEW(gap)},
     {"friction_bound", "largest friction force", "N", PLACE_NODE, false, false, VIEW(friction_bound)},
     {"friction", "friction force on the line", "N", PLACE_NODE, true, false, VIEW(friction)},
     {"reaction", "reaction of the obstacle along its normal", "N", PLACE_NODE, false, false, VIEW(reaction)},
+    {"slide", "way on the obstacle in the step, tangential", "m", PLACE_NODE, true, false, VIEW(slide)},
     {"segment_force", "force of the B side of an element on its A side", "N", PLACE_ELEMENT, true, false,
      VIEW(segment_force)},
     {"tension", "tension from the elongation", "N", PLACE_ELEMENT, false, false, VIEW(tension)},
@@ -75,15 +77,49 @@ static const Number NUMBER[] = {
     {"stretch_residual", "largest stretch of an inextensible element", "1", REPORT(certificate.stretch_residual)},
     {"penetration", "depth of the deepest node below the obstacle", "m", REPORT(certificate.penetration)},
     {"dissipated", "energy dissipated by friction in the step", "J", REPORT(dissipated)},
+    {"share", "part of the step that the arrays show, the last one of a step that was cut", "1", REPORT(share)},
+    {"jump", "longest way of a node in a snap", "m", REPORT(jump)},
+    {"ledger_elastic", "growth of the energy of elongation", "J", REPORT(ledger.elastic)},
+    {"ledger_gravity", "growth of the weight's potential", "J", REPORT(ledger.gravity)},
+    {"ledger_ends", "work of the forces at the ends", "J", REPORT(ledger.ends)},
+    {"ledger_obstacles", "work of the friction of obstacles that turn", "J", REPORT(ledger.obstacles)},
+    {"ledger_imbalance", "what the ledger does not close by", "J", REPORT(ledger.imbalance)},
     {"proof_value", "infeasible: excess distance in m; unbounded: fall of energy per metre in N", "m or N",
      REPORT(proof_value)},
+};
+
+/* Numbers of an obstacle. Their names are none that a line's field could have, whatever the line is called. */
+typedef enum ObstacleField {
+    OBSTACLE_KIND,
+    OBSTACLE_POINT,
+    OBSTACLE_AXIS,
+    OBSTACLE_RADIUS,
+    OBSTACLE_AXIAL,
+    OBSTACLE_LATERAL,
+    OBSTACLE_SHAPE,
+    OBSTACLE_GRAIN,
+    OBSTACLE_FIELDS
+} ObstacleField;
+
+static const struct {
+    const char *name, *long_name, *units;
+    bool vector;
+} OBSTACLE[OBSTACLE_FIELDS] = {
+    {"obstacle_kind", "kind of surface", "1", false},
+    {"obstacle_point", "point of the plane or of the cylinder's axis, centre of the sphere", "m", true},
+    {"obstacle_axis", "normal of the plane, axis of cylinder and sphere, of any length", "1", true},
+    {"obstacle_radius", "radius, 0 for a plane", "m", false},
+    {"obstacle_axial", "friction coefficient along the line or the grain", "1", false},
+    {"obstacle_lateral", "friction coefficient across it", "1", false},
+    {"obstacle_shape", "how the two make a set of forces", "1", false},
+    {"obstacle_grain", "direction of the axial coefficient, 0: that of the line", "1", true},
 };
 
 enum { FIELDS = sizeof FIELD / sizeof FIELD[0], NUMBERS = sizeof NUMBER / sizeof NUMBER[0] };
 
 typedef struct LineIds {
     int node, element; /* dimensions */
-    int compliance, state, end_kind, end_value, outcome, iterations, proof;
+    int compliance, state, end_kind, end_value, outcome, iterations, parts, snaps, proof;
     int field[FIELDS];
     int number[NUMBERS];
 } LineIds;
@@ -95,6 +131,9 @@ struct CpsiNetcdf {
     size_t steps;
     int step, xyz, end, name_length; /* dimensions */
     int step_name, outcome, wall;
+    int obstacle, turn, obstacle_field[OBSTACLE_FIELDS]; /* dimension, variables; without obstacles unused */
+    int obstacle_count;
+    double *slide; /* (nodes of the longest line, 3) where a view has none */
     int line_count;
     LineIds *line;
 };
@@ -150,6 +189,29 @@ static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
     return id;
 }
 
+/* Obstacles: their names as an attribute like those of the lines, their numbers as variables. */
+static void define_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
+    size_t size = 1;
+    for (int k = 0; k < scene->obstacle_count; ++k) size += strlen(scene->obstacle[k].name) + 1;
+    char *names = calloc(size, 1), *next = names;
+    if (!names) keep(nc, NC_ENOMEM);
+    for (int k = 0; names && k < scene->obstacle_count; ++k)
+        next += snprintf(next, size - (size_t)(next - names), "%s%s", k ? " " : "", scene->obstacle[k].name);
+    add_text(nc, NC_GLOBAL, "obstacles", names ? names : "");
+    free(names);
+    nc->obstacle_count = scene->obstacle_count;
+    if (scene->obstacle_count == 0) return; /* a dimension of no length would be an unlimited one */
+    nc->obstacle = add_dimension(nc, "obstacle", (size_t)scene->obstacle_count);
+    const int shape[] = {nc->obstacle, nc->xyz}, turned[] = {nc->step, nc->obstacle};
+    for (int f = 0; f < OBSTACLE_FIELDS; ++f)
+        nc->obstacle_field[f] = add_variable(nc, "", OBSTACLE[f].name, NC_DOUBLE, 1 + OBSTACLE[f].vector, shape,
+                                             OBSTACLE[f].long_name, OBSTACLE[f].units);
+    add_flags(nc, nc->obstacle_field[OBSTACLE_KIND], NC_DOUBLE, 3, "plane cylinder sphere");
+    add_flags(nc, nc->obstacle_field[OBSTACLE_SHAPE], NC_DOUBLE, 2, "ellipse box");
+    nc->turn =
+        add_variable(nc, "", "obstacle_turn", NC_DOUBLE, 2, turned, "angle turned about its axis in the step", "rad");
+}
+
 static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names) {
     add_text(nc, NC_GLOBAL, "Conventions", "CF-1.8");
     add_text(nc, NC_GLOBAL, "title", scene->title ? scene->title : "");
@@ -158,6 +220,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names)
     add_text(nc, NC_GLOBAL, "source", source);
     add_text(nc, NC_GLOBAL, "lines", names);
     add_text(nc, NC_GLOBAL, "friction", scene->friction == CPS_FRICTION_CONSISTENT ? "consistent" : "frozen");
+    add_text(nc, NC_GLOBAL, "contact", scene->contact == CPS_CONTACT_STRICT ? "strict" : "gained");
     if (nc->status == NC_NOERR)
         keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "gravity", NC_DOUBLE, 3, scene->gravity));
     if (nc->status == NC_NOERR)
@@ -171,6 +234,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names)
     nc->step_name = add_variable(nc, "", "step_name", NC_CHAR, 2, shape, "name of the step", NULL);
     nc->outcome = add_outcome(nc, "");
     nc->wall = add_variable(nc, "", "wall", NC_DOUBLE, 1, &nc->step, "time taken by the step", "s");
+    define_obstacles(nc, scene);
 }
 
 static void define_field(CpsiNetcdf *nc, LineIds *ids, const char *line, int f) {
@@ -201,6 +265,8 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     ids->outcome = add_outcome(nc, view->name);
     ids->iterations =
         add_variable(nc, view->name, "iterations", NC_INT, 1, &nc->step, "interior-point iterations", "1");
+    ids->parts = add_variable(nc, view->name, "parts", NC_INT, 1, &nc->step, "parts that the step was taken in", "1");
+    ids->snaps = add_variable(nc, view->name, "snaps", NC_INT, 1, &nc->step, "parts in which the line jumped", "1");
     const int vectors[] = {nc->step, nc->xyz};
     ids->proof = add_variable(nc, view->name, "proof", NC_DOUBLE, 2, vectors, "direction that proves no solution", "1");
     for (int i = 0; i < NUMBERS; ++i)
@@ -208,10 +274,20 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
             add_variable(nc, view->name, NUMBER[i].name, NC_DOUBLE, 1, &nc->step, NUMBER[i].long_name, NUMBER[i].units);
 }
 
-static const double *array_of(const CpsLineView *view, const Field *field) {
+/* The way slid where the view leaves it out, on one plane: the tangential part of the displacement. */
+static const double *plane_slide(CpsiNetcdf *nc, const CpsLineView *view) {
+    for (size_t j = 0; j <= (size_t)view->elements; ++j) {
+        const Vec3 n = vec3_load(view->normal + 3 * j);
+        const Vec3 u = vec3_sub(vec3_load(view->position + 3 * j), vec3_load(view->reference + 3 * j));
+        vec3_store(nc->slide + 3 * j, vec3_norm(n) > 0 ? vec3_axpy(-vec3_dot(u, n), n, u) : vec3(0, 0, 0));
+    }
+    return nc->slide;
+}
+
+static const double *array_of(CpsiNetcdf *nc, const CpsLineView *view, const Field *field) {
     const double *array;
     memcpy(&array, (const char *)view + field->offset, sizeof array);
-    return array;
+    return array || field->offset != VIEW(slide) ? array : plane_slide(nc, view);
 }
 
 static void write_doubles(CpsiNetcdf *nc, int variable, const size_t *start, const size_t *count, const double *value) {
@@ -225,7 +301,7 @@ static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *
         if (field->fixed != fixed) continue;
         const size_t along = (size_t)view->elements + (field->place == PLACE_NODE);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
-        write_doubles(nc, ids->field[f], start + fixed, count + fixed, array_of(view, field));
+        write_doubles(nc, ids->field[f], start + fixed, count + fixed, array_of(nc, view, field));
     }
 }
 
@@ -248,9 +324,24 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     const int outcome = (int)report->outcome;
     if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->outcome, start, &outcome));
     if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->iterations, start, &report->iterations));
+    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->parts, start, &report->parts));
+    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->snaps, start, &report->snaps));
     for (int i = 0; i < NUMBERS; ++i) {
         const double *number = (const double *)(const void *)((const char *)report + NUMBER[i].offset);
         if (nc->status == NC_NOERR) keep(nc, nc_put_var1_double(nc->file, ids->number[i], start, number));
+    }
+}
+
+static void write_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
+    for (size_t k = 0; k < (size_t)scene->obstacle_count; ++k) {
+        const CpsObstacle *o = &scene->obstacle[k];
+        const bool plane = o->kind == CPS_OBSTACLE_PLANE;
+        const double kind = o->kind, radius = plane ? 0 : o->radius, shape = o->friction_shape;
+        const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
+        const double *value[OBSTACLE_FIELDS] = {
+            &kind, o->point, plane ? o->normal : o->axis, &radius, &o->friction, &lateral, &shape, o->grain};
+        const size_t start[] = {k, 0}, count[] = {1, XYZ};
+        for (int f = 0; f < OBSTACLE_FIELDS; ++f) write_doubles(nc, nc->obstacle_field[f], start, count, value[f]);
     }
 }
 
@@ -268,6 +359,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene, const
         define_line(nc, &nc->line[i], &view);
     }
     if (nc->status == NC_NOERR) keep(nc, nc_enddef(nc->file));
+    write_obstacles(nc, scene);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         write_fields(nc, &nc->line[i], &view, true);
@@ -287,10 +379,14 @@ static char *join_names(const CpsEvolution *evolution, int count) {
     return names;
 }
 
-static CpsStatus check_sizes(const CpsEvolution *evolution, int count, CpsError *err) {
+/* *longest: most nodes of a line */
+static CpsStatus check_sizes(const CpsEvolution *evolution, int count, size_t *longest, CpsError *err) {
+    *longest = 0;
     for (int i = 0; i < count; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         uint64_t bytes = 0;
+        const size_t nodes = (size_t)view.elements + 1;
+        if (nodes > *longest) *longest = nodes;
         if (__builtin_mul_overflow((uint64_t)view.elements + 1, (uint64_t)(XYZ * sizeof(double)), &bytes) ||
             bytes > MAX_RECORD)
             return cpsi_fail(err, CPS_ERR_LIMIT, "line %s has %d elements; result.nc holds at most %llu per line",
@@ -303,12 +399,14 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
                            CpsError *err) {
     *out = NULL;
     const int lines = cps_evolution_line_count(evolution);
-    CpsStatus status = check_sizes(evolution, lines, err);
+    size_t nodes = 0;
+    CpsStatus status = check_sizes(evolution, lines, &nodes, err);
     if (status) return status;
     CpsiNetcdf *nc = calloc(1, sizeof *nc);
     char *names = join_names(evolution, lines);
     if (nc) nc->line = calloc((size_t)lines, sizeof *nc->line), nc->line_count = lines;
-    if (nc && nc->line && names) {
+    if (nc) nc->slide = calloc(nodes, XYZ * sizeof *nc->slide);
+    if (nc && nc->line && nc->slide && names) {
         pthread_mutex_lock(&library_lock);
         begin(nc, path, scene, evolution, names);
         pthread_mutex_unlock(&library_lock);
@@ -324,7 +422,7 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
     return status;
 }
 
-CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsError *err) {
+CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, const double *turn, CpsError *err) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const size_t start[] = {nc->steps, 0}, count[] = {1, NAME_LENGTH};
     const int outcome = (int)report.outcome;
@@ -336,6 +434,8 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
     if (nc->status == NC_NOERR) keep(nc, nc_put_vara_text(nc->file, nc->step_name, start, count, name));
     if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, nc->outcome, start, &outcome));
     if (nc->status == NC_NOERR) keep(nc, nc_put_var1_double(nc->file, nc->wall, start, &report.wall));
+    const size_t turns[] = {1, (size_t)nc->obstacle_count};
+    if (nc->obstacle_count > 0) write_doubles(nc, nc->turn, start, turns, turn);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
@@ -357,6 +457,7 @@ CpsStatus cpsi_netcdf_close(CpsiNetcdf *nc, CpsError *err) {
     }
     const CpsStatus status = result_of(nc, err);
     free(nc->line);
+    free(nc->slide);
     free(nc);
     return status;
 }

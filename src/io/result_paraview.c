@@ -151,6 +151,8 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err) {
         fprintf(out, "    <DataSet timestep=\"%d\" part=\"0\" file=\"step-%05d.vtp\" name=\"", i, i);
         cpsi_put_xml(out, results->row[i].name);
         fputs("\"/>\n", out);
+        if (results->obstacle_count > 0)
+            fprintf(out, "    <DataSet timestep=\"%d\" part=\"1\" file=\"obstacles.vtp\" name=\"obstacles\"/>\n", i);
     }
     fputs("  </Collection>\n</VTKFile>\n", out);
     return cpsi_directory_close_file(results->directory, out, err);

@@ -87,12 +87,26 @@ static void put_certificate(FILE *out, const CpsResults *results, const CpsiRow 
     put_number(out, "dissipated_J", row->report.dissipated, ",\n      ");
 }
 
+/* where the energy went */
+static void put_ledger(FILE *out, const CpsStepReport *report) {
+    const CpsLedger *ledger = &report->ledger;
+    fprintf(out, "\"parts\": %d, \"snaps\": %d, ", report->parts, report->snaps);
+    put_number(out, "jump_m", report->jump, ",\n      \"ledger_J\": {");
+    put_number(out, "ends", ledger->ends, ", ");
+    put_number(out, "obstacles", ledger->obstacles, ", ");
+    put_number(out, "elastic", ledger->elastic, ", ");
+    put_number(out, "gravity", ledger->gravity, ", ");
+    put_number(out, "dissipated", ledger->dissipated, ", ");
+    put_number(out, "imbalance", ledger->imbalance, "},\n      ");
+}
+
 static void put_step(FILE *out, const CpsResults *results, const CpsiRow *row) {
     fputs("    {\n      ", out);
     put_string(out, "name", row->name, ", ");
     put_string(out, "outcome", cps_outcome_key(row->report.outcome), ", ");
     fprintf(out, "\"iterations\": %d,\n", row->report.iterations);
     put_certificate(out, results, row);
+    put_ledger(out, &row->report);
     put_number(out, "wall_s", row->report.wall, ",\n      \"lines\": {\n");
     for (int i = 0; i < results->line_count; ++i)
         put_line(out, results->line_name[i], &row->line[i].report, i + 1 < results->line_count ? ",\n" : "\n");

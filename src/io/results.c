@@ -37,7 +37,22 @@ static bool copy_stages(CpsResults *results, const CpsScene *scene) {
         stage->first = (int)first;
         first += scene->stage[i].steps;
         stage->last = (int)first - 1;
-        if (!stage->name) return false;
+        stage->turn = calloc((size_t)scene->obstacle_count + 1, sizeof *stage->turn);
+        if (!stage->name || !stage->turn) return false;
+        for (int k = 0; k < scene->stage[i].turn_count; ++k)
+            stage->turn[scene->stage[i].turn[k].obstacle] = scene->stage[i].turn[k].angle / scene->stage[i].steps;
+    }
+    return true;
+}
+
+static bool copy_obstacles(CpsResults *results, const CpsScene *scene) {
+    if (scene->obstacle_count == 0) return true;
+    results->obstacle = calloc((size_t)scene->obstacle_count, sizeof *results->obstacle);
+    if (!results->obstacle) return false;
+    results->obstacle_count = scene->obstacle_count;
+    for (int k = 0; k < scene->obstacle_count; ++k) {
+        results->obstacle[k] = scene->obstacle[k];
+        results->obstacle[k].name = NULL; /* the scene's own */
     }
     return true;
 }
@@ -46,17 +61,11 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->planned_steps = cps_evolution_step_count(evolution);
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
-    if (scene->obstacle_count > 0) {
-        results->has_obstacle = true;
-        results->obstacle = scene->obstacle[0];
-        results->obstacle_name = copy_text(scene->obstacle[0].name);
-        results->obstacle.name = results->obstacle_name;
-    }
     const size_t lines = (size_t)cps_evolution_line_count(evolution);
     results->line_name = calloc(lines, sizeof *results->line_name);
     results->line_length = calloc(lines, sizeof *results->line_length);
     if (!results->title || !results->line_name || !results->line_length) return false;
-    if (results->has_obstacle && !results->obstacle_name) return false;
+    if (!copy_obstacles(results, scene)) return false;
     for (size_t i = 0; i < lines; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, (int)i);
         results->line_length[i] = view.arc_length[view.elements];
@@ -107,6 +116,21 @@ bool cpsi_results_pictured(const CpsResults *results, int step) {
     for (int i = 0; i < results->stage_count; ++i)
         if (results->stage[i].last == step) return true;
     return false;
+}
+
+double cpsi_results_turn(const CpsResults *results, int step, int obstacle) {
+    for (int i = 0; i < results->stage_count; ++i)
+        if (step >= results->stage[i].first && step <= results->stage[i].last) return results->stage[i].turn[obstacle];
+    return 0;
+}
+
+double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
+    double sum = 0;
+    for (int i = 0; i < results->stage_count && results->stage[i].first <= step; ++i) {
+        const CpsiStage *stage = &results->stage[i];
+        sum += ((step < stage->last ? step : stage->last) - stage->first + 1) * stage->turn[obstacle];
+    }
+    return sum;
 }
 
 CpsOutcome cpsi_results_outcome(const CpsResults *results) {
@@ -164,7 +188,11 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
 
 static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
     if (!append_row(results, evolution) || !cpsi_snapshot_append(results, evolution)) return fail_memory(err);
-    const CpsStatus status = cpsi_netcdf_append(results->netcdf, evolution, err);
+    double *turn = calloc((size_t)results->obstacle_count + 1, sizeof *turn);
+    if (!turn) return fail_memory(err);
+    for (int k = 0; k < results->obstacle_count; ++k) turn[k] = cpsi_results_turn(results, results->row_count - 1, k);
+    const CpsStatus status = cpsi_netcdf_append(results->netcdf, evolution, turn, err);
+    free(turn);
     return status ? status : cpsi_paraview_step(results, evolution, err);
 }
 
@@ -208,6 +236,7 @@ static CpsStatus write_summary(CpsResults *results, double wall, CpsError *err) 
 static bool is_step_or_loop(const char *name) {
     const char *dot = strrchr(name, '.');
     if (!dot) return false;
+    if (strcmp(name, "obstacles.vtp") == 0) return true;
     if (strncmp(name, "loop-", 5) == 0) return strcmp(dot, ".svg") == 0;
     if (strncmp(name, "step-", 5) != 0 || strspn(name + 5, "0123456789") < 5) return false;
     return strcmp(dot, ".svg") == 0 || strcmp(dot, ".vtp") == 0;
@@ -219,6 +248,7 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     CpsStatus status = cpsi_netcdf_close(netcdf, err);
     if (!status) status = cpsi_directory_sync(results->directory, "result.nc", err);
     if (!status) status = cpsi_paraview_list(results, err);
+    if (!status) status = cpsi_paraview_obstacles(results, err);
     if (!status) status = cpsi_pictures_write(results, err);
     if (!status) status = write_history(results, err);
     /* last: where there is a new summary, everything it speaks of is in place */
@@ -256,14 +286,17 @@ void cps_results_destroy(CpsResults *results) {
         free(results->row[i].line);
     }
     for (int i = 0; i < results->snapshot_count; ++i) cpsi_snapshot_free(&results->snapshot[i]);
-    for (int i = 0; i < results->stage_count; ++i) free(results->stage[i].name);
+    for (int i = 0; i < results->stage_count; ++i) {
+        free(results->stage[i].name);
+        free(results->stage[i].turn);
+    }
     for (int i = 0; i < results->line_count; ++i) free(results->line_name[i]);
     free(results->row);
     free(results->snapshot);
     free(results->stage);
     free(results->line_name);
     free(results->line_length);
-    free(results->obstacle_name);
+    free(results->obstacle);
     free(results->title);
     if (results->locale) freelocale(results->locale);
     free(results);

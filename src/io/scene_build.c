@@ -9,6 +9,9 @@
 
 #include "io/keys.h"
 
+/* [rad] */
+static const double DEGREE = 3.14159265358979323846 / 180;
+
 typedef struct Build {
     const char *file;
     const CpsReadLimits *limits;
@@ -167,24 +170,45 @@ static CpsStatus build_lines(Build *b, const CpsiYaml *lines) {
 
 /* ---- obstacles ---- */
 
-static CpsStatus build_obstacles(const Build *b, const CpsiYaml *obstacles) {
-    const CpsiYaml *node = obstacles ? obstacles->child : NULL;
-    if (!node) return CPS_OK;
-    if (node->next)
-        return cpsi_fail_at(b->err, CPS_ERR_INPUT, b->file, node->next->line, node->next->column,
-                            "obstacle '%s': a second obstacle; at most one is possible", node->next->key);
-    CpsObstacle *obstacle = CPSI_POOL_TAKE(b->pool, 1, CpsObstacle);
-    const char *name = copy_text(b, node->key);
-    if (!obstacle || !name) return out_of_memory(b);
+/* A number, or a mapping of two coefficients. */
+static void build_friction(const CpsiYaml *node, CpsObstacle *obstacle) {
+    if (!node) return;
+    if (node->kind == CPSI_YAML_SCALAR) {
+        obstacle->friction = node->number;
+        return;
+    }
+    get_number(node, "axial", &obstacle->friction);
+    get_number(node, "lateral", &obstacle->friction_lateral);
+    obstacle->friction_shape = (CpsFrictionShape)get_int(node, "shape", (int)obstacle->friction_shape);
+    get_vector(node, "grain", obstacle->grain);
+}
+
+static CpsStatus build_obstacle(const Build *b, const CpsiYaml *node, CpsObstacle *obstacle) {
     *obstacle = cps_obstacle_default();
-    obstacle->name = name;
-    const CpsiYaml *plane = cpsi_yaml_child(node, "plane");
-    get_vector(plane, "point", obstacle->point);
-    get_vector(plane, "normal", obstacle->normal);
-    get_number(node, "friction", &obstacle->friction);
-    b->scene->obstacle = obstacle;
-    b->scene->obstacle_count = 1;
+    obstacle->name = copy_text(b, node->key);
+    if (!obstacle->name) return out_of_memory(b);
+    const CpsiYaml *plane = cpsi_yaml_child(node, "plane"), *cylinder = cpsi_yaml_child(node, "cylinder"),
+                   *sphere = cpsi_yaml_child(node, "sphere");
+    const CpsiYaml *surface = plane ? plane : cylinder ? cylinder : sphere;
+    obstacle->kind = plane ? CPS_OBSTACLE_PLANE : cylinder ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE;
+    get_vector(surface, sphere ? "center" : "point", obstacle->point);
+    get_vector(surface, "normal", obstacle->normal);
+    get_vector(surface, "axis", obstacle->axis);
+    get_number(surface, "radius", &obstacle->radius);
+    build_friction(cpsi_yaml_child(node, "friction"), obstacle);
     return CPS_OK;
+}
+
+static CpsStatus build_obstacles(const Build *b, const CpsiYaml *obstacles) {
+    if (!obstacles || obstacles->count == 0) return CPS_OK;
+    CpsObstacle *obstacle = CPSI_POOL_TAKE(b->pool, obstacles->count, CpsObstacle);
+    if (!obstacle) return out_of_memory(b);
+    b->scene->obstacle = obstacle;
+    b->scene->obstacle_count = obstacles->count;
+    CpsStatus status = CPS_OK;
+    for (const CpsiYaml *node = obstacles->child; node && status == CPS_OK; node = node->next)
+        status = build_obstacle(b, node, obstacle++);
+    return status;
 }
 
 /* ---- history ---- */
@@ -218,6 +242,16 @@ static CpsStatus build_change(const Build *b, const CpsiYaml *node, CpsChange *c
     return CPS_OK;
 }
 
+/* The index of the obstacle of OBSTACLE.turn; the validation has seen that there is one. */
+static int find_obstacle(const Build *b, const char *turn) {
+    const size_t n = (size_t)(strrchr(turn, '.') - turn);
+    int i = 0;
+    while (i + 1 < b->scene->obstacle_count &&
+           (strncmp(b->scene->obstacle[i].name, turn, n) != 0 || b->scene->obstacle[i].name[n]))
+        i++;
+    return i;
+}
+
 static CpsStatus build_stage(const Build *b, const CpsiYaml *node, int index, CpsStage *stage) {
     const CpsiYaml *name = cpsi_yaml_child(node, "name");
     char number[32];
@@ -225,13 +259,19 @@ static CpsStatus build_stage(const Build *b, const CpsiYaml *node, int index, Cp
     stage->name = copy_text(b, name ? name->text : number);
     stage->steps = get_int(node, "steps", 1);
 
-    /* all other keys are ends of lines */
+    /* all other keys are ends of lines and turns of obstacles */
     CpsChange *change = CPSI_POOL_TAKE(b->pool, node->count, CpsChange);
-    if (!stage->name || !change) return out_of_memory(b);
+    CpsTurn *turn = CPSI_POOL_TAKE(b->pool, node->count, CpsTurn);
+    if (!stage->name || !change || !turn) return out_of_memory(b);
     stage->change = change;
+    stage->turn = turn;
     CpsStatus status = CPS_OK;
-    for (const CpsiYaml *child = node->child; child && status == CPS_OK; child = child->next)
+    for (const CpsiYaml *child = node->child; child && status == CPS_OK; child = child->next) {
         if (cpsi_key_end(child->key)) status = build_change(b, child, &change[stage->change_count++]);
+        if (cpsi_key_is_turn(child->key))
+            turn[stage->turn_count++] =
+                (CpsTurn){.obstacle = find_obstacle(b, child->key), .angle = child->number * DEGREE};
+    }
     return status;
 }
 

@@ -51,12 +51,18 @@ static const CpsiYaml *place_of(const CpsiYaml *root, const char *message) {
         object = nth_child(cpsi_yaml_child(root, "lines"), number);
     else if (sscanf(message, "obstacle %d:", &number) == 1)
         object = nth_child(cpsi_yaml_child(root, "obstacles"), number);
-    else if (sscanf(message, "stage %d: %159[A-Za-z0-9_.-]", &number, word) >= 1)
+    else if (sscanf(message, "stage %d: obstacle '%64[^']'", &number, name) == 2) {
+        object = nth_child(cpsi_yaml_child(root, "history"), number);
+        snprintf(word, sizeof word, "%s.turn", name);
+    } else if (sscanf(message, "stage %d: %159[A-Za-z0-9_.-]", &number, word) >= 1)
         object = nth_child(cpsi_yaml_child(root, "history"), number);
     else if (sscanf(message, "%64[a-z]: %159[a-z_]", name, word) >= 1)
         object = cpsi_yaml_child(root, name);
     if (!object) return root;
+    /* the key itself, or within one of the object's mappings: radius of a cylinder */
     const CpsiYaml *value = cpsi_yaml_child(object, word);
+    for (const CpsiYaml *child = object->child; child && !value; child = child->next)
+        value = cpsi_yaml_child(child, word);
     return value ? value : object;
 }
 
@@ -78,7 +84,7 @@ static CpsStatus read_scene(const char *path, const CpsReadLimits *limits, CpsSc
     CpsiPool tree = {0};
     CpsiYaml *root = NULL;
     CpsStatus status = cpsi_read_file(path, file, limits->max_bytes, &bytes, &size, err);
-    if (status == CPS_OK) status = cpsi_yaml_parse(file, bytes, size, limits->max_depth, &tree, &root, err);
+    if (status == CPS_OK) status = cpsi_yaml_parse(file, "scene", bytes, size, limits->max_depth, &tree, &root, err);
     free(bytes);
     if (status == CPS_OK) status = cpsi_scene_validate(file, root, err);
     if (status == CPS_OK) status = cpsi_scene_build(file, root, limits, &scene->pool, &scene->scene, err);

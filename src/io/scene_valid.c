@@ -137,22 +137,24 @@ static CpsStatus unknown_key(const Valid *v, const CpsiYaml *node, CpsiObject ob
                         cpsi_key_expected(&all, expected, sizeof expected));
 }
 
-/* LINE.END: the line must be one of the scene's. */
-static CpsStatus check_line_end(const Valid *v, const CpsiYaml *node) {
-    const CpsiYaml *lines = cpsi_yaml_child(v->root, "lines");
-    const size_t n = strlen(node->key) - 2;
+/* LINE.END and OBSTACLE.turn: what stands before the last dot must be one of those under `where`, "lines" or
+ * "obstacles". */
+static CpsStatus check_owner(const Valid *v, const CpsiYaml *node, const char *where) {
+    const CpsiYaml *all = cpsi_yaml_child(v->root, where);
+    const char *dot = strrchr(node->key, '.');
+    const size_t n = (size_t)(dot - node->key);
     char wanted[80] = ""; /* stays empty for what is too long for a name */
     if (n < sizeof wanted) memcpy(wanted, node->key, n);
-    if (wanted[0] && cpsi_yaml_child(lines, wanted)) return CPS_OK;
+    if (wanted[0] && cpsi_yaml_child(all, wanted)) return CPS_OK;
     CpsiSuggestion suggestion = {.word = wanted};
-    for (const CpsiYaml *line = lines ? lines->child : NULL; line; line = line->next)
-        cpsi_suggest(&suggestion, line->key);
+    for (const CpsiYaml *one = all ? all->child : NULL; one; one = one->next) cpsi_suggest(&suggestion, one->key);
+    const int letters = (int)strlen(where) - 1; /* "line" of "lines" */
     if (suggestion.best)
         return cpsi_fail_at(v->err, CPS_ERR_INPUT, v->file, node->line, node->column,
-                            "'%.80s': there is no such line; did you mean '%.64s.%c'?", node->key, suggestion.best,
-                            cpsi_key_end(node->key));
+                            "'%.80s': there is no such %.*s; did you mean '%.64s%s'?", node->key, letters, where,
+                            suggestion.best, dot);
     return cpsi_fail_at(v->err, CPS_ERR_INPUT, v->file, node->line, node->column,
-                        "'%.80s': there is no such line under 'lines'", node->key);
+                        "'%.80s': there is no such %.*s under '%s'", node->key, letters, where, where);
 }
 
 /* Required keys, and exactly one of those of which one is needed. */
@@ -186,7 +188,8 @@ static CpsStatus check_object(const Valid *v, CpsiYaml *node, CpsiObject object,
         if (strcmp(key->name, "NAME") == 0) {
             snprintf(label, sizeof label, "%s '%.64s'", cpsi_object_name(key->inside), child->key);
         } else {
-            if (strcmp(key->name, "LINE.END") == 0) status = check_line_end(v, child);
+            if (strcmp(key->name, "LINE.END") == 0) status = check_owner(v, child, "lines");
+            if (strcmp(key->name, "OBSTACLE.turn") == 0) status = check_owner(v, child, "obstacles");
             snprintf(label, sizeof label, "'%.80s'", child->key);
         }
         if (status == CPS_OK) status = check_value(v, child, key, label);
@@ -221,6 +224,9 @@ static CpsStatus check_value(const Valid *v, CpsiYaml *node, const CpsiKey *key,
         return check_elements(v, node, key, name);
     case CPSI_LIST:
         return check_list(v, node, key, name);
+    case CPSI_NUMBER_OR_MAPPING:
+        if (node->kind == CPSI_YAML_MAPPING) return check_object(v, node, key->inside, name);
+        return check_number(v, node, key, name);
     case CPSI_MAPPING:
         if (node->kind == CPSI_YAML_MAPPING) return check_object(v, node, key->inside, name);
         return take_word(node, key) ? CPS_OK : wrong(v, node, key, name, "");

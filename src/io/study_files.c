@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A study of the 1990 method as files: tables of its solves and of P10.1, and the pictures. As in history.csv the first
  * row has the names, the second the units. */
-#include <locale.h>
 #include <math.h>
 #include <stddef.h>
 
 #include "base/status.h"
+#include "io/file_set.h"
 #include "io/picture_study.h"
-#include "io/result_file.h"
 #include "io/result_text.h"
 
 typedef struct Column {
@@ -73,8 +72,7 @@ static void put_first_order(const CpsStudyFiles *files, FILE *out) {
     const CpsClassicStep step = cps_classic_step(files->classic);
     const CpsFirstOrderView view = cps_first_order_view(files->first_order);
     fputs("arc_length,reference.x,reference.y,reference.z,P2.1.x,P2.1.y,P2.1.z,u.x,u.y,u.z,friction.x,friction.y,"
-          "friction.z,"
-          "reaction,strain,tension.x,tension.y,tension.z,P2.1.tension\n"
+          "friction.z,reaction,strain,tension.x,tension.y,tension.z,P2.1.tension\n"
           "m,m,m,m,m,m,m,m,m,m,N,N,N,N,-,N,N,N,N\n",
           out);
     for (int j = 0; j <= step.elements; ++j) {
@@ -92,43 +90,19 @@ static void put_first_order(const CpsStudyFiles *files, FILE *out) {
     }
 }
 
-static bool nothing_stale(const char *name) {
-    (void)name;
-    return false;
-}
-
-static CpsStatus write_all(CpsiDirectory *directory, const CpsStudyFiles *files, CpsError *err) {
-    static const struct {
-        const char *name;
-        void (*put)(const CpsStudyFiles *files, FILE *out);
-    } FILES[] = {{"study.csv", put_study},
-                 {"study.svg", cpsi_picture_study},
-                 {"first-order.csv", put_first_order},
-                 {"first-order.svg", cpsi_picture_first_order},
-                 {"relaxed.svg", cpsi_picture_relaxed}};
-    CpsStatus status = CPS_OK;
-    for (size_t i = 0; i < sizeof FILES / sizeof *FILES && status == CPS_OK; ++i) {
-        FILE *out = NULL;
-        status = cpsi_directory_create(directory, FILES[i].name, &out, err);
-        if (status != CPS_OK) break;
-        FILES[i].put(files, out);
-        status = cpsi_directory_close_file(directory, out, err);
-    }
-    return status == CPS_OK ? cpsi_directory_commit(directory, nothing_stale, err) : status;
-}
+static void study_table(const void *files, FILE *out) { put_study(files, out); }
+static void study_picture(const void *files, FILE *out) { cpsi_picture_study(files, out); }
+static void first_order_table(const void *files, FILE *out) { put_first_order(files, out); }
+static void first_order_picture(const void *files, FILE *out) { cpsi_picture_first_order(files, out); }
+static void relaxed_picture(const void *files, FILE *out) { cpsi_picture_relaxed(files, out); }
 
 CpsStatus cps_study_write(const char *directory, const CpsStudyFiles *files, CpsError *err) {
     if (!directory || !files || !files->title || !files->classic || !files->study || !files->first_order)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory, files, or one of what files has, is NULL");
-    /* numbers have a decimal point whatever the program's locale */
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const locale_t before = uselocale(numbers);
-    CpsiDirectory *open = NULL;
-    CpsStatus status = cpsi_directory_open(directory, &open, err);
-    if (status == CPS_OK) status = write_all(open, files, err);
-    cpsi_directory_destroy(open);
-    uselocale(before);
-    freelocale(numbers);
-    return status;
+    const CpsiFile set[] = {{"study.csv", study_table, files},
+                            {"study.svg", study_picture, files},
+                            {"first-order.csv", first_order_table, files},
+                            {"first-order.svg", first_order_picture, files},
+                            {"relaxed.svg", relaxed_picture, files}};
+    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, err);
 }

@@ -126,23 +126,25 @@ int cpsi_orthonormal_span(int count, int n, double *rows, double *rhs, double to
     return rank;
 }
 
-void cpsi_complete_rows(int rank, int n, double *q) {
+void cpsi_next_row(int rank, int n, double *q) {
+    /* the axis that lies furthest from the rows so far */
     const size_t w = (size_t)n;
-    for (int r = rank; r < n; r++) {
-        /* the axis that lies furthest from the rows so far */
-        int best = 0;
-        double most = -1;
-        for (int i = 0; i < n; i++) {
-            double left = 1;
-            for (int k = 0; k < r; k++) left -= q[(size_t)k*w + (size_t)i]*q[(size_t)k*w + (size_t)i];
-            if (left > most) most = left, best = i;
-        }
-        double *row = &q[(size_t)r*w];
-        memset(row, 0, w*sizeof *row);
-        row[best] = 1;
-        for (int twice = 0; twice < 2; twice++)
-            for (int k = 0; k < r; k++) remove_along(n, row, NULL, &q[(size_t)k*w], NULL);
-        const double size = cpsi_norm(n, row);
-        for (size_t j = 0; j < w; j++) row[j] /= size;
+    int best = 0;
+    double most = -1;
+    for (int i = 0; i < n; i++) {
+        double left = 1;
+        for (int k = 0; k < rank; k++) left -= q[(size_t)k*w + (size_t)i]*q[(size_t)k*w + (size_t)i];
+        if (left > most) most = left, best = i;
     }
+    double *row = &q[(size_t)rank*w];
+    memset(row, 0, w*sizeof *row);
+    row[best] = 1;
+    for (int twice = 0; twice < 2; twice++)
+        for (int k = 0; k < rank; k++) remove_along(n, row, NULL, &q[(size_t)k*w], NULL);
+    const double size = cpsi_norm(n, row);
+    for (size_t j = 0; j < w; j++) row[j] /= size;
+}
+
+void cpsi_complete_rows(int rank, int n, double *q) {
+    for (; rank < n; rank++) cpsi_next_row(rank, n, q);
 }

@@ -35,6 +35,8 @@ int cpsi_orthonormal_rows(int count, int n, double *rows, double *rhs, double to
 /* The same for rows of the caller's scaling: dependent when no more than the length `tolerance` remains. */
 int cpsi_orthonormal_span(int count, int n, double *rows, double *rhs, double tolerance);
 
+/* One more row after `rank` < n orthonormal rows of q (n, n), normal to them; n^2 operations. */
+void cpsi_next_row(int rank, int n, double *q);
 /* Complete `rank` orthonormal rows of q (n, n) to n. */
 void cpsi_complete_rows(int rank, int n, double *q);
 

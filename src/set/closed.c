@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Closed forms: support of primitives; margin, projection and gauge of primitives and of what is put together from them
- * without meeting (products, translates, scales; for margins inside and gauges intersections too).
+/* Closed forms: support of primitives; projection and gauge of primitives and of what is put together from them
+ * without meeting (products, translates, scales; for gauges intersections too). Margins are in margin.c.
  *
  *     ball        h = <w, c> + r|w|                     ellipsoid   h = <w, c> + sqrt(w'Sw)
  *     box         h = sum max(w_i low_i, w_i high_i)     cone        h = 0 on its polar, else infinite
@@ -192,79 +192,18 @@ bool cpsi_closed_project(const CpsSet *set, const double *p, double *nearest) {
         return true;
     case CPSI_SET_INEQUALITIES: return is_strip(set) && (project_strip(set, p, nearest), true);
     case CPSI_SET_SUBSPACE: project_subspace(set, p, nearest); return true;
+    case CPSI_SET_ELLIPSOID: {
+        bool inside;
+        double distance;
+        if (!cpsi_ellipsoid_nearest(set, p, nearest, &distance, &inside)) return false;
+        if (inside) memcpy(nearest, p, (size_t)n*sizeof *nearest);
+        return true;
+    }
     case CPSI_SET_PRODUCT: return project_product(set, p, nearest);
     case CPSI_SET_TRANSLATE:
     case CPSI_SET_SCALE: return project_moved(set, p, nearest);
     default: return false;
     }
-}
-
-/* ---- margin ---- */
-
-/* The radius that fits round a point of the set; false where no formula is known. */
-static bool inner_radius(const CpsSet *set, const double *p, double *radius) {
-    const int n = set->n;
-    double least = INFINITY, part = 0;
-    switch (set->kind) {
-    case CPSI_SET_POINTS: *radius = 0; return set->count <= 2 && (n > 1 || set->count == 1);
-    case CPSI_SET_BALL:
-        for (int i = 0; i < n; i++) part = hypot(part, p[i] - set->a[i]);
-        *radius = set->scalar - part;
-        return true;
-    case CPSI_SET_BOX:
-        for (int i = 0; i < n; i++) least = fmin(least, fmin(p[i] - set->a[i], set->b[i] - p[i]));
-        break;
-    case CPSI_SET_INEQUALITIES:
-        for (int k = 0; k < set->count; k++) {
-            const double *a = &set->a[(size_t)k*(size_t)n];
-            least = fmin(least, (set->b[k] - cpsi_dot(n, a, p))/cpsi_norm(n, a));
-        }
-        break;
-    case CPSI_SET_SUBSPACE: least = set->count < n ? 0 : INFINITY; break;
-    case CPSI_SET_PRODUCT:
-    case CPSI_SET_INTERSECTION:
-        for (int k = 0, at = 0; k < set->count; at += set->kind == CPSI_SET_PRODUCT ? set->part[k]->n : 0, k++) {
-            if (!cpsi_closed_margin(set->part[k], p + at, NULL, &part)) return false;
-            least = fmin(least, part);
-        }
-        break;
-    default: return false;
-    }
-    *radius = least;
-    return true;
-}
-
-static bool margin_moved(const CpsSet *set, const double *p, double *separating, double *margin) {
-    const int n = set->n;
-    const bool shift = set->kind == CPSI_SET_TRANSLATE;
-    CpsiScratch scratch;
-    double *y = cpsi_scratch_take(&scratch, (size_t)n);
-    for (int i = 0; y && i < n; i++) y[i] = shift ? p[i] - set->a[i] : p[i]/set->scalar;
-    const bool done = y && cpsi_closed_margin(set->part[0], y, separating, margin);
-    if (done && !shift) *margin *= fabs(set->scalar);
-    for (int i = 0; done && !shift && separating && i < n; i++) separating[i] *= copysign(1, set->scalar);
-    cpsi_scratch_give(&scratch);
-    return done;
-}
-
-bool cpsi_closed_margin(const CpsSet *set, const double *p, double *separating, double *margin) {
-    if (set->kind == CPSI_SET_TRANSLATE || set->kind == CPSI_SET_SCALE) return margin_moved(set, p, separating, margin);
-    const int n = set->n;
-    double distance = 0;
-    const bool inside = inner_radius(set, p, margin) && *margin >= 0 && set->kind != CPSI_SET_POINTS;
-    if (inside && (set->kind != CPSI_SET_SUBSPACE || set->count == n)) {
-        if (separating) memset(separating, 0, (size_t)n*sizeof *separating);
-        return true;
-    }
-    CpsiScratch scratch;
-    double *nearest = cpsi_scratch_take(&scratch, (size_t)n);
-    bool done = nearest && cpsi_closed_project(set, p, nearest);
-    for (int i = 0; done && i < n; i++) distance = hypot(distance, p[i] - nearest[i]);
-    if (done && distance > 0) *margin = -distance;
-    else if (done) done = inner_radius(set, p, margin) && (*margin = fmax(*margin, 0), true);
-    for (int i = 0; done && separating && i < n; i++) separating[i] = distance > 0 ? (p[i] - nearest[i])/distance : 0;
-    cpsi_scratch_give(&scratch);
-    return done;
 }
 
 /* ---- gauge ---- */

@@ -102,7 +102,7 @@ static CpsStatus search_all(Search *search, double *rays, CpsSetOutcome *outcome
         const int before = search->dimension;
         const bool bounded = search->bounded;
         search->bounded = true;
-        cpsi_complete_rows(search->dimension + search->flat, (int)n, search->basis);
+        cpsi_next_row(search->dimension + search->flat, (int)n, search->basis);
         status = probe(search, outcome, err);
         const bool ray = !search->bounded;
         search->bounded = bounded && !ray;
@@ -127,29 +127,125 @@ static CpsStatus check_bounded(const CpsSet *set, double *w, bool *bounded, CpsE
     return status;
 }
 
-/* Where is 0?  In the relative interior when the set reaches out of it both ways along every direction of its basis. */
-static CpsStatus place_zero(const CpsSet *set, const double *basis, double *zero, double *work, CpsSetFacts *facts,
-                            CpsError *err) {
-    const size_t n = (size_t)set->n;
-    CpsSetAnswer answer;
-    memset(zero, 0, n*sizeof *zero);
-    CpsStatus status = cps_set_project(set, zero, NULL, work, &answer, err);
-    if (status || answer.outcome != CPS_SET_ANSWERED) {
-        if (!status) facts->outcome = answer.outcome;
-        return status;
-    }
-    facts->has_zero = answer.value <= 1e-9*cpsi_set_size(set);
-    facts->zero_relative = facts->has_zero;
+/* By a closed margin with a ball round 0; a box or product that is flat in some components has 0 in its relative
+ * interior all the same. */
+static CpsiZero known_primitive(const CpsSet *set, const double *zero) {
+    const double least = 1e-7*cpsi_set_size(set);
     double margin;
-    if (facts->dimension == set->n && cpsi_closed_margin(set, zero, NULL, &margin))
+    bool relative = true;
+    switch (set->kind) {
+    case CPSI_SET_SUBSPACE: return CPSI_ZERO_RELATIVE;
+    case CPSI_SET_RAYS:
+    case CPSI_SET_POLAR: return CPSI_ZERO_INSIDE;
+    case CPSI_SET_POINTS:
+        if (set->count != 1 || cpsi_norm(set->n, set->a) > 0) return CPSI_ZERO_UNKNOWN;
+        return CPSI_ZERO_RELATIVE;
+    case CPSI_SET_BOX:
+        for (int i = 0; i < set->n; i++) {
+            if (set->a[i] > 0 || set->b[i] < 0) return CPSI_ZERO_UNKNOWN;
+            relative = relative && ((set->a[i] == 0 && set->b[i] == 0) || fmin(-set->a[i], set->b[i]) > least);
+        }
+        return relative ? CPSI_ZERO_RELATIVE : CPSI_ZERO_INSIDE;
+    case CPSI_SET_ELLIPSOID: {
+        double square = 0;
+        for (int i = 0; i < set->n; i++) {
+            const double c = cpsi_dot(i + 1, &set->c[(size_t)i*(size_t)set->n], set->a);
+            square += c*c;
+        }
+        return square < 1 - 1e-7 ? CPSI_ZERO_RELATIVE : square <= 1 ? CPSI_ZERO_INSIDE : CPSI_ZERO_UNKNOWN;
+    }
+    case CPSI_SET_BALL:
+        if (set->scalar == 0 && cpsi_norm(set->n, set->a) == 0) return CPSI_ZERO_RELATIVE;
+        break;
+    default: break;
+    }
+    if (!cpsi_closed_margin(set, zero, NULL, &margin) || margin < 0) return CPSI_ZERO_UNKNOWN;
+    return margin > least ? CPSI_ZERO_RELATIVE : CPSI_ZERO_INSIDE;
+}
+
+/* Relative interiors go with sums, products, images, hulls and, where they meet, with intersections and preimages
+ * (Rockafellar 1970, 6.4-6.9): what all parts have, the whole has. */
+static CpsiZero known_zero(const CpsSet *set, const double *zero) {
+    CpsiZero least = CPSI_ZERO_RELATIVE;
+    switch (set->kind) {
+    case CPSI_SET_PREIMAGE:
+        if (cpsi_norm(set->part[0]->n, set->b) > 0) return CPSI_ZERO_UNKNOWN;
+        break;
+    case CPSI_SET_PRODUCT:
+    case CPSI_SET_INTERSECTION:
+    case CPSI_SET_IMAGE:
+    case CPSI_SET_SUM:
+    case CPSI_SET_SCALE:
+    case CPSI_SET_HULL: break;
+    default: return known_primitive(set, zero);
+    }
+    for (int k = 0; k < set->count && least > CPSI_ZERO_UNKNOWN; k++) {
+        const CpsiZero part = known_zero(set->part[k], zero);
+        least = part < least ? part : least;
+    }
+    return least;
+}
+
+/* The largest space that the set or one of its parts lies in. */
+static size_t most_components(const CpsSet *set) {
+    size_t most = (size_t)set->n;
+    for (int k = 0; set->part && k < set->count; k++) {
+        const size_t part = most_components(set->part[k]);
+        most = part > most ? part : most;
+    }
+    return most;
+}
+
+CpsStatus cpsi_known_zero(const CpsSet *set, CpsiZero *known, CpsError *err) {
+    CpsiScratch scratch;
+    const size_t most = most_components(set);
+    double *zero = cpsi_scratch_take(&scratch, most);
+    if (!zero) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
+    memset(zero, 0, most*sizeof *zero);
+    *known = known_zero(set, zero);
+    cpsi_scratch_give(&scratch);
+    return CPS_OK;
+}
+
+/* Where is 0?  In the relative interior when the set reaches out of it both ways along every direction of its basis. */
+static CpsStatus place_zero(const CpsSet *set, const double *center, const double *basis, double *zero, double *work,
+                            CpsSetFacts *facts, CpsError *err) {
+    const size_t n = (size_t)set->n;
+    const double near = 1e-9*cpsi_set_size(set), far = cpsi_norm(set->n, center);
+    CpsSetAnswer answer;
+    CpsiZero known;
+    double margin;
+    CpsStatus status = cpsi_known_zero(set, &known, err);
+    if (status) return status;
+    facts->has_zero = known != CPSI_ZERO_UNKNOWN;
+    if (!facts->has_zero && far > near) {
+        /* does the whole set lie on the centre's side of 0? */
+        for (size_t i = 0; i < n; i++) work[i] = -center[i]/far;
+        status = cpsi_support(set, work, NULL, &answer, err);
+        if (status || (answer.outcome == CPS_SET_ANSWERED && answer.value < -near - answer.gap)) return status;
+    }
+    memset(zero, 0, n*sizeof *zero);
+    if (!facts->has_zero) {
+        status = cps_set_project(set, zero, NULL, work, &answer, err);
+        if (status || answer.outcome != CPS_SET_ANSWERED) {
+            if (!status) facts->outcome = answer.outcome;
+            return status;
+        }
+        facts->has_zero = answer.value <= near;
+    }
+    facts->zero_relative = facts->has_zero;
+    if (known == CPSI_ZERO_RELATIVE || !facts->has_zero) {
+        /* decided */
+    } else if (facts->dimension == set->n && cpsi_closed_margin(set, zero, NULL, &margin)) {
         facts->zero_relative = margin > facts->tolerance;
-    else
+    } else {
         for (int k = 0; !status && facts->zero_relative && k < 2*facts->dimension; k++) {
             for (size_t i = 0; i < n; i++) work[i] = (k & 1 ? -1 : 1)*basis[(size_t)(k/2)*n + i];
             status = cpsi_reach(set, zero, work, &answer, err);
             const bool out = answer.outcome == CPS_SET_ANSWERED && answer.value > facts->tolerance;
             if (!status && !out) facts->zero_relative = false;
         }
+    }
     facts->zero_interior = facts->zero_relative && facts->dimension == set->n;
     return status;
 }
@@ -176,10 +272,11 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
         facts->bounded = search.bounded;
         if (facts->bounded) status = check_bounded(set, work, &facts->bounded, err);
         if (!status && search.points == 0) status = any_point(set, search.sum, err), search.points = 1;
-        for (size_t i = 0; center && i < n; i++) center[i] = search.sum[i]/search.points + rays[i];
+        for (size_t i = 0; i < n; i++) search.sum[i] = search.sum[i]/search.points + rays[i];
+        if (center) memcpy(center, search.sum, n*sizeof *center);
         if (basis) memcpy(basis, search.basis, n*n*sizeof *basis);
         if (!status && cpsi_set_has_user(set)) facts->outcome = CPS_SET_NOT_AVAILABLE;
-        else if (!status) status = place_zero(set, search.basis, work, search.plus, facts, err);
+        else if (!status) status = place_zero(set, search.sum, search.basis, work, search.plus, facts, err);
     }
     free(room);
     return status;

@@ -73,7 +73,7 @@ typedef struct CpsiScratch {
 double *cpsi_scratch_take(CpsiScratch *scratch, size_t count); /* NULL: no memory */
 void cpsi_scratch_give(CpsiScratch *scratch);
 
-/* ---- closed forms (closed.c): false where there is none for this expression ---- */
+/* ---- closed forms (closed.c, margin.c, ellipsoid.c): false where there is none for this expression ---- */
 
 /* Of primitives. point may be NULL; a value INFINITY puts a ray there. */
 bool cpsi_closed_support(const CpsSet *set, const double *w, double *point, double *value);
@@ -82,11 +82,19 @@ bool cpsi_closed_support(const CpsSet *set, const double *w, double *point, doub
 bool cpsi_closed_margin(const CpsSet *set, const double *p, double *separating, double *margin);
 /* Nearest point in the Euclidean norm. */
 bool cpsi_closed_project(const CpsSet *set, const double *p, double *nearest);
+/* Of an ellipsoid: the point of its boundary that is nearest to p, and whether p is inside. */
+bool cpsi_ellipsoid_nearest(const CpsSet *set, const double *p, double *nearest, double *distance, bool *inside);
 /* Of a set that contains 0. */
 bool cpsi_closed_gauge(const CpsSet *set, const double *p, double *value);
 
 /* ---- questions without the checks of the public calls ---- */
 
+/* The arguments of a question: a set, finite numbers, a place for the answer. */
+CpsStatus cpsi_set_check(const char *call, const CpsSet *set, const char *name, const double *numbers,
+                         const void *answer, CpsError *err);
+/* Where 0 is, as far as the way a set is written tells (facts.c). */
+typedef enum CpsiZero { CPSI_ZERO_UNKNOWN, CPSI_ZERO_INSIDE, CPSI_ZERO_RELATIVE } CpsiZero;
+CpsStatus cpsi_known_zero(const CpsSet *set, CpsiZero *known, CpsError *err);
 CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer, CpsError *err);
 /* back = L'w for an image by L; what cancels to rounding is 0, so that no unbounded part makes infinity of it. */
 void cpsi_pull_back(const CpsSet *image, const double *w, double *back);

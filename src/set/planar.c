@@ -1,13 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Planar sets: corners, area, perimeter, rays, by going once round the normal angle.
- *
- * x(theta) attains h(theta) = max <w, x>, w = (cos theta, sin theta). Over an interval of angles the boundary is one of
- *     a corner   x at both ends is the same point, and then in between as well
- *     an edge    both ends lie on one line of support: a corner up to its angle and the other after it
- *     an arc     neither, however small the interval gets (a tolerance): x moves all the time
- * Intervals are halved until they are one of the three. With h known on each piece (Cauchy; Santalo 1976, I.1):
- *     perimeter = integral of h,      area = 1/2 integral of (h^2 - h'^2),      h' = <w', x>,
- * in closed form along a corner, by Gauss-Legendre quadrature with halving along arcs. */
+/* Planar sets: the walk once round the normal angle (planar.h), their corners, the rays of a cone. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,91 +7,78 @@
 #include "linsys/small.h"
 #include "set/node.h"
 
+#include "set/planar.h"
+
 static const double TURN = 6.283185307179586476925;
 /* [rad] A corner that opens less than this is not looked for: over such angles arcs of radii below a thousandth of
  * the size move by less than SAME. */
 static const double LEAST_OPENING = 1e-6;
 /* Points closer than this share of the size are one; an arc is smooth to a tenth of it. */
 static const double SAME = 1e-9;
-/* Supports to be asked for before what is left counts as arcs: a point known to its gap's root only is smooth
- * nowhere. */
-enum { MOST_LOOKS = 50000 };
 
-typedef struct Piece {
-    bool corner;
-    double from, to; /* angles */
-    double x[2];     /* of a corner */
-} Piece;
+static bool going(const CpsiWalk *walk) { return walk->status == CPS_OK && walk->outcome == CPS_SET_ANSWERED; }
 
-/* The set seen in its plane: x = center + basis' (two numbers). */
-typedef struct Walk {
-    const CpsSet *set;
-    const double *center, *basis;
-    double *w, *point; /* (n) scratch */
-    double size;
-    double opening;    /* least angle of a corner */
-    int looks;         /* made so far */
-    Piece *piece;
-    int count, room;
-    bool exact;
-    double gap;
-    CpsSetOutcome outcome;
-    CpsStatus status;
-    CpsError *err;
-} Walk;
-
-static bool going(const Walk *walk) { return walk->status == CPS_OK && walk->outcome == CPS_SET_ANSWERED; }
-
-/* x(theta) in the plane's two numbers; returns h. */
-static double look(Walk *walk, double theta, double x[2]) {
+double cpsi_walk_look(CpsiWalk *walk, double theta, double x[2]) {
     const int n = walk->set->n;
-    const double c = cos(theta), s = sin(theta);
+    const double c = cos(theta), s = sin(theta), *turn = walk->turn, *center = walk->center, *basis = walk->basis;
+    double along = turn[0]*c + turn[2]*s, across = turn[1]*c + turn[3]*s, p[2] = {0, 0};
     CpsSetAnswer answer = {.outcome = CPS_SET_INACCURATE};
     walk->looks++;
-    for (int i = 0; i < n; i++) walk->w[i] = c*walk->basis[i] + s*walk->basis[n + i];
+    const double stretch = hypot(along, across);
+    along /= stretch, across /= stretch;
+    for (int i = 0; i < n; i++) walk->w[i] = along*basis[i] + across*basis[n + i];
     if (going(walk)) walk->status = cpsi_support(walk->set, walk->w, walk->point, &answer, walk->err);
     if (walk->status == CPS_OK && answer.outcome != CPS_SET_ANSWERED) walk->outcome = answer.outcome;
     walk->exact = walk->exact && answer.exact;
     walk->gap = fmax(walk->gap, answer.gap);
-    x[0] = x[1] = 0;
     for (int i = 0; i < n; i++) {
-        x[0] += (walk->point[i] - walk->center[i])*walk->basis[i];
-        x[1] += (walk->point[i] - walk->center[i])*walk->basis[n + i];
+        p[0] += (walk->point[i] - center[i])*basis[i];
+        p[1] += (walk->point[i] - center[i])*basis[n + i];
     }
+    x[0] = turn[0]*p[0] + turn[1]*p[1], x[1] = turn[2]*p[0] + turn[3]*p[1];
     return c*x[0] + s*x[1];
 }
 
-static bool same(const Walk *walk, const double x[2], const double y[2]) {
+static bool same(const CpsiWalk *walk, const double x[2], const double y[2]) {
     return hypot(y[0] - x[0], y[1] - x[1]) <= SAME*walk->size;
 }
 
-static void add_piece(Walk *walk, bool corner, double from, double to, const double *x) {
-    Piece *last = walk->count > 0 ? &walk->piece[walk->count - 1] : NULL;
-    /* go on with the last piece where it is the same; arcs stay as smooth as they were found */
-    if (last && corner && last->corner && hypot(x[0] - last->x[0], x[1] - last->x[1]) <= 10*SAME*walk->size) {
-        last->to = to;
-        return;
-    }
+static void add_piece(CpsiWalk *walk, CpsiOutlinePiece piece) {
     if (walk->count == walk->room) {
         const int room = walk->room ? 2*walk->room : 64;
-        Piece *piece = realloc(walk->piece, (size_t)room*sizeof *piece);
-        if (!piece) {
+        CpsiOutlinePiece *more = realloc(walk->piece, (size_t)room*sizeof *more);
+        if (!more) {
             walk->status = cpsi_fail(walk->err, CPS_ERR_MEMORY, "no memory for the outline of a set");
             return;
         }
-        walk->piece = piece;
+        walk->piece = more;
         walk->room = room;
     }
-    walk->piece[walk->count++] = (Piece){corner, from, to, {corner ? x[0] : 0, corner ? x[1] : 0}};
+    walk->piece[walk->count++] = piece;
 }
 
-/* The angle up to which the corner x answers, from `at`, where it does, on this side of `limit`. */
-static double corner_ends(Walk *walk, const double x[2], double at, double limit) {
+/* The corner x over these angles; at one end the answer was `other`. */
+static void add_corner(CpsiWalk *walk, double from, double to, const double *x, const double *other) {
+    CpsiOutlinePiece *last = walk->count > 0 ? &walk->piece[walk->count - 1] : NULL;
+    const double drift = hypot(other[0] - x[0], other[1] - x[1]);
+    /* go on with the last piece where it is the same; arcs stay as smooth as they were found */
+    if (last && last->kind == CPSI_PIECE_CORNER &&
+        hypot(x[0] - last->x[0], x[1] - last->x[1]) <= 10*SAME*walk->size) {
+        last->drift += hypot(x[0] - last->y[0], x[1] - last->y[1]) + drift;
+        last->to = to;
+        memcpy(last->y, x, sizeof last->y);
+        return;
+    }
+    add_piece(walk, (CpsiOutlinePiece){CPSI_PIECE_CORNER, from, to, {x[0], x[1]}, {x[0], x[1]}, drift});
+}
+
+/* The angle up to which the corner x answers, from `at`, where it does (as `last`), on this side of `limit`. */
+static double corner_ends(CpsiWalk *walk, const double x[2], double at, double last[2], double limit) {
     for (int k = 0; k < 60 && going(walk) && fabs(limit - at) > 1e-13; k++) {
         const double middle = 0.5*(at + limit);
         double y[2];
-        look(walk, middle, y);
-        if (same(walk, x, y)) at = middle;
+        cpsi_walk_look(walk, middle, y);
+        if (same(walk, x, y)) at = middle, memcpy(last, y, sizeof y);
         else limit = middle;
     }
     return at;
@@ -107,53 +86,54 @@ static double corner_ends(Walk *walk, const double x[2], double at, double limit
 
 /* Does the polynomial through x at the nine points cos(k pi/8) of [a, b] foretell x elsewhere?  The barycentric formula
  * (Berrut and Trefethen 2004). A corner or an edge shifts what comes after it, which no polynomial does. */
-static bool smooth(Walk *walk, double a, const double x[2], double b, const double y[2]) {
+static bool smooth(CpsiWalk *walk, double a, const double x[2], double b, const double y[2]) {
     static const double NODE[] = {-1, -0.9238795325112867, -0.7071067811865475, -0.3826834323650898, 0,
                                   0.3826834323650898, 0.7071067811865475, 0.9238795325112867, 1};
     static const double PROBE[] = {-0.83, -0.19, 0.57};
     double value[9][2], found[2];
     memcpy(value[0], x, sizeof value[0]), memcpy(value[8], y, sizeof value[8]);
-    for (int k = 1; k < 8; k++) look(walk, 0.5*(a + b) + 0.5*(b - a)*NODE[k], value[k]);
+    for (int k = 1; k < 8; k++) cpsi_walk_look(walk, 0.5*(a + b) + 0.5*(b - a)*NODE[k], value[k]);
     for (int p = 0; p < 3; p++) {
         double sum[2] = {0, 0}, weights = 0;
         for (int k = 0; k < 9; k++) {
             const double weight = (k & 1 ? -1 : 1)*(k % 8 ? 1 : 0.5)/(PROBE[p] - NODE[k]);
             weights += weight, sum[0] += weight*value[k][0], sum[1] += weight*value[k][1];
         }
-        look(walk, 0.5*(a + b) + 0.5*(b - a)*PROBE[p], found);
+        cpsi_walk_look(walk, 0.5*(a + b) + 0.5*(b - a)*PROBE[p], found);
         if (!(hypot(sum[0]/weights - found[0], sum[1]/weights - found[1]) <= 0.1*SAME*walk->size)) return false;
     }
     return true;
 }
 
 /* The angle in [a, b] whose normal is the chord's, and x there. */
-static double at_chord(Walk *walk, double a, const double x[2], double b, const double y[2], double z[2]) {
+static double at_chord(CpsiWalk *walk, double a, const double x[2], double b, const double y[2], double z[2]) {
     double m = atan2(x[0] - y[0], y[1] - x[1]);
     while (m < a) m += TURN;
     while (m > b + 1e-9 && m > a) m -= TURN;
     m = fmin(b, fmax(a, m));
-    look(walk, m, z);
+    cpsi_walk_look(walk, m, z);
     return m;
 }
 
 /* The pieces from angle a, where x answers, to b, where y does. */
-static void divide(Walk *walk, double a, const double x[2], double b, const double y[2]) {
+static void divide(CpsiWalk *walk, double a, const double x[2], double b, const double y[2]) {
     if (!going(walk)) return;
     if (same(walk, x, y)) {
-        add_piece(walk, true, a, b, x);
+        add_corner(walk, a, b, x, y);
         return;
     }
     double z[2], first[2], last[2];
     const double m = at_chord(walk, a, x, b, y, z);
-    look(walk, m - 0.5*(m - a), first), look(walk, m + 0.5*(b - m), last);
-    const bool edge = (z[0] - x[0])*cos(m) + (z[1] - x[1])*sin(m) <= 1e-13*walk->size;
+    cpsi_walk_look(walk, m - 0.5*(m - a), first), cpsi_walk_look(walk, m + 0.5*(b - m), last);
+    const double height = (z[0] - x[0])*cos(m) + (z[1] - x[1])*sin(m); /* of the boundary over the chord */
+    const bool edge = height <= 1e-13*walk->size;
     if (edge && same(walk, x, first) && same(walk, y, last)) {
-        add_piece(walk, true, a, m, x);
-        add_piece(walk, true, m, b, y);
+        add_corner(walk, a, m, x, first);
+        add_corner(walk, m, b, y, last);
         return;
     }
-    if (b - a <= walk->opening || walk->looks > MOST_LOOKS) {
-        add_piece(walk, false, a, b, NULL);
+    if (b - a <= walk->opening || walk->looks > CPSI_MOST_LOOKS) {
+        add_piece(walk, (CpsiOutlinePiece){CPSI_PIECE_SHORT, a, b, {x[0], x[1]}, {y[0], y[1]}, fmax(height, 0)});
         return;
     }
     /* another corner, as on polygons */
@@ -165,15 +145,17 @@ static void divide(Walk *walk, double a, const double x[2], double b, const doub
     /* a corner at one end reaches to where it does */
     const double middle = 0.5*(a + b);
     double end = middle;
-    look(walk, middle, z);
+    cpsi_walk_look(walk, middle, z);
     if (same(walk, x, z)) {
-        add_piece(walk, true, a, end = corner_ends(walk, x, middle, b), x);
-        divide(walk, end, x, b, y);
+        end = corner_ends(walk, x, middle, z, b);
+        add_corner(walk, a, end, x, z);
+        divide(walk, end, z, b, y);
     } else if (same(walk, y, z)) {
-        divide(walk, a, x, end = corner_ends(walk, y, middle, a), y);
-        add_piece(walk, true, end, b, y);
+        end = corner_ends(walk, y, middle, z, a);
+        divide(walk, a, x, end, z);
+        add_corner(walk, end, b, y, z);
     } else if (smooth(walk, a, x, b, y)) {
-        add_piece(walk, false, a, b, NULL);
+        add_piece(walk, (CpsiOutlinePiece){CPSI_PIECE_ARC, a, b, {x[0], x[1]}, {y[0], y[1]}, 0});
     } else {
         divide(walk, a, x, middle, z);
         divide(walk, middle, z, b, y);
@@ -181,11 +163,11 @@ static void divide(Walk *walk, double a, const double x[2], double b, const doub
 }
 
 /* Once round from an angle that is no special one. */
-static void walk_round(Walk *walk) {
+void cpsi_walk_round(CpsiWalk *walk) {
     enum { STARTS = 8 };
     double x[STARTS + 1][2];
     const double first = 0.1234567;
-    for (int k = 0; k < STARTS; k++) look(walk, first + k*TURN/STARTS, x[k]);
+    for (int k = 0; k < STARTS; k++) cpsi_walk_look(walk, first + k*TURN/STARTS, x[k]);
     memcpy(x[STARTS], x[0], sizeof x[0]);
     for (int k = 0; k < STARTS; k++)
         divide(walk, first + k*TURN/STARTS, x[k], first + (k + 1)*TURN/STARTS, x[k + 1]);
@@ -193,20 +175,21 @@ static void walk_round(Walk *walk) {
 
 /* ---- what is asked ---- */
 
-static CpsStatus start_walk(const CpsSet *set, double tolerance, Walk *walk, CpsSetFacts *facts, double **room,
-                            CpsError *err) {
+CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, CpsSetFacts *facts, double **room,
+                          CpsError *err) {
     const size_t n = (size_t)set->n;
-    *walk = (Walk){.outcome = CPS_SET_INACCURATE};
+    *walk = (CpsiWalk){.outcome = CPS_SET_INACCURATE};
     *facts = (CpsSetFacts){.outcome = CPS_SET_INACCURATE};
     *room = malloc((n*n + 3*n)*sizeof **room);
     if (!*room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the outline of a set");
     double *center = *room, *basis = center + n;
-    *walk = (Walk){.set = set,
+    *walk = (CpsiWalk){.set = set,
                    .center = center,
                    .basis = basis,
                    .w = basis + n*n,
                    .point = basis + n*n + n,
                    .size = cpsi_set_size(set),
+                   .turn = {1, 0, 0, 1},
                    .opening = tolerance > 0 ? tolerance : LEAST_OPENING,
                    .exact = true,
                    .err = err};
@@ -216,11 +199,11 @@ static CpsStatus start_walk(const CpsSet *set, double tolerance, Walk *walk, Cps
     if (facts->outcome == CPS_SET_ANSWERED && !facts->bounded) facts->outcome = CPS_SET_UNBOUNDED;
     walk->outcome = facts->outcome;
     /* in the plane R^2 its own axes, so that corners come counterclockwise */
-    if (set->n == 2) basis[0] = basis[3] = 1, basis[1] = basis[2] = 0;
+    if (set->n == 2 && facts->dimension == 2) basis[0] = basis[3] = 1, basis[1] = basis[2] = 0;
     return CPS_OK;
 }
 
-static void put_point(const Walk *walk, const double x[2], int capacity, double *points, int *count) {
+static void put_point(const CpsiWalk *walk, const double x[2], int capacity, double *points, int *count) {
     const int n = walk->set->n;
     for (int i = 0; *count < capacity && i < n; i++)
         points[*count*n + i] = walk->center[i] + x[0]*walk->basis[i] + (n > 1 ? x[1]*walk->basis[n + i] : 0);
@@ -228,7 +211,7 @@ static void put_point(const Walk *walk, const double x[2], int capacity, double 
 }
 
 /* The two ends of a set of dimension 1. */
-static void put_ends(Walk *walk, int capacity, double *points, int *count) {
+static void put_ends(CpsiWalk *walk, int capacity, double *points, int *count) {
     const int n = walk->set->n;
     for (int sign = -1; sign <= 1 && going(walk); sign += 2) {
         CpsSetAnswer answer = {.outcome = CPS_SET_INACCURATE};
@@ -273,105 +256,29 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
     if (!(tolerance >= 0) || tolerance > 0.5)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected an angle from 0 to 0.5", CALL,
                          tolerance);
-    Walk walk;
+    CpsiWalk walk;
     CpsSetFacts facts;
     double *room;
     *count = 0;
-    CpsStatus status = start_walk(set, tolerance, &walk, &facts, &room, err);
+    CpsStatus status = cpsi_walk_start(set, tolerance, &walk, &facts, &room, err);
     if (!status && walk.outcome == CPS_SET_ANSWERED) {
         if (facts.dimension == 0) put_point(&walk, (const double[]){0, 0}, capacity, points, count);
         else if (facts.dimension == 1) put_ends(&walk, capacity, points, count);
         else if (facts.dimension == 2) {
-            walk_round(&walk);
+            cpsi_walk_round(&walk);
             for (int k = 0; k < walk.count && going(&walk); k++) {
-                const Piece *piece = &walk.piece[k], *first = walk.piece;
+                const CpsiOutlinePiece *piece = &walk.piece[k], *first = walk.piece;
                 /* the walk starts inside a piece, which then ends it as well */
-                const bool again = k > 0 && k == walk.count - 1 && first->corner && piece->corner &&
+                const bool again = k > 0 && k == walk.count - 1 && first->kind == CPSI_PIECE_CORNER &&
+                                   piece->kind == CPSI_PIECE_CORNER &&
                                    hypot(piece->x[0] - first->x[0], piece->x[1] - first->x[1]) <= 1e-8*walk.size;
-                if (piece->corner && !again && (k == 0 || piece->to - piece->from >= walk.opening))
+                if (piece->kind == CPSI_PIECE_CORNER && !again && (k == 0 || piece->to - piece->from >= walk.opening))
                     put_point(&walk, piece->x, capacity, points, count);
             }
         } else if (!put_known(set, capacity, points, count)) walk.outcome = CPS_SET_NOT_PLANAR;
     }
     *answer = (CpsSetAnswer){.outcome = walk.outcome, .exact = walk.exact, .gap = walk.gap, .value = *count,
                              .tolerance = walk.opening};
-    if (!status) status = walk.status;
-    free(walk.piece);
-    free(room);
-    return status;
-}
-
-/* ---- area and perimeter ---- */
-
-typedef struct Pair {
-    double length, area;
-} Pair;
-
-/* Gauss-Legendre with eight points from a to b. */
-static Pair gauss(Walk *walk, double a, double b) {
-    static const double NODE[] = {0.1834346424956498049, 0.5255324099163289858, 0.7966664774136267396,
-                                  0.9602898564975362317};
-    static const double WEIGHT[] = {0.3626837833783619830, 0.3137066458778872873, 0.2223810344533744706,
-                                    0.1012285362903762592};
-    Pair sum = {0, 0};
-    for (int k = 0; k < 8; k++) {
-        const double t = 0.5*(a + b) + (k & 1 ? -0.5 : 0.5)*(b - a)*NODE[k/2];
-        double x[2];
-        const double h = look(walk, t, x), slope = cos(t)*x[1] - sin(t)*x[0];
-        sum.length += 0.5*(b - a)*WEIGHT[k/2]*h;
-        sum.area += 0.25*(b - a)*WEIGHT[k/2]*(h*h - slope*slope);
-    }
-    return sum;
-}
-
-static void along_arc(Walk *walk, double a, double b, Pair whole, int depth, CpsSetMeasure *measure) {
-    if (!going(walk)) return;
-    const double m = 0.5*(a + b), size = walk->size;
-    const Pair left = gauss(walk, a, m), right = gauss(walk, m, b);
-    const double off = fabs(left.length + right.length - whole.length),
-                 off_area = fabs(left.area + right.area - whole.area);
-    if (depth > 0 && (off > 1e-12*size*(b - a) + 1e-15*size || off_area > 1e-12*size*size*(b - a) + 1e-15*size*size)) {
-        along_arc(walk, a, m, left, depth - 1, measure);
-        along_arc(walk, m, b, right, depth - 1, measure);
-        return;
-    }
-    measure->perimeter += left.length + right.length;
-    measure->area += left.area + right.area;
-    measure->perimeter_gap += off;
-    measure->area_gap += off_area;
-}
-
-/* A corner x = r (cos phi, sin phi): h = r cos(theta - phi), h' = -r sin(theta - phi). */
-static void along_corner(const Piece *piece, CpsSetMeasure *measure) {
-    const double r = hypot(piece->x[0], piece->x[1]), phi = atan2(piece->x[1], piece->x[0]);
-    const double a = piece->from - phi, b = piece->to - phi;
-    measure->perimeter += r*(sin(b) - sin(a));
-    measure->area += 0.25*r*r*(sin(2*b) - sin(2*a));
-}
-
-CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *err) {
-    if (!set || !measure)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_measure: %s is NULL", set ? "measure" : "set");
-    Walk walk;
-    CpsSetFacts facts;
-    double *room;
-    CpsStatus status = start_walk(set, 0, &walk, &facts, &room, err);
-    *measure = (CpsSetMeasure){.outcome = CPS_SET_ANSWERED};
-    if (set->n != 2) walk.outcome = CPS_SET_NOT_PLANAR;
-    if (!status && walk.outcome == CPS_SET_ANSWERED && facts.dimension > 0) {
-        walk_round(&walk);
-        bool arcs = false;
-        for (int k = 0; k < walk.count && going(&walk); k++) {
-            const Piece *piece = &walk.piece[k];
-            arcs = arcs || !piece->corner;
-            if (piece->corner) along_corner(piece, measure);
-            else along_arc(&walk, piece->from, piece->to, gauss(&walk, piece->from, piece->to), 12, measure);
-        }
-        measure->exact = walk.exact && !arcs;
-        measure->perimeter_gap += TURN*walk.gap;
-        measure->area_gap += walk.gap*measure->perimeter;
-    }
-    measure->outcome = walk.outcome;
     if (!status) status = walk.status;
     free(walk.piece);
     free(room);

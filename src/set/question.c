@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Support, extent, margin, projection and gauge: the closed form first, else a small conic program.
+/* Support, extent, projection and gauge: the closed form first, else a small conic program.
  *
  * The support function follows the expression down as far as it goes (M77 §8 and §10):
  *     h of a product, of a sum = the sum of the parts' h      h of L C (w) = h_C(L'w)
@@ -348,8 +348,8 @@ static CpsStatus conic_project(const CpsSet *set, const double *p, const double 
 
 /* ---- public ---- */
 
-static CpsStatus check(const char *call, const CpsSet *set, const char *name, const double *numbers, const void *answer,
-                       CpsError *err) {
+CpsStatus cpsi_set_check(const char *call, const CpsSet *set, const char *name, const double *numbers,
+                         const void *answer, CpsError *err) {
     if (!set) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set is NULL, expected a set", call);
     if (!numbers || !answer)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", call, numbers ? "the answer" : name);
@@ -358,14 +358,14 @@ static CpsStatus check(const char *call, const CpsSet *set, const char *name, co
 
 CpsStatus cps_set_support(const CpsSet *set, const double *direction, double *point, CpsSetAnswer *answer,
                           CpsError *err) {
-    CpsStatus status = check("cps_set_support", set, "direction", direction, answer, err);
+    CpsStatus status = cpsi_set_check("cps_set_support", set, "direction", direction, answer, err);
     if (!status) status = cpsi_support(set, direction, point, answer, err);
     if (!status) answer->closure = set->closure;
     return status;
 }
 
 CpsStatus cps_set_extent(const CpsSet *set, const double *direction, CpsSetExtent *extent, CpsError *err) {
-    CpsStatus status = check("cps_set_extent", set, "direction", direction, extent, err);
+    CpsStatus status = cpsi_set_check("cps_set_extent", set, "direction", direction, extent, err);
     if (status) return status;
     CpsiScratch scratch;
     double *turned = cpsi_scratch_take(&scratch, (size_t)set->n);
@@ -389,7 +389,7 @@ CpsStatus cps_set_extent(const CpsSet *set, const double *direction, CpsSetExten
 
 CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *metric, double *nearest,
                           CpsSetAnswer *answer, CpsError *err) {
-    CpsStatus status = check("cps_set_project", set, "point", point, answer, err);
+    CpsStatus status = cpsi_set_check("cps_set_project", set, "point", point, answer, err);
     if (!status && !nearest) status = cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_project: nearest is NULL");
     const size_t n = set ? (size_t)set->n : 0;
     if (!status && metric) status = cpsi_set_finite("cps_set_project", "metric", n*n, metric, err);
@@ -419,69 +419,17 @@ CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *
     return status;
 }
 
-/* A ball that is certain to fit: the hull of what is reached along the axes holds one of radius 1/|1/t|. */
-static CpsStatus inscribed(const CpsSet *set, const double *p, double *radius, CpsSetOutcome *outcome, CpsError *err) {
-    double sum = 0;
-    CpsiScratch scratch;
-    double *d = cpsi_scratch_take(&scratch, (size_t)set->n);
-    if (!d) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
-    memset(d, 0, (size_t)set->n*sizeof *d);
-    CpsStatus status = CPS_OK;
-    for (int i = 0; !status && *outcome == CPS_SET_ANSWERED && i < set->n; i++) {
-        double least = INFINITY;
-        for (int sign = -1; !status && sign <= 1; sign += 2) {
-            CpsSetAnswer reach;
-            d[i] = sign;
-            status = cpsi_reach(set, p, d, &reach, err);
-            if (status) break;
-            if (reach.outcome == CPS_SET_INACCURATE) *outcome = reach.outcome;
-            least = fmin(least, reach.outcome == CPS_SET_ANSWERED ? fmax(reach.value - reach.gap, 0) : 0);
-        }
-        d[i] = 0;
-        sum += 1/(least*least);
-    }
-    *radius = sum > 0 ? 1/sqrt(sum) : INFINITY;
-    cpsi_scratch_give(&scratch);
-    return status;
-}
-
-CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separating, CpsSetAnswer *answer,
-                           CpsError *err) {
-    CpsStatus status = check("cps_set_contains", set, "point", point, answer, err);
-    if (status) return status;
-    const int n = set->n;
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true, .closure = set->closure};
-    if (cpsi_closed_margin(set, point, separating, &answer->value)) return CPS_OK;
-    CpsiScratch scratch;
-    double *nearest = cpsi_scratch_take(&scratch, (size_t)n);
-    if (!nearest) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
-    status = cps_set_project(set, point, NULL, nearest, answer, err);
-    if (!status && answer->outcome == CPS_SET_ANSWERED) {
-        const double distance = answer->value;
-        /* the direction of a distance lost in rounding says nothing */
-        const bool outside = distance > fmax(answer->gap, 1e-10*cpsi_set_size(set));
-        for (int i = 0; separating && i < n; i++) separating[i] = outside ? (point[i] - nearest[i])/distance : 0;
-        answer->value = outside ? -distance : 0;
-        if (!outside) {
-            answer->gap = INFINITY;
-            status = inscribed(set, point, &answer->value, &answer->outcome, err);
-        }
-    }
-    cpsi_scratch_give(&scratch);
-    return status;
-}
-
 CpsStatus cps_set_gauge(const CpsSet *set, const double *point, CpsSetAnswer *answer, CpsError *err) {
-    CpsStatus status = check("cps_set_gauge", set, "point", point, answer, err);
+    CpsStatus status = cpsi_set_check("cps_set_gauge", set, "point", point, answer, err);
     if (status) return status;
-    /* is 0 in the set? */
     CpsiScratch scratch;
-    double *zero = cpsi_scratch_take(&scratch, 2*(size_t)set->n), *nearest = zero ? zero + set->n : NULL, margin;
+    double *zero = cpsi_scratch_take(&scratch, 2*(size_t)set->n), *nearest = zero ? zero + set->n : NULL;
     if (!zero) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
     memset(zero, 0, (size_t)set->n*sizeof *zero);
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
-    if (cpsi_closed_margin(set, zero, NULL, &margin)) answer->value = fmax(-margin, 0);
-    else status = cps_set_project(set, zero, NULL, nearest, answer, err);
+    CpsiZero known;
+    status = cpsi_known_zero(set, &known, err);
+    if (!status && known == CPSI_ZERO_UNKNOWN) status = cps_set_project(set, zero, NULL, nearest, answer, err);
     cpsi_scratch_give(&scratch);
     if (status || answer->outcome != CPS_SET_ANSWERED) return status;
     if (answer->value > 1e-9*cpsi_set_size(set)) {

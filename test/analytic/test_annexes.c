@@ -113,8 +113,8 @@ static Record printed_11_3(const CpsLineView *view) {
                 .compliance = 1,
                 .end_kind = {END_HELD, END_FREE},
                 .end_value = {{0, 0, 0}, {0, 0, 1}}};
-    Vector **vector[] = {&r.reference, &r.position, &r.load, &r.normal, &r.friction, &r.segment_force};
-    double **scalar[] = {&r.element_length, &r.gap, &r.friction_bound, &r.reaction, &r.tension};
+    Vector **vector[] = {&r.reference, &r.position, &r.load, &r.normal, &r.friction, &r.slide, &r.segment_force};
+    double **scalar[] = {&r.element_length, &r.gap, &r.friction_bound, &r.reaction, &r.tension, &r.mu, &r.turn};
     for (size_t k = 0; k < sizeof vector / sizeof *vector; k++) assert_non_null(*vector[k] = calloc(n, sizeof(Vector)));
     for (size_t k = 0; k < sizeof scalar / sizeof *scalar; k++) assert_non_null(*scalar[k] = calloc(n, sizeof(double)));
     double h = 1.0 / ELEMENTS;
@@ -145,7 +145,9 @@ static void example_11_3(void **state) {
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);
     Record printed = printed_11_3(&view);
-    Measures m = measure(&printed);
+    Surface bed = {.kind = SURFACE_PLANE, .axis = {0, 0, 1}, .mu = {mu, mu}};
+    const Source source = {.surfaces = 1, .surface = &bed};
+    Measures m = measure(&source, &printed, false);
     CpsCertificate own = cps_evolution_report(run.evolution).certificate;
     assert_null(m.missing);
     CHECK_LESS(show("example 11.3, printed", "imbalance of forces [N]", 0, m.force), 1e-14);

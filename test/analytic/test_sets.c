@@ -171,6 +171,123 @@ static void corners_between_arcs(void **state) {
     cps_set_release(disc), cps_set_release(box), cps_set_release(set);
 }
 
+static void measured(const char *what, const CpsSet *set, double area, double perimeter, double tolerance) {
+    CpsSetMeasure measure;
+    DO(cps_set_measure(set, &measure, &err));
+    assert_int_equal(measure.outcome, CPS_SET_ANSWERED);
+    CHECK_RELATIVE(show(what, area, measure.area), area, tolerance);
+    CHECK_RELATIVE(show("  perimeter", perimeter, measure.perimeter), perimeter, tolerance);
+    /* the gap is true, to the rounding of the expected values */
+    CHECK_LESS(fabs(measure.area - area), measure.area_gap + 1e-14 * area);
+    CHECK_LESS(fabs(measure.perimeter - perimeter), measure.perimeter_gap + 1e-14 * perimeter);
+}
+
+/* Ellipses of any aspect, in closed form and along the outline, turned and scaled: pi a b, 4 a E(e). */
+static void thin_ellipses(void **state) {
+    (void)state;
+    static const double AXES[][3] = {{3, 1, 13.364893220555258},
+                                     {1e3, 1e-3, 4000.0000000294126},
+                                     {1e100, 1e-100, 4e100},
+                                     {2, 2, 12.566370614359172}};
+    const double origin[2] = {0, 0}, turn[4] = {0.6, -0.8, 0.8, 0.6}, shift[2] = {7, -5};
+    for (size_t k = 0; k < sizeof AXES / sizeof *AXES; k++) {
+        const double a = AXES[k][0], b = AXES[k][1], shape[4] = {a * a, 0, 0, b * b};
+        CpsSet *ellipse, *point, *sum, *turned, *moved, *scaled;
+        DO(cps_set_ellipsoid(2, NULL, shape, &ellipse, &err));
+        DO(cps_set_image(2, turn, ellipse, &turned, &err));
+        DO(cps_set_translate(shift, turned, &moved, &err));
+        DO(cps_set_scale(-0.5, moved, &scaled, &err));
+        DO(cps_set_point(2, origin, &point, &err));
+        measured("ellipse, area", ellipse, PI * a * b, AXES[k][2], 1e-14);
+        measured("ellipse turned and scaled, area", scaled, PI * a * b / 4, AXES[k][2] / 2, 1e-14);
+        if (a < 1e6) { /* thinner than 1e-7 of the size counts as flat */
+            DO(cps_set_sum(2, (const CpsSet *[]){ellipse, point}, &sum, &err));
+            measured("ellipse along its outline, area", sum, PI * a * b, AXES[k][2], 1e-12);
+            cps_set_release(sum);
+        }
+        cps_set_release(ellipse), cps_set_release(point), cps_set_release(turned), cps_set_release(moved),
+            cps_set_release(scaled);
+    }
+}
+
+/* Polygons by points and by inequalities, a disc cut by lines, the flat and the far. */
+static void polygons_and_cut_discs(void **state) {
+    (void)state;
+    const double corner[10] = {0, 0, 1e6, 1, 1e6, -1e-6, 5e5, 0.1, 0, 0}, up[2] = {0, 2}, place[2] = {3, -1};
+    const double row[8] = {1, 0, -1, 0, 0, 1, 0, -1}, offset[4] = {1e6, 1e6, 1, 1}, ends[4] = {3, -1, 3, 1};
+    CpsSet *polygon, *disc, *half, *strip, *cut, *segment, *sum;
+    DO(cps_set_hull_of_points(2, 5, corner, &polygon, &err));
+    measured("thin triangle, area", polygon, 5e5 + 0.5, 1e6 + 1.000001 + hypot(1e6, 1) + 5e-19, 1e-15);
+    cps_set_release(polygon);
+    DO(cps_set_inequalities(2, 4, row, offset, &polygon, &err));
+    measured("thin box by inequalities, area", polygon, 4e6, 4e6 + 4, 1e-9);
+    DO(cps_set_ball(2, place, 2, &disc, &err));
+    DO(cps_set_half_space(2, up, -2, &half, &err));
+    DO(cps_set_intersection(2, (const CpsSet *[]){half, disc}, &cut, &err));
+    measured("half a disc, area", cut, 2 * PI, 2 * PI + 4, 1e-15);
+    cps_set_release(cut);
+    DO(cps_set_strip(2, up, -4, 0, &strip, &err)); /* lines at 1 on both sides of the centre */
+    DO(cps_set_intersection(2, (const CpsSet *[]){disc, strip}, &cut, &err));
+    measured("disc between lines, area", cut, 4 * (PI / 3 + sqrt(0.75)), 4 * PI / 3 + 4 * sqrt(3), 1e-15);
+    DO(cps_set_hull_of_points(2, 2, ends, &segment, &err));
+    DO(cps_set_sum(2, (const CpsSet *[]){segment, segment}, &sum, &err));
+    measured("upright segment, area", sum, 0, 8, 1e-15);
+    double vertex[4];
+    int count;
+    CpsSetAnswer answer;
+    DO(cps_set_vertices(sum, 0, 2, vertex, &count, &answer, &err));
+    CHECK_INT(count, 2);
+    CHECK_NEAR(fabs(vertex[3] - vertex[1]), 4, 1e-14);
+    cps_set_release(polygon), cps_set_release(disc), cps_set_release(half), cps_set_release(strip),
+        cps_set_release(cut), cps_set_release(segment), cps_set_release(sum);
+}
+
+static void margin(const CpsSet *set, double x, double y, double want, bool exact) {
+    CpsSetAnswer answer;
+    DO(cps_set_contains(set, (const double[]){x, y}, NULL, &answer, &err));
+    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    CHECK_NEAR(answer.value, want, 1e-12);
+    CHECK_LESS(fabs(answer.value - want), answer.gap + 1e-14);
+    assert_int_equal(answer.exact, exact);
+}
+
+/* Margins inside: the ellipse 3, 1, whose nearest point from (x, 0) is (9x/8, ..) up to x = 8/3 and then its end; sums
+ * with a disc; similar images and preimages; polars; others by enclosure. */
+static void margins_inside(void **state) {
+    (void)state;
+    const double shape[4] = {9, 0, 0, 1}, turn[4] = {1.2, -1.6, 1.6, 1.2}, low[2] = {-1, -2}, high[2] = {1, 2};
+    CpsSet *ellipse, *disc, *box, *sum, *image, *preimage, *cross, *polar, *hull;
+    DO(cps_set_ellipsoid(2, NULL, shape, &ellipse, &err));
+    margin(ellipse, 0, 0, 1, true);
+    margin(ellipse, 1, 0, sqrt(1 - 1.0 / 8), true);
+    margin(ellipse, 8.0 / 3, 0, 1.0 / 3, true);
+    margin(ellipse, 2.9, 0, 0.1, true);
+    margin(ellipse, 0, 0.25, 0.75, true);
+    margin(ellipse, 0, 3, -2, true);
+    DO(cps_set_ball(2, NULL, 0.5, &disc, &err));
+    DO(cps_set_sum(2, (const CpsSet *[]){disc, ellipse}, &sum, &err));
+    margin(sum, 1, 0, sqrt(1 - 1.0 / 8) + 0.5, true);
+    margin(sum, 0, 1.25, 0.25, true); /* outside the ellipse, inside the sum */
+    margin(sum, 0, 3, -1.5, true);
+    DO(cps_set_image(2, turn, ellipse, &image, &err));
+    margin(image, 1.2, 1.6, 2 * sqrt(1 - 1.0 / 8), true);
+    DO(cps_set_preimage(2, turn, NULL, image, &preimage, &err));
+    margin(preimage, 1, 0, sqrt(1 - 1.0 / 8), true);
+    DO(cps_set_hull_of_points(2, 4, (const double[]){1, 0, -1, 0, 0, 1, 0, -1}, &cross, &err));
+    margin(cross, 0.25, 0, 0.75 / sqrt(2), false);
+    DO(cps_set_polar(cross, &polar, &err)); /* the square */
+    margin(polar, 0.25, 0.5, 0.5, true);
+    DO(cps_set_box(2, low, high, &box, &err));
+    DO(cps_set_hull(2, (const CpsSet *[]){box, disc}, &hull, &err));
+    margin(hull, 0.25, 0, 0.75, false);
+    cps_set_release(sum), cps_set_release(hull);
+    DO(cps_set_sum(2, (const CpsSet *[]){box, ellipse}, &sum, &err));
+    margin(sum, 0, 0, 3, false);
+    margin(sum, 3.5, 2, sqrt(1 - 2.5 * 2.5 / 8), false); /* the arc about the corner */
+    cps_set_release(ellipse), cps_set_release(disc), cps_set_release(box), cps_set_release(sum), cps_set_release(image),
+        cps_set_release(preimage), cps_set_release(cross), cps_set_release(polar);
+}
+
 /* ---- limit surfaces: C = sum over contacts of B' D, B' f = (f, x f_y - y f_x), D the disc of the contact's share ----
  */
 
@@ -291,6 +408,8 @@ int main(void) {
         cmocka_unit_test(wheel_faces),        cmocka_unit_test(corners_between_arcs),
         cmocka_unit_test(ring_limit_surface), cmocka_unit_test(disc_limit_surface),
         cmocka_unit_test(rod_limit_surface),  cmocka_unit_test(bipod_face),
+        cmocka_unit_test(thin_ellipses),      cmocka_unit_test(polygons_and_cut_discs),
+        cmocka_unit_test(margins_inside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

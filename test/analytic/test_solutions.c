@@ -64,7 +64,7 @@ static void slack_on_a_smooth_bed(void **state) {
         CpsJudgementReport own = judge(&b);
         assert_int_equal(own.judgement, CPS_JUDGED_RELAXED);
         CHECK_GREATER(own.shortening, 0.3);
-        for (CpsCompletion how = CPS_COMPLETION_TENT; how <= CPS_COMPLETION_MEANDER; how++) {
+        for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
             CpsSlackReport slack = complete(&b, how);
             CHECK_NEAR(slack.slack, 1, 1e-12);
             CHECK_NEAR(slack.loose, 1, 1e-12);
@@ -93,7 +93,7 @@ static void slack_between_ends_that_meet(void **state) {
     case_move(&b.c, 1, 0.05, 0, 0);
     b.run = case_open(&b.c);
     b.view = case_step(&b.run);
-    for (CpsCompletion how = CPS_COMPLETION_TENT; how <= CPS_COMPLETION_MEANDER; how++) {
+    for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
         CpsSlackReport slack = complete(&b, how);
         CHECK_NEAR(slack.left, 0, 0);
         CpsJudgementReport laid = judge(&b);
@@ -141,6 +141,16 @@ static void slack_held_by_friction(void **state) {
     CHECK_NEAR(slack.loose, 0, 0);
     CHECK_NEAR(slack.held, slack.slack, 1e-12);
     CHECK_INT(slack.parts, 0);
+
+    assert_true(part.rubs && !part.sliding && part.grounded);
+    // a made-up friction force at its bound shows: that node could slide on
+    static double rub[COORDINATES];
+    memcpy(rub, b.view.friction, sizeof rub);
+    rub[3 * 30 + 1] = b.view.friction_bound[30];
+    CpsLineView made_up = b.view;
+    made_up.friction = rub;
+    CHECK_INT(cps_solution_slack(&made_up, 1, &part), 1);
+    assert_true(part.sliding);
 
     // node 30 along the line by a thousandth: the elements beside it stay below their length or stretch by 0.1
     const double u = 1e-6;
@@ -234,6 +244,117 @@ static void gaps_are_the_energy(void **state) {
     case_close(&b.run);
 }
 
+/* The three shapes: to and fro stays on the chord, by less than an element; straight pieces are straight, half the
+ * length each; and a meander goes to both sides. */
+static void shapes_of_completion(void **state) {
+    (void)state;
+    Bench b;
+    open_bench(&b, 0, 1);
+    case_move(&b.c, 1, 0.6, 0, 0);
+    solve_bench(&b);
+    const double h = 1.0 / ELEMENTS;
+    complete(&b, CPS_COMPLETION_SHORTEST);
+    for (int j = 0; j <= ELEMENTS; j++) {
+        CHECK_BETWEEN(b.position[3 * j], -h, 0.6 + h);
+        CHECK_BETWEEN(b.position[3 * j + 1], -h, h);
+    }
+    // sides 0.5, 0.5, chord 0.6: the corner is at (0.3, 0.4)
+    complete(&b, CPS_COMPLETION_STRAIGHT);
+    CHECK_NEAR(b.position[3 * 50], 0.3, 1e-12);
+    CHECK_NEAR(fabs(b.position[3 * 50 + 1]), 0.4, 1e-12);
+    CHECK_NEAR(b.position[3 * 25], 0.15, 1e-12);
+    // one element up by 0.8 h, one down, all the way
+    complete(&b, CPS_COMPLETION_MEANDER);
+    for (int j = 0; j <= ELEMENTS; j++) CHECK_NEAR(fabs(b.position[3 * j + 1]), j % 2 ? 0.8 * h : 0, 1e-12);
+    case_close(&b.run);
+}
+
+/* Pulled taut on a smooth bed, then let go: nothing holds the end. "Straight" lays the line on from A at its length. */
+static void loose_end(void **state) {
+    (void)state;
+    Bench b;
+    open_bench(&b, 0, 1);
+    case_force(&b.c, 1, 0.3, 0.1, 0);
+    case_force(&b.c, 1, 0, 0, 0);
+    solve_bench(&b);
+    b.view = case_step(&b.run);
+    CpsSlackPart part;
+    CHECK_INT(cps_solution_slack(&b.view, 1, &part), 1);
+    assert_true(part.loose && part.grounded && !part.rubs);
+    for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
+        complete(&b, how);
+        assert_int_equal(judge(&b).judgement, CPS_JUDGED_SOLUTION);
+        const double *tip = &b.position[3 * ELEMENTS];
+        if (how == CPS_COMPLETION_STRAIGHT) CHECK_NEAR(hypot(tip[0], tip[1]), 1, 1e-12);
+    }
+    case_close(&b.run);
+}
+
+/* Remark 7.10.1, K infinite: P4.2 has |x'| <= 1 and the tension is its multiplier. The configuration, here straight at
+ * rest, may be unique and the tension field not (against result 4.4 (i) carried over): pulled by 0.4 N on a bed that
+ * can hold 1 N/m, friction may take it near the tip or evenly all along. Both fields balance, and both prove x. */
+static void inextensible_tensions(void **state) {
+    (void)state;
+    Bench b;
+    open_bench(&b, 1, INFINITY);
+    case_force(&b.c, 1, 0.4, 0, 0);
+    solve_bench(&b);
+    static double force[3 * ELEMENTS], rub[COORDINATES];
+    for (int field = 0; field < 2; field++) {
+        double tension = 0.4;
+        for (int i = ELEMENTS - 1; i >= 0; i--) {
+            // node i + 1 first: what friction takes there, never beyond its bound
+            const double bound = b.view.friction_bound[i + 1];
+            const double taken = field ? 0.4 * bound : fmin(bound, tension);
+            rub[3 * (i + 1)] = -taken;
+            tension -= taken;
+            force[3 * i] = tension;
+        }
+        b.view.segment_force = force;
+        b.view.friction = rub;
+        CpsJudgementReport report = judge(&b);
+        assert_int_equal(report.judgement, CPS_JUDGED_SOLUTION);
+        // at 0.5 m: 0, or 0.4 N less 0.4 of the half of the line beyond
+        CHECK_NEAR(show("K infinite, two fields", "tension at 0.5 m [N]", field ? 0.2 : 0, force[3 * 50]), 0, 0.005);
+        CHECK_LESS(show("K infinite, two fields", "gap of x [J]", 0, report.energy), 1e-9);
+    }
+    case_close(&b.run);
+}
+
+/* the outcome of the first step, and how much its proof shows */
+static CpsOutcome outcome_of(const Case *c, double *proof) {
+    CpsEvolution *evolution;
+    CpsError err = {0};
+    if (cps_evolution_create(&c->scene, &evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+    assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
+    const CpsLineReport line = cps_evolution_line_report(evolution, 0);
+    *proof = line.proof_value;
+    cps_evolution_destroy(evolution);
+    return line.outcome;
+}
+
+/* Remark 7.5.3: what is coercive has a minimum, and the rest is told apart. Elastic and held at A: always. No end held
+ * and pulled by more than friction bears: unbounded. Inextensible and held too far apart: nothing to minimise over. */
+static void existence(void **state) {
+    (void)state;
+    double proof;
+    Bench b;
+    open_bench(&b, 0.3, 1);
+    case_force(&b.c, 1, 3, 0, 2);
+    assert_int_equal(outcome_of(&b.c, &proof), CPS_SOLVED);
+
+    open_bench(&b, 0.3, 1);
+    b.c.line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_FREE};
+    case_force(&b.c, 1, 0.5, 0, 0);
+    assert_int_equal(outcome_of(&b.c, &proof), CPS_UNBOUNDED);
+    CHECK_NEAR(show("no end held", "fall, f - mu w l [N]", 0.2, proof), 0, 0.3 / ELEMENTS + 1e-9);
+
+    open_bench(&b, 0.3, INFINITY);
+    case_move(&b.c, 1, 1.2, 0, 0);
+    assert_int_equal(outcome_of(&b.c, &proof), CPS_INFEASIBLE);
+    CHECK_NEAR(show("too far apart", "excess [m]", 0.2, proof), 0, 1e-9);
+}
+
 static void refused(void **state) {
     (void)state;
     Bench b;
@@ -253,10 +374,18 @@ static void refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slack_on_a_smooth_bed), cmocka_unit_test(slack_between_ends_that_meet),
-        cmocka_unit_test(lifted_loop),           cmocka_unit_test(slack_held_by_friction),
-        cmocka_unit_test(other_tensions),        cmocka_unit_test(outside_the_constraints),
-        cmocka_unit_test(gaps_are_the_energy),   cmocka_unit_test(refused),
+        cmocka_unit_test(slack_on_a_smooth_bed),
+        cmocka_unit_test(slack_between_ends_that_meet),
+        cmocka_unit_test(lifted_loop),
+        cmocka_unit_test(slack_held_by_friction),
+        cmocka_unit_test(other_tensions),
+        cmocka_unit_test(outside_the_constraints),
+        cmocka_unit_test(gaps_are_the_energy),
+        cmocka_unit_test(shapes_of_completion),
+        cmocka_unit_test(loose_end),
+        cmocka_unit_test(inextensible_tensions),
+        cmocka_unit_test(existence),
+        cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Arithmetic of the checker: long double, compensated sums, no quantity formed as a difference of large ones.
  *
- * With e the stretch vector of an element (x_i - x_{i-1}) / l, d = (|e| - 1)^+ and W* (p) = |p| + c |p|^2 / 2, the
- * local gaps are written as sums of non-negative terms (docs/theory.md): segment   W(e) + W*(p) - p.e = (d - c|p|)^2 /
- * (2 c) + |p| (1 - |e|)^+ + |p||e| - p.e         c > 0 |p| (1 - |e|) + |p||e| - p.e c = 0 friction  w|u_T| + F.u_T = (w
- * - |F|) |u_T| + |F||u_T| + F.u_T contact   R (n.u + gap) where |a||b| - a.b = |a||b| |a/|a| - b/|b||^2 / 2. The
- * certificate adds their absolute values, so that a configuration or a force slightly outside its set makes the gap
- * larger and never smaller. */
+ * With e the stretch vector of an element (x_i - x_{i-1}) / l, d = (|e| - 1)^+ and W*(p) = |p| + c |p|^2 / 2, the local
+ * gaps are sums of non-negative terms (docs/theory.md):
+ *
+ *     segment, c > 0   W(e) + W*(p) - p.e = (d - c|p|)^2 / (2 c) + |p| (1 - |e|)^+ + |p||e| - p.e
+ *     segment, c = 0   |p| (1 - |e|) + |p||e| - p.e
+ *     friction         phi(s) + F.s, s the way on the obstacle (surface.c)
+ *     contact          R (n.u + gap)
+ *
+ * where |a||b| - a.b = |a||b| |a/|a| - b/|b||^2 / 2. Normals, ways and the axes of friction are recomputed from
+ * positions, at the configuration reached or at the reference. Absolute values are added, so that a configuration or a
+ * force slightly outside its set makes the gap larger and never smaller. */
 #include "measure.h"
 
 #include <math.h>
 
-typedef long double Real;
 typedef Real Triple[3];
 
 /* Neumaier's compensated sum */
@@ -35,6 +39,9 @@ static void widen(const double *a, Triple out) {
 static void subtract(const double *a, const double *b, Triple out) {
     for (int k = 0; k < 3; k++) out[k] = (Real)a[k] - (Real)b[k];
 }
+
+/* Obstacles are equally near to a node within this part of the line's length. */
+static const Real PLACE_MARGIN = 1e-9L;
 
 /* maximum that keeps a NaN */
 static void raise_to(double *worst, Real value) {
@@ -75,6 +82,7 @@ static const char *missing_variable(const Record *r) {
         {"load", r->load[0], 3 * n, -most, most},
         {"normal", r->normal[0], 3 * n, -most, most},
         {"friction", r->friction[0], 3 * n, -most, most},
+        {"slide", r->slide[0], 3 * n, -most, most},
         {"segment_force", r->segment_force[0], 3 * m, -most, most},
         {"tension", r->tension, m, -most, most},
         {"friction_bound", r->friction_bound, n, 0, most},
@@ -84,6 +92,7 @@ static const char *missing_variable(const Record *r) {
         {"proof", r->proof, 3, -most, most},
         {"proof_value", &r->proof_value, 1, -most, most},
         {"dissipated", &r->dissipated, 1, -most, most},
+        {"ledger", r->ledger, LEDGER_ENTRIES, -most, most},
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         if (!all_within(table[k].value, table[k].count, table[k].low, table[k].high)) return table[k].name;
@@ -97,7 +106,8 @@ static const char *missing_variable(const Record *r) {
 
 /* running sums of a record */
 typedef struct Sums {
-    Sum primal, dual, signed_gap, gap, scale, slid, law, contact, imbalance_work, magnitude, length;
+    Sum primal, dual, signed_gap, gap, scale, slid, law, contact, bound_residual, imbalance_work, magnitude, length,
+        elastic, gravity, carried;
 } Sums;
 
 static bool held(const Record *r, size_t j) {
@@ -117,6 +127,10 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     Real mismatch = c > 0 ? (strain - c * force) * (strain - c * force) / (2 * c) : 0;
     Real slack = c > 0 && stretch > 1 ? 0 : force * (1 - stretch), turn = misalignment(p, e);
     add(&s->length, l);
+    Triple before;
+    subtract(r->reference[i + 1], r->reference[i], before);
+    Real strained = size(before) / l > 1 ? size(before) / l - 1 : 0;
+    add(&s->elastic, l * energy - (c > 0 ? l * strained * strained / (2 * c) : 0));
     add(&s->primal, l * energy);
     add(&s->dual, -l * (force + c * force * force / 2));
     add(&s->signed_gap, l * (mismatch + slack + turn));
@@ -136,44 +150,137 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     raise_to(&m->tension_least, -T);
 }
 
-/* friction and contact of a node; `pull` gathers the forces on it */
-static void measure_contact(const Record *r, size_t j, Triple pull, Measures *m, Sums *s) {
-    Triple n, F, u, tangential, reference;
-    widen(r->normal[j], n), widen(r->friction[j], F), widen(r->reference[j], reference);
+/* Where contact is seen from: the configuration reached, or the reference. */
+typedef struct Where {
+    const Source *source;
+    Vector *place;
+    bool reached;
+    Real reach; /* [m] largest coordinate, radius and obstacle coordinate: what rounding goes with */
+} Where;
+
+/* What a node sees of the obstacles. */
+typedef struct Seat {
+    const Surface *surface;    /* the nearest; NULL without any */
+    Triple normal, slide, own; /* own: the node's way, not less that of an obstacle that turns */
+    Real gap;                  /* what contact_gap must be */
+    Real axes[2][3];
+    bool has_axes;
+} Seat;
+
+/* The nearest obstacle; of several that are equally near, the one whose normal is on file. */
+static const Surface *nearest(const Where *where, const Record *r, size_t j, Real margin) {
+    const Source *source = where->source;
+    Real least = INFINITY, best = INFINITY;
+    Triple x, n, given;
+    widen(where->place[j], x), widen(r->normal[j], given);
+    for (size_t k = 0; k < source->surfaces; k++) least = fminl(least, surface_distance(&source->surface[k], x));
+    const Surface *found = NULL;
+    for (size_t k = 0; k < source->surfaces; k++) {
+        if (surface_distance(&source->surface[k], x) > least + margin) continue;
+        surface_normal(&source->surface[k], x, n);
+        Triple off = {n[0] - given[0], n[1] - given[1], n[2] - given[2]};
+        if (size(off) < best) best = size(off), found = &source->surface[k];
+    }
+    return found;
+}
+
+static Seat seat_of(const Where *where, const Record *r, size_t j, Real margin) {
+    Seat seat = {.surface = nearest(where, r, j, margin), .gap = INFINITY};
+    if (!seat.surface) return seat;
+    Triple x, reference, place, carried, u, along;
+    widen(r->position[j], x), widen(r->reference[j], reference), widen(where->place[j], place);
     subtract(r->position[j], r->reference[j], u);
-    Real w = r->friction_bound[j], R = r->reaction[j], gap = r->gap[j], force = size(F), has_normal = size(n);
+    surface_normal(seat.surface, place, seat.normal);
+    const Real turn = (Real)r->share * r->turn[seat.surface - where->source->surface];
+    surface_carry(seat.surface, reference, turn, carried);
+    if (turn != 0) surface_way(seat.surface, reference, x, seat.own);
+    if (where->reached) {
+        surface_way(seat.surface, carried, x, seat.slide);
+        seat.gap = surface_distance(seat.surface, x) - dot(seat.normal, u);
+    } else {
+        Triple way = {x[0] - carried[0], x[1] - carried[1], x[2] - carried[2]};
+        Real rise = dot(way, seat.normal);
+        for (int k = 0; k < 3; k++) seat.slide[k] = way[k] - rise * seat.normal[k];
+        seat.gap = fmaxl(0, surface_distance(seat.surface, reference));
+    }
+    for (int k = 0; k < 3 && turn == 0; k++) seat.own[k] = seat.slide[k];
+    subtract(where->place[j < r->elements ? j + 1 : j], where->place[j > 0 ? j - 1 : j], along);
+    seat.has_axes = surface_axes(seat.surface, seat.normal, along, seat.axes);
+    return seat;
+}
+
+/* normal, way and gap on file against those recomputed, and depth below whatever obstacle */
+static void measure_seat(const Where *where, const Record *r, size_t j, const Seat *seat, Measures *m) {
+    Triple n, slide, x, reference;
+    widen(r->normal[j], n), widen(r->slide[j], slide), widen(r->position[j], x), widen(r->reference[j], reference);
+    r->mu[j] = seat->surface ? (double)surface_friction(seat->surface) : 0;
+    for (int k = 0; k < 3; k++) n[k] -= seat->normal[k], slide[k] -= seat->slide[k];
+    bool round = seat->surface && seat->surface->kind != SURFACE_PLANE;
+    raise_to(&m->normal_error, size(n) / (1 + (round ? where->reach / seat->surface->radius : 0)));
+    raise_to(&m->slide_error, size(slide));
+    for (size_t k = 0; k < where->source->surfaces; k++) {
+        Real depth = -surface_distance(&where->source->surface[k], x);
+        raise_to(&m->depth, depth);
+        if (!held(r, j)) raise_to(&m->sunk, depth);
+    }
+    if (held(r, j) || !seat->surface) return;
+    if (isfinite(r->gap[j]))
+        raise_to(&m->gap_error, fabsl((Real)r->gap[j] - seat->gap));
+    else if (!where->source->strict)
+        m->unwatched++;
+}
+
+/* friction at a node, in the axes of its obstacle */
+static void measure_friction(const Record *r, size_t j, const Seat *seat, Measures *m, Sums *s) {
+    static const Surface none = {.mu = {1, 1}};
+    Triple F, n;
+    widen(r->friction[j], F), widen(r->normal[j], n);
+    Real w = r->friction_bound[j], force[2] = {0, 0}, way[2] = {0, 0}, phi;
+    const Surface *surface = seat->surface ? seat->surface : &none;
+    if (seat->has_axes)
+        for (int a = 0; a < 2; a++) force[a] = dot(F, seat->axes[a]), way[a] = dot(seat->slide, seat->axes[a]);
+    else /* no direction: nothing but the size can be judged */
+        surface = &none, force[0] = size(F), way[0] = force[0] > 0 ? dot(seat->slide, F) / force[0] : 0;
+    Real gap = surface_gap(surface, w, force, way, &phi);
+    add(&s->primal, phi), add(&s->scale, phi), add(&s->slid, phi);
+    add(&s->signed_gap, phi), add(&s->signed_gap, dot(F, seat->slide));
+    add(&s->gap, gap), add(&s->law, gap);
+    add(&s->bound_residual, fabsl(w - (Real)r->mu[j] * r->reaction[j]));
+    add(&s->magnitude, phi + size(F) * size(seat->slide));
+    add(&s->carried, dot(F, seat->own) - dot(F, seat->slide));
+    raise_to(&m->friction_excess, surface_excess(surface, w, force));
+    raise_to(&m->friction_normal, fabsl(dot(F, n)));
+    raise_to(&m->largest_force, size(F));
+}
+
+/* friction and contact of a node; `pull` gathers the forces on it */
+static void measure_contact(const Where *where, const Record *r, size_t j, Triple pull, Measures *m, Sums *s) {
+    Triple n, F, u, x, reference;
+    widen(r->normal[j], n), widen(r->friction[j], F), widen(r->reference[j], reference), widen(r->position[j], x);
+    subtract(r->position[j], r->reference[j], u);
+    Real R = r->reaction[j], gap = r->gap[j], force = size(F), has_normal = size(n);
     bool active = !held(r, j);
+    const Seat seat = seat_of(where, r, j, PLACE_MARGIN * total(&s->length));
+    measure_seat(where, r, j, &seat, m);
     if (R < m->reaction_least) m->reaction_least = (double)R;
     // at a held end the obstacle may share the load with the support, which needs no friction
     if (has_normal == 0) raise_to(&m->stray_force, fabsl(R));
     if (has_normal == 0 || !active) raise_to(&m->stray_force, force);
     if (!active) return;
 
-    // friction
-    Real along = dot(n, u);
-    for (int k = 0; k < 3; k++) tangential[k] = u[k] - along * n[k], pull[k] += F[k] + R * n[k];
-    Real slide = size(tangential), opposite[3] = {-F[0], -F[1], -F[2]};
-    Real spare = (w - force) * slide, turn = misalignment(opposite, tangential), off = dot(F, n) * along;
-    add(&s->primal, w * slide);
-    add(&s->scale, w * slide);
-    add(&s->signed_gap, spare + turn), add(&s->signed_gap, off);
-    add(&s->gap, fabsl(spare) + turn);
-    add(&s->law, fabsl(spare) + turn);
-    add(&s->slid, w * slide);
-    add(&s->dual, dot(F, reference) + R * dot(n, reference));
-    add(&s->magnitude, (force + R) * size(reference) + w * slide);
-    raise_to(&m->friction_excess, force - w);
-    raise_to(&m->friction_normal, fabsl(dot(F, n)));
-    raise_to(&m->largest_force, force), raise_to(&m->largest_force, R);
+    for (int k = 0; k < 3; k++) pull[k] += F[k] + R * n[k];
+    measure_friction(r, j, &seat, m, s);
+    Triple start = {x[0] - seat.slide[0], x[1] - seat.slide[1], x[2] - seat.slide[2]};
+    add(&s->dual, dot(F, start) + R * dot(n, reference));
+    add(&s->magnitude, force * size(x) + R * size(reference));
+    raise_to(&m->largest_force, R);
 
     // contact
-    if (has_normal > 0) raise_to(&m->normal_error, fabsl(has_normal - 1));
     if (isinf(gap)) {
         raise_to(&m->stray_force, fabsl(R));
-        m->watched = m->watched && has_normal == 0;
         return;
     }
-    Real distance = along + gap;
+    Real distance = dot(n, u) + gap;
     raise_to(&m->penetration, -distance);
     add(&s->signed_gap, R * distance);
     add(&s->gap, fabsl(R * distance));
@@ -182,8 +289,20 @@ static void measure_contact(const Record *r, size_t j, Triple pull, Measures *m,
     add(&s->magnitude, fabsl(R * gap));
 }
 
-static void measure_node(const Record *r, size_t j, Measures *m, Sums *s) {
+/* the weight of a node, its load less the force on a free end, times its way */
+static void measure_weight(const Record *r, size_t j, Sums *s) {
+    Triple weight, u;
+    widen(r->load[j], weight);
+    subtract(r->position[j], r->reference[j], u);
+    for (int e = 0; e < 2; e++)
+        for (int k = 0; k < 3 && j == (e ? r->elements : 0) && r->end_kind[e] == END_FREE; k++)
+            weight[k] -= r->end_value[e][k];
+    add(&s->gravity, -dot(weight, u));
+}
+
+static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull;
+    measure_weight(r, j, s);
     widen(r->load[j], b), widen(r->load[j], pull), widen(r->position[j], x);
     subtract(r->position[j], r->position[0], arm);
     for (int k = 0; k < 3; k++) {
@@ -195,7 +314,7 @@ static void measure_node(const Record *r, size_t j, Measures *m, Sums *s) {
     add(&s->scale, size(b) * size(arm));
     add(&s->magnitude, size(b) * size(x) + size(pull) * size(x));
     raise_to(&m->largest_force, size(b));
-    measure_contact(r, j, pull, m, s);
+    measure_contact(where, r, j, pull, m, s);
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one must balance
     if (held(r, j)) {
@@ -212,8 +331,9 @@ static void measure_node(const Record *r, size_t j, Measures *m, Sums *s) {
 }
 
 /* What proves that nothing can balance: distance of the ends, or the fall of the energy along a rigid motion v,
- * sum b.v - sum w |v_T|, which must not lead into the obstacle. */
-static void measure_proof(const Record *r, Measures *m) {
+ * sum b.v - sum w |v_T|, which must not lead into the obstacle. Where bounds follow the reactions, these carry the
+ * normal part of the loads and sum w is mu times it. */
+static void measure_proof(const Source *source, const Record *r, Measures *m) {
     m->ends_distance = m->rigid_fall = NAN;
     m->rigid_rise_least = INFINITY;
     if (r->end_kind[0] == END_HELD && r->end_kind[1] == END_HELD) {
@@ -224,27 +344,44 @@ static void measure_proof(const Record *r, Measures *m) {
     Triple v;
     widen(r->proof, v);
     if (size(v) == 0) return;
-    Sum fall = {0, 0};
+    Sum fall = {0, 0}, press = {0, 0};
+    Real across = 0;
     for (size_t j = 0; j < r->nodes; j++) {
         Triple b, n, tangential;
         widen(r->load[j], b), widen(r->normal[j], n);
         Real rise = dot(n, v);
         for (int k = 0; k < 3; k++) tangential[k] = v[k] - rise * n[k];
         add(&fall, dot(b, v));
-        add(&fall, -(Real)r->friction_bound[j] * size(tangential));
+        if (!source->consistent) add(&fall, -(Real)r->friction_bound[j] * size(tangential));
+        add(&press, -dot(b, n));
+        across = size(tangential);
         if (isfinite(r->gap[j]) && (double)rise < m->rigid_rise_least) m->rigid_rise_least = (double)rise;
     }
+    if (source->consistent) add(&fall, -(Real)r->mu[0] * fmaxl(0, total(&press)) * across);
     m->rigid_fall = (double)total(&fall);
 }
 
-Measures measure(const Record *r) {
-    Measures m = {.missing = missing_variable(r), .watched = true, .stretch = -INFINITY, .strain_error = -INFINITY};
+/* largest coordinate of anything: what rounding of places goes with */
+static Real reach_of(const Source *source, const Record *r) {
+    Real reach = 0;
+    for (size_t j = 0; j < r->nodes; j++)
+        for (int k = 0; k < 3; k++)
+            reach = fmaxl(reach, fmaxl(fabsl((Real)r->position[j][k]), fabsl((Real)r->reference[j][k])));
+    for (size_t k = 0; k < source->surfaces; k++)
+        reach = fmaxl(reach, size(source->surface[k].point) + source->surface[k].radius);
+    return reach;
+}
+
+Measures measure(const Source *source, const Record *r, bool reached) {
+    Measures m = {.missing = missing_variable(r), .stretch = -INFINITY, .strain_error = -INFINITY};
     m.friction_excess = m.tension_least = -INFINITY;
     Sums s = {0};
+    const Where where = {source, reached ? r->position : r->reference, reached, reach_of(source, r)};
     for (size_t i = 0; i < r->elements; i++) measure_segment(r, i, &m, &s);
-    for (size_t j = 0; j < r->nodes; j++) measure_node(r, j, &m, &s);
-    measure_proof(r, &m);
+    for (size_t j = 0; j < r->nodes; j++) measure_node(&where, r, j, &m, &s);
+    measure_proof(source, r, &m);
 
+    m.reach = (double)where.reach;
     m.length = (double)total(&s.length);
     m.primal = (double)total(&s.primal);
     m.dual = (double)total(&s.dual);
@@ -253,6 +390,9 @@ Measures measure(const Record *r) {
     m.slid = (double)total(&s.slid);
     m.law = (double)total(&s.law);
     m.contact = (double)total(&s.contact);
+    m.elastic = (double)total(&s.elastic), m.gravity = (double)total(&s.gravity);
+    m.carried = (double)total(&s.carried);
+    m.bound_residual = (double)total(&s.bound_residual);
     m.tension_least = -m.tension_least;
 
     /* primal - dual = sum of local gaps - sum over nodes of imbalance.x, an identity of the exact record;

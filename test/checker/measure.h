@@ -8,26 +8,35 @@
 #include "record.h"
 
 typedef struct Measures {
-    const char *missing;     /* the first variable with a value that cannot be (NaN, infinite, negative), or NULL */
-    double length;           /* [m] sum of the element lengths */
-    double extent;           /* [m] largest coordinate */
-    double primal, dual;     /* [J] */
-    double gap;              /* [J] sum of |local gap| over segments, friction and contact */
-    double overlong;         /* [J] part of the gap from inextensible elements longer than they may be */
-    double identity;         /* [J] primal - dual - sum of local gaps + work of the imbalance: rounding only */
-    double identity_noise;   /* [J] what rounding may leave there */
-    double scale;            /* [J] S */
-    double slid;             /* [J] sum of w |u_T| */
-    double law, contact;     /* [J] parts of the gap */
-    double force;            /* [N] largest imbalance on a node that is not held */
-    double largest_force;    /* [N] */
-    double friction_excess;  /* [N] max |F| - w */
+    const char *missing;   /* the first variable with a value that cannot be (NaN, infinite, negative), or NULL */
+    double length;         /* [m] sum of the element lengths */
+    double extent;         /* [m] largest coordinate */
+    double primal, dual;   /* [J] */
+    double gap;            /* [J] sum of |local gap| over segments, friction and contact */
+    double overlong;       /* [J] part of the gap from inextensible elements longer than they may be */
+    double identity;       /* [J] primal - dual - sum of local gaps + work of the imbalance: rounding only */
+    double identity_noise; /* [J] what rounding may leave there */
+    double scale;          /* [J] S */
+    double slid;           /* [J] sum of phi(s) */
+    double law, contact;   /* [J] parts of the gap */
+    double force;          /* [N] largest imbalance on a node that is not held */
+    double largest_force;  /* [N] */
+    double elastic,
+        gravity;           /* [J] growth of the energy of elongation and of the weight's potential from the reference */
+    double carried;        /* [J] work of friction on the way of obstacles that turn */
+    double bound_residual; /* [N] sum of |w - mu R| */
+    double friction_excess;  /* [N] how far outside its set a friction force is, at most */
     double friction_normal;  /* [N] max |F.n| */
     double reaction_least;   /* [N] */
     double stray_force;      /* [N] friction or reaction where there is no obstacle or the end is held */
     double penetration;      /* [m] max -(n.u + gap), >= 0 */
-    bool watched;            /* contact is looked for at every node that has a normal and is not held */
-    double normal_error;     /* [-] max | |n| - 1 | where there is a normal */
+    double depth;            /* [m] of the deepest node below an obstacle, watched or not, >= 0 */
+    double sunk;             /* [m] the same of nodes that are not held */
+    double reach;            /* [m] largest coordinate or radius of anything */
+    int unwatched;           /* nodes without a contact_gap that should have one */
+    double gap_error;        /* [m] max |contact_gap - what it must be| */
+    double slide_error;      /* [m] max |slide - way from the carried reference| */
+    double normal_error;     /* [-] max |n - the obstacle's|, over 1 + reach/radius on a curved one */
     double stretch;          /* [-] max |e| - 1 over inextensible elements */
     double strain_error;     /* [-] max |e| - 1 - c T beyond rounding: the tension must carry the elongation */
     double tension_least;    /* [N] */
@@ -39,6 +48,7 @@ typedef struct Measures {
     double rigid_rise_least; /* [-] min n.proof over nodes that may touch */
 } Measures;
 
-Measures measure(const Record *record);
+/* reached: contact is seen from the configuration reached, else from the reference. Sets record->mu. */
+Measures measure(const Source *source, const Record *record, bool reached);
 
 #endif

@@ -8,13 +8,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const CLAIM_NAME[CLAIMS] = {
-    "primal",           "dual",           "gap",           "scale",        "tension_bound",
-    "tension_estimate", "force_residual", "largest_force", "law_residual", "contact_residual",
-    "stretch_residual", "penetration"};
+const char *const CLAIM_NAME[CLAIMS] = {"primal",
+                                        "dual",
+                                        "gap",
+                                        "scale",
+                                        "tension_bound",
+                                        "tension_estimate",
+                                        "force_residual",
+                                        "largest_force",
+                                        "law_residual",
+                                        "contact_residual",
+                                        "friction_residual",
+                                        "stretch_residual",
+                                        "penetration"};
 
 /* more than any result of this project holds; keeps sizes far from overflow */
-enum { MAX_NODES = 20000000, MAX_LINES = 100000, MAX_NAME = 256, MAX_RANK = 3 };
+enum { MAX_NODES = 20000000, MAX_LINES = 100000, MAX_SURFACES = 100000, MAX_NAME = 256, MAX_RANK = 3 };
 
 static int complain(FILE *log, const char *what, const char *name, int status) {
     if (log) {
@@ -41,6 +50,76 @@ static int split_names(char *text, Source *source, FILE *log) {
     return 0;
 }
 
+/* Is a global attribute this word? */
+static bool attribute_is(const Source *source, const char *name, const char *word) {
+    char text[32] = "";
+    size_t length = 0;
+    if (nc_inq_attlen(source->nc, NC_GLOBAL, name, &length) == NC_NOERR && length < sizeof text)
+        nc_get_att_text(source->nc, NC_GLOBAL, name, text);
+    return strcmp(text, word) == 0;
+}
+
+static bool first_step_is_laid(const Source *source) {
+    char name[5] = "";
+    int id, rank = 0;
+    const size_t start[2] = {0}, count[2] = {1, sizeof name};
+    if (source->steps == 0 || nc_inq_varid(source->nc, "step_name", &id) != NC_NOERR) return false;
+    if (nc_inq_varndims(source->nc, id, &rank) != NC_NOERR || rank != 2) return false;
+    return nc_get_vara_text(source->nc, id, start, count, name) == NC_NOERR && memcmp(name, "laid", 5) == 0;
+}
+
+/* numbers of one variable of the obstacles, `columns` for each, into surface by surface */
+static int read_surface_numbers(const Source *source, const char *name, size_t columns, size_t k, double *value,
+                                FILE *log) {
+    int id, rank = 0, dimension[2];
+    size_t length[2] = {0, 0}, start[2] = {k, 0}, count[2] = {1, columns};
+    int status = nc_inq_varid(source->nc, name, &id);
+    if (!status) status = nc_inq_varndims(source->nc, id, &rank);
+    if (status || rank != 1 + (columns > 1)) return complain(log, "missing or misshapen variable", name, status);
+    status = nc_inq_vardimid(source->nc, id, dimension);
+    for (int d = 0; d < rank && !status; d++) status = nc_inq_dimlen(source->nc, dimension[d], &length[d]);
+    if (status || length[0] != source->surfaces || (rank == 2 && length[1] != columns))
+        return complain(log, "wrong shape of variable", name, status);
+    status = nc_get_vara_double(source->nc, id, start, count, value);
+    for (size_t i = 0; i < columns; i++) status = isfinite(value[i]) ? status : NC_ERANGE;
+    return status ? complain(log, "cannot read variable", name, status) : 0;
+}
+
+static int read_surface(const Source *source, size_t k, Surface *out, FILE *log) {
+    double kind, shape, radius, mu[2], point[3], axis[3], grain[3];
+    int bad = read_surface_numbers(source, "obstacle_kind", 1, k, &kind, log);
+    bad |= read_surface_numbers(source, "obstacle_point", 3, k, point, log);
+    bad |= read_surface_numbers(source, "obstacle_axis", 3, k, axis, log);
+    bad |= read_surface_numbers(source, "obstacle_radius", 1, k, &radius, log);
+    bad |= read_surface_numbers(source, "obstacle_axial", 1, k, &mu[0], log);
+    bad |= read_surface_numbers(source, "obstacle_lateral", 1, k, &mu[1], log);
+    bad |= read_surface_numbers(source, "obstacle_shape", 1, k, &shape, log);
+    bad |= read_surface_numbers(source, "obstacle_grain", 3, k, grain, log);
+    if (bad) return -1;
+    Real length = hypotl(hypotl(axis[0], axis[1]), axis[2]);
+    if (!(kind >= 0 && kind < SURFACE_KINDS) || !(shape == 0 || shape == 1) || !(mu[0] >= 0 && mu[1] >= 0) ||
+        !(length > 0) || (kind > SURFACE_PLANE && !(radius > 0)))
+        return complain(log, "senseless obstacle in", "obstacle_kind and the like", 0);
+    *out = (Surface){.kind = (int)kind, .box = shape == 1, .radius = radius, .mu = {mu[0], mu[1]}};
+    for (int i = 0; i < 3; i++) out->point[i] = point[i], out->axis[i] = axis[i] / length, out->grain[i] = grain[i];
+    out->grained = grain[0] != 0 || grain[1] != 0 || grain[2] != 0;
+    return 0;
+}
+
+/* The obstacles; a file without the dimension has none. */
+static int read_surfaces(Source *source, FILE *log) {
+    int dimension;
+    if (nc_inq_dimid(source->nc, "obstacle", &dimension) != NC_NOERR) return 0;
+    int status = nc_inq_dimlen(source->nc, dimension, &source->surfaces);
+    if (status || source->surfaces > MAX_SURFACES) return complain(log, "senseless dimension", "obstacle", status);
+    source->surface = calloc(source->surfaces + 1, sizeof *source->surface);
+    if (!source->surface) return complain(log, "out of memory for", "obstacle", 0);
+    for (size_t k = 0; k < source->surfaces; k++)
+        if (read_surface(source, k, &source->surface[k], log)) return -1;
+    source->follows = source->surfaces > 1 || (source->surfaces == 1 && surface_follows(source->surface));
+    return 0;
+}
+
 int source_open(const char *path, Source *source, FILE *log) {
     *source = (Source){.nc = -1};
     int status = nc_open(path, NC_NOWRITE, &source->nc), dimension;
@@ -53,11 +132,10 @@ int source_open(const char *path, Source *source, FILE *log) {
     if (status) return complain(log, "cannot read dimension", "step", status);
     status = nc_get_att_double(source->nc, NC_GLOBAL, "tolerance", &source->tolerance);
     if (status) return complain(log, "cannot read attribute", "tolerance", status);
-    char friction[32] = "";
-    size_t length = 0;
-    if (nc_inq_attlen(source->nc, NC_GLOBAL, "friction", &length) == NC_NOERR && length < sizeof friction)
-        nc_get_att_text(source->nc, NC_GLOBAL, "friction", friction);
-    source->consistent = strcmp(friction, "consistent") == 0;
+    source->consistent = attribute_is(source, "friction", "consistent");
+    source->strict = attribute_is(source, "contact", "strict");
+    source->laid = first_step_is_laid(source);
+    if (read_surfaces(source, log)) return -1;
 
     size_t bytes;
     status = nc_inq_attlen(source->nc, NC_GLOBAL, "lines", &bytes);
@@ -75,6 +153,7 @@ int source_open(const char *path, Source *source, FILE *log) {
 void source_close(Source *source) {
     for (size_t i = 0; i < source->lines; i++) free(source->line_name[i]);
     free(source->line_name);
+    free(source->surface);
     if (source->line_name || source->nc >= 0) nc_close(source->nc);
     *source = (Source){.nc = -1};
 }
@@ -135,11 +214,11 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (record->nodes != record->elements + 1) return complain(log, "nodes are not elements + 1 in line", line, 0);
 
     size_t n = record->nodes;
-    Vector **vectors[] = {&record->reference, &record->position, &record->load,
-                          &record->normal,    &record->friction, &record->segment_force};
-    double **scalars[] = {&record->element_length, &record->gap, &record->friction_bound, &record->reaction,
-                          &record->tension};
-    int missing = 0;
+    Vector **vectors[] = {&record->reference, &record->position, &record->load,         &record->normal,
+                          &record->friction,  &record->slide,    &record->segment_force};
+    double **scalars[] = {&record->element_length, &record->gap,     &record->friction_bound,
+                          &record->reaction,       &record->tension, &record->mu};
+    int missing = (record->turn = calloc(source->surfaces + 1, sizeof(double))) == NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
         missing |= (*vectors[k] = calloc(n, sizeof(Vector))) == NULL;
     }
@@ -155,24 +234,33 @@ void record_destroy(Record *record) {
     free(record->reference), free(record->position), free(record->load);
     free(record->normal), free(record->friction), free(record->segment_force);
     free(record->element_length), free(record->gap), free(record->friction_bound);
-    free(record->reaction), free(record->tension);
+    free(record->reaction), free(record->tension), free(record->slide);
+    free(record->turn), free(record->mu);
     *record = (Record){0};
 }
 
 /* numbers that stand alone in a step */
 static int read_scalars(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
-    double outcome, iterations, kind[2];
+    double outcome, iterations, parts, kind[2];
     int bad = read_step(source, line, "outcome", step, 0, 0, &outcome, log);
     bad |= read_step(source, line, "iterations", step, 0, 0, &iterations, log);
+    bad |= read_step(source, line, "parts", step, 0, 0, &parts, log);
+    bad |= read_step(source, line, "share", step, 0, 0, &record->share, log);
     bad |= read_step(source, line, "end_kind", step, 2, 0, kind, log);
     bad |= read_step(source, line, "end_value", step, 2, 3, record->end_value[0], log);
     bad |= read_step(source, line, "dissipated", step, 0, 0, &record->dissipated, log);
     bad |= read_step(source, line, "proof", step, 3, 0, record->proof, log);
     bad |= read_step(source, line, "proof_value", step, 0, 0, &record->proof_value, log);
+    static const char *const ENTRY[LEDGER_ENTRIES] = {"ledger_ends", "ledger_obstacles", "ledger_elastic",
+                                                      "ledger_gravity", "ledger_imbalance"};
+    for (int k = 0; k < LEDGER_ENTRIES; k++)
+        bad |= read_step(source, line, ENTRY[k], step, 0, 0, &record->ledger[k], log);
     for (int k = 0; k < CLAIMS; k++) bad |= read_step(source, line, CLAIM_NAME[k], step, 0, 0, &record->claim[k], log);
     if (bad) return -1;
 
     if (!(outcome >= 0 && outcome < OUTCOMES)) return complain(log, "unknown outcome in line", line, 0);
+    if (!(parts >= 1 && parts < 1e9)) return complain(log, "senseless number of parts in line", line, 0);
+    if (!(record->share > 0 && record->share <= 1)) return complain(log, "senseless share of a step in line", line, 0);
     if (!(fabs(iterations) < 1e9)) return complain(log, "senseless number of iterations in line", line, 0);
     for (int e = 0; e < 2; e++) {
         if (kind[e] != END_HELD && kind[e] != END_FREE) return complain(log, "unknown kind of end in line", line, 0);
@@ -180,6 +268,7 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     }
     record->outcome = (int)outcome;
     record->iterations = (int)iterations;
+    record->parts = (int)parts;
     return 0;
 }
 
@@ -190,6 +279,9 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_step(source, line, "load", step, n, 3, record->load[0], log);
     bad |= read_step(source, line, "normal", step, n, 3, record->normal[0], log);
     bad |= read_step(source, line, "friction", step, n, 3, record->friction[0], log);
+    bad |= read_step(source, line, "slide", step, n, 3, record->slide[0], log);
+    if (source->surfaces > 0)
+        bad |= read_step(source, "obstacle", "turn", step, source->surfaces, 0, record->turn, log);
     bad |= read_step(source, line, "segment_force", step, elements, 3, record->segment_force[0], log);
     bad |= read_step(source, line, "contact_gap", step, n, 0, record->gap, log);
     bad |= read_step(source, line, "friction_bound", step, n, 0, record->friction_bound, log);

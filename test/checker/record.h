@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "surface.h"
+
 /* flag values of the file, by docs/formats.md */
 enum { OUTCOME_SOLVED, OUTCOME_TAUT, OUTCOME_STALLED, OUTCOME_LIMIT, OUTCOME_UNBOUNDED, OUTCOME_INFEASIBLE, OUTCOMES };
 enum { END_HELD, END_FREE };
@@ -23,11 +25,15 @@ enum {
     CLAIM_LARGEST_FORCE,
     CLAIM_LAW_RESIDUAL,
     CLAIM_CONTACT_RESIDUAL,
+    CLAIM_FRICTION_RESIDUAL,
     CLAIM_STRETCH_RESIDUAL,
     CLAIM_PENETRATION,
     CLAIMS
 };
 extern const char *const CLAIM_NAME[CLAIMS];
+
+/* where the energy of a step went, by the file: ends + obstacles = elastic + gravity + dissipated + imbalance */
+enum { LEDGER_ENDS, LEDGER_OBSTACLES, LEDGER_ELASTIC, LEDGER_GRAVITY, LEDGER_IMBALANCE, LEDGER_ENTRIES };
 
 typedef double Vector[3];
 
@@ -35,11 +41,15 @@ typedef double Vector[3];
 typedef struct Record {
     size_t nodes, elements;
     double *element_length, compliance;
-    Vector *reference, *position, *load, *normal, *friction, *segment_force;
+    Vector *reference, *position, *load, *normal, *friction, *slide, *segment_force;
+    double *turn; /* of each obstacle in the step [rad] */
+    double *mu;   /* not read: the larger coefficient of the obstacle that a node is nearest to, by measure.h */
     double *gap, *friction_bound, *reaction, *tension;
     int end_kind[2], outcome, iterations;
+    int parts;    /* that the step was taken in; the arrays are those of the last one, */
+    double share; /* which is so much of the step */
     Vector end_value[2], proof;
-    double proof_value, claim[CLAIMS], dissipated;
+    double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES];
 } Record;
 
 /* An open file: its lines and how many steps they have. */
@@ -49,6 +59,11 @@ typedef struct Source {
     char **line_name;
     double tolerance;
     bool consistent; /* friction bounds follow the reactions of the same step */
+    bool strict;     /* only what touches at the reference is kept out */
+    bool laid;       /* the first step is statics without friction, of the lines laid */
+    bool follows;    /* normals are those of where the nodes end up: not one plane with one coefficient */
+    size_t surfaces;
+    Surface *surface;
 } Source;
 
 /* All return 0, or -1 after one sentence on log. */

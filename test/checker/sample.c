@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writer of the sample file: the layout of docs/formats.md, reduced to what the checker reads. */
+/* Writer of the sample files: the layout of docs/results.md, reduced to what the checker reads. */
 #include "sample.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ typedef struct SampleLine {
     double compliance;
     double move[NODES], load[NODES], friction[NODES], segment[ELEMENTS], tension[ELEMENTS]; /* components along x */
     double end_b, proof, proof_value;
-    double claim[12];
+    double claim[13];
 } SampleLine;
 
 static const double C = 1.0 / 1024;
@@ -26,7 +26,7 @@ static const double C = 1.0 / 1024;
 static void drag_claims(double *claim) {
     double tip = hypot(10, 4), primal = 40 * C + 40 * C - 10 * (4 + 12 * C);
     double scale = 12 + 80 * C + 40 * C + 8 + 16 + 8 * (3 + 4 * C) + tip * (4 + 12 * C);
-    double values[12] = {primal, primal, 0, scale, 0, 0, 0, tip, 0, 0, 0, 0};
+    double values[13] = {primal, primal, 0, scale, 0, 0, 0, tip, 0, 0, 0, 0, 0};
     memcpy(claim, values, sizeof values);
 }
 
@@ -86,6 +86,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     n++;
     field[n++] = vectors("normal", NODES, NULL, 1);
     field[n++] = vectors("friction", NODES, line->friction, 0);
+    field[n++] = vectors("slide", NODES, again ? NULL : line->move, 0);
     field[n++] = vectors("segment_force", ELEMENTS, line->segment, 0);
     field[n++] = constant("contact_gap", NODES, 0, 0);
     field[n++] = constant("friction_bound", NODES, 4, 2);
@@ -96,49 +97,64 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     memcpy(field[n++].value, line->tension, sizeof line->tension);
     field[n++] = scalar("outcome", line->outcome);
     field[n++] = scalar("iterations", 1);
+    field[n++] = scalar("parts", 1);
+    field[n++] = scalar("share", 1);
     field[n++] = (Field){"end_kind", 2, 0, {line->end_kind[0], line->end_kind[1]}};
     field[n++] = (Field){"end_value", 2, 3, {0, 0, 0, line->end_b, 0, 0}};
     field[n++] = scalar("dissipated", again ? 0 : work);
+    // the pull of 10 N on its way of 12 C, of which half is too much for a step that begins without it
+    const double pull = again || line->compliance == 0 ? 0 : 120 * C;
+    field[n++] = scalar("ledger_ends", pull), field[n++] = scalar("ledger_obstacles", 0);
+    field[n++] = scalar("ledger_elastic", pull / 3), field[n++] = scalar("ledger_gravity", 0);
+    field[n++] = scalar("ledger_imbalance", pull / 3);
     field[n++] = (Field){"proof", 3, 0, {line->proof, 0, 0}};
     field[n++] = scalar("proof_value", line->proof_value);
-    static const char *const CLAIM[] = {
-        "primal",           "dual",           "gap",           "scale",        "tension_bound",
-        "tension_estimate", "force_residual", "largest_force", "law_residual", "contact_residual",
-        "stretch_residual", "penetration"};
-    for (int k = 0; k < 12; k++) {
+    static const char *const CLAIM[] = {"primal",
+                                        "dual",
+                                        "gap",
+                                        "scale",
+                                        "tension_bound",
+                                        "tension_estimate",
+                                        "force_residual",
+                                        "largest_force",
+                                        "law_residual",
+                                        "contact_residual",
+                                        "friction_residual",
+                                        "stretch_residual",
+                                        "penetration"};
+    for (int k = 0; k < 13; k++) {
         int follows = k == 0 || k == 1 || k == 3; // primal, dual and scale
         field[n++] = scalar(CLAIM[k], line->claim[k] - (again && follows ? work : 0));
     }
     return n;
 }
 
-static int write_line(int nc, int step, int xyz, int end, const SampleLine *line) {
-    Field field[MAX_FIELDS];
-    size_t count = describe(line, 0, field);
+/* A line of four elements from its fields in two steps, first[] and second[]. */
+static int write_line(int nc, const int dims[3], const char *line, const double *lengths, double compliance,
+                      const Field *first, const Field *second, size_t count) {
     char name[128];
-    int node, element, id[MAX_FIELDS], length, compliance, status = nc_redef(nc);
+    int node, element, id[MAX_FIELDS], length, soft, status = nc_redef(nc);
     (void)status; // a file just created is in define mode already
-    snprintf(name, sizeof name, "%s_node", line->name);
+    snprintf(name, sizeof name, "%s_node", line);
     status = nc_def_dim(nc, name, NODES, &node);
-    snprintf(name, sizeof name, "%s_element", line->name);
+    snprintf(name, sizeof name, "%s_element", line);
     if (!status) status = nc_def_dim(nc, name, ELEMENTS, &element);
-    snprintf(name, sizeof name, "%s_element_length", line->name);
+    snprintf(name, sizeof name, "%s_element_length", line);
     if (!status) status = nc_def_var(nc, name, NC_DOUBLE, 1, &element, &length);
-    snprintf(name, sizeof name, "%s_compliance", line->name);
-    if (!status) status = nc_def_var(nc, name, NC_DOUBLE, 0, NULL, &compliance);
+    snprintf(name, sizeof name, "%s_compliance", line);
+    if (!status) status = nc_def_var(nc, name, NC_DOUBLE, 0, NULL, &soft);
     for (size_t k = 0; k < count && !status; k++) {
-        size_t rows = field[k].rows;
-        int row = rows == NODES ? node : rows == ELEMENTS ? element : rows == 2 ? end : xyz;
-        int dimension[3] = {step, row, xyz}, rank = 1 + (rows > 0) + (field[k].columns > 0);
-        snprintf(name, sizeof name, "%s_%s", line->name, field[k].name);
+        size_t rows = first[k].rows;
+        int row = rows == NODES ? node : rows == ELEMENTS ? element : rows == 2 ? dims[2] : dims[1];
+        int dimension[3] = {dims[0], row, dims[1]}, rank = 1 + (rows > 0) + (first[k].columns > 0);
+        snprintf(name, sizeof name, "%s_%s", line, first[k].name);
         status = nc_def_var(nc, name, NC_DOUBLE, rank, dimension, &id[k]);
     }
     if (!status) status = nc_enddef(nc);
-    const double ones[ELEMENTS] = {1, 1, 1, 1};
-    if (!status) status = nc_put_var_double(nc, length, ones);
-    if (!status) status = nc_put_var_double(nc, compliance, &line->compliance);
+    if (!status) status = nc_put_var_double(nc, length, lengths);
+    if (!status) status = nc_put_var_double(nc, soft, &compliance);
     for (int again = 0; again < 2 && !status; again++) {
-        describe(line, again, field);
+        const Field *field = again ? second : first;
         for (size_t k = 0; k < count && !status; k++) {
             size_t start[3] = {(size_t)again}, extent[3] = {1, field[k].rows, field[k].columns};
             status = nc_put_vara_double(nc, id[k], start, extent, field[k].value);
@@ -147,19 +163,170 @@ static int write_line(int nc, int step, int xyz, int end, const SampleLine *line
     return status;
 }
 
+/* An obstacle: kind, point, axis, radius, axial and lateral coefficients, and by how much it turns in each step. */
+typedef struct Bed {
+    double kind, point[3], axis[3], radius, axial, lateral, turn;
+} Bed;
+
+static int write_bed(int nc, const int dims[3], const Bed *bed) {
+    const double none[3] = {0, 0, 0};
+    const struct {
+        const char *name;
+        size_t columns;
+        const double *value;
+    } number[] = {{"kind", 1, &bed->kind},     {"point", 3, bed->point},  {"axis", 3, bed->axis},
+                  {"radius", 1, &bed->radius}, {"axial", 1, &bed->axial}, {"lateral", 1, &bed->lateral},
+                  {"shape", 1, none},          {"grain", 3, none}};
+    enum { COUNT = sizeof number / sizeof *number };
+    int obstacle, turn, id[COUNT], status = nc_def_dim(nc, "obstacle", 1, &obstacle);
+    char name[64];
+    const int shape[2] = {obstacle, dims[1]}, turned[2] = {dims[0], obstacle};
+    for (int k = 0; k < COUNT && !status; k++) {
+        snprintf(name, sizeof name, "obstacle_%s", number[k].name);
+        status = nc_def_var(nc, name, NC_DOUBLE, 1 + (number[k].columns > 1), shape, &id[k]);
+    }
+    if (!status) status = nc_def_var(nc, "obstacle_turn", NC_DOUBLE, 2, turned, &turn);
+    if (!status) status = nc_enddef(nc);
+    for (int k = 0; k < COUNT && !status; k++) status = nc_put_var_double(nc, id[k], number[k].value);
+    const size_t start[2] = {0, 0}, count[2] = {2, 1};
+    const double turns[2] = {bed->turn, bed->turn};
+    return status ? status : nc_put_vara_double(nc, turn, start, count, turns);
+}
+
+/* dims: step, xyz, end */
+static int begin_file(const char *path, const char *names, const char *friction, int *nc, int dims[3]) {
+    const double tolerance = 1e-8;
+    int status = nc_create(path, NC_CLOBBER | NC_64BIT_OFFSET, nc);
+    if (status) return status;
+    status = nc_def_dim(*nc, "step", NC_UNLIMITED, &dims[0]);
+    if (!status) status = nc_def_dim(*nc, "xyz", 3, &dims[1]);
+    if (!status) status = nc_def_dim(*nc, "end", 2, &dims[2]);
+    if (!status) status = nc_put_att_text(*nc, NC_GLOBAL, "lines", strlen(names), names);
+    if (!status) status = nc_put_att_text(*nc, NC_GLOBAL, "friction", strlen(friction), friction);
+    if (!status) status = nc_put_att_double(*nc, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &tolerance);
+    return status;
+}
+
 int sample_write(const char *path) {
+    static const double ONES[ELEMENTS] = {1, 1, 1, 1};
+    static const Bed BED = {.axis = {0, 0, 2}, .axial = 0.5, .lateral = 0.5};
     SampleLine line[4];
     fill(line);
-    const char *names = "drag tight far loose";
-    const double tolerance = 1e-8;
-    int nc, step, xyz, end, status = nc_create(path, NC_CLOBBER | NC_64BIT_OFFSET, &nc);
+    int nc, dims[3], status = begin_file(path, "drag tight far loose", "frozen", &nc, dims);
     if (status) return status;
-    status = nc_def_dim(nc, "step", NC_UNLIMITED, &step);
-    if (!status) status = nc_def_dim(nc, "xyz", 3, &xyz);
-    if (!status) status = nc_def_dim(nc, "end", 2, &end);
-    if (!status) status = nc_put_att_text(nc, NC_GLOBAL, "lines", strlen(names), names);
-    if (!status) status = nc_put_att_double(nc, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &tolerance);
-    for (int i = 0; i < 4 && !status; i++) status = write_line(nc, step, xyz, end, &line[i]);
+    status = write_bed(nc, dims, &BED);
+    for (int i = 0; i < 4 && !status; i++) {
+        Field field[2][MAX_FIELDS];
+        size_t count = describe(&line[i], 0, field[0]);
+        describe(&line[i], 1, field[1]);
+        status = write_line(nc, dims, line[i].name, ONES, line[i].compliance, field[0], field[1], count);
+    }
+    int closed = nc_close(nc);
+    return status ? status : closed;
+}
+
+/* ---- the drum ---- */
+
+/* Nodes every DELTA along a drum of radius 1 that lies along y; the line is at rest and the drum turns back under it by
+ * SLIP. It slips everywhere, so T grows from element to element by (cos + mu sin)/(cos - mu sin) of DELTA/2, the exact
+ * law of equal angles. */
+static const double DELTA = 0.25, SLIP = 0.125, MU = 0.5;
+static const double CENTER[3] = {0.5, 0.75, 0.25};
+
+typedef struct Wound {
+    double tension[ELEMENTS], length[ELEMENTS], place[3 * NODES], normal[3 * NODES], chord[3 * ELEMENTS],
+        slide[3 * NODES];
+} Wound;
+
+/* direction at an angle from z towards x, the sense of a turn about y */
+static void spoke(double angle, double *out) { out[0] = sin(angle), out[1] = 0, out[2] = cos(angle); }
+
+static Wound wind(void) {
+    Wound w = {.tension = {8}};
+    const double c = cos(DELTA / 2), s = sin(DELTA / 2);
+    for (int i = 0; i < ELEMENTS; i++) {
+        if (i > 0) w.tension[i] = w.tension[i - 1] * (c + MU * s) / (c - MU * s);
+        w.length[i] = 2 * s / (1 + C * w.tension[i]);
+        spoke((i + 0.5) * DELTA + 1.57079632679489661923, &w.chord[3 * i]);
+    }
+    for (int j = 0; j < NODES; j++) {
+        spoke(j * DELTA, &w.normal[3 * j]);
+        spoke(j * DELTA + 1.57079632679489661923, &w.slide[3 * j]);
+        for (int k = 0; k < 3; k++)
+            w.slide[3 * j + k] *= SLIP, w.place[3 * j + k] = CENTER[k] * (k != 1) + w.normal[3 * j + k];
+    }
+    return w;
+}
+
+static Field *of_nodes(Field *field, const char *name, const double *value) {
+    *field = (Field){name, NODES, 3, {0}};
+    if (value) memcpy(field->value, value, sizeof field->value);
+    return field;
+}
+
+/* energies by hand: elongation, friction over SLIP, and the pull at B */
+static size_t describe_wound(const Wound *w, Field *field) {
+    size_t n = 0;
+    const double c = cos(DELTA / 2), s = sin(DELTA / 2), *T = w->tension;
+    of_nodes(&field[n++], "reference", w->place), of_nodes(&field[n++], "position", w->place);
+    of_nodes(&field[n++], "normal", w->normal), of_nodes(&field[n++], "slide", w->slide);
+    Field *load = of_nodes(&field[n++], "load", NULL), *friction = of_nodes(&field[n++], "friction", NULL);
+    field[n] = (Field){"segment_force", ELEMENTS, 3, {0}};
+    Field *segment = &field[n++];
+    field[n++] = constant("contact_gap", NODES, 0, 0);
+    field[n] = constant("friction_bound", NODES, 0, 0);
+    Field *bound = &field[n++];
+    field[n] = constant("reaction", NODES, 0, 0);
+    Field *reaction = &field[n++];
+    field[n] = constant("tension", ELEMENTS, 0, 0);
+    memcpy(field[n++].value, T, sizeof w->tension);
+    double primal = 0, scale = 0, work = 0, far[3], largest = T[ELEMENTS - 1];
+    for (int i = 0; i < ELEMENTS; i++) {
+        for (int k = 0; k < 3; k++) segment->value[3 * i + k] = T[i] * w->chord[3 * i + k];
+        primal += w->length[i] * C * T[i] * T[i] / 2;
+        scale += w->length[i] * (T[i] + C * T[i] * T[i]);
+    }
+    for (int j = 1; j < ELEMENTS; j++) {
+        reaction->value[j] = (T[j] + T[j - 1]) * s;
+        bound->value[j] = MU * reaction->value[j];
+        for (int k = 0; k < 3; k++) friction->value[3 * j + k] = -(T[j] - T[j - 1]) * c / SLIP * w->slide[3 * j + k];
+        work += SLIP * bound->value[j];
+    }
+    for (int k = 0; k < 3; k++) {
+        load->value[3 * ELEMENTS + k] = largest * w->chord[3 * (ELEMENTS - 1) + k];
+        primal -= load->value[3 * ELEMENTS + k] * w->place[3 * ELEMENTS + k];
+        far[k] = w->place[3 * ELEMENTS + k] - w->place[k];
+    }
+    primal += work, scale += work + largest * hypot(hypot(far[0], far[1]), far[2]);
+    field[n++] = scalar("outcome", 0), field[n++] = scalar("iterations", 1);
+    field[n++] = scalar("parts", 1), field[n++] = scalar("share", 1);
+    field[n++] = (Field){"end_kind", 2, 0, {0, 1}};
+    field[n] = (Field){"end_value", 2, 3, {w->place[0], w->place[1], w->place[2]}};
+    for (int k = 0; k < 3; k++) field[n].value[3 + k] = load->value[3 * ELEMENTS + k];
+    n++;
+    field[n++] = scalar("dissipated", work), field[n++] = (Field){"proof", 3, 0, {0}},
+    field[n++] = scalar("proof_value", 0);
+    field[n++] = scalar("ledger_obstacles", work); // which is all dissipated
+    static const char *const NONE[] = {"ledger_ends",  "ledger_elastic",   "ledger_gravity",    "ledger_imbalance",
+                                       "gap",          "tension_bound",    "tension_estimate",  "force_residual",
+                                       "law_residual", "contact_residual", "friction_residual", "stretch_residual",
+                                       "penetration"};
+    for (size_t k = 0; k < sizeof NONE / sizeof *NONE; k++) field[n++] = scalar(NONE[k], 0);
+    field[n++] = scalar("primal", primal), field[n++] = scalar("dual", primal);
+    field[n++] = scalar("scale", scale), field[n++] = scalar("largest_force", largest);
+    return n;
+}
+
+int sample_write_drum(const char *path) {
+    Bed drum = {.kind = 1, .axis = {0, 3, 0}, .radius = 1, .axial = MU, .lateral = MU / 2, .turn = -SLIP};
+    memcpy(drum.point, CENTER, sizeof drum.point);
+    const Wound w = wind();
+    Field field[MAX_FIELDS];
+    size_t count = describe_wound(&w, field);
+    int nc, dims[3], status = begin_file(path, "wound", "consistent", &nc, dims);
+    if (status) return status;
+    status = write_bed(nc, dims, &drum);
+    if (!status) status = write_line(nc, dims, "wound", w.length, C, field, field, count);
     int closed = nc_close(nc);
     return status ? status : closed;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A result file with known exact contents, to try the checker on. */
+/* Result files with known contents, to try the checker on. */
 #ifndef CAPSTAN_CHECKER_SAMPLE_H
 #define CAPSTAN_CHECKER_SAMPLE_H
 
@@ -12,6 +12,10 @@
  *   loose  both ends free, pulled harder than the bed holds it: unbounded
  * Returns 0 or a netCDF error. */
 int sample_write(const char *path);
+
+/* Two equal steps of one line, "wound" on a drum that turns back under it, slipping everywhere, with consistent
+ * friction: axial coefficient 1/2, lateral 1/4. Every number to rounding. */
+int sample_write_drum(const char *path);
 
 /* Overwrite one number: component `index` (flat; beyond the first step's: in the second) of a variable. */
 int sample_poke(const char *path, const char *variable, size_t index, double value);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The checker must accept an exact solution and refuse it when any one number is changed. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 #include "check.h"
 #include "checker.h"
 #include "sample.h"
+#include "surface.h"
 
 static char path[] = "capstan-checker-XXXXXX";
 
@@ -57,7 +59,7 @@ static const Tamper TAMPER[] = {
     {"drag_friction_bound", 4, 2.1, "sum of local gaps"},
     {"drag_contact_gap", 1, INFINITY, "force without an obstacle"},
     {"drag_contact_gap", 1, 0.5, "sum of local gaps"},
-    {"drag_normal", 5, 0.999, "length of the normal"},
+    {"drag_normal", 5, 0.999, "normal against the obstacle's"},
     // admissible configuration
     {"drag_position", 12, 4.02, "sum of local gaps"},
     {"drag_position", 8, -1e-6, "depth below the obstacle"},
@@ -85,6 +87,9 @@ static const Tamper TAMPER[] = {
     {"drag_contact_residual", 0, 1e-6, "claimed contact_residual"},
     {"drag_penetration", 0, 1e-6, "claimed penetration"},
     {"drag_dissipated", 0, 0, "claimed dissipated"},
+    {"drag_ledger_ends", 0, 0, "ledger: ends + obstacles"},
+    {"drag_ledger_elastic", 0, 0, "claimed ledger_elastic"},
+    {"drag_ledger_gravity", 0, 1, "claimed ledger_gravity"},
     {"drag_outcome", 0, 3, "not certified, as the file says"},
     // numbers that are none
     {"drag_position", 4, NAN, "position holds a value that cannot be"},
@@ -107,24 +112,107 @@ static const Tamper TAMPER[] = {
     {"loose_end_kind", 0, 0, "unbounded, but an end is held"},
 };
 
-static void every_change_is_refuted(void **state) {
-    (void)state;
-    for (size_t i = 0; i < sizeof TAMPER / sizeof *TAMPER; i++) {
-        CHECK_INT(sample_write(path), 0);
-        CHECK_INT(sample_poke(path, TAMPER[i].variable, TAMPER[i].index, TAMPER[i].value), 0);
+/* the same on the drum; node 2 is at half a radian from the top */
+static const Tamper DRUM_TAMPER[] = {
+    {"wound_normal", 6, 0.4, "normal against the obstacle's"},
+    {"wound_slide", 7, 1e-9, "slide against the way"},
+    {"wound_slide", 15 + 7, 1e-9, "slide against the way"},
+    {"wound_contact_gap", 2, 1e-9, "contact_gap against the distance"},
+    {"wound_contact_gap", 2, INFINITY, "nodes with no contact looked for"},
+    {"wound_friction", 7, 1, "friction above its bound"},
+    {"wound_friction_bound", 2, 1.7, "friction bound"},
+    {"wound_reaction", 2, 3.4, "imbalance of forces"},
+    {"wound_position", 6, 0.98, "sum of local gaps"},
+    {"wound_position", 8, 1.12, "depth below the obstacle"},
+    {"wound_share", 0, 0.5, "slide against the way"},
+    {"wound_parts", 0, 0, "senseless number of parts"},
+    {"wound_friction_residual", 0, 1e-6, "claimed friction_residual"},
+    {"wound_dissipated", 1, 0, "claimed dissipated"},
+    {"wound_ledger_obstacles", 1, 0, "claimed ledger_obstacles"},
+    {"wound_penetration", 0, 1e-6, "claimed penetration"},
+    {"obstacle_turn", 1, -0.2, "slide against the way"},
+    {"obstacle_kind", 0, 2, "normal against the obstacle's"},
+    {"obstacle_kind", 0, 0, "normal against the obstacle's"},
+    {"obstacle_kind", 0, 3, "senseless obstacle"},
+    {"obstacle_point", 0, 0.6, "normal against the obstacle's"},
+    {"obstacle_axis", 0, 0.1, "normal against the obstacle's"},
+    {"obstacle_radius", 0, 1.001, "depth below an obstacle"},
+    {"obstacle_radius", 0, 0.999, "contact_gap against the distance"},
+    {"obstacle_axial", 0, 0.51, "friction bound"},
+    {"obstacle_axial", 0, 0.2, "friction above its bound"},
+    {"obstacle_grain", 1, 1, "friction above its bound"},
+};
+
+static void refuse_each(int (*write)(const char *), const Tamper *tamper, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        CHECK_INT(write(path), 0);
+        CHECK_INT(sample_poke(path, tamper[i].variable, tamper[i].index, tamper[i].value), 0);
         char *text = NULL;
         size_t size = 0;
         FILE *log = open_memstream(&text, &size);
         int result = checker_file(path, NULL, log);
         fclose(log);
-        if (result == 0 || !strstr(text, TAMPER[i].finding)) {
-            print_error("%s[%zu] = %g: result %d, expected a finding with \"%s\", got:\n%s", TAMPER[i].variable,
-                        TAMPER[i].index, TAMPER[i].value, result, TAMPER[i].finding, text);
+        if (result == 0 || !strstr(text, tamper[i].finding)) {
+            print_error("%s[%zu] = %g: result %d, expected a finding with \"%s\", got:\n%s", tamper[i].variable,
+                        tamper[i].index, tamper[i].value, result, tamper[i].finding, text);
             fail();
         }
         free(text);
     }
-    printf("%zu changes, each refused for its own reason\n", sizeof TAMPER / sizeof *TAMPER);
+    printf("%zu changes, each refused for its own reason\n", count);
+}
+
+static void every_change_is_refuted(void **state) {
+    (void)state;
+    refuse_each(sample_write, TAMPER, sizeof TAMPER / sizeof *TAMPER);
+    refuse_each(sample_write_drum, DRUM_TAMPER, sizeof DRUM_TAMPER / sizeof *DRUM_TAMPER);
+}
+
+static void drum_is_certified(void **state) {
+    (void)state;
+    CheckerReport report;
+    CHECK_INT(sample_write_drum(path), 0);
+    CHECK_INT(checker_file(path, &report, stdout), 0);
+    CHECK_INT(report.certified, 2);
+    CHECK_NEAR(report.gap, 0, 1e-14); // rounding of the sample's doubles
+}
+
+/* a quarter of a great circle, a quarter of a helix, and a plane's own vector */
+static void ways_are_geodesics(void **state) {
+    (void)state;
+    const double pi = 3.14159265358979323846;
+    Surface ball = {.kind = SURFACE_SPHERE, .point = {1, 0, 0}, .axis = {0, 0, 1}, .radius = 2};
+    Surface pipe = {.kind = SURFACE_CYLINDER, .point = {1, 0, 0}, .axis = {0, 0, 1}, .radius = 2};
+    Surface bed = {.kind = SURFACE_PLANE, .axis = {0, 0, 1}};
+    const Real east[3] = {3, 0, 0}, north[3] = {1, 2, 0}, higher[3] = {1, 2.5L, 5};
+    Real way[3], carried[3];
+    surface_way(&ball, east, north, way);
+    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}), ((double[]){-pi, 0, 0}), 1e-15);
+    surface_way(&pipe, east, higher, way);
+    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}), ((double[]){-pi, 0, 5}), 1e-15);
+    surface_way(&bed, east, higher, way);
+    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}), ((double[]){-2, 2.5, 0}), 1e-15);
+    surface_carry(&pipe, east, pi / 2, carried);
+    CHECK_VECTOR(((double[]){(double)carried[0], (double)carried[1], (double)carried[2]}), ((double[]){1, 2, 0}),
+                 1e-15);
+    CHECK_NEAR((double)surface_distance(&pipe, higher), 0.5, 1e-15);
+    CHECK_NEAR((double)surface_distance(&ball, higher), sqrt(2.5 * 2.5 + 25) - 2, 1e-15);
+}
+
+/* ellipse and box by hand: half-axes 4 and 2 under the bound 4 */
+static void sets_are_ellipse_and_box(void **state) {
+    (void)state;
+    Surface ellipse = {.mu = {0.5, 0.25}}, box = {.mu = {0.5, 0.25}, .box = true};
+    const Real inside[2] = {2.4L, 1.6L}, corner[2] = {4, 2}, way[2] = {-3, -8};
+    Real phi;
+    CHECK_NEAR((double)surface_excess(&ellipse, 4, inside), 0, 1e-15); // (0.6, 0.8) on its edge
+    CHECK_GREATER((double)surface_excess(&ellipse, 4, corner), 1.3);   // sqrt(20) (1 - 1/sqrt 2) = 1.31
+    CHECK_NEAR((double)surface_excess(&box, 4, corner), 0, 1e-15);
+    CHECK_NEAR((double)surface_gap(&ellipse, 4, (Real[2]){2.4L, 1.6L}, (Real[2]){-3, -8}, &phi), 0, 1e-15);
+    CHECK_NEAR((double)phi, 20, 1e-15); // sqrt((4 3)^2 + (2 8)^2), and F.way = -7.2 - 12.8
+    CHECK_NEAR((double)surface_gap(&box, 4, corner, way, &phi), 0, 1e-15);
+    CHECK_NEAR((double)phi, 28, 1e-15);
+    CHECK_NEAR((double)surface_gap(&box, 4, inside, way, &phi), 28 - 20, 1e-14);
 }
 
 static void what_is_no_result_is_refused(void **state) {
@@ -143,9 +231,9 @@ static void what_is_no_result_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_solution_is_certified),
-        cmocka_unit_test(every_change_is_refuted),
-        cmocka_unit_test(what_is_no_result_is_refused),
+        cmocka_unit_test(exact_solution_is_certified), cmocka_unit_test(drum_is_certified),
+        cmocka_unit_test(every_change_is_refuted),     cmocka_unit_test(ways_are_geodesics),
+        cmocka_unit_test(sets_are_ellipse_and_box),    cmocka_unit_test(what_is_no_result_is_refused),
     };
     return cmocka_run_group_tests(tests, make_path, drop_path);
 }

@@ -244,6 +244,12 @@ class Suite:
         code, out, err = self.run(wheel, "--plot", "/dev/stdout")
         self.expect("to a pipe", code == OK and out.endswith("</svg>\n") and os.path.islink("/dev/stdout"), f"exit {code}: {err}")
 
+    def check_hints(self, wheel):
+        """capstan check refuses a law, and says where laws are read."""
+        done = subprocess.run([self.capstan, "check", wheel], capture_output=True, text=True, timeout=60)
+        self.expect("check of a law", done.returncode == INPUT and "unknown key 'law'" in done.stderr and
+                    done.stderr.endswith("valid law, not a scene: see capstan law\n"), done.stderr)
+
 
 def write(folder):
     for i, (_, contents, _) in enumerate(CASES):
@@ -262,6 +268,7 @@ def main():
         suite.usage(os.path.join(sys.argv[2], "braked-wheel.yaml"))
         suite.pictures(os.path.join(sys.argv[2], "braked-wheel.yaml"))
         suite.answers(sys.argv[2])
+        suite.check_hints(os.path.join(sys.argv[2], "braked-wheel.yaml"))
         print(f"{suite.count} cases, {suite.failed} failed")
         return 1 if suite.failed else 0
 

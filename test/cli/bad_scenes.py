@@ -80,7 +80,7 @@ CHANGES = [
     ("zero length", "length: 10", "length: 0", INPUT, "5:5: 'length': found '0', expected a number in m, greater than 0"),
     ("zero stiffness", "1e6", "0", INPUT, "8:5: 'stiffness': found '0', expected a number in N, greater than 0, or .inf"),
     ("negative stiffness", "1e6", "-.inf", INPUT, "8:5: 'stiffness': found '-.inf'"),
-    ("negative friction", "friction: 0.5", "friction: -0.5", INPUT, "2:47: 'friction': found '-0.5', expected a number, at least 0"),
+    ("negative friction", "friction: 0.5", "friction: -0.5", INPUT, "2:47: 'friction': found '-0.5', expected a number, at least 0, or a mapping with axial"),
     ("zero elements", "elements: 4", "elements: 0", INPUT, "6:5: 'elements': found '0', expected a whole number, at least 1"),
     ("part of an element", "elements: 4", "elements: 4.5", INPUT, "6:5: 'elements': found '4.5', expected a whole number"),
     ("zero steps", "name: pull,", "steps: 0,", INPUT, "12:6: 'steps': found '0', expected a whole number, from 1 to 1e+06"),
@@ -109,7 +109,25 @@ CHANGES = [
     ("an end fixed and pulled", ENDS, "{A: {fixed: [0, 0, 0], force: [0, 0, 0]}, B: free}", INPUT, "10:12: 'A': too much given, expected exactly one of 'fixed', 'force'"),
     ("moved below the bed", "{force: [1, 0, 0]}", "{position: [9, 0, -1]}", INPUT, "12:18: stage 1: cable.B is moved to 1 m below obstacle 'bed'"),
     ("move of a free end", "{force: [1, 0, 0]}", "{move: [1, 0, 0]}", INPUT, "12:28: 'cable.B': found a move, but the end's position before it is not known"),
-    ("a second obstacle", "friction: 0.5}}", "friction: 0.5}, wall: {plane: {normal: [1, 0, 0]}}}", INPUT, "2:63: obstacle 'wall': a second obstacle; at most one is possible"),
+    # obstacles
+    ("obstacle without a surface", "plane: {normal: [0, 0, 1]}, ", "", INPUT, "2:13: obstacle 'bed': nothing given, expected exactly one of 'plane', 'cylinder', 'sphere'"),
+    ("two surfaces", "{bed: {", "{bed: {sphere: {radius: 1}, ", INPUT, "2:13: obstacle 'bed': too much given, expected exactly one of 'plane', 'cylinder', 'sphere'"),
+    ("cylinder without radius", "{plane: {normal: [0, 0, 1]}", "{cylinder: {axis: [0, 0, 1]}", INPUT, "2:19: 'cylinder': 'radius' is missing: [m] radius of the cylinder"),
+    ("ball without size", "{plane: {normal: [0, 0, 1]}", "{sphere: {radius: 0}", INPUT, "2:28: 'radius': found '0', expected a number in m, greater than 0"),
+    ("ball with a point", "{plane: {normal: [0, 0, 1]}", "{sphere: {point: [0, 0, 1], radius: 1}", INPUT, "2:28: 'sphere': unknown key 'point'"),
+    ("cylinder misspelt", "{plane: {normal: [0, 0, 1]}", "{cilinder: {radius: 1}", INPUT, "2:19: obstacle 'bed': unknown key 'cilinder'; did you mean 'cylinder'?"),
+    ("zero axis", "{plane: {normal: [0, 0, 1]}", "{cylinder: {point: [0, 0, -5], axis: [0, 0, 0], radius: 1}", INPUT, "2:49: obstacle 'bed': axis is (0, 0, 0), expected a direction"),
+    ("line in the cylinder", "{plane: {normal: [0, 0, 1]}", "{cylinder: {radius: 1}", INPUT, "9:5: line 'cable': start: node 0 lies 1 m below obstacle 'bed'"),
+    ("second obstacle in the way", "friction: 0.5}}", "friction: 0.5}, ball: {sphere: {center: [5, 0, 0], radius: 1}}}", INPUT, "9:5: line 'cable': start: node 2 lies 1 m below obstacle 'ball'"),
+    ("friction as a list", "friction: 0.5", "friction: [0.5, 0.6]", INPUT, "2:47: 'friction': found a list of 2, expected a number, at least 0, or a mapping with axial, lateral, shape, grain"),
+    ("friction without axial", "friction: 0.5", "friction: {lateral: 0.5}", INPUT, "2:47: 'friction': 'axial' is missing"),
+    ("negative lateral friction", "friction: 0.5", "friction: {axial: 0.5, lateral: -1}", INPUT, "2:70: 'lateral': found '-1', expected a number, at least 0"),
+    ("unknown friction shape", "friction: 0.5", "friction: {axial: 0.5, shape: disc}", INPUT, "2:70: 'shape': found 'disc', expected one of: ellipse box"),
+    ("grain too small", "friction: 0.5", "friction: {axial: 0.5, grain: [0, 0, 1e-200]}", INPUT, "2:47: obstacle 'bed': friction: grain is (0, 0, 1e-200), expected a direction"),
+    ("a plane that turns", "name: pull,", "bed.turn: 90,", INPUT, "12:6: stage 1: obstacle 'bed' is a plane: only a cylinder or a sphere turns"),
+    ("turn in words", "name: pull,", "bed.turn: half,", INPUT, "12:6: 'bed.turn': found 'half', expected a number in degrees"),
+    ("turn of nothing", "name: pull,", "bad.turn: 90,", INPUT, "12:6: 'bad.turn': there is no such obstacle; did you mean 'bed.turn'?"),
+    ("turn of a line", "name: pull,", "cable.turn: 90,", INPUT, "12:6: 'cable.turn': there is no such obstacle under 'obstacles'"),
     ("no lines", GOOD[GOOD.index("lines:"):], "lines: {}\n", INPUT, "3:1: lines: found 0, expected at least one"),
     # YAML
     ("anchor", "length: 10", "length: &l 10", INPUT, "5:14: found an anchor"),
@@ -157,14 +175,14 @@ FILES = [
 
 # arguments, exit code, expected on standard error (one line, or the first of two)
 USAGE = [
-    (["check"], "capstan check: no scene given"),
+    (["check"], "capstan check: no file given"),
     (["check", "a", "b"], "capstan check: unexpected 'b'"),
     (["check", "--jsn", "a"], "capstan check: unknown option '--jsn'"),
     (["check", "--hlep"], "capstan check: unknown option '--hlep'; did you mean '--help'?"),
     (["check", "-x"], "capstan check: unknown option '-x'"),
     (["check", "--help=5"], "capstan check: '--help=5': option '--help' takes no argument"),
     (["chek", "a"], "capstan: unknown command 'chek'; did you mean 'check'?"),
-    (["schema", "a"], "capstan schema: unexpected 'a'"),
+    (["schema", "a"], "capstan schema: found 'a', expected scene or law"),
     (["--verzion"], "capstan: unknown option '--verzion'; did you mean '--version'?"),
 ]
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """capstan study: its files, its words and its exit codes.                     usage: study.py CAPSTAN EXAMPLES"""
 import csv
+import math
 import os
 import subprocess
 import sys
@@ -9,6 +10,7 @@ import xml.etree.ElementTree as xml
 
 CAPSTAN, EXAMPLES = sys.argv[1:]
 EXAMPLE = os.path.join(EXAMPLES, "souza-de-cursi-1990.yaml")
+SLACK = os.path.join(EXAMPLES, "souza-de-cursi-1990-slack.yaml")
 ANNEX_5 = os.path.join(EXAMPLES, "souza-de-cursi-1990-annex-5.yaml")
 
 faults = []
@@ -69,6 +71,46 @@ with tempfile.TemporaryDirectory() as folder:
     check(0.01 < apart["Y3", "consistent friction"] < 0.1, "methods.csv: consistent friction is the frozen one")
     xml.parse(os.path.join(folder, "methods", "methods.svg"))
 
+    # slack laid out in three ways, each a solution of P3.1 when read back; and configurations that are none, with the reason
+    def change(name, row, column, by, width=0):
+        """Move a node; or those up to `width` to both sides as well, less and less."""
+        with open(os.path.join(folder, "laid", "completed.csv"), newline="", encoding="utf-8") as file:
+            lines = list(csv.reader(file))
+        for k in range(row - width, row + width + 1):
+            share = math.cos(math.pi / 2 * (k - row) / (width + 1)) ** 2
+            lines[k + 2][column] = repr(float(lines[k + 2][column]) + share * by)
+        with open(os.path.join(folder, name), "w", newline="", encoding="utf-8") as file:
+            csv.writer(file).writerows(lines)
+
+    laid = os.path.join("laid", "completed.csv")
+    for scene, step, loose in ((EXAMPLE, "Y4", "6.2329 m  loose"), (SLACK, "back", "1 m  loose")):
+        shapes = set()
+        for shape in ("shortest", "straight", "meander"):
+            done = study(folder, scene, "--step", step, "--complete", shape, "-o", "laid")
+            check(done.returncode == 0, f"{step}, {shape}: exit code {done.returncode}\n{done.stderr}")
+            check(loose in done.stdout and "kept on the obstacle by contact" in done.stdout, f"{step}: said\n{done.stdout}")
+            check("as found: a solution of P4.2 but not of P3.1" in done.stdout, f"{step}: said\n{done.stdout}")
+            xml.parse(os.path.join(folder, "laid", "completed.svg"))
+            with open(os.path.join(folder, laid), encoding="utf-8") as file:
+                shapes.add(file.read())
+            done = study(folder, scene, "--step", step, "--judge", laid)
+            check(done.returncode == 0 and "a solution of P3.1" in done.stdout, f"{step}, {shape}, judged: {done.stdout}{done.stderr}")
+        check(len(shapes) == 3, f"{step}: {len(shapes)} different shapes, expected 3")
+
+    study(folder, EXAMPLE, "--step", "Y4", "--complete", "meander", "-o", "laid")
+    for row, column, by, width, words in ((790, 3, 1e-4, 0, "contact is lost"),    # slack lifted, R > 0: 0.077 N x 0.1 mm
+                                          (160, 2, 0.01, 150, "sliding outside"),  # slack that friction holds, moved aside
+                                          (500, 2, 1e-3, 0, "other tensions"),     # under tension
+                                          (790, 3, -1e-6, 0, "inside the obstacle"),
+                                          (0, 1, 1e-6, 0, "a held end")):
+        change("moved.csv", row, column, by, width)
+        done = study(folder, EXAMPLE, "--step", "Y4", "--judge", "moved.csv")
+        check(done.returncode == 1 and words in done.stdout, f"node {row} moved: {done.returncode}, '{words}' not in\n{done.stdout}")
+    change("moved.csv", 500, 0, 1)
+    for name, words in (("moved.csv", "arc length"), ("laid", "irectory"), (EXAMPLE, "another row")):
+        done = study(folder, EXAMPLE, "--step", "Y4", "--judge", name)
+        check(done.returncode in (3, 4) and words in done.stderr, f"judge {name}: {done.returncode} {done.stderr}")
+
     # quiet says nothing
     done = study(folder, ANNEX_5, "-q", "-o", "annex")
     check(done.returncode == 0 and not done.stdout and not done.stderr, "quiet: is not")
@@ -78,6 +120,8 @@ with tempfile.TemporaryDirectory() as folder:
             ([EXAMPLE, "--step", "Y9"], 2, ["--step", "Y9", "capstan run"]),
             ([EXAMPLE, "--line", "rope"], 2, ["--line", "rope"]),
             ([EXAMPLE, "--step"], 2, ["needs an argument"]),
+            ([EXAMPLE, "--complete", "wavy"], 2, ["wavy", "meander"]),
+            ([EXAMPLE, "--complete", "meander", "--history"], 2, ["one at most"]),
             (["missing.yaml"], 4, ["missing.yaml"]),
             ([ANNEX_5, "-o", os.path.join("no", "such", "place")], 4, ["no"]),
             ([], 2, ["SCENE.yaml"])):
@@ -91,7 +135,7 @@ with tempfile.TemporaryDirectory() as folder:
     with open(os.path.join(folder, "stiff.yaml"), "w", encoding="utf-8") as file:
         file.write(scene)
     done = study(folder, "stiff.yaml", "-o", "stiff")
-    check(done.returncode == 3 and "inextensible" in done.stderr, f"inextensible: {done.returncode} {done.stderr}")
+    check(done.returncode == 3 and "inextensible" in done.stderr and "--judge" in done.stderr, f"inextensible: {done.returncode} {done.stderr}")
     check(not os.path.exists(os.path.join(folder, "stiff")), "inextensible: a directory was left behind")
 
 print("\n".join(faults) or "study: files, words and exit codes as documented")

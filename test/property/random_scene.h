@@ -9,7 +9,14 @@
 
 #include "capstan/capstan.h"
 
-enum { SCENE_LINES = 4, SCENE_POINTS = 6, SCENE_ELEMENTS = 60, SCENE_STAGES = 20, SCENE_EA_CLASSES = 12 };
+enum {
+    SCENE_LINES = 4,
+    SCENE_POINTS = 6,
+    SCENE_ELEMENTS = 60,
+    SCENE_STAGES = 20,
+    SCENE_EA_CLASSES = 12,
+    SCENE_OBSTACLES = 2
+};
 
 /* What a class is about; ea_0 ... ea_11 come first: EA / T from 10^k to 10^(k + 1). */
 #define SCENE_CLASS_LIST(X)                                                                                            \
@@ -27,7 +34,18 @@ enum { SCENE_LINES = 4, SCENE_POINTS = 6, SCENE_ELEMENTS = 60, SCENE_STAGES = 20
     X(SCENE_INFEASIBLE, "infeasible")                                                                                  \
     X(SCENE_UNBOUNDED, "unbounded")                                                                                    \
     X(SCENE_TAUT, "taut")                                                                                              \
-    X(SCENE_CONSISTENT, "consistent") /* friction that follows the reaction: any of common, slope, imposed, history */
+    X(SCENE_CONSISTENT, "consistent") /* friction that follows the reaction: any of common, slope, imposed, history */ \
+    X(SCENE_CYLINDER, "cylinder") /* from here on consistent friction; a line round a cylinder, pulled at its end */   \
+    X(SCENE_PIPE, "pipe")         /* laid over a lying cylinder, its ends moved about */                               \
+    X(SCENE_SPHERE, "sphere")     /* along a circle on a ball */                                                       \
+    X(SCENE_TWO, "two_obstacles") /* a bed and a pipe or ball on it */                                                 \
+    X(SCENE_DRUM, "drum")         /* a cylinder that turns under the line */                                           \
+    X(SCENE_ELLIPSE, "ellipse")   /* on a plane, axial and lateral friction along the line */                          \
+    X(SCENE_BOX, "box")                                                                                                \
+    X(SCENE_GRAIN, "grain")          /* any scene on a plane, the two coefficients in directions of the plane */       \
+    X(SCENE_WINCH, "winch")          /* a drum with a load on one end and a hand on the other: nothing is held */      \
+    X(SCENE_WILD, "wild_directions") /* any scene on a plane, along the line: steps so large that its direction turns  \
+                                      */
 
 enum {
     SCENE_BEFORE_FIRST = SCENE_EA_CLASSES - 1,
@@ -41,12 +59,13 @@ enum {
 typedef struct RandomScene {
     CpsScene scene;
     CpsOutcome expected; /* of the last step; those before are solved */
-    CpsObstacle obstacle;
+    CpsObstacle obstacle[SCENE_OBSTACLES];
     CpsLine line[SCENE_LINES];
     char line_name[SCENE_LINES][8], stage_name[SCENE_STAGES][8];
     double point[SCENE_LINES][3 * SCENE_POINTS], element_length[SCENE_LINES][SCENE_ELEMENTS];
     CpsStage stage[SCENE_STAGES];
     CpsChange change[SCENE_STAGES][2 * SCENE_LINES];
+    CpsTurn turn[SCENE_STAGES][1];
 } RandomScene;
 
 const char *random_scene_class_name(int class_index);

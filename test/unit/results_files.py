@@ -6,7 +6,8 @@ import xml.etree.ElementTree as tree
 
 STEP_KEYS = {"name", "outcome", "iterations", "energy", "tension_bound_rms_N", "tension_estimate_N",
              "force_residual_N", "largest_force_N", "law_residual_J", "contact_residual_N", "contact_residual_J",
-             "friction_residual_N", "stretch_residual", "penetration_m", "dissipated_J", "wall_s", "lines"}
+             "friction_residual_N", "stretch_residual", "penetration_m", "dissipated_J", "parts", "snaps", "jump_m", "ledger_J",
+             "wall_s", "lines"}
 LINE_KEYS = {"outcome", "iterations", "grounded_m", "slipping_m", "slack_m", "dissipated_J", "A", "B"}
 POINT_DATA = {"tension_N", "contact_force_N", "friction_state", "displacement_m"}
 SIZE = {"Float64": 8, "Int64": 8, "Int32": 4, "UInt8": 1}
@@ -22,6 +23,11 @@ def check_summary(directory):
     assert set(summary) == {"capstan", "title", "outcome", "wall_s", "steps"}, set(summary)
     for step in summary["steps"]:
         assert set(step) == STEP_KEYS, set(step) ^ STEP_KEYS
+        ledger = step["ledger_J"]
+        assert set(ledger) == {"ends", "obstacles", "elastic", "gravity", "dissipated", "imbalance"}, ledger
+        spent = ledger["elastic"] + ledger["gravity"] + ledger["dissipated"] + ledger["imbalance"]
+        # sums of a few numbers of this size, rounded
+        assert abs(ledger["ends"] + ledger["obstacles"] - spent) <= 1e-12 * sum(abs(x) for x in ledger.values()), ledger
         assert set(step["energy"]) == {"primal_J", "dual_J", "gap_J", "scale_J"}
         for name, line in step["lines"].items():
             assert set(line) - {"proof"} == LINE_KEYS, set(line)
@@ -45,6 +51,7 @@ def check_history(directory, summary):
     for row, step in zip(rows, summary["steps"]):
         assert len(row) == len(names)
         value = dict(zip(names, row))
+        assert float(value["gravity"]) == step["ledger_J"]["gravity"] and int(value["parts"]) == step["parts"]
         assert value["outcome"] == step["outcome"] and float(value["gap"]) == step["energy"]["gap_J"]
         assert not value["name"].startswith("="), "a formula"
         for name, line in step["lines"].items():
@@ -95,18 +102,36 @@ def check_vtp(path, lines):
     assert set(block["friction_state"]) <= {0, 1, 2}
 
 
+def check_obstacles(path):
+    """The mesh: the bed is flat, its cells are quadrilaterals of points that exist, and a drum is round."""
+    piece = tree.parse(path).getroot().find("PolyData/Piece")
+    array = {a.get("Name"): a.text.split() for a in piece.iter("DataArray")}
+    points = [float(x) for x in array["Points"]]
+    count, cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfPolys"))
+    corners = [int(i) for i in array["connectivity"]]
+    assert len(points) == 3 * count and len(corners) == 4 * cells and set(corners) == set(range(count))
+    assert [int(i) for i in array["offsets"]] == list(range(4, 4 * cells + 1, 4))
+    assert len(array["obstacle_id"]) == cells
+    for corner in corners[:4]:
+        assert points[3 * corner + 2] == 0  # the bed z = 0 comes first
+    for corner in corners[4:]:
+        x, _, z = points[3 * corner:3 * corner + 3]
+        assert abs((x * x + (z - 30) ** 2) ** 0.5 - 2) < 1e-9, (x, z)  # twelve digits are printed
+
+
 def check_directory(directory):
     files = sorted(os.listdir(directory))
     assert not [f for f in files if f.startswith(".") or f.endswith(".part")], files
     summary = check_summary(directory)
     check_history(directory, summary)
     steps = len(summary["steps"])
-    vtp = [f for f in files if f.endswith(".vtp")]
+    vtp = [f for f in files if f.endswith(".vtp") and f != "obstacles.vtp"]
     assert vtp == ["step-%05d.vtp" % i for i in range(steps)], vtp
     for name in vtp:
         check_vtp(os.path.join(directory, name), len(summary["steps"][0]["lines"]))
     listed = [d.get("file") for d in tree.parse(os.path.join(directory, "result.pvd")).iter("DataSet")]
-    assert listed == vtp
+    assert listed == [name for step in vtp for name in (step, "obstacles.vtp")]
+    check_obstacles(os.path.join(directory, "obstacles.vtp"))
     for name in [f for f in files if f.endswith(".svg")]:
         root = tree.parse(os.path.join(directory, name)).getroot()
         assert root.tag == "{http://www.w3.org/2000/svg}svg"
@@ -117,6 +142,12 @@ def check_directory(directory):
         assert name in files, name
     if not directory.endswith("infeasible"):
         check_loop(directory)
+    if directory.endswith("obstacles"):  # the drum is seen from its end; -3 rad at the end of the second stage
+        with open(os.path.join(directory, "step-00005-elevation.svg"), encoding="utf-8") as file:
+            picture = file.read()
+        assert picture.count("<ellipse") == 1 and "turned -171.9" in picture
+        with open(os.path.join(directory, "step-00005-plan.svg"), encoding="utf-8") as file:
+            assert "<ellipse" not in file.read()  # from above it is a band
     print("%s: %d steps, %d files" % (directory, steps, len(files)))
 
 

@@ -214,9 +214,64 @@ static void netcdf_holds_the_last_step(void **state) {
         same_in_file(file, v.name, "reaction", steps - 1, n, v.reaction);
         same_in_file(file, v.name, "segment_force", steps - 1, 3 * n - 3, v.segment_force);
         same_in_file(file, v.name, "tension", steps - 1, n - 1, v.tension);
+        double slide[3 * (ELEMENTS + 1)] = {
+            0}; /* on the bed z = 0: the horizontal displacement, its vertical part +0 */
+        assert_null(v.slide);
+        for (size_t k = 0; k < 3 * n; k++) slide[k] = k % 3 < 2 ? v.position[k] - v.reference[k] : 0;
+        same_in_file(file, v.name, "slide", steps - 1, 3 * n, slide);
         same_in_file(file, v.name, "gap", steps - 1, 1, &r.certificate.gap);
         same_in_file(file, v.name, "tension_bound", steps - 1, 1, &r.certificate.tension_bound);
         same_in_file(file, v.name, "dissipated", steps - 1, 1, &r.dissipated);
+    }
+    assert_int_equal(nc_close(file), NC_NOERR);
+    cps_evolution_destroy(evolution);
+}
+
+/* all numbers of a variable that does not change */
+static void whole_in_file(int file, const char *name, size_t count, const double *expected) {
+    double found[16];
+    int id;
+    assert_in_range(count, 1, 16);
+    assert_int_equal(nc_inq_varid(file, name, &id), NC_NOERR);
+    assert_int_equal(nc_get_var_double(file, id, found), NC_NOERR);
+    assert_memory_equal(found, expected, count * sizeof *found);
+}
+
+/* obstacles of other kinds, what they turned in each step, and the way slid where the view has one */
+static void obstacles_are_written(void **state) {
+    (void)state;
+    Fixture f;
+    make_scene(&f);
+    CpsObstacle obstacle[2] = {f.bed, cps_obstacle_default()};
+    obstacle[0].friction_lateral = 0.5;
+    obstacle[0].friction_shape = CPS_FRICTION_BOX;
+    obstacle[1].name = "drum";
+    obstacle[1].kind = CPS_OBSTACLE_CYLINDER;
+    obstacle[1].point[2] = 30;
+    obstacle[1].radius = 2;
+    obstacle[1].friction = 0.2;
+    const CpsTurn turn = {1, -3};
+    f.stage[1].turn = &turn;
+    f.stage[1].turn_count = 1;
+    f.scene.obstacle_count = 2;
+    f.scene.obstacle = obstacle;
+    CpsEvolution *evolution = run_into("results-obstacles", &f.scene);
+    int file;
+    assert_int_equal(nc_open("results-obstacles/result.nc", NC_NOWRITE, &file), NC_NOERR);
+    whole_in_file(file, "obstacle_kind", 2, (double[]){0, 1});
+    whole_in_file(file, "obstacle_point", 6, (double[]){0, 0, 0, 0, 0, 30});
+    whole_in_file(file, "obstacle_axis", 6, (double[]){0, 0, 1, 0, 1, 0});
+    whole_in_file(file, "obstacle_radius", 2, (double[]){0, 2});
+    whole_in_file(file, "obstacle_axial", 2, (double[]){0.3, 0.2});
+    whole_in_file(file, "obstacle_lateral", 2, (double[]){0.5, 0.2});
+    whole_in_file(file, "obstacle_shape", 2, (double[]){1, 0});
+    /* the laid start, the first stage, four steps of the second and twelve more */
+    for (size_t step = 0; step < 18; step++)
+        same_in_file(file, "obstacle", "turn", step, 2, (double[]){0, step >= 2 && step < 6 ? -0.75 : 0});
+    for (int i = 0; i < LINES; i++) {
+        const CpsLineView v = cps_evolution_line_view(evolution, i);
+        assert_non_null(v.slide);
+        same_in_file(file, v.name, "slide", 17, 3 * (size_t)(ELEMENTS + 1), v.slide);
     }
     assert_int_equal(nc_close(file), NC_NOERR);
     cps_evolution_destroy(evolution);
@@ -298,8 +353,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_is_escaped),        cmocka_unit_test(utf8_is_judged),
         cmocka_unit_test(numbers_read_back),      cmocka_unit_test(netcdf_holds_the_last_step),
-        cmocka_unit_test(earlier_files_give_way), cmocka_unit_test(no_solution_is_written),
-        cmocka_unit_test(misuse_is_refused),      cmocka_unit_test(locale_does_not_matter),
+        cmocka_unit_test(obstacles_are_written),  cmocka_unit_test(earlier_files_give_way),
+        cmocka_unit_test(no_solution_is_written), cmocka_unit_test(misuse_is_refused),
+        cmocka_unit_test(locale_does_not_matter),
     };
     return cmocka_run_group_tests_name("results", tests, NULL, NULL);
 }

@@ -46,6 +46,7 @@ static void reads_defaults(void **state) {
     assert_memory_equal(scene->gravity, usual.gravity, sizeof usual.gravity);
     assert_memory_equal(&scene->solver, &usual.solver, sizeof usual.solver);
     assert_int_equal(scene->obstacle_count, 0);
+    assert_int_equal(scene->friction, usual.friction);
     assert_int_equal(scene->stage_count, 0);
     assert_int_equal(scene->contact, CPS_CONTACT_GAINED);
     assert_int_equal(scene->line_count, 1);
@@ -109,6 +110,47 @@ static void reads_every_key(void **state) {
     assert_int_equal(stage->change[1].to.kind, CPS_END_FREE);
     assert_string_equal(stage[1].name, "entry 2");
     assert_int_equal(stage[1].change_count, 0);
+    cps_scene_file_destroy(file);
+}
+
+/* every kind of obstacle, its defaults, both forms of friction; turns in degrees */
+static void reads_obstacles(void **state) {
+    (void)state;
+    CpsSceneFile *file =
+        read_good(HEAD "    start: {straight: {from: [0, 0, 50], to: [10, 0, 50]}}\n" ENDS "obstacles:\n"
+                       "  bed: {plane: {}, friction: {axial: 0.6, lateral: 0.8, shape: box, grain: [1, 2, 0]}}\n"
+                       "  drum: {cylinder: {point: [1, 2, 3], axis: [0, 0, 5], radius: 0.5}, friction: 0.3}\n"
+                       "  pipe: {cylinder: {radius: 2}, friction: {axial: 0.1}}\n"
+                       "  ball: {sphere: {center: [4, 5, 6], radius: 7, axis: [1, 0, 0]}}\n"
+                       "history:\n- {drum.turn: 90, cable.B: {force: [0, 0, 1]}, ball.turn: -360, steps: 2}\n- {}\n");
+    const CpsScene *scene = cps_scene_file_scene(file);
+    const CpsObstacle usual = cps_obstacle_default(), *bed = scene->obstacle, *drum = bed + 1, *pipe = bed + 2,
+                      *ball = bed + 3;
+    assert_int_equal(scene->obstacle_count, 4);
+    assert_int_equal(bed->kind, CPS_OBSTACLE_PLANE);
+    assert_memory_equal(bed->normal, usual.normal, sizeof usual.normal);
+    assert_true(bed->friction == 0.6 && bed->friction_lateral == 0.8 && bed->grain[1] == 2);
+    assert_int_equal(bed->friction_shape, CPS_FRICTION_BOX);
+    assert_string_equal(drum->name, "drum");
+    assert_int_equal(drum->kind, CPS_OBSTACLE_CYLINDER);
+    CHECK_VECTOR(drum->point, ((double[]){1, 2, 3}), 0);
+    CHECK_VECTOR(drum->axis, ((double[]){0, 0, 5}), 0);
+    assert_true(drum->radius == 0.5 && drum->friction == 0.3 && drum->friction_lateral == usual.friction_lateral);
+    assert_memory_equal(pipe->axis, usual.axis, sizeof usual.axis);
+    assert_memory_equal(pipe->point, usual.point, sizeof usual.point);
+    assert_true(pipe->friction == 0.1 && pipe->friction_lateral == usual.friction_lateral);
+    assert_int_equal(pipe->friction_shape, CPS_FRICTION_ELLIPSE);
+    assert_int_equal(ball->kind, CPS_OBSTACLE_SPHERE);
+    assert_true(ball->radius == 7 && ball->point[1] == 5 && ball->axis[0] == 1 && ball->friction == 0);
+
+    const CpsStage *stage = scene->stage;
+    assert_int_equal(stage->turn_count, 2);
+    assert_int_equal(stage->change_count, 1);
+    assert_int_equal(stage->turn[0].obstacle, 1);
+    CHECK_NEAR(stage->turn[0].angle, acos(0), 1e-15); /* two roundings */
+    assert_int_equal(stage->turn[1].obstacle, 3);
+    CHECK_NEAR(stage->turn[1].angle, -2 * acos(-1), 1e-15);
+    assert_int_equal(stage[1].turn_count, 0);
     cps_scene_file_destroy(file);
 }
 
@@ -217,10 +259,10 @@ static void ignores_the_locale(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_defaults),        cmocka_unit_test(reads_every_key),
-        cmocka_unit_test(reads_graded_elements), cmocka_unit_test(adds_moves),
-        cmocka_unit_test(knows_numbers),         cmocka_unit_test(keeps_limits),
-        cmocka_unit_test(ignores_the_locale),
+        cmocka_unit_test(reads_defaults),  cmocka_unit_test(reads_every_key),
+        cmocka_unit_test(reads_obstacles), cmocka_unit_test(reads_graded_elements),
+        cmocka_unit_test(adds_moves),      cmocka_unit_test(knows_numbers),
+        cmocka_unit_test(keeps_limits),    cmocka_unit_test(ignores_the_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

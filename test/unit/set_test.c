@@ -270,12 +270,50 @@ static void closures_say_so(void **state) {
     cps_set_release(disc), cps_set_release(polar), cps_set_release(strip), cps_set_release(set);
 }
 
+/* Where 0 is, told from the parts of a sum: of many contacts, which no conic program could hold, and of points that
+ * are far apart in size. */
+static void zero_is_found_by_parts(void **state) {
+    (void)state;
+    enum { COUNT = 1500 };
+    static CpsSet *part[COUNT];
+    CpsSet *disc, *set, *far;
+    CpsSetFacts facts;
+    DO(cps_set_ball(2, NULL, 1.0 / COUNT, &disc, &err));
+    for (int k = 0; k < COUNT; k++) {
+        const double x = cos(k), y = sin(k), map[6] = {1, 0, 0, 1, -y, x};
+        DO(cps_set_image(3, map, disc, &part[k], &err));
+    }
+    DO(cps_set_sum(COUNT, (const CpsSet *const *)part, &set, &err));
+    DO(cps_set_facts(set, 0, &facts, NULL, NULL, &err));
+    assert_int_equal(facts.outcome, CPS_SET_ANSWERED);
+    CHECK_INT(facts.dimension, 3);
+    assert_true(facts.bounded && facts.has_zero && facts.zero_interior);
+    DO(cps_set_translate((const double[]){5, 0, 0}, set, &far, &err));
+    DO(cps_set_facts(far, 0, &facts, NULL, NULL, &err));
+    assert_int_equal(facts.outcome, CPS_SET_ANSWERED);
+    assert_false(facts.has_zero);
+    for (int k = 0; k < COUNT; k++) cps_set_release(part[k]);
+    cps_set_release(disc), cps_set_release(set), cps_set_release(far);
+
+    DO(cps_set_point(1, (const double[]){2.1}, &part[0], &err));
+    DO(cps_set_scale(7.5e10, part[0], &part[1], &err));
+    DO(cps_set_box(1, (const double[]){0.3}, (const double[]){0.3}, &part[2], &err));
+    DO(cps_set_sum(3, (const CpsSet *const *)part, &set, &err));
+    DO(cps_set_facts(set, 0, &facts, NULL, NULL, &err));
+    assert_int_equal(facts.outcome, CPS_SET_ANSWERED);
+    CHECK_INT(facts.dimension, 0);
+    assert_false(facts.has_zero);
+    for (int k = 0; k < 3; k++) cps_set_release(part[k]);
+    cps_set_release(set);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_arguments_are_refused),    cmocka_unit_test(parts_are_held),
         cmocka_unit_test(degenerate_sets_are_answered), cmocka_unit_test(users_sets_answer_their_support),
         cmocka_unit_test(projections_and_gauges),       cmocka_unit_test(faces_and_cones_of_a_cube),
         cmocka_unit_test(what_is_not_attained_says_so), cmocka_unit_test(closures_say_so),
+        cmocka_unit_test(zero_is_found_by_parts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,412 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan drive: systems; one motion per velocity with its proof, all motions and forces, or the reduced law. */
+#include "drive_answer.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "law_answer.h"
+#include "law_plot.h"
+#include "progress.h"
+
+/* All solutions are looked for, and components printed, up to so many; JSON has all components. */
+enum { MOST_DENSE = 120, MOST_PRINTED = 24 };
+
+/* ---- JSON ---- */
+
+void drive_json_word(const char *key, const char *text) {
+    printf(", \"%s\": ", key);
+    law_json_text(text, stdout);
+}
+
+void drive_json(const char *key, double x) {
+    printf(", \"%s\": ", key);
+    law_json_number(x, stdout);
+}
+
+void drive_json_list(const char *key, int n, const double *x) {
+    printf(", \"%s\": ", key);
+    law_json_vector(n, x, stdout);
+}
+
+void drive_json_rows(const char *key, int n, int count, const double *x) {
+    printf(", \"%s\": [", key);
+    for (int i = 0; i < count; i++) {
+        if (i) fputs(", ", stdout);
+        law_json_vector(n, x + (size_t)i * (size_t)n, stdout);
+    }
+    putchar(']');
+}
+
+int drive_no_memory(void) {
+    fprintf(stderr, "capstan: out of memory\n");
+    return EXIT_LIMIT;
+}
+
+/* ---- one motion ---- */
+
+/* Of all V, or all F: extents of the components. */
+typedef struct All {
+    int n;
+    CpsSolutionSet set;
+    double *low, *high;
+} All;
+
+static int force_components(const CpsSystem *system) {
+    int n = 0;
+    for (int k = 0; k < cps_system_laws(system); k++) n += cps_system_law_space(system, k);
+    return n;
+}
+
+/* all solutions of small systems; else an outcome that says so */
+static bool ask_all(DriveRun *run, const CpsMotion *motion, bool forces, All *all) {
+    const CpsDriveSystem *s = &run->file->system;
+    all->n = forces ? force_components(s->system) : s->parameters;
+    all->set = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
+    all->low = NULL;
+    const CpsMotionOutcome outcome = cps_motion_report(motion)->outcome;
+    if (s->parameters + force_components(s->system) > MOST_DENSE || outcome == CPS_MOTION_NO_BALANCE ||
+        outcome == CPS_MOTION_BLOCKED)
+        return true;
+    all->low = calloc(2 * (size_t)all->n, sizeof *all->low);
+    if (!all->low) {
+        run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
+        return false;
+    }
+    all->high = all->low + all->n;
+    return (forces ? cps_motion_forces(motion, 0, &all->set, all->low, all->high, &run->err)
+                   : cps_motion_velocities(motion, 0, &all->set, all->low, all->high, &run->err)) == CPS_OK;
+}
+
+static void free_all(All *all) {
+    cps_solution_set_clear(&all->set);
+    free(all->low);
+    all->low = NULL;
+}
+
+static void print_all(const All *all, const char *what) {
+    if (all->set.outcome != CPS_SET_ANSWERED)
+        printf("  all %s: %s\n", what,
+               all->low ? cps_set_outcome_sentence(all->set.outcome)
+                        : "not looked for (no solution, or a large system)");
+    else if (all->set.unique)
+        printf("  %s: no other\n", what);
+    else
+        printf("  not unique: the %s are a set of dimension %d\n", what, all->set.dimension);
+}
+
+/* rounding is not shown */
+static double tidy(double x, double scale) { return fabs(x) <= 1e-13 * scale ? 0 : x; }
+
+/* "omega 0", or "omega 0 (from -3.3 to 0)" where it is not unique */
+static void print_component(const char *name, double x, double scale, const All *all, int i) {
+    printf("%s%s %.10g", i ? ", " : "", name, tidy(x, scale));
+    if (all->set.outcome == CPS_SET_ANSWERED && !all->set.unique && all->high[i] - all->low[i] > all->set.tolerance)
+        printf(" (from %.6g to %.6g)", tidy(all->low[i], scale), tidy(all->high[i], scale));
+}
+
+static void print_velocity(const CpsDriveSystem *s, const double *v, const All *all) {
+    double scale = all->set.outcome == CPS_SET_ANSWERED ? all->set.tolerance : 0;
+    for (int i = 0; i < s->parameters; i++) scale = fmax(scale, fabs(v[i]));
+    fputs("  V: ", stdout);
+    for (int i = 0; i < s->parameters && i < MOST_PRINTED; i++) print_component(s->parameter[i], v[i], scale, all, i);
+    puts(s->parameters > MOST_PRINTED ? ", .." : "");
+}
+
+static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const All *all) {
+    for (int k = 0, at = 0; k < cps_system_laws(s->system) && k < MOST_PRINTED; k++) {
+        const int n = cps_system_law_space(s->system, k);
+        printf("  %s: force ", cps_system_law_name(s->system, k));
+        law_print_vector(n, cps_motion_law_force(motion, k));
+        printf(", dissipates %.10g W",
+               tidy(cps_motion_law_share(motion, k)->dissipated, cps_motion_report(motion)->scale));
+        for (int i = 0; i < n && all->set.outcome == CPS_SET_ANSWERED; i++, at++)
+            if (all->high[at] - all->low[at] > all->set.tolerance * (fabs(all->low[at]) + fabs(all->high[at])))
+                printf("; component %d from %.6g to %.6g N", i + 1, all->low[at] + 0.0, all->high[at] + 0.0);
+        puts("");
+    }
+}
+
+static void print_motion(DriveRun *run, const CpsMotion *motion, const All *velocities, const All *forces) {
+    const CpsDriveSystem *s = &run->file->system;
+    const CpsMotionReport *r = cps_motion_report(motion);
+    if (r->outcome == CPS_MOTION_NO_BALANCE || r->outcome == CPS_MOTION_BLOCKED) {
+        printf("  no motion: %s\n", cps_motion_outcome_sentence(r->outcome));
+        if (r->outcome == CPS_MOTION_NO_BALANCE) {
+            fputs("  proof, a velocity at which the load runs away:\n", stdout);
+            print_velocity(s, cps_motion_velocity(motion), velocities);
+        } else {
+            fputs("  proof, forces that need no load and resist without bound: G = ", stdout);
+            law_print_vector(s->driven, cps_motion_resistance(motion));
+            puts("");
+        }
+        return;
+    }
+    printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", r->value + 0.0, fmax(r->upper - r->lower, 0));
+    if (r->outcome != CPS_MOTION_SOLVED) printf("  note: %s\n", cps_motion_outcome_sentence(r->outcome));
+    print_velocity(s, cps_motion_velocity(motion), velocities);
+    print_all(velocities, "velocities");
+    fputs("  resistance G = ", stdout);
+    law_print_vector(s->driven, cps_motion_resistance(motion));
+    puts("");
+    print_laws(s, motion, forces);
+    print_all(forces, "forces");
+    if (s->loaded) printf("  load: gives %.10g W; ", tidy(r->load_power, r->scale));
+    if (s->loaded && isfinite(r->load_factor)) printf("up to %.6g times as much can be balanced\n", r->load_factor);
+    if (s->loaded && !isfinite(r->load_factor)) puts("any multiple of it can be balanced");
+    printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition), cps_composition_sentence(r->composition));
+    printf("  residuals: drive %.1e, constraints %.1e, equilibrium %.1e, laws %.1e; power gap %.1e of %.3g W\n",
+           r->drive, r->constraint, r->equilibrium, r->outside, fmax(r->law, 0), r->scale);
+}
+
+static void json_all(const char *key, const All *all) {
+    printf(", \"%s\": {\"outcome\": \"%s\"", key,
+           all->low ? cps_set_outcome_name(all->set.outcome) : cps_set_outcome_name(CPS_SET_NOT_AVAILABLE));
+    if (all->set.outcome == CPS_SET_ANSWERED) {
+        printf(", \"dimension\": %d, \"unique\": %s, \"bounded\": %s", all->set.dimension,
+               all->set.unique ? "true" : "false", all->set.bounded ? "true" : "false");
+        drive_json_list("low", all->n, all->low);
+        drive_json_list("high", all->n, all->high);
+        drive_json("tolerance", all->set.tolerance);
+    }
+    putchar('}');
+}
+
+static void json_laws(const CpsDriveSystem *s, const CpsMotion *motion) {
+    fputs(", \"laws\": [", stdout);
+    for (int k = 0; k < cps_system_laws(s->system); k++) {
+        const int n = cps_system_law_space(s->system, k);
+        const CpsMotionShare *share = cps_motion_law_share(motion, k);
+        fputs(k ? ", {\"name\": " : "{\"name\": ", stdout);
+        law_json_text(cps_system_law_name(s->system, k), stdout);
+        drive_json_list("velocity", n, cps_motion_law_velocity(motion, k));
+        drive_json_list("force_N", n, cps_motion_law_force(motion, k));
+        drive_json("dissipated_W", share->dissipated);
+        drive_json("gap_W", share->gap);
+        putchar('}');
+    }
+    putchar(']');
+}
+
+static void json_motion(DriveRun *run, const CpsMotion *motion, const All *velocities, const All *forces) {
+    const CpsDriveSystem *s = &run->file->system;
+    const CpsMotionReport *r = cps_motion_report(motion);
+    drive_json_word("outcome", cps_motion_outcome_name(r->outcome));
+    drive_json("gamma_W", r->value);
+    drive_json("lower_W", r->lower);
+    drive_json("upper_W", r->upper);
+    drive_json("scale_W", r->scale);
+    drive_json_list("V", s->parameters, cps_motion_velocity(motion));
+    drive_json_list("G", s->driven, cps_motion_resistance(motion));
+    json_laws(s, motion);
+    json_all("velocities", velocities);
+    json_all("forces", forces);
+    drive_json_word("composition", cps_composition_name(r->composition));
+    drive_json("load_power_W", r->load_power);
+    drive_json("load_factor", r->load_factor);
+    printf(", \"residuals\": {\"drive\": ");
+    law_json_number(r->drive, stdout);
+    drive_json("constraint", r->constraint);
+    drive_json("equilibrium", r->equilibrium);
+    drive_json("outside", r->outside);
+    drive_json("law_W", r->law);
+    drive_json("minimum_W", r->minimum);
+    putchar('}');
+}
+
+static bool tell_motion(DriveRun *run, const double *velocity, int i) {
+    const CpsDriveSystem *s = &run->file->system;
+    CpsMotion *motion = NULL;
+    All velocities = {.low = NULL}, forces = {.low = NULL};
+    bool good = cps_system_solve(s->system, velocity, NULL, &motion, &run->err) == CPS_OK &&
+                ask_all(run, motion, false, &velocities) && ask_all(run, motion, true, &forces);
+    if (good && run->json) {
+        printf("%s{\"velocity\": ", i ? ",\n    " : "\n    ");
+        law_json_vector(s->driven, velocity, stdout);
+        json_motion(run, motion, &velocities, &forces);
+        putchar('}');
+    } else if (good) {
+        if (s->driven) fputs("velocity W = ", stdout), law_print_vector(s->driven, velocity);
+        puts(s->driven ? "" : "nothing is driven");
+        print_motion(run, motion, &velocities, &forces);
+    }
+    const CpsMotionOutcome outcome = good ? cps_motion_report(motion)->outcome : CPS_MOTION_SOLVED;
+    run->answered = run->answered && outcome != CPS_MOTION_INACCURATE;
+    run->none = run->none || outcome == CPS_MOTION_NO_BALANCE || outcome == CPS_MOTION_BLOCKED;
+    free_all(&velocities);
+    free_all(&forces);
+    cps_motion_destroy(motion);
+    return good;
+}
+
+/* ---- the reduced law ---- */
+
+static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, bool velocity, int i) {
+    const int n = run->file->system.driven;
+    CpsSet *found = NULL;
+    CpsSetAnswer answer;
+    SetAnswer about = {.n = n};
+    bool good = (velocity ? cps_law_forces(set, asked, 0, &found, &answer, &run->err)
+                          : cps_law_velocities(set, asked, 0, &found, &answer, &run->err)) == CPS_OK;
+    if (good && found) good = law_answer_ask(found, !velocity, &about, &run->err) == CPS_OK;
+    const char *key = velocity ? "velocity" : "force";
+    if (good && run->json) {
+        printf("%s{\"%s\": ", i ? ",\n    " : "\n    ", key);
+        law_json_vector(n, asked, stdout);
+        if (velocity) drive_json("dissipation_W", found ? answer.value : NAN);
+        printf(", \"%s\": ", velocity ? "forces" : "velocities");
+        if (found)
+            law_answer_json(&about, !velocity, stdout);
+        else
+            printf("{\"outcome\": \"%s\"}", cps_set_outcome_name(answer.outcome));
+        putchar('}');
+    } else if (good) {
+        printf("%s ", key);
+        law_print_vector(n, asked);
+        if (velocity && found) printf("\n  dissipates %.12g W (gap %.2g W)", answer.value + 0.0, answer.gap);
+        printf("\n  %s: ", velocity ? "forces" : "velocities");
+        if (found)
+            law_answer_print(&about, !velocity);
+        else
+            printf("none: %s", cps_set_outcome_sentence(answer.outcome));
+        puts("");
+    }
+    const bool open = answer.outcome == CPS_SET_NOT_AVAILABLE || answer.outcome == CPS_SET_INACCURATE;
+    if (good) run->answered = run->answered && !open;
+    law_answer_free(&about);
+    cps_set_release(found);
+    return good;
+}
+
+static bool tell_elimination(DriveRun *run, const CpsSet *set, CpsComposition composition) {
+    CpsSetMeasure measure = {.outcome = CPS_SET_NOT_PLANAR};
+    const int n = run->file->system.driven;
+    if (n == 2 && cps_set_measure(set, &measure, &run->err) != CPS_OK) return false;
+    const bool measured = measure.outcome == CPS_SET_ANSWERED;
+    if (run->json) {
+        printf(", \"components\": %d", n);
+        drive_json_word("composition", cps_composition_name(composition));
+        if (measured) drive_json("area", measure.area), drive_json("perimeter", measure.perimeter);
+        return true;
+    }
+    printf("reduced law between W and G, %d component%s\n", n, n == 1 ? "" : "s");
+    if (measured) printf("set of forces: area %.10g, perimeter %.10g\n", measure.area, measure.perimeter);
+    printf("Proposition 1, %s: %s\n", cps_composition_name(composition), cps_composition_sentence(composition));
+    return true;
+}
+
+static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *velocity, const QueryList *force) {
+    const CliOptions *options = run->options;
+    CpsLawPicture picture = {.title = run->file->title,
+                             .velocity_count = velocity->count,
+                             .velocity = velocity->row,
+                             .force_count = force->count,
+                             .force = force->row};
+    const int n = run->file->system.driven;
+    if (n >= 2 && law_plot_axes(options->axes, n, picture.axis)) return law_plot(set, &picture, options->plot);
+    fprintf(stderr, "capstan drive: --plot and --axes: expected two different components from 1 to %d\n", n);
+    return EXIT_USAGE;
+}
+
+static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryList *force) {
+    CpsSet *set = NULL;
+    CpsComposition composition;
+    const size_t n = (size_t)run->file->system.driven;
+    if (cps_system_eliminate(run->file->system.system, NULL, &set, &composition, &run->err) != CPS_OK)
+        return cli_report(&run->err);
+    bool good = tell_elimination(run, set, composition);
+    if (run->json) fputs(",\n  \"answers\": [", stdout);
+    for (int i = 0; i < velocity->count && good; i++)
+        good = tell_reduced(run, set, velocity->row + (size_t)i * n, true, i);
+    for (int i = 0; i < force->count && good; i++)
+        good = tell_reduced(run, set, force->row + (size_t)i * n, false, velocity->count + i);
+    if (run->json) putchar(']');
+    int code = good ? EXIT_OK : cli_report(&run->err);
+    if (code == EXIT_OK && run->options->plot) code = draw_reduced(run, set, velocity, force);
+    cps_set_release(set);
+    return code;
+}
+
+/* ---- all together ---- */
+
+static void tell_system(const DriveRun *run) {
+    const CpsDriveSystem *s = &run->file->system;
+    if (!run->json) {
+        printf("system of %d parameter%s and %d law%s; driven:", s->parameters, s->parameters == 1 ? "" : "s",
+               cps_system_laws(s->system), cps_system_laws(s->system) == 1 ? "" : "s");
+        for (int i = 0; i < s->driven && i < MOST_PRINTED; i++) printf("%s %s", i ? "," : "", s->drive[i]);
+        puts(s->driven ? "" : " nothing");
+        return;
+    }
+    fputs(", \"parameters\": [", stdout);
+    for (int i = 0; i < s->parameters; i++) {
+        if (i) fputs(", ", stdout);
+        law_json_text(s->parameter[i], stdout);
+    }
+    fputs("], \"drive\": [", stdout);
+    for (int i = 0; i < s->driven; i++) {
+        if (i) fputs(", ", stdout);
+        law_json_text(s->drive[i], stdout);
+    }
+    putchar(']');
+}
+
+static void show_progress(void *user, int done, int all) {
+    Progress *progress = user;
+    progress->steps = all;
+    /* what is over in a second needs no bar */
+    if (cli_now() - progress->begun > 1) progress_step(progress, done, "map");
+}
+
+static CpsStatus draw_maps(void *user, FILE *out, CpsError *err) {
+    DriveRun *run = user;
+    Progress progress = progress_begin(1, run->options->quiet);
+    const CpsStatus status = cps_drive_draw_system(run->file, show_progress, &progress, out, err);
+    progress_end(&progress);
+    return status;
+}
+
+static int answer_motions(DriveRun *run, const QueryList *velocity) {
+    const CpsDriveSystem *s = &run->file->system;
+    const int count = s->driven ? velocity->count : 1;
+    if (run->json) fputs(",\n  \"answers\": [", stdout);
+    for (int i = 0; i < count; i++)
+        if (!tell_motion(run, s->driven ? velocity->row + (size_t)i * (size_t)s->driven : NULL, i))
+            return cli_report(&run->err);
+    if (run->json) putchar(']');
+    if (count == 0 && !run->json) puts("nothing asked: add --velocity W, or 'velocity' in the file");
+    return run->options->plot ? cli_plot(draw_maps, run, run->options->plot) : EXIT_OK;
+}
+
+int drive_answer_system(DriveRun *run) {
+    const CpsDriveSystem *s = &run->file->system;
+    QueryList velocity = {.command = "drive", .n = s->driven}, force = {.command = "drive", .n = s->driven};
+    const bool asked = run->options->velocity.count + run->options->force.count > 0;
+    if (s->driven == 0 && (asked || run->options->eliminate)) {
+        fprintf(stderr, "capstan drive: nothing is driven in this system: add 'drive' to the file\n");
+        return EXIT_USAGE;
+    }
+    if (run->options->plot && !run->options->eliminate && s->driven != 2) {
+        fprintf(stderr,
+                "capstan drive: --plot draws maps over two driven components; this system has %d: ask with --velocity, "
+                "or draw its law with --eliminate\n",
+                s->driven);
+        return EXIT_USAGE;
+    }
+    int code = law_query_read(&run->options->velocity, "velocity", &velocity);
+    if (code == EXIT_OK) code = law_query_read(&run->options->force, "force", &force);
+    if (code == EXIT_OK && !asked && s->velocity_count > 0) {
+        const size_t size = (size_t)s->velocity_count * (size_t)s->driven * sizeof(double);
+        velocity.row = malloc(size);
+        if (velocity.row) memcpy(velocity.row, s->velocity, size), velocity.count = s->velocity_count;
+        if (!velocity.row) code = drive_no_memory();
+    }
+    if (code == EXIT_OK) {
+        tell_system(run);
+        code = run->options->eliminate ? answer_reduced(run, &velocity, &force) : answer_motions(run, &velocity);
+    }
+    free(velocity.row);
+    free(force.row);
+    return code;
+}

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan run --method regularized (see regularized.h). */
+#include "regularized.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "capstan/classic_io.h"
+#include "commands.h"
+#include "progress.h"
+
+enum { NEWTON_LIMIT = 5000, STEP_NAME = 96, NAME_WIDTH = 18, LINE_WIDTH = 10 };
+
+/* ---- a step ---- */
+
+double regularized_friction(const CpsScene *scene, const char *command) {
+    if (scene->obstacle_count == 0) return 0;
+    if (scene->obstacle_count == 1) return scene->obstacle[0].friction;
+    fprintf(stderr, "capstan %s: found %d obstacles, expected one plane or none for the method of 1990\n", command,
+            scene->obstacle_count);
+    return -1;
+}
+
+CpsScene regularized_scene(const CpsScene *scene) {
+    CpsScene frozen = *scene;
+    frozen.friction = CPS_FRICTION_FROZEN;
+    frozen.solver.path_tolerance = 0;
+    frozen.solver.halvings = 0;
+    return frozen;
+}
+
+CpsStatus regularized_step(Regularized *method, const CpsLineView *exact, CpsClassicParameters *parameters,
+                           CpsClassicReport *report, CpsError *err) {
+    CpsClassic *next = NULL;
+    CpsStatus status = method->last ? cps_classic_next(exact, method->friction, method->last, &next, err)
+                                    : cps_classic_create(exact, &next, err);
+    cps_classic_destroy(method->last);
+    method->last = next;
+    if (status != CPS_OK) return status;
+    *parameters = cps_classic_fine(next);
+    return cps_classic_solve(next, parameters, NEWTON_LIMIT, report, err);
+}
+
+/* ---- a history ---- */
+
+/* What a line has gone through; step 0 is the start. */
+typedef struct Track {
+    Regularized method;
+    int points;
+    double *position, *tension; /* (steps, points, 3), (steps, 2) */
+    CpsClassicParameters *parameters;
+    CpsClassicReport *report;
+} Track;
+
+typedef struct History {
+    const CpsScene *scene;
+    CpsEvolution *exact;
+    int steps, done, lines; /* steps and done with the start */
+    Track *track;
+    char (*name)[STEP_NAME];
+} History;
+
+static void free_history(History *h) {
+    for (int i = 0; i < h->lines && h->track; ++i) {
+        Track *t = &h->track[i];
+        cps_classic_destroy(t->method.last);
+        free(t->position), free(t->tension), free(t->parameters), free(t->report);
+    }
+    free(h->track);
+    free(h->name);
+    cps_evolution_destroy(h->exact);
+}
+
+static bool make_history(History *h, double friction) {
+    const size_t steps = (size_t)h->steps;
+    h->name = calloc(steps, sizeof *h->name);
+    h->track = calloc((size_t)h->lines, sizeof *h->track);
+    bool whole = h->name && h->track;
+    for (int i = 0; i < h->lines && whole; ++i) {
+        Track *t = &h->track[i];
+        t->method.friction = friction;
+        t->points = cps_evolution_line_view(h->exact, i).elements + 1;
+        t->position = calloc(steps * (size_t)t->points, 3 * sizeof(double));
+        t->tension = calloc(steps, 2 * sizeof(double));
+        t->parameters = calloc(steps, sizeof *t->parameters);
+        t->report = calloc(steps, sizeof *t->report);
+        whole = t->position && t->tension && t->parameters && t->report;
+    }
+    if (!whole) fprintf(stderr, "capstan: out of memory\n");
+    return whole;
+}
+
+static void store(Track *t, int step, const double *position) {
+    const size_t size = 3 * (size_t)t->points;
+    memcpy(t->position + (size_t)step * size, position, size * sizeof *position);
+}
+
+/* all lines of the step that the exact history has just taken */
+static CpsStatus follow(History *h, CpsError *err) {
+    for (int i = 0; i < h->lines; ++i) {
+        Track *t = &h->track[i];
+        const CpsLineView exact = cps_evolution_line_view(h->exact, i);
+        const CpsStatus status =
+            regularized_step(&t->method, &exact, &t->parameters[h->done], &t->report[h->done], err);
+        if (status != CPS_OK) return status;
+        const CpsClassicView own = cps_classic_view(t->method.last);
+        store(t, h->done, own.position);
+        t->tension[2 * h->done] = own.tension[0];
+        t->tension[2 * h->done + 1] = own.tension[own.cells - 1];
+    }
+    return CPS_OK;
+}
+
+/* All steps, or until a signal. The exit code. */
+static int take_steps(History *h, bool quiet, const volatile sig_atomic_t *stop) {
+    CpsError err;
+    Progress progress = progress_begin(h->steps - 1, quiet);
+    int code = EXIT_OK;
+    while (h->done < h->steps && !*stop && code == EXIT_OK) {
+        if (cps_evolution_step(h->exact, &err) != CPS_OK) {
+            code = cli_report(&err);
+            break;
+        }
+        const CpsStepReport report = cps_evolution_report(h->exact);
+        snprintf(h->name[h->done], STEP_NAME, "%s", report.name);
+        if (report.outcome != CPS_SOLVED) {
+            progress_end(&progress);
+            fputs("capstan run: step ", stderr);
+            cli_put_text(stderr, report.name, 80, false);
+            fprintf(stderr, ": %s; the method of 1990 has no limit to go to\n", cps_outcome_sentence(report.outcome));
+            code = report.outcome >= CPS_UNBOUNDED ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
+        } else if (follow(h, &err) != CPS_OK) {
+            code = cli_report(&err);
+        } else {
+            progress_step(&progress, h->done++, report.name);
+        }
+    }
+    progress_end(&progress);
+    return code;
+}
+
+/* ---- what is said ---- */
+
+static double larger(double a, double b) { return b > a ? b : a; }
+
+static void tell(const History *h, const char *directory) {
+    CpsClassicReport most = {0};
+    printf("%-*s %-*s %-13s %5s %12s %12s %9s %9s %9s %9s %9s %9s\n", NAME_WIDTH, "step", LINE_WIDTH, "line", "outcome",
+           "iter", "tension A", "tension B", "push", "sunk", "creep", "uncarried", "tension", "place");
+    printf("%-*s %-*s %-13s %5s %12s %12s %9s %9s %9s %9s %9s %9s\n", NAME_WIDTH, "", LINE_WIDTH, "", "", "", "N", "N",
+           "N", "m", "m", "N", "N rms off", "m off");
+    for (int s = 1; s < h->done; ++s)
+        for (int i = 0; i < h->lines; ++i) {
+            const Track *t = &h->track[i];
+            const CpsClassicReport *r = &t->report[s];
+            most.compression = larger(most.compression, r->compression);
+            most.penetration = larger(most.penetration, r->penetration);
+            most.creep = larger(most.creep, r->creep);
+            most.friction_excess = larger(most.friction_excess, r->friction_excess);
+            if (!cli_is_shown(h->scene, h->steps - 1, s - 1) && r->converged && s < h->done - 1) continue;
+            cli_put_text(stdout, i == 0 ? h->name[s] : "", NAME_WIDTH, true);
+            putchar(' ');
+            cli_put_text(stdout, cps_evolution_line_view(h->exact, i).name, LINE_WIDTH, true);
+            printf(" %-13s %5d %12.6g %12.6g %9.1e %9.1e %9.1e %9.1e %9.1e %9.1e\n",
+                   r->converged ? "converged" : "not converged", r->iterations, t->tension[2 * s],
+                   t->tension[2 * s + 1], r->compression, r->penetration, r->creep, r->friction_excess, r->tension_rms,
+                   r->position_max);
+        }
+    printf("\nno certificate: a regularised solution is no equilibrium under dry friction. Its parameters leave at most"
+           "\n  %.2g N of push in the line (1/n), %.2g m inside the obstacle (lambda), %.2g m of creep below the bound "
+           "(delta),\n  %.2g N that nothing carries; 'off' is from the certified step with frozen friction\n",
+           most.compression, most.penetration, most.creep, most.friction_excess);
+    printf("\nresults   %s: summary.json, history.csv\npictures  %s: line-1.svg%s\n", directory, directory,
+           h->lines > 1 ? ", .." : "");
+}
+
+/* ---- together ---- */
+
+static bool all_converged(const History *h) {
+    for (int i = 0; i < h->lines; ++i)
+        for (int s = 1; s < h->done; ++s)
+            if (!h->track[i].report[s].converged) return false;
+    return true;
+}
+
+static int write_results(const History *h, double wall, const char *directory, const CliOptions *options) {
+    CpsError err;
+    const char **name = malloc((size_t)h->steps * sizeof *name);
+    CpsRegularizedLine *line = calloc((size_t)h->lines, sizeof *line);
+    CpsStatus status = CPS_OK;
+    int code = EXIT_LIMIT;
+    if (name && line) {
+        for (int s = 0; s < h->steps; ++s) name[s] = h->name[s];
+        for (int i = 0; i < h->lines; ++i) {
+            const Track *t = &h->track[i];
+            line[i] = (CpsRegularizedLine){.name = cps_evolution_line_view(h->exact, i).name,
+                                           .points = t->points,
+                                           .position = t->position,
+                                           .parameters = t->parameters,
+                                           .report = t->report,
+                                           .tension = t->tension};
+        }
+        const CpsRegularizedRun run = {.title = h->scene->title ? h->scene->title : "capstan",
+                                       .steps = h->done,
+                                       .lines = h->lines,
+                                       .step_name = name,
+                                       .line = line,
+                                       .complete = h->done == h->steps,
+                                       .wall = wall};
+        status = cps_regularized_write(directory, &run, &err);
+        if (status == CPS_OK && options->json) status = cps_regularized_summary(&run, stdout, &err);
+        code = status == CPS_OK ? EXIT_OK : cli_report(&err);
+    } else {
+        fprintf(stderr, "capstan: out of memory\n");
+    }
+    free(name);
+    free(line);
+    return code;
+}
+
+int run_regularized(const CpsScene *scene, const char *directory, const CliOptions *options,
+                    const volatile sig_atomic_t *stop) {
+    CpsError err;
+    const double begun = cli_now(), friction = regularized_friction(scene, "run");
+    if (friction < 0) return EXIT_INPUT;
+    const CpsScene frozen = regularized_scene(scene);
+    History h = {.scene = scene, .done = 1};
+    if (cps_evolution_create(&frozen, &h.exact, &err) != CPS_OK) return cli_report(&err);
+    h.steps = 1 + cps_evolution_step_count(h.exact);
+    h.lines = cps_evolution_line_count(h.exact);
+    int code = EXIT_LIMIT;
+    if (make_history(&h, friction)) {
+        snprintf(h.name[0], STEP_NAME, "start");
+        for (int i = 0; i < h.lines; ++i) store(&h.track[i], 0, cps_evolution_line_view(h.exact, i).position);
+        code = take_steps(&h, options->quiet, stop);
+        const bool some = h.done > 1 || h.steps == 1;
+        const int written = some ? write_results(&h, cli_now() - begun, directory, options) : EXIT_OK;
+        if (written != EXIT_OK) code = written;
+        if (some && written == EXIT_OK && !options->quiet && !options->json) tell(&h, directory);
+        if (code == EXIT_OK && !all_converged(&h)) code = EXIT_NOT_CERTIFIED;
+        if (*stop) fprintf(stderr, "capstan: stopped by a signal after %d of %d steps\n", h.done - 1, h.steps - 1);
+        if (code == EXIT_OK && *stop) code = 128 + *stop;
+    }
+    free_history(&h);
+    return code;
+}

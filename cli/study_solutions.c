@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* All solutions of a step on the command line (see study_solutions.h). */
+#include "study_solutions.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "capstan/classic_io.h"
+#include "commands.h"
+#include "progress.h"
+
+enum { SHOWN_PARTS = 8 };
+
+/* gaps up to this part of the scale are none; the step is certified to it */
+static const double JUDGED = 1e-8;
+
+static int out_of_memory(void) {
+    fprintf(stderr, "capstan: out of memory\n");
+    return EXIT_LIMIT;
+}
+
+CpsCompletion study_find_completion(const char *name) {
+    CpsCompletion how = CPS_COMPLETION_SHORTEST;
+    while (how < CPS_COMPLETIONS && strcmp(name, cps_completion_key(how)) != 0) ++how;
+    if (how == CPS_COMPLETIONS)
+        fprintf(stderr, "capstan study: --complete: found '%.40s', expected shortest, straight or meander\n", name);
+    return how;
+}
+
+/* ---- slack ---- */
+
+static const char *hold_of(const CpsSlackPart *part) {
+    if (part->loose) return "loose";
+    if (!part->rubs) return "held by its ends";
+    return part->sliding ? "held by friction, at its bound: may slide on" : "held by friction";
+}
+
+static int tell_parts(const CpsLineView *view) {
+    CpsSlackPart part[SHOWN_PARTS];
+    const int parts = cps_solution_slack(view, SHOWN_PARTS, part);
+    printf("\nslack: %s\n", parts == 0 ? "none, the configuration is unique (result 4.4)" : "");
+    for (int i = 0; i < parts && i < SHOWN_PARTS; ++i)
+        printf("  %10.6g to %10.6g m  %s%s\n", part[i].from, part[i].to, hold_of(&part[i]),
+               part[i].grounded ? ", kept on the obstacle by contact" : "");
+    if (parts > SHOWN_PARTS) printf("  and %d more\n", parts - SHOWN_PARTS);
+    return parts;
+}
+
+static void tell_judgement(const char *what, const CpsLineView *view, const double *position) {
+    CpsError err;
+    CpsJudgementReport report;
+    if (cps_solution_judge(view, position, JUDGED, &report, &err) == CPS_OK)
+        printf("  %s: %s\n", what, cps_judgement_sentence(report.judgement));
+}
+
+void study_tell_slack(const CpsLineView *view) {
+    CpsError err;
+    CpsSlackReport slack;
+    char what[96];
+    tell_parts(view);
+    tell_judgement("as found", view, view->position);
+    double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
+    if (position && cps_solution_complete(view, CPS_COMPLETION_MEANDER, position, &slack, &err) == CPS_OK &&
+        slack.parts > 0) {
+        snprintf(what, sizeof what, "laid out %s, %.6g m of it", cps_completion_sentence(CPS_COMPLETION_MEANDER),
+                 slack.loose);
+        tell_judgement(what, view, position);
+    }
+    free(position);
+}
+
+/* ---- a configuration from a file ---- */
+
+static int bad_file(const char *path, int line, const char *found, const char *expected) {
+    fprintf(stderr, "capstan: %s:%d: found %s, expected %s\n", path, line, found, expected);
+    return EXIT_INPUT;
+}
+
+/* numbers of a row, at most 4, into value; -1 where there is anything else */
+static int read_row(const char *text, double value[4]) {
+    for (int n = 0; n < 4;) {
+        char *end;
+        value[n] = strtod(text, &end);
+        if (end == text || !isfinite(value[n])) return -1;
+        ++n;
+        end += strspn(end, " \t\r\n");
+        if (!*end) return n;
+        if (*end != ',') return -1;
+        text = end + 1;
+    }
+    return -1;
+}
+
+static int read_nodes(const CpsLineView *view, const char *path, FILE *file, double *position) {
+    static const char EXPECTED[] = "x,y,z or arc_length,x,y,z, finite numbers, one row per node";
+    char text[512], found[64];
+    double value[4];
+    int line = 0, node = 0, columns = 0;
+    while (fgets(text, sizeof text, file)) {
+        ++line;
+        const int n = read_row(text, value);
+        if (n < 0 && node == 0 && line <= 2) continue; /* names, units */
+        if (n < 3 || (columns > 0 && n != columns)) return bad_file(path, line, "another row", EXPECTED);
+        if (node > view->elements) break;
+        if (n == 4 && !(fabs(value[0] - view->arc_length[node]) <= 1e-6 * view->arc_length[view->elements])) {
+            snprintf(found, sizeof found, "arc length %.9g m", value[0]);
+            return bad_file(path, line, found, "that of the line's nodes, in order");
+        }
+        columns = n;
+        memcpy(position + 3 * (size_t)node++, value + n - 3, 3 * sizeof *position);
+    }
+    if (ferror(file)) {
+        fprintf(stderr, "capstan: %s: %s\n", path, strerror(errno));
+        return EXIT_IO;
+    }
+    if (node == view->elements + 1 && feof(file)) return EXIT_OK;
+    fprintf(stderr, "capstan: %s: found %s%d rows of nodes, expected %d\n", path, feof(file) ? "" : "more than ", node,
+            view->elements + 1);
+    return EXIT_INPUT;
+}
+
+static int read_configuration(const CpsLineView *view, const char *path, double *position) {
+    FILE *file = fopen(path, "r");
+    if (!file) {
+        fprintf(stderr, "capstan: %s: %s\n", path, strerror(errno));
+        return EXIT_IO;
+    }
+    const int code = read_nodes(view, path, file, position);
+    fclose(file);
+    return code;
+}
+
+static void tell_report(const CpsJudgementReport *r) {
+    printf("%s\n\n", cps_judgement_sentence(r->judgement));
+    printf("energy above the minimum  %12.5g J, of which\n", r->energy);
+    printf("  tension                 %12.5g J  0 where tensions and their directions are those of the step\n",
+           r->tension);
+    printf("  contact                 %12.5g J  0 where what the obstacle pushes stays on it\n", r->contact);
+    printf("  sliding                 %12.5g J  0 where it slides in the normal cone of the friction force\n",
+           r->sliding);
+    printf(
+        "inside the obstacle       %12.5g m\nheld ends off              %12.5g m\nlargest 1 - |x'|          %12.5g\n",
+        r->penetration, r->end_error, r->shortening);
+    if (r->judgement != CPS_JUDGED_SOLUTION) printf("what fails is largest at a = %.6g m\n", r->arc_length);
+}
+
+int study_judge(const CpsLineView *view, const char *path, bool quiet) {
+    CpsError err;
+    CpsJudgementReport report;
+    double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
+    if (!position) return out_of_memory();
+    int code = read_configuration(view, path, position);
+    if (code == EXIT_OK && cps_solution_judge(view, position, JUDGED, &report, &err) != CPS_OK)
+        code = cli_report(&err);
+    else if (code == EXIT_OK) {
+        if (!quiet) cli_put_text(stdout, path, 200, false), printf(": "), tell_report(&report);
+        code = report.judgement == CPS_JUDGED_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
+    }
+    free(position);
+    return code;
+}
+
+/* ---- slack laid out ---- */
+
+static CpsStatus complete_all(const CpsLineView *view, double *all, CpsCompletedLine *line, CpsSlackReport *slack,
+                              CpsError *err) {
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < CPS_COMPLETIONS && status == CPS_OK; ++k) {
+        double *position = all + 3 * (size_t)k * ((size_t)view->elements + 1);
+        status = cps_solution_complete(view, (CpsCompletion)k, position, &slack[k], err);
+        line->position[k] = position;
+    }
+    return status;
+}
+
+int study_complete(const CpsLineView *view, CpsCompletion how, const char *title, const char *directory, bool quiet) {
+    CpsError err;
+    CpsSlackReport slack[CPS_COMPLETIONS];
+    CpsJudgementReport report = {0};
+    CpsCompletedLine line = {.title = title, .view = view, .chosen = how};
+    double *all = malloc(3 * CPS_COMPLETIONS * ((size_t)view->elements + 1) * sizeof *all);
+    if (!all) return out_of_memory();
+    CpsStatus status = complete_all(view, all, &line, slack, &err);
+    if (status == CPS_OK) status = cps_solution_judge(view, line.position[how], JUDGED, &report, &err);
+    if (status == CPS_OK) status = cps_completed_write(directory, &line, &err);
+    if (status == CPS_OK && !quiet) {
+        tell_parts(view);
+        tell_judgement("as found", view, view->position);
+        printf("  laid out %s, %.6g m of it in %d piece%s: %s\n", cps_completion_sentence(how), slack[how].loose,
+               slack[how].parts, slack[how].parts == 1 ? "" : "s", cps_judgement_sentence(report.judgement));
+        if (slack[how].left > 0)
+            printf("  %.6g m keep |x'| < 1, between nodes held closer than their length\n", slack[how].left);
+        printf("\nresults   %s: completed.csv\npictures  %s: completed.svg\n", directory, directory);
+    }
+    free(all);
+    if (status != CPS_OK) return cli_report(&err);
+    return report.judgement == CPS_JUDGED_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The kinds of file that drive_read.c reads, one function each; what they make is let go with the file, also on
+ * failure. */
+#ifndef CAPSTAN_SRC_IO_DRIVE_READ_H
+#define CAPSTAN_SRC_IO_DRIVE_READ_H
+
+#include "capstan/drive_io.h"
+#include "io/drive_fields.h"
+
+/* Limits, so that no small file asks for very much work. */
+enum {
+    CPSI_DRIVE_MOST_PARAMETERS = 10000,
+    CPSI_DRIVE_MOST_STEPS = 1000000,
+    CPSI_DRIVE_MOST_ELEMENTS = 100000,
+    CPSI_DRIVE_ARC_SIDES = 1000 /* of an arc as a path, about */
+};
+
+CpsStatus cpsi_drive_read_system(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSystem *out);
+CpsStatus cpsi_drive_read_body(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBody *out);
+CpsStatus cpsi_drive_read_vehicle(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBody *out);
+CpsStatus cpsi_drive_read_planimeter(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePlanimeter *out);
+CpsStatus cpsi_drive_read_rope(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveRope *out);
+CpsStatus cpsi_drive_read_sweep(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSweep *out);
+
+/* A path from `start` on: a list of points, or (in the plane) {arc: {center: .., turn: ..}}, which `steps` equal steps
+ * then follow on the arc itself. */
+CpsStatus cpsi_drive_read_path(CpsiDriveRead *r, const CpsiYaml *node, int space, const double *start, int steps,
+                               int *points, const double **path);
+
+#endif

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A rope on a table as a driven system (see rope.h): V the nodes' velocities, -V_k in N(F_k) for a disc of radius
+ * resistance x half the length of the neighbouring elements, and -U_i in N(F_i) for the half-line F_i <= 0, which says
+ * U_i <= 0, F_i U_i = 0: tension only where an element keeps its length. */
+#include "capstan/rope.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/status.h"
+
+static CpsStatus check(const CpsRope *rope, CpsError *err) {
+    if (!rope || !rope->node) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_rope_system: rope or its nodes are NULL");
+    if (rope->nodes < 2)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_rope_system: found %d nodes, expected at least 2", rope->nodes);
+    if (rope->nodes > CPS_ROPE_MAX_NODES)
+        return cpsi_fail(err, CPS_ERR_LIMIT, "cps_rope_system: found %d nodes, at most %d", rope->nodes,
+                         CPS_ROPE_MAX_NODES);
+    if (!(rope->resistance >= 0) || !isfinite(rope->resistance))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_rope_system: found resistance %g N/m, expected at least 0",
+                         rope->resistance);
+    for (int i = 0; i + 1 < rope->nodes; i++) {
+        const double *x = rope->node + 2 * (size_t)i, length = hypot(x[2] - x[0], x[3] - x[1]);
+        if (!(length > 0) || !isfinite(length))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "cps_rope_system: nodes %d and %d are %g m apart, expected a finite length above 0", i,
+                             i + 1, length);
+    }
+    return CPS_OK;
+}
+
+static double element_length(const CpsRope *rope, int i) {
+    const double *x = rope->node + 2 * (size_t)i;
+    return hypot(x[2] - x[0], x[3] - x[1]);
+}
+
+/* nodes of equal friction share one law, and with it its conic form */
+static CpsStatus add_nodes(CpsSystem *system, const CpsRope *rope, CpsError *err) {
+    CpsLaw *law = NULL;
+    double last = -1;
+    char name[32];
+    CpsStatus status = CPS_OK;
+    for (int i = 0; i < rope->nodes && status == CPS_OK; i++) {
+        const double before = i > 0 ? element_length(rope, i - 1) : 0;
+        const double after = i + 1 < rope->nodes ? element_length(rope, i) : 0;
+        const double radius = 0.5 * rope->resistance * (before + after);
+        const CpsEntry map[] = {{0, 2 * i, 1}, {1, 2 * i + 1, 1}};
+        /* lengths that differ by rounding are one length */
+        if (!(fabs(radius - last) <= 1e-14 * last)) {
+            cps_law_destroy(law);
+            law = NULL;
+            status = cps_law_coulomb(1, radius, &law, err);
+            last = radius;
+        }
+        snprintf(name, sizeof name, "node %d", i);
+        if (status == CPS_OK) status = cps_system_add_friction(system, name, law, 2, map, err);
+    }
+    cps_law_destroy(law);
+    return status;
+}
+
+static CpsStatus add_elements(CpsSystem *system, const CpsRope *rope, CpsError *err) {
+    CpsSet *pull = NULL;
+    CpsLaw *law = NULL;
+    char name[32];
+    CpsStatus status = cps_set_interval(-INFINITY, 0, &pull, err);
+    if (status == CPS_OK) status = cps_law_friction(pull, &law, err);
+    for (int i = 0; i + 1 < rope->nodes && status == CPS_OK; i++) {
+        const double *x = rope->node + 2 * (size_t)i, length = element_length(rope, i);
+        const double tx = (x[2] - x[0]) / length, ty = (x[3] - x[1]) / length;
+        const CpsEntry map[] = {{0, 2 * i, -tx}, {0, 2 * i + 1, -ty}, {0, 2 * i + 2, tx}, {0, 2 * i + 3, ty}};
+        snprintf(name, sizeof name, "element %d", i);
+        status = cps_system_add_friction(system, name, law, 4, map, err);
+    }
+    cps_law_destroy(law);
+    cps_set_release(pull);
+    return status;
+}
+
+static CpsStatus set_drive(CpsSystem *system, const CpsRope *rope, CpsError *err) {
+    CpsEntry map[4];
+    int rows = 0;
+    for (int end = 0; end < 2; end++)
+        for (int k = 0; k < 2 && rope->driven[end]; k++, rows++)
+            map[rows] = (CpsEntry){rows, (end ? 2 * (rope->nodes - 1) : 0) + k, 1};
+    return rows ? cps_system_set_drive(system, rows, rows, map, err) : CPS_OK;
+}
+
+CpsStatus cps_rope_system(const CpsRope *rope, CpsSystem **out, CpsError *err) {
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_rope_system: out is NULL");
+    *out = NULL;
+    CpsSystem *system = NULL;
+    CpsStatus status = check(rope, err);
+    if (status == CPS_OK) status = cps_system_create(2 * rope->nodes, &system, err);
+    if (status == CPS_OK) status = add_nodes(system, rope, err);
+    if (status == CPS_OK) status = add_elements(system, rope, err);
+    if (status == CPS_OK) status = set_drive(system, rope, err);
+    if (status == CPS_OK)
+        *out = system;
+    else
+        cps_system_destroy(system);
+    return status;
+}

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Geometry and friction sets of obstacles (surface.h).
+ *
+ * Ways: on a cylinder the helix, an angle about the axis and a shift along it; on a ball the great circle, whose angle
+ * comes from the chord of the two normals. */
+#include "surface.h"
+
+#include <math.h>
+
+static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static Real size(const Real *a) { return sqrtl(dot(a, a)); }
+
+static void cross(const Real *a, const Real *b, Real *out) {
+    for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* from the plane's point, the axis or the centre */
+static void arm(const Surface *s, const Real *x, Real *out) {
+    for (int k = 0; k < 3; k++) out[k] = x[k] - s->point[k];
+    Real along = s->kind == SURFACE_CYLINDER ? dot(out, s->axis) : 0;
+    for (int k = 0; k < 3; k++) out[k] -= along * s->axis[k];
+}
+
+Real surface_distance(const Surface *s, const Real *x) {
+    Real from[3];
+    arm(s, x, from);
+    return s->kind == SURFACE_PLANE ? dot(from, s->axis) : size(from) - s->radius;
+}
+
+void surface_normal(const Surface *s, const Real *x, Real *n) {
+    arm(s, x, n);
+    Real length = size(n);
+    for (int k = 0; k < 3; k++) n[k] = s->kind == SURFACE_PLANE ? s->axis[k] : n[k] / length;
+}
+
+void surface_carry(const Surface *s, const Real *x, Real angle, Real *out) {
+    Real v[3], around[3];
+    for (int k = 0; k < 3; k++) v[k] = x[k] - s->point[k];
+    cross(s->axis, v, around);
+    /* 1 - cos without cancellation */
+    Real along = dot(s->axis, v), half = sinl(angle / 2), versine = 2 * half * half;
+    for (int k = 0; k < 3; k++) out[k] = x[k] + sinl(angle) * around[k] - versine * (v[k] - along * s->axis[k]);
+}
+
+void surface_way(const Surface *s, const Real *from, const Real *to, Real *out) {
+    Real n0[3], n1[3], shift[3];
+    surface_normal(s, from, n0), surface_normal(s, to, n1);
+    for (int k = 0; k < 3; k++) shift[k] = to[k] - from[k];
+    if (s->kind == SURFACE_PLANE) {
+        Real rise = dot(shift, s->axis);
+        for (int k = 0; k < 3; k++) out[k] = shift[k] - rise * s->axis[k];
+    } else if (s->kind == SURFACE_CYLINDER) {
+        Real turn[3], tangent[3];
+        cross(n0, n1, turn), cross(s->axis, n1, tangent);
+        Real angle = atan2l(dot(turn, s->axis), dot(n0, n1)), along = dot(shift, s->axis);
+        for (int k = 0; k < 3; k++) out[k] = s->radius * angle * tangent[k] + along * s->axis[k];
+    } else {
+        Real chord[3], tangent[3];
+        for (int k = 0; k < 3; k++) chord[k] = n1[k] - n0[k];
+        Real normal = dot(chord, n1), angle = 2 * asinl(fminl(1, size(chord) / 2));
+        for (int k = 0; k < 3; k++) tangent[k] = chord[k] - normal * n1[k];
+        Real length = size(tangent);
+        for (int k = 0; k < 3; k++) out[k] = length > 0 ? s->radius * angle * tangent[k] / length : 0;
+    }
+}
+
+bool surface_axes(const Surface *s, const Real *n, const Real *along, Real axes[2][3]) {
+    const Real *wanted = s->grained ? s->grain : along;
+    Real rise = dot(wanted, n);
+    for (int k = 0; k < 3; k++) axes[0][k] = wanted[k] - rise * n[k];
+    Real length = size(axes[0]);
+    if (!(length > 1e-9L * size(wanted))) return false; // what rounding leaves of a direction along the normal
+    for (int k = 0; k < 3; k++) axes[0][k] /= length;
+    cross(n, axes[0], axes[1]);
+    return true;
+}
+
+Real surface_friction(const Surface *s) { return fmaxl(s->mu[0], s->mu[1]); }
+
+bool surface_follows(const Surface *s) { return s->kind != SURFACE_PLANE || s->box || s->mu[0] != s->mu[1]; }
+
+/* half-axes of the set for a bound of 1 */
+static void half_axes(const Surface *s, Real ratio[2]) {
+    for (int a = 0; a < 2; a++) ratio[a] = surface_friction(s) > 0 ? s->mu[a] / surface_friction(s) : 1;
+}
+
+Real surface_excess(const Surface *s, Real w, const Real F[2]) {
+    Real ratio[2], gauge[2], flat = 0;
+    half_axes(s, ratio);
+    for (int a = 0; a < 2; a++) {
+        gauge[a] = ratio[a] > 0 ? fabsl(F[a]) / ratio[a] : 0;
+        if (!(ratio[a] > 0)) flat = fmaxl(flat, fabsl(F[a]));
+    }
+    /* along the ray through F: |F| (1 - w/gauge) is too much */
+    Real worst = s->box ? fmaxl(gauge[0], gauge[1]) : hypotl(gauge[0], gauge[1]);
+    Real beyond = worst > 0 ? hypotl(F[0], F[1]) * (1 - w / worst) : -w;
+    return fmaxl(beyond, flat);
+}
+
+/* (w - |f|)|u| + |f||u| + f.u >= 0, the second part from the angle between f and -u; absolute values, so that a force
+ * outside its set makes it larger */
+static Real disc_gap(Real w, const Real f[2], const Real u[2]) {
+    Real force = hypotl(f[0], f[1]), way = hypotl(u[0], u[1]);
+    if (force == 0 || way == 0) return fabsl(w - force) * way;
+    Real x = f[0] / force + u[0] / way, y = f[1] / force + u[1] / way;
+    return fabsl(w - force) * way + force * way * (x * x + y * y) / 2;
+}
+
+Real surface_gap(const Surface *s, Real w, const Real F[2], const Real way[2], Real *phi) {
+    Real ratio[2], f[2], u[2], gap = 0;
+    half_axes(s, ratio);
+    for (int a = 0; a < 2; a++) {
+        f[a] = ratio[a] > 0 ? F[a] / ratio[a] : 0;
+        u[a] = ratio[a] * way[a];
+        if (!(ratio[a] > 0)) gap += fabsl(F[a] * way[a]);
+    }
+    *phi = w * (s->box ? fabsl(u[0]) + fabsl(u[1]) : hypotl(u[0], u[1]));
+    if (!s->box) return gap + disc_gap(w, f, u);
+    for (int a = 0; a < 2; a++) gap += disc_gap(w, (Real[2]){f[a], 0}, (Real[2]){u[a], 0});
+    return gap;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Obstacles as the checker sees them: planes, cylinders and balls in long double, written from docs/theory.md. */
+#ifndef CAPSTAN_CHECKER_SURFACE_H
+#define CAPSTAN_CHECKER_SURFACE_H
+
+#include <stdbool.h>
+
+typedef long double Real;
+
+/* flag values of the file */
+enum { SURFACE_PLANE, SURFACE_CYLINDER, SURFACE_SPHERE, SURFACE_KINDS };
+
+typedef struct Surface {
+    int kind;
+    bool box, grained;
+    Real point[3], axis[3], radius; /* axis of length 1 */
+    Real mu[2], grain[3];           /* along the line or the grain, and across */
+} Surface;
+
+/* [m] above the surface, negative below it. */
+Real surface_distance(const Surface *surface, const Real *x);
+/* Unit normal at the foot of x. */
+void surface_normal(const Surface *surface, const Real *x, Real *n);
+/* x carried along by a turn of the surface. */
+void surface_carry(const Surface *surface, const Real *x, Real angle, Real *out);
+/* The geodesic between the feet of two points, as the tangent vector of its length with which it arrives. */
+void surface_way(const Surface *surface, const Real *from, const Real *to, Real *out);
+/* The tangent plane's axes where the normal is n: the grain, or the direction `along`, and across. False where that
+ * direction has no tangent part. */
+bool surface_axes(const Surface *surface, const Real *n, const Real *along, Real axes[2][3]);
+/* The larger coefficient. */
+Real surface_friction(const Surface *surface);
+/* Does what a node sees of it change with the node's place or the line's direction? */
+bool surface_follows(const Surface *surface);
+
+/* Friction forces F1, F2 with the bound w of the larger coefficient: how far outside the set [N], and
+ * phi(s) + F.s of a way s [J], whose dissipation is *phi. */
+Real surface_excess(const Surface *surface, Real w, const Real F[2]);
+Real surface_gap(const Surface *surface, Real w, const Real F[2], const Real s[2], Real *phi);
+
+#endif

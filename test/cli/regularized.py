@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""capstan run --method regularized: its files, its words and its exit codes.    usage: regularized.py CAPSTAN EXAMPLES"""
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+
+CAPSTAN, EXAMPLES = sys.argv[1:]
+EXAMPLE = os.path.join(EXAMPLES, "souza-de-cursi-1990.yaml")
+THREE_LINES = os.path.join(EXAMPLES, "souza-de-cursi-1990-plane.yaml")
+SLACK = os.path.join(EXAMPLES, "souza-de-cursi-1990-slack.yaml")
+
+faults = []
+
+
+def check(condition, text):
+    if not condition:
+        faults.append(text)
+
+
+def run(folder, *arguments):
+    return subprocess.run([CAPSTAN, "run", *arguments], cwd=folder, capture_output=True, text=True, timeout=120)
+
+
+def table(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))[1:]
+
+
+with tempfile.TemporaryDirectory() as folder:
+    # a directory of its own, never taken for the exact results
+    done = run(folder, EXAMPLE, "--method", "regularized")
+    check(done.returncode == 0, f"exit code {done.returncode}\n{done.stderr}")
+    check("no certificate" in done.stdout, f"said\n{done.stdout}")
+    place = os.path.join(folder, "results", "souza-de-cursi-1990-regularized")
+    names = sorted(os.listdir(place))
+    check(names == ["history.csv", "line-1.svg", "summary.json"], f"files: {names}")
+    check("nan" not in xml.tostring(xml.parse(os.path.join(place, "line-1.svg")).getroot(), encoding="unicode"), "draws NaN")
+    rows = table(os.path.join(place, "history.csv"))
+    check([row["step"] for row in rows] == ["Y2", "Y3", "Y4", "Y5"], "history.csv: steps")
+    with open(os.path.join(place, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    check(summary["method"] == "regularized" and summary["certificate"].startswith("none"), "summary: says it is certified")
+    check(summary["converged"] and summary["complete"], "summary: not converged or not complete")
+    left = summary["steps"][0]["lines"]["cable"]["left"]
+    # the bed's reaction of 9.81 N/m sinks by w/lambda, with what one node's share at the tip adds
+    sunk = 9.81 / summary["steps"][0]["lines"]["cable"]["parameters"]["lambda_N/m2"]
+    check(abs(left["penetration_m"] / sunk - 1) < 0.01, f"penetration {left['penetration_m']}, expected {sunk}")
+
+    # the certified run, steps Y2 and Y3 without loose slack: the same places to what the parameters leave
+    exact = run(folder, EXAMPLE, "--method", "exact", "-o", "exact")
+    check(exact.returncode == 0 and os.path.exists(os.path.join(folder, "exact", "result.nc")), "exact: no result.nc")
+    with open(os.path.join(folder, "exact", "summary.json"), encoding="utf-8") as file:
+        steps = json.load(file)["steps"]
+    for row, step in list(zip(rows, steps))[:2]:
+        tip = step["lines"]["cable"]["B"]["position_m"]
+        apart = max(abs(float(row[f"B.{x}"]) - value) for x, value in zip("xyz", tip))
+        check(apart < 2e-5, f"{row['step']}: tips {apart} m apart")
+
+    # several lines, a picture each; one JSON object on standard output
+    done = run(folder, THREE_LINES, "--method=regularized", "--json", "-o", "three")
+    check(done.returncode == 0, f"three lines: exit code {done.returncode}\n{done.stderr}")
+    check(sorted(json.loads(done.stdout)["steps"][2]["lines"]) == ["around", "aside", "direct"], "three lines: JSON")
+    check(os.path.exists(os.path.join(folder, "three", "line-3.svg")), "three lines: no picture of the third")
+    check(len(table(os.path.join(folder, "three", "history.csv"))) == 9, "three lines: rows")
+
+    # what is wrong
+    for arguments, code, words in (
+            ([EXAMPLE, "--method", "newton"], 2, ["newton", "regularized"]),
+            ([EXAMPLE, "--method", "regularized", "--resume"], 2, ["--resume"]),
+            ([EXAMPLE, "--method", "regularized", "--tol", "0.1"], 2, ["--tol"]),
+            ([SLACK, "--method", "regularized", "-o", "slack"], 3, ["inextensible"]),
+            ([EXAMPLE, "--method", "regularized", "-o", os.path.join("no", "such", "place")], 4, ["no"])):
+        done = run(folder, *arguments)
+        check(done.returncode == code, f"{arguments}: exit code {done.returncode}, expected {code}")
+        for word in words:
+            check(word in done.stderr, f"{arguments}: '{word}' not in: {done.stderr}")
+    check(not os.path.exists(os.path.join(folder, "slack")), "inextensible: a directory was left behind")
+
+print("\n".join(faults) or "run --method regularized: files, words and exit codes as documented")
+sys.exit(1 if faults else 0)
