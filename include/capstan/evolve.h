@@ -131,7 +131,7 @@ typedef struct CpsLineView {
     const double *load;               /* (n, 3) [N] weight and free-end forces */
     const double *normal;             /* (n, 3) [-] that of the obstacle touched or nearest, at the configuration reached; 0 0 0 without */
     const double *gap;                /* (n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked for */
-    const double *friction_bound;     /* (n) [N] w = A h, of the larger coefficient; 0 where friction does not act */
+    const double *friction_bound;     /* (n) [N] w = A h, of the larger coefficient (of a friction set: its multiple); 0 where friction does not act */
     const double *friction;           /* (n, 3) [N] F, in the set of forces that w bounds */
     const double *reaction;           /* (n) [N] R >= 0, along the normal */
     const double *slide;              /* (n, 3) [m] way on the obstacle in this step, tangential, on a curved one along the

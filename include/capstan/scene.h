@@ -6,7 +6,7 @@
 #ifndef CAPSTAN_SCENE_H
 #define CAPSTAN_SCENE_H
 
-#include "capstan/base.h"
+#include "capstan/set.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -36,6 +36,10 @@ typedef struct CpsObstacle {
     double friction;         /* [-] coefficient mu >= 0, default 0; where two directions differ, that along the first one */
     double friction_lateral; /* [-] across the first direction; default -1: the same as `friction` */
     CpsFrictionShape friction_shape; /* default ellipse */
+    const CpsSet *friction_set; /* default NULL; else any planar set of set.h, bounded and with 0 in it, of the friction forces on the
+                                   line per unit normal force, along the first and second tangent: in place of the coefficients. The
+                                   second tangent is normal x first. It need not be symmetric (a ratchet); the evolution keeps what
+                                   it needs of it. In the line's own axes it turns with the line; `grain` fixes it in space */
     double grain[3]; /* [-] the first direction, its part in the tangent plane, fixed in space; default 0 0 0: along the line */
 } CpsObstacle;
 
@@ -67,6 +71,12 @@ typedef struct CpsStart {
     double axis[3];       /* [-] arc: axis of the turn, right-hand rule, default 0 0 1 */
 } CpsStart;
 
+/* A stretch of a line that rubs otherwise: chain and wire in one line, say. */
+typedef struct CpsFrictionZone {
+    double from, to; /* [m] natural arc length from end A, 0 <= from < to <= length of the line */
+    double factor;   /* [-] >= 0, of the coefficients, or the friction set, of whatever obstacle it touches */
+} CpsFrictionZone;
+
 /* A tension-only line, node 0 at end A, node `elements` at end B. */
 typedef struct CpsLine {
     uint32_t cookie;
@@ -76,6 +86,9 @@ typedef struct CpsLine {
     const double *element_length; /* (elements) [m], their sum is `length`; NULL: all equal */
     double weight;                /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
     double stiffness;             /* [N] EA > 0; INFINITY: inextensible */
+    int zone_count;               /* >= 0, default 0 */
+    const CpsFrictionZone *zone;  /* (zone_count) in order from A to B, without overlap; the factor elsewhere is 1. A node's
+                                     is the mean over the length that it stands for */
     CpsStart start;
     CpsEnd end[2];                /* default: A held and B free without force, both where the start puts them;
                                      a held end must agree with the start shape */

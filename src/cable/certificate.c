@@ -5,7 +5,7 @@
  *
  *     segment    l [W(e) + W*(p) - p.e] = l [ (c/2) (T_x - |p|)^2 + (|p||e| - p.e) ]     |e| >= 1, T_x = (|e| - 1)/c
  *                                       = l [ |p| (1 - |e|) + (c/2) |p|^2 + (|p||e| - p.e) ]      |e| < 1
- *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s)
+ *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given set's phi is its support
  *     contact    R (n.u + gap)
  *
  * with s the way slid, u_T on a plane. Each is >= 0, where |p||e| - p.e = |p x e|^2/(|p||e| + p.e) has no cancellation. An inextensible element is taken as long as it
@@ -42,7 +42,7 @@ static Vec3 segment_force(const CpsiLine *line, int e) { return vec3_load(&line-
 /* The friction set of node j, with force or way in its tangent axes. */
 static CpsiRubSet rub_set(const CpsiLine *line, int j, const double vector[3], double local[3]) {
     cpsi_frame_to(local, cpsi_line_axes(line, j), vector);
-    return cpsi_rub_set(cpsi_line_obstacle(line, j));
+    return cpsi_rub_set(line, j);
 }
 
 /* How much more friction node j could give, in whatever direction. */
@@ -61,7 +61,7 @@ static void add_outer(double m[9], double scale, Vec3 a, Vec3 b) {
 
 /* Does the bound of node j follow its reaction? */
 static bool bound_follows(const CpsiLine *line, int j) {
-    const double bound = cpsi_rub_set(cpsi_line_obstacle(line, j)).friction*line->reaction[j];
+    const double bound = cpsi_rub_set(line, j).friction*line->reaction[j];
     return bound > 0 && fabs(line->friction_bound[j] - bound) <= 1e-12*bound;
 }
 

@@ -12,6 +12,7 @@
 
 #include <string.h>
 
+#include "cable/rub_set.h"
 #include "linsys/frame.h"
 
 static bool is_end(const CpsiLine *line, int j, CpsEndKind kind) {
@@ -70,8 +71,8 @@ void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
             see(line, j);
         else if (k >= 0)
             vec3_store(&line->normal[3*j], line->obstacle[k].frame.axis[2]);
-        const double friction = k < 0 ? 0 : fmax(line->obstacle[k].friction[0], line->obstacle[k].friction[1]);
-        line->friction_bound[j] = touches && !held && !options->frictionless ? friction*line->reaction[j] : 0;
+        const bool rubs = touches && !held && !options->frictionless;
+        line->friction_bound[j] = rubs ? cpsi_rub_set(line, j).friction*line->reaction[j] : 0;
         /* contact: everywhere, or only where the reference touches (S90 (35)) */
         const bool watched =
             k >= 0 && !held && (options->contact == CPS_CONTACT_GAINED || touches || gap <= CPSI_TOUCH*line->length);

@@ -11,6 +11,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->load = CPSI_TAKE(arena, 3*n, double);
     line->normal = CPSI_TAKE(arena, 3*n, double);
     line->gap = CPSI_TAKE(arena, n, double);
+    line->friction_factor = line->has_zones ? CPSI_TAKE(arena, n, double) : NULL;
     line->friction_bound = CPSI_TAKE(arena, n, double);
     line->friction_force = CPSI_TAKE(arena, 3*n, double);
     line->reaction = CPSI_TAKE(arena, n, double);

@@ -18,6 +18,7 @@ typedef struct CpsiLine {
     int obstacle_count;
     const CpsiObstacle *obstacle; /* (obstacle_count) */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this part of the step */
+    bool has_zones;     /* friction differs along the line */
     bool follows;       /* nodes have axes of their own, which follow them: more than one plane with isotropic friction */
     double common[9];   /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];      /* imposed now */
@@ -29,6 +30,7 @@ typedef struct CpsiLine {
     double *load;           /* (n, 3) [N] */
     double *normal;         /* (n, 3) */
     double *gap;            /* (n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked for */
+    double *friction_factor; /* (n) of the obstacles' coefficients; NULL: 1 */
     double *friction_bound; /* (n) [N] */
     double *friction_force; /* (n, 3) [N] */
     double *reaction;       /* (n) [N] */
@@ -44,7 +46,7 @@ typedef struct CpsiLine {
     CpsLineReport report;
 } CpsiLine;
 
-/* Place the arrays of a line of line->n nodes in the arena; line->follows is set. */
+/* Place the arrays of a line of line->n nodes in the arena; line->follows and line->has_zones are set. */
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 
 /* Fill the arc length from element_length. */

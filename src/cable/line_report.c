@@ -24,7 +24,7 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     for (int j = 0; j < line->n; j++) {
         if (!(line->friction_bound[j] > 0)) continue;
         double slide[3], way[3];
-        const CpsiRubSet set = cpsi_rub_set(cpsi_line_obstacle(line, j));
+        const CpsiRubSet set = cpsi_rub_set(line, j);
         vec3_store(slide, cpsi_line_slide(line, j));
         cpsi_frame_to(way, cpsi_line_axes(line, j), slide);
         report->dissipated += cpsi_rub_dissipation(&set, line->friction_bound[j], way);
@@ -33,6 +33,14 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
         const int j = program->rub.node[k];
         const double *z = program->rub.z[k], *s = program->rub.s[k], slide = sqrt(s[1]*s[1] + s[2]*s[2]);
         if (line->state[j] != CPS_NODE_STICK || slide*z[0] <= z[0] - sqrt(z[1]*z[1] + z[2]*z[2])) continue;
+        line->state[j] = CPS_NODE_SLIP;
+        report->slipping += cpsi_line_share(line, j);
+    }
+    for (int k = 0; k < program->shape.count; k++) {
+        const CpsiShape *shape = &program->shape;
+        const int j = shape->node[k];
+        const double *u = &program->base.u[3*j], *o = shape->offset[k];
+        if (line->state[j] != CPS_NODE_STICK || hypot(u[0] + o[0], u[1] + o[1]) <= cpsi_shape_margin(shape, k)) continue;
         line->state[j] = CPS_NODE_SLIP;
         report->slipping += cpsi_line_share(line, j);
     }

@@ -89,20 +89,21 @@ static bool too_short(CpsiLine *line) {
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     if (!both(line, CPS_END_FREE) || line->follows) return false;
     Vec3 sum = vec3(0, 0, 0);
-    double friction = 0, loads = 0;
+    double friction = 0, steepest = 0, loads = 0;
     bool stopped = false;
     for (int j = 0; j < line->n; j++) {
         const Vec3 b = vec3_load(&line->load[3*j]);
         sum = vec3_add(sum, b);
         loads += vec3_norm(b);
         friction += line->friction_bound[j];
+        steepest = fmax(steepest, cpsi_rub_set(line, j).friction);
         stopped = stopped || isfinite(line->gap[j]);
     }
     const Vec3 n = vec3_load(&line->common[6]);
     const double normal = vec3_dot(sum, n), along = stopped && normal < 0 ? 0 : normal;
     const Vec3 tangent = vec3_axpy(-normal, n, sum);
-    /* all reactions together balance B.n */
-    if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) friction = cpsi_rub_set(cpsi_line_obstacle(line, 0)).friction*fmax(0, -normal);
+    /* all reactions together balance B.n; at best they rest where friction is largest */
+    if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) friction = steepest*fmax(0, -normal);
     const double pull = vec3_norm(tangent), beyond = pull > friction ? pull - friction : 0;
     const double fall = sqrt(beyond*beyond + along*along);
     if (!(fall > TAUT*loads)) return false;
@@ -232,11 +233,12 @@ static bool is_clean(const CpsiIpmReport *ipm) { return ipm->gap + ipm->residual
 static void take_bounds(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) {
         const double *axes = cpsi_line_axes(line, j);
-        const CpsiRubSet set = cpsi_rub_set(cpsi_line_obstacle(line, j));
+        const CpsiRubSet set = cpsi_rub_set(line, j);
+        const double within = line->friction_bound[j];
         double f[3];
         line->friction_bound[j] = isfinite(line->gap[j]) ? set.friction*line->reaction[j] : 0;
         cpsi_frame_to(f, axes, &line->friction_force[3*j]);
-        cpsi_rub_clip(&set, line->friction_bound[j], f);
+        cpsi_rub_clip(&set, within, line->friction_bound[j], f);
         cpsi_frame_from(&line->friction_force[3*j], axes, f);
     }
 }
@@ -246,7 +248,7 @@ static double mismatch(const CpsiLine *line) {
     double off = 0, all = 0;
     for (int j = 0; j < line->n; j++) {
         if (!isfinite(line->gap[j])) continue;
-        const double follow = cpsi_rub_set(cpsi_line_obstacle(line, j)).friction*line->reaction[j];
+        const double follow = cpsi_rub_set(line, j).friction*line->reaction[j];
         off += fabs(line->friction_bound[j] - follow);
         all += follow;
     }
@@ -261,7 +263,7 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
         const double foreseen = program->stop.z[k] + program->stop.dz[k], now = program->stop.z[k];
         const double reaction = newton && isfinite(foreseen) ? fmax(0, foreseen) : now;
         line->friction_bound[j] =
-            cpsi_rub_set(cpsi_line_obstacle(line, j)).friction*reaction*force*program->stop.weight[k];
+            cpsi_rub_set(line, j).friction*reaction*force*program->stop.weight[k];
     }
 }
 

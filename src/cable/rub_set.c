@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ellipse and box of friction forces (rub_set.h). With B = diag(ratio) an ellipse is B times the disc of radius w:
+/* Ellipse, box and given set of friction forces (rub_set.h). With B = diag(ratio) an ellipse is B times the disc of radius w:
  * phi(u) = w |B u|, and F = B f with |f| <= w. */
 #include "cable/rub_set.h"
 
@@ -17,6 +17,7 @@ static void unmap(const CpsiRubSet *set, const double force[2], double f[2]) {
 }
 
 double cpsi_rub_gap(const CpsiRubSet *set, double bound, const double force[2], const double way[2]) {
+    if (set->given) return cpsi_rub_dissipation(set, bound, way) + force[0]*way[0] + force[1]*way[1];
     double f[2], u[2], gap = 0;
     unmap(set, force, f);
     for (int a = 0; a < 2; a++) u[a] = set->ratio[a]*way[a];
@@ -29,6 +30,7 @@ double cpsi_rub_gap(const CpsiRubSet *set, double bound, const double force[2], 
 }
 
 double cpsi_rub_dissipation(const CpsiRubSet *set, double bound, const double way[2]) {
+    if (set->given) return bound > 0 ? bound*cpsi_friction_set_phi(set->given, way) : 0;
     const double u[2] = {set->ratio[0]*way[0], set->ratio[1]*way[1]};
     return bound*(set->box ? fabs(u[0]) + fabs(u[1]) : hypot(u[0], u[1]));
 }
@@ -40,11 +42,16 @@ static double size(const CpsiRubSet *set, const double force[2]) {
     return set->box ? fmax(fabs(f[0]), fabs(f[1])) : hypot(f[0], f[1]);
 }
 
-void cpsi_rub_clip(const CpsiRubSet *set, double bound, double force[2]) {
+void cpsi_rub_clip(const CpsiRubSet *set, double within, double bound, double force[2]) {
+    if (set->given) { /* 0 is in it, and the sets are multiples of each other */
+        for (int a = 0; a < 2 && within > bound; a++) force[a] *= bound/within;
+        return;
+    }
     const double found = size(set, force), keep = found > bound ? bound/found : 1;
     for (int a = 0; a < 2; a++) force[a] = set->ratio[a] > 0 ? keep*force[a] : 0;
 }
 
 double cpsi_rub_room(const CpsiRubSet *set, double bound, const double force[2]) {
+    if (set->given) return 0;
     return fmax(0, bound - size(set, force))*fmin(set->ratio[0], set->ratio[1]);
 }

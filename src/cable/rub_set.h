@@ -1,32 +1,38 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The set of friction forces of a node, in the axes of its contact: an ellipse or a box of half-axes w r_1 and w r_2,
- * with w the friction bound of the node and r the ratios of its two coefficients to the larger one. */
+ * with w the friction bound of the node and r the ratios of its two coefficients to the larger one; or w times a given set. */
 #ifndef CAPSTAN_SRC_CABLE_RUB_SET_H
 #define CAPSTAN_SRC_CABLE_RUB_SET_H
 
+#include "cable/friction_set.h"
 #include "cable/line.h"
 
 typedef struct CpsiRubSet {
-    double friction; /* [-] the larger coefficient: w = friction R */
+    double friction; /* [-] the larger coefficient, 1 for a given set: w = friction R */
     double ratio[2]; /* of the coefficients along the two tangents to it, 0..1, the larger is 1 */
     bool box;
+    const CpsiFrictionSet *given; /* NULL: ellipse or box */
 } CpsiRubSet;
 
-static inline CpsiRubSet cpsi_rub_set(const CpsiObstacle *obstacle) {
-    if (!obstacle) return (CpsiRubSet){.ratio = {1, 1}};
+/* That of node j of a line on the obstacle it is nearest to. */
+static inline CpsiRubSet cpsi_rub_set(const CpsiLine *line, int j) {
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, j);
+    const double factor = line->friction_factor ? line->friction_factor[j] : 1;
+    if (!obstacle || (obstacle->has_set && !obstacle->set)) return (CpsiRubSet){.ratio = {1, 1}};
+    if (obstacle->has_set) return (CpsiRubSet){.friction = factor, .given = obstacle->set};
     const double *mu = obstacle->friction, friction = fmax(mu[0], mu[1]), by = friction > 0 ? 1/friction : 0;
-    return (CpsiRubSet){.friction = friction,
+    return (CpsiRubSet){.friction = factor*friction,
                         .ratio = {friction > 0 ? mu[0]*by : 1, friction > 0 ? mu[1]*by : 1},
                         .box = obstacle->shape == CPS_FRICTION_BOX};
 }
 
-/* phi(u) + <F, u> >= 0 [J], of a force F in the set and a way u, both in the tangent axes; without cancellation. */
+/* phi(u) + <F, u> >= 0 [J], of a force F in the set and a way u, both in the tangent axes; without cancellation but for a given set. */
 double cpsi_rub_gap(const CpsiRubSet *set, double bound, const double force[2], const double way[2]);
 /* phi(u) [J]. */
 double cpsi_rub_dissipation(const CpsiRubSet *set, double bound, const double way[2]);
-/* The force, scaled back into the set where it lies outside. */
-void cpsi_rub_clip(const CpsiRubSet *set, double bound, double force[2]);
-/* How far the force may still grow in its own direction before it leaves the set [N], a lower bound. */
+/* The force, scaled back into the set of `bound` where it lies outside; for a given set from that of the bound `within`, in which it is. */
+void cpsi_rub_clip(const CpsiRubSet *set, double within, double bound, double force[2]);
+/* How far the force may still grow in whatever direction before it leaves the set [N], a lower bound; 0 for a given set. */
 double cpsi_rub_room(const CpsiRubSet *set, double bound, const double force[2]);
 
 #endif

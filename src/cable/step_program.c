@@ -42,10 +42,28 @@ static void guess(const CpsiLine *line, CpsiChainProgram *program) {
     }
 }
 
+/* The shape of a node, its set being given as such. */
+static void fill_shape(const CpsiLine *line, CpsiChainProgram *program, int j, const CpsiStepScale *scale) {
+    CpsiShape *shape = &program->shape;
+    const CpsiRubSet set = cpsi_rub_set(line, j);
+    const double share = cpsi_line_share(line, j)/line->length;
+    double way[3];
+    cpsi_frame_to(way, cpsi_line_axes(line, j), &line->slide[3*j]);
+    const int k = shape->count++;
+    shape->node[k] = j;
+    shape->weight[k] = share;
+    shape->form[k] = cpsi_friction_set_shape(set.given);
+    shape->stop[k] = isfinite(line->gap[j]) ? program->stop.count - 1 : -1;
+    shape->friction[k] = set.friction;
+    shape->bound[k] = line->friction_bound[j]/(scale->force*share);
+    if (scale->bounds == CPSI_BOUNDS_TRIED) shape->bound[k] = fmax(shape->bound[k], LEAST_TRIED);
+    for (int a = 0; a < 2; a++) shape->offset[k][a] = way[a]/line->length;
+}
+
 /* The rubs of a node: one, its map the ratios of an ellipse, or two for a box. */
 static void fill_rubs(const CpsiLine *line, CpsiChainProgram *program, int j, const CpsiStepScale *scale) {
     CpsiRub *rub = &program->rub;
-    const CpsiRubSet set = cpsi_rub_set(cpsi_line_obstacle(line, j));
+    const CpsiRubSet set = cpsi_rub_set(line, j);
     const double share = cpsi_line_share(line, j)/line->length;
     const int count = line->follows && set.box ? 2 : 1;
     double way[3] = {0};
@@ -84,7 +102,7 @@ static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int j, co
 }
 
 static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale) {
-    program->rub.count = program->stop.count = 0;
+    program->rub.count = program->stop.count = program->shape.count = 0;
     program->rub.follow = scale->bounds == CPSI_BOUNDS_FOLLOW;
     for (int j = 0; j < line->n; j++) {
         program->held[j] = cpsi_is_held(line, j);
@@ -95,8 +113,9 @@ static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, const Cp
         if (watched) fill_stop(line, program, j, scale);
         const bool rubs = scale->bounds == CPSI_BOUNDS_GIVEN
                               ? line->friction_bound[j] >= LEAST_FRICTION*scale->force
-                              : watched && cpsi_rub_set(cpsi_line_obstacle(line, j)).friction > 0;
-        if (rubs) fill_rubs(line, program, j, scale);
+                              : watched && cpsi_rub_set(line, j).friction > 0;
+        if (rubs && cpsi_rub_set(line, j).given) fill_shape(line, program, j, scale);
+        else if (rubs) fill_rubs(line, program, j, scale);
     }
 }
 
@@ -163,7 +182,7 @@ static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program, con
     }
     for (int k = 0; k < rub->count;) {
         const int j = rub->node[k];
-        const CpsiRubSet set = cpsi_rub_set(cpsi_line_obstacle(line, j));
+        const CpsiRubSet set = cpsi_rub_set(line, j);
         double f[3] = {0};
         for (; k < rub->count && rub->node[k] == j; k++) {
             const double by = scale->force*rub->weight[k];
@@ -171,7 +190,18 @@ static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program, con
             f[1] += by*(rub->map ? rub->map[k][3] : 1)*rub->z[k][2];
         }
         if (follow) line->friction_bound[j] = set.friction*line->reaction[j];
-        cpsi_rub_clip(&set, line->friction_bound[j], f);
+        cpsi_rub_clip(&set, line->friction_bound[j], line->friction_bound[j], f);
+        cpsi_frame_from(&line->friction_force[3*j], cpsi_line_axes(line, j), f);
+    }
+    for (int k = 0; k < program->shape.count; k++) {
+        const int j = program->shape.node[k];
+        const CpsiRubSet set = cpsi_rub_set(line, j);
+        const double by = scale->force*program->shape.weight[k];
+        double f[3] = {0};
+        cpsi_shape_force(&program->shape, k, f);
+        f[0] *= by, f[1] *= by;
+        if (follow) line->friction_bound[j] = set.friction*line->reaction[j];
+        cpsi_rub_clip(&set, by*program->shape.bound[k], line->friction_bound[j], f);
         cpsi_frame_from(&line->friction_force[3*j], cpsi_line_axes(line, j), f);
     }
 }

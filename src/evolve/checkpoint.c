@@ -76,6 +76,7 @@ static void mix_line(uint64_t *hash, const CpsiLine *line) {
     mix_numbers(hash, 3, line->weight);
     mix_numbers(hash, (size_t)line->n - 1, line->element_length);
     mix_numbers(hash, 3*(size_t)line->n, line->position);
+    if (line->friction_factor) mix_numbers(hash, (size_t)line->n, line->friction_factor);
     for (int end = 0; end < 2; end++) {
         mix(hash, &line->end[end].kind, sizeof line->end[end].kind);
         mix_numbers(hash, 3, line->end[end].value);
@@ -98,12 +99,19 @@ static void mix_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
 }
 
 static void mix_obstacle(uint64_t *hash, const CpsiObstacle *obstacle) {
-    const int what[3] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain};
+    const int what[4] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain, obstacle->has_set};
     mix(hash, what, sizeof what);
     mix_numbers(hash, 3, (const double[3]){obstacle->frame.point.x, obstacle->frame.point.y, obstacle->frame.point.z});
     const Vec3 axis = obstacle->frame.axis[2], grain = obstacle->grain;
     mix_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
     mix_numbers(hash, 3, (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
+    if (!obstacle->set) return;
+    const CpsiShapeForm *form = cpsi_friction_set_shape(obstacle->set);
+    mix(hash, form->dim, (size_t)form->cones*sizeof *form->dim);
+    mix_numbers(hash, (size_t)(form->rows*form->unknowns), form->a);
+    mix_numbers(hash, (size_t)form->rows, form->b);
+    mix_numbers(hash, 2*(size_t)form->unknowns, form->p);
+    mix_numbers(hash, 2, form->origin);
 }
 
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {

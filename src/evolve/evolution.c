@@ -38,8 +38,41 @@ static bool scene_follows(const CpsScene *scene) {
     return cpsi_obstacle_follows(&only);
 }
 
+static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
+    for (int k = 0; set && k < scene->obstacle_count; k++) cpsi_friction_set_free(set[k]);
+    free(set);
+}
+
+/* The friction sets of the obstacles; *out is NULL where none is given. `largest` holds them all. */
+static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiShapeForm *largest, CpsError *err) {
+    *out = NULL;
+    *largest = (CpsiShapeForm){0};
+    bool any = false;
+    for (int k = 0; k < scene->obstacle_count; k++) any = any || scene->obstacle[k].friction_set;
+    if (!any) return CPS_OK;
+    CpsiFrictionSet **set = calloc((size_t)scene->obstacle_count, sizeof(CpsiFrictionSet *));
+    if (!set) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for friction sets");
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsObstacle *obstacle = &scene->obstacle[k];
+        if (!obstacle->friction_set) continue;
+        const CpsStatus status = cpsi_friction_set_make(obstacle->friction_set, obstacle->name, &set[k], err);
+        if (status) {
+            free_sets(scene, set);
+            return status;
+        }
+        if (!set[k]) continue;
+        const CpsiShapeForm *form = cpsi_friction_set_shape(set[k]);
+        if (form->unknowns > largest->unknowns) largest->unknowns = form->unknowns;
+        if (form->rows > largest->rows) largest->rows = form->rows;
+        if (form->cones > largest->cones) largest->cones = form->cones;
+        if (form->spread > largest->spread) largest->spread = form->spread;
+    }
+    *out = set;
+    return CPS_OK;
+}
+
 /* Everything an evolution holds, in one block (base/arena.h); called once to measure and once to place. */
-static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
+static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiShapeForm *largest) {
     CpsEvolution measured = {0};
     CpsiLine any = {0};
     CpsiEvolutionStage none = {0};
@@ -59,6 +92,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
         line->name = take_name(arena, scene->line[i].name);
         line->n = scene->line[i].elements + 1;
         line->follows = follows;
+        line->has_zones = scene->line[i].zone_count > 0;
         cpsi_line_layout(line, arena);
         if (line->n > nodes) nodes = line->n;
     }
@@ -69,7 +103,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene) {
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
     cpsi_advance_layout(&evolution->room, arena, nodes, scene->solver.path_tolerance > 0);
-    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows,
+    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows, largest,
                         scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain);
     return placed;
 }
@@ -83,6 +117,23 @@ static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     const bool own = line->follows || line->obstacle_count == 0;
     const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
     for (int i = 0; i < 3; i++) vec3_store(&line->common[3*i], plane.axis[i]);
+}
+
+/* The mean factor of the zones over the length that each node stands for. */
+static void fill_friction_factor(CpsiLine *line, const CpsLine *def) {
+    if (!line->has_zones) return;
+    int first = 0; /* zones before it end before this node begins */
+    for (int j = 0; j < line->n; j++) {
+        const double share = cpsi_line_share(line, j), at = line->arc_length[j];
+        const double low = j > 0 ? at - 0.5*line->element_length[j - 1] : at, high = low + share;
+        while (first < def->zone_count && def->zone[first].to <= low) first++;
+        double factor = 1;
+        for (int k = first; k < def->zone_count && def->zone[k].from < high; k++) {
+            const CpsFrictionZone *zone = &def->zone[k];
+            factor += (zone->factor - 1)*(fmin(high, zone->to) - fmax(low, zone->from))/share;
+        }
+        line->friction_factor[j] = fmax(0, factor);
+    }
 }
 
 /* The first guess of statics lies on the free side. */
@@ -105,6 +156,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     for (int e = 0; e < def->elements; e++)
         line->element_length[e] = def->element_length ? def->element_length[e] : def->length/def->elements;
     cpsi_line_measure(line);
+    fill_friction_factor(line, def);
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
@@ -121,7 +173,10 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
 static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->options = (CpsiStepOptions){.solver = scene->solver, .friction = scene->friction, .contact = scene->contact};
     evolution->obstacle_count = scene->obstacle_count;
-    for (int k = 0; k < scene->obstacle_count; k++) evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
+        evolution->obstacle[k].set = evolution->set ? evolution->set[k] : NULL;
+    }
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
@@ -154,15 +209,22 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
 CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the handle");
     *out = NULL;
-    const CpsStatus status = cps_scene_check(scene, err);
+    CpsiFrictionSet **set = NULL;
+    CpsiShapeForm sizes;
+    CpsStatus status = cps_scene_check(scene, err);
+    if (status == CPS_OK) status = make_sets(scene, &set, &sizes, err);
     if (status != CPS_OK) return status;
+    const CpsiShapeForm *largest = set ? &sizes : NULL;
     CpsiArena arena = {0};
-    layout(&arena, scene);
+    layout(&arena, scene, largest);
     const size_t bytes = arena.used;
-    if (!cpsi_arena_allocate(&arena))
+    if (!cpsi_arena_allocate(&arena)) {
+        free_sets(scene, set);
         return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had", (double)bytes*1e-6);
-    CpsEvolution *evolution = layout(&arena, scene);
+    }
+    CpsEvolution *evolution = layout(&arena, scene, largest);
     evolution->arena = arena;
+    evolution->set = set;
     fill(evolution, scene);
     *out = evolution;
     return CPS_OK;
@@ -170,6 +232,8 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
 
 void cps_evolution_destroy(CpsEvolution *evolution) {
     if (!evolution) return;
+    for (int k = 0; evolution->set && k < evolution->obstacle_count; k++) cpsi_friction_set_free(evolution->set[k]);
+    free(evolution->set);
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
     cpsi_arena_free(&arena);
 }

@@ -6,6 +6,7 @@
 
 #include "base/status.h"
 #include "base/vec3.h"
+#include "cable/friction_set.h"
 #include "capstan/scene.h"
 #include "evolve/start.h"
 #include "geometry/obstacle.h"
@@ -122,7 +123,7 @@ static CpsStatus check_rubbing(const CpsObstacle *o, CpsError *err) {
                          "obstacle '%s': friction: grain is (%g, %g, %g), expected a direction: finite numbers, or all 0 for "
                          "the line's own",
                          o->name, g[0], g[1], g[2]);
-    return CPS_OK;
+    return o->friction_set ? cpsi_friction_set_check(o->friction_set, o->name, err) : CPS_OK;
 }
 
 static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
@@ -177,6 +178,27 @@ static CpsStatus check_elements(const CpsLine *line, CpsError *err) {
     return CPS_OK;
 }
 
+static CpsStatus check_zones(const CpsLine *line, CpsError *err) {
+    if (line->zone_count < 0 || (line->zone_count > 0 && !line->zone))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': friction zones: found %d, expected 0 or more", line->name,
+                         line->zone ? line->zone_count : 0);
+    double behind = 0;
+    for (int k = 0; k < line->zone_count; k++) {
+        const CpsFrictionZone *zone = &line->zone[k];
+        if (!(zone->from >= behind && zone->from < zone->to && zone->to <= line->length))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "line '%s': friction zones: number %d goes from %g m to %g m, expected one that begins at %g m "
+                             "or after and ends within the line's length %g m",
+                             line->name, k + 1, zone->from, zone->to, behind, line->length);
+        if (!not_negative(zone->factor))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "line '%s': friction zones: number %d has the factor %g, expected a finite number >= 0", line->name,
+                             k + 1, zone->factor);
+        behind = zone->to;
+    }
+    return CPS_OK;
+}
+
 static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     if (!positive(line->length))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': length is %g m, expected a positive finite number",
@@ -194,7 +216,8 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
             err, CPS_ERR_ARGUMENT,
             "line '%s': stiffness is %g N, expected a positive number, or infinity for an inextensible line",
             line->name, line->stiffness);
-    return check_elements(line, err);
+    const CpsStatus status = check_elements(line, err);
+    return status ? status : check_zones(line, err);
 }
 
 /* What the start is made of, and for an arc that it can carry the elements. */

@@ -6,7 +6,7 @@
 static const double LEAST = 1e-12;
 
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
-    CpsiObstacle out = {.kind = def->kind, .radius = def->radius, .shape = def->friction_shape};
+    CpsiObstacle out = {.kind = def->kind, .radius = def->radius, .shape = def->friction_shape, .has_set = def->friction_set};
     out.frame = cpsi_plane(def->point, def->kind == CPS_OBSTACLE_PLANE ? def->normal : def->axis);
     out.friction[0] = def->friction;
     out.friction[1] = def->friction_lateral >= 0 ? def->friction_lateral : def->friction;
@@ -16,7 +16,7 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
 }
 
 static bool is_isotropic(const CpsiObstacle *o) {
-    return o->friction[0] == o->friction[1] && o->shape == CPS_FRICTION_ELLIPSE;
+    return !o->has_set && o->friction[0] == o->friction[1] && o->shape == CPS_FRICTION_ELLIPSE;
 }
 
 bool cpsi_obstacle_follows(const CpsiObstacle *o) { return o->kind != CPS_OBSTACLE_PLANE || !is_isotropic(o); }

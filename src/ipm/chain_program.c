@@ -52,6 +52,7 @@ static void clear(CpsiProgram *program) {
 
 static bool factor(CpsiProgram *program) {
     CpsiChainProgram *chain = cpsi_chain(program);
+    chain->matrix.frame = chain->shape.count > 0 ? chain->shape.frame : chain->frame;
     return chain->ops->factor(chain->linsys, &chain->matrix);
 }
 
@@ -59,7 +60,9 @@ static bool factor(CpsiProgram *program) {
 static void solve(CpsiProgram *program) {
     CpsiChainProgram *chain = cpsi_chain(program);
     memset(chain->dt, 0, (size_t)chain->n*sizeof *chain->dt);
+    cpsi_shape_turn(&chain->shape, program->du);
     chain->ops->solve(chain->linsys, &chain->matrix, program->du, chain->dt);
+    cpsi_shape_turn_back(&chain->shape, program->du);
 }
 
 static double imbalance(const CpsiProgram *program) {
@@ -84,6 +87,7 @@ bool cpsi_chain_program_follow(CpsiChainProgram *program) {
         rub->q[k][0] = rub->z[k][0] - rub->friction[k]*program->stop.z[rub->stop[k]];
         rub->q[k][1] = rub->q[k][2] = 0;
     }
+    cpsi_shape_foresee(&program->shape, &program->stop);
     if (!factor(base)) return false;
     memset(base->du, 0, (size_t)base->size*sizeof *base->du);
     for (int k = 0; k < base->kind_count; k++) base->kind[k]->load(base, 0);
@@ -96,22 +100,22 @@ void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes) 
     program->n = program->matrix.n = n;
     program->base.size = 3*n;
     program->frame = own_axes ? program->own.frame : NULL;
-    program->matrix.frame = program->frame;
     program->rub.offset = own_axes ? program->own.offset : NULL;
     program->rub.map = own_axes ? program->own.map : NULL;
     program->stop.curvature = own_axes ? program->own.curvature : NULL;
 }
 
 void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, bool own_axes,
-                               const CpsiLinsysOps *ops) {
-    static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_stop, &cpsi_rub};
+                               const CpsiShapeForm *largest, const CpsiLinsysOps *ops) {
+    static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_stop, &cpsi_rub, &cpsi_shape};
+    const int all = sizeof kinds/sizeof *kinds;
     const size_t size = 3*(size_t)n;
     program->base = (CpsiProgram){
         .load = CPSI_TAKE(arena, size, double),
         .u = CPSI_TAKE(arena, size, double),
         .du = CPSI_TAKE(arena, size, double),
         .residual = CPSI_TAKE(arena, size, double),
-        .kind_count = sizeof kinds/sizeof *kinds,
+        .kind_count = largest ? all : all - 1,
         .kind = kinds,
         .clear = clear,
         .factor = factor,
@@ -121,6 +125,8 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
     layout_stretch(&program->stretch, arena, n);
     layout_rub(&program->rub, arena, own_axes ? 2*n : n);
     layout_stop(&program->stop, arena, n);
+    program->shape = (CpsiShape){0};
+    if (largest) cpsi_shape_layout(&program->shape, arena, n, largest);
     program->own.frame = own_axes ? CPSI_TAKE(arena, 9*(size_t)n, double) : NULL;
     program->own.offset = own_axes ? cpsi_arena_take(arena, 2*(size_t)n, sizeof *program->own.offset) : NULL;
     program->own.map = own_axes ? cpsi_arena_take(arena, 2*(size_t)n, sizeof *program->own.map) : NULL;

@@ -5,6 +5,8 @@
  *     s.t.  (1 + d_i, e_i) in Q4,       e_i = e_i^0 + (u_i - u_{i-1})/l_i       stretch, one per element i = 1..n-1
  *           (t_k, o_k + B_k u_xy) in Q3 at node k                               rub,     a disc of forces of radius A_k,
  *                                                                                        mapped by B_k^T
+ *           A_k's_k = P_k'(o_k + u_xy), s_k in K_k  at node k                   shape,   any planar set of forces, energy per bound A_k
+ *                                                                                        phi = s_k.b_k - <o_k + u_xy, origin_k>
  *           g_k + u_z >= 0              at node k                               stop,    a half-line
  *           u_j = given at held nodes
  *
@@ -46,7 +48,7 @@ typedef struct CpsiRub {
     double (*z)[3]; /* (count) (A, F_x, F_y) */
     double (*offset)[2]; /* (count) o_k; NULL: none */
     double (*map)[4];    /* (count) B_k (2, 2) row by row; NULL: the identity */
-    bool follow;      /* the bounds follow the reactions, A = friction R; else A is given and stays */
+    bool follow;      /* the bounds follow the reactions, A = friction R, those of shapes too; else A is given and stays */
     int *stop;        /* (count) the stop whose reaction bounds it, where they follow */
     double *friction; /* (count) */
     double (*w)[3];
@@ -65,6 +67,36 @@ typedef struct CpsiStop {
     double *q, *ds, *dz;
 } CpsiStop;
 
+/* A planar set of forces { origin + P v : A v + b in K }, K a product of half-lines (dimension 1) and second-order cones. */
+typedef struct CpsiShapeForm {
+    int unknowns, rows, cones;
+    int spread;           /* rows, and one more for each second-order cone */
+    const int *dim;       /* (cones) */
+    const double *a, *b;  /* (rows, unknowns) of full column rank, (rows) */
+    const double *p;      /* (2, unknowns) */
+    const double *origin; /* (2) */
+    const double *centre; /* (unknowns) the analytic centre: A'z^-1 = 0 for z = A v + b */
+    double reach;         /* no point of the set has a larger norm */
+} CpsiShapeForm;
+
+typedef struct CpsiShape {
+    int count;
+    int *node;
+    double *weight;             /* (count) w_k > 0, that of its stop */
+    const CpsiShapeForm **form; /* (count) */
+    double *bound;              /* (count) a: the forces are a times the set */
+    double (*offset)[2];        /* (count) o_k */
+    int *stop;                  /* (count) as of a rub, where the bounds follow */
+    double *friction;           /* (count) */
+    double *d_bound, *shift;    /* (count) direction of a, and what it has beside that of friction R */
+    double (*turn)[2];          /* (count) cosine and sine of the turn of the node's tangents in the linear system */
+    double (*du)[2];            /* (count) the direction in these */
+    double *frame;              /* (n, 9) the axes of the nodes, so turned */
+    double *data, *scratch;     /* (count, stride) what each element holds (shape.c) */
+    int *index;                 /* (count, index_stride) */
+    size_t stride, index_stride;
+} CpsiShape;
+
 typedef struct CpsiChainProgram {
     CpsiProgram base;    /* u (n, 3) and so on: node after node */
     int n;               /* nodes */
@@ -76,15 +108,29 @@ typedef struct CpsiChainProgram {
     CpsiStretch stretch;
     CpsiRub rub;
     CpsiStop stop;
+    CpsiShape shape;     /* laid out only where asked for */
     double *dt;          /* (n) direction of the tension unknowns (index 0 unused) */
     CpsiMatrix matrix;
     const CpsiLinsysOps *ops;
     CpsiLinsys *linsys;
 } CpsiChainProgram;
 
-/* Place a program for at most n nodes in the arena; `own_axes`: nodes may have axes of their own, and two rubs each. */
+/* Place a program for at most n nodes in the arena; `own_axes`: nodes may have axes of their own, and two rubs each;
+ * `largest`: the sizes that no shape exceeds, or NULL where there are none. */
 void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, bool own_axes,
-                               const CpsiLinsysOps *ops);
+                               const CpsiShapeForm *largest, const CpsiLinsysOps *ops);
+
+/* The arrays of at most n shapes. */
+void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, const CpsiShapeForm *largest);
+/* F of shape k, per unit weight. */
+void cpsi_shape_force(const CpsiShape *shape, int k, double force[2]);
+/* How far F is inside the set, 0 on its boundary, of order one at the centre. */
+double cpsi_shape_margin(const CpsiShape *shape, int k);
+/* Tangential components of nodes to the turned tangents of their shapes; a direction back, and kept. */
+void cpsi_shape_turn(const CpsiShape *shape, double *x);
+void cpsi_shape_turn_back(CpsiShape *shape, double *du);
+/* The shapes' part of cpsi_chain_program_follow: every bound moves to friction R. */
+void cpsi_shape_foresee(CpsiShape *shape, const CpsiStop *stop);
 
 /* Use n of the nodes it was laid out for, with axes of their own or without. */
 void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes);
@@ -102,7 +148,7 @@ static inline double cpsi_stop_residual(const CpsiChainProgram *program, int k) 
     return stop->gap[k] + program->base.u[3*stop->node[k] + 2] - stop->s[k];
 }
 
-/* In this order: a rub reads the pass of its stop. */
-extern const CpsiKind cpsi_stretch, cpsi_stop, cpsi_rub;
+/* In this order: a rub and a shape read the pass of their stop. */
+extern const CpsiKind cpsi_stretch, cpsi_stop, cpsi_rub, cpsi_shape;
 
 #endif

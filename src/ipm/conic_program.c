@@ -18,8 +18,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/larger.h"
-#include "cone/soc.h"
+#include "ipm/cone_step.h"
 #include "linsys/small.h"
 
 /* Merit at which an iterate is good enough to stop; below it rounding rules. */
@@ -68,8 +67,7 @@ static void scale_cone(CpsiConicProgram *program, int k, int i) {
     const int d = program->dim[k], n = program->unknowns;
     const size_t width = (size_t)program->base.size;
     double *w = &program->w[i], *first = &program->matrix[(size_t)(n + 1 + i)*width];
-    if (d == 1) program->g[k] = program->z[i]/program->s[i], w[0] = 1;
-    else program->g[k] = cpsi_soc_scale(w, &program->s[i], &program->z[i], d);
+    program->g[k] = cpsi_cone_scale(w, &program->s[i], &program->z[i], d);
     const double root = sqrt(program->g[k]);
     /* W^-1: the first row is (Jw).G, the others G_r + w_r (-G_0 + w1.G1/(1 + w0)) */
     for (int r = 1; r < d; r++) add_row(program, i + r, w[r], first);
@@ -109,20 +107,6 @@ static void cones_load(CpsiProgram *base, double keep) {
     }
 }
 
-/* 1/alpha of the nearest boundary of one cone: s and z are the same point of the scaled space, and well inside
- * there. */
-static double cone_step(CpsiConicProgram *program, int k, int i) {
-    const int d = program->dim[k];
-    const double *s = &program->s[i], *z = &program->z[i], *ds = &program->ds[i], *dz = &program->dz[i];
-    if (d == 1) return cpsi_larger(-ds[0]/s[0], -dz[0]/z[0]);
-    double *point = program->scratch, *turned = point + d;
-    cpsi_soc_apply(point, &program->w[i], z, 1, d);
-    cpsi_soc_apply(turned, &program->w[i], dz, 1, d);
-    const double step_z = cpsi_soc_inverse_step(point, turned, d);
-    apply(program, k, i, -1, program->g[k], ds, turned);
-    return cpsi_larger(cpsi_soc_inverse_step(point, turned, d), step_z);
-}
-
 static void cones_direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
     (void)predictor; /* the corrector forms the second-order term itself */
     CpsiConicProgram *program = conic(base);
@@ -132,31 +116,17 @@ static void cones_direct(CpsiProgram *base, double keep, bool predictor, CpsiSum
         for (int r = i; r < end; r++) {
             program->ds[r] = row_times(program, r, base->du) + keep*program->rho[r];
         }
-        sums->inverse_step = cpsi_larger(sums->inverse_step, cone_step(program, k, i));
+        const double step = cpsi_cone_step(program->dim[k], &program->w[i], program->g[k], &program->s[i], &program->z[i],
+                                           &program->ds[i], &program->dz[i], program->scratch);
+        sums->inverse_step = cpsi_larger(sums->inverse_step, step);
     }
 }
 
 static void cones_correct(CpsiProgram *base, double target) {
     CpsiConicProgram *program = conic(base);
-    for (int k = 0, i = 0; k < program->cones; i += program->dim[k++]) {
-        const int d = program->dim[k];
-        const double *s = &program->s[i], *z = &program->z[i], *w = &program->w[i], g = program->g[k];
-        double *q = &program->q[i];
-        if (d == 1) {
-            q[0] = -z[0] + (target - program->ds[i]*program->dz[i])/s[0];
-            continue;
-        }
-        double *point = program->scratch, *one = point + d, *two = one + d, *second = two + d;
-        cpsi_soc_apply(point, w, z, 1, d);
-        cpsi_soc_apply(one, w, &program->dz[i], 1, d);
-        cpsi_soc_apply(two, w, &program->ds[i], -1, d);
-        cpsi_soc_product(second, one, two, d);
-        cpsi_soc_divide(one, point, second, d);
-        cpsi_soc_apply(two, w, one, -1, d);
-        const double inverse = target/cpsi_soc_det(s, d);
-        q[0] = -z[0] + inverse*s[0] - g*two[0];
-        for (int r = 1; r < d; r++) q[r] = -z[r] - inverse*s[r] - g*two[r];
-    }
+    for (int k = 0, i = 0; k < program->cones; i += program->dim[k++])
+        cpsi_cone_correct(&program->q[i], program->dim[k], &program->w[i], program->g[k], &program->s[i], &program->z[i],
+                          &program->ds[i], &program->dz[i], target, program->scratch);
 }
 
 static void cones_advance(CpsiProgram *base, double alpha) {

@@ -148,3 +148,103 @@ void cpsi_next_row(int rank, int n, double *q) {
 void cpsi_complete_rows(int rank, int n, double *q) {
     for (; rank < n; rank++) cpsi_next_row(rank, n, q);
 }
+
+/* ---- Q R ---- */
+
+/* Rows by decreasing size. */
+static void sort_rows(int m, int n, double *a, int *row) {
+    const size_t w = (size_t)n;
+    for (int i = 0; i < m; i++) row[i] = i;
+    for (int i = 1; i < m; i++)
+        for (int k = i; k > 0; k--) {
+            double above = 0, here = 0;
+            for (int j = 0; j < n; j++) {
+                above = fmax(above, fabs(a[(size_t)(k - 1)*w + (size_t)j]));
+                here = fmax(here, fabs(a[(size_t)k*w + (size_t)j]));
+            }
+            if (!(here > above)) break;
+            swap_rows(n, &a[(size_t)k*w], &a[(size_t)(k - 1)*w]);
+            const int keep = row[k];
+            row[k] = row[k - 1], row[k - 1] = keep;
+        }
+}
+
+/* |column j below row k|^2 */
+static double column_size(int m, int n, const double *a, int k, int j) {
+    double sum = 0;
+    for (int i = k; i < m; i++) sum += a[(size_t)i*(size_t)n + (size_t)j]*a[(size_t)i*(size_t)n + (size_t)j];
+    return sum;
+}
+
+static void pivot_column(int m, int n, double *a, int k, int *column) {
+    int best = k;
+    double most = -1;
+    for (int j = k; j < n; j++) {
+        const double size = column_size(m, n, a, k, j);
+        if (size > most) most = size, best = j;
+    }
+    if (best == k) return;
+    for (int i = 0; i < m; i++) swap_rows(1, &a[(size_t)i*(size_t)n + (size_t)k], &a[(size_t)i*(size_t)n + (size_t)best]);
+    const int keep = column[k];
+    column[k] = column[best], column[best] = keep;
+}
+
+bool cpsi_qr_factor(int m, int n, double *a, double *beta, int *row, int *column) {
+    const size_t w = (size_t)n;
+    sort_rows(m, n, a, row);
+    for (int j = 0; j < n; j++) column[j] = j;
+    for (int k = 0; k < n; k++) {
+        pivot_column(m, n, a, k, column);
+        const size_t d = (size_t)k*w + (size_t)k;
+        const double size = sqrt(column_size(m, n, a, k, k)), x = a[d], r = x > 0 ? -size : size;
+        if (!(size > 0) || !isfinite(size)) return false;
+        /* I - beta v v', v = (1, ..): takes the column to (r, 0, ..) */
+        beta[k] = 1 - x/r;
+        for (int i = k + 1; i < m; i++) a[(size_t)i*w + (size_t)k] /= x - r;
+        a[d] = r;
+        for (int j = k + 1; j < n; j++) {
+            double sum = a[(size_t)k*w + (size_t)j];
+            for (int i = k + 1; i < m; i++) sum += a[(size_t)i*w + (size_t)k]*a[(size_t)i*w + (size_t)j];
+            a[(size_t)k*w + (size_t)j] -= beta[k]*sum;
+            for (int i = k + 1; i < m; i++) a[(size_t)i*w + (size_t)j] -= beta[k]*sum*a[(size_t)i*w + (size_t)k];
+        }
+    }
+    return true;
+}
+
+/* x -= beta v (v.x) for the k-th vector */
+static void reflect(int m, int n, const double *a, double beta, int k, double *x) {
+    const size_t w = (size_t)n;
+    double sum = x[k];
+    for (int i = k + 1; i < m; i++) sum += a[(size_t)i*w + (size_t)k]*x[i];
+    x[k] -= beta*sum;
+    for (int i = k + 1; i < m; i++) x[i] -= beta*sum*a[(size_t)i*w + (size_t)k];
+}
+
+void cpsi_qr_to(int m, int n, const double *a, const double *beta, const int *row, const double *y, double *out) {
+    for (int i = 0; i < m; i++) out[i] = y[row[i]];
+    for (int k = 0; k < n; k++) reflect(m, n, a, beta[k], k, out);
+}
+
+void cpsi_qr_from(int m, int n, const double *a, const double *beta, const int *row, double *x, double *y) {
+    for (int k = n - 1; k >= 0; k--) reflect(m, n, a, beta[k], k, x);
+    for (int i = 0; i < m; i++) y[row[i]] = x[i];
+}
+
+void cpsi_qr_solve(int n, const double *a, const int *column, const double *x, double *out) {
+    const size_t w = (size_t)n;
+    for (int i = n - 1; i >= 0; i--) {
+        double sum = x[i];
+        for (int j = i + 1; j < n; j++) sum -= a[(size_t)i*w + (size_t)j]*out[column[j]];
+        out[column[i]] = sum/a[(size_t)i*w + (size_t)i];
+    }
+}
+
+void cpsi_qr_solve_transposed(int n, const double *a, const int *column, const double *x, double *out) {
+    const size_t w = (size_t)n;
+    for (int i = 0; i < n; i++) {
+        double sum = x[column[i]];
+        for (int j = 0; j < i; j++) sum -= a[(size_t)j*w + (size_t)i]*out[j];
+        out[i] = sum/a[(size_t)i*w + (size_t)i];
+    }
+}

@@ -40,4 +40,15 @@ void cpsi_next_row(int rank, int n, double *q);
 /* Complete `rank` orthonormal rows of q (n, n) to n. */
 void cpsi_complete_rows(int rank, int n, double *q);
 
+/* Q R = the matrix a (m, n), m >= n, its rows sorted by size and its columns by what is left of them: with both orders a row keeps its own
+ * digits, however small beside the others (Cox and Higham 1998). In place: R above, Householder vectors below; beta (n), row (m) and
+ * column (n) their orders. False where a has not full rank or holds what is not finite. */
+bool cpsi_qr_factor(int m, int n, double *a, double *beta, int *row, int *column);
+/* out = Q'y (m), y in the order of the rows of a; and back, y = Q x, which spoils x. y and x do not overlap. */
+void cpsi_qr_to(int m, int n, const double *a, const double *beta, const int *row, const double *y, double *out);
+void cpsi_qr_from(int m, int n, const double *a, const double *beta, const int *row, double *x, double *y);
+/* out = R^-1 x: the unknowns in their own order; out = R^-T x, x in that order. out and x do not overlap. */
+void cpsi_qr_solve(int n, const double *a, const int *column, const double *x, double *out);
+void cpsi_qr_solve_transposed(int n, const double *a, const int *column, const double *x, double *out);
+
 #endif

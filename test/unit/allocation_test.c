@@ -96,10 +96,59 @@ static void every_failing_allocation_is_survived(void **unused) {
     CHECK_INT(live, live_before);
 }
 
+/* A disc cut by a strip, whose support needs a conic program. */
+static CpsSet *grooves(void) {
+    CpsSet *disc = NULL, *strip = NULL, *set = NULL;
+    const double normal[] = {1, 1};
+    assert_int_equal(cps_set_ball(2, NULL, 0.3, &disc, NULL), CPS_OK);
+    assert_int_equal(cps_set_strip(2, normal, -0.2, 0.1, &strip, NULL), CPS_OK);
+    const CpsSet *parts[] = {disc, strip};
+    assert_int_equal(cps_set_intersection(2, parts, &set, NULL), CPS_OK);
+    cps_set_release(disc), cps_set_release(strip);
+    return set;
+}
+
+static void friction_sets_and_zones_take_no_more(void **unused) {
+    (void)unused;
+    const int live_before = live;
+    CpsSet *set = grooves();
+    CpsLine line = rope();
+    const CpsFrictionZone zone = {.from = 1, .to = 3, .factor = 2};
+    line.zone_count = 1, line.zone = &zone;
+    CpsObstacle bed = rough();
+    bed.friction_set = set, bed.grain[0] = 1;
+    const CpsScene s = scene(&bed, &line);
+    for (int k = 0;; k++) {
+        CpsEvolution *evolution = (CpsEvolution *)&stage;
+        CpsError err;
+        allocations = 0, fail_at = k;
+        const CpsStatus status = cps_evolution_create(&s, &evolution, &err);
+        fail_at = -1;
+        if (status != CPS_OK) {
+            assert_int_equal(status, CPS_ERR_MEMORY);
+            assert_null(evolution);
+            continue;
+        }
+        assert_true(k > 5);
+        /* the set may go: the evolution has what it needs of it */
+        cps_set_release(set);
+        const int before = allocations;
+        while (cps_evolution_remaining(evolution) > 0) {
+            assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
+            assert_int_equal(cps_evolution_report(evolution).outcome, CPS_SOLVED);
+        }
+        CHECK_INT(allocations, before);
+        cps_evolution_destroy(evolution);
+        break;
+    }
+    CHECK_INT(live, live_before);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stepping_allocates_nothing),
         cmocka_unit_test(every_failing_allocation_is_survived),
+        cmocka_unit_test(friction_sets_and_zones_take_no_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
  * ways of having no answer. */
 #include "ipm/chain_program.h"
 #include "ipm/ipm.h"
+#include "linsys/small.h"
 
 #include "check.h"
 
@@ -17,9 +18,9 @@ typedef struct Fixture {
 static void make(Fixture *fixture, const CpsiLinsysOps *ops, double c, double span, bool held) {
     CpsiChainProgram *program = &fixture->program;
     fixture->arena = (CpsiArena){0};
-    cpsi_chain_program_layout(program, &fixture->arena, NODES, false, ops);
+    cpsi_chain_program_layout(program, &fixture->arena, NODES, false, NULL, ops);
     assert_true(cpsi_arena_allocate(&fixture->arena));
-    cpsi_chain_program_layout(program, &fixture->arena, NODES, false, ops);
+    cpsi_chain_program_layout(program, &fixture->arena, NODES, false, NULL, ops);
     program->rub.count = program->stop.count = 0;
     program->held[0] = program->held[2] = held;
     program->base.load[3*1 + 2] = -1;
@@ -83,9 +84,39 @@ static void nan_does_not_leave(void **ops) {
     cpsi_arena_free(&fixture.arena);
 }
 
+/* Rows from 1e8 to 1e-8: with sorted rows each keeps its own digits. Against the inverse of a square case in closed form: A = D L, D the
+ * sizes, L unit lower triangular, so that A x = y has the solution of L x = D^-1 y. */
+static void graded_rows_keep_their_digits(void **unused) {
+    (void)unused;
+    enum { N = 3 };
+    const double size[N] = {1e-8, 1e8, 1}, lower[N][N] = {{1, 0, 0}, {0.5, 1, 0}, {-2, 3, 1}}, x[N] = {1.25, -3, 7};
+    double a[N*N], y[N], beta[N], t[N], found[N], back[N];
+    int row[N], column[N];
+    for (int i = 0; i < N; i++) {
+        y[i] = 0;
+        for (int j = 0; j < N; j++) a[N*i + j] = size[i]*lower[i][j], y[i] += size[i]*(lower[i][j]*x[j]);
+    }
+    assert_true(cpsi_qr_factor(N, N, a, beta, row, column));
+    cpsi_qr_to(N, N, a, beta, row, y, t);
+    cpsi_qr_solve(N, a, column, t, found);
+    /* rounding of each row, times the condition of L, about 20 */
+    for (int i = 0; i < N; i++) CHECK_RELATIVE(found[i], x[i], 1e-13);
+    cpsi_qr_from(N, N, a, beta, row, t, back);
+    for (int i = 0; i < N; i++) CHECK_NEAR(back[i], y[i], 1e-13*fabs(y[1]));
+    /* R^-T takes the rows of A to those of Q, which are unit vectors; of the smallest nothing is lost to the others' rounding */
+    for (int j = 0; j < N; j++) back[j] = size[0]*lower[0][j];
+    cpsi_qr_solve_transposed(N, a, column, back, t);
+    CHECK_RELATIVE(cpsi_norm(N, t), 1, 1e-13);
+    for (int i = 0; i < N; i++) a[N*i] = 0, a[N*i + 1] = a[N*i + 2] = size[i];
+    assert_false(cpsi_qr_factor(N, N, a, beta, row, column)); /* no rank */
+    a[4] = NAN;
+    assert_false(cpsi_qr_factor(N, N, a, beta, row, column));
+}
+
 int main(void) {
     void *chain = (void *)(uintptr_t)&cpsi_linsys_chain, *dense = (void *)(uintptr_t)&cpsi_linsys_dense;
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(graded_rows_keep_their_digits),
         cmocka_unit_test_prestate(links_hang_in_a_triangle, chain),
         cmocka_unit_test_prestate(links_hang_in_a_triangle, dense),
         cmocka_unit_test_prestate(ends_too_far_apart_are_infeasible, chain),

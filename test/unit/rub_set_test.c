@@ -12,7 +12,8 @@ static CpsiRubSet make(double first, double second, bool box) {
     def.friction = first, def.friction_lateral = second;
     def.friction_shape = box ? CPS_FRICTION_BOX : CPS_FRICTION_ELLIPSE;
     const CpsiObstacle o = cpsi_obstacle(&def);
-    return cpsi_rub_set(&o);
+    const CpsiLine line = {.obstacle_count = 1, .obstacle = &o}; /* of one obstacle, without zones */
+    return cpsi_rub_set(&line, 0);
 }
 
 /* The point of the set's boundary at parameter t, with bound w of the larger coefficient. */
@@ -33,7 +34,8 @@ static void ratios(void **state) {
     CHECK_NEAR(set.ratio[1], 1, 2e-16);
     set = make(0, 0, false);
     CHECK_NEAR(set.friction, 0, 0);
-    set = cpsi_rub_set(NULL);
+    const CpsiLine nowhere = {.obstacle_count = 0};
+    set = cpsi_rub_set(&nowhere, 0);
     CHECK_NEAR(set.friction, 0, 0);
 }
 
@@ -113,8 +115,8 @@ static void clip_and_room(void **state) {
             double on[2], far[2], in[2], kept[2];
             edge(&set, 2.5, t, on);
             for (int a = 0; a < 2; a++) far[a] = 3 * on[a], kept[a] = in[a] = 0.4 * on[a];
-            cpsi_rub_clip(&set, 2.5, far);
-            cpsi_rub_clip(&set, 2.5, kept);
+            cpsi_rub_clip(&set, 2.5, 2.5, far);
+            cpsi_rub_clip(&set, 2.5, 2.5, kept);
             for (int a = 0; a < 2; a++) {
                 if (!flat) CHECK_NEAR(far[a], on[a], 1e-15);
                 CHECK_NEAR(kept[a], in[a], 0);
@@ -129,7 +131,7 @@ static void clip_and_room(void **state) {
     /* no width, no force */
     const CpsiRubSet set = make(0, 0.7, false);
     double f[2] = {1, 0.5};
-    cpsi_rub_clip(&set, 2.5, f);
+    cpsi_rub_clip(&set, 2.5, 2.5, f);
     CHECK_NEAR(f[0], 0, 0);
     CHECK_NEAR(f[1], 0.5, 0);
 }

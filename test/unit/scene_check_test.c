@@ -82,6 +82,13 @@ static void refuses_nan_and_infinity(void **state) {
     refused(&p, "line 'cable': stiffness is nan N, expected a positive number");
 }
 
+static bool disc_support(void *user, int n, const double *direction, double *value, double *point) {
+    (void)user, (void)n;
+    *value = hypot(direction[0], direction[1]);
+    for (int a = 0; a < 2; a++) point[a] = *value > 0 ? direction[a]/ *value : 0;
+    return true;
+}
+
 static void refuses_wrong_values(void **state) {
     (void)state;
     Parts p;
@@ -99,6 +106,34 @@ static void refuses_wrong_values(void **state) {
     make(&p), p.obstacle.friction_lateral = -2, refused(&p, "lateral is -2");
     make(&p), p.obstacle.friction_shape = 5, refused(&p, "unknown shape 5");
     make(&p), p.obstacle.grain[0] = NAN, refused(&p, "grain is (nan");
+    static const struct {
+        int n;
+        double low, high;
+        const char *message;
+    } boxes[] = {{3, -1, 1, "friction set: it lies in R^3, expected the plane"},
+                 {2, -INFINITY, 1, "friction set: it is unbounded"},
+                 {2, 0.1, 1, "friction set: it does not contain 0"}};
+    for (size_t i = 0; i < sizeof boxes/sizeof *boxes; i++) {
+        const double low[] = {boxes[i].low, boxes[i].low, boxes[i].low}, high[] = {boxes[i].high, boxes[i].high, boxes[i].high};
+        CpsSet *box;
+        assert_int_equal(cps_set_box(boxes[i].n, low, high, &box, NULL), CPS_OK);
+        make(&p), p.obstacle.friction_set = box, refused(&p, boxes[i].message);
+        cps_set_release(box);
+    }
+    CpsSet *users;
+    assert_int_equal(cps_set_user(2, disc_support, NULL, &users, NULL), CPS_OK);
+    make(&p), p.obstacle.friction_set = users, refused(&p, "friction set: it holds a user's set");
+    cps_set_release(users);
+    CpsFrictionZone zones[2] = {{.from = 1, .to = 2, .factor = 2}, {.from = 1.5, .to = 3, .factor = 0}};
+    make(&p), p.line.zone_count = 2, p.line.zone = zones, refused(&p, "number 2 goes from 1.5 m to 3 m");
+    zones[1].from = 2, zones[1].to = 1e9, refused(&p, "number 2 goes from 2 m to 1e+09 m");
+    zones[1].to = NAN, refused(&p, "number 2 goes from 2 m to nan m");
+    zones[1].to = 2, refused(&p, "number 2 goes from 2 m to 2 m");
+    zones[1].to = 3, zones[1].factor = -1, refused(&p, "number 2 has the factor -1");
+    zones[1].factor = 1e200, refused(&p, "number 2 has the factor 1e+200");
+    zones[1].factor = 0;
+    assert_int_equal(cps_scene_check(&p.scene, NULL), CPS_OK);
+    p.line.zone = NULL, refused(&p, "friction zones: found 0");
     make(&p), p.scene.line_count = 0, refused(&p, "lines: found 0");
     make(&p), p.scene.solver.max_iterations = 0, refused(&p, "solver: max_iterations is 0");
     make(&p), p.scene.contact = (CpsContact)7, refused(&p, "contact: unknown value 7");
