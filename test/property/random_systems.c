@@ -480,7 +480,7 @@ static void check_reduced(const System *s, const CpsMotion *motion) {
 
 /* a random point where <direction, .> is largest over the set, or one far along a ray of it */
 static bool extreme(const CpsSet *set, const double *at, int n, double far, double *point) {
-    double direction[MOST_COMPONENTS];
+    double direction[MOST_COMPONENTS] = {0};
     CpsSetAnswer answer;
     for (int i = 0; i < n; i++) direction[i] = uniform(-1, 1);
     need(cps_set_support(set, direction, point, &answer, &err), "support of all solutions");
