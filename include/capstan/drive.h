@@ -191,6 +191,32 @@ CPS_API const double *cps_motion_law_velocity(const CpsMotion *motion, int k); /
 CPS_API const double *cps_motion_law_force(const CpsMotion *motion, int k);    /* F_k */
 CPS_API const CpsMotionShare *cps_motion_law_share(const CpsMotion *motion, int k);
 
+/* ---- paths W(t) ---- */
+
+/* One interval of a path, with its ledger [J]: driven + load = dissipated + imbalance. */
+typedef struct CpsPathStep {
+    CpsMotionOutcome outcome;
+    double driven;     /* work of the driving device, -<W, G> x duration */
+    double load;       /* work of the constant load */
+    double dissipated; /* by the laws, >= 0 where all are dissipative */
+    double imbalance;  /* what rounding leaves */
+    double lower, upper; /* bounds of the least work, duration x those of gamma(W) */
+} CpsPathStep;
+
+/* Drive a system along a path of driving velocities, constant over each interval: quasi-static, so each is a motion of its own
+ * (Proposition 2) and only durations tie them together. Kinematics stay as they are; where bodies turn, planar.h steps
+ * them with finite rotations.
+ *
+ *   count      intervals >= 1
+ *   duration   (count) [s] > 0
+ *   driving    (count, m) W of each
+ *   step       (count) written up to *done
+ *   travel     (count, n) parameters' ways at the end of each interval, the sum of V x duration; NULL: not wanted
+ *   done       intervals taken: the path ends after one that has no motion, whose outcome says why */
+CPS_API CpsStatus cps_system_drive_path(const CpsSystem *system, int count, const double *duration, const double *driving,
+                                        const CpsMotionOptions *options, CpsPathStep *step, double *travel, int *done,
+                                        CpsError *err);
+
 /* ---- all motions, all forces ---- */
 
 /* A set of solutions, its dimension and how sure that is. */

@@ -203,7 +203,8 @@ CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, doub
                                 CpsError *err) {
     if (!step || !position) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step or position is NULL");
     if ((unsigned)how >= CPS_COMPLETIONS)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "completion: found %d, expected shortest, straight or meander", (int)how);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "completion: found %d, expected shortest, straight or meander",
+                         (int)how);
     if (step->slide)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s': its obstacle is curved or rubs differently in two directions; only "

@@ -108,6 +108,41 @@ static void wheel_all_cases(void **state) {
     }
 }
 
+/* Along a path: W turns once round in 64 intervals of 0.1 s, then 10 s straight ahead. Each interval is the closed form, the
+ * ledger closes, and the spin adds up to what the closed form's does. */
+static void wheel_along_a_path(void **state) {
+    (void)state;
+    enum { TURN = 64, COUNT = TURN + 1 };
+    CpsSystem *system = wheel(60);
+    double duration[COUNT], driving[COUNT][2], travel[COUNT][3], work = 0, spin = 0;
+    CpsPathStep step[COUNT];
+    for (int i = 0; i < TURN; i++) {
+        duration[i] = 0.1;
+        driving[i][0] = cos(2*PI*(i + 0.5)/TURN), driving[i][1] = sin(2*PI*(i + 0.5)/TURN);
+    }
+    duration[TURN] = 10, driving[TURN][0] = 0, driving[TURN][1] = 1.5;
+    int done = 0;
+    ok(cps_system_drive_path(system, COUNT, duration, driving[0], NULL, step, travel[0], &done, &err));
+    CHECK_INT(done, COUNT);
+    for (int i = 0; i < COUNT; i++) {
+        double v[3], gamma;
+        wheel_closed_form(60, driving[i], v, &gamma);
+        work += duration[i]*gamma, spin += duration[i]*v[0];
+        CHECK_NEAR(step[i].dissipated, duration[i]*gamma, VALUE*duration[i]*gamma);
+        CHECK_NEAR(step[i].driven, step[i].dissipated, VALUE*duration[i]*gamma);
+        CHECK_NEAR(step[i].imbalance, 0, VALUE*duration[i]*gamma);
+        CHECK_BETWEEN(step[i].upper - step[i].lower, -1e-10*duration[i]*gamma, 1e-8*duration[i]*gamma);
+        CHECK_NEAR(travel[i][0], spin, 1e-9*(1 + fabs(spin)));
+    }
+    assert_true(work > 0);
+    /* a bad path is refused, and nothing is done */
+    duration[3] = 0;
+    CHECK_INT(cps_system_drive_path(system, COUNT, duration, driving[0], NULL, step, NULL, &done, &err), CPS_ERR_ARGUMENT);
+    CHECK_INT(done, 0);
+    cps_system_destroy(system);
+}
+
+
 /* numbers of two independent programs */
 static void wheel_numbers(void **state) {
     (void)state;
@@ -410,6 +445,7 @@ static void pushed_rope(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wheel_all_cases),
+        cmocka_unit_test(wheel_along_a_path),
         cmocka_unit_test(wheel_numbers),
         cmocka_unit_test(wheel_along_its_plane),
         cmocka_unit_test(bipod_about_one_support),
