@@ -16,7 +16,7 @@
 #include "commands.h"
 #include "options.h"
 #include "progress.h"
-#include "regularized.h"
+#include "run_regularized.h"
 
 enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
 

@@ -10,7 +10,7 @@
 #include "capstan/classic_io.h"
 #include "commands.h"
 #include "progress.h"
-#include "regularized.h"
+#include "run_regularized.h"
 
 enum { REGULARISED, FROZEN, CONSISTENT, METHODS, NAME_SIZE = 96 };
 

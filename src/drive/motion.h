@@ -3,7 +3,7 @@
 #ifndef CAPSTAN_SRC_DRIVE_MOTION_H
 #define CAPSTAN_SRC_DRIVE_MOTION_H
 
-#include "drive/program.h"
+#include "drive/system_program.h"
 #include "drive/system.h"
 
 struct CpsMotion {

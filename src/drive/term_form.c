@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drive/program.h"
+#include "drive/system_program.h"
 #include "linsys/small.h"
 #include "set/node.h"
 

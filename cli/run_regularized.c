@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan run --method regularized (see regularized.h). */
-#include "regularized.h"
+#include "run_regularized.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Writing a system as a conic program, and reading its solution. */
-#include "drive/program.h"
+#include "drive/system_program.h"
 
 #include <limits.h>
 #include <math.h>

@@ -7,8 +7,8 @@
  * whose multipliers are -V. The cost of a piece is phi*(-F): 0 for friction, an unknown of an epigraph for a term of
  * a resistance. Equations are divided by the size of the forces in them, the free unknowns by what makes their
  * largest entry one. */
-#ifndef CAPSTAN_SRC_DRIVE_PROGRAM_H
-#define CAPSTAN_SRC_DRIVE_PROGRAM_H
+#ifndef CAPSTAN_SRC_DRIVE_SYSTEM_PROGRAM_H
+#define CAPSTAN_SRC_DRIVE_SYSTEM_PROGRAM_H
 
 #include "drive/system.h"
 #include "ipm/sparse_program.h"
