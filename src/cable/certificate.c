@@ -87,8 +87,9 @@ static void share_out(CpsiLine *line, Vec3 rest) {
     for (int j = 0; j < line->n; j++) {
         const Vec3 n = vec3_load(&line->normal[3*j]), f = vec3_load(&line->friction_force[3*j]);
         const double along = vec3_dot(n, by), follow = bound_follows(line, j) ? 1 + along : 1;
-        const Vec3 more = vec3_scale(room_of(line, j), tangential(by, n));
-        vec3_store(&line->friction_force[3*j], vec3_axpy(follow, f, more));
+        /* inside the set before it is scaled, so inside after it */
+        const Vec3 more = vec3_axpy(room_of(line, j), tangential(by, n), f);
+        vec3_store(&line->friction_force[3*j], vec3_scale(follow, more));
         line->friction_bound[j] *= follow;
         line->reaction[j] *= 1 + along;
     }
