@@ -2,10 +2,10 @@
 /* capstan run: solve a scene step by step, write its results, print a short table; or the same by the method of 1990
  * (regularized.h).
  *
- * The first SIGINT or SIGTERM lets the load step end and keeps the results so far; the second ends at once. A journal of the steps is kept
- * beside the results until the run is finished: after a stop, of whatever kind, --resume goes on from there. */
+ * The first SIGINT or SIGTERM lets the load step end and keeps the results so far; the second ends at once. A journal
+ * of the steps is kept beside the results until the run is finished: after a stop, of whatever kind, --resume goes on
+ * from there. */
 #include <errno.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -17,26 +17,9 @@
 #include "options.h"
 #include "progress.h"
 #include "run_regularized.h"
+#include "stop.h"
 
 enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
-
-static volatile sig_atomic_t stop_signal;
-
-static void on_signal(int signal_number) {
-    if (stop_signal) _exit(128 + signal_number);
-    stop_signal = signal_number;
-}
-
-static void catch_signals(void) {
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = on_signal;
-    action.sa_flags = SA_RESTART;
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    /* a file over the size limit then shows as a write error, and is cleaned up like one */
-    signal(SIGXFSZ, SIG_IGN);
-}
 
 /* results/NAME and `more` for a scene .../NAME.yaml; the caller frees it */
 static char *default_directory(const char *scene, const char *more) {
@@ -130,7 +113,7 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     progress_step(&run->progress, report.index + 1, report.name);
     cautions_step(&run->cautions, run->scene, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
-    if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED || stop_signal)
+    if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED || cli_stopped())
         put_rows(run->table, run->evolution);
     if (report.outcome != CPS_SOLVED) {
         progress_end(&run->progress);
@@ -156,7 +139,7 @@ static CpsStatus take_back(Run *run, CpsError *err) {
 
 /* All steps, or until a signal. */
 static CpsStatus take_steps(Run *run, CpsError *err) {
-    while (cps_evolution_remaining(run->evolution) > 0 && !stop_signal) {
+    while (cps_evolution_remaining(run->evolution) > 0 && !cli_stopped()) {
         CpsStatus status = cps_evolution_step(run->evolution, err);
         if (!status) status = cps_journal_append(run->journal, run->evolution, err);
         if (!status) status = keep_step(run, err);
@@ -187,9 +170,9 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
 
 static void say_where(const char *directory, const CpsEvolution *evolution) {
     const int steps = cps_evolution_step_count(evolution), left = cps_evolution_remaining(evolution);
-    if (stop_signal)
-        fprintf(stderr, "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n", steps - left,
-                steps);
+    if (cli_stopped())
+        fprintf(stderr, "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n",
+                steps - left, steps);
     printf("\nresults   %s: summary.json, history.csv, result.nc, result.pvd (ParaView)\n", directory);
     printf("pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg, loop-*.svg of closed cycles\n", directory);
 }
@@ -209,7 +192,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
         fwrite(text, 1, size, stdout);
         say_where(directory, run.evolution);
     }
-    const int code = status ? cli_report(&err) : stop_signal ? 128 + stop_signal : exit_code(run.worst);
+    const int code = status ? cli_report(&err) : cli_stopped() ? 128 + cli_stopped() : exit_code(run.worst);
     free(text);
     cps_journal_destroy(run.journal);
     cps_results_destroy(run.results);
@@ -244,7 +227,7 @@ int cmd_run(int argc, char **argv) {
     CliOptions options;
     bool regularized;
     if (!cli_parse(argc, argv, FOR_RUN, "SCENE.yaml", &options) || !is_sound(&options, &regularized)) return EXIT_USAGE;
-    catch_signals();
+    cli_catch_signals();
 
     CpsSceneFile *file = NULL;
     CpsError err;
@@ -256,8 +239,8 @@ int cmd_run(int argc, char **argv) {
         return EXIT_USAGE;
     }
     /* the results directory itself is made by the library; its parent only where it is ours */
-    char *directory = options.output ? strdup(options.output)
-                                     : default_directory(options.operand, regularized ? "-regularized" : "");
+    char *directory =
+        options.output ? strdup(options.output) : default_directory(options.operand, regularized ? "-regularized" : "");
     int code = EXIT_LIMIT;
     if (!directory)
         fprintf(stderr, "capstan: out of memory\n");
@@ -265,8 +248,7 @@ int cmd_run(int argc, char **argv) {
         fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n", strerror(errno));
         code = EXIT_IO;
     } else
-        code = regularized ? run_regularized(&scene, directory, &options, &stop_signal)
-                           : run(&scene, directory, &options);
+        code = regularized ? run_regularized(&scene, directory, &options) : run(&scene, directory, &options);
     free(directory);
     cps_scene_file_destroy(file);
     return code;

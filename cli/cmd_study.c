@@ -6,7 +6,6 @@
  * The first SIGINT or SIGTERM lets the solve end and keeps what there is; the second ends at once. */
 #include <errno.h>
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -16,25 +15,9 @@
 #include "commands.h"
 #include "options.h"
 #include "progress.h"
+#include "stop.h"
 #include "study_methods.h"
 #include "study_solutions.h"
-
-static volatile sig_atomic_t stop_signal;
-
-static void on_signal(int signal_number) {
-    if (stop_signal) _exit(128 + signal_number);
-    stop_signal = signal_number;
-}
-
-static void catch_signals(void) {
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = on_signal;
-    action.sa_flags = SA_RESTART;
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    signal(SIGXFSZ, SIG_IGN);
-}
 
 /* ---- the step ---- */
 
@@ -51,7 +34,7 @@ static bool is_asked(const char *name, const char *asked) {
  * there. */
 static int reach_step(CpsEvolution *evolution, const char *asked) {
     CpsError err;
-    while (cps_evolution_remaining(evolution) > 0 && !stop_signal) {
+    while (cps_evolution_remaining(evolution) > 0 && !cli_stopped()) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) return cli_report(&err);
         const CpsStepReport step = cps_evolution_report(evolution);
         if (step.outcome != CPS_SOLVED) {
@@ -62,7 +45,7 @@ static int reach_step(CpsEvolution *evolution, const char *asked) {
         }
         if (asked ? is_asked(step.name, asked) : strcmp(step.name, "laid") != 0) return EXIT_OK;
     }
-    if (stop_signal) return 128 + stop_signal;
+    if (cli_stopped()) return 128 + cli_stopped();
     if (asked)
         fprintf(stderr, "capstan study: --step: found '%.80s', expected the name of a step: 'capstan run' lists them\n",
                 asked);
@@ -120,7 +103,7 @@ static bool on_row(void *user, const CpsStudyRow *row, int done, int of) {
     teller->progress.steps = of;
     progress_step(&teller->progress, done, cps_study_stage_key(row->stage));
     teller->converged = teller->converged && row->report.converged;
-    return !stop_signal;
+    return !cli_stopped();
 }
 
 static void tell_first_order(const CpsFirstOrderReport *r) {
@@ -185,7 +168,7 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
     }
     if (status == CPS_OK && !options->quiet) tell(study, first_order, view, &teller, directory);
     const int code = status != CPS_OK   ? cli_report(&err)
-                     : stop_signal      ? 128 + stop_signal
+                     : cli_stopped()    ? 128 + cli_stopped()
                      : teller.converged ? EXIT_OK
                                         : EXIT_NOT_CERTIFIED;
     if (status != CPS_OK && view->compliance == 0)
@@ -250,7 +233,7 @@ static bool is_sound(const CliOptions *options) {
 int cmd_study(int argc, char **argv) {
     CliOptions options;
     if (!cli_parse(argc, argv, FOR_STUDY, "SCENE.yaml", &options) || !is_sound(&options)) return EXIT_USAGE;
-    catch_signals();
+    cli_catch_signals();
 
     CpsSceneFile *file = NULL;
     CpsError err;

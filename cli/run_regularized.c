@@ -9,6 +9,7 @@
 #include "capstan/classic_io.h"
 #include "commands.h"
 #include "progress.h"
+#include "stop.h"
 
 enum { NEWTON_LIMIT = 5000, STEP_NAME = 96, NAME_WIDTH = 18, LINE_WIDTH = 10 };
 
@@ -113,11 +114,11 @@ static CpsStatus follow(History *h, CpsError *err) {
 }
 
 /* All steps, or until a signal. The exit code. */
-static int take_steps(History *h, bool quiet, const volatile sig_atomic_t *stop) {
+static int take_steps(History *h, bool quiet) {
     CpsError err;
     Progress progress = progress_begin(h->steps - 1, quiet);
     int code = EXIT_OK;
-    while (h->done < h->steps && !*stop && code == EXIT_OK) {
+    while (h->done < h->steps && !cli_stopped() && code == EXIT_OK) {
         if (cps_evolution_step(h->exact, &err) != CPS_OK) {
             code = cli_report(&err);
             break;
@@ -219,8 +220,7 @@ static int write_results(const History *h, double wall, const char *directory, c
     return code;
 }
 
-int run_regularized(const CpsScene *scene, const char *directory, const CliOptions *options,
-                    const volatile sig_atomic_t *stop) {
+int run_regularized(const CpsScene *scene, const char *directory, const CliOptions *options) {
     CpsError err;
     const double begun = cli_now(), friction = regularized_friction(scene, "run");
     if (friction < 0) return EXIT_INPUT;
@@ -233,14 +233,15 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
     if (make_history(&h, friction)) {
         snprintf(h.name[0], STEP_NAME, "start");
         for (int i = 0; i < h.lines; ++i) store(&h.track[i], 0, cps_evolution_line_view(h.exact, i).position);
-        code = take_steps(&h, options->quiet, stop);
+        code = take_steps(&h, options->quiet);
         const bool some = h.done > 1 || h.steps == 1;
         const int written = some ? write_results(&h, cli_now() - begun, directory, options) : EXIT_OK;
         if (written != EXIT_OK) code = written;
         if (some && written == EXIT_OK && !options->quiet && !options->json) tell(&h, directory);
         if (code == EXIT_OK && !all_converged(&h)) code = EXIT_NOT_CERTIFIED;
-        if (*stop) fprintf(stderr, "capstan: stopped by a signal after %d of %d steps\n", h.done - 1, h.steps - 1);
-        if (code == EXIT_OK && *stop) code = 128 + *stop;
+        if (cli_stopped())
+            fprintf(stderr, "capstan: stopped by a signal after %d of %d steps\n", h.done - 1, h.steps - 1);
+        if (code == EXIT_OK && cli_stopped()) code = 128 + cli_stopped();
     }
     free_history(&h);
     return code;

@@ -4,8 +4,6 @@
 #ifndef CAPSTAN_CLI_REGULARIZED_H
 #define CAPSTAN_CLI_REGULARIZED_H
 
-#include <signal.h>
-
 #include "capstan/classic.h"
 #include "capstan/io.h"
 #include "options.h"
@@ -26,9 +24,8 @@ CpsScene regularized_scene(const CpsScene *scene);
 CpsStatus regularized_step(Regularized *method, const CpsLineView *exact, CpsClassicParameters *parameters,
                            CpsClassicReport *report, CpsError *err);
 
-/* capstan run --method regularized: all steps of all lines; prints a table, writes the results. A signal noted in *stop
+/* capstan run --method regularized: all steps of all lines; prints a table, writes the results. A signal (stop.h)
  * ends it after the current step. Returns the exit code. */
-int run_regularized(const CpsScene *scene, const char *directory, const CliOptions *options,
-                    const volatile sig_atomic_t *stop);
+int run_regularized(const CpsScene *scene, const char *directory, const CliOptions *options);
 
 #endif

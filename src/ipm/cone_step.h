@@ -14,6 +14,13 @@ static inline double cpsi_cone_scale(double *w, const double *s, const double *z
     return z[0]/s[0];
 }
 
+/* out = factor W x (sign 1) or factor W^-1 x (sign -1); x and out (d) do not overlap. */
+static inline void cpsi_cone_apply(double *out, const double *w, const double *x, double sign, double factor, int d) {
+    if (d == 1) out[0] = x[0];
+    else cpsi_soc_apply(out, w, x, sign, d);
+    for (int r = 0; r < d; r++) out[r] *= factor;
+}
+
 /* 1/alpha of the nearest boundary: s and z are the same point of the scaled space, and well inside there. scratch (2 d) */
 static inline double cpsi_cone_step(int d, const double *w, double g, const double *s, const double *z, const double *ds,
                                     const double *dz, double *scratch) {
@@ -22,8 +29,7 @@ static inline double cpsi_cone_step(int d, const double *w, double g, const doub
     cpsi_soc_apply(point, w, z, 1, d);
     cpsi_soc_apply(turned, w, dz, 1, d);
     const double step_z = cpsi_soc_inverse_step(point, turned, d);
-    cpsi_soc_apply(turned, w, ds, -1, d);
-    for (int r = 0; r < d; r++) turned[r] *= g;
+    cpsi_cone_apply(turned, w, ds, -1, g, d);
     return cpsi_larger(cpsi_soc_inverse_step(point, turned, d), step_z);
 }
 

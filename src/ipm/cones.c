@@ -4,8 +4,7 @@
 
 #include <string.h>
 
-#include "base/larger.h"
-#include "cone/soc.h"
+#include "ipm/cone_step.h"
 
 void cpsi_cones_layout(CpsiArena *arena, CpsiCones *cones, int rows, int count, int largest) {
     const size_t m = (size_t)rows;
@@ -25,61 +24,29 @@ void cpsi_cones_start(CpsiCones *cones, double mu) {
 }
 
 void cpsi_cones_scale(CpsiCones *cones) {
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
-        const int d = cones->dim[k];
-        if (d == 1) cones->g[k] = cones->z[i]/cones->s[i], cones->w[i] = 1;
-        else cones->g[k] = cpsi_soc_scale(&cones->w[i], &cones->s[i], &cones->z[i], d);
-    }
+    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++])
+        cones->g[k] = cpsi_cone_scale(&cones->w[i], &cones->s[i], &cones->z[i], cones->dim[k]);
     for (int i = 0; i < cones->rows; i++) cones->q[i] = -cones->z[i];
 }
 
 void cpsi_cones_apply(const CpsiCones *cones, int k, int i, double sign, double factor, const double *x, double *out) {
-    const int d = cones->dim[k];
-    if (d == 1) out[0] = x[0];
-    else cpsi_soc_apply(out, &cones->w[i], x, sign, d);
-    for (int r = 0; r < d; r++) out[r] *= factor;
-}
-
-/* s and z are the same point of the scaled space, and well inside there */
-static double step_of_cone(CpsiCones *cones, int k, int i) {
-    const int d = cones->dim[k];
-    const double *s = &cones->s[i], *z = &cones->z[i], *ds = &cones->ds[i], *dz = &cones->dz[i];
-    if (d == 1) return cpsi_larger(-ds[0]/s[0], -dz[0]/z[0]);
-    double *point = cones->scratch, *turned = point + d;
-    cpsi_soc_apply(point, &cones->w[i], z, 1, d);
-    cpsi_soc_apply(turned, &cones->w[i], dz, 1, d);
-    const double step_z = cpsi_soc_inverse_step(point, turned, d);
-    cpsi_cones_apply(cones, k, i, -1, cones->g[k], ds, turned);
-    return cpsi_larger(cpsi_soc_inverse_step(point, turned, d), step_z);
+    cpsi_cone_apply(out, &cones->w[i], x, sign, factor, cones->dim[k]);
 }
 
 double cpsi_cones_step(CpsiCones *cones) {
     double inverse = 0;
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++])
-        inverse = cpsi_larger(inverse, step_of_cone(cones, k, i));
+    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
+        const double step = cpsi_cone_step(cones->dim[k], &cones->w[i], cones->g[k], &cones->s[i], &cones->z[i],
+                                           &cones->ds[i], &cones->dz[i], cones->scratch);
+        inverse = cpsi_larger(inverse, step);
+    }
     return inverse;
 }
 
 void cpsi_cones_correct(CpsiCones *cones, double target) {
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
-        const int d = cones->dim[k];
-        const double *s = &cones->s[i], *z = &cones->z[i], *w = &cones->w[i], g = cones->g[k];
-        double *q = &cones->q[i];
-        if (d == 1) {
-            q[0] = -z[0] + (target - cones->ds[i]*cones->dz[i])/s[0];
-            continue;
-        }
-        double *point = cones->scratch, *one = point + d, *two = one + d, *second = two + d;
-        cpsi_soc_apply(point, w, z, 1, d);
-        cpsi_soc_apply(one, w, &cones->dz[i], 1, d);
-        cpsi_soc_apply(two, w, &cones->ds[i], -1, d);
-        cpsi_soc_product(second, one, two, d);
-        cpsi_soc_divide(one, point, second, d);
-        cpsi_soc_apply(two, w, one, -1, d);
-        const double inverse = target/cpsi_soc_det(s, d);
-        q[0] = -z[0] + inverse*s[0] - g*two[0];
-        for (int r = 1; r < d; r++) q[r] = -z[r] - inverse*s[r] - g*two[r];
-    }
+    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++])
+        cpsi_cone_correct(&cones->q[i], cones->dim[k], &cones->w[i], cones->g[k], &cones->s[i], &cones->z[i], &cones->ds[i],
+                          &cones->dz[i], target, cones->scratch);
 }
 
 void cpsi_cones_advance(CpsiCones *cones, double alpha) {

@@ -87,22 +87,13 @@ static void cones_scale(CpsiProgram *base) {
     for (int i = 0; i < program->rows; i++) program->q[i] = -program->z[i];
 }
 
-/* out = W x (sign 1) or W^-1 x (sign -1) times factor, for cone k on rows i.. */
-static void apply(const CpsiConicProgram *program, int k, int i, double sign, double factor, const double *x,
-                  double *out) {
-    const int d = program->dim[k];
-    if (d == 1) out[0] = x[0];
-    else cpsi_soc_apply(out, &program->w[i], x, sign, d);
-    for (int r = 0; r < d; r++) out[r] *= factor;
-}
-
 static void cones_load(CpsiProgram *base, double keep) {
     CpsiConicProgram *program = conic(base);
     for (int k = 0, i = 0; k < program->cones; i += program->dim[k++]) {
         double *y = &base->du[program->unknowns + 1 + i], *shift = program->scratch;
         const double root = sqrt(program->g[k]);
-        apply(program, k, i, 1, 1/root, &program->q[i], y);
-        apply(program, k, i, -1, keep*root, &program->rho[i], shift);
+        cpsi_cone_apply(y, &program->w[i], &program->q[i], 1, 1/root, program->dim[k]);
+        cpsi_cone_apply(shift, &program->w[i], &program->rho[i], -1, keep*root, program->dim[k]);
         for (int r = 0; r < program->dim[k]; r++) y[r] -= shift[r];
     }
 }
@@ -112,7 +103,8 @@ static void cones_direct(CpsiProgram *base, double keep, bool predictor, CpsiSum
     CpsiConicProgram *program = conic(base);
     for (int k = 0, i = 0; k < program->cones; i += program->dim[k++]) {
         const int end = i + program->dim[k];
-        apply(program, k, i, -1, sqrt(program->g[k]), &base->du[program->unknowns + 1 + i], &program->dz[i]);
+        cpsi_cone_apply(&program->dz[i], &program->w[i], &base->du[program->unknowns + 1 + i], -1, sqrt(program->g[k]),
+                        program->dim[k]);
         for (int r = i; r < end; r++) {
             program->ds[r] = row_times(program, r, base->du) + keep*program->rho[r];
         }

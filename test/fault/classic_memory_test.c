@@ -5,25 +5,7 @@
 
 #include "capstan/classic.h"
 #include "check.h"
-
-static long allowed = -1, live; /* allocations until the one that fails (negative: none fails); blocks held */
-
-static void *counted(void *block) { return live += block != NULL, block; }
-static int refuse(void) { return allowed >= 0 && allowed-- == 0; }
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void __real_free(void *block);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void __wrap_free(void *block);
-
-void *__wrap_malloc(size_t size) { return refuse() ? NULL : counted(__real_malloc(size)); }
-void *__wrap_calloc(size_t count, size_t size) { return refuse() ? NULL : counted(__real_calloc(count, size)); }
-void __wrap_free(void *block) {
-    live -= block != NULL;
-    __real_free(block);
-}
+#include "refuse.h"
 
 /* everything about one step; the first failure ends it */
 static CpsStatus questions(const CpsLineView *view) {

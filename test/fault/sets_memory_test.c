@@ -9,36 +9,7 @@
 #include <cmocka.h>
 
 #include "capstan/set.h"
-
-static long allowed = -1, live; /* allocations until the one that fails (negative: none fails); blocks held */
-
-static void *counted(void *block) { return live += block != NULL, block; }
-static int refuse(void) { return allowed >= 0 && allowed-- == 0; }
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *block, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
-void __real_free(void *block);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *block, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
-void __wrap_free(void *block);
-
-void *__wrap_malloc(size_t size) { return refuse() ? NULL : counted(__real_malloc(size)); }
-void *__wrap_calloc(size_t count, size_t size) { return refuse() ? NULL : counted(__real_calloc(count, size)); }
-void *__wrap_realloc(void *block, size_t size) {
-    if (refuse()) return NULL;
-    return block ? __real_realloc(block, size) : counted(__real_realloc(block, size));
-}
-void *__wrap_aligned_alloc(size_t alignment, size_t size) {
-    return refuse() ? NULL : counted(__real_aligned_alloc(alignment, size));
-}
-void __wrap_free(void *block) {
-    live -= block != NULL;
-    __real_free(block);
-}
+#include "refuse.h"
 
 /* (disc ∩ strip) + box, its hull with a point, an image of its polar; every question; the first failure ends it. */
 static CpsStatus questions(void) {

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A whole command of cli/ with each of its allocations refused in turn: it ends in the exit code of memory or makes the
+ * failure good, loses no block, and leaves a picture only where it ends well. For one file of a test program that links
+ * the command without main.c. */
+#ifndef CAPSTAN_TEST_FAULT_REFUSE_COMMAND_H
+#define CAPSTAN_TEST_FAULT_REFUSE_COMMAND_H
+
+#include <fcntl.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "commands.h"
+#include "refuse.h"
+
+typedef int Command(int argc, char **argv);
+
+static CpsError reported;
+
+/* as main.c, but the error is kept instead of printed */
+int cli_report(const CpsError *err) {
+    reported = *err;
+    return err->status == CPS_ERR_MEMORY ? EXIT_LIMIT : EXIT_INPUT;
+}
+
+static void write_file(const char *path, const char *text) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+}
+
+/* The command with its k-th allocation refused; what it prints goes nowhere. *reached: there are so many. */
+static int command(Command *run, long k, int argc, const char *const *argv, bool *reached) {
+    reported = (CpsError){.status = CPS_OK};
+    fflush(NULL);
+    const int out = dup(STDOUT_FILENO), err = dup(STDERR_FILENO), nowhere = open("/dev/null", O_WRONLY);
+    assert_true(out >= 0 && err >= 0 && nowhere >= 0);
+    dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
+    allowed = k;
+    const int code = run(argc, (char **)(uintptr_t)argv);
+    *reached = allowed < 0;
+    allowed = -1;
+    fflush(NULL);
+    dup2(out, STDOUT_FILENO), dup2(err, STDERR_FILENO);
+    close(nowhere), close(out), close(err);
+    return code;
+}
+
+/* Refuse each allocation in turn: all of the first 300; of those behind, which repeat the same questions, ever fewer.
+ */
+static void refuse_each(Command *run, const char *picture, long least, int argc, const char *const *argv, bool draws) {
+    bool reached = true;
+    long k = 0, tried = 0;
+    for (; reached; k += k < 300 ? 1 : k / 10, tried++) {
+        const long before = live;
+        remove(picture);
+        const int code = command(run, k, argc, argv, &reached);
+        if (live != before) fail_msg("allocation %ld: %ld blocks lost", k, live - before);
+        /* a closed form without room for its scratch hands over to the solver, so a failure may be made good */
+        if (code != EXIT_OK && !(reached && code == EXIT_LIMIT))
+            fail_msg("allocation %ld: exit %d: %s", k, code, reported.message);
+        if (reported.status != CPS_OK && reported.status != CPS_ERR_MEMORY)
+            fail_msg("allocation %ld: %s: %s", k, cps_status_name(reported.status), reported.message);
+        if ((access(picture, F_OK) == 0) != (draws && code == EXIT_OK))
+            fail_msg("allocation %ld: exit %d, and the picture is %s", k, code, draws ? "not there" : "there");
+    }
+    remove(picture);
+    print_message("%ld allocations, %ld refused\n", k, tried - 1);
+    /* built as shared libraries they cannot be reached */
+    if (tried == 1) skip();
+    /* `least`: what such a command takes at the very least */
+    assert_in_range(k, least, 1000000);
+}
+
+#endif
