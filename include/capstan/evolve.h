@@ -118,10 +118,12 @@ typedef struct CpsStepReport {
 } CpsStepReport;
 
 /* Everything about one line after a step. Views into the evolution; n = elements + 1 nodes.
- * Forces act on the line; arrays (n, 3) are stored node after node. */
+ * Forces act on the line; arrays (n, 3) are stored node after node. A node touches up to `contacts` obstacles at once, and what
+ * belongs to a contact has all nodes' nearest obstacles first: entry j is the first contact of node j, entry n + j its second. */
 typedef struct CpsLineView {
     const char *name;
     int elements;
+    int contacts;                     /* of a node: 2 where the scene has more than one obstacle, else 1 */
     const double *arc_length;         /* (n) [m] natural abscissa a of the nodes */
     const double *element_length;     /* (elements) [m] */
     double compliance;                /* [1/N] 1/EA, 0: inextensible */
@@ -129,16 +131,18 @@ typedef struct CpsLineView {
     const double *reference;          /* (n, 3) [m] x_R of this step */
     const double *position;           /* (n, 3) [m] */
     const double *load;               /* (n, 3) [N] weight and free-end forces */
-    const double *normal;             /* (n, 3) [-] that of the obstacle touched or nearest, at the configuration reached; 0 0 0 without */
-    const double *gap;                /* (n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked for */
-    const double *friction_bound;     /* (n) [N] w = A h, of the larger coefficient (of a friction set: its multiple); 0 where friction does not act */
-    const double *friction;           /* (n, 3) [N] F, in the set of forces that w bounds */
-    const double *reaction;           /* (n) [N] R >= 0, along the normal */
-    const double *slide;              /* (n, 3) [m] way on the obstacle in this step, tangential, on a curved one along the
+    const int *obstacle;              /* (contacts, n) which: the nearest and the next, -1 without; NULL on one plane with isotropic
+                                         friction: the first */
+    const double *normal;             /* (contacts, n, 3) [-] that of the obstacle at the configuration reached; 0 0 0 without */
+    const double *gap;                /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked for */
+    const double *friction_bound;     /* (contacts, n) [N] w = A h, of the larger coefficient (of a friction set: its multiple); 0 where friction does not act */
+    const double *friction;           /* (contacts, n, 3) [N] F, in the set of forces that w bounds */
+    const double *reaction;           /* (contacts, n) [N] R >= 0, along the normal */
+    const double *slide;              /* (contacts, n, 3) [m] way on the obstacle in this step, tangential, on a curved one along the
                                          surface; NULL on one plane with isotropic friction: the part of u in it */
     const double *segment_force;      /* (elements, 3) [N] p: what the B side does to the A side */
     const double *tension;            /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
-    const unsigned char *state;       /* (n) CpsNodeState */
+    const unsigned char *state;       /* (contacts, n) CpsNodeState */
 } CpsLineView;
 
 /* Prepare a scene.

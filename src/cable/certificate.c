@@ -32,24 +32,27 @@ static Vec3 tangential(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v)
 
 /* Everything that acts on node j except the segments. */
 static Vec3 node_force(const CpsiLine *line, int j) {
-    const Vec3 n = vec3_load(&line->normal[3*j]);
-    const Vec3 f = vec3_add(vec3_load(&line->friction_force[3*j]), vec3_load(&line->load[3*j]));
-    return vec3_axpy(line->reaction[j], n, f);
+    Vec3 sum = vec3_load(&line->load[3*j]);
+    for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
+        sum = vec3_add(sum, vec3_load(&line->friction_force[3*c]));
+        sum = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3*c]), sum);
+    }
+    return sum;
 }
 
 static Vec3 segment_force(const CpsiLine *line, int e) { return vec3_load(&line->segment_force[3*e]); }
 
-/* The friction set of node j, with force or way in its tangent axes. */
-static CpsiRubSet rub_set(const CpsiLine *line, int j, const double vector[3], double local[3]) {
-    cpsi_frame_to(local, cpsi_line_axes(line, j), vector);
-    return cpsi_rub_set(line, j);
+/* The friction set of contact c, with force or way in its tangent axes. */
+static CpsiRubSet rub_set(const CpsiLine *line, int c, const double vector[3], double local[3]) {
+    cpsi_frame_to(local, cpsi_line_axes(line, c), vector);
+    return cpsi_rub_set(line, c);
 }
 
-/* How much more friction node j could give, in whatever direction. */
-static double room_of(const CpsiLine *line, int j) {
+/* How much more friction contact c could give, in whatever direction. */
+static double room_of(const CpsiLine *line, int c) {
     double f[3];
-    const CpsiRubSet set = rub_set(line, j, &line->friction_force[3*j], f);
-    return cpsi_rub_room(&set, line->friction_bound[j], f);
+    const CpsiRubSet set = rub_set(line, c, &line->friction_force[3*c], f);
+    return cpsi_rub_room(&set, line->friction_bound[c], f);
 }
 
 /* Add scale x a b^T to m (3, 3). */
@@ -59,24 +62,24 @@ static void add_outer(double m[9], double scale, Vec3 a, Vec3 b) {
         for (int k = 0; k < 3; k++) m[3*i + k] += scale*left[i]*right[k];
 }
 
-/* Does the bound of node j follow its reaction? */
-static bool bound_follows(const CpsiLine *line, int j) {
-    const double bound = cpsi_rub_set(line, j).friction*line->reaction[j];
-    return bound > 0 && fabs(line->friction_bound[j] - bound) <= 1e-12*bound;
+/* Does the bound of contact c follow its reaction? */
+static bool bound_follows(const CpsiLine *line, int c) {
+    const double bound = cpsi_rub_set(line, c).friction*line->reaction[c];
+    return bound > 0 && fabs(line->friction_bound[c] - bound) <= 1e-12*bound;
 }
 
-/* Share out the force `rest` that a line free at both ends has in excess. With one vector lambda for all, node j gives
+/* Share out the force `rest` that a line free at both ends has in excess. With one vector lambda for all, a contact gives
  * R (n.lambda) n, and what friction its bound allows: F (n.lambda) where that follows R, and room lambda_T; the sum is a 3 x 3 system. */
 static void share_out(CpsiLine *line, Vec3 rest) {
     double m[9] = {0}, lambda[3] = {-rest.x, -rest.y, -rest.z}, trace = 0;
     int pivot[3];
-    for (int j = 0; j < line->n; j++) {
-        const Vec3 n = vec3_load(&line->normal[3*j]);
-        const double room = room_of(line, j);
-        add_outer(m, line->reaction[j] - room, n, n);
-        if (bound_follows(line, j)) add_outer(m, 1, vec3_load(&line->friction_force[3*j]), n);
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        const Vec3 n = vec3_load(&line->normal[3*c]);
+        const double room = room_of(line, c);
+        add_outer(m, line->reaction[c] - room, n, n);
+        if (bound_follows(line, c)) add_outer(m, 1, vec3_load(&line->friction_force[3*c]), n);
         for (int i = 0; i < 3; i++) m[4*i] += room;
-        trace += line->reaction[j] + 2*room;
+        trace += line->reaction[c] + 2*room;
     }
     /* directions in which nobody gives anything keep what is in excess: the balance says so */
     for (int i = 0; i < 3; i++) m[4*i] += DBL_EPSILON*trace;
@@ -84,14 +87,14 @@ static void share_out(CpsiLine *line, Vec3 rest) {
     cpsi_lu_solve(3, m, pivot, lambda);
     const Vec3 by = vec3_load(lambda);
     if (!(vec3_norm(by) < 1)) return;
-    for (int j = 0; j < line->n; j++) {
-        const Vec3 n = vec3_load(&line->normal[3*j]), f = vec3_load(&line->friction_force[3*j]);
-        const double along = vec3_dot(n, by), follow = bound_follows(line, j) ? 1 + along : 1;
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        const Vec3 n = vec3_load(&line->normal[3*c]), f = vec3_load(&line->friction_force[3*c]);
+        const double along = vec3_dot(n, by), follow = bound_follows(line, c) ? 1 + along : 1;
         /* inside the set before it is scaled, so inside after it */
-        const Vec3 more = vec3_axpy(room_of(line, j), tangential(by, n), f);
-        vec3_store(&line->friction_force[3*j], vec3_scale(follow, more));
-        line->friction_bound[j] *= follow;
-        line->reaction[j] *= 1 + along;
+        const Vec3 more = vec3_axpy(room_of(line, c), tangential(by, n), f);
+        vec3_store(&line->friction_force[3*c], vec3_scale(follow, more));
+        line->friction_bound[c] *= follow;
+        line->reaction[c] *= 1 + along;
     }
 }
 
@@ -153,13 +156,38 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
     }
 }
 
+/* Friction and reaction of contact c, and what they do on the node. */
+static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
+    const int j = cpsi_line_node(line, c);
+    const Vec3 x = vec3_load(&line->position[3*j]), reference = vec3_load(&line->reference[3*j]);
+    const Vec3 n = vec3_load(&line->normal[3*c]), f = vec3_load(&line->friction_force[3*c]);
+    const Vec3 slide = cpsi_line_slide(line, c);
+    const double w = line->friction_bound[c], reaction = line->reaction[c];
+    double force[3], way[3], along[3];
+    vec3_store(along, slide);
+    const CpsiRubSet set = rub_set(line, c, along, way);
+    cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3*c]);
+    const double law = cpsi_rub_gap(&set, w, force, way), dissipation = cpsi_rub_dissipation(&set, w, way);
+    out->law_residual += law > 0 ? law : 0;
+    out->friction_residual += fabs(w - set.friction*reaction);
+    out->primal += dissipation;
+    out->scale += dissipation;
+    /* the place from which it slid, on the tangent plane: the reference there */
+    out->dual += vec3_dot(f, vec3_sub(x, slide));
+    raise_to(&out->largest_force, vec3_norm(f));
+    if (reaction > 0) {
+        out->contact_residual += reaction*fmax(0, vec3_dot(n, vec3_sub(x, reference)) + line->gap[c]);
+        out->dual += reaction*(vec3_dot(n, reference) - line->gap[c]);
+        raise_to(&out->largest_force, reaction);
+    }
+    return vec3_axpy(reaction, n, f);
+}
+
 /* Nodes: friction, contact, loads and the balance of forces. */
 static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
     const Vec3 anchor = vec3_load(&line->position[0]);
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3*j]), reference = vec3_load(&line->reference[3*j]);
-        const Vec3 n = vec3_load(&line->normal[3*j]), b = vec3_load(&line->load[3*j]);
-        const Vec3 f = vec3_load(&line->friction_force[3*j]), u = vec3_sub(x, reference);
+        const Vec3 x = vec3_load(&line->position[3*j]), b = vec3_load(&line->load[3*j]);
         const bool held = (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
                           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
         out->primal -= vec3_dot(b, x);
@@ -174,27 +202,8 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
             out->dual -= vec3_dot(balance, x);
             continue;
         }
-        raise_to(&out->largest_force, vec3_norm(f));
-        double force[3], way[3];
-        const double w = line->friction_bound[j];
-        double slide[3];
-        vec3_store(slide, cpsi_line_slide(line, j));
-        const CpsiRubSet set = rub_set(line, j, slide, way);
-        cpsi_frame_to(force, cpsi_line_axes(line, j), &line->friction_force[3*j]);
-        const double law = cpsi_rub_gap(&set, w, force, way), dissipation = cpsi_rub_dissipation(&set, w, way);
-        out->law_residual += law > 0 ? law : 0;
-        out->friction_residual += fabs(w - set.friction*line->reaction[j]);
-        out->primal += dissipation;
-        out->scale += dissipation;
-        /* the place from which it slid, on the tangent plane: the reference there */
-        out->dual += vec3_dot(f, vec3_sub(x, vec3_load(slide)));
-        if (line->reaction[j] > 0) {
-            const double contact = line->reaction[j]*fmax(0, vec3_dot(n, u) + line->gap[j]);
-            out->contact_residual += contact;
-            out->dual += line->reaction[j]*(vec3_dot(n, reference) - line->gap[j]);
-            raise_to(&out->largest_force, line->reaction[j]);
-        }
-        balance = vec3_axpy(line->reaction[j], n, vec3_add(balance, f));
+        for (int c = j; c < cpsi_line_contacts(line); c += line->n)
+            balance = vec3_add(balance, add_contact(line, c, out));
         raise_to(&out->force_residual, vec3_norm(balance));
     }
     out->gap += out->law_residual + out->contact_residual;

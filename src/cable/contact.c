@@ -25,94 +25,165 @@ static Vec3 direction(const CpsiLine *line, const double *x, int j) {
     return vec3_sub(vec3_load(&x[3*after]), vec3_load(&x[3*before]));
 }
 
-/* Nearest obstacle, axes and curvature at the node's base; without an obstacle those of the world. */
-static void see(CpsiLine *line, int j) {
+/* The obstacles that node j is nearest to, as many as it has contacts, the nearest first. */
+static void nearest(const CpsiLine *line, Vec3 x, int on[2]) {
+    double gap[2] = {INFINITY, INFINITY};
+    on[0] = on[1] = -1;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const double distance = cpsi_obstacle_gap(&line->obstacle[k], x);
+        const int place = distance < gap[0] ? 0 : distance < gap[1] ? 1 : 2;
+        if (place == 0) gap[1] = gap[0], on[1] = on[0];
+        if (place < 2) gap[place] = distance, on[place] = k;
+    }
+}
+
+/* What a contact keeps of its obstacle from place to place. */
+typedef struct Kept {
+    int on;
+    double reaction, bound, gap, force[3];
+    unsigned char state;
+} Kept;
+
+static Kept keep(const CpsiLine *line, int c) {
+    Kept kept = {line->on[c], line->reaction[c], line->friction_bound[c], line->gap[c], {0}, line->state[c]};
+    memcpy(kept.force, &line->friction_force[3*c], sizeof kept.force);
+    return kept;
+}
+
+static void put(CpsiLine *line, int c, const Kept *kept) {
+    line->on[c] = kept->on;
+    line->reaction[c] = kept->reaction;
+    line->friction_bound[c] = kept->bound;
+    line->gap[c] = kept->gap;
+    line->state[c] = kept->state;
+    memcpy(&line->friction_force[3*c], kept->force, sizeof kept->force);
+}
+
+/* The contacts of node j at its base: those it had keep what they have. */
+static void meet(CpsiLine *line, int j) {
+    const int n = line->n;
+    const bool held = is_end(line, j, CPS_END_HELD);
+    Kept before[2] = {{.on = -1}, {.on = -1}};
+    int on[2];
+    nearest(line, vec3_load(&line->base[3*j]), on);
+    for (int i = 0; i < line->contacts; i++) before[i] = keep(line, j + i*n);
+    for (int i = 0; i < line->contacts; i++) {
+        Kept now = {.on = on[i], .gap = on[i] >= 0 && line->gains && !held ? 0 : INFINITY, .state = CPS_NODE_FREE};
+        for (int k = 0; k < line->contacts; k++)
+            if (before[k].on == on[i] && on[i] >= 0) now = before[k];
+        put(line, j + i*n, &now);
+    }
+}
+
+/* Axes and curvature of contact c at the node's base; without an obstacle those of the world. */
+static void see(CpsiLine *line, int c) {
+    const int j = cpsi_line_node(line, c);
     const Vec3 x = vec3_load(&line->base[3*j]);
-    double *axes = &line->axes[9*j], gap;
-    line->on[j] = cpsi_line_nearest(line, x, &gap);
-    if (line->on[j] >= 0) {
-        cpsi_obstacle_axes(&line->obstacle[line->on[j]], x, direction(line, line->base, j), axes,
-                           &line->curvature[3*j]);
-        memcpy(&line->normal[3*j], &axes[6], 3*sizeof *axes);
+    double *axes = &line->axes[9*c];
+    if (line->on[c] >= 0) {
+        cpsi_obstacle_axes(&line->obstacle[line->on[c]], x, direction(line, line->base, j), axes,
+                           &line->curvature[3*c]);
+        memcpy(&line->normal[3*c], &axes[6], 3*sizeof *axes);
         return;
     }
     memcpy(axes, line->common, sizeof line->common);
-    for (int a = 0; a < 3; a++) line->curvature[3*j + a] = line->normal[3*j + a] = 0;
+    for (int a = 0; a < 3; a++) line->curvature[3*c + a] = line->normal[3*c + a] = 0;
 }
 
-/* The reference on obstacle k, carried along as it turns. */
-static Vec3 carried(const CpsiLine *line, int j, int k) {
-    return cpsi_obstacle_turn(&line->obstacle[k], vec3_load(&line->reference[3*j]), line->turn[k]);
+/* The reference of the node on the obstacle of contact c, carried along as it turns. */
+static Vec3 carried(const CpsiLine *line, int c) {
+    const Vec3 x = vec3_load(&line->reference[3*cpsi_line_node(line, c)]);
+    const int k = line->on[c];
+    return k < 0 ? x : cpsi_obstacle_turn(&line->obstacle[k], x, line->turn[k]);
 }
 
 void cpsi_contact_look(CpsiLine *line) {
-    for (int j = 0; j < line->n; j++) {
-        see(line, j);
-        const Vec3 x = vec3_load(&line->base[3*j]), n = vec3_load(&line->normal[3*j]);
-        const int k = line->on[j];
-        vec3_store(&line->slide[3*j],
-                   k < 0 ? vec3(0, 0, 0) : cpsi_obstacle_way(&line->obstacle[k], carried(line, j, k), x));
-        if (!isfinite(line->gap[j])) continue;
+    for (int j = 0; j < line->n; j++) meet(line, j);
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        const int j = cpsi_line_node(line, c), k = line->on[c];
+        see(line, c);
+        const Vec3 x = vec3_load(&line->base[3*j]), n = vec3_load(&line->normal[3*c]);
+        vec3_store(&line->slide[3*c],
+                   k < 0 ? vec3(0, 0, 0) : cpsi_obstacle_way(&line->obstacle[k], carried(line, c), x));
+        if (!isfinite(line->gap[c])) continue;
         const Vec3 u = vec3_sub(x, vec3_load(&line->reference[3*j]));
-        line->gap[j] = cpsi_obstacle_gap(&line->obstacle[k], x) - vec3_dot(n, u);
+        line->gap[c] = cpsi_obstacle_gap(&line->obstacle[k], x) - vec3_dot(n, u);
     }
+}
+
+/* Contact c at the reference: its friction bound, and its gap if it is watched. */
+static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
+    const int j = cpsi_line_node(line, c);
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    const double gap = obstacle ? cpsi_obstacle_gap(obstacle, vec3_load(&line->reference[3*j])) : INFINITY;
+    const bool touches = obstacle && line->state[c] != CPS_NODE_FREE, held = is_end(line, j, CPS_END_HELD);
+    const bool rubs = touches && !held && !options->frictionless;
+    line->friction_bound[c] = rubs ? cpsi_rub_set(line, c).friction*line->reaction[c] : 0;
+    /* contact: everywhere, or only where the reference touches (S90 (35)) */
+    const bool watched = obstacle && !held && (line->gains || touches || gap <= CPSI_TOUCH*line->length);
+    line->gap[c] = !watched ? INFINITY : gap > 0 ? gap : 0;
 }
 
 void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
     const size_t n = (size_t)line->n;
+    line->gains = options->contact == CPS_CONTACT_GAINED;
     memcpy(line->reference, line->position, 3*n*sizeof *line->reference);
-    if (line->follows) memcpy(line->base, line->reference, 3*n*sizeof *line->base);
-    for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->reference[3*j]);
-        double gap;
-        const int k = cpsi_line_nearest(line, x, &gap);
-        const bool touches = k >= 0 && line->state[j] != CPS_NODE_FREE, held = is_end(line, j, CPS_END_HELD);
+    if (line->follows) {
+        memcpy(line->base, line->reference, 3*n*sizeof *line->base);
+        for (int j = 0; j < line->n; j++) meet(line, j);
+    }
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
         if (line->follows)
-            see(line, j);
-        else if (k >= 0)
-            vec3_store(&line->normal[3*j], line->obstacle[k].frame.axis[2]);
-        const bool rubs = touches && !held && !options->frictionless;
-        line->friction_bound[j] = rubs ? cpsi_rub_set(line, j).friction*line->reaction[j] : 0;
-        /* contact: everywhere, or only where the reference touches (S90 (35)) */
-        const bool watched =
-            k >= 0 && !held && (options->contact == CPS_CONTACT_GAINED || touches || gap <= CPSI_TOUCH*line->length);
-        line->gap[j] = !watched ? INFINITY : gap > 0 ? gap : 0;
+            see(line, c);
+        else if (line->obstacle_count > 0)
+            vec3_store(&line->normal[3*c], line->obstacle->frame.axis[2]);
+        pose(line, c, options);
     }
     cpsi_contact_slide(line);
 }
 
 void cpsi_contact_slide(CpsiLine *line) {
-    if (!line->follows) return;
-    for (int j = 0; j < line->n; j++) {
-        const Vec3 from = line->on[j] >= 0 ? carried(line, j, line->on[j]) : vec3_load(&line->reference[3*j]);
-        const Vec3 n = vec3_load(&line->normal[3*j]), u = vec3_sub(vec3_load(&line->position[3*j]), from);
-        vec3_store(&line->slide[3*j], vec3_axpy(-vec3_dot(u, n), n, u));
+    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
+        const Vec3 to = vec3_load(&line->position[3*cpsi_line_node(line, c)]);
+        const Vec3 n = vec3_load(&line->normal[3*c]), u = vec3_sub(to, carried(line, c));
+        vec3_store(&line->slide[3*c], vec3_axpy(-vec3_dot(u, n), n, u));
     }
+}
+
+/* Move node j along the obstacle that presses it most. */
+static void move(CpsiLine *line, int j) {
+    const Vec3 from = vec3_load(&line->base[3*j]), to = vec3_load(&line->position[3*j]);
+    const int c = line->contacts > 1 && line->reaction[j + line->n] > line->reaction[j] ? j + line->n : j;
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    if (!obstacle || !(line->reaction[c] > 0)) return;
+    vec3_store(&line->position[3*j], cpsi_obstacle_move(obstacle, from, vec3_sub(to, from)));
+}
+
+/* How far the axes of node j turn from its base to its position, the tangent's turn counting where it matters. INFINITY where it
+ * leaves one of its obstacles for another. */
+static double turn_of(CpsiLine *line, int j) {
+    const Vec3 to = vec3_load(&line->position[3*j]);
+    double turned = 0;
+    int on[2];
+    nearest(line, to, on);
+    for (int i = 0; i < line->contacts; i++) {
+        const int c = j + i*line->n;
+        if (!(line->reaction[c] > 0)) continue;
+        if (line->on[c] != on[0] && line->on[c] != on[1]) return INFINITY;
+        double now[9], curvature[3];
+        cpsi_obstacle_axes(&line->obstacle[line->on[c]], to, direction(line, line->position, j), now, curvature);
+        for (int row = 0; row < 3; row += 2) {
+            const Vec3 change = vec3_sub(vec3_load(&now[3*row]), vec3_load(&line->axes[9*c + 3*row]));
+            turned = fmax(turned, vec3_norm(change));
+        }
+    }
+    return turned;
 }
 
 double cpsi_contact_move(CpsiLine *line) {
     double turned = 0;
-    for (int j = 0; j < line->n; j++) {
-        const Vec3 from = vec3_load(&line->base[3*j]), to = vec3_load(&line->position[3*j]);
-        const CpsiObstacle *obstacle = cpsi_line_obstacle(line, j);
-        const bool touching = obstacle && line->reaction[j] > 0;
-        const Vec3 x = touching ? cpsi_obstacle_move(obstacle, from, vec3_sub(to, from)) : to;
-        vec3_store(&line->position[3*j], x);
-    }
-    /* how the axes turn, the tangent's turn counting where it matters */
+    for (int j = 0; j < line->n; j++) move(line, j);
+    for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j));
     memcpy(line->base, line->position, 3*(size_t)line->n*sizeof *line->base);
-    for (int j = 0; j < line->n; j++) {
-        const int on = line->on[j];
-        double before[9];
-        memcpy(before, &line->axes[9*j], sizeof before);
-        see(line, j);
-        if (!(line->reaction[j] > 0)) continue;
-        if (line->on[j] != on) turned = INFINITY;
-        const double *now = &line->axes[9*j];
-        for (int row = 0; row < 3; row += 2) {
-            const Vec3 change = vec3_sub(vec3_load(&now[3*row]), vec3_load(&before[3*row]));
-            turned = fmax(turned, vec3_norm(change));
-        }
-    }
     return turned;
 }

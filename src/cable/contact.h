@@ -19,8 +19,8 @@ void cpsi_contact_look(CpsiLine *line);
  * is frozen. */
 void cpsi_contact_slide(CpsiLine *line);
 
-/* Along the surface: what `base` becomes when the nodes move by `position` - base, where they touch. Returns the
- * largest angle [rad] by which a touching node's axes turn on the way: what the next look changes. */
+/* Along the surface: what `position` and then `base` become when the nodes move by `position` - base, where they touch. Returns
+ * the largest angle [rad] by which a touching node's axes turn on the way: what the next look changes. */
 double cpsi_contact_move(CpsiLine *line);
 
 #endif

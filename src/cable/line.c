@@ -3,26 +3,26 @@
 #include "cable/line.h"
 
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
-    const size_t n = (size_t)line->n;
+    const size_t n = (size_t)line->n, contacts = (size_t)line->contacts*n;
     line->arc_length = CPSI_TAKE(arena, n, double);
     line->element_length = CPSI_TAKE(arena, n, double);
     line->reference = CPSI_TAKE(arena, 3*n, double);
     line->position = CPSI_TAKE(arena, 3*n, double);
     line->load = CPSI_TAKE(arena, 3*n, double);
-    line->normal = CPSI_TAKE(arena, 3*n, double);
-    line->gap = CPSI_TAKE(arena, n, double);
+    line->normal = CPSI_TAKE(arena, 3*contacts, double);
+    line->gap = CPSI_TAKE(arena, contacts, double);
     line->friction_factor = line->has_zones ? CPSI_TAKE(arena, n, double) : NULL;
-    line->friction_bound = CPSI_TAKE(arena, n, double);
-    line->friction_force = CPSI_TAKE(arena, 3*n, double);
-    line->reaction = CPSI_TAKE(arena, n, double);
+    line->friction_bound = CPSI_TAKE(arena, contacts, double);
+    line->friction_force = CPSI_TAKE(arena, 3*contacts, double);
+    line->reaction = CPSI_TAKE(arena, contacts, double);
     line->segment_force = CPSI_TAKE(arena, 3*n, double);
     line->tension = CPSI_TAKE(arena, n, double);
-    line->state = CPSI_TAKE(arena, n, unsigned char);
-    line->slide = line->follows ? CPSI_TAKE(arena, 3*n, double) : NULL;
+    line->state = CPSI_TAKE(arena, contacts, unsigned char);
+    line->slide = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
     line->base = line->follows ? CPSI_TAKE(arena, 3*n, double) : NULL;
-    line->axes = line->follows ? CPSI_TAKE(arena, 9*n, double) : NULL;
-    line->curvature = line->follows ? CPSI_TAKE(arena, 3*n, double) : NULL;
-    line->on = line->follows ? CPSI_TAKE(arena, n, int) : NULL;
+    line->axes = line->follows ? CPSI_TAKE(arena, 9*contacts, double) : NULL;
+    line->curvature = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
+    line->on = line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
 }
 
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {
@@ -70,5 +70,6 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));
         line->reaction[j] = reaction > 0 ? reaction : 0;
         line->state[j] = CPS_NODE_STICK;
+        if (line->follows) line->on[j] = on;
     }
 }

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One line and its last step: the data that a step reads and the fields that it leaves. World axes, SI units. */
+/* One line and its last step: the data that a step reads and the fields that it leaves. World axes, SI units.
+ *
+ * A node touches up to `contacts` obstacles at once. What belongs to a contact stands in arrays (contacts, n): contact c is the
+ * first of node c, or the second of node c - n. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H
 
@@ -20,6 +23,7 @@ typedef struct CpsiLine {
     const double *turn; /* (obstacle_count) [rad] by which each turns in this part of the step */
     bool has_zones;     /* friction differs along the line */
     bool follows;       /* nodes have axes of their own, which follow them: more than one plane with isotropic friction */
+    int contacts;       /* of a node: 2 where there is more than one obstacle, else 1 */
     double common[9];   /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];      /* imposed now */
     double *arc_length;      /* (n) [m] */
@@ -28,25 +32,26 @@ typedef struct CpsiLine {
     double *reference;      /* (n, 3) [m] */
     double *position;       /* (n, 3) [m] */
     double *load;           /* (n, 3) [N] */
-    double *normal;         /* (n, 3) */
-    double *gap;            /* (n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked for */
+    double *normal;         /* (contacts, n, 3) */
+    double *gap;            /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked for */
     double *friction_factor; /* (n) of the obstacles' coefficients; NULL: 1 */
-    double *friction_bound; /* (n) [N] */
-    double *friction_force; /* (n, 3) [N] */
-    double *reaction;       /* (n) [N] */
+    double *friction_bound; /* (contacts, n) [N] */
+    double *friction_force; /* (contacts, n, 3) [N] */
+    double *reaction;       /* (contacts, n) [N] */
     double *segment_force;  /* (n - 1, 3) [N] */
     double *tension;        /* (n - 1) [N] */
-    unsigned char *state;   /* (n) CpsNodeState */
+    unsigned char *state;   /* (contacts, n) CpsNodeState */
     /* where `follows`, else NULL: what each node sees of the obstacles, from its place `base` */
-    double *slide;          /* (n, 3) [m] way of the node on the obstacle in this step, tangential */
+    double *slide;          /* (contacts, n, 3) [m] way of the node on the obstacle in this step, tangential */
     double *base;           /* (n, 3) [m] */
-    double *axes;           /* (n, 9) rows first tangent, second tangent, normal */
-    double *curvature;      /* (n, 3) [1/m] xx, xy, yy of the surface in these axes */
-    int *on;                /* (n) nearest obstacle, -1: none */
+    double *axes;           /* (contacts, n, 9) rows first tangent, second tangent, normal */
+    double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
+    int *on;                /* (contacts, n) the nearest obstacle, and the next; -1: none */
+    bool gains;             /* contact is looked for everywhere */
     CpsLineReport report;
 } CpsiLine;
 
-/* Place the arrays of a line of line->n nodes in the arena; line->follows and line->has_zones are set. */
+/* Place the arrays of a line of line->n nodes in the arena; line->follows, line->contacts and line->has_zones are set. */
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 
 /* Fill the arc length from element_length. */
@@ -59,21 +64,25 @@ static inline double cpsi_line_share(const CpsiLine *line, int j) {
     return 0.5*(before + after);
 }
 
-/* The obstacle that node j is nearest to, or NULL; the axes of contact there. */
-static inline const CpsiObstacle *cpsi_line_obstacle(const CpsiLine *line, int j) {
-    if (line->follows) return line->on[j] >= 0 ? &line->obstacle[line->on[j]] : NULL;
+/* Contacts of all nodes, and the node of one. */
+static inline int cpsi_line_contacts(const CpsiLine *line) { return line->contacts*line->n; }
+static inline int cpsi_line_node(const CpsiLine *line, int c) { return c < line->n ? c : c - line->n; }
+
+/* The obstacle of contact c, or NULL; the axes there, those of a node being its first contact's. */
+static inline const CpsiObstacle *cpsi_line_obstacle(const CpsiLine *line, int c) {
+    if (line->follows) return line->on[c] >= 0 ? &line->obstacle[line->on[c]] : NULL;
     return line->obstacle_count > 0 ? line->obstacle : NULL;
 }
 
-static inline const double *cpsi_line_axes(const CpsiLine *line, int j) {
-    return line->follows ? &line->axes[9*j] : line->common;
+static inline const double *cpsi_line_axes(const CpsiLine *line, int c) {
+    return line->follows ? &line->axes[9*c] : line->common;
 }
 
-/* [m] The way of node j on the obstacle in this step. */
-static inline Vec3 cpsi_line_slide(const CpsiLine *line, int j) {
-    if (line->follows) return vec3_load(&line->slide[3*j]);
-    const Vec3 u = vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&line->reference[3*j]));
-    const Vec3 n = vec3_load(&line->normal[3*j]);
+/* [m] The way of the node on the obstacle of contact c in this step. */
+static inline Vec3 cpsi_line_slide(const CpsiLine *line, int c) {
+    if (line->follows) return vec3_load(&line->slide[3*c]);
+    const Vec3 u = vec3_sub(vec3_load(&line->position[3*c]), vec3_load(&line->reference[3*c]));
+    const Vec3 n = vec3_load(&line->normal[3*c]);
     return vec3_axpy(-vec3_dot(u, n), n, u);
 }
 

@@ -193,7 +193,7 @@ static double unit_force(const CpsiLine *line, CpsiBounds bounds) {
     double force = force_scale(line, end_distance(line)/(is_taut(line) ? 1 + TAUT_SLACK : 1)), all = 0;
     const double before = line->obstacle_count > 0 ? reference_tension(line) : 0;
     if (before > HELD*force) force = before;
-    for (int j = 0; j < line->n && bounds == CPSI_BOUNDS_TRIED; j++) all += line->friction_bound[j];
+    for (int c = 0; c < cpsi_line_contacts(line) && bounds == CPSI_BOUNDS_TRIED; c++) all += line->friction_bound[c];
     return fmax(force, all);
 }
 
@@ -231,25 +231,25 @@ static bool is_clean(const CpsiIpmReport *ipm) { return ipm->gap + ipm->residual
 
 /* The bounds mu R, and no friction beyond them. */
 static void take_bounds(CpsiLine *line) {
-    for (int j = 0; j < line->n; j++) {
-        const double *axes = cpsi_line_axes(line, j);
-        const CpsiRubSet set = cpsi_rub_set(line, j);
-        const double within = line->friction_bound[j];
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        const double *axes = cpsi_line_axes(line, c);
+        const CpsiRubSet set = cpsi_rub_set(line, c);
+        const double within = line->friction_bound[c];
         double f[3];
-        line->friction_bound[j] = isfinite(line->gap[j]) ? set.friction*line->reaction[j] : 0;
-        cpsi_frame_to(f, axes, &line->friction_force[3*j]);
-        cpsi_rub_clip(&set, within, line->friction_bound[j], f);
-        cpsi_frame_from(&line->friction_force[3*j], axes, f);
+        line->friction_bound[c] = isfinite(line->gap[c]) ? set.friction*line->reaction[c] : 0;
+        cpsi_frame_to(f, axes, &line->friction_force[3*c]);
+        cpsi_rub_clip(&set, within, line->friction_bound[c], f);
+        cpsi_frame_from(&line->friction_force[3*c], axes, f);
     }
 }
 
 /* Sum of |A - mu R| over that of mu R: how far given bounds are from following. */
 static double mismatch(const CpsiLine *line) {
     double off = 0, all = 0;
-    for (int j = 0; j < line->n; j++) {
-        if (!isfinite(line->gap[j])) continue;
-        const double follow = cpsi_rub_set(line, j).friction*line->reaction[j];
-        off += fabs(line->friction_bound[j] - follow);
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        if (!isfinite(line->gap[c])) continue;
+        const double follow = cpsi_rub_set(line, c).friction*line->reaction[c];
+        off += fabs(line->friction_bound[c] - follow);
         all += follow;
     }
     return all > 0 ? off/all : 0;
@@ -259,27 +259,26 @@ static double mismatch(const CpsiLine *line) {
 static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force) {
     const bool newton = cpsi_chain_program_follow(program);
     for (int k = 0; k < program->stop.count; k++) {
-        const int j = program->stop.node[k];
+        const int c = program->stop.contact[k];
         const double foreseen = program->stop.z[k] + program->stop.dz[k], now = program->stop.z[k];
         const double reaction = newton && isfinite(foreseen) ? fmax(0, foreseen) : now;
-        line->friction_bound[j] =
-            cpsi_rub_set(line, j).friction*reaction*force*program->stop.weight[k];
+        line->friction_bound[c] = cpsi_rub_set(line, c).friction*reaction*force*program->stop.weight[k];
     }
 }
 
 /* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. */
 static void look_again(CpsiLine *line, double *turned) {
-    for (int j = 0; j < line->n; j++) {
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
         double f[3];
-        cpsi_frame_to(f, cpsi_line_axes(line, j), &line->friction_force[3*j]);
-        memcpy(&line->friction_force[3*j], f, sizeof f);
+        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
+        memcpy(&line->friction_force[3*c], f, sizeof f);
     }
     *turned = cpsi_contact_move(line);
     cpsi_contact_look(line);
-    for (int j = 0; j < line->n; j++) {
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
         double f[3];
-        cpsi_frame_from(f, cpsi_line_axes(line, j), &line->friction_force[3*j]);
-        memcpy(&line->friction_force[3*j], f, sizeof f);
+        cpsi_frame_from(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
+        memcpy(&line->friction_force[3*c], f, sizeof f);
     }
 }
 
@@ -299,7 +298,7 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
         ipm = solve_round(line, program, options, bounds);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
-            for (int j = 0; j < line->n; j++) line->friction_bound[j] = line->reaction[j] = 0;
+            for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
             ipm = solve_round(line, program, options, bounds);
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
@@ -333,13 +332,13 @@ static bool is_finite(const CpsiLine *line) {
 
 /* Back to the reference, without forces: what is reported where arithmetic has broken down. */
 static void forget(CpsiLine *line, const CpsiStepOptions *options) {
-    const size_t n = (size_t)line->n;
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
     const CpsiIpmReport none = {.outcome = CPSI_IPM_STALLED};
     memcpy(line->position, line->reference, 3*n*sizeof *line->position);
-    memset(line->friction_force, 0, 3*n*sizeof *line->friction_force);
+    memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
     memset(line->segment_force, 0, 3*n*sizeof *line->segment_force);
-    memset(line->friction_bound, 0, n*sizeof *line->friction_bound);
-    memset(line->reaction, 0, n*sizeof *line->reaction);
+    memset(line->friction_bound, 0, contacts*sizeof *line->friction_bound);
+    memset(line->reaction, 0, contacts*sizeof *line->reaction);
     memset(line->tension, 0, n*sizeof *line->tension);
     if (line->follows) {
         memcpy(line->base, line->reference, 3*n*sizeof *line->base);

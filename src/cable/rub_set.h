@@ -14,10 +14,10 @@ typedef struct CpsiRubSet {
     const CpsiFrictionSet *given; /* NULL: ellipse or box */
 } CpsiRubSet;
 
-/* That of node j of a line on the obstacle it is nearest to. */
-static inline CpsiRubSet cpsi_rub_set(const CpsiLine *line, int j) {
-    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, j);
-    const double factor = line->friction_factor ? line->friction_factor[j] : 1;
+/* That of contact c of a line. */
+static inline CpsiRubSet cpsi_rub_set(const CpsiLine *line, int c) {
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    const double factor = line->friction_factor ? line->friction_factor[cpsi_line_node(line, c)] : 1;
     if (!obstacle || (obstacle->has_set && !obstacle->set)) return (CpsiRubSet){.ratio = {1, 1}};
     if (obstacle->has_set) return (CpsiRubSet){.friction = factor, .given = obstacle->set};
     const double *mu = obstacle->friction, friction = fmax(mu[0], mu[1]), by = friction > 0 ? 1/friction : 0;

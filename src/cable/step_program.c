@@ -42,63 +42,99 @@ static void guess(const CpsiLine *line, CpsiChainProgram *program) {
     }
 }
 
-/* The shape of a node, its set being given as such. */
-static void fill_shape(const CpsiLine *line, CpsiChainProgram *program, int j, const CpsiStepScale *scale) {
-    CpsiShape *shape = &program->shape;
-    const CpsiRubSet set = cpsi_rub_set(line, j);
-    const double share = cpsi_line_share(line, j)/line->length;
-    double way[3];
-    cpsi_frame_to(way, cpsi_line_axes(line, j), &line->slide[3*j]);
-    const int k = shape->count++;
-    shape->node[k] = j;
-    shape->weight[k] = share;
-    shape->form[k] = cpsi_friction_set_shape(set.given);
-    shape->stop[k] = isfinite(line->gap[j]) ? program->stop.count - 1 : -1;
-    shape->friction[k] = set.friction;
-    shape->bound[k] = line->friction_bound[j]/(scale->force*share);
-    if (scale->bounds == CPSI_BOUNDS_TRIED) shape->bound[k] = fmax(shape->bound[k], LEAST_TRIED);
-    for (int a = 0; a < 2; a++) shape->offset[k][a] = way[a]/line->length;
+/* The tangents (2, 3) of contact c, row by row, and its normal, in the axes of its node: the first contact's are those. */
+static void contact_axes(const CpsiLine *line, int c, double axes[9]) {
+    static const double own[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const int j = cpsi_line_node(line, c);
+    if (c == j) memcpy(axes, own, sizeof own);
+    else cpsi_frame_relative(axes, cpsi_line_axes(line, c), cpsi_line_axes(line, j));
 }
 
-/* The rubs of a node: one, its map the ratios of an ellipse, or two for a box. */
-static void fill_rubs(const CpsiLine *line, CpsiChainProgram *program, int j, const CpsiStepScale *scale) {
-    CpsiRub *rub = &program->rub;
-    const CpsiRubSet set = cpsi_rub_set(line, j);
+static double tried_or(const CpsiStepScale *scale, double bound) {
+    return scale->bounds == CPSI_BOUNDS_TRIED ? fmax(bound, LEAST_TRIED) : bound;
+}
+
+/* The shape of a contact, its set being given as such. */
+static void fill_shape(const CpsiLine *line, CpsiChainProgram *program, int c, const CpsiStepScale *scale) {
+    CpsiShape *shape = &program->shape;
+    const CpsiRubSet set = cpsi_rub_set(line, c);
+    const int j = cpsi_line_node(line, c), k = shape->count++;
     const double share = cpsi_line_share(line, j)/line->length;
-    const int count = line->follows && set.box ? 2 : 1;
-    double way[3] = {0};
-    if (line->follows) cpsi_frame_to(way, cpsi_line_axes(line, j), &line->slide[3*j]);
+    double way[3], axes[9];
+    cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3*c]);
+    contact_axes(line, c, axes);
+    shape->node[k] = j;
+    shape->contact[k] = c;
+    shape->second[k] = c != j;
+    shape->weight[k] = share;
+    shape->form[k] = cpsi_friction_set_shape(set.given);
+    shape->stop[k] = isfinite(line->gap[c]) ? program->stop.count - 1 : -1;
+    shape->friction[k] = set.friction;
+    shape->bound[k] = tried_or(scale, line->friction_bound[c]/(scale->force*share));
+    for (int a = 0; a < 2; a++) shape->offset[k][a] = way[a]/line->length;
+    memcpy(shape->tangent[k], axes, sizeof shape->tangent[k]);
+}
+
+/* The rubs of a contact: one, its map the ratios of an ellipse, or two for a box. */
+static void fill_rubs(const CpsiLine *line, CpsiChainProgram *program, int c, const CpsiStepScale *scale) {
+    CpsiRub *rub = &program->rub;
+    const CpsiRubSet set = cpsi_rub_set(line, c);
+    const int j = cpsi_line_node(line, c), count = line->follows && set.box ? 2 : 1;
+    const double share = cpsi_line_share(line, j)/line->length;
+    double way[3] = {0}, axes[9];
+    if (line->follows) cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3*c]);
+    contact_axes(line, c, axes);
     for (int i = 0; i < count; i++) {
         const int k = rub->count++;
         rub->node[k] = j;
+        rub->contact[k] = c;
         rub->weight[k] = share;
-        rub->stop[k] = isfinite(line->gap[j]) ? program->stop.count - 1 : -1;
+        rub->stop[k] = isfinite(line->gap[c]) ? program->stop.count - 1 : -1;
         rub->friction[k] = set.friction;
-        rub->z[k][0] = line->friction_bound[j]/(scale->force*share);
-        if (scale->bounds == CPSI_BOUNDS_TRIED) rub->z[k][0] = fmax(rub->z[k][0], LEAST_TRIED);
-        if (!line->follows) continue;
-        const bool first = !set.box || i == 0, second = !set.box || i == 1;
-        const double map[4] = {first ? set.ratio[0] : 0, 0, 0, second ? set.ratio[1] : 0};
-        memcpy(rub->map[k], map, sizeof map);
-        rub->offset[k][0] = map[0]*way[0]/line->length;
-        rub->offset[k][1] = map[3]*way[1]/line->length;
+        rub->z[k][0] = tried_or(scale, line->friction_bound[c]/(scale->force*share));
+        for (int a = 0; line->follows && a < 2; a++) {
+            const double ratio = !set.box || i == a ? set.ratio[a] : 0;
+            for (int b = 0; b < 3; b++) rub->map[k][3*a + b] = ratio*axes[3*a + b];
+            rub->offset[k][a] = ratio*way[a]/line->length;
+        }
     }
 }
 
-static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int j, const CpsiStepScale *scale) {
+/* by T^T (curvature) T as xx, xy, yy, xz, yz, zz, the rows of T the tangents. */
+static void turn_curvature(double out[6], const double axes[9], const double curvature[3], double by) {
+    memset(out, 0, 6*sizeof *out);
+    cpsi_add_mapped(out, by, axes, curvature);
+}
+
+static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int c, const CpsiStepScale *scale) {
     CpsiStop *stop = &program->stop;
+    const int j = cpsi_line_node(line, c), k = stop->count++;
     const double share = cpsi_line_share(line, j)/line->length;
-    double gap = line->gap[j];
+    double gap = line->gap[c];
     if (line->follows)
         for (int a = 0; a < 3; a++)
-            gap += line->normal[3*j + a]*(line->base[3*j + a] - line->reference[3*j + a]);
-    const int k = stop->count++;
+            gap += line->normal[3*c + a]*(line->base[3*j + a] - line->reference[3*j + a]);
     stop->node[k] = j;
+    stop->contact[k] = c;
+    stop->second[k] = c != j;
     stop->weight[k] = share;
     stop->gap[k] = gap/line->length;
-    for (int a = 0; line->follows && a < 3; a++)
-        stop->curvature[k][a] =
-            scale->curved ? line->reaction[j]*line->curvature[3*j + a]*line->length/(scale->force*share) : 0;
+    if (!line->follows) return;
+    double axes[9];
+    contact_axes(line, c, axes);
+    memcpy(stop->normal[k], &axes[6], sizeof stop->normal[k]);
+    turn_curvature(stop->curvature[k], axes, &line->curvature[3*c],
+                   scale->curved ? line->reaction[c]*line->length/(scale->force*share) : 0);
+}
+
+static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c, const CpsiStepScale *scale) {
+    const bool watched = isfinite(line->gap[c]);
+    if (watched) fill_stop(line, program, c, scale);
+    const bool rubs = scale->bounds == CPSI_BOUNDS_GIVEN
+                          ? line->friction_bound[c] >= LEAST_FRICTION*scale->force
+                          : watched && cpsi_rub_set(line, c).friction > 0;
+    if (rubs && cpsi_rub_set(line, c).given) fill_shape(line, program, c, scale);
+    else if (rubs) fill_rubs(line, program, c, scale);
 }
 
 static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale) {
@@ -109,13 +145,7 @@ static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, const Cp
         if (line->follows) memcpy(&program->frame[9*j], &line->axes[9*j], 9*sizeof *line->axes);
         cpsi_frame_to(&program->base.load[3*j], cpsi_line_axes(line, j), &line->load[3*j]);
         for (int a = 0; a < 3; a++) program->base.load[3*j + a] /= scale->force;
-        const bool watched = isfinite(line->gap[j]);
-        if (watched) fill_stop(line, program, j, scale);
-        const bool rubs = scale->bounds == CPSI_BOUNDS_GIVEN
-                              ? line->friction_bound[j] >= LEAST_FRICTION*scale->force
-                              : watched && cpsi_rub_set(line, j).friction > 0;
-        if (rubs && cpsi_rub_set(line, j).given) fill_shape(line, program, j, scale);
-        else if (rubs) fill_rubs(line, program, j, scale);
+        for (int c = j; c < cpsi_line_contacts(line); c += line->n) fill_contact(line, program, c, scale);
     }
 }
 
@@ -167,42 +197,45 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program) {
 }
 
 static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program, const CpsiStepScale *scale) {
-    memset(line->reaction, 0, (size_t)line->n*sizeof *line->reaction);
+    memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
     for (int k = 0; k < program->stop.count; k++)
-        line->reaction[program->stop.node[k]] = scale->force*program->stop.weight[k]*program->stop.z[k];
+        line->reaction[program->stop.contact[k]] = scale->force*program->stop.weight[k]*program->stop.z[k];
 }
 
-/* The friction of a node: what its rubs add up to, kept inside the set. */
+/* The friction (f_x, f_y) of contact c, given inside the set of the bound `within`, kept inside its own. */
+static void put_friction(CpsiLine *line, int c, bool follow, double within, double f[3]) {
+    const CpsiRubSet set = cpsi_rub_set(line, c);
+    if (follow) line->friction_bound[c] = set.friction*line->reaction[c];
+    cpsi_rub_clip(&set, within > 0 ? within : line->friction_bound[c], line->friction_bound[c], f);
+    cpsi_frame_from(&line->friction_force[3*c], cpsi_line_axes(line, c), f);
+}
+
+/* The friction of a contact: what its rubs add up to, or its shape's force. */
 static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program, const CpsiStepScale *scale) {
     const CpsiRub *rub = &program->rub;
+    const CpsiShape *shape = &program->shape;
     const bool follow = scale->bounds == CPSI_BOUNDS_FOLLOW;
-    for (int j = 0; j < line->n; j++) {
-        if (follow || line->friction_bound[j] < LEAST_FRICTION*scale->force) line->friction_bound[j] = 0;
-        for (int a = 0; a < 3; a++) line->friction_force[3*j + a] = 0;
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        if (follow || line->friction_bound[c] < LEAST_FRICTION*scale->force) line->friction_bound[c] = 0;
+        for (int a = 0; a < 3; a++) line->friction_force[3*c + a] = 0;
     }
     for (int k = 0; k < rub->count;) {
-        const int j = rub->node[k];
-        const CpsiRubSet set = cpsi_rub_set(line, j);
+        const int c = rub->contact[k];
+        const CpsiRubSet set = cpsi_rub_set(line, c);
         double f[3] = {0};
-        for (; k < rub->count && rub->node[k] == j; k++) {
+        for (int i = 0; k < rub->count && rub->contact[k] == c; k++, i++) {
             const double by = scale->force*rub->weight[k];
-            f[0] += by*(rub->map ? rub->map[k][0] : 1)*rub->z[k][1];
-            f[1] += by*(rub->map ? rub->map[k][3] : 1)*rub->z[k][2];
+            for (int a = 0; a < 2; a++)
+                f[a] += by*(!set.box || i == a ? set.ratio[a] : 0)*rub->z[k][1 + a];
         }
-        if (follow) line->friction_bound[j] = set.friction*line->reaction[j];
-        cpsi_rub_clip(&set, line->friction_bound[j], line->friction_bound[j], f);
-        cpsi_frame_from(&line->friction_force[3*j], cpsi_line_axes(line, j), f);
+        put_friction(line, c, follow, 0, f);
     }
-    for (int k = 0; k < program->shape.count; k++) {
-        const int j = program->shape.node[k];
-        const CpsiRubSet set = cpsi_rub_set(line, j);
-        const double by = scale->force*program->shape.weight[k];
+    for (int k = 0; k < shape->count; k++) {
+        const double by = scale->force*shape->weight[k];
         double f[3] = {0};
-        cpsi_shape_force(&program->shape, k, f);
+        cpsi_shape_force(shape, k, f);
         f[0] *= by, f[1] *= by;
-        if (follow) line->friction_bound[j] = set.friction*line->reaction[j];
-        cpsi_rub_clip(&set, by*program->shape.bound[k], line->friction_bound[j], f);
-        cpsi_frame_from(&line->friction_force[3*j], cpsi_line_axes(line, j), f);
+        put_friction(line, shape->contact[k], follow, by*shape->bound[k], f);
     }
 }
 

@@ -18,26 +18,30 @@
 /* A part whose halves agree this much better than asked is followed by one twice as long. */
 static const double EASY = 0.25;
 
-void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, bool path_tolerance) {
-    room->reaction = CPSI_TAKE(arena, n, double);
-    room->state = CPSI_TAKE(arena, n, unsigned char);
+void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contacts, bool path_tolerance) {
+    const size_t all = (size_t)contacts*(size_t)n;
+    room->reaction = CPSI_TAKE(arena, all, double);
+    room->state = CPSI_TAKE(arena, all, unsigned char);
+    room->on = CPSI_TAKE(arena, all, int);
     room->position = path_tolerance ? CPSI_TAKE(arena, 3*(size_t)n, double) : NULL;
     room->trial = path_tolerance ? CPSI_TAKE(arena, 4*(size_t)n, double) : NULL;
 }
 
 static void save(const CpsiLine *line, CpsiAdvance *room) {
-    const size_t n = (size_t)line->n;
-    memcpy(room->reaction, line->reaction, n*sizeof *line->reaction);
-    memcpy(room->state, line->state, n*sizeof *line->state);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    memcpy(room->reaction, line->reaction, contacts*sizeof *line->reaction);
+    memcpy(room->state, line->state, contacts*sizeof *line->state);
+    if (line->follows) memcpy(room->on, line->on, contacts*sizeof *line->on);
     memcpy(room->end, line->report.end, sizeof room->end);
     if (room->position) memcpy(room->position, line->position, 3*n*sizeof *line->position);
 }
 
 /* Back to the start of the part; one step after `save` the reference still is where it started. */
 static void restore(CpsiLine *line, const CpsiAdvance *room) {
-    const size_t n = (size_t)line->n;
-    memcpy(line->reaction, room->reaction, n*sizeof *line->reaction);
-    memcpy(line->state, room->state, n*sizeof *line->state);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    memcpy(line->reaction, room->reaction, contacts*sizeof *line->reaction);
+    memcpy(line->state, room->state, contacts*sizeof *line->state);
+    if (line->follows) memcpy(line->on, room->on, contacts*sizeof *line->on);
     memcpy(line->report.end, room->end, sizeof room->end);
     memcpy(line->position, room->position ? room->position : line->reference, 3*n*sizeof *line->position);
 }

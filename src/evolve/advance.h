@@ -13,15 +13,16 @@ typedef struct CpsiMove {
 
 /* Room for the start of a part, and for what one part reached in one go. */
 typedef struct CpsiAdvance {
-    double *reaction;     /* (n) */
-    unsigned char *state; /* (n) */
+    double *reaction;     /* (contacts, n) */
+    unsigned char *state; /* (contacts, n) */
+    int *on;              /* (contacts, n) */
     CpsEndReport end[2];
     double *position;     /* (n, 3), NULL where the path's accuracy is not asked for */
     double *trial;        /* (n, 4), the same */
     double *turn;         /* (obstacles) what line->turn points to */
 } CpsiAdvance;
 
-void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, bool path_tolerance);
+void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contacts, bool path_tolerance);
 
 /* Take the step. The line's report is that of the whole: sums of what adds up, the worst outcome, else that of the last part; the views
  * are those of the last part.

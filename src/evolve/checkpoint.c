@@ -15,7 +15,7 @@ typedef struct Head {
     uint64_t size, fingerprint;
 } Head;
 
-static const char MAGIC[8] = "capstan1";
+static const char MAGIC[8] = "capstan2";
 
 /* Bytes on their way out, in, or only counted. */
 typedef struct Tape {
@@ -31,16 +31,18 @@ static void pass(Tape *tape, void *data, size_t size) {
 }
 
 static void pass_line(Tape *tape, CpsiLine *line) {
-    const size_t n = (size_t)line->n, vector = 3*n*sizeof(double), scalar = n*sizeof(double);
-    double *const vectors[] = {line->reference, line->position, line->load, line->normal, line->friction_force,
-                               line->slide};
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    double *const nodes[] = {line->reference, line->position, line->load};
+    double *const vectors[] = {line->normal, line->friction_force, line->slide};
     double *const scalars[] = {line->gap, line->friction_bound, line->reaction};
+    for (size_t i = 0; i < sizeof nodes/sizeof *nodes; i++) pass(tape, nodes[i], 3*n*sizeof(double));
     for (size_t i = 0; i < sizeof vectors/sizeof *vectors; i++)
-        if (vectors[i]) pass(tape, vectors[i], vector);
-    for (size_t i = 0; i < sizeof scalars/sizeof *scalars; i++) pass(tape, scalars[i], scalar);
+        if (vectors[i]) pass(tape, vectors[i], 3*contacts*sizeof(double));
+    for (size_t i = 0; i < sizeof scalars/sizeof *scalars; i++) pass(tape, scalars[i], contacts*sizeof(double));
     pass(tape, line->segment_force, 3*(n - 1)*sizeof(double));
     pass(tape, line->tension, (n - 1)*sizeof(double));
-    pass(tape, line->state, n*sizeof *line->state);
+    pass(tape, line->state, contacts*sizeof *line->state);
+    if (line->on) pass(tape, line->on, contacts*sizeof *line->on);
     pass(tape, line->end, sizeof line->end);
     pass(tape, &line->report, sizeof line->report);
 }

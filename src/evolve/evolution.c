@@ -86,12 +86,14 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     evolution->room.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
     const bool follows = scene_follows(scene);
+    const int contacts = scene->obstacle_count > 1 ? 2 : 1;
     int nodes = 0;
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
         line->name = take_name(arena, scene->line[i].name);
         line->n = scene->line[i].elements + 1;
         line->follows = follows;
+        line->contacts = contacts;
         line->has_zones = scene->line[i].zone_count > 0;
         cpsi_line_layout(line, arena);
         if (line->n > nodes) nodes = line->n;
@@ -102,8 +104,8 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
-    cpsi_advance_layout(&evolution->room, arena, nodes, scene->solver.path_tolerance > 0);
-    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows, largest,
+    cpsi_advance_layout(&evolution->room, arena, nodes, contacts, scene->solver.path_tolerance > 0);
+    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0, largest,
                         scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain);
     return placed;
 }
@@ -157,6 +159,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         line->element_length[e] = def->element_length ? def->element_length[e] : def->length/def->elements;
     cpsi_line_measure(line);
     fill_friction_factor(line, def);
+    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) line->on[c] = -1;
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
@@ -359,6 +362,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
     return (CpsLineView){
         .name = from->name,
         .elements = from->n - 1,
+        .contacts = from->contacts,
         .arc_length = from->arc_length,
         .element_length = from->element_length,
         .compliance = from->compliance,
@@ -375,5 +379,6 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .segment_force = from->segment_force,
         .tension = from->tension,
         .state = from->state,
+        .obstacle = from->on,
     };
 }

@@ -53,13 +53,13 @@ static double end_work(const CpsEndReport *before, const CpsEndReport *after, bo
 /* Work of obstacles that turn: friction on the way of the surface under the node, which is the node's own way less the way slid. */
 static double obstacle_work(const CpsiLine *line) {
     double work = 0;
-    for (int j = 0; j < line->n && line->follows; j++) {
-        const int k = line->on[j];
+    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
+        const int j = cpsi_line_node(line, c), k = line->on[c];
         if (k < 0 || line->turn[k] == 0) continue;
         const CpsiObstacle *obstacle = &line->obstacle[k];
         const Vec3 x = vec3_load(&line->position[3*j]), from = vec3_load(&line->reference[3*j]);
         const Vec3 own = cpsi_obstacle_way(obstacle, from, x);
-        work += vec3_dot(vec3_load(&line->friction_force[3*j]), vec3_sub(own, cpsi_line_slide(line, j)));
+        work += vec3_dot(vec3_load(&line->friction_force[3*c]), vec3_sub(own, cpsi_line_slide(line, c)));
     }
     return work;
 }

@@ -21,6 +21,7 @@ static void layout_stretch(CpsiStretch *st, CpsiArena *arena, int n) {
 
 static void layout_rub(CpsiRub *rub, CpsiArena *arena, int n) {
     rub->node = CPSI_TAKE(arena, n, int);
+    rub->contact = CPSI_TAKE(arena, n, int);
     rub->weight = CPSI_TAKE(arena, n, double);
     rub->s = cpsi_arena_take(arena, (size_t)n, sizeof *rub->s);
     rub->z = cpsi_arena_take(arena, (size_t)n, sizeof *rub->z);
@@ -35,6 +36,8 @@ static void layout_rub(CpsiRub *rub, CpsiArena *arena, int n) {
 
 static void layout_stop(CpsiStop *stop, CpsiArena *arena, int n) {
     stop->node = CPSI_TAKE(arena, n, int);
+    stop->contact = CPSI_TAKE(arena, n, int);
+    stop->second = CPSI_TAKE(arena, n, bool);
     stop->weight = CPSI_TAKE(arena, n, double);
     stop->gap = CPSI_TAKE(arena, n, double);
     stop->s = CPSI_TAKE(arena, n, double);
@@ -48,6 +51,9 @@ static void clear(CpsiProgram *program) {
     CpsiMatrix *matrix = &cpsi_chain(program)->matrix;
     memset(matrix->diagonal, 0, 6*(size_t)matrix->n*sizeof *matrix->diagonal);
     memset(matrix->skew, 0, 2*(size_t)matrix->n*sizeof *matrix->skew);
+    if (!matrix->second) return;
+    memset(matrix->second->row, 0, 3*(size_t)matrix->n*sizeof *matrix->second->row);
+    memset(matrix->second->column, 0, 3*(size_t)matrix->n*sizeof *matrix->second->column);
 }
 
 static bool factor(CpsiProgram *program) {
@@ -96,20 +102,36 @@ bool cpsi_chain_program_follow(CpsiChainProgram *program) {
     return true;
 }
 
+static void layout_own(CpsiChainProgram *program, CpsiArena *arena, int nodes, int contacts) {
+    const size_t n = (size_t)nodes, stops = n*(size_t)contacts, second = contacts > 1 ? n : 0;
+    program->own.frame = CPSI_TAKE(arena, 9*n, double);
+    program->own.offset = cpsi_arena_take(arena, 2*stops, sizeof *program->own.offset);
+    program->own.map = cpsi_arena_take(arena, 2*stops, sizeof *program->own.map);
+    program->own.normal = cpsi_arena_take(arena, stops, sizeof *program->own.normal);
+    program->own.curvature = cpsi_arena_take(arena, stops, sizeof *program->own.curvature);
+    program->own.second = (CpsiMatrixSecond){.column = CPSI_TAKE(arena, 3*second, double),
+                                             .row = CPSI_TAKE(arena, 3*second, double),
+                                             .compliance = CPSI_TAKE(arena, second, double)};
+    program->own.two = contacts > 1;
+}
+
 void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes) {
     program->n = program->matrix.n = n;
     program->base.size = 3*n;
     program->frame = own_axes ? program->own.frame : NULL;
     program->rub.offset = own_axes ? program->own.offset : NULL;
     program->rub.map = own_axes ? program->own.map : NULL;
+    program->stop.normal = own_axes ? program->own.normal : NULL;
     program->stop.curvature = own_axes ? program->own.curvature : NULL;
+    program->matrix.second = own_axes && program->own.two ? &program->own.second : NULL;
 }
 
-void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, bool own_axes,
+void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
                                const CpsiShapeForm *largest, const CpsiLinsysOps *ops) {
     static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_stop, &cpsi_rub, &cpsi_shape};
     const int all = sizeof kinds/sizeof *kinds;
     const size_t size = 3*(size_t)n;
+    const int stops = contacts > 1 ? contacts*n : n;
     program->base = (CpsiProgram){
         .load = CPSI_TAKE(arena, size, double),
         .u = CPSI_TAKE(arena, size, double),
@@ -123,14 +145,12 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
         .imbalance = imbalance,
     };
     layout_stretch(&program->stretch, arena, n);
-    layout_rub(&program->rub, arena, own_axes ? 2*n : n);
-    layout_stop(&program->stop, arena, n);
+    layout_rub(&program->rub, arena, contacts > 0 ? 2*stops : n);
+    layout_stop(&program->stop, arena, stops);
     program->shape = (CpsiShape){0};
-    if (largest) cpsi_shape_layout(&program->shape, arena, n, largest);
-    program->own.frame = own_axes ? CPSI_TAKE(arena, 9*(size_t)n, double) : NULL;
-    program->own.offset = own_axes ? cpsi_arena_take(arena, 2*(size_t)n, sizeof *program->own.offset) : NULL;
-    program->own.map = own_axes ? cpsi_arena_take(arena, 2*(size_t)n, sizeof *program->own.map) : NULL;
-    program->own.curvature = own_axes ? cpsi_arena_take(arena, (size_t)n, sizeof *program->own.curvature) : NULL;
+    if (largest) cpsi_shape_layout(&program->shape, arena, n, stops, largest);
+    memset(&program->own, 0, sizeof program->own);
+    if (contacts > 0) layout_own(program, arena, n, contacts);
     program->held = CPSI_TAKE(arena, n, unsigned char);
     program->dt = CPSI_TAKE(arena, n, double);
     program->matrix = (CpsiMatrix){

@@ -7,11 +7,13 @@
  *                                                                                        mapped by B_k^T
  *           A_k's_k = P_k'(o_k + u_xy), s_k in K_k  at node k                   shape,   any planar set of forces, energy per bound A_k
  *                                                                                        phi = s_k.b_k - <o_k + u_xy, origin_k>
- *           g_k + u_z >= 0              at node k                               stop,    a half-line
+ *           g_k + n_k.u >= 0            at node k                               stop,    a half-line
  *           u_j = given at held nodes
  *
  * Where the nodes have axes of their own (`frame`), u_j and the loads are in them: x, y tangent to the obstacle there, z its normal; e_i
- * is in the common axes. On a curved obstacle the normal follows the node: R turns by u_xy over the radius, the stop's `curvature`.
+ * is in the common axes. A node may have two stops, each with its rubs or its shape. The first one's normal is z and its rubs act on
+ * u_xy; those of the `second` lie as they come, and u_xy above means what u does in their own tangents. On a curved obstacle the normal
+ * follows the node: R turns by u_xy over the radius, the stop's `curvature`.
  *
  * All quantities are dimensionless and of order one; the program knows no mechanics, but its names are those of a line:
  * stretch duals are (T, -p), rub duals (A, F), stop duals R, each per unit weight, where the weight of an element is its share
@@ -43,11 +45,12 @@ typedef struct CpsiStretch {
 typedef struct CpsiRub {
     int count;
     int *node;
+    int *contact;   /* (count) the caller's number */
     double *weight; /* (count) w_k > 0, that of its stop */
     double (*s)[3]; /* (count) (t, u_x, u_y) */
     double (*z)[3]; /* (count) (A, F_x, F_y) */
     double (*offset)[2]; /* (count) o_k; NULL: none */
-    double (*map)[4];    /* (count) B_k (2, 2) row by row; NULL: the identity */
+    double (*map)[6];    /* (count) B_k (2, 3) row by row; NULL: the first two rows of the identity */
     bool follow;      /* the bounds follow the reactions, A = friction R, those of shapes too; else A is given and stays */
     int *stop;        /* (count) the stop whose reaction bounds it, where they follow */
     double *friction; /* (count) */
@@ -59,10 +62,13 @@ typedef struct CpsiRub {
 typedef struct CpsiStop {
     int count;
     int *node;
+    int *contact;   /* (count) the caller's number */
     double *weight; /* (count) w_k > 0 */
     double *gap;    /* (count) g_k >= 0 */
-    double (*curvature)[3]; /* (count) R0 times the curvature of the surface, xx, xy, yy: the force R n gains that times u_xy;
-                               NULL: none */
+    bool *second;           /* (count) of two at a node */
+    double (*normal)[3];    /* (count) n_k; of a first stop z. NULL: all are z, and none is second */
+    double (*curvature)[6]; /* (count) R0 times the curvature of the surface, xx, xy, yy, xz, yz, zz: the force R n gains that times u;
+                               with `normal` */
     double *s, *z;  /* (count) distance, reaction */
     double *q, *ds, *dz;
 } CpsiStop;
@@ -82,10 +88,13 @@ typedef struct CpsiShapeForm {
 typedef struct CpsiShape {
     int count;
     int *node;
+    int *contact;               /* (count) the caller's number */
     double *weight;             /* (count) w_k > 0, that of its stop */
     const CpsiShapeForm **form; /* (count) */
     double *bound;              /* (count) a: the forces are a times the set */
     double (*offset)[2];        /* (count) o_k */
+    double (*tangent)[6];       /* (count) the tangents (2, 3) of its stop row by row: x and y of a first one */
+    bool *second;               /* (count) as its stop */
     int *stop;                  /* (count) as of a rub, where the bounds follow */
     double *friction;           /* (count) */
     double *d_bound, *shift;    /* (count) direction of a, and what it has beside that of friction R */
@@ -103,7 +112,9 @@ typedef struct CpsiChainProgram {
     unsigned char *held; /* (n) */
     double *frame;       /* (n, 9) axes of the nodes (linsys/frame.h); NULL: the common axes */
     struct {
-        double *frame, (*offset)[2], (*map)[4], (*curvature)[3];
+        double *frame, (*offset)[2], (*map)[6], (*normal)[3], (*curvature)[6];
+        CpsiMatrixSecond second;
+        bool two;        /* there is room for second stops */
     } own;               /* room for what only nodes with axes of their own have */
     CpsiStretch stretch;
     CpsiRub rub;
@@ -115,15 +126,17 @@ typedef struct CpsiChainProgram {
     CpsiLinsys *linsys;
 } CpsiChainProgram;
 
-/* Place a program for at most n nodes in the arena; `own_axes`: nodes may have axes of their own, and two rubs each;
- * `largest`: the sizes that no shape exceeds, or NULL where there are none. */
-void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, bool own_axes,
+/* Place a program for at most n nodes in the arena; `contacts`: 0, or nodes may have axes of their own and so many stops,
+ * 1 or 2, with two rubs each; `largest`: the sizes that no shape exceeds, or NULL where there are none. */
+void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
                                const CpsiShapeForm *largest, const CpsiLinsysOps *ops);
 
-/* The arrays of at most n shapes. */
-void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, const CpsiShapeForm *largest);
+/* The arrays of at most `count` shapes on n nodes. */
+void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, int count, const CpsiShapeForm *largest);
 /* F of shape k, per unit weight. */
 void cpsi_shape_force(const CpsiShape *shape, int k, double force[2]);
+/* |o + u_xy| of shape k. */
+double cpsi_shape_way(const CpsiChainProgram *program, int k);
 /* How far F is inside the set, 0 on its boundary, of order one at the centre. */
 double cpsi_shape_margin(const CpsiShape *shape, int k);
 /* Tangential components of nodes to the turned tangents of their shapes; a direction back, and kept. */
@@ -142,10 +155,41 @@ bool cpsi_chain_program_follow(CpsiChainProgram *program);
 
 static inline CpsiChainProgram *cpsi_chain(CpsiProgram *program) { return (CpsiChainProgram *)program; }
 
-/* rho = gap + u_z - s of stop k. */
+/* n.u of stop k, for a field u of the nodes. */
+static inline double cpsi_stop_rise(const CpsiStop *stop, int k, const double *u) {
+    const double *v = &u[3*stop->node[k]];
+    if (!stop->normal || !stop->second[k]) return v[2];
+    const double *n = stop->normal[k];
+    return n[0]*v[0] + n[1]*v[1] + n[2]*v[2];
+}
+
+/* rho = gap + n.u - s of stop k. */
 static inline double cpsi_stop_residual(const CpsiChainProgram *program, int k) {
     const CpsiStop *stop = &program->stop;
-    return stop->gap[k] + program->base.u[3*stop->node[k] + 2] - stop->s[k];
+    return stop->gap[k] + cpsi_stop_rise(stop, k, program->base.u) - stop->s[k];
+}
+
+/* Add by x B^T M B to D; B (2, 3), M as xx, xy, yy, D as xx, xy, yy, xz, yz, zz. */
+static inline void cpsi_add_mapped(double *d, double by, const double b[6], const double m[3]) {
+    static const int ROW[6] = {0, 0, 1, 0, 1, 2}, COLUMN[6] = {0, 1, 1, 2, 2, 2};
+    for (int i = 0; i < 6; i++) {
+        const double *p = &b[ROW[i]], *q = &b[COLUMN[i]];
+        d[i] += by*(p[0]*(m[0]*q[0] + m[1]*q[3]) + p[3]*(m[1]*q[0] + m[2]*q[3]));
+    }
+}
+
+/* Friction that follows stop k: (c times the change of the bound) acts on the node, c in its axes; the bound is friction R. Adds what
+ * goes with du to the matrix. */
+static inline void cpsi_stop_follow(CpsiChainProgram *program, int k, double weight, double friction, const double c[3]) {
+    const CpsiStop *stop = &program->stop;
+    const int node = stop->node[k];
+    if (stop->normal && stop->second[k]) { /* compliance s/(w z): friction c over it */
+        for (int a = 0; a < 3; a++)
+            program->own.second.column[3*node + a] += weight/stop->weight[k]*friction*c[a];
+        return;
+    }
+    for (int a = 0; a < 2; a++)
+        program->matrix.skew[2*node + a] += weight*friction*stop->z[k]/stop->s[k]*c[a];
 }
 
 /* In this order: a rub and a shape read the pass of their stop. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rub: dry friction with the disc of radius A as its set of forces, the cone (t, u) in Q3 with energy A t.
  *
- * u = o + B v, v the node's tangential displacement: the set of forces on v is the disc mapped by B^T, an ellipse, or a segment where
- * B is singular; several rubs on one node add up to the sum of their sets. What follows is written for u.
+ * u = o + B v, v the node's displacement, B zero along the normal: the set of forces on v is the disc mapped by B^T, an ellipse, or a
+ * segment where B is singular; several rubs on one node add up to the sum of their sets. What follows is written for u.
  *
  * t is private and linear in the energy, so the first dual is A itself, dual pair (A, F) in Q3: |F| <= A. Eliminating t
  * from dz + H ds = q leaves, omega = |w1|^2, c = 2 w0/(1 + 2 omega):
@@ -13,8 +13,8 @@
  * M is stiff while the node sticks; once it slips, g = A/|u| acts across the slip and almost nothing along it.
  *
  * Two kinds of bound. Given A (S90's frozen friction): dA = 0, and the problem is convex. A = mu R, R the dual of the node's stop:
- * dA = mu dR with dR = q_R - (R/s)(du_z + rho), known as soon as du is. This is Coulomb's law itself, no longer the minimum of an energy: it
- * adds c w1 mu R/s to the rows x, y of the node's block in the column z, and nothing to the row z. */
+ * dA = mu dR with dR = q_R - (R/s)(n.du + rho), known as soon as du is. This is Coulomb's law itself, no longer the minimum of an energy: it
+ * adds c w1 mu R/s times n to the node's block on the right, rows x, y in the column z for n = z, and nothing on the left. */
 #include <stdbool.h>
 
 #include "base/larger.h"
@@ -34,12 +34,15 @@ static inline double bound_direction(const CpsiChainProgram *program, int k) {
     return !program->rub.follow ? 0 : program->rub.friction[k]*program->stop.dz[i];
 }
 
+/* B where none is given. */
+static const double PLAIN[6] = {1, 0, 0, 0, 1, 0};
+
 /* u and du: what v does to the rub. */
-static inline void slide(const CpsiRub *rub, int k, const double v[2], bool whole, double u[2]) {
+static inline void slide(const CpsiRub *rub, int k, const double v[3], bool whole, double u[2]) {
     u[0] = v[0], u[1] = v[1];
     if (rub->map) {
         const double *b = rub->map[k];
-        u[0] = b[0]*v[0] + b[1]*v[1], u[1] = b[2]*v[0] + b[3]*v[1];
+        for (int a = 0; a < 2; a++) u[a] = b[3*a]*v[0] + b[3*a + 1]*v[1] + b[3*a + 2]*v[2];
     }
     if (whole && rub->offset) u[0] += rub->offset[k][0], u[1] += rub->offset[k][1];
 }
@@ -49,8 +52,7 @@ static inline void push(const CpsiRub *rub, int k, const double f[2], double *fo
     const double weight = rub->weight[k];
     if (rub->map) {
         const double *b = rub->map[k];
-        force[0] += weight*(b[0]*f[0] + b[2]*f[1]);
-        force[1] += weight*(b[1]*f[0] + b[3]*f[1]);
+        for (int a = 0; a < 3; a++) force[a] += weight*(b[a]*f[0] + b[3 + a]*f[1]);
     } else {
         force[0] += weight*f[0];
         force[1] += weight*f[1];
@@ -86,21 +88,6 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     }
 }
 
-/* M as xx, xy, yy becomes B^T M B, a vector B^T v. */
-static inline void map_back(const double b[4], double m[3], double v[2]) {
-    const double col[2][2] = {{b[0], b[2]}, {b[1], b[3]}};
-    double mb[2][2], out[2];
-    for (int a = 0; a < 2; a++) {
-        mb[a][0] = m[0]*col[a][0] + m[1]*col[a][1];
-        mb[a][1] = m[1]*col[a][0] + m[2]*col[a][1];
-        out[a] = col[a][0]*v[0] + col[a][1]*v[1];
-    }
-    m[0] = col[0][0]*mb[0][0] + col[0][1]*mb[0][1];
-    m[1] = col[0][0]*mb[1][0] + col[0][1]*mb[1][1];
-    m[2] = col[1][0]*mb[1][0] + col[1][1]*mb[1][1];
-    v[0] = out[0], v[1] = out[1];
-}
-
 static void scale(CpsiProgram *base) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiRub *rub = &program->rub;
@@ -109,13 +96,15 @@ static void scale(CpsiProgram *base) {
         const double *w = scaling.w, g = scaling.g, weight = rub->weight[k];
         const double share = 1/(1 + 2*(w[1]*w[1] + w[2]*w[2]));
         const int node = rub->node[k], i = rub->stop[k];
-        double *diagonal = &program->matrix.diagonal[6*node], *skew = &program->matrix.skew[2*node];
-        double m[3] = {1 + 2*w[2]*w[2], -2*w[1]*w[2], 1 + 2*w[1]*w[1]}, across[2] = {w[1], w[2]};
-        if (rub->map) map_back(rub->map[k], m, across);
-        for (int a = 0; a < 3; a++) diagonal[a] += weight*g*share*m[a];
+        double *diagonal = &program->matrix.diagonal[6*node];
+        const double m[3] = {1 + 2*w[2]*w[2], -2*w[1]*w[2], 1 + 2*w[1]*w[1]};
+        if (rub->map) cpsi_add_mapped(diagonal, weight*g*share, rub->map[k], m);
+        else for (int a = 0; a < 3; a++) diagonal[a] += weight*g*share*m[a];
         if (rub->follow) {
-            const double rate = rub->friction[k]*program->stop.z[i]/program->stop.s[i];
-            for (int a = 0; a < 2; a++) skew[a] -= weight*rate*2*share*w[0]*across[a];
+            const double *b = rub->map ? rub->map[k] : PLAIN;
+            double across[3];
+            for (int a = 0; a < 3; a++) across[a] = -2*share*w[0]*(b[a]*w[1] + b[3 + a]*w[2]);
+            cpsi_stop_follow(program, i, weight, rub->friction[k], across);
         }
         for (int a = 0; a < 3; a++) rub->w[k][a] = w[a], rub->q[k][a] = -rub->z[k][a];
         rub->g[k] = g;

@@ -19,7 +19,8 @@
  *
  * which keeps A'ds = P'du + r to the last digit. M = G'G with G = R^-T P' is large along a face of C and of order one across while a node
  * slides on that face. So the linear system has the node's tangents turned to where the columns of G are orthogonal (Jacobi), and
- * du in these axes is kept for R^-T P'du = G du: turned back, the small part along the face would be lost in the other.
+ * du in these axes is kept for R^-T P'du = G du: turned back, the small part along the face would be lost in the other. A node's second
+ * shape, on another obstacle, lies as it comes in these axes.
  *
  * It starts from the centre of C, where A'z^-1 = 0: then s = mu z^-1 leaves r = P'u. */
 #include <string.h>
@@ -55,20 +56,23 @@ static Element element(const CpsiShape *shape, int k) {
     return e;
 }
 
-void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, const CpsiShapeForm *largest) {
-    const size_t count = (size_t)n, unknowns = (size_t)largest->unknowns, rows = (size_t)largest->rows;
+void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, int most, const CpsiShapeForm *largest) {
+    const size_t count = (size_t)most, unknowns = (size_t)largest->unknowns, rows = (size_t)largest->rows;
     const size_t spread = (size_t)largest->spread;
     shape->stride = 6*unknowns + 6*rows + (size_t)largest->cones + spread*unknowns;
     shape->index_stride = spread + unknowns;
     shape->node = CPSI_TAKE(arena, count, int);
+    shape->contact = CPSI_TAKE(arena, count, int);
+    shape->second = CPSI_TAKE(arena, count, bool);
     shape->stop = CPSI_TAKE(arena, count, int);
     shape->form = CPSI_TAKE(arena, count, const CpsiShapeForm *);
     double **const scalars[] = {&shape->weight, &shape->friction, &shape->bound, &shape->d_bound, &shape->shift};
     for (size_t i = 0; i < sizeof scalars/sizeof *scalars; i++) *scalars[i] = CPSI_TAKE(arena, count, double);
     shape->offset = cpsi_arena_take(arena, count, sizeof *shape->offset);
+    shape->tangent = cpsi_arena_take(arena, count, sizeof *shape->tangent);
     shape->turn = cpsi_arena_take(arena, count, sizeof *shape->turn);
     shape->du = cpsi_arena_take(arena, count, sizeof *shape->du);
-    shape->frame = CPSI_TAKE(arena, 9*count, double);
+    shape->frame = CPSI_TAKE(arena, 9*(size_t)n, double);
     shape->data = CPSI_TAKE(arena, count*shape->stride, double);
     shape->index = CPSI_TAKE(arena, count*shape->index_stride, int);
     shape->scratch = CPSI_TAKE(arena, 4*spread + 2*unknowns, double);
@@ -117,6 +121,17 @@ static void lift(const CpsiShapeForm *form, const double u[2], double *out) {
     for (int j = 0; j < form->unknowns; j++) out[j] = form->p[j]*u[0] + form->p[form->unknowns + j]*u[1];
 }
 
+/* T u, in the tangents of shape k. */
+static void tangential(const CpsiShape *shape, int k, const double u[3], double out[2]) {
+    const double *t = shape->tangent[k];
+    for (int a = 0; a < 2; a++) out[a] = t[3*a]*u[0] + t[3*a + 1]*u[1] + t[3*a + 2]*u[2];
+}
+
+/* T^T f */
+static void spatial(const double t[6], const double f[2], double out[3]) {
+    for (int a = 0; a < 3; a++) out[a] = t[a]*f[0] + t[3 + a]*f[1];
+}
+
 /* out += factor (origin a + P v) */
 static void add_force(const CpsiShapeForm *form, double factor, double a, const double *v, double out[2]) {
     for (int i = 0; i < 2; i++)
@@ -126,6 +141,21 @@ static void add_force(const CpsiShapeForm *form, double factor, double a, const 
 void cpsi_shape_force(const CpsiShape *shape, int k, double force[2]) {
     force[0] = force[1] = 0;
     add_force(shape->form[k], 1, shape->bound[k], element(shape, k).v, force);
+}
+
+double cpsi_shape_way(const CpsiChainProgram *program, int k) {
+    const CpsiShape *shape = &program->shape;
+    double u[2];
+    tangential(shape, k, &program->base.u[3*shape->node[k]], u);
+    return hypot(u[0] + shape->offset[k][0], u[1] + shape->offset[k][1]);
+}
+
+/* Add weight (origin a + P v) of shape k to its node's force. */
+static void push(const CpsiShape *shape, int k, double a, const double *v, double *force) {
+    double f[2] = {0, 0}, here[3];
+    add_force(shape->form[k], shape->weight[k], a, v, f);
+    spatial(shape->tangent[k], f, here);
+    for (int i = 0; i < 3; i++) force[3*shape->node[k] + i] += here[i];
 }
 
 double cpsi_shape_margin(const CpsiShape *shape, int k) {
@@ -165,7 +195,9 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
         const Element e = element(shape, k);
         const CpsiShapeForm *form = e.form;
         const double weight = shape->weight[k], *x = &base->u[3*shape->node[k]];
-        const double u[2] = {x[0] + shape->offset[k][0], x[1] + shape->offset[k][1]};
+        double u[2];
+        tangential(shape, k, x, u);
+        for (int a = 0; a < 2; a++) u[a] += shape->offset[k][a];
         lift(form, u, e.r);
         for (int i = 0; i < form->rows; i++)
             for (int j = 0; j < form->unknowns; j++) e.r[j] -= form->a[i*form->unknowns + j]*e.s[i];
@@ -175,7 +207,7 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
         sums->sz += weight*cpsi_dot(form->rows, e.s, e.z);
         sums->scale += weight*shape->bound[k]*fabs(phi);
         sums->bound += weight*shape->bound[k]*form->reach;
-        add_force(form, weight, shape->bound[k], e.v, &base->residual[3*shape->node[k]]);
+        push(shape, k, shape->bound[k], e.v, base->residual);
     }
 }
 
@@ -204,11 +236,16 @@ static void turn_to(const double turn[2], double *x) {
 }
 static void turn_from(const double turn[2], double *x) { turn_to((const double[2]){turn[0], -turn[1]}, x); }
 
-/* G with its columns made orthogonal by a turn of the tangents: Jacobi's rotations from one side, which keep the digits of each column. */
-static void orthogonalise(const Element *e, double turn[2]) {
+/* G, not turned yet. */
+static void pull(const Element *e, double turn[2]) {
     const int n = e->form->unknowns;
     for (int a = 0; a < 2; a++) cpsi_qr_solve_transposed(n, e->qr, e->column, e->form->p + a*n, e->pull[a]);
     turn[0] = 1, turn[1] = 0;
+}
+
+/* G with its columns made orthogonal by a turn of the tangents: Jacobi's rotations from one side, which keep the digits of each column. */
+static void orthogonalise(const Element *e, double turn[2]) {
+    const int n = e->form->unknowns;
     for (int sweep = 0; sweep < 4; sweep++) {
         const double one = cpsi_dot(n, e->pull[0], e->pull[0]), two = cpsi_dot(n, e->pull[1], e->pull[1]);
         const double both = cpsi_dot(n, e->pull[0], e->pull[1]);
@@ -224,18 +261,29 @@ static void orthogonalise(const Element *e, double turn[2]) {
     }
 }
 
-/* The node's block in the turned tangents, with M added. */
-static void add_stiffness(const Element *e, double weight, const double turn[2], double *diagonal, double *frame) {
-    const int n = e->form->unknowns;
+/* The node's block, second direction and axes in the turned tangents. */
+static void turn_node(CpsiMatrix *matrix, int node, const double turn[2], double *frame) {
+    double *diagonal = &matrix->diagonal[6*node];
     const double c = turn[0], s = turn[1], xx = diagonal[0], xy = diagonal[1], yy = diagonal[2];
-    diagonal[0] = c*c*xx - 2*c*s*xy + s*s*yy + weight*cpsi_dot(n, e->pull[0], e->pull[0]);
-    diagonal[1] = c*s*(xx - yy) + (c*c - s*s)*xy + weight*cpsi_dot(n, e->pull[0], e->pull[1]);
-    diagonal[2] = s*s*xx + 2*c*s*xy + c*c*yy + weight*cpsi_dot(n, e->pull[1], e->pull[1]);
+    diagonal[0] = c*c*xx - 2*c*s*xy + s*s*yy;
+    diagonal[1] = c*s*(xx - yy) + (c*c - s*s)*xy;
+    diagonal[2] = s*s*xx + 2*c*s*xy + c*c*yy;
+    turn_to(turn, &diagonal[3]);
+    if (matrix->second) turn_to(turn, &matrix->second->row[3*node]), turn_to(turn, &matrix->second->column[3*node]);
     for (int a = 0; a < 3; a++) {
         double pair[2] = {frame[a], frame[3 + a]};
         turn_to(turn, pair);
         frame[a] = pair[0], frame[3 + a] = pair[1];
     }
+}
+
+/* The tangents of shape k in the axes of the linear system. A first shape's are those axes; a second shape stands behind the first
+ * one of its node, whose turn it takes. */
+static void system_tangents(const CpsiShape *shape, int k, double t[6]) {
+    memcpy(t, shape->tangent[k], sizeof shape->tangent[k]);
+    if (!shape->second[k] || k == 0 || shape->node[k - 1] != shape->node[k]) return;
+    turn_to(shape->turn[k - 1], &t[0]);
+    turn_to(shape->turn[k - 1], &t[3]);
 }
 
 void cpsi_shape_turn(const CpsiShape *shape, double *x) {
@@ -245,7 +293,7 @@ void cpsi_shape_turn(const CpsiShape *shape, double *x) {
 void cpsi_shape_turn_back(CpsiShape *shape, double *du) {
     for (int k = 0; k < shape->count; k++) {
         double *x = &du[3*shape->node[k]];
-        shape->du[k][0] = x[0], shape->du[k][1] = x[1];
+        tangential(shape, k, x, shape->du[k]);
         turn_from(shape->turn[k], x);
     }
 }
@@ -264,21 +312,28 @@ static void scale(CpsiProgram *base) {
             e.g[c] = cpsi_cone_scale(&e.w[i], &e.s[i], &e.z[i], form->dim[c]);
         for (int i = 0; i < form->rows; i++) e.q[i] = -e.z[i];
         shape->shift[k] = 0;
-        double *diagonal = &program->matrix.diagonal[6*node], *skew = &program->matrix.skew[2*node];
+        double *diagonal = &program->matrix.diagonal[6*node], *turn = shape->turn[k], t[6];
         if (!factor(&e, scratch)) {
             diagonal[0] = NAN; /* the linear system says so */
             continue;
         }
-        orthogonalise(&e, shape->turn[k]);
-        add_stiffness(&e, weight, shape->turn[k], diagonal, &shape->frame[9*node]);
+        pull(&e, turn);
+        if (!shape->second[k]) {
+            orthogonalise(&e, turn);
+            turn_node(&program->matrix, node, turn, &shape->frame[9*node]);
+        }
+        system_tangents(shape, k, t);
+        const double m[3] = {cpsi_dot(n, e.pull[0], e.pull[0]), cpsi_dot(n, e.pull[0], e.pull[1]),
+                             cpsi_dot(n, e.pull[1], e.pull[1])};
+        cpsi_add_mapped(diagonal, weight, t, m);
         if (!program->rub.follow) continue;
-        const double rate = shape->friction[k]*program->stop.z[stop]/program->stop.s[stop];
-        double *image = scratch + e.spread, *v = image + e.spread, c[2] = {form->origin[0], form->origin[1]};
+        double *image = scratch + e.spread, *v = image + e.spread, c[2] = {form->origin[0], form->origin[1]}, here[3];
         project(&e, form->b, image, scratch);
         cpsi_qr_solve(n, e.qr, e.column, image, v);
         add_force(form, -1, 0, v, c);
-        turn_to(shape->turn[k], c);
-        for (int a = 0; a < 2; a++) skew[a] += weight*rate*c[a];
+        turn_to(turn, c);
+        spatial(t, c, here);
+        cpsi_stop_follow(program, stop, weight, shape->friction[k], here);
     }
 }
 
@@ -309,7 +364,7 @@ static void load(CpsiProgram *base, double keep) {
         if (program->rub.follow)
             da += shape->friction[k]*(stop->q[i] - stop->z[i]/stop->s[i]*keep*cpsi_stop_residual(program, i));
         direction(&e, da, keep, NULL, image, rest);
-        add_force(e.form, shape->weight[k], da, e.dv, &base->du[3*shape->node[k]]);
+        push(shape, k, da, e.dv, base->du);
     }
 }
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stop: unilateral contact along the third axis, s = gap + u_z >= 0 with reaction z >= 0, s z = 0.
+/* Stop: unilateral contact along the normal n, s = gap + n.u >= 0 with reaction z >= 0, s z = 0.
  *
  * On a curved obstacle the reaction turns with the normal as the node moves along it (`curvature`, see chain_program.h).
  *
- * Linearised: dz = q - (z/s) ds,  ds = du_z + rho,  rho = gap + u_z - s. */
+ * Linearised: dz = q - (z/s) ds,  ds = n.du + rho,  rho = gap + n.u - s. So the node's block gains w (z/s) n n^T: of a first stop at zz,
+ * of a second as a direction kept apart (linsys.h). */
 #include <math.h>
 
 #include "base/larger.h"
@@ -13,10 +14,19 @@ static void start(CpsiProgram *base, double mu, double margin) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
-        const double distance = stop->gap[k] + base->u[3*stop->node[k] + 2];
+        const double distance = stop->gap[k] + cpsi_stop_rise(stop, k, base->u);
         stop->s[k] = distance > margin ? distance : margin;
         stop->z[k] = mu/stop->s[k];
     }
+}
+
+/* Add by x n to the node's force. */
+static inline void push(const CpsiStop *stop, int k, double by, double *force) {
+    double *f = &force[3*stop->node[k]];
+    if (!stop->normal || !stop->second[k])
+        f[2] += by;
+    else
+        for (int a = 0; a < 3; a++) f[a] += by*stop->normal[k][a];
 }
 
 static void measure(CpsiProgram *base, CpsiSums *sums) {
@@ -29,12 +39,13 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
         sums->ray -= stop->weight[k]*stop->z[k]*(stop->s[k] + cpsi_stop_residual(program, k));
         sums->residual = cpsi_larger(sums->residual, rho);
         if (stop->z[k] > sums->largest) sums->largest = stop->z[k];
-        base->residual[3*stop->node[k] + 2] += stop->weight[k]*stop->z[k];
+        push(stop, k, stop->weight[k]*stop->z[k], base->residual);
         if (stop->curvature) {
             const double *b = stop->curvature[k], *u = &base->u[3*stop->node[k]];
             double *residual = &base->residual[3*stop->node[k]];
-            residual[0] += stop->weight[k]*(b[0]*u[0] + b[1]*u[1]);
-            residual[1] += stop->weight[k]*(b[1]*u[0] + b[2]*u[1]);
+            residual[0] += stop->weight[k]*(b[0]*u[0] + b[1]*u[1] + b[3]*u[2]);
+            residual[1] += stop->weight[k]*(b[1]*u[0] + b[2]*u[1] + b[4]*u[2]);
+            residual[2] += stop->weight[k]*(b[3]*u[0] + b[4]*u[1] + b[5]*u[2]);
         }
     }
 }
@@ -43,10 +54,18 @@ static void scale(CpsiProgram *base) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
-        program->matrix.diagonal[6*stop->node[k] + 5] += stop->weight[k]*stop->z[k]/stop->s[k];
+        const int node = stop->node[k];
         stop->q[k] = -stop->z[k];
-        for (int a = 0; stop->curvature && a < 3; a++)
-            program->matrix.diagonal[6*stop->node[k] + a] -= stop->weight[k]*stop->curvature[k][a];
+        for (int a = 0; stop->curvature && a < 6; a++)
+            program->matrix.diagonal[6*node + a] -= stop->weight[k]*stop->curvature[k][a];
+        if (!stop->normal || !stop->second[k]) {
+            program->matrix.diagonal[6*node + 5] += stop->weight[k]*stop->z[k]/stop->s[k];
+            continue;
+        }
+        const CpsiMatrixSecond *second = &program->own.second;
+        for (int a = 0; a < 3; a++)
+            second->row[3*node + a] = second->column[3*node + a] = stop->normal[k][a];
+        second->compliance[node] = stop->s[k]/(stop->weight[k]*stop->z[k]);
     }
 }
 
@@ -54,8 +73,7 @@ static void load(CpsiProgram *base, double keep) {
     CpsiChainProgram *program = cpsi_chain(base);
     const CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++)
-        base->du[3*stop->node[k] + 2] +=
-            stop->weight[k]*(stop->q[k] - stop->z[k]/stop->s[k]*keep*cpsi_stop_residual(program, k));
+        push(stop, k, stop->weight[k]*(stop->q[k] - stop->z[k]/stop->s[k]*keep*cpsi_stop_residual(program, k)), base->du);
 }
 
 static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
@@ -63,7 +81,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
         const double s = stop->s[k], z = stop->z[k];
-        const double ds = base->du[3*stop->node[k] + 2] + keep*cpsi_stop_residual(program, k), dz = stop->q[k] - z/s*ds;
+        const double ds = cpsi_stop_rise(stop, k, base->du) + keep*cpsi_stop_residual(program, k), dz = stop->q[k] - z/s*ds;
         const double step_s = -ds/s, step_z = -dz/z, step = cpsi_larger(step_s, step_z);
         stop->ds[k] = ds;
         stop->dz[k] = dz;

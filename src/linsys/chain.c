@@ -70,7 +70,17 @@ static inline void inverse(double out[9], const double a[9]) {
     out[8] = iz - iz*(a[6]*out[2] + a[7]*out[5]);
 }
 
-/* X of node j: its own block, its elements' stiffness, less what the chain before takes. */
+/* The inverse y of a matrix becomes that of the matrix + c r^T/a: what is stiff along r takes its compliance away. */
+static inline void stiffen(double y[9], const double c[3], const double r[3], double a) {
+    double yc[3], ytr[3];
+    apply(yc, y, c);
+    apply_transposed(ytr, y, r);
+    const double sum = a + dot(r, yc), by = 1/(fabs(sum) > DBL_MIN ? sum : DBL_MIN);
+    for (int i = 0; i < 3; i++)
+        for (int l = 0; l < 3; l++) y[3*i + l] -= yc[i]*(ytr[l]*by);
+}
+
+/* X of node j without its second direction: its own block, its elements' stiffness, less what the chain before takes. */
 static inline void node_block(double x[9], const CpsiMatrix *a, int j, double k, const double c[9]) {
     const double *d = &a->diagonal[6*j], *skew = &a->skew[2*j], next = j + 1 < a->n ? a->stiffness[j + 1] : 0;
     const double own[9] = {d[0], d[1], d[3] + skew[0], d[1], d[2], d[4] + skew[1], d[3], d[4], d[5]};
@@ -117,6 +127,8 @@ static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
             double x[9], y[3], yt[3], ix[9];
             node_block(x, a, j, k, c);
             inverse(ix, x);
+            if (a->second && dot(&a->second->row[3*j], &a->second->row[3*j]) > 0)
+                stiffen(ix, &a->second->column[3*j], &a->second->row[3*j], a->second->compliance[j]);
             apply(y, ix, v);
             apply_transposed(yt, ix, vt);
             const double ib = 1/(beta + dot(vt, y));

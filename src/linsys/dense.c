@@ -28,7 +28,9 @@ static CpsiLinsys *dense_layout(CpsiArena *arena, int n) {
 /* Entry (r, c) of D_j. */
 static double node_entry(const CpsiMatrix *a, int j, int r, int c) {
     static const int place[3][3] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
-    return a->diagonal[6*j + place[r][c]] + (c == 2 && r < 2 ? a->skew[2*j + r] : 0);
+    const double second = a->second && a->second->row[3*j + c] != 0
+                              ? a->second->column[3*j + r]*a->second->row[3*j + c]/a->second->compliance[j] : 0;
+    return a->diagonal[6*j + place[r][c]] + (c == 2 && r < 2 ? a->skew[2*j + r] : 0) + second;
 }
 
 static void dense_fill(Dense *dense, const CpsiMatrix *a) {

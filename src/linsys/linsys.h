@@ -8,8 +8,9 @@
  *     element i:    m_i . d_i - a_i t_i = h_i
  *     held node:    x_j = 0, its equation is dropped
  *
- * The third axis of a node is the one that may be stiffest, an obstacle's normal. D_j is symmetric >= 0, plus `skew` in the column z of its rows x and y (friction that follows the reaction); k_i >= 0; a_i > 0, or
- * a_i < 0 as long as k_i I + m_i m_i^T/a_i >= 0 (an element softer along itself than across). Without skew, eliminating the
+ * The third axis of a node is the one that may be stiffest, an obstacle's normal. D_j is symmetric >= 0, plus `skew` in the column z of its
+ * rows x and y (friction that follows the reaction), plus c r^T/a of a `second` direction r that may be as stiff (the normal of another
+ * obstacle, a >= 0 its compliance, c = r + what friction follows that reaction); k_i >= 0; a_i > 0, or a_i < 0 as long as k_i I + m_i m_i^T/a_i >= 0 (an element softer along itself than across). Without skew, eliminating the
  * tensions would leave a positive definite matrix, so no pivot vanishes in the orders used. Keeping the tension t_i as an
  * unknown keeps stiff elements exact: a_i may be as small as 0+ beside k_i of order one, where the condensed stiffness
  * m m^T/a would drown everything else. */
@@ -21,6 +22,13 @@
 
 #include "base/arena.h"
 
+/* The part c r^T/a of each D_j, kept apart as its 1/a may drown all else. */
+typedef struct CpsiMatrixSecond {
+    double *column;     /* (n, 3) c */
+    double *row;        /* (n, 3) r; 0: there is none */
+    double *compliance; /* (n) a */
+} CpsiMatrixSecond;
+
 /* The matrix; arrays belong to the caller. */
 typedef struct CpsiMatrix {
     int n;                     /* nodes >= 1 */
@@ -31,6 +39,7 @@ typedef struct CpsiMatrix {
     double *direction;         /* (n, 3) m_i, in the common axes */
     double *compliance;        /* (n) a_i */
     const double *frame;       /* (n, 9) Q_j, its rows orthonormal (frame.h); NULL: the common axes everywhere */
+    const CpsiMatrixSecond *second; /* NULL: none */
 } CpsiMatrix;
 
 typedef struct CpsiLinsys CpsiLinsys;

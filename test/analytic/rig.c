@@ -171,26 +171,19 @@ static double gauge(const CpsObstacle *o, double lateral, double reaction, doubl
     return o->friction_shape == CPS_FRICTION_BOX ? fmax(fabs(a), fabs(b)) : hypot(a, b);
 }
 
-/* Nearest obstacle, -1 without one; its normal at x, 0 0 0 without. */
-static int nearest(const CpsScene *scene, const double *x, double *normal, double *gap) {
-    int on = -1;
-    *gap = INFINITY;
-    normal[0] = normal[1] = normal[2] = 0;
-    for (int k = 0; k < scene->obstacle_count; k++) {
-        double n[3];
-        const double d = distance(&scene->obstacle[k], x, n);
-        if (!(d < *gap)) continue;
-        *gap = d, on = k;
-        memcpy(normal, n, sizeof n);
-    }
-    return on;
+/* The depth of x below the nearest surface, over zero. */
+static double depth(const CpsScene *scene, const double *x) {
+    double deepest = 0, n[3];
+    for (int k = 0; k < scene->obstacle_count; k++) deepest = fmax(deepest, -distance(&scene->obstacle[k], x, n));
+    return deepest;
 }
 
 /* The largest force of the line or on it. */
 static double largest(const CpsLineView *v) {
     double most = 0;
     for (int e = 0; e < v->elements; e++) most = fmax(most, norm(&v->segment_force[3 * e]));
-    for (int j = 0; j <= v->elements; j++) most = fmax(most, fmax(v->reaction[j], norm(&v->load[3 * j])));
+    for (int j = 0; j <= v->elements; j++) most = fmax(most, norm(&v->load[3 * j]));
+    for (int c = 0; c < v->contacts * (v->elements + 1); c++) most = fmax(most, v->reaction[c]);
     return most;
 }
 
@@ -198,21 +191,21 @@ static double largest(const CpsLineView *v) {
  * largest force times the length. A step is solved to a gap of 1e-13 of its scale. */
 static const double ROUNDING = 1e-14;
 
-/* Friction of node j that touches obstacle o with normal n. */
-static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn, const CpsLineView *v, int j,
+/* Friction of node j at its contact c with obstacle o, where the normal is n. */
+static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn, const CpsLineView *v, int j, int c,
                           const double *n, double scale) {
     double first[3], second[3], from[3], slid[3];
-    const double *f = &v->friction[3 * j], reaction = v->reaction[j];
+    const double *f = &v->friction[3 * c], reaction = v->reaction[c];
     const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
     const double w = fmax(o->friction, lateral) * reaction;
     tangents(o, v, j, n, first, second);
     memcpy(from, &v->reference[3 * j], sizeof from);
     if (turn && *turn != 0) turned(o, *turn, &v->reference[3 * j], from);
     way(o, from, &v->position[3 * j], n, slid);
-    if (!turn) memcpy(slid, &v->slide[3 * j], sizeof slid);
+    if (!turn) memcpy(slid, &v->slide[3 * c], sizeof slid);
     const double f1 = dot(f, first), f2 = dot(f, second), s1 = dot(slid, first), s2 = dot(slid, second);
     const double phi = support(o, lateral, reaction, s1, s2), law = phi + f1 * s1 + f2 * s2;
-    audit->bound += fabs(v->friction_bound[j] - w);
+    audit->bound += fabs(v->friction_bound[c] - w);
     audit->bounds += w;
     audit->law += fmax(0, law);
     audit->dissipated += phi;
@@ -222,19 +215,34 @@ static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn
     audit->node_law = fmax(audit->node_law, fmax(0, fabs(law) - ROUNDING * scale) / (w * v->arc_length[v->elements]));
 }
 
+/* Contact c of node j: its reaction, friction and what they do on the node. */
+static void audit_contact(Audit *audit, const CpsScene *scene, const double *turn, const CpsLineView *v, int j, int c,
+                          double *sum) {
+    const int k = v->obstacle ? v->obstacle[c] : scene->obstacle_count - 1;
+    double n[3];
+    add(sum, sum, 1, &v->friction[3 * c]);
+    if (k < 0) {
+        audit->open += v->reaction[c] != 0;
+        return;
+    }
+    const CpsObstacle *o = &scene->obstacle[k];
+    const double gap = distance(o, &v->position[3 * j], n);
+    add(sum, sum, v->reaction[c], n);
+    audit->open += fabs(gap * v->reaction[c]) / audit->scale;
+    if (v->reaction[c] > 0) audit_rubbing(audit, o, turn ? &turn[k] : NULL, v, j, c, n, audit->scale);
+}
+
 Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *v) {
+    const int nodes = v->elements + 1;
     const double length = v->arc_length[v->elements], force = largest(v);
     Audit audit = {.scale = force * length};
-    for (int j = 0; j <= v->elements; j++) {
-        double n[3], gap, sum[3];
-        const int on = nearest(scene, &v->position[3 * j], n, &gap);
-        if (on >= 0) audit.penetration = fmax(audit.penetration, -gap / length);
+    for (int j = 0; j < nodes; j++) {
+        double sum[3];
+        audit.penetration = fmax(audit.penetration, depth(scene, &v->position[3 * j]) / length);
         const int end = j == 0 ? CPS_END_A : CPS_END_B;
         if ((j == 0 || j == v->elements) && v->end[end].kind == CPS_END_HELD) continue;
-        if (on >= 0 && v->reaction[j] > 0)
-            audit_rubbing(&audit, &scene->obstacle[on], turn ? &turn[on] : NULL, v, j, n, audit.scale);
-        add(sum, &v->load[3 * j], v->reaction[j], n);
-        add(sum, sum, 1, &v->friction[3 * j]);
+        memcpy(sum, &v->load[3 * j], sizeof sum);
+        for (int c = j; c < v->contacts * nodes; c += nodes) audit_contact(&audit, scene, turn, v, j, c, sum);
         if (j > 0) add(sum, sum, -1, &v->segment_force[3 * (j - 1)]);
         if (j < v->elements) add(sum, sum, 1, &v->segment_force[3 * j]);
         if (force > 0) audit.balance = fmax(audit.balance, norm(sum) / force);
@@ -281,6 +289,7 @@ static void check(RigRun *run, const Audit *audit) {
     const bool frictionless = run->rig->line.start.kind == CPS_START_LAID && run->steps == 1;
     CHECK_LESS(audit->balance, 1e-9);
     CHECK_LESS(audit->penetration, 1e-6);
+    CHECK_LESS(audit->open, 1e-8);
     if (frictionless) return;
     CHECK_LESS(audit->bound, 1e-8);
     CHECK_LESS(audit->outside, 1e-8);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* One line on planes, cylinders and spheres with consistent friction, its history, and an audit of every step.
  *
- * The audit shares no code with the library: it takes the obstacles of the scene, finds the nearest one to each node,
- * its normal and the node's way on it (the reference carried along by an obstacle that turns) and recomputes balance,
+ * The audit shares no code with the library: it takes the obstacles of the scene, of those that a node is said to touch
+ * the distance, the normal and the node's way on it (the reference carried along by an obstacle that turns) and recomputes balance,
  * friction bound, set of forces, phi(s) + <s, F> and depth from the view of the line. */
 #ifndef CAPSTAN_TEST_RIG_H
 #define CAPSTAN_TEST_RIG_H
@@ -39,6 +39,7 @@ void rig_turn(Rig *rig, int obstacle, double angle);
 /* What the audit found at worst. */
 typedef struct Audit {
     double balance;     /* largest imbalance of a node over the largest force */
+    double open;        /* sum of reaction times distance over the scale below */
     double bound;       /* sum of |w - mu R| over the sum of w */
     double outside;     /* how far a friction force sticks out of its set, over w */
     double node_law;    /* phi(s) + <s, F> of a node over w l */

@@ -20,6 +20,8 @@ typedef struct Case {
     double f[3*NODES], h[NODES];
     bool framed; /* nodes have their own axes */
     double frame[9*NODES];
+    bool pressed; /* some nodes have a second stiff direction */
+    double column[3*NODES], row[3*NODES], second[NODES];
 } Case;
 
 static double uniform(uint64_t *state) {
@@ -62,15 +64,27 @@ static Case random_case(uint64_t *state, double least) {
         for (int a = 0; a < 3; a++) c.f[3*j + a] = sign(state);
         c.h[j] = 1e-3*sign(state);
         random_frame(state, &c.frame[9*j]);
+        if (uniform(state) < 0.5) continue;
+        /* against the normal z by 0.5 to 2.5 rad; with friction enough for both to hold, the two would jam */
+        const double lean = 0.5 + 2*uniform(state), round = 3*sign(state);
+        const double normal[3] = {sin(lean)*cos(round), sin(lean)*sin(round), cos(lean)};
+        for (int a = 0; a < 2; a++) c.skew[2*j + a] *= 0.2;
+        for (int a = 0; a < 3; a++) {
+            c.row[3*j + a] = normal[a];
+            c.column[3*j + a] = normal[a] + 0.1*sign(state);
+        }
+        c.second[j] = pow(10, -12*uniform(state));
     }
     c.framed = uniform(state) < 0.5;
+    c.pressed = uniform(state) < 0.5;
     return c;
 }
 
 static void solve(const Case *c, const CpsiLinsysOps *ops, double *x, double *t) {
     Case copy = *c;
+    const CpsiMatrixSecond second = {copy.column, copy.row, copy.second};
     const CpsiMatrix matrix = {c->n, copy.held, copy.diagonal, copy.skew, copy.stiffness, copy.direction, copy.compliance,
-                               copy.framed ? copy.frame : NULL};
+                               copy.framed ? copy.frame : NULL, copy.pressed ? &second : NULL};
     CpsiArena arena = {0};
     ops->layout(&arena, c->n);
     assert_true(cpsi_arena_allocate(&arena));
@@ -84,7 +98,9 @@ static void solve(const Case *c, const CpsiLinsysOps *ops, double *x, double *t)
 
 static double matrix_entry(const Case *c, int j, int r, int col) {
     static const int place[3][3] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
-    return c->diagonal[6*j + place[r][col]] + (col == 2 && r < 2 ? c->skew[2*j + r] : 0);
+    const bool pressed = c->pressed && c->second[j] > 0;
+    return c->diagonal[6*j + place[r][col]] + (col == 2 && r < 2 ? c->skew[2*j + r] : 0) +
+           (pressed ? c->column[3*j + r]*c->row[3*j + col]/c->second[j] : 0);
 }
 
 /* Component a of node j's unknown in the common axes; and of a common vector in the node's axes. */
@@ -148,8 +164,8 @@ static void equations_hold(void **state_) {
         worst = fmax(worst, residual(&c, x, t));
     }
     print_message("%s: largest relative residual %.2g\n", ops->name, worst);
-    /* backward stable with a growth of a few hundred at most over 40 nodes */
-    CHECK_LESS(worst, 1e3*2.3e-16);
+    /* growth over 40 nodes of a few hundred; and a hundred where a second direction takes a compliance of up to 1/0.1 away */
+    CHECK_LESS(worst, 1e5*2.3e-16);
 }
 
 static void back_ends_agree(void **unused) {
@@ -160,8 +176,8 @@ static void back_ends_agree(void **unused) {
         const Case c = random_case(&state, 1e-3);
         for (int b = 0; b < BACK_ENDS; b++) solve(&c, back_ends[b], x[b], t[b]);
         for (int i = 0; i < 3*c.n; i++) size = fmax(size, fabs(x[0][i]));
-        /* condition about n^2/0.1 x 1e3: both solutions carry it */
-        for (int i = 0; i < 3*c.n; i++) CHECK_NEAR(x[1][i], x[0][i], 1e-9*size);
+        /* condition about n^2/0.1 x 1e3, and a thousand for second directions: both solutions carry it */
+        for (int i = 0; i < 3*c.n; i++) CHECK_NEAR(x[1][i], x[0][i], 1e-6*size);
     }
 }
 
@@ -172,7 +188,7 @@ static void nan_is_refused(void **state_) {
     c.n = NODES/2;
     c.diagonal[6] = NAN;
     c.held[1] = 0;
-    const CpsiMatrix matrix = {c.n, c.held, c.diagonal, c.skew, c.stiffness, c.direction, c.compliance, NULL};
+    const CpsiMatrix matrix = {c.n, c.held, c.diagonal, c.skew, c.stiffness, c.direction, c.compliance, NULL, NULL};
     CpsiArena arena = {0};
     ops->layout(&arena, c.n);
     assert_true(cpsi_arena_allocate(&arena));

@@ -165,7 +165,7 @@ typedef struct Count {
 /* What a certified step promises: forces that balance, in their sets, bounds that follow, nothing below the surface,
  * and a law that is broken by no more than the certificate's gap. */
 static bool right(const Audit *a, const CpsCertificate *c) {
-    return a->balance <= 1e-9 && a->penetration <= 1e-6 && a->bound <= 1e-8 && a->outside <= 1e-8 &&
+    return a->balance <= 1e-9 && a->penetration <= 1e-6 && a->open <= 1e-8 && a->bound <= 1e-8 && a->outside <= 1e-8 &&
            a->law <= c->gap + 1e-12 * a->scale && c->gap <= 1e-8 * c->scale;
 }
 
@@ -203,9 +203,9 @@ static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, c
     if (!tight(&audit, rig->line.length)) count->loose++;
     if (right(&audit, &report.certificate)) return;
     count->wrong++;
-    printf("seed %llu, step %d: WRONG: balance %.1e, depth %.1e, bound %.1e, outside %.1e, law %.1e of %.1e J, a node "
+    printf("seed %llu, step %d: WRONG: balance %.1e, depth %.1e, open %.1e, bound %.1e, outside %.1e, law %.1e of %.1e J, a node "
            "%.1e\n",
-           (unsigned long long)seed, step.index, audit.balance, audit.penetration, audit.bound, audit.outside,
+           (unsigned long long)seed, step.index, audit.balance, audit.penetration, audit.open, audit.bound, audit.outside,
            audit.law, audit.dissipated, audit.node_law);
 }
 
