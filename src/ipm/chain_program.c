@@ -67,7 +67,7 @@ static void solve(CpsiProgram *program) {
     CpsiChainProgram *chain = cpsi_chain(program);
     memset(chain->dt, 0, (size_t)chain->n*sizeof *chain->dt);
     cpsi_shape_turn(&chain->shape, program->du);
-    chain->ops->solve(chain->linsys, &chain->matrix, program->du, chain->dt);
+    chain->ops->solve(chain->linsys, &chain->matrix, program->du, chain->dt, chain->matrix.second ? chain->own.press : NULL);
     cpsi_shape_turn_back(&chain->shape, program->du);
 }
 
@@ -112,6 +112,7 @@ static void layout_own(CpsiChainProgram *program, CpsiArena *arena, int nodes, i
     program->own.second = (CpsiMatrixSecond){.column = CPSI_TAKE(arena, 3*second, double),
                                              .row = CPSI_TAKE(arena, 3*second, double),
                                              .compliance = CPSI_TAKE(arena, second, double)};
+    program->own.press = CPSI_TAKE(arena, second, double);
     program->own.two = contacts > 1;
 }
 
@@ -162,6 +163,6 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
         .compliance = CPSI_TAKE(arena, n, double),
     };
     program->ops = ops;
-    program->linsys = ops->layout(arena, n);
+    program->linsys = ops->layout(arena, n, contacts > 1);
     cpsi_chain_program_resize(program, n, false);
 }

@@ -114,6 +114,7 @@ typedef struct CpsiChainProgram {
     struct {
         double *frame, (*offset)[2], (*map)[6], (*normal)[3], (*curvature)[6];
         CpsiMatrixSecond second;
+        double *press;   /* (n) w (z/s) n.du of second stops */
         bool two;        /* there is room for second stops */
     } own;               /* room for what only nodes with axes of their own have */
     CpsiStretch stretch;

@@ -81,7 +81,12 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
         const double s = stop->s[k], z = stop->z[k];
-        const double ds = cpsi_stop_rise(stop, k, base->du) + keep*cpsi_stop_residual(program, k), dz = stop->q[k] - z/s*ds;
+        const double rho = keep*cpsi_stop_residual(program, k);
+        double ds = cpsi_stop_rise(stop, k, base->du) + rho, dz = stop->q[k] - z/s*ds;
+        if (stop->second[k] && z > s) { /* n.du lies across the axes of du: too few digits */
+            dz = stop->q[k] - program->own.press[stop->node[k]]/stop->weight[k] - z/s*rho;
+            ds = (stop->q[k] - dz)*(s/z);
+        }
         const double step_s = -ds/s, step_z = -dz/z, step = cpsi_larger(step_s, step_z);
         stop->ds[k] = ds;
         stop->dz[k] = dz;

@@ -11,6 +11,8 @@
  *
  *     (S_j^-1)_xx = Y - y y'^T/beta = C_j,     (S_j^-1)_xt = y/beta,     (S_j^-1)_tx = y'^T/beta,     (S_j^-1)_tt = -1/beta.
  *
+ * Where there is a second direction, Y = (X + c r^T/a)^-1 comes from X^-1 by a rank-one change, and f = r.x/a from the forces on the node.
+ *
  * C and m are meant in the axes of node j; where nodes have their own, they are turned on the way.
  *
  * So one pass keeps a few small quantities per node, and a solve is two passes of 3 x 3 products. Compliances in series add
@@ -30,14 +32,21 @@ typedef struct ChainBlock {
     double tt;    /* 1/beta */
 } ChainBlock;
 
+/* Of a second direction: f = w.(force on the node - v t). */
+typedef struct ChainSecond {
+    double w[3], v[3];
+} ChainSecond;
+
 typedef struct Chain {
-    ChainBlock *block; /* (n) */
+    ChainBlock *block;   /* (n) */
+    ChainSecond *second; /* (n) or NULL */
 } Chain;
 
-static CpsiLinsys *chain_layout(CpsiArena *arena, int n) {
+static CpsiLinsys *chain_layout(CpsiArena *arena, int n, bool second) {
     Chain *chain = CPSI_TAKE(arena, 1, Chain);
     ChainBlock *block = CPSI_TAKE(arena, n, ChainBlock);
-    if (chain) *chain = (Chain){.block = block};
+    ChainSecond *seconds = second ? CPSI_TAKE(arena, n, ChainSecond) : NULL;
+    if (chain) *chain = (Chain){.block = block, .second = seconds};
     return (CpsiLinsys *)chain;
 }
 
@@ -70,14 +79,20 @@ static inline void inverse(double out[9], const double a[9]) {
     out[8] = iz - iz*(a[6]*out[2] + a[7]*out[5]);
 }
 
-/* The inverse y of a matrix becomes that of the matrix + c r^T/a: what is stiff along r takes its compliance away. */
-static inline void stiffen(double y[9], const double c[3], const double r[3], double a) {
+/* The inverse y of a matrix becomes that of the matrix + c r^T/a: what is stiff along r takes its compliance away. w = y^T r/(a + r.y c),
+ * so that r.x/a = w.f of the x that f gives. */
+static inline void stiffen(double y[9], const double c[3], const double r[3], double a, double w[3]) {
     double yc[3], ytr[3];
     apply(yc, y, c);
     apply_transposed(ytr, y, r);
     const double sum = a + dot(r, yc), by = 1/(fabs(sum) > DBL_MIN ? sum : DBL_MIN);
+    for (int i = 0; i < 3; i++) w[i] = ytr[i]*by;
     for (int i = 0; i < 3; i++)
-        for (int l = 0; l < 3; l++) y[3*i + l] -= yc[i]*(ytr[l]*by);
+        for (int l = 0; l < 3; l++) y[3*i + l] -= yc[i]*w[l];
+}
+
+static inline bool is_set(const CpsiMatrixSecond *second, int j) {
+    return second && (second->row[3*j] != 0 || second->row[3*j + 1] != 0 || second->row[3*j + 2] != 0);
 }
 
 /* X of node j without its second direction: its own block, its elements' stiffness, less what the chain before takes. */
@@ -127,8 +142,11 @@ static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
             double x[9], y[3], yt[3], ix[9];
             node_block(x, a, j, k, c);
             inverse(ix, x);
-            if (a->second && dot(&a->second->row[3*j], &a->second->row[3*j]) > 0)
-                stiffen(ix, &a->second->column[3*j], &a->second->row[3*j], a->second->compliance[j]);
+            if (is_set(a->second, j)) {
+                ChainSecond *second = &((Chain *)self)->second[j];
+                memcpy(second->v, v, sizeof v);
+                stiffen(ix, &a->second->column[3*j], &a->second->row[3*j], a->second->compliance[j], second->w);
+            }
             apply(y, ix, v);
             apply_transposed(yt, ix, vt);
             const double ib = 1/(beta + dot(vt, y));
@@ -157,8 +175,14 @@ static inline void direction_at(const CpsiMatrix *a, int i, int j, double m[3]) 
     else memcpy(m, &a->direction[3*i], 3*sizeof *m);
 }
 
-static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, double *t) {
+/* What more force on a node and more tension before it add to f of its second direction. */
+static inline double second_force(const ChainSecond *second, const double force[3], double tension) {
+    return dot(second->w, force) - dot(second->w, second->v)*tension;
+}
+
+static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, double *t, double *second_f) {
     const ChainBlock *block = ((const Chain *)self)->block;
+    const ChainSecond *second = ((const Chain *)self)->second;
     const int n = a->n;
     /* forward: x_j, t_j as if nothing came after */
     double before[3] = {0, 0, 0};
@@ -174,6 +198,7 @@ static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, 
         apply(xj, block[j].c, f);
         for (int i = 0; i < 3; i++) before[i] = xj[i] += block[j].y[i]*h;
         t[j] = j > 0 ? dot(block[j].yt, f) - block[j].tt*h : 0;
+        if (second_f) second_f[j] = is_set(a->second, j) && !a->held[j] ? second_force(&second[j], f, t[j]) : 0;
     }
     /* backward: what comes after pulls on node j with k_{j+1} x_{j+1} + m_{j+1} t_{j+1} */
     for (int j = n - 2; j >= 0; j--) {
@@ -185,7 +210,9 @@ static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, 
         for (int i = 0; i < 3; i++) pull[i] = k*pull[i] + m[i]*tension;
         apply(dx, block[j].c, pull);
         for (int i = 0; i < 3; i++) xj[i] += dx[i];
-        if (j > 0) t[j] += dot(block[j].yt, pull);
+        const double more = j > 0 ? dot(block[j].yt, pull) : 0;
+        t[j] += more;
+        if (second_f && is_set(a->second, j) && !a->held[j]) second_f[j] += second_force(&second[j], pull, more);
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The dense back end: the same matrix in full, L U with row exchanges.
  *
- * The unknowns are x_0, ..., x_{n-1} (3 each), then t_1, ..., t_{n-1}. Cost 2 (4n)^3/3: for small lines, and as a second way to
+ * The unknowns are x_0, ..., x_{n-1} (3 each), then t_1, ..., t_{n-1}, then f of second directions. Cost 2 (4n)^3/3: for small lines, and as a second way to
  * the same answer that shares no idea with the chain. */
 #include <float.h>
 #include <math.h>
@@ -11,14 +11,16 @@
 #include "linsys/linsys.h"
 
 typedef struct Dense {
-    double *lu; /* (4n, 4n) row by row, L below its unit diagonal; t_0 is kept as an idle unknown */
-    int *row;   /* (4n) row i of the factors is row[i] of the matrix */
-    double *b;  /* (4n) scratch of a solve */
+    double *lu; /* (size, size) row by row, L below its unit diagonal; t_0 is kept as an idle unknown, and f where a node has none */
+    int *row;   /* (size) row i of the factors is row[i] of the matrix */
+    double *b;  /* (size) scratch of a solve */
 } Dense;
 
-static CpsiLinsys *dense_layout(CpsiArena *arena, int n) {
+static size_t unknowns(const CpsiMatrix *a) { return (a->second ? 5 : 4)*(size_t)a->n; }
+
+static CpsiLinsys *dense_layout(CpsiArena *arena, int n, bool second) {
     Dense *dense = CPSI_TAKE(arena, 1, Dense);
-    const size_t size = 4*(size_t)n;
+    const size_t size = (second ? 5 : 4)*(size_t)n;
     double *lu = CPSI_TAKE(arena, size*size, double), *b = CPSI_TAKE(arena, size, double);
     int *row = CPSI_TAKE(arena, size, int);
     if (dense) *dense = (Dense){.lu = lu, .row = row, .b = b};
@@ -28,15 +30,26 @@ static CpsiLinsys *dense_layout(CpsiArena *arena, int n) {
 /* Entry (r, c) of D_j. */
 static double node_entry(const CpsiMatrix *a, int j, int r, int c) {
     static const int place[3][3] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
-    const double second = a->second && a->second->row[3*j + c] != 0
-                              ? a->second->column[3*j + r]*a->second->row[3*j + c]/a->second->compliance[j] : 0;
-    return a->diagonal[6*j + place[r][c]] + (c == 2 && r < 2 ? a->skew[2*j + r] : 0) + second;
+    return a->diagonal[6*j + place[r][c]] + (c == 2 && r < 2 ? a->skew[2*j + r] : 0);
+}
+
+/* r.x_j - a f_j = 0 and c f_j on the node; f_j = 0 where there is none. */
+static void fill_second(double *m, const CpsiMatrix *a) {
+    const size_t n = (size_t)a->n, size = unknowns(a);
+    for (size_t j = 0; a->second && j < n; j++) {
+        const double *r = &a->second->row[3*j], *c = &a->second->column[3*j];
+        const size_t f = 4*n + j;
+        const bool set = !a->held[j] && (r[0] != 0 || r[1] != 0 || r[2] != 0);
+        m[f*size + f] = set ? -a->second->compliance[j] : 1;
+        for (size_t i = 0; i < 3 && set; i++) m[f*size + 3*j + i] = r[i], m[(3*j + i)*size + f] = c[i];
+    }
 }
 
 static void dense_fill(Dense *dense, const CpsiMatrix *a) {
-    const size_t n = (size_t)a->n, size = 4*n;
+    const size_t n = (size_t)a->n, size = unknowns(a);
     double *m = dense->lu;
     memset(m, 0, size*size*sizeof *m);
+    fill_second(m, a);
     for (int node = 0; node < a->n; node++) {
         const size_t j = (size_t)node, xj = 3*j, tj = 3*n + j;
         const double k = j > 0 ? a->stiffness[j] : 0, both = k + (j + 1 < n ? a->stiffness[j + 1] : 0);
@@ -82,7 +95,7 @@ static void exchange_rows(Dense *dense, size_t size, size_t k) {
 
 static bool dense_factor(CpsiLinsys *self, const CpsiMatrix *matrix) {
     Dense *dense = (Dense *)self;
-    const size_t size = 4*(size_t)matrix->n;
+    const size_t size = unknowns(matrix);
     double *lu = dense->lu, largest = 0;
     dense_fill(dense, matrix);
     for (size_t i = 0; i < size; i++) dense->row[i] = (int)i;
@@ -101,15 +114,15 @@ static bool dense_factor(CpsiLinsys *self, const CpsiMatrix *matrix) {
     return true;
 }
 
-static void dense_solve(const CpsiLinsys *self, const CpsiMatrix *matrix, double *x, double *t) {
+static void dense_solve(const CpsiLinsys *self, const CpsiMatrix *matrix, double *x, double *t, double *f) {
     const Dense *dense = (const Dense *)self;
-    const size_t n = (size_t)matrix->n, size = 4*n;
+    const size_t n = (size_t)matrix->n, size = unknowns(matrix);
     const double *lu = dense->lu;
     double *b = dense->b;
-    /* L y = P b; held nodes and t_0 have zero on the right */
+    /* L y = P b; held nodes, t_0 and the second directions have zero on the right */
     for (size_t i = 0; i < size; i++) {
         const size_t from = (size_t)dense->row[i];
-        b[i] = from < 3*n ? (matrix->held[from/3] ? 0 : x[from]) : from > 3*n ? t[from - 3*n] : 0;
+        b[i] = from < 3*n ? (matrix->held[from/3] ? 0 : x[from]) : from > 3*n && from < 4*n ? t[from - 3*n] : 0;
         for (size_t j = 0; j < i; j++) b[i] -= lu[i*size + j]*b[j];
     }
     for (size_t i = size; i-- > 0;) {
@@ -118,6 +131,7 @@ static void dense_solve(const CpsiLinsys *self, const CpsiMatrix *matrix, double
     }
     memcpy(x, b, 3*n*sizeof *x);
     memcpy(t, b + 3*n, n*sizeof *t);
+    if (f) memcpy(f, b + 4*n, n*sizeof *f);
 }
 
 const CpsiLinsysOps cpsi_linsys_dense = {"dense", dense_layout, dense_factor, dense_solve};

@@ -22,7 +22,7 @@
 
 #include "base/arena.h"
 
-/* The part c r^T/a of each D_j, kept apart as its 1/a may drown all else. */
+/* The part c r^T/a of each D_j, kept apart as its 1/a may drown all else; f_j = r.x_j/a is an unknown of its own. */
 typedef struct CpsiMatrixSecond {
     double *column;     /* (n, 3) c */
     double *row;        /* (n, 3) r; 0: there is none */
@@ -46,12 +46,13 @@ typedef struct CpsiLinsys CpsiLinsys;
 
 typedef struct CpsiLinsysOps {
     const char *name;
-    /* Place the factor's storage for at most n nodes in the arena. */
-    CpsiLinsys *(*layout)(CpsiArena *arena, int n);
+    /* Place the factor's storage for at most n nodes in the arena, with second directions or without. */
+    CpsiLinsys *(*layout)(CpsiArena *arena, int n, bool second);
     /* Factorise; false when a pivot is not finite (the matrix holds NaN or infinities). */
     bool (*factor)(CpsiLinsys *self, const CpsiMatrix *matrix);
-    /* Solve with the last factor. In: x = f (n, 3), t = h (n). Out: the solution; x = 0 at held nodes, t[0] = 0. */
-    void (*solve)(const CpsiLinsys *self, const CpsiMatrix *matrix, double *x, double *t);
+    /* Solve with the last factor. In: x = f (n, 3), t = h (n). Out: the solution; x = 0 at held nodes, t[0] = 0; f (n) of the
+     * second directions, NULL where there are none. */
+    void (*solve)(const CpsiLinsys *self, const CpsiMatrix *matrix, double *x, double *t, double *f);
 } CpsiLinsysOps;
 
 extern const CpsiLinsysOps cpsi_linsys_chain; /* block tridiagonal, cost linear in n */
