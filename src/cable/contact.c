@@ -15,6 +15,11 @@
 #include "cable/rub_set.h"
 #include "linsys/frame.h"
 
+/* No node moves farther in one go than this, per distance from the axis or centre of a round obstacle: its planes say no more. */
+static const double LEAP = 0.5;
+/* A second obstacle is looked for up to so many of its radii away. */
+static const double NEAR = 0.5;
+
 static bool is_end(const CpsiLine *line, int j, CpsEndKind kind) {
     return (j == 0 && line->end[CPS_END_A].kind == kind) || (j == line->n - 1 && line->end[CPS_END_B].kind == kind);
 }
@@ -35,6 +40,15 @@ static void nearest(const CpsiLine *line, Vec3 x, int on[2]) {
         if (place == 0) gap[1] = gap[0], on[1] = on[0];
         if (place < 2) gap[place] = distance, on[place] = k;
     }
+}
+
+/* Is contact looked for where the node is `gap` away from the obstacle?  A second obstacle only as far as its tangent plane tells
+ * where it is: from afar the plane of a round one shuts off what is free. */
+static bool is_watched(const CpsiLine *line, int c, double gap) {
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    if (!obstacle || is_end(line, cpsi_line_node(line, c), CPS_END_HELD)) return false;
+    if (!line->gains) return isfinite(line->gap[c]);
+    return c < line->n || obstacle->kind == CPS_OBSTACLE_PLANE || gap <= NEAR*obstacle->radius;
 }
 
 /* What a contact keeps of its obstacle from place to place. */
@@ -62,13 +76,12 @@ static void put(CpsiLine *line, int c, const Kept *kept) {
 /* The contacts of node j at its base: those it had keep what they have. */
 static void meet(CpsiLine *line, int j) {
     const int n = line->n;
-    const bool held = is_end(line, j, CPS_END_HELD);
     Kept before[2] = {{.on = -1}, {.on = -1}};
     int on[2];
     nearest(line, vec3_load(&line->base[3*j]), on);
     for (int i = 0; i < line->contacts; i++) before[i] = keep(line, j + i*n);
     for (int i = 0; i < line->contacts; i++) {
-        Kept now = {.on = on[i], .gap = on[i] >= 0 && line->gains && !held ? 0 : INFINITY, .state = CPS_NODE_FREE};
+        Kept now = {.on = on[i], .gap = INFINITY, .state = CPS_NODE_FREE};
         for (int k = 0; k < line->contacts; k++)
             if (before[k].on == on[i] && on[i] >= 0) now = before[k];
         put(line, j + i*n, &now);
@@ -105,9 +118,9 @@ void cpsi_contact_look(CpsiLine *line) {
         const Vec3 x = vec3_load(&line->base[3*j]), n = vec3_load(&line->normal[3*c]);
         vec3_store(&line->slide[3*c],
                    k < 0 ? vec3(0, 0, 0) : cpsi_obstacle_way(&line->obstacle[k], carried(line, c), x));
-        if (!isfinite(line->gap[c])) continue;
         const Vec3 u = vec3_sub(x, vec3_load(&line->reference[3*j]));
-        line->gap[c] = cpsi_obstacle_gap(&line->obstacle[k], x) - vec3_dot(n, u);
+        const double gap = k < 0 ? INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x);
+        line->gap[c] = is_watched(line, c, gap) ? gap - vec3_dot(n, u) : INFINITY;
     }
 }
 
@@ -120,8 +133,8 @@ static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
     const bool rubs = touches && !held && !options->frictionless;
     line->friction_bound[c] = rubs ? cpsi_rub_set(line, c).friction*line->reaction[c] : 0;
     /* contact: everywhere, or only where the reference touches (S90 (35)) */
-    const bool watched = obstacle && !held && (line->gains || touches || gap <= CPSI_TOUCH*line->length);
-    line->gap[c] = !watched ? INFINITY : gap > 0 ? gap : 0;
+    line->gap[c] = !held && (touches || gap <= CPSI_TOUCH*line->length) ? 0 : INFINITY;
+    if (is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
 }
 
 void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
@@ -150,6 +163,21 @@ void cpsi_contact_slide(CpsiLine *line) {
     }
 }
 
+double cpsi_contact_shorten(CpsiLine *line) {
+    double share = 1;
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+        if (!obstacle || obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        const int j = cpsi_line_node(line, c);
+        const Vec3 from = vec3_load(&line->base[3*j]), to = vec3_load(&line->position[3*j]);
+        const double way = vec3_norm(vec3_sub(to, from)), within = obstacle->radius + fmax(0, cpsi_obstacle_gap(obstacle, from));
+        if (way*share > LEAP*within) share = LEAP*within/way;
+    }
+    for (int i = 0; i < 3*line->n && share < 1; i++)
+        line->position[i] = line->base[i] + share*(line->position[i] - line->base[i]);
+    return share;
+}
+
 /* Move node j along the obstacle that presses it most. */
 static void move(CpsiLine *line, int j) {
     const Vec3 from = vec3_load(&line->base[3*j]), to = vec3_load(&line->position[3*j]);
@@ -161,7 +189,7 @@ static void move(CpsiLine *line, int j) {
 
 /* How far the axes of node j turn from its base to its position, the tangent's turn counting where it matters. INFINITY where it
  * leaves one of its obstacles for another. */
-static double turn_of(CpsiLine *line, int j) {
+static double turn_of(const CpsiLine *line, int j, double density) {
     const Vec3 to = vec3_load(&line->position[3*j]);
     double turned = 0;
     int on[2];
@@ -169,6 +197,8 @@ static double turn_of(CpsiLine *line, int j) {
     for (int i = 0; i < line->contacts; i++) {
         const int c = j + i*line->n;
         if (!(line->reaction[c] > 0)) continue;
+        const double gap = cpsi_obstacle_gap(&line->obstacle[line->on[c]], to)/line->length;
+        if (!(line->reaction[c] > density*cpsi_line_share(line, j)*gap)) continue;
         if (line->on[c] != on[0] && line->on[c] != on[1]) return INFINITY;
         double now[9], curvature[3];
         cpsi_obstacle_axes(&line->obstacle[line->on[c]], to, direction(line, line->position, j), now, curvature);
@@ -180,10 +210,10 @@ static double turn_of(CpsiLine *line, int j) {
     return turned;
 }
 
-double cpsi_contact_move(CpsiLine *line) {
+double cpsi_contact_move(CpsiLine *line, double density) {
     double turned = 0;
     for (int j = 0; j < line->n; j++) move(line, j);
-    for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j));
+    for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j, density));
     memcpy(line->base, line->position, 3*(size_t)line->n*sizeof *line->base);
     return turned;
 }

@@ -19,6 +19,8 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
@@ -44,6 +46,8 @@ static const double HELD = 100;
 static const double TAUT_SLACK = 1e-9;
 /* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
 static const int ROUNDS = 12;
+/* ... and of a start laid by statics, which comes from afar. */
+static const int LAID_ROUNDS = 40;
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
 static const double SETTLED = 1e-10;
 /* ... and bounds that were tried differ by no more than this share, in sum, from mu R. */
@@ -267,13 +271,15 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
 }
 
 /* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. */
-static void look_again(CpsiLine *line, double *turned) {
+static void look_again(CpsiLine *line, double density, double *turned) {
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
         memcpy(&line->friction_force[3*c], f, sizeof f);
     }
-    *turned = cpsi_contact_move(line);
+    const bool shortened = cpsi_contact_shorten(line) < 1;
+    *turned = cpsi_contact_move(line, density);
+    if (shortened) *turned = INFINITY;
     cpsi_contact_look(line);
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         double f[3];
@@ -293,7 +299,7 @@ static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, cons
 static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     if (line->follows) cpsi_contact_look(line);
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < (options->frictionless ? LAID_ROUNDS : ROUNDS); round++) {
         double turned = 0, off = 0;
         ipm = solve_round(line, program, options, bounds);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
@@ -305,11 +311,13 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
             off = mismatch(line);
             next_bounds(line, program, unit_force(line, bounds));
         }
-        if (line->follows) look_again(line, &turned);
+        if (line->follows) look_again(line, unit_force(line, bounds)/line->length, &turned);
+        if (getenv("CPSDBG")) fprintf(stderr, "  round %d b%d: ipm %d it %d gap %.1e res %.1e turned %.1e off %.1e\n", round, bounds, ipm.outcome, ipm.iterations, ipm.gap, ipm.residual, turned, off);
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
     }
     if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line);
     certify(line, options, &ipm);
+    if (getenv("CPSDBG")) { const CpsCertificate *c=&line->report.certificate; fprintf(stderr, "  => %d gap/S %.1e law %.1e contact %.1e fric %.1e pen %.1e force %.1e / %.1e\n", line->report.outcome, c->gap/c->scale, c->law_residual/c->scale, c->contact_residual/c->scale, c->friction_residual, c->penetration/line->length, c->force_residual, c->largest_force);}
 }
 
 /* The step as it is posed, in one go or in rounds. */
