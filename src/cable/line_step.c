@@ -19,8 +19,6 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
@@ -312,12 +310,10 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
             next_bounds(line, program, unit_force(line, bounds));
         }
         if (line->follows) look_again(line, unit_force(line, bounds)/line->length, &turned);
-        if (getenv("CPSDBG")) fprintf(stderr, "  round %d b%d: ipm %d it %d gap %.1e res %.1e turned %.1e off %.1e\n", round, bounds, ipm.outcome, ipm.iterations, ipm.gap, ipm.residual, turned, off);
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
     }
     if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line);
     certify(line, options, &ipm);
-    if (getenv("CPSDBG")) { const CpsCertificate *c=&line->report.certificate; fprintf(stderr, "  => %d gap/S %.1e law %.1e contact %.1e fric %.1e pen %.1e force %.1e / %.1e\n", line->report.outcome, c->gap/c->scale, c->law_residual/c->scale, c->contact_residual/c->scale, c->friction_residual, c->penetration/line->length, c->force_residual, c->largest_force);}
 }
 
 /* The step as it is posed, in one go or in rounds. */

@@ -16,12 +16,45 @@ static const double LEAST_FRICTION = 1e-14;
 /* Bounds that are tried are not less than this, per share of the line: what is to grow must be there. */
 static const double LEAST_TRIED = 1e-10;
 
+/* Normals whose sine is below this make no corner. */
+static const double PARALLEL = 1e-3;
+/* A node this near to two obstacles, per length of the line, may be in the corner between them. */
+static const double BOTH = 1e-3;
+
 bool cpsi_is_held(const CpsiLine *line, int j) {
     return (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
            (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
 }
 
 static const double *base_of(const CpsiLine *line) { return line->follows ? line->base : line->reference; }
+
+/* [m] How far contact c is open at the base; INFINITY where it is not looked for. */
+static double open_gap(const CpsiLine *line, int c) {
+    const int j = cpsi_line_node(line, c);
+    double gap = line->gap[c];
+    for (int a = 0; line->follows && a < 3; a++)
+        gap += line->normal[3*c + a]*(line->base[3*j + a] - line->reference[3*j + a]);
+    return gap;
+}
+
+/* The axes of node j: those of its first contact, or of the line. Where there are two, x lies along the corner that they make, so that
+ * what is stiff stays in y and z; a shape keeps its own. */
+static void fill_axes(const CpsiLine *line, CpsiChainProgram *program, int j) {
+    double *axes = &program->frame[9*j];
+    memcpy(axes, &line->axes[9*j], 9*sizeof *axes);
+    for (int i = 0, c = j; i < 2; i++, c += line->n)
+        if (line->contacts < 2 || !(open_gap(line, c) <= BOTH*line->length)) return;
+    const Vec3 n = vec3_load(&line->normal[3*j]), other = vec3_load(&line->normal[3*(j + line->n)]);
+    const Vec3 corner = vec3_cross(n, other);
+    const double sine = vec3_norm(corner);
+    if (sine < PARALLEL || cpsi_rub_set(line, j).given) return;
+    const Vec3 x = vec3_scale(1/sine, corner);
+    vec3_store(&axes[0], x), vec3_store(&axes[3], vec3_cross(n, x));
+}
+
+static const double *node_axes(const CpsiLine *line, const CpsiChainProgram *program, int j) {
+    return program->frame ? &program->frame[9*j] : line->common;
+}
 
 /* The first guess: the base, its ends moved to where they are held, the rest along in proportion. */
 static void guess(const CpsiLine *line, CpsiChainProgram *program) {
@@ -38,16 +71,18 @@ static void guess(const CpsiLine *line, CpsiChainProgram *program) {
         double move[3];
         for (int a = 0; a < 3; a++)
             move[a] = j == 0 ? shift[0][a] : j == last ? shift[1][a] : (1 - b)*shift[0][a] + b*shift[1][a];
-        cpsi_frame_to(&program->base.u[3*j], cpsi_line_axes(line, j), move);
+        cpsi_frame_to(&program->base.u[3*j], node_axes(line, program, j), move);
     }
 }
 
-/* The tangents (2, 3) of contact c, row by row, and its normal, in the axes of its node: the first contact's are those. */
-static void contact_axes(const CpsiLine *line, int c, double axes[9]) {
+/* The tangents (2, 3) of contact c, row by row, and its normal, in the axes of its node; the first contact's normal is z. */
+static void contact_axes(const CpsiLine *line, const CpsiChainProgram *program, int c, double axes[9]) {
     static const double own[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     const int j = cpsi_line_node(line, c);
-    if (c == j) memcpy(axes, own, sizeof own);
-    else cpsi_frame_relative(axes, cpsi_line_axes(line, c), cpsi_line_axes(line, j));
+    memcpy(axes, own, sizeof own);
+    if (!program->frame || (c == j && memcmp(&program->frame[9*j], &line->axes[9*j], sizeof own) == 0)) return;
+    cpsi_frame_relative(axes, &line->axes[9*c], &program->frame[9*j]);
+    if (c == j) axes[2] = axes[5] = axes[6] = axes[7] = 0, axes[8] = 1;
 }
 
 static double tried_or(const CpsiStepScale *scale, double bound) {
@@ -62,7 +97,7 @@ static void fill_shape(const CpsiLine *line, CpsiChainProgram *program, int c, c
     const double share = cpsi_line_share(line, j)/line->length;
     double way[3], axes[9];
     cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3*c]);
-    contact_axes(line, c, axes);
+    contact_axes(line, program, c, axes);
     shape->node[k] = j;
     shape->contact[k] = c;
     shape->second[k] = c != j;
@@ -83,7 +118,7 @@ static void fill_rubs(const CpsiLine *line, CpsiChainProgram *program, int c, co
     const double share = cpsi_line_share(line, j)/line->length;
     double way[3] = {0}, axes[9];
     if (line->follows) cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3*c]);
-    contact_axes(line, c, axes);
+    contact_axes(line, program, c, axes);
     for (int i = 0; i < count; i++) {
         const int k = rub->count++;
         rub->node[k] = j;
@@ -110,18 +145,14 @@ static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int c, co
     CpsiStop *stop = &program->stop;
     const int j = cpsi_line_node(line, c), k = stop->count++;
     const double share = cpsi_line_share(line, j)/line->length;
-    double gap = line->gap[c];
-    if (line->follows)
-        for (int a = 0; a < 3; a++)
-            gap += line->normal[3*c + a]*(line->base[3*j + a] - line->reference[3*j + a]);
     stop->node[k] = j;
     stop->contact[k] = c;
     stop->second[k] = c != j;
     stop->weight[k] = share;
-    stop->gap[k] = gap/line->length;
+    stop->gap[k] = open_gap(line, c)/line->length;
     if (!line->follows) return;
     double axes[9];
-    contact_axes(line, c, axes);
+    contact_axes(line, program, c, axes);
     memcpy(stop->normal[k], &axes[6], sizeof stop->normal[k]);
     turn_curvature(stop->curvature[k], axes, &line->curvature[3*c],
                    scale->curved ? line->reaction[c]*line->length/(scale->force*share) : 0);
@@ -142,8 +173,7 @@ static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, const Cp
     program->rub.follow = scale->bounds == CPSI_BOUNDS_FOLLOW;
     for (int j = 0; j < line->n; j++) {
         program->held[j] = cpsi_is_held(line, j);
-        if (line->follows) memcpy(&program->frame[9*j], &line->axes[9*j], 9*sizeof *line->axes);
-        cpsi_frame_to(&program->base.load[3*j], cpsi_line_axes(line, j), &line->load[3*j]);
+        cpsi_frame_to(&program->base.load[3*j], node_axes(line, program, j), &line->load[3*j]);
         for (int a = 0; a < 3; a++) program->base.load[3*j + a] /= scale->force;
         for (int c = j; c < cpsi_line_contacts(line); c += line->n) fill_contact(line, program, c, scale);
     }
@@ -174,6 +204,7 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program, const
 
 void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale) {
     cpsi_chain_program_resize(program, line->n, line->follows);
+    for (int j = 0; line->follows && j < line->n; j++) fill_axes(line, program, j);
     guess(line, program);
     fill_nodes(line, program, scale);
     fill_elements(line, program, scale);
@@ -187,7 +218,7 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program) {
         double u[3], shift[3];
         for (int a = 0; a < 3; a++) u[a] = line->length*program->base.u[3*j + a];
         if (!line->follows && isfinite(line->gap[j]) && u[2] < -line->gap[j]) u[2] = -line->gap[j];
-        cpsi_frame_from(shift, cpsi_line_axes(line, j), u);
+        cpsi_frame_from(shift, node_axes(line, program, j), u);
         for (int a = 0; a < 3; a++) line->position[3*j + a] = base[3*j + a] + shift[a];
     }
     for (int end = 0; end < 2; end++)

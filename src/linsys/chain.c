@@ -11,7 +11,7 @@
  *
  *     (S_j^-1)_xx = Y - y y'^T/beta = C_j,     (S_j^-1)_xt = y/beta,     (S_j^-1)_tx = y'^T/beta,     (S_j^-1)_tt = -1/beta.
  *
- * Where there is a second direction, Y = (X + c r^T/a)^-1 comes from X^-1 by a rank-one change, and f = r.x/a from the forces on the node.
+ * Where there is a second direction, Y = (X + c r^T/a)^-1 and f = r.x/a come from the inverse of [X c; r^T -a].
  *
  * C and m are meant in the axes of node j; where nodes have their own, they are turned on the way.
  *
@@ -79,16 +79,37 @@ static inline void inverse(double out[9], const double a[9]) {
     out[8] = iz - iz*(a[6]*out[2] + a[7]*out[5]);
 }
 
-/* The inverse y of a matrix becomes that of the matrix + c r^T/a: what is stiff along r takes its compliance away. w = y^T r/(a + r.y c),
- * so that r.x/a = w.f of the x that f gives. */
-static inline void stiffen(double y[9], const double c[3], const double r[3], double a, double w[3]) {
-    double yc[3], ytr[3];
-    apply(yc, y, c);
-    apply_transposed(ytr, y, r);
-    const double sum = a + dot(r, yc), by = 1/(fabs(sum) > DBL_MIN ? sum : DBL_MIN);
-    for (int i = 0; i < 3; i++) w[i] = ytr[i]*by;
-    for (int i = 0; i < 3; i++)
-        for (int l = 0; l < 3; l++) y[3*i + l] -= yc[i]*w[l];
+/* The first three rows and columns of the inverse of [X c; r^T -a], and w, of its last row: r.x/a = w.f of the x that f gives. By row
+ * exchanges: X may be next to nothing (a slack line), huge (an obstacle) or both. */
+static void inverse_with_second(double out[9], double w[3], const double x[9], const double c[3], const double r[3], double a) {
+    double m[4][7] = {{x[0], x[1], x[2], c[0], 1, 0, 0},
+                      {x[3], x[4], x[5], c[1], 0, 1, 0},
+                      {x[6], x[7], x[8], c[2], 0, 0, 1},
+                      {r[0], r[1], r[2], -a, 0, 0, 0}};
+    for (int k = 0; k < 4; k++) {
+        int best = k;
+        for (int i = k + 1; i < 4; i++)
+            if (fabs(m[i][k]) > fabs(m[best][k])) best = i;
+        for (int l = 0; l < 7 && best != k; l++) {
+            const double swap = m[k][l];
+            m[k][l] = m[best][l], m[best][l] = swap;
+        }
+        if (fabs(m[k][k]) < DBL_MIN) m[k][k] = DBL_MIN;
+        for (int i = k + 1; i < 4; i++) {
+            const double by = m[i][k]/m[k][k];
+            for (int l = k + 1; l < 7; l++) m[i][l] -= by*m[k][l];
+        }
+    }
+    for (int l = 4; l < 7; l++) {
+        double z[4];
+        for (int k = 3; k >= 0; k--) {
+            z[k] = m[k][l];
+            for (int i = k + 1; i < 4; i++) z[k] -= m[k][i]*z[i];
+            z[k] /= m[k][k];
+        }
+        for (int i = 0; i < 3; i++) out[3*i + l - 4] = z[i];
+        w[l - 4] = z[3];
+    }
 }
 
 static inline bool is_set(const CpsiMatrixSecond *second, int j) {
@@ -141,11 +162,13 @@ static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
         } else {
             double x[9], y[3], yt[3], ix[9];
             node_block(x, a, j, k, c);
-            inverse(ix, x);
             if (is_set(a->second, j)) {
                 ChainSecond *second = &((Chain *)self)->second[j];
                 memcpy(second->v, v, sizeof v);
-                stiffen(ix, &a->second->column[3*j], &a->second->row[3*j], a->second->compliance[j], second->w);
+                inverse_with_second(ix, second->w, x, &a->second->column[3*j], &a->second->row[3*j],
+                                    a->second->compliance[j]);
+            } else {
+                inverse(ix, x);
             }
             apply(y, ix, v);
             apply_transposed(yt, ix, vt);
