@@ -110,6 +110,12 @@ static Vec3 carried(const CpsiLine *line, int c) {
     return k < 0 ? x : cpsi_obstacle_turn(&line->obstacle[k], x, line->turn[k]);
 }
 
+/* A contact that is not looked for has no forces. */
+static void let_go(CpsiLine *line, int c) {
+    line->reaction[c] = line->friction_bound[c] = 0;
+    for (int a = 0; a < 3; a++) line->friction_force[3*c + a] = 0;
+}
+
 void cpsi_contact_look(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) meet(line, j);
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
@@ -121,6 +127,7 @@ void cpsi_contact_look(CpsiLine *line) {
         const Vec3 u = vec3_sub(x, vec3_load(&line->reference[3*j]));
         const double gap = k < 0 ? INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x);
         line->gap[c] = is_watched(line, c, gap) ? gap - vec3_dot(n, u) : INFINITY;
+        if (!isfinite(line->gap[c])) let_go(line, c);
     }
 }
 
