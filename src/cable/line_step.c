@@ -269,12 +269,13 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
 }
 
 /* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. */
-static void look_again(CpsiLine *line, double density, double *turned) {
+static void look_again(CpsiLine *line, double density, bool relax, bool first, double *turned) {
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
         memcpy(&line->friction_force[3*c], f, sizeof f);
     }
+    if (relax && cpsi_contact_turn(line, density) > SETTLED) cpsi_contact_relax(line, first);
     const bool shortened = cpsi_contact_shorten(line) < 1;
     *turned = cpsi_contact_move(line, density);
     if (shortened) *turned = INFINITY;
@@ -309,7 +310,7 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
             off = mismatch(line);
             next_bounds(line, program, unit_force(line, bounds));
         }
-        if (line->follows) look_again(line, unit_force(line, bounds)/line->length, &turned);
+        if (line->follows) look_again(line, unit_force(line, bounds)/line->length, !options->frictionless, round == 0, &turned);
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
     }
     if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line);
