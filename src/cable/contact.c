@@ -17,8 +17,6 @@
 
 /* No node moves farther in one go than this, per distance from the axis or centre of a round obstacle: its planes say no more. */
 static const double LEAP = 0.5;
-/* Bounds of the relaxation of a round. */
-static const double LEAST = 0.2, MOST = 3;
 /* A second obstacle is looked for up to so many of its radii away. */
 static const double NEAR = 0.5;
 
@@ -172,23 +170,6 @@ void cpsi_contact_slide(CpsiLine *line) {
     }
 }
 
-void cpsi_contact_relax(CpsiLine *line, bool first) {
-    double back = 0, change = 0, before = 0, now = 0;
-    for (int j = 0; j < line->n; j++) {
-        double pressed = line->reaction[j];
-        if (line->contacts > 1) pressed = fmax(pressed, line->reaction[j + line->n]);
-        for (int a = 0; a < 3; a++) {
-            const int i = 3*j + a;
-            const double way = pressed > 0 ? line->position[i] - line->base[i] : 0, more = way - line->way[i];
-            back += line->way[i]*more, change += more*more, before += line->way[i]*line->way[i], now += way*way;
-            line->way[i] = way;
-        }
-    }
-    line->relaxation = first || !(change > 0) || now < 0.05*before ? 1 : fmin(MOST, fmax(LEAST, -line->relaxation*back/change));
-    for (int i = 0; i < 3*line->n; i++)
-        line->position[i] = line->base[i] + line->relaxation*(line->position[i] - line->base[i]);
-}
-
 double cpsi_contact_shorten(CpsiLine *line) {
     double share = 1;
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
@@ -236,15 +217,10 @@ static double turn_of(const CpsiLine *line, int j, double density) {
     return turned;
 }
 
-double cpsi_contact_turn(const CpsiLine *line, double density) {
-    double turned = 0;
-    for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j, density));
-    return turned;
-}
-
 double cpsi_contact_move(CpsiLine *line, double density) {
     for (int j = 0; j < line->n; j++) move(line, j);
-    const double turned = cpsi_contact_turn(line, density);
+    double turned = 0;
+    for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j, density));
     memcpy(line->base, line->position, 3*(size_t)line->n*sizeof *line->base);
     return turned;
 }

@@ -19,14 +19,8 @@ void cpsi_contact_look(CpsiLine *line);
  * is frozen. */
 void cpsi_contact_slide(CpsiLine *line);
 
-/* Take more or less of the way from `base` to `position` than the round wants, as the last two rounds' ways say (Aitken). */
-void cpsi_contact_relax(CpsiLine *line, bool first);
-
 /* Shorten the way from `base` to `position` where it goes farther than the tangent planes there tell. Returns the share that is left. */
 double cpsi_contact_shorten(CpsiLine *line);
-
-/* The largest angle by which the axes turn from `base` to `position`, as below. */
-double cpsi_contact_turn(const CpsiLine *line, double density);
 
 /* Along the surface: what `position` and then `base` become when the nodes move by `position` - base, where they touch. Returns
  * the largest angle [rad] by which a touching node's axes turn on the way: what the next look changes. It touches where its reaction

@@ -44,8 +44,6 @@ typedef struct CpsiLine {
     /* where `follows`, else NULL: what each node sees of the obstacles, from its place `base` */
     double *slide;          /* (contacts, n, 3) [m] way of the node on the obstacle in this step, tangential */
     double *base;           /* (n, 3) [m] */
-    double *way;            /* (n, 3) [m] what the last round wanted to move */
-    double relaxation;      /* how much of it was taken */
     double *axes;           /* (contacts, n, 9) rows first tangent, second tangent, normal */
     double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *on;                /* (contacts, n) the nearest obstacle, and the next; -1: none */

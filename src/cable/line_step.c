@@ -44,6 +44,8 @@ static const double HELD = 100;
 static const double TAUT_SLACK = 1e-9;
 /* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
 static const int ROUNDS = 12;
+static const double HOLD = 1e-2, LEAST_HOLD = 1e-5, MOST_HOLD = 1e2, LESS = 0.1, EASY = 0.3, HARD = 0.7;
+static const int PATIENCE = 8;
 /* ... and of a start laid by statics, which comes from afar. */
 static const int LAID_ROUNDS = 40;
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
@@ -201,10 +203,10 @@ static double unit_force(const CpsiLine *line, CpsiBounds bounds) {
 
 /* Solve once, from the base of the line. */
 static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds,
-                           bool curved) {
+                           bool curved, double hold) {
     const bool taut = is_taut(line);
     const double force = unit_force(line, bounds);
-    CpsiStepScale scale = {.force = force > 0 ? force : 1, .longer = taut ? 1 + TAUT_SLACK : 1, .bounds = bounds, .curved = curved};
+    CpsiStepScale scale = {.force = force > 0 ? force : 1, .longer = taut ? 1 + TAUT_SLACK : 1, .bounds = bounds, .curved = curved, .hold = hold};
     cpsi_step_program_fill(line, program, &scale);
     double loads = 0;
     for (int i = 0; i < 3*line->n; i++) loads += fabs(program->base.load[i]);
@@ -223,7 +225,7 @@ static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const Cpsi
 
 /* Solve with bounds that follow the reactions or with the bounds of the line, on the planes of the pose. */
 static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, bool follow) {
-    const CpsiIpmReport ipm = solve(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN, false);
+    const CpsiIpmReport ipm = solve(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN, false, 0);
     cpsi_contact_slide(line);
     certify(line, options, &ipm);
     return ipm;
@@ -269,13 +271,12 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
 }
 
 /* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. */
-static void look_again(CpsiLine *line, double density, bool relax, bool first, double *turned) {
+static void look_again(CpsiLine *line, double density, double *turned) {
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
         memcpy(&line->friction_force[3*c], f, sizeof f);
     }
-    if (relax && cpsi_contact_turn(line, density) > SETTLED) cpsi_contact_relax(line, first);
     const bool shortened = cpsi_contact_shorten(line) < 1;
     *turned = cpsi_contact_move(line, density);
     if (shortened) *turned = INFINITY;
@@ -288,29 +289,40 @@ static void look_again(CpsiLine *line, double density, bool relax, bool first, d
 }
 
 /* One round: solve where the line is, the reactions turning with their normals if that can be solved. */
-static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
-    const CpsiIpmReport ipm = solve(line, program, options, bounds, line->follows);
-    return is_clean(&ipm) || !line->follows ? ipm : solve(line, program, options, bounds, false);
+static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds, double hold) {
+    const CpsiIpmReport ipm = solve(line, program, options, bounds, line->follows, hold);
+    return is_clean(&ipm) || !line->follows ? ipm : solve(line, program, options, bounds, false, hold);
+}
+
+/* How firmly the next round holds the nodes where they are: more where the last rounds came no nearer, less where they did. */
+static double next_hold(double hold, int round, double before, double now) {
+    if (!isfinite(before) || !isfinite(now)) return hold;
+    if (now < EASY*before) return hold > LEAST_HOLD ? LESS*hold : 0;
+    if (now > HARD*before && round >= PATIENCE) return fmin(MOST_HOLD, fmax(HOLD, hold/LESS));
+    return hold;
 }
 
 /* Rounds on tangent planes that move to where the nodes are. The bounds follow the reactions within each round; once the loop cannot
  * make them, they are tried: from no friction towards mu R. */
 static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
+    double hold = 0, before = INFINITY;
     if (line->follows) cpsi_contact_look(line);
     for (int round = 0; round < (options->frictionless ? LAID_ROUNDS : ROUNDS); round++) {
         double turned = 0, off = 0;
-        ipm = solve_round(line, program, options, bounds);
+        ipm = solve_round(line, program, options, bounds, hold);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
             for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
-            ipm = solve_round(line, program, options, bounds);
+            ipm = solve_round(line, program, options, bounds, hold);
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
             off = mismatch(line);
             next_bounds(line, program, unit_force(line, bounds));
         }
-        if (line->follows) look_again(line, unit_force(line, bounds)/line->length, !options->frictionless, round == 0, &turned);
+        if (line->follows) look_again(line, unit_force(line, bounds)/line->length, &turned);
+        hold = next_hold(hold, round, before, turned);
+        before = turned;
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
     }
     if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line);
