@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
+#include "cable/ahead.h"
 #include "capstan/evolve.h"
 #include "geometry/obstacle.h"
 
@@ -43,6 +44,7 @@ typedef struct CpsiLine {
     double *axes;           /* (n, 9) rows first tangent, second tangent, normal */
     double *curvature;      /* (n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *on;                /* (n) nearest obstacle, -1: none */
+    CpsiAhead ahead;        /* of the rounds of a step */
     CpsLineReport report;
 } CpsiLine;
 
