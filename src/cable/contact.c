@@ -110,8 +110,7 @@ static Vec3 carried(const CpsiLine *line, int c) {
     return k < 0 ? x : cpsi_obstacle_turn(&line->obstacle[k], x, line->turn[k]);
 }
 
-/* A contact that is not looked for has no forces. */
-static void let_go(CpsiLine *line, int c) {
+void cpsi_contact_clear(CpsiLine *line, int c) {
     line->reaction[c] = line->friction_bound[c] = 0;
     for (int a = 0; a < 3; a++) line->friction_force[3*c + a] = 0;
 }
@@ -127,7 +126,7 @@ void cpsi_contact_look(CpsiLine *line) {
         const Vec3 u = vec3_sub(x, vec3_load(&line->reference[3*j]));
         const double gap = k < 0 ? INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x);
         line->gap[c] = is_watched(line, c, gap) ? gap - vec3_dot(n, u) : INFINITY;
-        if (!isfinite(line->gap[c])) let_go(line, c);
+        if (!isfinite(line->gap[c])) cpsi_contact_clear(line, c);
     }
 }
 

@@ -15,6 +15,9 @@ void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options);
 /* From another place of the nodes (a line that follows): on, axes, curvature, normal, slide and gap at `base`. */
 void cpsi_contact_look(CpsiLine *line);
 
+/* No reaction and no friction at contact c. */
+void cpsi_contact_clear(CpsiLine *line, int c);
+
 /* The way slid from the reference to `position` on the tangent planes of the pose: where nothing follows, or friction
  * is frozen. */
 void cpsi_contact_slide(CpsiLine *line);

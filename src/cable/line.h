@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
+#include "cable/ahead.h"
 #include "capstan/evolve.h"
 #include "geometry/obstacle.h"
 
@@ -48,6 +49,7 @@ typedef struct CpsiLine {
     double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *on;                /* (contacts, n) the nearest obstacle, and the next; -1: none */
     bool gains;             /* contact is looked for everywhere */
+    CpsiAhead ahead;        /* of the rounds of a step */
     CpsLineReport report;
 } CpsiLine;
 

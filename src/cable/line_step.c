@@ -32,6 +32,9 @@
 static const double TARGET = 1e-13;
 /* Steps to the centre once there: what is left of a force's angle to its element is squared by each. */
 static const int CENTRINGS = 2;
+/* ... and towards smaller products where friction acts: each halves what a node at its limit creeps, and takes two digits off what the
+ * force of one that slips lacks. */
+static const int SHARPENINGS = 6;
 /* Consistent friction whose bounds do not agree with mu R to this, or whose loop stops short of it, is solved again in rounds. */
 static const double CLEAN = 1e-11;
 /* |distance - L| <= TAUT L: an inextensible line is pulled straight, its tension has no upper bound. */
@@ -48,8 +51,15 @@ static const double HOLD = 1e-2, LEAST_HOLD = 1e-5, MOST_HOLD = 1e2, LESS = 0.1,
 static const int PATIENCE = 8;
 /* ... and of a start laid by statics, which comes from afar. */
 static const int LAID_ROUNDS = 40;
+/* Rounds that close in, their axes turning by no more than CLOSING [rad] in one, may be as many as this. */
+static const int MORE_ROUNDS = 24;
+static const double CLOSING = 1e-2;
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
 static const double SETTLED = 1e-10;
+/* A reaction below this share of the unit of force is rounding where the node is apart. */
+static const double LEAST_REACTION = 1e-12;
+/* From here on [rad] what a round leaves is linear in what it found. */
+static const double NEAR = 0.1;
 /* ... and bounds that were tried differ by no more than this share, in sum, from mu R. */
 static const double MATCHED = 1e-11;
 
@@ -173,6 +183,15 @@ static CpsOutcome judge(const CpsiLine *line, const CpsiStepOptions *options, co
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }
 
+/* What rounding leaves of the reaction of a node that is apart is none, nor is there friction, whose axes nothing holds there. */
+static void let_go(CpsiLine *line, const CpsiChainProgram *program) {
+    const CpsiStop *stop = &program->stop;
+    for (int k = 0; k < stop->count; k++) {
+        if (stop->z[k] < stop->s[k] && stop->weight[k]*stop->z[k] < LEAST_REACTION)
+            cpsi_contact_clear(line, stop->contact[k]);
+    }
+}
+
 /* Balance the forces, and judge what has been found. */
 static void certify(CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
     cpsi_balance_forces(line);
@@ -214,7 +233,8 @@ static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const Cpsi
         .target = TARGET,
         .scale = loads > 0 ? loads : 1,
         .max_iterations = options->solver.max_iterations,
-        .centrings = options->centrings};
+        .centrings = options->centrings,
+        .sharpenings = options->centrings > 0 ? SHARPENINGS : 0};
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
     cpsi_step_program_unpack(line, program, &scale);
@@ -227,6 +247,7 @@ static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const Cpsi
 static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, bool follow) {
     const CpsiIpmReport ipm = solve(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN, false, 0);
     cpsi_contact_slide(line);
+    if (follow) let_go(line, program);
     certify(line, options, &ipm);
     return ipm;
 }
@@ -302,14 +323,24 @@ static double next_hold(double hold, int round, double before, double now) {
     return hold;
 }
 
+/* The base of the next round: where the last one ended, or foreseen from several that close in. */
+static void look_ahead(CpsiLine *line, double turned) {
+    if (turned > NEAR) {
+        cpsi_ahead_start(&line->ahead, line->n, line->base);
+        return;
+    }
+    cpsi_ahead_foresee(&line->ahead, line->n, line->reaction, line->base);
+    cpsi_contact_look(line);
+}
+
 /* Rounds on tangent planes that move to where the nodes are. The bounds follow the reactions within each round; once the loop cannot
  * make them, they are tried: from no friction towards mu R. */
 static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
-    double hold = 0, before = INFINITY;
+    double hold = 0, before = INFINITY, turned = line->follows ? INFINITY : 0, off = 0;
     if (line->follows) cpsi_contact_look(line);
-    for (int round = 0; round < (options->frictionless ? LAID_ROUNDS : ROUNDS); round++) {
-        double turned = 0, off = 0;
+    for (int round = 0, most = options->frictionless ? LAID_ROUNDS : ROUNDS; round < most; round++) {
+        if (line->follows && bounds != CPSI_BOUNDS_TRIED) look_ahead(line, turned);
         ipm = solve_round(line, program, options, bounds, hold);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
@@ -324,8 +355,9 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
         hold = next_hold(hold, round, before, turned);
         before = turned;
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
+        if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
     }
-    if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line);
+    if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line), let_go(line, program);
     certify(line, options, &ipm);
 }
 

@@ -14,7 +14,7 @@
 /* Friction below this share of the force scale is none: it could not be told from rounding. */
 static const double LEAST_FRICTION = 1e-14;
 /* Bounds that are tried are not less than this, per share of the line: what is to grow must be there. */
-static const double LEAST_TRIED = 1e-10;
+static const double LEAST_TRIED = 1e-12;
 
 /* Normals whose sine is below this make no corner. */
 static const double PARALLEL = 1e-3;

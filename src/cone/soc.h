@@ -23,6 +23,16 @@
 
 #define CPSI_SOC_MAX 4
 
+/* s.z of a pair whose two members lie at the boundary is known to the rounding of s0 z0. A product of this share leaves
+ * each of them twenty units in the last place inside. */
+#define CPSI_SOC_ROUNDING 1e-14
+
+/* The product to aim at with a pair (s, z): what is asked, but not less than rounding leaves of it. */
+static inline double cpsi_soc_aim(double target, const double *s, const double *z) {
+    const double least = CPSI_SOC_ROUNDING*s[0]*z[0];
+    return target > least ? target : least;
+}
+
 /* Scaling of one pair. */
 typedef struct CpsiSocScaling {
     double w[CPSI_SOC_MAX]; /* w0, w1 */

@@ -20,6 +20,10 @@ static const double FRACTION = 0.98;
 /* A step shorter than this, or this many steps without halving the best gap, end the loop. */
 static const double LEAST_STEP = 1e-6;
 static const int PATIENCE = 8;
+/* Steps at the target keep this much from the boundary: what is left there must stay above rounding. */
+static const double CLOSE = 0.9;
+/* Each sharpening aims at this share of the products before it. */
+static const double SHARPER = 0.01;
 /* A ray is a proof once its value outweighs all that it neglects by this factor, for any u of size one. */
 static const double RAY = 1e4;
 /* An iterate this far from a start of size one runs away. */
@@ -67,15 +71,37 @@ static double step_length(const CpsiSums *sums, double fraction) {
     return sums->inverse_step <= fraction ? 1 : fraction/sums->inverse_step; /* NaN stays NaN */
 }
 
-/* A step to the centre of where the iterate is: Newton's method alone, which converges fast so near to it. */
-static bool centre(CpsiProgram *program, double mu) {
-    if (!scale_and_factor(program)) return false;
-    for (int k = 0; k < program->kind_count; k++) program->kind[k]->centre(program, mu);
-    const CpsiSums sums = direction(program, 1, false);
-    const double alpha = step_length(&sums, FRACTION);
-    if (!(alpha >= LEAST_STEP)) return false;
-    advance(program, alpha);
-    return true;
+/* Gap, residual and merit of an iterate. Forces are off balance relative to the largest, which their rounding goes with. */
+static double judge(CpsiProgram *program, const CpsiSums *sums, const CpsiIpmOptions *options, CpsiIpmReport *report) {
+    const double imbalance = program->imbalance(program)/cpsi_larger(1, sums->largest);
+    report->gap = sums->sz/(options->scale + sums->scale);
+    report->residual = cpsi_larger(imbalance, sums->residual);
+    return report->gap + report->residual;
+}
+
+/* From an iterate at the target: steps to the centre, at the mu reached, then below. That near, Newton's method alone converges fast. A
+ * step that leaves the target is taken back; the centre of an iterate just inside may lie a little above it. Less than 0 is rounding
+ * beyond the boundary. */
+static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const CpsiSums *sums, CpsiIpmReport *report) {
+    const int sharpenings = sums->bound > 0 ? options->sharpenings : 0;
+    double mu = sums->sz/sums->weight;
+    for (int k = 0; k < options->centrings + sharpenings; k++) {
+        if (k >= options->centrings) mu *= SHARPER;
+        if (!scale_and_factor(program)) return;
+        for (int i = 0; i < program->kind_count; i++) program->kind[i]->centre(program, mu);
+        const CpsiSums step = direction(program, 1, false);
+        const double alpha = step_length(&step, CLOSE);
+        if (!(alpha >= LEAST_STEP)) return;
+        advance(program, alpha);
+        const CpsiIpmReport before = *report;
+        const CpsiSums now = measure(program);
+        if (!(judge(program, &now, options, report) <= 2*options->target) || now.sz < 0) {
+            advance(program, -alpha);
+            *report = before;
+            return;
+        }
+        report->iterations++;
+    }
 }
 
 /* Are the duals a ray that no primal point can meet?  Its value must outweigh loads, friction and residuals, and it may not
@@ -100,23 +126,19 @@ static bool dual_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
 CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options) {
     CpsiIpmReport report = {.outcome = CPSI_IPM_ITERATION_LIMIT};
     double best = INFINITY;
-    int waited = 0, centrings = 0;
+    int waited = 0;
     start(program);
     for (;; report.iterations++) {
         /* where are we, and is it enough? */
         const CpsiSums sums = measure(program);
-        const double imbalance = program->imbalance(program), mu = sums.sz/sums.weight;
-        report.gap = sums.sz/(options->scale + sums.scale);
-        report.residual = cpsi_larger(imbalance, sums.residual);
-        const double merit = report.gap + report.residual;
+        const double merit = judge(program, &sums, options, &report), mu = sums.sz/sums.weight;
         if (!isfinite(merit)) { report.outcome = CPSI_IPM_STALLED; break; }
         if (merit <= options->target) {
             report.outcome = CPSI_IPM_SOLVED;
-            if (centrings++ >= options->centrings || !centre(program, mu)) break;
-            continue;
+            refine(program, options, &sums, &report);
+            break;
         }
-        if (centrings > 0) break; /* as near as rounding lets it */
-        if (primal_infeasible(program, &sums, imbalance)) { report.outcome = CPSI_IPM_INFEASIBLE; break; }
+        if (primal_infeasible(program, &sums, program->imbalance(program))) { report.outcome = CPSI_IPM_INFEASIBLE; break; }
         if (dual_infeasible(program, &sums)) { report.outcome = CPSI_IPM_UNBOUNDED; break; }
         if (report.iterations >= options->max_iterations) break;
         waited = merit < 0.5*best ? 0 : waited + 1;

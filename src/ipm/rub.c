@@ -155,7 +155,7 @@ static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiRub *rub = &program->rub;
     for (int i = 0; i < rub->count; i++) {
-        const double *s = rub->s[i], *z = rub->z[i], inverse = target/cpsi_soc_det(s, 3);
+        const double *s = rub->s[i], *z = rub->z[i], inverse = cpsi_soc_aim(target, s, z)/cpsi_soc_det(s, 3);
         double *q = rub->q[i];
         const double keep = second_order ? 1 : 0;
         q[0] = -z[0] + inverse*s[0] - keep*q[0];

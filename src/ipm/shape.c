@@ -395,9 +395,11 @@ static void correct(CpsiProgram *base, double target) {
     CpsiShape *shape = &cpsi_chain(base)->shape;
     for (int k = 0; k < shape->count; k++) {
         const Element e = element(shape, k);
-        for (int c = 0, i = 0; c < e.form->cones; i += e.form->dim[c++])
-            cpsi_cone_correct(&e.q[i], e.form->dim[c], &e.w[i], e.g[c], &e.s[i], &e.z[i], &e.ds[i], &e.dz[i], target,
+        for (int c = 0, i = 0; c < e.form->cones; i += e.form->dim[c++]) {
+            const double aim = e.form->dim[c] > 1 ? cpsi_soc_aim(target, &e.s[i], &e.z[i]) : target;
+            cpsi_cone_correct(&e.q[i], e.form->dim[c], &e.w[i], e.g[c], &e.s[i], &e.z[i], &e.ds[i], &e.dz[i], aim,
                               shape->scratch);
+        }
     }
 }
 

@@ -169,7 +169,7 @@ static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiStretch *st = &program->stretch;
     for (int i = 1; i < program->n; i++) {
-        const double *s = st->s[i], *z = st->z[i], inverse = target/cpsi_soc_det(s, 4);
+        const double *s = st->s[i], *z = st->z[i], inverse = cpsi_soc_aim(target, s, z)/cpsi_soc_det(s, 4);
         double *q = st->q[i];
         const double keep = second_order ? 1 : 0;
         q[0] = -z[0] + inverse*s[0] - keep*q[0];

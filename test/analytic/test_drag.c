@@ -111,9 +111,9 @@ static void microslip(const char *name, double pretension, double high, double l
             char figure[64];
             snprintf(figure, sizeof figure, "loss, N = %d, %d steps [J]", n, steps);
             double error = show(name, figure, loss, found);
-            // relative to the sliding length s = swing/(2 mu w), what lumping leaves is of the size (h/s)^2/4 at most
+            // relative to the sliding length s = swing/(2 mu w), what lumping leaves is of the size (h/s)^2/2 at most
             double part = h * 2 * density / swing;
-            CHECK_LESS(fabs(error), part * part / 4 * loss + loss_error);
+            CHECK_LESS(fabs(error), part * part / 2 * loss + loss_error);
             snprintf(figure, sizeof figure, "swing, N = %d, %d steps [m]", n, steps);
             CHECK_LESS(fabs(show(name, figure, exact, amplitude)), part * part / 4 * exact + motion_error);
         }
