@@ -310,9 +310,9 @@ static void look_again(CpsiLine *line, double density, double *turned) {
 }
 
 /* One round: solve where the line is, the reactions turning with their normals if that can be solved. */
-static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds, double hold) {
-    const CpsiIpmReport ipm = solve(line, program, options, bounds, line->follows, hold);
-    return is_clean(&ipm) || !line->follows ? ipm : solve(line, program, options, bounds, false, hold);
+static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds, bool curved, double hold) {
+    const CpsiIpmReport ipm = solve(line, program, options, bounds, curved, hold);
+    return is_clean(&ipm) || !curved ? ipm : solve(line, program, options, bounds, false, hold);
 }
 
 /* How firmly the next round holds the nodes where they are: more where the last rounds came no nearer, less where they did. */
@@ -341,11 +341,11 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
     if (line->follows) cpsi_contact_look(line);
     for (int round = 0, most = options->frictionless ? LAID_ROUNDS : ROUNDS; round < most; round++) {
         if (line->follows && bounds != CPSI_BOUNDS_TRIED) look_ahead(line, turned);
-        ipm = solve_round(line, program, options, bounds, hold);
+        ipm = solve_round(line, program, options, bounds, turned <= NEAR, hold);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
             for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
-            ipm = solve_round(line, program, options, bounds, hold);
+            ipm = solve_round(line, program, options, bounds, turned <= NEAR, hold);
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
             off = mismatch(line);
