@@ -47,10 +47,8 @@ static const double HELD = 100;
 static const double TAUT_SLACK = 1e-9;
 /* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
 static const int ROUNDS = 12;
-static const double HOLD = 1e-2, LEAST_HOLD = 1e-5, MOST_HOLD = 1e2, LESS = 0.1, EASY = 0.3, HARD = 0.7;
-static const int PATIENCE = 8;
 /* ... and of a start laid by statics, which comes from afar. */
-static const int LAID_ROUNDS = 40;
+static const int LAID_ROUNDS = 100;
 /* Rounds that close in, their axes turning by no more than CLOSING [rad] in one, may be as many as this. */
 static const int MORE_ROUNDS = 24;
 static const double CLOSING = 1e-2;
@@ -222,10 +220,10 @@ static double unit_force(const CpsiLine *line, CpsiBounds bounds) {
 
 /* Solve once, from the base of the line. */
 static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds,
-                           bool curved, double hold) {
+                           bool curved) {
     const bool taut = is_taut(line);
     const double force = unit_force(line, bounds);
-    CpsiStepScale scale = {.force = force > 0 ? force : 1, .longer = taut ? 1 + TAUT_SLACK : 1, .bounds = bounds, .curved = curved, .hold = hold};
+    CpsiStepScale scale = {.force = force > 0 ? force : 1, .longer = taut ? 1 + TAUT_SLACK : 1, .bounds = bounds, .curved = curved};
     cpsi_step_program_fill(line, program, &scale);
     double loads = 0;
     for (int i = 0; i < 3*line->n; i++) loads += fabs(program->base.load[i]);
@@ -245,7 +243,7 @@ static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const Cpsi
 
 /* Solve with bounds that follow the reactions or with the bounds of the line, on the planes of the pose. */
 static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, bool follow) {
-    const CpsiIpmReport ipm = solve(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN, false, 0);
+    const CpsiIpmReport ipm = solve(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN, false);
     cpsi_contact_slide(line);
     if (follow) let_go(line, program);
     certify(line, options, &ipm);
@@ -310,17 +308,9 @@ static void look_again(CpsiLine *line, double density, double *turned) {
 }
 
 /* One round: solve where the line is, the reactions turning with their normals if that can be solved. */
-static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds, bool curved, double hold) {
-    const CpsiIpmReport ipm = solve(line, program, options, bounds, curved, hold);
-    return is_clean(&ipm) || !curved ? ipm : solve(line, program, options, bounds, false, hold);
-}
-
-/* How firmly the next round holds the nodes where they are: more where the last rounds came no nearer, less where they did. */
-static double next_hold(double hold, int round, double before, double now) {
-    if (!isfinite(before) || !isfinite(now)) return hold;
-    if (now < EASY*before) return hold > LEAST_HOLD ? LESS*hold : 0;
-    if (now > HARD*before && round >= PATIENCE) return fmin(MOST_HOLD, fmax(HOLD, hold/LESS));
-    return hold;
+static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds, bool curved) {
+    const CpsiIpmReport ipm = solve(line, program, options, bounds, curved);
+    return is_clean(&ipm) || !curved ? ipm : solve(line, program, options, bounds, false);
 }
 
 /* The base of the next round: where the last one ended, or foreseen from several that close in. */
@@ -337,23 +327,21 @@ static void look_ahead(CpsiLine *line, double turned) {
  * make them, they are tried: from no friction towards mu R. */
 static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
-    double hold = 0, before = INFINITY, turned = line->follows ? INFINITY : 0, off = 0;
+    double turned = line->follows ? INFINITY : 0, off = 0;
     if (line->follows) cpsi_contact_look(line);
     for (int round = 0, most = options->frictionless ? LAID_ROUNDS : ROUNDS; round < most; round++) {
-        if (line->follows && bounds != CPSI_BOUNDS_TRIED) look_ahead(line, turned);
-        ipm = solve_round(line, program, options, bounds, turned <= NEAR, hold);
+        if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->frictionless) look_ahead(line, turned);
+        ipm = solve_round(line, program, options, bounds, turned <= NEAR && !options->frictionless);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
             for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
-            ipm = solve_round(line, program, options, bounds, turned <= NEAR, hold);
+            ipm = solve_round(line, program, options, bounds, turned <= NEAR && !options->frictionless);
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
             off = mismatch(line);
             next_bounds(line, program, unit_force(line, bounds));
         }
         if (line->follows) look_again(line, unit_force(line, bounds)/line->length, &turned);
-        hold = next_hold(hold, round, before, turned);
-        before = turned;
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
         if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
     }

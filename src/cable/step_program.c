@@ -156,7 +156,6 @@ static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int c, co
     memcpy(stop->normal[k], &axes[6], sizeof stop->normal[k]);
     turn_curvature(stop->curvature[k], axes, &line->curvature[3*c],
                    scale->curved ? line->reaction[c]*line->length/(scale->force*share) : 0);
-    if (c == j) stop->curvature[k][0] -= scale->hold, stop->curvature[k][2] -= scale->hold, stop->curvature[k][5] -= scale->hold;
 }
 
 static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c, const CpsiStepScale *scale) {

@@ -21,7 +21,6 @@ typedef struct CpsiStepScale {
     double longer; /* the elements are this much longer than they are */
     CpsiBounds bounds;
     bool curved; /* the reactions turn with the normals */
-    double hold; /* springs that hold watched nodes at their base, per force and length of the line: none where a round ends as it began */
 } CpsiStepScale;
 
 bool cpsi_is_held(const CpsiLine *line, int j);
