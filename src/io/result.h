@@ -58,7 +58,7 @@ struct CpsResults {
     char *title; /* "" when the scene has none */
     double gravity[3];
     int obstacle_count;
-    CpsObstacle *obstacle; /* (obstacle_count), without names */
+    CpsObstacle *obstacle; /* (obstacle_count), without names and friction sets */
     int line_count;
     char **line_name;
     double *line_length; /* [m] */
