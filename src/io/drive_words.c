@@ -37,18 +37,22 @@ static const CpsiDriveWord WORD[] = {
         {"system", CPSI_FIELD_MAPPING, GIVEN, "laws on combinations of velocity parameters", CPSI_DRIVE_SYSTEM},
         {"body", CPSI_FIELD_MAPPING, GIVEN, "a body that slides on a plane", CPSI_DRIVE_BODY},
         {"vehicle", CPSI_FIELD_MAPPING, GIVEN, "a body on wheels", CPSI_DRIVE_VEHICLE},
-        {"planimeter", CPSI_FIELD_MAPPING, GIVEN, "a polar planimeter that follows a closed curve", CPSI_DRIVE_PLANIMETER},
+        {"planimeter", CPSI_FIELD_MAPPING, GIVEN,
+         "a polar planimeter that follows a closed curve", CPSI_DRIVE_PLANIMETER},
         {"rope", CPSI_FIELD_MAPPING, GIVEN, "a rope on a table, pulled at its ends", CPSI_DRIVE_ROPE},
         {"sweep", CPSI_FIELD_MAPPING, GIVEN, "a block on a spring, drawn along a path", CPSI_DRIVE_SWEEP}}},
 
     [CPSI_DRIVE_SYSTEM] = {"system", "system", NULL, {
-        {"parameters", CPSI_FIELD_NAMES, NEEDED_COUNT(CPSI_DRIVE_MOST_PARAMETERS), "names of the velocity parameters", 0},
+        {"parameters", CPSI_FIELD_NAMES, NEEDED_COUNT(CPSI_DRIVE_MOST_PARAMETERS),
+         "names of the velocity parameters", 0},
         {"laws", CPSI_FIELD_LIST, NEEDED, "laws, each on some parameters", CPSI_DRIVE_LAW},
         {"constraints", CPSI_FIELD_MAP, GIVEN, "combinations that are 0", 0},
         {"drive", CPSI_FIELD_MAP, GIVEN, "combinations that are imposed, the driving velocity", 0},
         {"load", CPSI_FIELD_BY_NAME, GIVEN, "constant forces dual to the parameters", 0},
-        {"velocity", CPSI_FIELD_ROWS, false, 1, false, 0, "driving velocities to answer where none is asked on the command line", 0},
-        {"map_radius", CPSI_FIELD_NUMBER, false, 0, true, 0, "pictures show |W| up to it in both components; 1 unless given", 0}}},
+        {"velocity", CPSI_FIELD_ROWS, false, 1, false, 0,
+         "driving velocities to answer where none is asked on the command line", 0},
+        {"map_radius", CPSI_FIELD_NUMBER, false, 0, true, 0,
+         "pictures show |W| up to it in both components; 1 unless given", 0}}},
     [CPSI_DRIVE_LAW] = {"law", "system_law", ONE_OF_TWO("law", "resistance"), {
         {"name", CPSI_FIELD_TEXT, GIVEN, "in answers; its number unless given", 0},
         {"on", CPSI_FIELD_MAP, NEEDED, "what it acts on, as in [side, roll]", 0},
@@ -64,7 +68,8 @@ static const CpsiDriveWord WORD[] = {
         {"push", CPSI_FIELD_LIST, GIVEN, "motions to answer, one at a time", CPSI_DRIVE_PUSH},
         {"tow", CPSI_FIELD_MAPPING, GIVEN, "a path along which it is drawn", CPSI_DRIVE_TOW}}},
     [CPSI_DRIVE_PATCH] = {"'point'", "point",
-        "\"oneOf\": [{\"required\": [\"friction\", \"load\"], \"not\": {\"required\": [\"law\"]}}, {\"required\": [\"law\"], "
+        "\"oneOf\": [{\"required\": [\"friction\", \"load\"], \"not\": {\"required\": [\"law\"]}}, "
+        "{\"required\": [\"law\"], "
         "\"not\": {\"anyOf\": [{\"required\": [\"friction\"]}, {\"required\": [\"load\"]}]}}]", {
         {"position", CPSI_FIELD_POINT, GIVEN_POINT(2), "[x, y] of the patch in body axes, m; [0, 0] unless given", 0},
         {"angle", CPSI_FIELD_NUMBER, GIVEN_ANY, "by which it is turned, rad, counterclockwise; 0 unless given", 0},
@@ -92,7 +97,8 @@ static const CpsiDriveWord WORD[] = {
         {"corners", CPSI_FIELD_ROWS, true, 3, false, 2, "[[x, y], ..], m", 0},
         {"tilt", CPSI_FIELD_POINT, GIVEN_POINT(2), TILT, 0}}},
     [CPSI_DRIVE_PUSH] = {"push", "push",
-        "\"oneOf\": [{\"required\": [\"at\", \"velocity\"], \"maxProperties\": 2}, {\"required\": [\"at\", \"normal\", \"speed\"], "
+        "\"oneOf\": [{\"required\": [\"at\", \"velocity\"], \"maxProperties\": 2}, "
+        "{\"required\": [\"at\", \"normal\", \"speed\"], "
         "\"maxProperties\": 3}, {\"required\": [\"twist\"], \"maxProperties\": 1}]", {
         {"at", CPSI_FIELD_POINT, GIVEN_POINT(2), "[x, y] of the point moved, in body axes, m", 0},
         {"velocity", CPSI_FIELD_POINT, GIVEN_POINT(2), "of that point, m/s", 0},
@@ -114,7 +120,8 @@ static const CpsiDriveWord WORD[] = {
         {"wheel", CPSI_FIELD_NUMBER, NEEDED_ANY, "from the hinge towards the tracer, m", 0},
         {"friction", CPSI_FIELD_NUMBER, NEEDED_POSITIVE, "coefficient of the wheel: what turns it is friction", 0},
         {"load", CPSI_FIELD_NUMBER, NEEDED_POSITIVE, "on the wheel, N", 0},
-        {"left_elbow", CPSI_FIELD_FLAG, GIVEN, "the hinge lies left of the line from pole to tracer; false unless given", 0},
+        {"left_elbow", CPSI_FIELD_FLAG, GIVEN,
+         "the hinge lies left of the line from pole to tracer; false unless given", 0},
         {"curve", CPSI_FIELD_CURVE, NEEDED, "closed curve that the tracer follows", 0},
         {"steps", CPSI_FIELD_COUNT, GIVEN_COUNT(10000), "on each side of the curve; 1 unless given", 0}}},
     [CPSI_DRIVE_CURVE] = {"'curve'", "curve", ONE_OF_TWO("circle", "file"), {
@@ -127,7 +134,8 @@ static const CpsiDriveWord WORD[] = {
 
     [CPSI_DRIVE_ROPE] = {"rope", "rope", NULL, {
         {"shape", CPSI_FIELD_MAPPING, NEEDED, "{straight: ..}, {arc: ..} or {points: ..}", CPSI_DRIVE_SHAPE},
-        {"elements", CPSI_FIELD_COUNT, GIVEN_COUNT(CPSI_DRIVE_MOST_ELEMENTS), "straight ones, of equal length; 100 unless given", 0},
+        {"elements", CPSI_FIELD_COUNT, GIVEN_COUNT(CPSI_DRIVE_MOST_ELEMENTS),
+         "straight ones, of equal length; 100 unless given", 0},
         {"friction", CPSI_FIELD_NUMBER, NEEDED_POSITIVE, "coefficient", 0},
         {"weight", CPSI_FIELD_NUMBER, NEEDED_POSITIVE, "N/m", 0},
         {"ends", CPSI_FIELD_MAPPING, NEEDED, "what the ends do, as in {A: held, B: [1, 0]}", CPSI_DRIVE_ENDS},
@@ -154,13 +162,15 @@ static const CpsiDriveWord WORD[] = {
         {"law", CPSI_FIELD_LAW, NEEDED, "friction law of the block, 1 or 2 components", 0},
         {"stiffness", CPSI_FIELD_NUMBER, NEEDED_POSITIVE, "of the spring, N/m", 0},
         {"position", CPSI_FIELD_VECTOR, GIVEN, "where the block is at first, m; 0 unless given", 0},
-        {"end", CPSI_FIELD_VECTOR, GIVEN, "where the spring's far end is at first, m; where the block is unless given", 0},
+        {"end", CPSI_FIELD_VECTOR, GIVEN,
+         "where the spring's far end is at first, m; where the block is unless given", 0},
         {"path", CPSI_FIELD_PATH, NEEDED, "points that the spring's far end passes", 0},
         {"steps", CPSI_FIELD_COUNT, NEEDED_COUNT(CPSI_DRIVE_MOST_STEPS), "equal steps along the path", 0}}},
 
     [CPSI_DRIVE_PATH] = {"'path'", "path", NULL, {
         {"arc", CPSI_FIELD_MAPPING, NEEDED, "{center: .., turn: ..}", CPSI_DRIVE_PATH_ARC}}},
-    [CPSI_DRIVE_PATH_ARC] = {"'arc'", "path_arc", "\"allOf\": [{\"properties\": {\"turn\": {\"minimum\": -1000, \"maximum\": 1000}}}]", {
+    [CPSI_DRIVE_PATH_ARC] = {"'arc'", "path_arc",
+        "\"allOf\": [{\"properties\": {\"turn\": {\"minimum\": -1000, \"maximum\": 1000}}}]", {
         {"center", CPSI_FIELD_POINT, NEEDED_POINT(2), "middle of the circle, m", 0},
         {"turn", CPSI_FIELD_NUMBER, NEEDED_ANY, "angle, rad, counterclockwise", 0}}},
 };
