@@ -2,24 +2,34 @@
 /* capstan check: read a scene, say what is wrong with it or what is in it; nothing is solved. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "capstan/io.h"
-#include "capstan/law_io.h"
 #include "commands.h"
 #include "options.h"
 
+static void print_direction(const double *grain) {
+    if (grain[0] != 0 || grain[1] != 0 || grain[2] != 0)
+        printf("(%g, %g, %g)", grain[0], grain[1], grain[2]);
+    else
+        printf("the line");
+}
+
 static void print_friction(const CpsObstacle *o) {
-    const double *g = o->grain, lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
+    const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
+    if (o->friction_set) {
+        char text[200];
+        const size_t length = cps_set_text(o->friction_set, text, sizeof text);
+        printf(", friction in %s%s, along ", text, length < sizeof text ? "" : "..");
+        print_direction(o->grain);
+        printf("\n");
+        return;
+    }
     if (lateral == o->friction && o->friction_shape == CPS_FRICTION_ELLIPSE) {
         printf(", friction %g\n", o->friction);
         return;
     }
     printf(", friction %g along ", o->friction);
-    if (g[0] != 0 || g[1] != 0 || g[2] != 0)
-        printf("(%g, %g, %g)", g[0], g[1], g[2]);
-    else
-        printf("the line");
+    print_direction(o->grain);
     printf(" and %g across, %s\n", lateral, o->friction_shape == CPS_FRICTION_BOX ? "box" : "ellipse");
 }
 
@@ -55,6 +65,8 @@ static void print_line(const CpsLine *line) {
     else
         printf("stiffness %g N", line->stiffness);
     printf(", start %s\n", START[line->start.kind]);
+    for (int k = 0; k < line->zone_count; k++)
+        printf("  friction from %g m to %g m: %g times\n", line->zone[k].from, line->zone[k].to, line->zone[k].factor);
     print_end('A', &line->end[CPS_END_A]);
     print_end('B', &line->end[CPS_END_B]);
 }
@@ -74,25 +86,13 @@ static void print_scene(const CpsScene *scene) {
            scene->stage_count == 1 ? "y" : "ies", steps, steps == 1 ? "" : "s");
 }
 
-/* A law where a scene was expected: say so. */
-static void hint_law(const char *path) {
-    CpsLawFile *law = NULL;
-    if (!strcmp(path, "-") || cps_law_read(path, NULL, &law, NULL) != CPS_OK) return;
-    fprintf(stderr, "capstan check: this file is a valid law, not a scene: see capstan law\n");
-    cps_law_file_destroy(law);
-}
-
 int cmd_check(int argc, char **argv) {
     CliOptions options;
     if (!cli_parse(argc, argv, FOR_CHECK, "SCENE.yaml", &options)) return EXIT_USAGE;
 
     CpsSceneFile *file = NULL;
     CpsError err;
-    if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) {
-        const int code = cli_report(&err);
-        if (err.status == CPS_ERR_INPUT) hint_law(options.operand);
-        return code;
-    }
+    if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
     print_scene(cps_scene_file_scene(file));
     cps_scene_file_destroy(file);
     return EXIT_OK;

@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan schema: the JSON schema of scene or law files on standard output. */
+/* capstan schema: the JSON schema of scenes, laws or driven systems on standard output. */
 #include <stdio.h>
 #include <string.h>
 
+#include "capstan/drive_io.h"
 #include "capstan/law_io.h"
 #include "commands.h"
 #include "options.h"
 
 int cmd_schema(int argc, char **argv) {
+    static const struct {
+        const char *name;
+        CpsStatus (*write)(FILE *out, CpsError *err);
+    } KIND[] = {{"scene", cps_scene_write_schema}, {"law", cps_law_write_schema}, {"drive", cps_drive_write_schema}};
     CliOptions options;
-    if (!cli_parse(argc, argv, FOR_SCHEMA, "[scene|law]", &options)) return EXIT_USAGE;
-    CpsError err;
-    CpsStatus status;
-    if (!options.operand || strcmp(options.operand, "scene") == 0) {
-        status = cps_scene_write_schema(stdout, &err);
-    } else if (strcmp(options.operand, "law") == 0) {
-        status = cps_law_write_schema(stdout, &err);
-    } else {
-        fprintf(stderr, "capstan schema: found '%s', expected scene or law\n", options.operand);
-        return EXIT_USAGE;
+    if (!cli_parse(argc, argv, FOR_SCHEMA, "[scene|law|drive]", &options)) return EXIT_USAGE;
+    for (size_t k = 0; k < sizeof KIND / sizeof KIND[0]; k++) {
+        CpsError err;
+        if (options.operand && strcmp(options.operand, KIND[k].name) != 0) continue;
+        return KIND[k].write(stdout, &err) == CPS_OK ? EXIT_OK : cli_report(&err);
     }
-    return status == CPS_OK ? EXIT_OK : cli_report(&err);
+    fprintf(stderr, "capstan schema: found '%s', expected scene, law or drive\n", options.operand);
+    return EXIT_USAGE;
 }

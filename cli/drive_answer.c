@@ -143,7 +143,7 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const All *velo
         }
         return;
     }
-    printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", r->value + 0.0, fmax(r->upper - r->lower, 0));
+    printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", r->value + 0.0, r->minimum);
     if (r->outcome != CPS_MOTION_SOLVED) printf("  note: %s\n", cps_motion_outcome_sentence(r->outcome));
     print_velocity(s, cps_motion_velocity(motion), velocities);
     print_all(velocities, "velocities");

@@ -21,7 +21,7 @@ static const Command COMMANDS[] = {
     {"law", cmd_law, FOR_LAW, "LAW.yaml", "forces and velocities of a friction law, with a picture"},
     {"drive", cmd_drive, FOR_DRIVE, "DRIVE.yaml", "driven systems: bodies, vehicles, ropes, planimeters; least dissipation"},
     {"study", cmd_study, FOR_STUDY, "SCENE.yaml", "a step by the method of 1990: its four limits, and first order"},
-    {"schema", cmd_schema, FOR_SCHEMA, "[scene|law]", "print the JSON schema of scenes, or of laws (for editors)"},
+    {"schema", cmd_schema, FOR_SCHEMA, "[scene|law|drive]", "print the JSON schema of scenes, laws or driven systems (for editors)"},
 };
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 

@@ -136,7 +136,7 @@ typedef struct CpsMotionReport {
     CpsMotionOutcome outcome;
     double value;        /* gamma(W) [W]: the upper bound; -INFINITY for NO_BALANCE, INFINITY for BLOCKED */
     double lower, upper; /* [W] lower <= gamma <= upper: from forces in equilibrium, from a velocity that agrees with W;
-                            what rounding leaves of residuals is counted into the bounds */
+                            what rounding leaves of residuals, and of the bounds' own arithmetic, is counted into them */
     double scale;        /* [W] what "relative" means: the largest of |U_k| |F_k| summed over the laws, the powers of
                             load and drive, and the largest force of a law times the largest |V_i| */
     double drive;        /* largest |D V - W|, relative to |W|                          M77 (18), (22) */

@@ -104,6 +104,9 @@ typedef struct CpsDriveFile {
 CPS_API CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out, CpsError *err);
 CPS_API void cps_drive_file_destroy(CpsDriveFile *file); /* NULL is accepted */
 
+/* Write the JSON schema (draft 2020-12) of such files, from the same table of keys that the reader uses. */
+CPS_API CpsStatus cps_drive_write_schema(FILE *out, CpsError *err);
+
 /* `count` points evenly spaced along a path, its ends included.
  *
  *   path   (points, space), points >= 2

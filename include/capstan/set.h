@@ -216,6 +216,21 @@ typedef struct CpsSetMeasure {
 } CpsSetMeasure;
 CPS_API CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *err);
 
+/* ---- for other programs ---- */
+
+/* A bounded set as a conic program, for files and for other solvers: {origin + P v : A v + b in K}, K a product of half-lines
+ * and second-order cones, A of full column rank with each cone's rows of size one. */
+typedef struct CpsSetConic {
+    CpsSetOutcome outcome; /* CPS_SET_EMPTY, CPS_SET_UNBOUNDED (it holds a line) or CPS_SET_NOT_AVAILABLE: all else is 0 */
+    int space, unknowns, rows, cones;
+    const int *dim;        /* (cones) 1: z >= 0; d: z_1 >= |(z_2, .., z_d)| */
+    const double *origin, *p; /* (space), (space x unknowns) */
+    const double *a, *b;   /* (rows x unknowns), (rows) */
+    void *owner;
+} CpsSetConic;
+CPS_API CpsStatus cps_set_conic(const CpsSet *set, CpsSetConic *conic, CpsError *err);
+CPS_API void cps_set_conic_free(CpsSetConic *conic); /* a zeroed one is accepted */
+
 #ifdef __cplusplus
 }
 #endif

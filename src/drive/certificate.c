@@ -7,7 +7,9 @@
  *     lower = - <W, G> - sum of phi_k*(-F_k)    <=  gamma                       if r = 0, F_k in C_k
  *
  * What is missing of the conditions is rounding; it is multiplied by what it acts on, |V_i|, |U_k|, |G|, |lambda|,
- * and taken into the bounds, so that lower <= upper shows an honest gap. */
+ * and taken into the bounds, and so is the rounding of their own arithmetic, so that lower <= upper shows an honest
+ * gap. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +22,40 @@
 /* Velocities that one-sided laws forbid count as on the boundary up to this share of the largest velocity. */
 static const double ON_BOUNDARY = 1e-8;
 
+/* What closed forms of potentials, conjugates and distances, and the few additions that make a bound of them, may be
+ * off by, relative to their size: each is right to a few eps. Sums over rows, columns and laws are in twice the
+ * digits. */
+static const double ROUNDING = 16*DBL_EPSILON;
+
 static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a certificate"); }
+
+/* A sum in twice the digits: what additions and products round off is kept beside it. */
+static void add(CpsiSum *sum, double x) {
+    const double next = sum->high + x;
+    if (isfinite(next)) sum->low += fabs(sum->high) >= fabs(x) ? (sum->high - next) + x : (x - next) + sum->high;
+    sum->high = next;
+}
+
+static void add_product(CpsiSum *sum, double a, double b) {
+    const double product = a*b;
+    add(sum, product);
+    if (isfinite(product)) sum->low += fma(a, b, -product);
+}
+
+static double total(const CpsiSum *sum) { return isfinite(sum->high) ? sum->high + sum->low : sum->high; }
+
+/* <row i, x> - y: the residual itself, where <row i, x> alone is rounding of y */
+static double row_residual(const CpsiRows *rows, int i, const double *x, double y) {
+    CpsiSum sum = {-y, 0};
+    for (size_t e = rows->start[i]; e < rows->start[i + 1]; e++)
+        add_product(&sum, rows->value[e], x[rows->column[e]]);
+    return total(&sum);
+}
+
+static void add_row(const CpsiRows *rows, int i, double factor, CpsiSum *out) {
+    for (size_t e = rows->start[i]; e < rows->start[i + 1]; e++)
+        add_product(&out[rows->column[e]], factor, rows->value[e]);
+}
 
 void cpsi_motion_carry(CpsMotion *motion) {
     for (int i = 0; i < motion->system->components; i++)
@@ -59,12 +94,17 @@ static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, in
     const double unit = n > 0 ? program->column_scale[program->first[k]] : 1,
                  power = program->power / unit; /* v in units of `unit` */
     Part part = {0};
-    for (int i = 0; i < form->rows; i++) part.potential += power*form->b[i]*z[i];
-    for (int i = 0; i < space; i++) part.potential -= u[i]*form->origin[i];
+    CpsiSum potential = {0};
+    for (int i = 0; i < form->rows; i++) add_product(&potential, power*form->b[i], z[i]);
+    for (int i = 0; i < space; i++) add_product(&potential, -u[i], form->origin[i]);
+    part.potential = total(&potential);
     for (int j = 0; j < n; j++) {
-        double e = 0;
-        for (int i = 0; i < form->rows; i++) e += power*form->a[(size_t)i*(size_t)n + (size_t)j]*z[i];
-        for (int i = 0; i < space; i++) e -= form->p[(size_t)i*(size_t)n + (size_t)j]*u[i];
+        CpsiSum sum = {0};
+        for (int i = 0; i < form->rows; i++)
+            add_product(&sum, power*form->a[(size_t)i*(size_t)n + (size_t)j], z[i]);
+        for (int i = 0; i < space; i++)
+            add_product(&sum, -form->p[(size_t)i*(size_t)n + (size_t)j], u[i]);
+        const double e = total(&sum);
         part.forbidden = fmax(part.forbidden, fabs(e)/form->size);
         part.missing += fabs(e)*unit*(1 + fabs(v[j])); /* v is of order one */
     }
@@ -141,9 +181,10 @@ static CpsStatus piece_part(const CpsMotion *motion, const CpsiDriveProgram *pro
     return term_conjugate(piece, f, part, err);
 }
 
-/* Sums over the laws. */
+/* Sums over the laws; `terms` of the sizes of what enters the bounds. */
 typedef struct Totals {
-    double potential, conjugate, missing, gap, dissipated, size, outside, forbidden;
+    CpsiSum potential, conjugate;
+    double terms, missing, gap, dissipated, size, outside, forbidden;
 } Totals;
 
 static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, int l, Totals *totals, CpsError *err) {
@@ -174,9 +215,13 @@ static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, 
     share.dissipated = power == 0 ? 0 : -power;
     share.gap = share.potential + conjugate + power;
     motion->share[l] = share;
-    totals->potential += share.potential;
-    totals->conjugate += conjugate;
+    add(&totals->potential, share.potential);
+    add(&totals->conjugate, conjugate);
+    totals->terms += fabs(share.potential) + fabs(conjugate) + speed*force;
     totals->missing += share.outside*speed;
+    /* phi is taken at U, and V gives it a rounding beside U */
+    for (int i = 0; i < law->space; i++)
+        totals->missing += fabs(f[i]*row_residual(&motion->system->map, law->first + i, motion->velocity, u[i]));
     totals->gap += share.gap;
     totals->dissipated += share.dissipated;
     totals->size += speed*force;
@@ -194,35 +239,40 @@ static double largest_of(int n, const double *a) {
 static void measure_balance(CpsMotion *motion, double *above, double *below) {
     const CpsSystem *system = motion->system;
     CpsMotionReport *report = &motion->report;
-    double *r = motion->balance, moved = 0, held = 0;
-    for (int i = 0; i < system->n; i++) r[i] = system->load ? system->load[i] : 0;
-    for (int i = 0; i < system->components; i++) cpsi_rows_add(&system->map, i, motion->law_force[i], r);
-    double force = cpsi_larger(largest_of(system->components, motion->law_force), largest_of(system->n, r));
+    CpsiSum *r = motion->balance;
+    double moved = 0, held = 0, left = 0, force = largest_of(system->components, motion->law_force);
+    for (int i = 0; i < system->n; i++) r[i] = (CpsiSum){system->load ? system->load[i] : 0, 0};
+    for (int i = 0; i < system->components; i++) add_row(&system->map, i, motion->law_force[i], r);
+    for (int i = 0; i < system->n; i++) force = cpsi_larger(force, fabs(total(&r[i])));
     for (int j = 0; j < system->drive.rows; j++) {
-        const double miss = cpsi_rows_times(&system->drive, j, motion->velocity) - motion->driving[j];
-        cpsi_rows_add(&system->drive, j, -motion->resistance[j], r);
+        const double miss = row_residual(&system->drive, j, motion->velocity, motion->driving[j]);
+        add_row(&system->drive, j, -motion->resistance[j], r);
         moved = cpsi_larger(moved, fabs(miss));
         *above += fabs(miss*motion->resistance[j]);
     }
     for (int j = 0; j < system->constraint.rows; j++) {
-        const double miss = cpsi_rows_times(&system->constraint, j, motion->velocity);
-        cpsi_rows_add(&system->constraint, j, -motion->constraint[j], r);
+        const double miss = row_residual(&system->constraint, j, motion->velocity, 0);
+        add_row(&system->constraint, j, -motion->constraint[j], r);
         held = cpsi_larger(held, fabs(miss));
         *above += fabs(miss*motion->constraint[j]);
     }
-    for (int i = 0; i < system->n; i++) *below += fabs(r[i]*motion->velocity[i]);
+    for (int i = 0; i < system->n; i++) {
+        left = cpsi_larger(left, fabs(total(&r[i])));
+        *below += fabs(total(&r[i])*motion->velocity[i]);
+    }
     const double drive = largest_of(system->drive.rows, motion->driving);
     report->drive = drive > 0 ? moved/drive : moved;
     report->constraint = motion->speed > 0 ? held/motion->speed : held;
     force = fmax(force, motion->force);
-    report->equilibrium = largest_of(system->n, r)/force;
+    report->equilibrium = left/force;
 }
 
 CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program, CpsError *err) {
     const CpsSystem *system = motion->system;
     CpsMotionReport *report = &motion->report;
     Totals totals = {0};
-    double above = 0, below = 0, drive_power = 0;
+    CpsiSum load = {0}, drive = {0};
+    double above = 0, below = 0;
     cpsi_motion_carry(motion);
     motion->speed = cpsi_larger(motion->speed, largest_of(system->n, motion->velocity));
     for (int l = 0; l < system->laws; l++) {
@@ -230,10 +280,13 @@ CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program
         if (status != CPS_OK) return status;
     }
     measure_balance(motion, &above, &below);
-    for (int j = 0; j < system->drive.rows; j++) drive_power += motion->driving[j]*motion->resistance[j];
-    report->load_power = system->load ? cpsi_dot(system->n, system->load, motion->velocity) : 0;
-    report->upper = totals.potential - report->load_power + above + totals.missing;
-    report->lower = -drive_power - totals.conjugate - below - totals.missing;
+    for (int j = 0; j < system->drive.rows; j++) add_product(&drive, motion->driving[j], motion->resistance[j]);
+    for (int i = 0; i < system->n && system->load; i++) add_product(&load, system->load[i], motion->velocity[i]);
+    const double drive_power = total(&drive);
+    report->load_power = total(&load);
+    const double rounding = ROUNDING*(totals.terms + fabs(drive_power) + fabs(report->load_power));
+    report->upper = total(&totals.potential) - report->load_power + above + totals.missing + rounding;
+    report->lower = -drive_power - total(&totals.conjugate) - below - totals.missing - rounding;
     report->value = report->upper;
     report->minimum = report->upper - report->lower;
     report->law = totals.gap;

@@ -49,6 +49,7 @@ CpsMotionOptions cps_motion_options_default(void) {
 void cps_motion_destroy(CpsMotion *motion) {
     if (!motion) return;
     free(motion->driving);
+    free(motion->balance);
     free(motion->piece_at);
     free(motion->share);
     free(motion);
@@ -67,15 +68,15 @@ static CpsStatus motion_new(const CpsSystem *system, const double *driving, CpsM
         motion->piece_at[k] = forces;
         forces += (size_t)system->piece[k].space;
     }
-    motion->driving = calloc(2*m + 2*n + rows + 2*components + forces + 1, sizeof *motion->driving);
-    if (!motion->driving || !motion->piece_at || !motion->share) {
+    motion->balance = calloc(n + 1, sizeof *motion->balance);
+    motion->driving = calloc(2*m + n + rows + 2*components + forces + 1, sizeof *motion->driving);
+    if (!motion->driving || !motion->balance || !motion->piece_at || !motion->share) {
         cps_motion_destroy(motion);
         return out_of_memory(err);
     }
     motion->resistance = motion->driving + m;
     motion->velocity = motion->resistance + m;
-    motion->balance = motion->velocity + n;
-    motion->constraint = motion->balance + n;
+    motion->constraint = motion->velocity + n;
     motion->law_velocity = motion->constraint + rows;
     motion->law_force = motion->law_velocity + components;
     motion->piece_force = motion->law_force + components;

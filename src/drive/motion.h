@@ -6,6 +6,11 @@
 #include "drive/system_program.h"
 #include "drive/system.h"
 
+/* A number in twice the digits: what `high` leaves out is in `low`. */
+typedef struct CpsiSum {
+    double high, low;
+} CpsiSum;
+
 struct CpsMotion {
     const CpsSystem *system;
     CpsMotionReport report;
@@ -15,7 +20,7 @@ struct CpsMotion {
     double *law_velocity, *law_force;    /* (components) U, F */
     double *piece_force;                 /* the forces of all pieces, one after the other */
     size_t *piece_at;                    /* (pieces) where a piece's begins */
-    double *balance;                     /* (n) scratch */
+    CpsiSum *balance;                    /* (n) scratch */
     CpsMotionShare *share;               /* (laws) */
     double speed, force;                 /* sizes of velocities and forces */
 };

@@ -6,9 +6,6 @@
 
 #include "io/drive_read.h"
 
-static const char *const KIND[] = {"point", "wheel", "rod", "ring", "disc", "polygon"};
-enum { KINDS = sizeof KIND / sizeof KIND[0] };
-
 /* ---- patches ---- */
 
 static CpsStatus read_brake(CpsiDriveRead *r, const CpsiYaml *node, double *brake) {
@@ -43,36 +40,22 @@ static CpsStatus read_patch(CpsiDriveRead *r, const CpsiYaml *node, CpsPatchKind
     *patch = (CpsPatch){.kind = kind};
     /* not given, unless they are read; every other kind needs them */
     if (kind == CPS_PATCH_POINT) patch->friction = patch->load = NAN;
-    char what[24];
-    snprintf(what, sizeof what, "'%s'", KIND[kind]);
-    const char *const size = kind == CPS_PATCH_ROD ? "half_length" : "radius";
-    enum { MOST = 9 };
-    CpsiField field[MOST] = {
-        {"position", CPSI_FIELD_POINT, patch->position, false, -INFINITY, false, 2, ""},
-        {"angle", CPSI_FIELD_NUMBER, &patch->angle, false, -INFINITY, false, 0, ""},
-        {"friction", CPSI_FIELD_NUMBER, &patch->friction, kind != CPS_PATCH_POINT, 0, false, 0, "coefficient"},
-        {"load", CPSI_FIELD_NUMBER, &patch->load, kind != CPS_PATCH_POINT, 0, false, 0, "normal force, N"},
-    };
-    int n = 4;
-    if (kind == CPS_PATCH_POINT) field[n++] = (CpsiField){"law", CPSI_FIELD_NODE, &law, false, 0, false, 0, ""};
-    if (kind == CPS_PATCH_WHEEL) field[n++] = (CpsiField){"brake", CPSI_FIELD_NODE, &brake, false, 0, false, 0, ""};
-    if (kind == CPS_PATCH_POLYGON)
-        field[n++] = (CpsiField){"corners", CPSI_FIELD_NODE, &corners, true, 0, false, 0, "[[x, y], ..], m"};
-    else if (kind != CPS_PATCH_POINT)
-        field[n++] = (CpsiField){size, CPSI_FIELD_NUMBER, &patch->size, true, 0, true, 0, "m"};
-    if (kind >= CPS_PATCH_RING)
-        field[n++] = (CpsiField){"tilt", CPSI_FIELD_POINT, patch->tilt, false, -INFINITY, false, 2, ""};
-    if (kind == CPS_PATCH_ROD)
-        field[n++] = (CpsiField){"tilt", CPSI_FIELD_NUMBER, patch->tilt, false, -INFINITY, false, 0, ""};
-    const CpsStatus status = cpsi_drive_fields(r, node, what, n, field);
+    /* the fifth and sixth key are its own */
+    void *const own = kind == CPS_PATCH_POINT     ? (void *)&law
+                      : kind == CPS_PATCH_POLYGON ? (void *)&corners
+                                                  : (void *)&patch->size;
+    void *const to[] = {patch->position, &patch->angle, &patch->friction,
+                        &patch->load,    own,           kind == CPS_PATCH_WHEEL ? (void *)&brake : (void *)patch->tilt};
+    const CpsStatus status = cpsi_drive_fields(r, node, (CpsiDriveMapping)(CPSI_DRIVE_PATCH + (int)kind), to);
     return status ? status : read_parts(r, node, brake, corners, law, patch);
 }
 
 /* {KIND: {..}} */
 static CpsStatus read_kind(CpsiDriveRead *r, const CpsiYaml *node, CpsPatch *patch) {
     if (node->kind == CPSI_YAML_MAPPING && node->count == 1)
-        for (int k = 0; k < KINDS; k++)
-            if (strcmp(node->child->key, KIND[k]) == 0) return read_patch(r, node->child, (CpsPatchKind)k, patch);
+        for (int k = CPS_PATCH_POINT; k <= CPS_PATCH_POLYGON; k++)
+            if (strcmp(node->child->key, cpsi_drive_word((CpsiDriveMapping)(CPSI_DRIVE_PATCH + k))->alias) == 0)
+                return read_patch(r, node->child, (CpsPatchKind)k, patch);
     return cpsi_drive_wrong(r, node, "patch",
                             "one of point, wheel, rod, ring, disc, polygon with its keys, as in "
                             "{disc: {radius: 1, friction: 0.5, load: 10}}");
@@ -125,14 +108,8 @@ static void point_rows(const double at[2], const double *normal, CpsDrivePush *p
 
 static CpsStatus read_push(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePush *push) {
     double at[2] = {NAN, 0}, velocity[2] = {NAN, 0}, twist[3] = {NAN, 0, 0}, normal[2] = {NAN, 0}, speed = NAN;
-    const CpsiField field[] = {
-        {"at", CPSI_FIELD_POINT, at, false, -INFINITY, false, 2, ""},
-        {"velocity", CPSI_FIELD_POINT, velocity, false, -INFINITY, false, 2, ""},
-        {"normal", CPSI_FIELD_POINT, normal, false, -INFINITY, false, 2, ""},
-        {"speed", CPSI_FIELD_NUMBER, &speed, false, -INFINITY, false, 0, ""},
-        {"twist", CPSI_FIELD_POINT, twist, false, -INFINITY, false, 3, ""},
-    };
-    const CpsStatus status = cpsi_drive_fields(r, node, "push", CPSI_FIELDS(field));
+    void *const to[] = {at, velocity, normal, &speed, twist};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PUSH, to);
     if (status != CPS_OK) return status;
     const bool has_at = !isnan(at[0]), both = !isnan(velocity[0]), one = !isnan(normal[0]) && !isnan(speed);
     const bool partial = isnan(normal[0]) != isnan(speed);
@@ -173,15 +150,8 @@ static CpsStatus read_tow(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveTow *o
     const CpsiYaml *path = NULL;
     CpsTow *tow = &out->start;
     double end[2] = {NAN, 0};
-    const CpsiField field[] = {
-        {"pose", CPSI_FIELD_POINT, tow->pose, false, -INFINITY, false, 3, ""},
-        {"hitch", CPSI_FIELD_POINT, tow->hitch, false, -INFINITY, false, 2, ""},
-        {"rope", CPSI_FIELD_NUMBER, &tow->rope, false, 0, false, 0, ""},
-        {"end", CPSI_FIELD_POINT, end, false, -INFINITY, false, 2, ""},
-        {"path", CPSI_FIELD_NODE, &path, true, 0, false, 0, "points that the hitch or the rope's end passes"},
-        {"steps", CPSI_FIELD_COUNT, &out->steps, true, 0, false, CPSI_DRIVE_MOST_STEPS, "equal steps along the path"},
-    };
-    CpsStatus status = cpsi_drive_fields(r, node, "tow", CPSI_FIELDS(field));
+    void *const to[] = {tow->pose, tow->hitch, &tow->rope, end, &path, &out->steps};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_TOW, to);
     if (status != CPS_OK) return status;
     const double c = cos(tow->pose[2]), s = sin(tow->pose[2]);
     const double hitch[2] = {tow->pose[0] + c * tow->hitch[0] - s * tow->hitch[1],
@@ -199,13 +169,9 @@ static CpsStatus read_tow(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveTow *o
 
 static CpsStatus read_whole(CpsiDriveRead *r, const CpsiYaml *node, bool vehicle, CpsDriveBody *out) {
     const CpsiYaml *patches = NULL, *push = NULL, *tow = NULL;
-    const CpsiField field[] = {
-        {vehicle ? "wheels" : "patches", CPSI_FIELD_NODE, &patches, true, 0, false, 0, "what it stands on"},
-        {"push", CPSI_FIELD_NODE, &push, false, 0, false, 0, ""},
-        {"tow", CPSI_FIELD_NODE, &tow, false, 0, false, 0, ""},
-    };
+    void *const to[] = {&patches, &push, &tow};
     out->vehicle = vehicle;
-    CpsStatus status = cpsi_drive_fields(r, node, vehicle ? "vehicle" : "body", CPSI_FIELDS(field));
+    CpsStatus status = cpsi_drive_fields(r, node, vehicle ? CPSI_DRIVE_VEHICLE : CPSI_DRIVE_BODY, to);
     if (status == CPS_OK) status = read_patches(r, patches, vehicle, out);
     if (status == CPS_OK && push) status = read_pushes(r, push, out);
     if (status == CPS_OK && tow) status = read_tow(r, tow, &out->tow);

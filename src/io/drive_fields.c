@@ -87,10 +87,10 @@ static CpsStatus read_flag(CpsiDriveRead *r, const CpsiYaml *node, const char *w
     return cpsi_drive_wrong(r, node, what, "true or false");
 }
 
-static CpsStatus read_field(CpsiDriveRead *r, const CpsiYaml *node, const CpsiField *f, const char *what) {
-    if (f->kind == CPSI_FIELD_NODE) return memcpy(f->out, &node, sizeof node), CPS_OK;
-    if (f->kind == CPSI_FIELD_FLAG) return read_flag(r, node, what, f->out);
-    if (f->kind == CPSI_FIELD_POINT) return cpsi_drive_point(r, node, what, f->most, f->out);
+static CpsStatus read_field(CpsiDriveRead *r, const CpsiYaml *node, const CpsiField *f, const char *what, void *out) {
+    if (f->kind >= CPSI_FIELD_MAPPING) return memcpy(out, &node, sizeof node), CPS_OK;
+    if (f->kind == CPSI_FIELD_FLAG) return read_flag(r, node, what, out);
+    if (f->kind == CPSI_FIELD_POINT) return cpsi_drive_point(r, node, what, f->most, out);
     const bool text = f->kind == CPSI_FIELD_TEXT, whole = f->kind == CPSI_FIELD_COUNT;
     const CpsiLawKey key = {.type = text    ? CPSI_LAW_TEXT
                                     : whole ? CPSI_LAW_COUNT
@@ -102,11 +102,11 @@ static CpsStatus read_field(CpsiDriveRead *r, const CpsiYaml *node, const CpsiFi
     const CpsStatus status = cpsi_law_value(&r->build.file, node, &key, what, &value);
     if (status != CPS_OK) return status;
     if (text)
-        memcpy(f->out, &value.text, sizeof value.text);
+        memcpy(out, &value.text, sizeof value.text);
     else if (whole)
-        *(int *)f->out = (int)value.x[0];
+        *(int *)out = (int)value.x[0];
     else
-        *(double *)f->out = value.x[0];
+        *(double *)out = value.x[0];
     return CPS_OK;
 }
 
@@ -134,8 +134,11 @@ static CpsStatus unknown_field(CpsiDriveRead *r, const CpsiYaml *node, const cha
                         list_fields(count, field, list, sizeof list));
 }
 
-CpsStatus cpsi_drive_fields(CpsiDriveRead *r, const CpsiYaml *node, const char *what, int count,
-                            const CpsiField *field) {
+CpsStatus cpsi_drive_fields(CpsiDriveRead *r, const CpsiYaml *node, CpsiDriveMapping mapping, void *const *out) {
+    const CpsiDriveWord *word = cpsi_drive_word(mapping);
+    const CpsiField *field = word->field;
+    const char *what = word->name;
+    const int count = cpsi_drive_word_count(word);
     const CpsiLawFile *f = &r->build.file;
     char list[300], text[360];
     unsigned given = 0;
@@ -148,7 +151,7 @@ CpsStatus cpsi_drive_fields(CpsiDriveRead *r, const CpsiYaml *node, const char *
         while (i < count && strcmp(child->key, field[i].name) != 0) i++;
         if (i == count) return unknown_field(r, child, what, count, field);
         snprintf(text, sizeof text, "'%s'", field[i].name);
-        const CpsStatus status = read_field(r, child, &field[i], text);
+        const CpsStatus status = read_field(r, child, &field[i], text, out[i]);
         if (status != CPS_OK) return status;
         given |= 1u << i;
     }

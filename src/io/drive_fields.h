@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mappings of a file of driven systems: each is a list of fields, known where it is read, that names its keys, checks
- * their values and says where they go. */
+/* Reading the mappings of a file of driven systems: their keys and values are checked by the table of drive_words.h. */
 #ifndef CAPSTAN_SRC_IO_DRIVE_FIELDS_H
 #define CAPSTAN_SRC_IO_DRIVE_FIELDS_H
 
+#include "io/drive_words.h"
 #include "io/law_build.h"
 
 /* A file being read. */
@@ -13,31 +13,11 @@ typedef struct CpsiDriveRead {
     size_t max_bytes;
 } CpsiDriveRead;
 
-typedef enum CpsiFieldKind {
-    CPSI_FIELD_NODE,   /* const CpsiYaml *: read by the caller */
-    CPSI_FIELD_TEXT,   /* const char * */
-    CPSI_FIELD_COUNT,  /* int, 1 to `most` */
-    CPSI_FIELD_NUMBER, /* double */
-    CPSI_FIELD_POINT,  /* double[most]: exactly so many numbers */
-    CPSI_FIELD_FLAG    /* bool */
-} CpsiFieldKind;
-
-typedef struct CpsiField {
-    const char *name;
-    CpsiFieldKind kind;
-    void *out; /* keeps what is there where the key is not given */
-    bool required;
-    double low; /* range of numbers: least, itself excluded if `open` */
-    bool open;
-    int most;
-    const char *help;
-} CpsiField;
-
-#define CPSI_FIELDS(field) (int)(sizeof(field) / sizeof(field)[0]), (field)
-
-/* Read a mapping: every key is a field, required ones are there, values are of their kind. */
-CpsStatus cpsi_drive_fields(CpsiDriveRead *r, const CpsiYaml *node, const char *what, int count,
-                            const CpsiField *field);
+/* Read a mapping: every key is a field, required ones are there, values are of their kind.
+ *
+ *   out   (fields) where each value goes, of the type that its kind says; what is there stays where the key is not
+ * given */
+CpsStatus cpsi_drive_fields(CpsiDriveRead *r, const CpsiYaml *node, CpsiDriveMapping mapping, void *const *out);
 
 /* [[x, ..], ..]: `least` rows or more of `columns` numbers; *out is the pool's. */
 CpsStatus cpsi_drive_rows(CpsiDriveRead *r, const CpsiYaml *node, const char *what, int columns, int least, int *rows,

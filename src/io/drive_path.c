@@ -21,12 +21,8 @@ static CpsStatus fail_node(CpsiDriveRead *r, const CpsiYaml *node, const char *m
 static CpsStatus read_circle(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePlanimeter *out) {
     double center[2] = {0, 0}, radius = 0;
     int points = 0;
-    const CpsiField field[] = {
-        {"center", CPSI_FIELD_POINT, center, true, -INFINITY, false, 2, "m"},
-        {"radius", CPSI_FIELD_NUMBER, &radius, true, 0, true, 0, "m"},
-        {"points", CPSI_FIELD_COUNT, &points, true, 0, false, CPSI_DRIVE_MOST_STEPS, "corners on it"},
-    };
-    CpsStatus status = cpsi_drive_fields(r, node, "'circle'", CPSI_FIELDS(field));
+    void *const to[] = {center, &radius, &points};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_CIRCLE, to);
     if (status != CPS_OK) return status;
     if (points < 3) return cpsi_drive_wrong(r, node, "'circle'", "at least 3 points");
     double *x = CPSI_POOL_TAKE(r->build.file.pool, 2 * (size_t)points, double);
@@ -93,11 +89,8 @@ static CpsStatus read_curve_file(CpsiDriveRead *r, const CpsiYaml *node, CpsDriv
 static CpsStatus read_curve(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePlanimeter *out) {
     if (node->kind != CPSI_YAML_MAPPING) return cpsi_drive_rows(r, node, "'curve'", 2, 3, &out->points, &out->point);
     const CpsiYaml *circle = NULL, *file = NULL;
-    const CpsiField field[] = {
-        {"circle", CPSI_FIELD_NODE, &circle, false, 0, false, 0, ""},
-        {"file", CPSI_FIELD_NODE, &file, false, 0, false, 0, ""},
-    };
-    const CpsStatus status = cpsi_drive_fields(r, node, "'curve'", CPSI_FIELDS(field));
+    void *const to[] = {&circle, &file};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_CURVE, to);
     if (status != CPS_OK) return status;
     if (!circle == !file) return cpsi_drive_wrong(r, node, "'curve'", "a list of points, {circle: ..} or {file: ..}");
     return circle ? read_circle(r, circle, out) : read_curve_file(r, file, out);
@@ -107,19 +100,9 @@ CpsStatus cpsi_drive_read_planimeter(CpsiDriveRead *r, const CpsiYaml *node, Cps
     const CpsiYaml *curve = NULL;
     CpsPlanimeter *p = &out->planimeter;
     out->steps = 1;
-    const CpsiField field[] = {
-        {"pole", CPSI_FIELD_POINT, p->pole, true, -INFINITY, false, 2, "where the pole is, m"},
-        {"pole_arm", CPSI_FIELD_NUMBER, &p->pole_arm, true, 0, true, 0, "length, m"},
-        {"tracer_arm", CPSI_FIELD_NUMBER, &p->tracer_arm, true, 0, true, 0, "length, m"},
-        {"wheel", CPSI_FIELD_NUMBER, &p->wheel, true, -INFINITY, false, 0, "from the hinge towards the tracer, m"},
-        {"friction", CPSI_FIELD_NUMBER, &p->friction, true, 0, true, 0,
-         "coefficient of the wheel: what turns it is friction"},
-        {"load", CPSI_FIELD_NUMBER, &p->load, true, 0, true, 0, "on the wheel, N"},
-        {"left_elbow", CPSI_FIELD_FLAG, &p->left_elbow, false, 0, false, 0, ""},
-        {"curve", CPSI_FIELD_NODE, &curve, true, 0, false, 0, "closed curve that the tracer follows"},
-        {"steps", CPSI_FIELD_COUNT, &out->steps, false, 0, false, 10000, ""},
-    };
-    CpsStatus status = cpsi_drive_fields(r, node, "planimeter", CPSI_FIELDS(field));
+    void *const to[] = {p->pole,  &p->pole_arm,   &p->tracer_arm, &p->wheel,  &p->friction,
+                        &p->load, &p->left_elbow, &curve,         &out->steps};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PLANIMETER, to);
     if (status == CPS_OK) status = read_curve(r, curve, out);
     if (status == CPS_OK && (double)out->points * out->steps > 1e8)
         return fail_node(r, node, "planimeter: more than 1e8 steps in all");
@@ -136,13 +119,8 @@ CpsStatus cpsi_drive_read_planimeter(CpsiDriveRead *r, const CpsiYaml *node, Cps
 
 static CpsStatus arc_shape(CpsiDriveRead *r, const CpsiYaml *node, int nodes, double *x) {
     double center[2] = {0, 0}, radius = 0, from = 0, turn = 0;
-    const CpsiField field[] = {
-        {"center", CPSI_FIELD_POINT, center, true, -INFINITY, false, 2, "m"},
-        {"radius", CPSI_FIELD_NUMBER, &radius, true, 0, true, 0, "m"},
-        {"from", CPSI_FIELD_NUMBER, &from, true, -INFINITY, false, 0, "angle of the first end, rad"},
-        {"turn", CPSI_FIELD_NUMBER, &turn, true, -INFINITY, false, 0, "angle to the last end, rad, counterclockwise"},
-    };
-    const CpsStatus status = cpsi_drive_fields(r, node, "'arc'", CPSI_FIELDS(field));
+    void *const to[] = {center, &radius, &from, &turn};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ARC, to);
     for (int i = 0; i < nodes; i++) {
         const double a = from + turn * i / (nodes - 1);
         x[2 * i] = center[0] + radius * cos(a), x[2 * i + 1] = center[1] + radius * sin(a);
@@ -152,23 +130,16 @@ static CpsStatus arc_shape(CpsiDriveRead *r, const CpsiYaml *node, int nodes, do
 
 static CpsStatus straight_shape(CpsiDriveRead *r, const CpsiYaml *node, int nodes, double *x) {
     double end[4] = {0, 0, 0, 0};
-    const CpsiField field[] = {
-        {"from", CPSI_FIELD_POINT, end, true, -INFINITY, false, 2, "first end, m"},
-        {"to", CPSI_FIELD_POINT, end + 2, true, -INFINITY, false, 2, "last end, m"},
-    };
-    const CpsStatus status = cpsi_drive_fields(r, node, "'straight'", CPSI_FIELDS(field));
+    void *const to[] = {end, end + 2};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_STRAIGHT, to);
     if (status == CPS_OK) cps_drive_walk(2, 2, end, nodes, x);
     return status;
 }
 
 static CpsStatus read_shape(CpsiDriveRead *r, const CpsiYaml *node, int elements, CpsDriveRope *out) {
     const CpsiYaml *straight = NULL, *arc = NULL, *points = NULL;
-    const CpsiField field[] = {
-        {"straight", CPSI_FIELD_NODE, &straight, false, 0, false, 0, ""},
-        {"arc", CPSI_FIELD_NODE, &arc, false, 0, false, 0, ""},
-        {"points", CPSI_FIELD_NODE, &points, false, 0, false, 0, ""},
-    };
-    CpsStatus status = cpsi_drive_fields(r, node, "'shape'", CPSI_FIELDS(field));
+    void *const to[] = {&straight, &arc, &points};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_SHAPE, to);
     if (status != CPS_OK) return status;
     if ((straight != NULL) + (arc != NULL) + (points != NULL) != 1)
         return cpsi_drive_wrong(r, node, "'shape'", "exactly one of 'straight', 'arc', 'points'");
@@ -188,11 +159,8 @@ static CpsStatus read_shape(CpsiDriveRead *r, const CpsiYaml *node, int elements
 /* {A: held, B: [vx, vy]} */
 static CpsStatus read_ends(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveRope *out) {
     const CpsiYaml *end[2] = {NULL, NULL};
-    const CpsiField field[] = {
-        {"A", CPSI_FIELD_NODE, &end[0], false, 0, false, 0, ""},
-        {"B", CPSI_FIELD_NODE, &end[1], true, 0, false, 0, "velocity [vx, vy] of the last end, m/s"},
-    };
-    CpsStatus status = cpsi_drive_fields(r, node, "'ends'", CPSI_FIELDS(field));
+    void *const to[] = {&end[0], &end[1]};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ENDS, to);
     int rows = 0;
     for (int k = 0; k < 2 && status == CPS_OK; k++) {
         const bool word = end[k] && end[k]->kind == CPSI_YAML_SCALAR;
@@ -211,17 +179,8 @@ CpsStatus cpsi_drive_read_rope(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveR
     const CpsiYaml *shape = NULL, *ends = NULL, *path = NULL;
     int elements = 100;
     out->steps = 40, out->shots = 6;
-    const CpsiField field[] = {
-        {"shape", CPSI_FIELD_NODE, &shape, true, 0, false, 0, "{straight: ..}, {arc: ..} or {points: ..}"},
-        {"elements", CPSI_FIELD_COUNT, &elements, false, 0, false, CPSI_DRIVE_MOST_ELEMENTS, ""},
-        {"friction", CPSI_FIELD_NUMBER, &out->friction, true, 0, true, 0, "coefficient"},
-        {"weight", CPSI_FIELD_NUMBER, &out->weight, true, 0, true, 0, "N/m"},
-        {"ends", CPSI_FIELD_NODE, &ends, true, 0, false, 0, "what the ends do, as in {A: held, B: [1, 0]}"},
-        {"path", CPSI_FIELD_NODE, &path, false, 0, false, 0, ""},
-        {"steps", CPSI_FIELD_COUNT, &out->steps, false, 0, false, 10000, ""},
-        {"shots", CPSI_FIELD_COUNT, &out->shots, false, 0, false, 24, ""},
-    };
-    CpsStatus status = cpsi_drive_fields(r, node, "rope", CPSI_FIELDS(field));
+    void *const to[] = {&shape, &elements, &out->friction, &out->weight, &ends, &path, &out->steps, &out->shots};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ROPE, to);
     if (status == CPS_OK) status = read_shape(r, shape, elements, out);
     out->rope.resistance = out->friction * out->weight;
     if (status == CPS_OK) status = read_ends(r, ends, out);
@@ -244,15 +203,8 @@ CpsStatus cpsi_drive_read_rope(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveR
 
 CpsStatus cpsi_drive_read_sweep(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSweep *out) {
     const CpsiYaml *law = NULL, *position = NULL, *end = NULL, *path = NULL;
-    const CpsiField field[] = {
-        {"law", CPSI_FIELD_NODE, &law, true, 0, false, 0, "friction law of the block, 1 or 2 components"},
-        {"stiffness", CPSI_FIELD_NUMBER, &out->start.stiffness, true, 0, true, 0, "of the spring, N/m"},
-        {"position", CPSI_FIELD_NODE, &position, false, 0, false, 0, ""},
-        {"end", CPSI_FIELD_NODE, &end, false, 0, false, 0, ""},
-        {"path", CPSI_FIELD_NODE, &path, true, 0, false, 0, "points that the spring's far end passes"},
-        {"steps", CPSI_FIELD_COUNT, &out->steps, true, 0, false, CPSI_DRIVE_MOST_STEPS, "equal steps along the path"},
-    };
-    CpsStatus status = cpsi_drive_fields(r, node, "sweep", CPSI_FIELDS(field));
+    void *const to[] = {&law, &out->start.stiffness, &position, &end, &path, &out->steps};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_SWEEP, to);
     CpsLaw *own = NULL;
     if (status == CPS_OK) status = cpsi_drive_law(r, law, &own);
     out->law = own;
@@ -260,9 +212,9 @@ CpsStatus cpsi_drive_read_sweep(CpsiDriveRead *r, const CpsiYaml *node, CpsDrive
     out->space = cps_law_space(own);
     if (out->space > 2) return fail_node(r, law, "'law': found more than 2 components, expected 1 or 2");
     const CpsiYaml *const given[2] = {position, end};
-    double *const to[2] = {out->start.position, out->start.end};
+    double *const start[2] = {out->start.position, out->start.end};
     for (int k = 0; k < 2 && status == CPS_OK; k++) {
-        if (given[k]) status = cpsi_drive_point(r, given[k], k ? "'end'" : "'position'", out->space, to[k]);
+        if (given[k]) status = cpsi_drive_point(r, given[k], k ? "'end'" : "'position'", out->space, start[k]);
     }
     if (status == CPS_OK && !end) memcpy(out->start.end, out->start.position, sizeof out->start.end);
     return status ? status

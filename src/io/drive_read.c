@@ -9,6 +9,7 @@
 
 #include "base/status.h"
 #include "io/file_bytes.h"
+#include "io/file_kind.h"
 
 /* The file and what its texts and arrays live in. */
 typedef struct Keep {
@@ -62,11 +63,8 @@ void cps_drive_walk(int space, int points, const double *path, int count, double
 static CpsStatus read_arc(CpsiDriveRead *r, const CpsiYaml *node, const double *start, int steps, int *points,
                           const double **path) {
     double center[2], turn = 0;
-    const CpsiField field[] = {
-        {"center", CPSI_FIELD_POINT, center, true, -INFINITY, false, 2, "middle of the circle, m"},
-        {"turn", CPSI_FIELD_NUMBER, &turn, true, -INFINITY, false, 0, "angle, rad, counterclockwise"},
-    };
-    const CpsStatus status = cpsi_drive_fields(r, node, "'arc'", CPSI_FIELDS(field));
+    void *const to[] = {center, &turn};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PATH_ARC, to);
     if (status != CPS_OK) return status;
     if (!(fabs(turn) <= 1000)) return cpsi_drive_wrong(r, node, "'arc'", "a turn of at most 1000 rad");
     /* corners where the steps end */
@@ -87,9 +85,9 @@ CpsStatus cpsi_drive_read_path(CpsiDriveRead *r, const CpsiYaml *node, int space
                                int *points, const double **path) {
     if (node->kind == CPSI_YAML_MAPPING) {
         const CpsiYaml *arc = NULL;
-        const CpsiField field[] = {{"arc", CPSI_FIELD_NODE, &arc, true, 0, false, 0, "{center: .., turn: ..}"}};
+        void *const to[] = {&arc};
         if (space != 2) return cpsi_drive_wrong(r, node, "'path'", "a list of points, as in [[0], [1]]");
-        const CpsStatus status = cpsi_drive_fields(r, node, "'path'", CPSI_FIELDS(field));
+        const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PATH, to);
         return status ? status : read_arc(r, arc, start, steps, points, path);
     }
     int rows = 0;
@@ -111,27 +109,12 @@ static CpsStatus read_kind(CpsiDriveRead *r, const CpsiYaml *root, CpsDriveFile 
     enum { SYSTEM, BODY, VEHICLE, PLANIMETER, ROPE, SWEEP, KINDS };
     const CpsiYaml *kind[KINDS] = {NULL};
     out->title = "";
-    const CpsiField field[] = {
-        {"capstan", CPSI_FIELD_COUNT, &version, true, 0, false, 1, "version of this file format"},
-        {"title", CPSI_FIELD_TEXT, &out->title, false, 0, false, 0, ""},
-        {"system", CPSI_FIELD_NODE, &kind[SYSTEM], false, 0, false, 0, ""},
-        {"body", CPSI_FIELD_NODE, &kind[BODY], false, 0, false, 0, ""},
-        {"vehicle", CPSI_FIELD_NODE, &kind[VEHICLE], false, 0, false, 0, ""},
-        {"planimeter", CPSI_FIELD_NODE, &kind[PLANIMETER], false, 0, false, 0, ""},
-        {"rope", CPSI_FIELD_NODE, &kind[ROPE], false, 0, false, 0, ""},
-        {"sweep", CPSI_FIELD_NODE, &kind[SWEEP], false, 0, false, 0, ""},
-    };
+    void *const to[] = {&version,       &out->title,       &kind[SYSTEM], &kind[BODY],
+                        &kind[VEHICLE], &kind[PLANIMETER], &kind[ROPE],   &kind[SWEEP]};
     static const CpsDriveKind KIND[KINDS] = {CPS_DRIVE_SYSTEM,     CPS_DRIVE_BODY, CPS_DRIVE_BODY,
                                              CPS_DRIVE_PLANIMETER, CPS_DRIVE_ROPE, CPS_DRIVE_SWEEP};
     const CpsiLawFile *f = &r->build.file;
-    for (int k = 0; k < 2; k++) {
-        const char *const OTHER[] = {"lines", "law"}, *const WHAT[] = {"a scene ('lines'): try 'capstan run'",
-                                                                       "a law ('law'): try 'capstan law'"};
-        if (cpsi_yaml_child(root, OTHER[k]))
-            return cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, root->line, root->column,
-                                "found %s, expected a driven system", WHAT[k]);
-    }
-    const CpsStatus status = cpsi_drive_fields(r, root, "drive file", CPSI_FIELDS(field));
+    const CpsStatus status = cpsi_drive_fields(r, root, CPSI_DRIVE_FILE, to);
     if (status != CPS_OK) return status;
     int given = 0, which = 0;
     for (int k = 0; k < KINDS; k++)
@@ -167,6 +150,7 @@ static CpsStatus read_drive(const char *path, const CpsReadLimits *limits, Keep 
     if (status == CPS_OK)
         status = cpsi_yaml_parse(name, "driven system", bytes, size, limits->max_depth, &keep->pool, &root, err);
     free(bytes);
+    if (status == CPS_OK) status = cpsi_file_expect(name, root, CPSI_FILE_DRIVE, err);
     CpsiDriveRead r = {.build = {.file = {.name = name, .pool = &keep->pool, .err = err}},
                        .path = path,
                        .max_bytes = limits->max_bytes};

@@ -7,14 +7,6 @@
 #include "capstan/drive_io.h"
 #include "io/drive_fields.h"
 
-/* Limits, so that no small file asks for very much work. */
-enum {
-    CPSI_DRIVE_MOST_PARAMETERS = 10000,
-    CPSI_DRIVE_MOST_STEPS = 1000000,
-    CPSI_DRIVE_MOST_ELEMENTS = 100000,
-    CPSI_DRIVE_ARC_SIDES = 1000 /* of an arc as a path, about */
-};
-
 CpsStatus cpsi_drive_read_system(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSystem *out);
 CpsStatus cpsi_drive_read_body(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBody *out);
 CpsStatus cpsi_drive_read_vehicle(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBody *out);

@@ -145,14 +145,9 @@ static CpsStatus read_law(const Names *names, const CpsiYaml *node, int number, 
     char fallback[32];
     const char *name = fallback;
     const CpsiYaml *on = NULL, *law = NULL, *terms = NULL;
-    const CpsiField field[] = {
-        {"name", CPSI_FIELD_TEXT, &name, false, 0, false, 0, ""},
-        {"on", CPSI_FIELD_NODE, &on, true, 0, false, 0, "what it acts on, as in [side, roll]"},
-        {"law", CPSI_FIELD_NODE, &law, false, 0, false, 0, ""},
-        {"resistance", CPSI_FIELD_NODE, &terms, false, 0, false, 0, ""},
-    };
+    void *const to[] = {&name, &on, &law, &terms};
     snprintf(fallback, sizeof fallback, "law %d", number + 1);
-    CpsStatus status = cpsi_drive_fields(names->r, node, "law", CPSI_FIELDS(field));
+    CpsStatus status = cpsi_drive_fields(names->r, node, CPSI_DRIVE_LAW, to);
     if (status == CPS_OK && !law == !terms)
         return cpsi_drive_wrong(names->r, node, "law", "exactly one of 'law' and 'resistance' in it");
     Map map;
@@ -211,18 +206,10 @@ static CpsStatus read_load(const Names *names, const CpsiYaml *node, CpsSystem *
 CpsStatus cpsi_drive_read_system(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSystem *out) {
     const CpsiYaml *parameters = NULL, *laws = NULL, *constraints = NULL, *drive = NULL, *load = NULL, *asked = NULL;
     out->map_radius = 1;
-    const CpsiField field[] = {
-        {"parameters", CPSI_FIELD_NODE, &parameters, true, 0, false, 0, "names of the velocity parameters"},
-        {"laws", CPSI_FIELD_NODE, &laws, true, 0, false, 0, "laws, each on some parameters"},
-        {"constraints", CPSI_FIELD_NODE, &constraints, false, 0, false, 0, ""},
-        {"drive", CPSI_FIELD_NODE, &drive, false, 0, false, 0, ""},
-        {"load", CPSI_FIELD_NODE, &load, false, 0, false, 0, ""},
-        {"velocity", CPSI_FIELD_NODE, &asked, false, 0, false, 0, ""},
-        {"map_radius", CPSI_FIELD_NUMBER, &out->map_radius, false, 0, true, 0, ""},
-    };
+    void *const to[] = {&parameters, &laws, &constraints, &drive, &load, &asked, &out->map_radius};
     Names names;
     CpsError found;
-    CpsStatus status = cpsi_drive_fields(r, node, "system", CPSI_FIELDS(field));
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_SYSTEM, to);
     if (status == CPS_OK) status = read_names(r, parameters, &names);
     if (status == CPS_OK && cps_system_create(names.count, &out->system, &found) != CPS_OK)
         status = cpsi_drive_place(r, node, &found);

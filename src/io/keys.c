@@ -47,7 +47,7 @@ static const CpsiKey KEYS[] = {
     {CPSI_OBSTACLE, "sphere", CPSI_MAPPING, CPSI_ONE_OF, "", MAP(CPSI_SPHERE), NULL,
      "a solid ball; lines stay outside"},
     {CPSI_OBSTACLE, "friction", CPSI_NUMBER_OR_MAPPING, CPSI_OPTIONAL, "", NOT_NEGATIVE, CPSI_FRICTION, NULL, "0",
-     "Coulomb friction coefficient; or one along the line or the grain and another across it"},
+     "Coulomb friction coefficient; or one along the line or the grain and another across it, or a set of forces"},
     {CPSI_PLANE, "point", CPSI_VECTOR, CPSI_OPTIONAL, "m", ANY, 0, NULL, "[0, 0, 0]", "a point of the plane"},
     {CPSI_PLANE, "normal", CPSI_VECTOR, CPSI_OPTIONAL, "", ANY, 0, NULL, "[0, 0, 1]",
      "points to the side where lines may be; of any length but zero"},
@@ -59,15 +59,18 @@ static const CpsiKey KEYS[] = {
     {CPSI_SPHERE, "axis", CPSI_VECTOR, CPSI_OPTIONAL, "", ANY, 0, NULL, "[0, 1, 0]",
      "what the ball turns about, through its centre; of any length but zero"},
     {CPSI_SPHERE, "radius", CPSI_NUMBER, CPSI_REQUIRED, "m", POSITIVE, 0, NULL, NULL, "radius of the ball"},
-    {CPSI_FRICTION, "axial", CPSI_NUMBER, CPSI_REQUIRED, "", NOT_NEGATIVE, 0, NULL, NULL,
+    {CPSI_FRICTION, "axial", CPSI_NUMBER, CPSI_ONE_OF, "", NOT_NEGATIVE, 0, NULL, NULL,
      "coefficient along the line, or along the grain"},
+    {CPSI_FRICTION, "set", CPSI_SET, CPSI_ONE_OF, "", NO_RANGE, 0, NULL, NULL,
+     "friction forces on the line per unit of normal force, along the line or the grain and across it to its left: "
+     "any bounded set of the plane with 0 in it, in the words of law files"},
     {CPSI_FRICTION, "lateral", CPSI_NUMBER, CPSI_OPTIONAL, "", NOT_NEGATIVE, 0, NULL, NULL,
      "coefficient across it; by default the axial one"},
     {CPSI_FRICTION, "shape", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "ellipse box", "\"ellipse\"",
      "ellipse: one law for both directions; box: two independent laws"},
     {CPSI_FRICTION, "grain", CPSI_VECTOR, CPSI_OPTIONAL, "", ANY, 0, NULL, "[0, 0, 0]",
-     "direction of the axial coefficient, fixed in space, as far as it lies in the surface; [0, 0, 0]: that of "
-     "the line"},
+     "direction of the axial coefficient or of the set's first component, fixed in space, as far as it lies in the "
+     "surface; [0, 0, 0]: that of the line"},
 
     {CPSI_LINES, "NAME", CPSI_MAPPING, CPSI_OPTIONAL, "", MAP(CPSI_LINE), NULL, "a line from its end A to its end B"},
     {CPSI_LINE, "length", CPSI_NUMBER, CPSI_REQUIRED, "m", POSITIVE, 0, NULL, NULL, "unstretched length"},
@@ -80,10 +83,18 @@ static const CpsiKey KEYS[] = {
      "weight per unstretched length (in water: the submerged one), instead of mass"},
     {CPSI_LINE, "stiffness", CPSI_NUMBER, CPSI_REQUIRED, "N", 0, INFINITY, true, 0, NULL, NULL,
      "axial stiffness EA; .inf for an inextensible line"},
+    {CPSI_LINE, "friction_zones", CPSI_LIST, CPSI_OPTIONAL, "", MAP(CPSI_ZONE), "[]",
+     "stretches that rub otherwise, in order from A to B, without overlap"},
     {CPSI_LINE, "start", CPSI_MAPPING, CPSI_REQUIRED, "", NO_RANGE, CPSI_START, "laid", NULL,
      "shape the line starts from, as long as the line (an elastic one may be stretched); laid: the equilibrium without "
      "friction, found first"},
     {CPSI_LINE, "ends", CPSI_MAPPING, CPSI_REQUIRED, "", MAP(CPSI_ENDS), NULL, "what holds or pulls the two ends"},
+
+    {CPSI_ZONE, "from", CPSI_NUMBER, CPSI_REQUIRED, "m", NOT_NEGATIVE, 0, NULL, NULL,
+     "unstretched length from end A at which the stretch begins"},
+    {CPSI_ZONE, "to", CPSI_NUMBER, CPSI_REQUIRED, "m", POSITIVE, 0, NULL, NULL, "where it ends"},
+    {CPSI_ZONE, "factor", CPSI_NUMBER, CPSI_REQUIRED, "", NOT_NEGATIVE, 0, NULL, NULL,
+     "of the friction of whatever it touches; 1 elsewhere"},
 
     {CPSI_START, "straight", CPSI_MAPPING, CPSI_ONE_OF, "", MAP(CPSI_STRAIGHT), NULL, "a straight line"},
     {CPSI_START, "polyline", CPSI_POINTS, CPSI_ONE_OF, "m", ANY, 0, NULL, NULL, "straight pieces between these points"},
@@ -134,8 +145,8 @@ static const CpsiKey KEYS[] = {
 enum { KEY_COUNT = sizeof KEYS / sizeof KEYS[0] };
 
 static const char *const OBJECTS[CPSI_OBJECT_COUNT] = {
-    "scene", "obstacles", "obstacle", "plane", "cylinder", "sphere", "friction", "lines",  "line",
-    "start", "straight",  "arc",      "ends",  "end",      "solver", "entry",    "change",
+    "scene", "obstacles", "obstacle", "plane", "cylinder", "sphere", "friction", "lines", "line",
+    "zone",  "start",     "straight", "arc",   "ends",     "end",    "solver",   "entry", "change",
 };
 
 const CpsiKey *cpsi_keys(CpsiObject object, int *count) {
@@ -249,6 +260,9 @@ const char *cpsi_key_expected(const CpsiKey *key, char *text, size_t size) {
         break;
     case CPSI_LIST:
         snprintf(text, size, "a list, as in [{...}, {...}]");
+        break;
+    case CPSI_SET:
+        snprintf(text, size, "a set, as in {disc: 0.5}");
         break;
     case CPSI_WORD:
         if (strchr(key->words, ' '))

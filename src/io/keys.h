@@ -18,6 +18,7 @@ typedef enum CpsiObject {
     CPSI_FRICTION,
     CPSI_LINES, /* {NAME: line} */
     CPSI_LINE,
+    CPSI_ZONE,
     CPSI_START,
     CPSI_STRAIGHT,
     CPSI_ARC,
@@ -39,7 +40,8 @@ typedef enum CpsiKeyType {
     CPSI_ELEMENTS,          /* a count, or a list of lengths and of [count, length] */
     CPSI_MAPPING,           /* an object of kind `inside`, or one of `words` in its place */
     CPSI_NUMBER_OR_MAPPING, /* an object of kind `inside`, or a number in its place */
-    CPSI_LIST               /* of objects of kind `inside` */
+    CPSI_LIST,              /* of objects of kind `inside` */
+    CPSI_SET                /* a set in the words of law files (law_build.h) */
 } CpsiKeyType;
 
 typedef enum CpsiKeyNeed {

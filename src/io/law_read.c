@@ -8,6 +8,7 @@
 #include "base/status.h"
 #include "capstan/law_io.h"
 #include "io/file_bytes.h"
+#include "io/file_kind.h"
 #include "io/law_build.h"
 
 struct CpsLawFile {
@@ -70,9 +71,6 @@ static CpsStatus take_resistance(const CpsiLawFile *f, const CpsiLawValue *terms
 }
 
 static CpsStatus build(CpsiLawBuild *b, const CpsiYaml *root, CpsLawFile *out) {
-    if (cpsi_yaml_child(root, "lines"))
-        return cpsi_fail_at(b->file.err, CPS_ERR_INPUT, b->file.name, root->line, root->column,
-                            "found a scene ('lines'), expected a law");
     CpsiLawValue value[CPSI_LAW_MOST_KEYS] = {{.node = NULL}};
     CpsiLawValue *law = &value[CPSI_LAW_OF_FRICTION], *terms = &value[CPSI_LAW_OF_RESISTANCE];
     CpsStatus status = cpsi_law_read_values(b, root, &cpsi_law_file_word, cpsi_law_file_word.name, value);
@@ -101,6 +99,7 @@ static CpsStatus read_law(const char *path, const CpsReadLimits *limits, CpsLawF
     CpsStatus status = cpsi_read_file(path, name, limits->max_bytes, &bytes, &size, err);
     if (status == CPS_OK) status = cpsi_yaml_parse(name, "law", bytes, size, limits->max_depth, &tree, &root, err);
     free(bytes);
+    if (status == CPS_OK) status = cpsi_file_expect(name, root, CPSI_FILE_LAW, err);
     CpsiLawBuild b = {.file = {.name = name, .pool = &tree, .err = err}};
     if (status == CPS_OK) status = build(&b, root, out);
     out->has_preimage = b.has_preimage;

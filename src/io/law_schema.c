@@ -104,24 +104,16 @@ static void put_words(FILE *out, CpsiLawGroup group, CpsiLawGroup other, int *wr
     }
 }
 
-static void put_schema(FILE *out) {
-    static const char ONE_WORD[] = ": {\n      \"type\": \"object\", \"minProperties\": 1, \"maxProperties\": 1, "
-                                   "\"additionalProperties\": false,\n      \"properties\": {";
+/* a mapping of one word */
+static const char ONE_WORD[] = ": {\n      \"type\": \"object\", \"minProperties\": 1, \"maxProperties\": 1, "
+                               "\"additionalProperties\": false,\n      \"properties\": {";
+
+void cpsi_put_set_definitions(FILE *out) {
     int written = 0;
-    fprintf(out, "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
-                 "  \"title\": \"capstan law, format version 1\",\n  ");
-    put_keys(out, cpsi_law_file_word.key);
-    fputs(",\n  \"oneOf\": [{\"required\": [\"law\"]}, {\"required\": [\"resistance\"], \"not\": {\"required\": "
-          "[\"load\"]}}],\n"
-          "  \"$defs\": {\n    \"set\"",
-          out);
+    fputs("    \"set\"", out);
     fputs(ONE_WORD, out);
     put_words(out, CPSI_LAW_SET_WORDS, CPSI_LAW_SET_WORDS, &written);
     put_words(out, CPSI_LAW_LAW_WORDS, CPSI_LAW_SET_WORDS, &written);
-    fputs("\n      }\n    },\n    \"term\"", out);
-    fputs(ONE_WORD, out);
-    written = 0;
-    put_words(out, CPSI_LAW_TERM_WORDS, CPSI_LAW_TERM_WORDS, &written);
     fputs("\n      }\n    },\n    \"contact\": {", out);
     put_keys(out, cpsi_law_contact_word.key);
     fprintf(
@@ -130,8 +122,29 @@ static void put_schema(FILE *out) {
         "\"minItems\": 1, \"maxItems\": %d, \"items\": {\"type\": \"number\"}}},\n",
         CPS_SET_MAX_ITEMS, CPSI_LAW_MOST_COMPONENTS);
     fputs("    \"pair\": {\"type\": \"array\", \"minItems\": 2, \"maxItems\": 2, \"items\": {\"type\": \"number\"}},\n"
-          "    \"side\": {\"oneOf\": [{\"type\": \"number\", \"minimum\": 0}, {\"$ref\": \"#/$defs/pair\"}]}\n  }\n}\n",
+          "    \"side\": {\"oneOf\": [{\"type\": \"number\", \"minimum\": 0}, {\"$ref\": \"#/$defs/pair\"}]}\n",
           out);
+}
+
+void cpsi_put_law_definitions(FILE *out) {
+    int written = 0;
+    fputs("    \"term\"", out);
+    fputs(ONE_WORD, out);
+    put_words(out, CPSI_LAW_TERM_WORDS, CPSI_LAW_TERM_WORDS, &written);
+    fputs("\n      }\n    },\n", out);
+    cpsi_put_set_definitions(out);
+}
+
+static void put_schema(FILE *out) {
+    fprintf(out, "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
+                 "  \"title\": \"capstan law, format version 1\",\n  ");
+    put_keys(out, cpsi_law_file_word.key);
+    fputs(",\n  \"oneOf\": [{\"required\": [\"law\"]}, {\"required\": [\"resistance\"], \"not\": {\"required\": "
+          "[\"load\"]}}],\n"
+          "  \"$defs\": {\n",
+          out);
+    cpsi_put_law_definitions(out);
+    fputs("  }\n}\n", out);
 }
 
 CpsStatus cps_law_write_schema(FILE *out, CpsError *err) { return cpsi_write_schema(out, put_schema, err); }

@@ -58,7 +58,7 @@ struct CpsResults {
     char *title; /* "" when the scene has none */
     double gravity[3];
     int obstacle_count;
-    CpsObstacle *obstacle; /* (obstacle_count), without names */
+    CpsObstacle *obstacle; /* (obstacle_count), without names and friction sets */
     int line_count;
     char **line_name;
     double *line_length; /* [m] */
@@ -101,8 +101,12 @@ CpsStatus cpsi_netcdf_close(CpsiNetcdf *netcdf, CpsError *err);
 /* result_paraview.c: one step as .vtp, the list of steps as .pvd. */
 CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution, CpsError *err);
 CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err);
-/* result_obstacles.c: obstacles.vtp, where there is something to lie on. */
+/* result_obstacles.c: the surfaces of obstacles, where there is something to lie on: obstacles.vtp, and one more file for
+ * each step in which something turns. */
 CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err);
+/* Does anything turn in the step; and the name of the file of that step, or of the start (-1). */
+bool cpsi_paraview_obstacles_turn(const CpsResults *results, int step);
+void cpsi_paraview_obstacles_name(int step, char name[32]);
 
 /* picture_*.c: all SVG pictures. */
 CpsStatus cpsi_pictures_write(CpsResults *results, CpsError *err);

@@ -14,12 +14,13 @@
 
 #include "base/status.h"
 #include "base/vec3.h"
+#include "capstan/set.h"
 #include "io/result.h"
 #include "io/result_text.h"
 
 static pthread_mutex_t library_lock = PTHREAD_MUTEX_INITIALIZER;
 
-enum { XYZ = 3, ENDS = 2, NAME_LENGTH = 96, VARIABLE_NAME_SIZE = NC_MAX_NAME + 1 };
+enum { XYZ = 3, ENDS = 2, TANGENTS = 2, NAME_LENGTH = 96, VARIABLE_NAME_SIZE = NC_MAX_NAME + 1 };
 
 /* the format's limit on one variable in one record, in bytes (the specification of CDF-2) */
 static const uint64_t MAX_RECORD = 4294967292;
@@ -111,17 +112,46 @@ static const struct {
     {"obstacle_radius", "radius, 0 for a plane", "m", false},
     {"obstacle_axial", "friction coefficient along the line or the grain", "1", false},
     {"obstacle_lateral", "friction coefficient across it", "1", false},
-    {"obstacle_shape", "how the two make a set of forces", "1", false},
+    {"obstacle_shape", "how the two make a set of forces, or that a set is given instead", "1", false},
     {"obstacle_grain", "direction of the axial coefficient, 0: that of the line", "1", true},
 };
 
-enum { FIELDS = sizeof FIELD / sizeof FIELD[0], NUMBERS = sizeof NUMBER / sizeof NUMBER[0] };
+/* Friction sets {origin + P v : A v + b in K}, padded with zeros to the largest. */
+typedef enum SetField { SET_ORIGIN, SET_MAP, SET_CONE, SET_ROWS, SET_OFFSET, SET_FIELDS } SetField;
+
+static const struct {
+    const char *name, *long_name;
+} SET[SET_FIELDS] = {
+    {"obstacle_set_origin", "friction set: {origin + P v : A v + b in K}"},
+    {"obstacle_set_map", "P"},
+    {"obstacle_set_cone", "rows of the cone of K that begins in this row, 1: half-line, 0: none begins"},
+    {"obstacle_set_rows", "A"},
+    {"obstacle_set_offset", "b"},
+};
+
+/* Numbers of CpsFrictionZone. */
+static const struct {
+    const char *name, *long_name, *units;
+    size_t offset;
+} ZONE[] = {
+    {"zone_from", "natural abscissa at which the stretch begins", "m", offsetof(CpsFrictionZone, from)},
+    {"zone_to", "natural abscissa at which it ends", "m", offsetof(CpsFrictionZone, to)},
+    {"zone_factor", "factor of the friction of whatever it touches, 1 elsewhere", "1",
+     offsetof(CpsFrictionZone, factor)},
+};
+
+enum {
+    FIELDS = sizeof FIELD / sizeof FIELD[0],
+    NUMBERS = sizeof NUMBER / sizeof NUMBER[0],
+    ZONES = sizeof ZONE / sizeof ZONE[0]
+};
 
 typedef struct LineIds {
     int node, element; /* dimensions */
     int compliance, state, end_kind, end_value, outcome, iterations, parts, snaps, proof;
     int field[FIELDS];
     int number[NUMBERS];
+    int zone[ZONES]; /* unused without zones */
 } LineIds;
 
 struct CpsiNetcdf {
@@ -133,7 +163,10 @@ struct CpsiNetcdf {
     int step_name, outcome, wall;
     int obstacle, turn, obstacle_field[OBSTACLE_FIELDS]; /* dimension, variables; without obstacles unused */
     int obstacle_count;
-    double *slide; /* (nodes of the longest line, 3) where a view has none */
+    int set_field[SET_FIELDS];     /* unused without sets, */
+    size_t set_rows, set_unknowns; /* where these are 0 */
+    CpsSetConic *set;              /* (obstacle_count + 1) while the file begins; zeroed where an obstacle has none */
+    double *slide;                 /* (nodes of the longest line, 3) where a view has none */
     int line_count;
     LineIds *line;
 };
@@ -189,6 +222,40 @@ static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
     return id;
 }
 
+/* The conic form of the friction sets; false when there is none. */
+static bool form_sets(CpsiNetcdf *nc, const CpsScene *scene) {
+    bool found = false;
+    nc->set = calloc((size_t)scene->obstacle_count + 1, sizeof *nc->set);
+    if (!nc->set) keep(nc, NC_ENOMEM);
+    for (int k = 0; k < scene->obstacle_count && nc->status == NC_NOERR; ++k) {
+        if (!scene->obstacle[k].friction_set) continue;
+        found = true;
+        if (cps_set_conic(scene->obstacle[k].friction_set, &nc->set[k], NULL) != CPS_OK) keep(nc, NC_ENOMEM);
+    }
+    return found && nc->status == NC_NOERR;
+}
+
+static void define_sets(CpsiNetcdf *nc, const CpsScene *scene) {
+    if (!form_sets(nc, scene)) return;
+    nc->set_unknowns = nc->set_rows = 1; /* a dimension of no length would be an unlimited one */
+    for (int k = 0; k < scene->obstacle_count; ++k) {
+        const size_t unknowns = (size_t)nc->set[k].unknowns, rows = (size_t)nc->set[k].rows;
+        if (unknowns > nc->set_unknowns) nc->set_unknowns = unknowns;
+        if (rows > nc->set_rows) nc->set_rows = rows;
+    }
+    const int tangent = add_dimension(nc, "tangent", TANGENTS);
+    const int unknown = add_dimension(nc, "set_unknown", nc->set_unknowns);
+    const int row = add_dimension(nc, "set_row", nc->set_rows);
+    const int shape[SET_FIELDS][3] = {{nc->obstacle, tangent},
+                                      {nc->obstacle, tangent, unknown},
+                                      {nc->obstacle, row},
+                                      {nc->obstacle, row, unknown},
+                                      {nc->obstacle, row}};
+    for (int f = 0; f < SET_FIELDS; ++f)
+        nc->set_field[f] = add_variable(nc, "", SET[f].name, NC_DOUBLE, 2 + (f == SET_MAP || f == SET_ROWS), shape[f],
+                                        SET[f].long_name, "1");
+}
+
 /* Obstacles: their names as an attribute like those of the lines, their numbers as variables. */
 static void define_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
     size_t size = 1;
@@ -207,9 +274,10 @@ static void define_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
         nc->obstacle_field[f] = add_variable(nc, "", OBSTACLE[f].name, NC_DOUBLE, 1 + OBSTACLE[f].vector, shape,
                                              OBSTACLE[f].long_name, OBSTACLE[f].units);
     add_flags(nc, nc->obstacle_field[OBSTACLE_KIND], NC_DOUBLE, 3, "plane cylinder sphere");
-    add_flags(nc, nc->obstacle_field[OBSTACLE_SHAPE], NC_DOUBLE, 2, "ellipse box");
+    add_flags(nc, nc->obstacle_field[OBSTACLE_SHAPE], NC_DOUBLE, 3, "ellipse box set");
     nc->turn =
         add_variable(nc, "", "obstacle_turn", NC_DOUBLE, 2, turned, "angle turned about its axis in the step", "rad");
+    define_sets(nc, scene);
 }
 
 static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names) {
@@ -244,6 +312,16 @@ static void define_field(CpsiNetcdf *nc, LineIds *ids, const char *line, int f) 
     const int rank = 1 + !field->fixed + field->vector;
     ids->field[f] = add_variable(nc, line, field->name, NC_DOUBLE, rank, field->fixed ? shape + 1 : shape,
                                  field->long_name, field->units);
+}
+
+static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
+    if (line->zone_count == 0) return;
+    char name[VARIABLE_NAME_SIZE];
+    snprintf(name, sizeof name, "%.200s_zone", line->name);
+    const int zone = add_dimension(nc, name, (size_t)line->zone_count);
+    for (int i = 0; i < ZONES; ++i)
+        ids->zone[i] =
+            add_variable(nc, line->name, ZONE[i].name, NC_DOUBLE, 1, &zone, ZONE[i].long_name, ZONE[i].units);
 }
 
 static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
@@ -336,13 +414,50 @@ static void write_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
     for (size_t k = 0; k < (size_t)scene->obstacle_count; ++k) {
         const CpsObstacle *o = &scene->obstacle[k];
         const bool plane = o->kind == CPS_OBSTACLE_PLANE;
-        const double kind = o->kind, radius = plane ? 0 : o->radius, shape = o->friction_shape;
+        const double kind = o->kind, radius = plane ? 0 : o->radius, shape = o->friction_set ? 2 : o->friction_shape;
         const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
         const double *value[OBSTACLE_FIELDS] = {
             &kind, o->point, plane ? o->normal : o->axis, &radius, &o->friction, &lateral, &shape, o->grain};
         const size_t start[] = {k, 0}, count[] = {1, XYZ};
         for (int f = 0; f < OBSTACLE_FIELDS; ++f) write_doubles(nc, nc->obstacle_field[f], start, count, value[f]);
     }
+}
+
+/* A matrix of obstacle k, padded with zeros; columns 0: a vector. */
+static void write_padded(CpsiNetcdf *nc, SetField f, size_t k, const size_t padded[2], int rows, int columns,
+                         const double *value) {
+    const size_t start[] = {k, 0, 0}, count[] = {1, padded[0], padded[1]};
+    const size_t width = padded[1], each = columns > 0 ? (size_t)columns : 1;
+    double *all = calloc(padded[0] * width, sizeof *all);
+    if (!all) keep(nc, NC_ENOMEM);
+    for (size_t i = 0; all && i < (size_t)rows; ++i) memcpy(&all[i * width], &value[i * each], each * sizeof *all);
+    if (all) write_doubles(nc, nc->set_field[f], start, count, all);
+    free(all);
+}
+
+static void write_sets(CpsiNetcdf *nc, const CpsScene *scene) {
+    const size_t rows = nc->set_rows, unknowns = nc->set_unknowns;
+    if (rows == 0) return;
+    for (size_t k = 0; k < (size_t)scene->obstacle_count && nc->status == NC_NOERR; ++k) {
+        const CpsSetConic *set = &nc->set[k];
+        double *cone = calloc(rows, sizeof *cone), *next = cone;
+        if (!cone) keep(nc, NC_ENOMEM);
+        for (int c = 0; cone && c < set->cones; next += set->dim[c++]) *next = set->dim[c];
+        write_padded(nc, SET_ORIGIN, k, (size_t[]){TANGENTS, 1}, set->space, 0, set->origin);
+        write_padded(nc, SET_MAP, k, (size_t[]){TANGENTS, unknowns}, set->space, set->unknowns, set->p);
+        if (cone) write_padded(nc, SET_CONE, k, (size_t[]){rows, 1}, set->rows, 0, cone);
+        write_padded(nc, SET_ROWS, k, (size_t[]){rows, unknowns}, set->rows, set->unknowns, set->a);
+        write_padded(nc, SET_OFFSET, k, (size_t[]){rows, 1}, set->rows, 0, set->b);
+        free(cone);
+    }
+}
+
+static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line) {
+    for (size_t k = 0; k < (size_t)line->zone_count; ++k)
+        for (int i = 0; i < ZONES && nc->status == NC_NOERR; ++i) {
+            const double *number = (const double *)(const void *)((const char *)&line->zone[k] + ZONE[i].offset);
+            keep(nc, nc_put_var1_double(nc->file, ids->zone[i], &k, number));
+        }
 }
 
 /* all definitions, then the fields that never change */
@@ -357,15 +472,24 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene, const
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         define_line(nc, &nc->line[i], &view);
+        define_zones(nc, &nc->line[i], &scene->line[i]);
     }
     if (nc->status == NC_NOERR) keep(nc, nc_enddef(nc->file));
     write_obstacles(nc, scene);
+    write_sets(nc, scene);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         write_fields(nc, &nc->line[i], &view, true);
+        write_zones(nc, &nc->line[i], &scene->line[i]);
         if (nc->status == NC_NOERR) keep(nc, nc_put_var_double(nc->file, nc->line[i].compliance, &view.compliance));
     }
     if (nc->status == NC_NOERR) keep(nc, nc_sync(nc->file));
+}
+
+static void free_sets(CpsiNetcdf *nc, const CpsScene *scene) {
+    for (int k = 0; nc->set && k < scene->obstacle_count; ++k) cps_set_conic_free(&nc->set[k]);
+    free(nc->set);
+    nc->set = NULL;
 }
 
 /* names of all lines, separated by blanks; NULL when memory does not suffice */
@@ -409,6 +533,7 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
     if (nc && nc->line && nc->slide && names) {
         pthread_mutex_lock(&library_lock);
         begin(nc, path, scene, evolution, names);
+        free_sets(nc, scene);
         pthread_mutex_unlock(&library_lock);
         status = result_of(nc, err);
     } else {

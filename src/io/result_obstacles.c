@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* obstacles.vtp: what the lines lie on as quadrilaterals for ParaView, in text. Balls are whole; planes and cylinders,
- * which have no ends, reach as far as the lines did, and a little farther. */
+/* What the lines lie on as quadrilaterals for ParaView, in text: obstacles.vtp, and step-N-obstacles.vtp of each step
+ * in which something turns. Balls are whole; planes and cylinders, which have no ends, reach as far as the lines did,
+ * and a little farther. Cells carry the sector of their obstacle that they belong to, without which nobody would see a
+ * turn. */
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/status.h"
 #include "base/vec3.h"
 #include "io/result.h"
 
 enum { AROUND = 96, ALONG = 48 }; /* quadrilaterals round a circle, and from pole to pole */
+enum { SECTORS = 8 };
 
 static const double PI = 3.14159265358979323846;
 /* How much farther than the lines, of their extent. */
@@ -18,6 +23,7 @@ typedef struct Patch {
     int rows, columns;
     Vec3 centre, axis[3]; /* the third is the plane's normal or what a cylinder or ball turns about */
     double reach[2][2];   /* plane: along the first two axes; cylinder: along the third, in reach[0] */
+    double turned;        /* [rad] about the third, which is right-handed with the others */
 } Patch;
 
 static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
@@ -54,7 +60,8 @@ static Patch patch_of(const CpsResults *results, const CpsObstacle *obstacle) {
 }
 
 static Vec3 point_of(const Patch *patch, int row, int column) {
-    const double r = patch->obstacle->radius, angle = 2 * PI * column / AROUND, polar = PI * row / ALONG;
+    const double r = patch->obstacle->radius, angle = patch->turned + 2 * PI * column / AROUND,
+                 polar = PI * row / ALONG;
     double x[3];
     switch (patch->obstacle->kind) {
     case CPS_OBSTACLE_PLANE:
@@ -71,39 +78,44 @@ static Vec3 point_of(const Patch *patch, int row, int column) {
     return place;
 }
 
-static void put_points(const CpsResults *results, FILE *out) {
-    for (int k = 0; k < results->obstacle_count; ++k) {
-        const Patch patch = patch_of(results, &results->obstacle[k]);
-        for (int row = 0; row <= patch.rows; ++row)
-            for (int column = 0; column <= patch.columns; ++column) {
-                const Vec3 x = point_of(&patch, row, column);
+static void put_points(int patches, const Patch *patch, FILE *out) {
+    for (const Patch *p = patch; p < patch + patches; ++p)
+        for (int row = 0; row <= p->rows; ++row)
+            for (int column = 0; column <= p->columns; ++column) {
+                const Vec3 x = point_of(p, row, column);
                 fprintf(out, "%.12g %.12g %.12g\n", x.x, x.y, x.z);
             }
-    }
 }
 
-/* connectivity, or for each quadrilateral the end of its points, or its obstacle */
-static void put_cells(const CpsResults *results, const char *what, FILE *out) {
+typedef enum CellData { CONNECTIVITY, OFFSETS, OBSTACLE_ID, SECTOR } CellData;
+
+/* one row of text per quadrilateral */
+static void put_cells(int patches, const Patch *patch, CellData what, FILE *out) {
     int first = 0, cells = 0;
-    for (int k = 0; k < results->obstacle_count; ++k) {
-        const Patch patch = patch_of(results, &results->obstacle[k]);
-        const int width = patch.columns + 1;
-        for (int cell = 0; cell < patch.rows * patch.columns; ++cell) {
-            const int at = first + cell / patch.columns * width + cell % patch.columns;
-            if (*what == 'c') fprintf(out, "%d %d %d %d\n", at, at + 1, at + 1 + width, at + width);
-            if (*what == 'o') fprintf(out, "%d\n", 4 * ++cells);
-            if (*what == 'i') fprintf(out, "%d\n", k);
+    for (int k = 0; k < patches; ++k) {
+        const int columns = patch[k].columns, width = columns + 1;
+        for (int cell = 0; cell < patch[k].rows * columns; ++cell) {
+            const int at = first + cell / columns * width + cell % columns;
+            if (what == CONNECTIVITY) fprintf(out, "%d %d %d %d\n", at, at + 1, at + 1 + width, at + width);
+            if (what == OFFSETS) fprintf(out, "%d\n", 4 * ++cells);
+            if (what == OBSTACLE_ID) fprintf(out, "%d\n", k);
+            if (what == SECTOR) fprintf(out, "%d\n", cell % columns * SECTORS / columns);
         }
-        first += (patch.rows + 1) * width;
+        first += (patch[k].rows + 1) * width;
     }
 }
 
-static void put_obstacles(const CpsResults *results, FILE *out) {
+static void put_array(int patches, const Patch *patch, const char *type, const char *name, CellData what, FILE *out) {
+    fprintf(out, "        <DataArray type=\"%s\" Name=\"%s\" format=\"ascii\">\n", type, name);
+    put_cells(patches, patch, what, out);
+    fputs("        </DataArray>\n", out);
+}
+
+static void put_obstacles(int patches, const Patch *patch, FILE *out) {
     int points = 0, cells = 0;
-    for (int k = 0; k < results->obstacle_count; ++k) {
-        const Patch patch = patch_of(results, &results->obstacle[k]);
-        points += (patch.rows + 1) * (patch.columns + 1);
-        cells += patch.rows * patch.columns;
+    for (int k = 0; k < patches; ++k) {
+        points += (patch[k].rows + 1) * (patch[k].columns + 1);
+        cells += patch[k].rows * patch[k].columns;
     }
     fprintf(
         out,
@@ -112,25 +124,49 @@ static void put_obstacles(const CpsResults *results, FILE *out) {
         "NumberOfPolys=\"%d\">\n      <Points>\n"
         "        <DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n",
         points, cells);
-    put_points(results, out);
-    fputs("        </DataArray>\n      </Points>\n      <Polys>\n"
-          "        <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n",
-          out);
-    put_cells(results, "connectivity", out);
-    fputs("        </DataArray>\n        <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n", out);
-    put_cells(results, "offsets", out);
-    fputs("        </DataArray>\n      </Polys>\n      <CellData Scalars=\"obstacle_id\">\n"
-          "        <DataArray type=\"Int32\" Name=\"obstacle_id\" format=\"ascii\">\n",
-          out);
-    put_cells(results, "id", out);
-    fputs("        </DataArray>\n      </CellData>\n    </Piece>\n  </PolyData>\n</VTKFile>\n", out);
+    put_points(patches, patch, out);
+    fputs("        </DataArray>\n      </Points>\n      <Polys>\n", out);
+    put_array(patches, patch, "Int64", "connectivity", CONNECTIVITY, out);
+    put_array(patches, patch, "Int64", "offsets", OFFSETS, out);
+    fputs("      </Polys>\n      <CellData Scalars=\"obstacle_id\">\n", out);
+    put_array(patches, patch, "Int32", "obstacle_id", OBSTACLE_ID, out);
+    put_array(patches, patch, "Int32", "sector", SECTOR, out);
+    fputs("      </CellData>\n    </Piece>\n  </PolyData>\n</VTKFile>\n", out);
+}
+
+void cpsi_paraview_obstacles_name(int step, char name[32]) {
+    if (step < 0)
+        snprintf(name, 32, "obstacles.vtp");
+    else
+        snprintf(name, 32, "step-%05d-obstacles.vtp", step);
+}
+
+bool cpsi_paraview_obstacles_turn(const CpsResults *results, int step) {
+    bool turn = false;
+    for (int k = 0; k < results->obstacle_count; ++k) turn = turn || cpsi_results_turn(results, step, k) != 0;
+    return turn;
+}
+
+/* after a step; before the first one, step is -1 */
+static CpsStatus put_file(CpsResults *results, int step, Patch *patch, CpsError *err) {
+    char name[32];
+    FILE *out = NULL;
+    cpsi_paraview_obstacles_name(step, name);
+    const CpsStatus status = cpsi_directory_create(results->directory, name, &out, err);
+    if (status) return status;
+    for (int k = 0; k < results->obstacle_count; ++k) patch[k].turned = cpsi_results_turned(results, step, k);
+    put_obstacles(results->obstacle_count, patch, out);
+    return cpsi_directory_close_file(results->directory, out, err);
 }
 
 CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err) {
     if (results->obstacle_count == 0 || results->snapshot_count == 0) return CPS_OK;
-    FILE *out = NULL;
-    const CpsStatus status = cpsi_directory_create(results->directory, "obstacles.vtp", &out, err);
-    if (status) return status;
-    put_obstacles(results, out);
-    return cpsi_directory_close_file(results->directory, out, err);
+    Patch *patch = calloc((size_t)results->obstacle_count, sizeof *patch);
+    if (!patch) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the surfaces of obstacles");
+    for (int k = 0; k < results->obstacle_count; ++k) patch[k] = patch_of(results, &results->obstacle[k]);
+    CpsStatus status = put_file(results, -1, patch, err);
+    for (int step = 0; step < results->row_count && !status; ++step)
+        if (cpsi_paraview_obstacles_turn(results, step)) status = put_file(results, step, patch, err);
+    free(patch);
+    return status;
 }

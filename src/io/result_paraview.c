@@ -147,12 +147,15 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err) {
     const CpsStatus status = cpsi_directory_create(results->directory, "result.pvd", &out, err);
     if (status) return status;
     fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n", out);
+    char surfaces[32];
+    cpsi_paraview_obstacles_name(-1, surfaces);
     for (int i = 0; i < results->row_count; ++i) {
+        if (cpsi_paraview_obstacles_turn(results, i)) cpsi_paraview_obstacles_name(i, surfaces);
         fprintf(out, "    <DataSet timestep=\"%d\" part=\"0\" file=\"step-%05d.vtp\" name=\"", i, i);
         cpsi_put_xml(out, results->row[i].name);
         fputs("\"/>\n", out);
         if (results->obstacle_count > 0)
-            fprintf(out, "    <DataSet timestep=\"%d\" part=\"1\" file=\"obstacles.vtp\" name=\"obstacles\"/>\n", i);
+            fprintf(out, "    <DataSet timestep=\"%d\" part=\"1\" file=\"%s\" name=\"obstacles\"/>\n", i, surfaces);
     }
     fputs("  </Collection>\n</VTKFile>\n", out);
     return cpsi_directory_close_file(results->directory, out, err);

@@ -53,6 +53,7 @@ static bool copy_obstacles(CpsResults *results, const CpsScene *scene) {
     for (int k = 0; k < scene->obstacle_count; ++k) {
         results->obstacle[k] = scene->obstacle[k];
         results->obstacle[k].name = NULL; /* the scene's own */
+        results->obstacle[k].friction_set = NULL;
     }
     return true;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io/keys.h"
+#include "io/law_build.h"
 
 /* [rad] */
 static const double DEGREE = 3.14159265358979323846 / 180;
@@ -19,6 +20,7 @@ typedef struct Build {
     CpsError *err;
     CpsScene *scene;
     CpsLine *line;
+    CpsiLawBuild law;     /* of friction sets */
     double elements;      /* of the lines so far */
     double (*held)[2][3]; /* (lines) [m] where each end is held after the entry before; NaN: not held, or not known */
 } Build;
@@ -135,6 +137,19 @@ static void first_position(const CpsLine *line, int end, double out[3]) {
     }
 }
 
+static CpsStatus build_zones(const Build *b, const CpsiYaml *zones, CpsLine *line) {
+    if (!zones || zones->count == 0) return CPS_OK;
+    CpsFrictionZone *zone = CPSI_POOL_TAKE(b->pool, zones->count, CpsFrictionZone);
+    if (!zone) return out_of_memory(b);
+    line->zone = zone, line->zone_count = zones->count;
+    for (const CpsiYaml *node = zones->child; node; node = node->next, zone++) {
+        get_number(node, "from", &zone->from);
+        get_number(node, "to", &zone->to);
+        get_number(node, "factor", &zone->factor);
+    }
+    return CPS_OK;
+}
+
 static CpsStatus build_line(Build *b, const CpsiYaml *node, CpsLine *line, double held[2][3]) {
     *line = cps_line_default();
     line->name = copy_text(b, node->key);
@@ -147,6 +162,7 @@ static CpsStatus build_line(Build *b, const CpsiYaml *node, CpsLine *line, doubl
     if (mass) line->weight = mass->number * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 
     CpsStatus status = build_elements(b, node, line);
+    if (status == CPS_OK) status = build_zones(b, cpsi_yaml_child(node, "friction_zones"), line);
     if (status == CPS_OK) status = build_start(b, cpsi_yaml_child(node, "start"), &line->start);
     const CpsiYaml *ends = cpsi_yaml_child(node, "ends");
     line->end[CPS_END_A] = build_end(cpsi_yaml_child(ends, "A"));
@@ -170,20 +186,32 @@ static CpsStatus build_lines(Build *b, const CpsiYaml *lines) {
 
 /* ---- obstacles ---- */
 
-/* A number, or a mapping of two coefficients. */
-static void build_friction(const CpsiYaml *node, CpsObstacle *obstacle) {
-    if (!node) return;
+/* A set in the words of law files. */
+static CpsStatus build_set(Build *b, const CpsiYaml *node, CpsObstacle *obstacle) {
+    static const CpsiLawWord SET = {.name = "set", .key = {{.type = CPSI_LAW_SET}}};
+    CpsiLawValue value[CPSI_LAW_MOST_KEYS] = {{.node = NULL}};
+    const CpsStatus status = cpsi_law_read_values(&b->law, node, &SET, "'set'", value);
+    if (status == CPS_OK) obstacle->friction_set = value[0].set[0], value[0].set[0] = NULL;
+    cpsi_law_release(value);
+    return status;
+}
+
+/* A number, or a mapping of two coefficients or a set. */
+static CpsStatus build_friction(Build *b, const CpsiYaml *node, CpsObstacle *obstacle) {
+    if (!node) return CPS_OK;
     if (node->kind == CPSI_YAML_SCALAR) {
         obstacle->friction = node->number;
-        return;
+        return CPS_OK;
     }
     get_number(node, "axial", &obstacle->friction);
     get_number(node, "lateral", &obstacle->friction_lateral);
     obstacle->friction_shape = (CpsFrictionShape)get_int(node, "shape", (int)obstacle->friction_shape);
     get_vector(node, "grain", obstacle->grain);
+    const CpsiYaml *set = cpsi_yaml_child(node, "set");
+    return set ? build_set(b, set, obstacle) : CPS_OK;
 }
 
-static CpsStatus build_obstacle(const Build *b, const CpsiYaml *node, CpsObstacle *obstacle) {
+static CpsStatus build_obstacle(Build *b, const CpsiYaml *node, CpsObstacle *obstacle) {
     *obstacle = cps_obstacle_default();
     obstacle->name = copy_text(b, node->key);
     if (!obstacle->name) return out_of_memory(b);
@@ -195,11 +223,10 @@ static CpsStatus build_obstacle(const Build *b, const CpsiYaml *node, CpsObstacl
     get_vector(surface, "normal", obstacle->normal);
     get_vector(surface, "axis", obstacle->axis);
     get_number(surface, "radius", &obstacle->radius);
-    build_friction(cpsi_yaml_child(node, "friction"), obstacle);
-    return CPS_OK;
+    return build_friction(b, cpsi_yaml_child(node, "friction"), obstacle);
 }
 
-static CpsStatus build_obstacles(const Build *b, const CpsiYaml *obstacles) {
+static CpsStatus build_obstacles(Build *b, const CpsiYaml *obstacles) {
     if (!obstacles || obstacles->count == 0) return CPS_OK;
     CpsObstacle *obstacle = CPSI_POOL_TAKE(b->pool, obstacles->count, CpsObstacle);
     if (!obstacle) return out_of_memory(b);
@@ -298,6 +325,7 @@ static CpsStatus build_history(const Build *b, const CpsiYaml *history) {
 CpsStatus cpsi_scene_build(const char *file, const CpsiYaml *root, const CpsReadLimits *limits, CpsiPool *pool,
                            CpsScene *scene, CpsError *err) {
     Build b = {.file = file, .limits = limits, .pool = pool, .err = err, .scene = scene};
+    b.law.file = (CpsiLawFile){.name = file, .pool = pool, .err = err};
     *scene = cps_scene_default();
     const CpsiYaml *title = cpsi_yaml_child(root, "title");
     if (title) {

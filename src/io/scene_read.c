@@ -9,12 +9,13 @@
 #include "base/status.h"
 #include "capstan/io.h"
 #include "io/file_bytes.h"
+#include "io/file_kind.h"
 #include "io/scene_build.h"
 #include "io/scene_valid.h"
 
 struct CpsSceneFile {
     CpsScene scene;
-    CpsiPool pool; /* all that the scene points to */
+    CpsiPool pool; /* all that the scene points to, but for the friction sets, which are held */
 };
 
 CpsReadLimits cps_read_limits_default(void) {
@@ -24,6 +25,8 @@ CpsReadLimits cps_read_limits_default(void) {
 
 void cps_scene_file_destroy(CpsSceneFile *file) {
     if (!file) return;
+    for (int k = 0; k < file->scene.obstacle_count; k++)
+        cps_set_release((CpsSet *)file->scene.obstacle[k].friction_set);
     cpsi_pool_free(&file->pool);
     free(file);
 }
@@ -59,11 +62,16 @@ static const CpsiYaml *place_of(const CpsiYaml *root, const char *message) {
     else if (sscanf(message, "%64[a-z]: %159[a-z_]", name, word) >= 1)
         object = cpsi_yaml_child(root, name);
     if (!object) return root;
+    const char *zones = strstr(message, "': friction zones: number ");
+    if (zones && sscanf(zones, "': friction zones: number %d", &number) == 1)
+        return nth_child(cpsi_yaml_child(object, "friction_zones"), number);
     /* the key itself, or within one of the object's mappings: radius of a cylinder */
     const CpsiYaml *value = cpsi_yaml_child(object, word);
     for (const CpsiYaml *child = object->child; child && !value; child = child->next)
         value = cpsi_yaml_child(child, word);
-    return value ? value : object;
+    if (!value) return object;
+    const CpsiYaml *set = strstr(message, "': friction set: ") ? cpsi_yaml_child(value, "set") : NULL;
+    return set ? set : value;
 }
 
 static CpsStatus check(const char *file, const CpsiYaml *root, const CpsScene *scene, CpsError *err) {
@@ -86,6 +94,7 @@ static CpsStatus read_scene(const char *path, const CpsReadLimits *limits, CpsSc
     CpsStatus status = cpsi_read_file(path, file, limits->max_bytes, &bytes, &size, err);
     if (status == CPS_OK) status = cpsi_yaml_parse(file, "scene", bytes, size, limits->max_depth, &tree, &root, err);
     free(bytes);
+    if (status == CPS_OK) status = cpsi_file_expect(file, root, CPSI_FILE_SCENE, err);
     if (status == CPS_OK) status = cpsi_scene_validate(file, root, err);
     if (status == CPS_OK) status = cpsi_scene_build(file, root, limits, &scene->pool, &scene->scene, err);
     if (status == CPS_OK) status = check(file, root, &scene->scene, err);

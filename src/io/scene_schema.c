@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The JSON schema (draft 2020-12) of scene files, from the table of keys: one definition per kind of mapping. */
+/* The JSON schema (draft 2020-12) of scene files, from the table of keys: one definition per kind of mapping, and those
+ * of sets. */
 #include <locale.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -82,6 +83,9 @@ static void put_type(FILE *out, const CpsiKey *key) {
         put_reference(out, key->inside);
         fprintf(out, "}]");
         break;
+    case CPSI_SET:
+        fprintf(out, "\"$ref\": \"#/$defs/set\"");
+        break;
     case CPSI_LIST:
         fprintf(out, "\"type\": \"array\", \"items\": {");
         put_reference(out, key->inside);
@@ -150,8 +154,9 @@ static void put_schema(FILE *out) {
     fprintf(out, ",\n  \"$defs\": {\n");
     for (int i = 0; i < CPSI_OBJECT_COUNT; i++) {
         put_object(out, (CpsiObject)i);
-        fprintf(out, "%s\n", i + 1 < CPSI_OBJECT_COUNT ? "," : "");
+        fprintf(out, ",\n");
     }
+    cpsi_put_set_definitions(out);
     fprintf(out, "  }\n}\n");
 }
 

@@ -11,4 +11,10 @@
  * CPS_ERR_IO or CPS_ERR_MEMORY. */
 CpsStatus cpsi_write_schema(FILE *out, void (*put)(FILE *out), CpsError *err);
 
+/* The definitions of sets and of what they are made of, the last ones of "$defs" (law_schema.c). */
+void cpsi_put_set_definitions(FILE *out);
+
+/* The same with those of the terms of resistance laws before them. */
+void cpsi_put_law_definitions(FILE *out);
+
 #endif

@@ -179,6 +179,15 @@ static CpsStatus check_needs(const Valid *v, const CpsiYaml *node, CpsiObject ob
                         name, given == 0 ? "nothing given" : "too much given", list);
 }
 
+/* A set stands for both coefficients and their shape. */
+static CpsStatus check_friction(const Valid *v, const CpsiYaml *node) {
+    const CpsiYaml *lateral = cpsi_yaml_child(node, "lateral"), *shape = cpsi_yaml_child(node, "shape"),
+                   *extra = lateral ? lateral : shape;
+    if (!extra || !cpsi_yaml_child(node, "set")) return CPS_OK;
+    return cpsi_fail_at(v->err, CPS_ERR_INPUT, v->file, extra->line, extra->column,
+                        "'%s': it goes with 'axial', not with 'set', which says everything", extra->key);
+}
+
 static CpsStatus check_object(const Valid *v, CpsiYaml *node, CpsiObject object, const char *name) {
     CpsStatus status = CPS_OK;
     for (CpsiYaml *child = node->child; child && status == CPS_OK; child = child->next) {
@@ -194,7 +203,8 @@ static CpsStatus check_object(const Valid *v, CpsiYaml *node, CpsiObject object,
         }
         if (status == CPS_OK) status = check_value(v, child, key, label);
     }
-    return status == CPS_OK ? check_needs(v, node, object, name) : status;
+    if (status == CPS_OK) status = check_needs(v, node, object, name);
+    return status == CPS_OK && object == CPSI_FRICTION ? check_friction(v, node) : status;
 }
 
 static CpsStatus check_list(const Valid *v, CpsiYaml *node, const CpsiKey *key, const char *name) {
@@ -225,8 +235,10 @@ static CpsStatus check_value(const Valid *v, CpsiYaml *node, const CpsiKey *key,
     case CPSI_LIST:
         return check_list(v, node, key, name);
     case CPSI_NUMBER_OR_MAPPING:
-        if (node->kind == CPSI_YAML_MAPPING) return check_object(v, node, key->inside, name);
-        return check_number(v, node, key, name);
+        return node->kind == CPSI_YAML_MAPPING ? check_object(v, node, key->inside, name)
+                                               : check_number(v, node, key, name);
+    case CPSI_SET:
+        return CPS_OK; /* law_build.c reads it */
     case CPSI_MAPPING:
         if (node->kind == CPSI_YAML_MAPPING) return check_object(v, node, key->inside, name);
         return take_word(node, key) ? CPS_OK : wrong(v, node, key, name, "");

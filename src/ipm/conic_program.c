@@ -11,7 +11,10 @@
  *
  *     [ kappa/tau e e' - S   -B' ] [du]   [ keep residual + e q           ]
  *     [ B                     I  ] [y ] = [ W q/sqrt(g) - keep sqrt(g) W^-1 rho ]
- * */
+ *
+ * and the matrix is factorised with pivoting. The unit in the column of y_i is as good a pivot as any while no entry
+ * of row i of B is larger: such rows are eliminated by hand, B_i'B_i joins the first block, and what is left to
+ * factorise is about the cones that bind. */
 #include "ipm/conic_program.h"
 
 #include <float.h>
@@ -65,7 +68,7 @@ static void cones_measure(CpsiProgram *base, CpsiSums *sums) {
 /* Scaling of one cone, and its rows of B written into the matrix. */
 static void scale_cone(CpsiConicProgram *program, int k, int i) {
     const int d = program->dim[k], n = program->unknowns;
-    const size_t width = (size_t)program->base.size;
+    const size_t width = (size_t)n + 1;
     double *w = &program->w[i], *first = &program->matrix[(size_t)(n + 1 + i)*width];
     program->g[k] = cpsi_cone_scale(w, &program->s[i], &program->z[i], d);
     const double root = sqrt(program->g[k]);
@@ -193,7 +196,7 @@ static void tau_measure(CpsiProgram *base, CpsiSums *sums) {
 
 static void tau_scale(CpsiProgram *base) {
     CpsiConicProgram *program = conic(base);
-    const size_t n = (size_t)program->unknowns, width = (size_t)base->size;
+    const size_t n = (size_t)program->unknowns, width = n + 1;
     for (size_t j = 0; j < n; j++) {
         program->matrix[j*width + n] += program->c[j];
         program->matrix[n*width + j] -= program->c[j];
@@ -233,30 +236,77 @@ static const CpsiKind *const KINDS[] = {&CONES, &TAU};
 
 static void clear(CpsiProgram *base) {
     CpsiConicProgram *program = conic(base);
-    memset(program->matrix, 0, (size_t)base->size*(size_t)base->size*sizeof *program->matrix);
+    memset(program->matrix, 0, (size_t)base->size*((size_t)program->unknowns + 1)*sizeof *program->matrix);
+}
+
+static const double *row_of_b(const CpsiConicProgram *program, int i) {
+    const int width = program->unknowns + 1;
+    return &program->matrix[(size_t)(width + i)*(size_t)width];
 }
 
 static bool factor(CpsiProgram *base) {
     CpsiConicProgram *program = conic(base);
-    const size_t n = (size_t)program->unknowns + 1, width = (size_t)base->size;
-    for (size_t i = n; i < width; i++) {
-        for (size_t j = 0; j < n; j++) program->matrix[j*width + i] = -program->matrix[i*width + j];
-        program->matrix[i*width + i] = 1;
+    const int n = program->unknowns + 1;
+    program->kept = 0;
+    for (int i = 0; i < program->rows; i++) {
+        double largest = 0;
+        for (int j = 0; j < n; j++) largest = cpsi_larger(largest, fabs(row_of_b(program, i)[j]));
+        program->at[i] = largest <= 1 ? -1 : n + program->kept++;
     }
-    memcpy(program->lu, program->matrix, width*width*sizeof *program->lu);
-    return cpsi_lu_factor(base->size, program->lu, program->pivot);
+    const size_t width = (size_t)(n + program->kept);
+    double *lu = program->lu;
+    memset(lu, 0, width*width*sizeof *lu);
+    for (int j = 0; j < n; j++)
+        memcpy(&lu[(size_t)j*width], &program->matrix[(size_t)j*(size_t)n], (size_t)n*sizeof *lu);
+    for (int i = 0; i < program->rows; i++) {
+        const double *b = row_of_b(program, i);
+        const size_t at = (size_t)program->at[i];
+        for (int j = 0; j < n && program->at[i] < 0; j++)
+            for (int l = 0; l < n; l++) lu[(size_t)j*width + (size_t)l] += b[j]*b[l];
+        for (int j = 0; j < n && program->at[i] >= 0; j++) {
+            lu[at*width + (size_t)j] = b[j];
+            lu[(size_t)j*width + at] = -b[j];
+            lu[at*width + at] = 1;
+        }
+    }
+    return cpsi_lu_factor((int)width, lu, program->pivot);
+}
+
+/* x = inverse of the matrix times f, both of (u, y); `work` (size) is scratch. */
+static void apply_inverse(const CpsiConicProgram *program, const double *f, double *x, double *work) {
+    const int n = program->unknowns + 1;
+    memcpy(work, f, (size_t)n*sizeof *work);
+    for (int i = 0; i < program->rows; i++) {
+        const double *b = row_of_b(program, i);
+        if (program->at[i] >= 0) work[program->at[i]] = f[n + i];
+        for (int j = 0; j < n && program->at[i] < 0; j++) work[j] += f[n + i]*b[j];
+    }
+    cpsi_lu_solve(n + program->kept, program->lu, program->pivot, work);
+    memcpy(x, work, (size_t)n*sizeof *x);
+    for (int i = 0; i < program->rows; i++)
+        x[n + i] = program->at[i] >= 0 ? work[program->at[i]] : f[n + i] - cpsi_dot(n, row_of_b(program, i), x);
+}
+
+/* left = f - the matrix times x */
+static void find_left(const CpsiConicProgram *program, const double *f, const double *x, double *left) {
+    const int n = program->unknowns + 1;
+    for (int j = 0; j < n; j++) left[j] = f[j] - cpsi_dot(n, &program->matrix[(size_t)j*(size_t)n], x);
+    for (int i = 0; i < program->rows; i++) {
+        const double *b = row_of_b(program, i);
+        for (int j = 0; j < n; j++) left[j] += b[j]*x[n + i];
+        left[n + i] = f[n + i] - cpsi_dot(n, b, x) - x[n + i];
+    }
 }
 
 /* Solve, and once more for what is left. */
 static void solve(CpsiProgram *base) {
     CpsiConicProgram *program = conic(base);
     const int n = base->size;
-    double *x = program->fix, *left = x + n;
-    memcpy(x, base->du, (size_t)n*sizeof *x);
-    cpsi_lu_solve(n, program->lu, program->pivot, x);
-    for (int i = 0; i < n; i++) left[i] = base->du[i] - cpsi_dot(n, &program->matrix[(size_t)i*(size_t)n], x);
-    cpsi_lu_solve(n, program->lu, program->pivot, left);
-    for (int i = 0; i < n; i++) base->du[i] = x[i] + left[i];
+    double *x = program->fix, *left = x + n, *work = left + n;
+    apply_inverse(program, base->du, x, work);
+    find_left(program, base->du, x, left);
+    apply_inverse(program, left, base->du, work);
+    for (int i = 0; i < n; i++) base->du[i] += x[i];
 }
 
 static double imbalance(const CpsiProgram *program) {
@@ -267,19 +317,20 @@ static double imbalance(const CpsiProgram *program) {
 CpsiConicProgram *cpsi_conic_layout(CpsiArena *arena, int unknowns, int rows, int cones, int largest_cone) {
     const size_t n = (size_t)unknowns + 1, m = (size_t)rows, size = n + m;
     CpsiConicProgram *program = CPSI_TAKE(arena, 1, CpsiConicProgram);
-    double *at = CPSI_TAKE(arena, 7*m + (size_t)cones + 4*(size_t)largest_cone + 7*size + m, double);
+    double *at = CPSI_TAKE(arena, 7*m + (size_t)cones + 4*(size_t)largest_cone + 8*size + m, double);
     double *matrices = CPSI_TAKE(arena, 2*size*size, double);
-    int *pivot = CPSI_TAKE(arena, size, int);
+    int *pivot = CPSI_TAKE(arena, size + m, int);
     CpsiActive *active = CPSI_TAKE(arena, cones, CpsiActive);
     if (!program) return NULL;
-    *program = (CpsiConicProgram){.unknowns = unknowns, .rows = rows, .cones = cones, .pivot = pivot, .active = active,
-                                  .matrix = matrices, .lu = matrices + size*size};
+    *program = (CpsiConicProgram){.unknowns = unknowns, .rows = rows, .cones = cones, .pivot = pivot,
+                                  .at = pivot + size, .active = active, .matrix = matrices,
+                                  .lu = matrices + size*size};
     double **of_rows[] = {&program->s, &program->z, &program->ds, &program->dz,
                           &program->q, &program->w, &program->rho};
     for (size_t k = 0; k < sizeof of_rows/sizeof *of_rows; k++, at += m) *of_rows[k] = at;
     program->g = at, at += cones;
     program->scratch = at, at += 4*(size_t)largest_cone;
-    program->fix = at, at += 2*size;
+    program->fix = at, at += 3*size;
     program->best = at, at += size + m;
     program->base = (CpsiProgram){.size = (int)size, .load = at, .u = at + size, .du = at + 2*size,
                                   .residual = at + 3*size, .kind_count = 2, .kind = KINDS, .clear = clear,

@@ -49,9 +49,11 @@ typedef struct CpsiConicProgram {
     double *s, *z, *ds, *dz, *q, *w, *rho; /* (rows) */
     double *g;             /* (cones) */
     double *scratch;       /* (4 largest cone) */
-    double *matrix;        /* (size, size), size = unknowns + 1 + rows: du and the scaled dz */
-    double *lu, *fix;      /* its factor; scratch of the refinement (2 size) */
-    int *pivot;
+    double *matrix;        /* (size, unknowns + 1), size = unknowns + 1 + rows: the block of du over B; (size, size)
+                              for the polish */
+    double *lu, *fix;      /* factor of what is left of it; scratch of the refinement (3 size) */
+    int *pivot;            /* (size) */
+    int *at, kept;         /* (rows) row of B in the factor, -1: eliminated by hand; how many are not */
     CpsiActive *active;    /* (cones) of the polish */
     double kappa, d_kappa, q_tau;
     double *best;          /* (unknowns + 1 + 2 rows) u, s, z of the best iterate: late steps may only add rounding */

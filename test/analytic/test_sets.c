@@ -210,6 +210,37 @@ static void thin_ellipses(void **state) {
     }
 }
 
+/* N ellipses of half axes a > b about one centre, turned by pi/N from one to the next. In each direction the nearest
+ * short axis decides: at the angle t from it r(t) = a b/hypot(a cos t, b sin t), |t| <= pi/(2 N), so that there are 2 N
+ * corners, at r(pi/(2 N)), and the area is 2 N a b atan(b/a tan(pi/(2 N))). */
+static void rosette(void **state) {
+    (void)state;
+    enum { N = 15 };
+    const double a = 3, b = 1, half = PI / (2 * N), corner = a * b / hypot(a * cos(half), b * sin(half));
+    const double area = 2 * N * a * b * atan(b / a * tan(half));
+    CpsSet *part[N], *set;
+    CpsSetMeasure measure;
+    CpsSetAnswer answer;
+    double vertex[4 * 2 * N];
+    int count;
+    for (int k = 0; k < N; k++) {
+        const double c = cos(2 * half * k), s = sin(2 * half * k), both = (a * a - b * b) * c * s;
+        const double shape[4] = {a * a * c * c + b * b * s * s, both, both, a * a * s * s + b * b * c * c};
+        DO(cps_set_ellipsoid(2, NULL, shape, &part[k], &err));
+    }
+    DO(cps_set_intersection(N, (const CpsSet *const *)part, &set, &err));
+    DO(cps_set_measure(set, &measure, &err));
+    CHECK_RELATIVE(show("rosette of 15 ellipses, area", area, measure.area), area, 1e-10);
+    CHECK_LESS(fabs(measure.area - area), measure.area_gap + 1e-14 * area);
+    DO(cps_set_vertices(set, 0, 4 * N, vertex, &count, &answer, &err));
+    CHECK_INT(count, 2 * N);
+    /* a corner's place is what its supports leave, whose gap is 1e-9 of the size at most */
+    for (int k = 0; k < count; k++) CHECK_RELATIVE(hypot(vertex[2 * k], vertex[2 * k + 1]), corner, 1e-8);
+    CHECK_RELATIVE(show("  support at a corner", corner, support(set, -sin(half), cos(half))), corner, 1e-10);
+    for (int k = 0; k < N; k++) cps_set_release(part[k]);
+    cps_set_release(set);
+}
+
 /* Polygons by points and by inequalities, a disc cut by lines, the flat and the far. */
 static void polygons_and_cut_discs(void **state) {
     (void)state;
@@ -409,7 +440,7 @@ int main(void) {
         cmocka_unit_test(ring_limit_surface), cmocka_unit_test(disc_limit_surface),
         cmocka_unit_test(rod_limit_surface),  cmocka_unit_test(bipod_face),
         cmocka_unit_test(thin_ellipses),      cmocka_unit_test(polygons_and_cut_discs),
-        cmocka_unit_test(margins_inside),
+        cmocka_unit_test(margins_inside),     cmocka_unit_test(rosette),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

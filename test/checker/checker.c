@@ -96,11 +96,11 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m) {
     // what lies outside its set, a force or a place, makes a gap larger here and not everywhere: where that is no more
     // than rounding there must be agreement
     if (!certified) return;
-    same(judge, "gap", claim[CLAIM_GAP], m->gap, energy + m->overlong);
-    same(judge, "law_residual", claim[CLAIM_LAW_RESIDUAL], m->law, energy);
+    same(judge, "gap", claim[CLAIM_GAP], m->gap, energy + m->overlong + m->beyond);
+    same(judge, "law_residual", claim[CLAIM_LAW_RESIDUAL], m->law, energy + m->beyond);
     same(judge, "contact_residual", claim[CLAIM_CONTACT_RESIDUAL], m->contact, energy);
     // sqrt(2 gap / (c L)) of a gap known up to the floor
-    double noise = sqrt(2 * (energy + NOTHING) / (r->compliance * m->length));
+    double noise = sqrt(2 * (energy + m->beyond + NOTHING) / (r->compliance * m->length));
     if (r->compliance > 0 && isnan(claim[CLAIM_TENSION_BOUND])) {
         // no bound is claimed where it would exceed every force
         at_most(judge, "largest force, without a bound", m->largest_force, m->tension_bound + noise);
@@ -250,8 +250,9 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
         bool free = was_held || R <= 1e-3 * largest + NOTHING;
         if (held || (w == 0 && isinf(r->gap[j]))) continue;
         if (w == 0 && free && !(source->consistent && solved)) continue;
-        // one product and its rounding
-        if (!(fabs(w - expected) <= 1e-14 * expected + shared)) {
+        // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes with both
+        double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[j]) : 0;
+        if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared)) {
             find(judge, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g", w, j, r->mu[j], R);
             return;
         }

@@ -213,7 +213,7 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, Real margin) 
 static void measure_seat(const Where *where, const Record *r, size_t j, const Seat *seat, Measures *m) {
     Triple n, slide, x, reference;
     widen(r->normal[j], n), widen(r->slide[j], slide), widen(r->position[j], x), widen(r->reference[j], reference);
-    r->mu[j] = seat->surface ? (double)surface_friction(seat->surface) : 0;
+    r->mu[j] = seat->surface ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface) : 0;
     for (int k = 0; k < 3; k++) n[k] -= seat->normal[k], slide[k] -= seat->slide[k];
     bool round = seat->surface && seat->surface->kind != SURFACE_PLANE;
     raise_to(&m->normal_error, size(n) / (1 + (round ? where->reach / seat->surface->radius : 0)));
@@ -239,13 +239,16 @@ static void measure_friction(const Record *r, size_t j, const Seat *seat, Measur
     const Surface *surface = seat->surface ? seat->surface : &none;
     if (seat->has_axes)
         for (int a = 0; a < 2; a++) force[a] = dot(F, seat->axes[a]), way[a] = dot(seat->slide, seat->axes[a]);
-    else /* no direction: nothing but the size can be judged */
+    else { /* no direction: nothing but the size can be judged */
+        if (surface->set) w *= surface->set->reach;
         surface = &none, force[0] = size(F), way[0] = force[0] > 0 ? dot(seat->slide, F) / force[0] : 0;
+    }
     Real gap = surface_gap(surface, w, force, way, &phi);
     add(&s->primal, phi), add(&s->scale, phi), add(&s->slid, phi);
     add(&s->signed_gap, phi), add(&s->signed_gap, dot(F, seat->slide));
     add(&s->gap, gap), add(&s->law, gap);
-    add(&s->bound_residual, fabsl(w - (Real)r->mu[j] * r->reaction[j]));
+    if (surface->set) m->beyond += fmax(0, -(double)(phi + force[0] * way[0] + force[1] * way[1]));
+    add(&s->bound_residual, fabsl(r->friction_bound[j] - (Real)r->mu[j] * r->reaction[j]));
     add(&s->magnitude, phi + size(F) * size(seat->slide));
     add(&s->carried, dot(F, seat->own) - dot(F, seat->slide));
     raise_to(&m->friction_excess, surface_excess(surface, w, force));
@@ -332,7 +335,7 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
 
 /* What proves that nothing can balance: distance of the ends, or the fall of the energy along a rigid motion v,
  * sum b.v - sum w |v_T|, which must not lead into the obstacle. Where bounds follow the reactions, these carry the
- * normal part of the loads and sum w is mu times it. */
+ * normal part of the loads and sum w is at most the largest mu times it. */
 static void measure_proof(const Source *source, const Record *r, Measures *m) {
     m->ends_distance = m->rigid_fall = NAN;
     m->rigid_rise_least = INFINITY;
@@ -345,8 +348,9 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
     widen(r->proof, v);
     if (size(v) == 0) return;
     Sum fall = {0, 0}, press = {0, 0};
-    Real across = 0;
+    Real across = 0, steepest = 0;
     for (size_t j = 0; j < r->nodes; j++) {
+        steepest = fmaxl(steepest, r->mu[j]);
         Triple b, n, tangential;
         widen(r->load[j], b), widen(r->normal[j], n);
         Real rise = dot(n, v);
@@ -357,7 +361,7 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
         across = size(tangential);
         if (isfinite(r->gap[j]) && (double)rise < m->rigid_rise_least) m->rigid_rise_least = (double)rise;
     }
-    if (source->consistent) add(&fall, -(Real)r->mu[0] * fmaxl(0, total(&press)) * across);
+    if (source->consistent) add(&fall, -steepest * fmaxl(0, total(&press)) * across);
     m->rigid_fall = (double)total(&fall);
 }
 

@@ -14,6 +14,7 @@ typedef struct Measures {
     double primal, dual;   /* [J] */
     double gap;            /* [J] sum of |local gap| over segments, friction and contact */
     double overlong;       /* [J] part of the gap from inextensible elements longer than they may be */
+    double beyond;         /* [J] part of the gap from forces beyond a given friction set: phi(s) + F.s < 0 */
     double identity;       /* [J] primal - dual - sum of local gaps + work of the imbalance: rounding only */
     double identity_noise; /* [J] what rounding may leave there */
     double scale;          /* [J] S */

@@ -23,7 +23,7 @@ const char *const CLAIM_NAME[CLAIMS] = {"primal",
                                         "penetration"};
 
 /* more than any result of this project holds; keeps sizes far from overflow */
-enum { MAX_NODES = 20000000, MAX_LINES = 100000, MAX_SURFACES = 100000, MAX_NAME = 256, MAX_RANK = 3 };
+enum { MAX_NODES = 20000000, MAX_LINES = 100000, MAX_SURFACES = 100000, MAX_SET = 1000, MAX_NAME = 256, MAX_RANK = 3 };
 
 static int complain(FILE *log, const char *what, const char *name, int status) {
     if (log) {
@@ -85,6 +85,80 @@ static int read_surface_numbers(const Source *source, const char *name, size_t c
     return status ? complain(log, "cannot read variable", name, status) : 0;
 }
 
+/* A dimension without a line's name. */
+static int read_length(const Source *source, const char *name, size_t *length, FILE *log) {
+    int id, status = nc_inq_dimid(source->nc, name, &id);
+    if (!status) status = nc_inq_dimlen(source->nc, id, length);
+    if (status || *length == 0 || *length > MAX_SET)
+        return complain(log, "missing or senseless dimension", name, status);
+    return 0;
+}
+
+/* A variable (obstacle, rows, columns) of obstacle k, columns 0: (obstacle, rows). */
+static int read_matrix(const Source *source, const char *name, size_t k, size_t rows, size_t columns, double *value,
+                       FILE *log) {
+    int id, rank = 0, dimension[3];
+    size_t length[3] = {0}, start[3] = {k, 0, 0}, count[3] = {1, rows, columns};
+    int status = nc_inq_varid(source->nc, name, &id);
+    if (!status) status = nc_inq_varndims(source->nc, id, &rank);
+    if (status || rank != 2 + (columns > 0)) return complain(log, "missing or misshapen variable", name, status);
+    status = nc_inq_vardimid(source->nc, id, dimension);
+    for (int d = 0; d < rank && !status; d++) status = nc_inq_dimlen(source->nc, dimension[d], &length[d]);
+    if (status || length[0] != source->surfaces || length[1] != rows || length[2] != columns)
+        return complain(log, "wrong shape of variable", name, status);
+    status = nc_get_vara_double(source->nc, id, start, count, value);
+    for (size_t i = 0; i < rows * (columns ? columns : 1); i++) status = isfinite(value[i]) ? status : NC_ERANGE;
+    return status ? complain(log, "cannot read variable", name, status) : 0;
+}
+
+/* The size of a set on file, padded with zeros: rows that cones take, and columns in use. */
+static bool set_size(size_t rows, size_t unknowns, const double *cone, const double *a, size_t *m, size_t *n) {
+    for (*m = 0; *m < rows && cone[*m] > 0; *m += (size_t)cone[*m])
+        if (!(cone[*m] == floor(cone[*m]) && cone[*m] <= (double)(rows - *m))) return false;
+    for (size_t i = 0; i < rows; i++) {
+        if (i >= *m && cone[i] != 0) return false;
+        for (size_t j = 0; j < unknowns; j++)
+            if (a[i * unknowns + j] != 0 && j >= *n) *n = j + 1;
+    }
+    return true;
+}
+
+static int fill_set(size_t rows, size_t unknowns, const double *all, const double origin[2], Conic **out) {
+    const double *cone = all, *b = all + rows, *a = b + rows, *map = a + rows * unknowns;
+    size_t m = 0, n = 0;
+    if (!set_size(rows, unknowns, cone, a, &m, &n)) return -1;
+    Conic *set = *out = conic_create(n, m);
+    if (!set) return -1;
+    for (size_t i = 0; i < m; i += (size_t)cone[i]) set->cone[i] = (size_t)cone[i];
+    for (size_t i = 0; i < m; i++) {
+        set->b[i] = b[i];
+        for (size_t j = 0; j < n; j++) set->a[i * n + j] = a[i * unknowns + j];
+    }
+    for (size_t k = 0; k < 2; k++) {
+        set->origin[k] = origin[k];
+        for (size_t j = 0; j < n; j++) set->map[k * n + j] = map[k * unknowns + j];
+    }
+    return conic_prepare(set) ? 0 : -1;
+}
+
+/* The friction set of obstacle k. */
+static int read_set(const Source *source, size_t k, Conic **out, FILE *log) {
+    size_t rows, unknowns;
+    double origin[2];
+    if (read_length(source, "set_row", &rows, log) || read_length(source, "set_unknown", &unknowns, log)) return -1;
+    double *all = calloc((rows + 2) * (unknowns + 2), sizeof *all);
+    if (!all) return complain(log, "out of memory for", "obstacle_set_rows", 0);
+    int bad = read_matrix(source, "obstacle_set_origin", k, 2, 0, origin, log);
+    bad |= read_matrix(source, "obstacle_set_cone", k, rows, 0, all, log);
+    bad |= read_matrix(source, "obstacle_set_offset", k, rows, 0, all + rows, log);
+    bad |= read_matrix(source, "obstacle_set_rows", k, rows, unknowns, all + 2 * rows, log);
+    bad |= read_matrix(source, "obstacle_set_map", k, 2, unknowns, all + (2 + unknowns) * rows, log);
+    if (!bad && fill_set(rows, unknowns, all, origin, out))
+        bad = complain(log, "no bounded set with points inside its cones in", "obstacle_set_rows and the like", 0);
+    free(all);
+    return bad;
+}
+
 static int read_surface(const Source *source, size_t k, Surface *out, FILE *log) {
     double kind, shape, radius, mu[2], point[3], axis[3], grain[3];
     int bad = read_surface_numbers(source, "obstacle_kind", 1, k, &kind, log);
@@ -97,13 +171,13 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
     bad |= read_surface_numbers(source, "obstacle_grain", 3, k, grain, log);
     if (bad) return -1;
     Real length = hypotl(hypotl(axis[0], axis[1]), axis[2]);
-    if (!(kind >= 0 && kind < SURFACE_KINDS) || !(shape == 0 || shape == 1) || !(mu[0] >= 0 && mu[1] >= 0) ||
-        !(length > 0) || (kind > SURFACE_PLANE && !(radius > 0)))
+    if (!(kind >= 0 && kind < SURFACE_KINDS) || !(shape == 0 || shape == 1 || shape == 2) ||
+        !(mu[0] >= 0 && mu[1] >= 0) || !(length > 0) || (kind > SURFACE_PLANE && !(radius > 0)))
         return complain(log, "senseless obstacle in", "obstacle_kind and the like", 0);
     *out = (Surface){.kind = (int)kind, .box = shape == 1, .radius = radius, .mu = {mu[0], mu[1]}};
     for (int i = 0; i < 3; i++) out->point[i] = point[i], out->axis[i] = axis[i] / length, out->grain[i] = grain[i];
     out->grained = grain[0] != 0 || grain[1] != 0 || grain[2] != 0;
-    return 0;
+    return shape == 2 ? read_set(source, k, &out->set, log) : 0;
 }
 
 /* The obstacles; a file without the dimension has none. */
@@ -153,6 +227,7 @@ int source_open(const char *path, Source *source, FILE *log) {
 void source_close(Source *source) {
     for (size_t i = 0; i < source->lines; i++) free(source->line_name[i]);
     free(source->line_name);
+    for (size_t k = 0; k < source->surfaces && source->surface; k++) conic_free(source->surface[k].set);
     free(source->surface);
     if (source->line_name || source->nc >= 0) nc_close(source->nc);
     *source = (Source){.nc = -1};
@@ -207,6 +282,52 @@ static int read_dimension(const Source *source, const char *line, const char *wh
     return 0;
 }
 
+/* The mean factor of the friction zones over half of each element beside a node, 1 outside of them. */
+static void mean_factors(Record *record, size_t zones, const double *from, const double *to, const double *factor) {
+    Real at = 0, length = 0;
+    for (size_t i = 0; i < record->elements; i++) length += record->element_length[i];
+    for (size_t j = 0; j < record->nodes; j++) {
+        Real before = j > 0 ? record->element_length[j - 1] : 0,
+             after = j < record->elements ? record->element_length[j] : 0;
+        at += before;
+        Real low = at - before / 2, high = at + after / 2, sum = high - low, most = 1;
+        for (size_t k = 0; k < zones; k++) {
+            Real common = fminl(high, to[k]) - fmaxl(low, from[k]);
+            if (common > 0) sum += (factor[k] - 1) * common, most = fmaxl(most, factor[k]);
+        }
+        record->factor[j] = (double)(sum / (high - low));
+        // abscissas are doubles up to the length; a handful of them make the mean
+        record->factor_noise[j] = (double)(8 * 0x1p-53L * most * length / (high - low));
+    }
+}
+
+static int read_zones(const Source *source, const char *line, Record *record, FILE *log) {
+    char name[2 * MAX_NAME];
+    size_t zones = 0;
+    int id;
+    snprintf(name, sizeof name, "%s_zone", line);
+    if (nc_inq_dimid(source->nc, name, &id) != NC_NOERR) return 0;
+    if (read_dimension(source, line, "zone", &zones, log)) return -1;
+    double *all = calloc(3 * zones, sizeof *all), *from = all, *to = all + zones, *factor = all + 2 * zones;
+    record->factor = calloc(record->nodes, sizeof(double));
+    record->factor_noise = calloc(record->nodes, sizeof(double));
+    if (!all || !record->factor || !record->factor_noise) {
+        free(all);
+        return complain(log, "out of memory for line", line, 0);
+    }
+    int bad = read_static(source, line, "zone_from", zones, from, log);
+    bad |= read_static(source, line, "zone_to", zones, to, log);
+    bad |= read_static(source, line, "zone_factor", zones, factor, log);
+    for (size_t k = 0; k < zones && !bad; k++) {
+        bool ordered = from[k] >= (k > 0 ? to[k - 1] : 0) && to[k] > from[k] && isfinite(to[k]);
+        if (!ordered || !(factor[k] >= 0) || !isfinite(factor[k]))
+            bad = complain(log, "senseless friction zones of line", line, 0);
+    }
+    if (!bad) mean_factors(record, zones, from, to, factor);
+    free(all);
+    return bad;
+}
+
 int record_create(const Source *source, const char *line, Record *record, FILE *log) {
     *record = (Record){0};
     if (read_dimension(source, line, "node", &record->nodes, log)) return -1;
@@ -227,7 +348,8 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     }
     if (missing) return complain(log, "out of memory for line", line, 0);
     if (read_static(source, line, "element_length", record->elements, record->element_length, log)) return -1;
-    return read_static(source, line, "compliance", 0, &record->compliance, log);
+    if (read_static(source, line, "compliance", 0, &record->compliance, log)) return -1;
+    return read_zones(source, line, record, log);
 }
 
 void record_destroy(Record *record) {
@@ -235,7 +357,7 @@ void record_destroy(Record *record) {
     free(record->normal), free(record->friction), free(record->segment_force);
     free(record->element_length), free(record->gap), free(record->friction_bound);
     free(record->reaction), free(record->tension), free(record->slide);
-    free(record->turn), free(record->mu);
+    free(record->turn), free(record->mu), free(record->factor), free(record->factor_noise);
     *record = (Record){0};
 }
 

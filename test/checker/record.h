@@ -43,7 +43,11 @@ typedef struct Record {
     double *element_length, compliance;
     Vector *reference, *position, *load, *normal, *friction, *slide, *segment_force;
     double *turn; /* of each obstacle in the step [rad] */
-    double *mu;   /* not read: the larger coefficient of the obstacle that a node is nearest to, by measure.h */
+    double *mu;   /* not read: factor times the larger coefficient of the obstacle that a node is nearest to, by
+                     measure.h */
+    /* of friction at a node, the mean over the length that it stands for, and what rounding of the abscissas may leave
+     * of it in 64 bits; NULL without friction zones: 1 */
+    double *factor, *factor_noise;
     double *gap, *friction_bound, *reaction, *tension;
     int end_kind[2], outcome, iterations;
     int parts;    /* that the step was taken in; the arrays are those of the last one, */

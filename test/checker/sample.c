@@ -166,7 +166,50 @@ static int write_line(int nc, const int dims[3], const char *line, const double 
 /* An obstacle: kind, point, axis, radius, axial and lateral coefficients, and by how much it turns in each step. */
 typedef struct Bed {
     double kind, point[3], axis[3], radius, axial, lateral, turn;
+    double shape, half[2]; /* shape 2: an ellipse of these half-axes, given as a set */
 } Bed;
+
+/* {P v : (1, v) in the cone}, P = diag(half), with a row and an unknown more than it needs. */
+static int write_set(int nc, int obstacle, const double half[2]) {
+    const double none[2] = {0, 0}, map[6] = {half[0], 0, 0, 0, half[1], 0}, cone[4] = {3, 0, 0, 0};
+    const double rows[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0}, offset[4] = {1, 0, 0, 0};
+    const struct {
+        const char *name;
+        const double *value;
+    } field[] = {{"obstacle_set_origin", none},
+                 {"obstacle_set_map", map},
+                 {"obstacle_set_cone", cone},
+                 {"obstacle_set_rows", rows},
+                 {"obstacle_set_offset", offset}};
+    int tangent, unknown, row, id[5], status = nc_redef(nc);
+    if (!status) status = nc_def_dim(nc, "tangent", 2, &tangent);
+    if (!status) status = nc_def_dim(nc, "set_unknown", 3, &unknown);
+    if (!status) status = nc_def_dim(nc, "set_row", 4, &row);
+    for (int k = 0; k < 5 && !status; k++) {
+        const int shape[3] = {obstacle, k < 2 ? tangent : row, unknown};
+        status = nc_def_var(nc, field[k].name, NC_DOUBLE, k == 1 || k == 3 ? 3 : 2, shape, &id[k]);
+    }
+    if (!status) status = nc_enddef(nc);
+    for (int k = 0; k < 5 && !status; k++) status = nc_put_var_double(nc, id[k], field[k].value);
+    return status;
+}
+
+/* Friction zones of a line: the part up to `middle` and the rest. */
+static int write_zones(int nc, const char *line, double middle, double length, const double factor[2]) {
+    const double from[2] = {0, middle}, to[2] = {middle, length}, *value[3] = {from, to, factor};
+    static const char *const NAME[] = {"from", "to", "factor"};
+    char name[64];
+    int zone, id[3], status = nc_redef(nc);
+    snprintf(name, sizeof name, "%s_zone", line);
+    if (!status) status = nc_def_dim(nc, name, 2, &zone);
+    for (int k = 0; k < 3 && !status; k++) {
+        snprintf(name, sizeof name, "%s_zone_%s", line, NAME[k]);
+        status = nc_def_var(nc, name, NC_DOUBLE, 1, &zone, &id[k]);
+    }
+    if (!status) status = nc_enddef(nc);
+    for (int k = 0; k < 3 && !status; k++) status = nc_put_var_double(nc, id[k], value[k]);
+    return status;
+}
 
 static int write_bed(int nc, const int dims[3], const Bed *bed) {
     const double none[3] = {0, 0, 0};
@@ -176,7 +219,7 @@ static int write_bed(int nc, const int dims[3], const Bed *bed) {
         const double *value;
     } number[] = {{"kind", 1, &bed->kind},     {"point", 3, bed->point},  {"axis", 3, bed->axis},
                   {"radius", 1, &bed->radius}, {"axial", 1, &bed->axial}, {"lateral", 1, &bed->lateral},
-                  {"shape", 1, none},          {"grain", 3, none}};
+                  {"shape", 1, &bed->shape},   {"grain", 3, none}};
     enum { COUNT = sizeof number / sizeof *number };
     int obstacle, turn, id[COUNT], status = nc_def_dim(nc, "obstacle", 1, &obstacle);
     char name[64];
@@ -190,7 +233,8 @@ static int write_bed(int nc, const int dims[3], const Bed *bed) {
     for (int k = 0; k < COUNT && !status; k++) status = nc_put_var_double(nc, id[k], number[k].value);
     const size_t start[2] = {0, 0}, count[2] = {2, 1};
     const double turns[2] = {bed->turn, bed->turn};
-    return status ? status : nc_put_vara_double(nc, turn, start, count, turns);
+    if (!status) status = nc_put_vara_double(nc, turn, start, count, turns);
+    return status || bed->shape != 2 ? status : write_set(nc, obstacle, bed->half);
 }
 
 /* dims: step, xyz, end */
@@ -317,19 +361,29 @@ static size_t describe_wound(const Wound *w, Field *field) {
     return n;
 }
 
-int sample_write_drum(const char *path) {
+/* `factor` of all friction, in two zones; 0: no zones and no set. */
+static int write_drum(const char *path, double factor) {
     Bed drum = {.kind = 1, .axis = {0, 3, 0}, .radius = 1, .axial = MU, .lateral = MU / 2, .turn = -SLIP};
     memcpy(drum.point, CENTER, sizeof drum.point);
+    if (factor > 0) drum.shape = 2, drum.half[0] = MU / factor, drum.half[1] = MU / 2 / factor;
     const Wound w = wind();
     Field field[MAX_FIELDS];
     size_t count = describe_wound(&w, field);
+    for (size_t k = 0; k < count && factor > 0; k++)
+        for (int j = 0; j < NODES && strcmp(field[k].name, "friction_bound") == 0; j++)
+            field[k].value[j] *= factor / MU;
     int nc, dims[3], status = begin_file(path, "wound", "consistent", &nc, dims);
     if (status) return status;
     status = write_bed(nc, dims, &drum);
     if (!status) status = write_line(nc, dims, "wound", w.length, C, field, field, count);
+    const double length = w.length[0] + w.length[1] + w.length[2] + w.length[3], both[2] = {factor, factor};
+    if (!status && factor > 0) status = write_zones(nc, "wound", 0.375, length, both);
     int closed = nc_close(nc);
     return status ? status : closed;
 }
+
+int sample_write_drum(const char *path) { return write_drum(path, 0); }
+int sample_write_set(const char *path) { return write_drum(path, 1.25); }
 
 int sample_poke(const char *path, const char *variable, size_t index, double value) {
     int nc, id, rank = 0, dimension[3], status = nc_open(path, NC_WRITE, &nc);

@@ -17,6 +17,9 @@ int sample_write(const char *path);
  * friction: axial coefficient 1/2, lateral 1/4. Every number to rounding. */
 int sample_write_drum(const char *path);
 
+/* The same with the coefficients as a set of 1/1.25 of the size, and friction zones that make up for it. */
+int sample_write_set(const char *path);
+
 /* Overwrite one number: component `index` (flat; beyond the first step's: in the second) of a variable. */
 int sample_poke(const char *path, const char *variable, size_t index, double value);
 

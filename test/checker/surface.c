@@ -75,9 +75,9 @@ bool surface_axes(const Surface *s, const Real *n, const Real *along, Real axes[
     return true;
 }
 
-Real surface_friction(const Surface *s) { return fmaxl(s->mu[0], s->mu[1]); }
+Real surface_friction(const Surface *s) { return s->set ? 1 : fmaxl(s->mu[0], s->mu[1]); }
 
-bool surface_follows(const Surface *s) { return s->kind != SURFACE_PLANE || s->box || s->mu[0] != s->mu[1]; }
+bool surface_follows(const Surface *s) { return s->kind != SURFACE_PLANE || s->set || s->box || s->mu[0] != s->mu[1]; }
 
 /* half-axes of the set for a bound of 1 */
 static void half_axes(const Surface *s, Real ratio[2]) {
@@ -86,6 +86,7 @@ static void half_axes(const Surface *s, Real ratio[2]) {
 
 Real surface_excess(const Surface *s, Real w, const Real F[2]) {
     Real ratio[2], gauge[2], flat = 0;
+    if (s->set) return w > 0 ? w * conic_distance(s->set, (Real[2]){F[0] / w, F[1] / w}) : hypotl(F[0], F[1]);
     half_axes(s, ratio);
     for (int a = 0; a < 2; a++) {
         gauge[a] = ratio[a] > 0 ? fabsl(F[a]) / ratio[a] : 0;
@@ -108,6 +109,11 @@ static Real disc_gap(Real w, const Real f[2], const Real u[2]) {
 
 Real surface_gap(const Surface *s, Real w, const Real F[2], const Real way[2], Real *phi) {
     Real ratio[2], f[2], u[2], gap = 0;
+    if (s->set) { // phi is max -F.s
+        Real size = hypotl(way[0], way[1]);
+        *phi = w > 0 && size > 0 ? w * size * conic_support(s->set, (Real[2]){-way[0] / size, -way[1] / size}) : 0;
+        return fabsl(*phi + F[0] * way[0] + F[1] * way[1]);
+    }
     half_axes(s, ratio);
     for (int a = 0; a < 2; a++) {
         f[a] = ratio[a] > 0 ? F[a] / ratio[a] : 0;

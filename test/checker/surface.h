@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-typedef long double Real;
+#include "conic.h"
 
 /* flag values of the file */
 enum { SURFACE_PLANE, SURFACE_CYLINDER, SURFACE_SPHERE, SURFACE_KINDS };
@@ -15,6 +15,7 @@ typedef struct Surface {
     bool box, grained;
     Real point[3], axis[3], radius; /* axis of length 1 */
     Real mu[2], grain[3];           /* along the line or the grain, and across */
+    Conic *set;                     /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
 /* [m] above the surface, negative below it. */
@@ -28,13 +29,13 @@ void surface_way(const Surface *surface, const Real *from, const Real *to, Real 
 /* The tangent plane's axes where the normal is n: the grain, or the direction `along`, and across. False where that
  * direction has no tangent part. */
 bool surface_axes(const Surface *surface, const Real *n, const Real *along, Real axes[2][3]);
-/* The larger coefficient. */
+/* The larger coefficient; 1 where a set is given. */
 Real surface_friction(const Surface *surface);
 /* Does what a node sees of it change with the node's place or the line's direction? */
 bool surface_follows(const Surface *surface);
 
-/* Friction forces F1, F2 with the bound w of the larger coefficient: how far outside the set [N], and
- * phi(s) + F.s of a way s [J], whose dissipation is *phi. */
+/* Friction forces F1, F2 with the bound w of the larger coefficient, or w times the set: how far outside the set [N],
+ * and phi(s) + F.s of a way s [J], whose dissipation is *phi. */
 Real surface_excess(const Surface *surface, Real w, const Real F[2]);
 Real surface_gap(const Surface *surface, Real w, const Real F[2], const Real s[2], Real *phi);
 

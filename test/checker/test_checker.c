@@ -143,6 +143,33 @@ static const Tamper DRUM_TAMPER[] = {
     {"obstacle_grain", 1, 1, "friction above its bound"},
 };
 
+/* the same with a set and zones: 0.4 by 0.2 and the factor 1.25; the boundary of the zones lies in the share of node 1
+ * or 2 */
+static const Tamper SET_TAMPER[] = {
+    {"obstacle_set_map", 0, 0.41, "claimed primal"},
+    {"obstacle_set_map", 0, 0.39, "friction above its bound"},
+    {"obstacle_set_origin", 0, 0.01, "claimed primal"},
+    {"obstacle_set_origin", 1, 0.01, "friction above its bound"},
+    {"obstacle_set_rows", 3, 1.01, "friction above its bound"},
+    {"obstacle_set_offset", 0, 1.01, "claimed primal"},
+    {"obstacle_set_offset", 0, -1, "no bounded set with points inside"},
+    {"obstacle_set_cone", 0, 2, "no bounded set with points inside"},
+    {"obstacle_set_cone", 0, 5, "no bounded set with points inside"},
+    {"obstacle_set_cone", 0, 2.5, "no bounded set with points inside"},
+    {"obstacle_set_rows", 2, NAN, "cannot read variable 'obstacle_set_rows'"},
+    {"obstacle_shape", 0, 0, "friction bound"},
+    {"obstacle_shape", 0, 3, "senseless obstacle"},
+    {"wound_zone_factor", 0, 1.26, "friction bound"},
+    {"wound_zone_factor", 1, 1.2500001, "friction bound"},
+    {"wound_zone_factor", 1, -1, "senseless friction zones"},
+    {"wound_zone_from", 1, 0.376, "friction bound"},
+    {"wound_zone_from", 1, 0.374, "senseless friction zones"},
+    {"wound_zone_to", 1, 0.8, "friction bound"},
+    {"wound_zone_to", 0, NAN, "senseless friction zones"},
+    {"wound_friction", 7, 1, "friction above its bound"},
+    {"wound_friction_bound", 2, 4.7, "friction bound"},
+};
+
 static void refuse_each(int (*write)(const char *), const Tamper *tamper, size_t count) {
     for (size_t i = 0; i < count; i++) {
         CHECK_INT(write(path), 0);
@@ -166,6 +193,7 @@ static void every_change_is_refuted(void **state) {
     (void)state;
     refuse_each(sample_write, TAMPER, sizeof TAMPER / sizeof *TAMPER);
     refuse_each(sample_write_drum, DRUM_TAMPER, sizeof DRUM_TAMPER / sizeof *DRUM_TAMPER);
+    refuse_each(sample_write_set, SET_TAMPER, sizeof SET_TAMPER / sizeof *SET_TAMPER);
 }
 
 static void drum_is_certified(void **state) {
@@ -175,6 +203,40 @@ static void drum_is_certified(void **state) {
     CHECK_INT(checker_file(path, &report, stdout), 0);
     CHECK_INT(report.certified, 2);
     CHECK_NEAR(report.gap, 0, 1e-14); // rounding of the sample's doubles
+    CHECK_INT(sample_write_set(path), 0);
+    CHECK_INT(checker_file(path, &report, stdout), 0);
+    CHECK_INT(report.certified, 2);
+    CHECK_NEAR(report.gap, 0, 1e-14);
+}
+
+/* Triangle (0.3, 0), (0, 0.2), (-0.1, -0.4) as weights of its corners, and a half disc of radius 2 above its diameter:
+ * support and distance against what a ruler says, to the accuracy promised of reach 1 and 2. */
+static void supports_and_distances(void **state) {
+    (void)state;
+    static const Real CORNER[3][2] = {{0.3L, 0}, {0, 0.2L}, {-0.1L, -0.4L}};
+    Conic *triangle = conic_create(2, 3), *half = conic_create(2, 4);
+    for (size_t i = 0; i < 2; i++) {
+        triangle->cone[i] = 1, triangle->a[2 * i + i] = 1, triangle->a[4 + i] = -1; // weights u, v and 1 - u - v
+        for (size_t k = 0; k < 2; k++) triangle->map[2 * k + i] = CORNER[i][k] - CORNER[2][k];
+        triangle->origin[i] = CORNER[2][i];
+    }
+    triangle->cone[2] = 1, triangle->b[2] = 1;
+    half->cone[0] = 3, half->cone[3] = 1, half->b[0] = 1, half->a[2] = half->a[5] = 1, half->a[7] = 1;
+    half->map[0] = half->map[3] = 2;
+    assert_true(conic_prepare(triangle) && conic_prepare(half));
+    for (int i = 0; i < 720; i++) { // faces and corners are among the directions
+        const Real d[2] = {cosl(i * 0.00872664625997164788L), sinl(i * 0.00872664625997164788L)};
+        Real best = -INFINITY;
+        for (int k = 0; k < 3; k++) best = fmaxl(best, d[0] * CORNER[k][0] + d[1] * CORNER[k][1]);
+        CHECK_BETWEEN((double)(conic_support(triangle, d) - best), -1e-18, 1e-14);
+        CHECK_BETWEEN((double)(conic_support(half, d) - (d[1] > 0 ? 2 : 2 * fabsl(d[0]))), -1e-18, 5e-14);
+        CHECK_BETWEEN((double)(conic_distance(half, (Real[2]){3 * d[0], 3 * fabsl(d[1])}) - 1), -1e-18, 5e-14);
+        CHECK_BETWEEN((double)conic_distance(half, (Real[2]){1.9L * d[0], 1.9L * fabsl(d[1])}), 0, 5e-14);
+        CHECK_BETWEEN((double)(conic_distance(half, (Real[2]){1.9L * d[0], -0.5L}) - 0.5L), -1e-18, 5e-14);
+    }
+    const Real face[2] = {2, 3}; // normal of the face from (0.3, 0) to (0, 0.2)
+    CHECK_BETWEEN((double)(conic_support(triangle, face) - 0.6L), -1e-18, 4e-14);
+    conic_free(triangle), conic_free(half);
 }
 
 /* a quarter of a great circle, a quarter of a helix, and a plane's own vector */
@@ -231,9 +293,10 @@ static void what_is_no_result_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_solution_is_certified), cmocka_unit_test(drum_is_certified),
-        cmocka_unit_test(every_change_is_refuted),     cmocka_unit_test(ways_are_geodesics),
-        cmocka_unit_test(sets_are_ellipse_and_box),    cmocka_unit_test(what_is_no_result_is_refused),
+        cmocka_unit_test(exact_solution_is_certified),  cmocka_unit_test(drum_is_certified),
+        cmocka_unit_test(every_change_is_refuted),      cmocka_unit_test(ways_are_geodesics),
+        cmocka_unit_test(sets_are_ellipse_and_box),     cmocka_unit_test(supports_and_distances),
+        cmocka_unit_test(what_is_no_result_is_refused),
     };
     return cmocka_run_group_tests(tests, make_path, drop_path);
 }

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The JSON schemas of scenes and laws: valid JSON, complete references, every key documented; the examples are accepted.
+"""The JSON schemas of scenes, laws and driven systems: valid JSON, complete references, every key documented; the examples are accepted.
 
 usage: schema.py CAPSTAN SOURCE_FOLDER
 
 Where the Python packages jsonschema and yaml are installed, the examples are also validated against the schemas, and
-scenes that the schema must refuse are tried, and all the laws that bad_laws.py tries.
+scenes that the schema must refuse are tried, and all that bad_laws.py and bad_drives.py try.
 """
 import copy
 import glob
@@ -16,10 +16,13 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True  # nothing is left in the source folder
+import bad_drives  # noqa: E402
 import bad_laws  # noqa: E402
 
+# definitions that scenes share with laws
+OF_SETS = {"set", "contact", "matrix", "pair", "side"}
 EXAMPLES = ["souza-de-cursi-1990.yaml", "souza-de-cursi-1990-half-circle.yaml", "souza-de-cursi-1990-circle.yaml",
-            "oc3-hywind-line.yaml"]
+            "oc3-hywind-line.yaml", "grooved-slope.yaml", "rough-end.yaml"]
 
 
 def output(*command):
@@ -39,9 +42,10 @@ def references(value):
 
 
 def check_schema(schema, documentation):
-    definitions = schema["$defs"]
     used = set(references(schema))
-    assert used == {f"#/$defs/{name}" for name in definitions}, used
+    assert used == {f"#/$defs/{name}" for name in schema["$defs"]}, used
+    definitions = {name: d for name, d in schema["$defs"].items() if "patternProperties" in d}
+    assert set(schema["$defs"]) - set(definitions) == OF_SETS, schema["$defs"].keys()
     for name, definition in definitions.items():
         assert definition["additionalProperties"] is False, name
         assert set(definition["required"]) <= set(definition["properties"]), name
@@ -65,26 +69,56 @@ def check_law_schema(schema, documentation):
             assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of laws"
 
 
-def check_law_validation(schema, folder):
+def check_drive_schema(schema, documentation):
+    """one mapping each: the file, the definitions that are mappings with keys, and the words of laws, checked above"""
+    definitions = schema["$defs"]
+    assert set(references(schema)) == {f"#/$defs/{name}" for name in definitions}, set(references(schema))
+    mappings = {name: d for name, d in definitions.items() if "properties" in d and name not in OF_SETS | {"term"}}
+    assert len(mappings) > 20, mappings.keys()
+    for name, mapping in {"file": schema, **mappings}.items():
+        assert mapping["additionalProperties"] is False and set(mapping["required"]) <= set(mapping["properties"]), name
+        for key, row in mapping["properties"].items():
+            assert row["description"], (name, key)
+            assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of {name}"
+
+
+def core_loader():
+    """YAML 1.2's core schema, in which `on` is a text; PyYAML follows YAML 1.1"""
+    import yaml
+
+    class Core(yaml.SafeLoader):
+        pass
+
+    boolean = "tag:yaml.org,2002:bool"
+    Core.yaml_implicit_resolvers = {first: [(tag, form) for tag, form in resolvers if tag != boolean]
+                                    for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()}
+    Core.add_implicit_resolver(boolean, re.compile("^(?:true|false)$"), list("tf"))
+    return Core
+
+
+def check_words_validation(schema, folder, cases, beyond):
+    """every file of the folder is valid; of the bad ones (name, contents) those that are beyond a schema, and no others"""
     try:
         import jsonschema
         import yaml
     except ImportError:
         return 0
     jsonschema.Draft202012Validator.check_schema(schema)
-    validator = jsonschema.Draft202012Validator(schema)
+    validator, loader = jsonschema.Draft202012Validator(schema), core_loader()
     paths = sorted(glob.glob(os.path.join(folder, "*.yaml")))
+    assert paths, folder
     for path in paths:
         with open(path) as f:
-            errors = [e.message for e in validator.iter_errors(yaml.safe_load(f))]
+            errors = [e.message for e in validator.iter_errors(yaml.load(f, loader))]
         assert not errors, (path, errors)
-    for name, text, _ in bad_laws.CASES:
+    assert beyond <= {name for name, _ in cases}, beyond - {name for name, _ in cases}
+    for name, text in cases:
         try:
-            law = yaml.safe_load(text)
+            bad = yaml.load(text, loader)
         except yaml.YAMLError:
-            continue  # two documents
-        accepted = validator.is_valid(law)
-        assert accepted == (name in bad_laws.BEYOND_A_SCHEMA), f"{name}: the schema {'accepts' if accepted else 'refuses'} it"
+            continue  # two documents, no YAML at all
+        accepted = validator.is_valid(bad)
+        assert accepted == (name in beyond), f"{name}: the schema {'accepts' if accepted else 'refuses'} it"
     return len(paths)
 
 
@@ -109,14 +143,20 @@ def check_validation(schema, folder):
     changes = [("capstan", 2), ("lines", []), ("gravity", [0, 0]), ("contact", "lost"), ("unknown", 1),
                ("history", [{"steps": 0}]), ("history", [{"cable.C": {}}]), ("history", [{"cable.B": {}}]),
                ("obstacles", {"bed": {}}), ("obstacles", {"bed": {"plane": {}, "friction": [1]}}),
-               ("obstacles", {"pipe": {"cylinder": {}}}), ("history", [{"drum.turn": "half"}]), ("solver", {"tolerance": 1})]
+               ("obstacles", {"pipe": {"cylinder": {}}}),
+               ("obstacles", {"bed": {"plane": {}, "friction": {"set": {"disc": -1}}}}),
+               ("obstacles", {"bed": {"plane": {}, "friction": {"set": {"disk": 1}}}}),
+               ("obstacles", {"bed": {"plane": {}, "friction": {"set": {"disc": 1}, "axial": 1}}}),
+               ("obstacles", {"bed": {"plane": {}, "friction": {"lateral": 1}}}), ("history", [{"drum.turn": "half"}]), ("solver", {"tolerance": 1})]
     for key, value in changes:
         bad = copy.deepcopy(scene)
         bad[key] = value
         assert not validator.is_valid(bad), (key, value)
-    for key, value in [("length", 0), ("elements", 0), ("elements", [[0, 1]]), ("mass", 1), ("start", "flat"), ("ends", {})]:
+    for key, value in [("length", 0), ("elements", 0), ("elements", [[0, 1]]), ("mass", 1), ("start", "flat"), ("ends", {}),
+                       ("friction_zones", {}), ("friction_zones", [{"from": 0, "to": 1}]),
+                       ("friction_zones", [{"from": -1, "to": 1, "factor": 1}])]:
         bad = copy.deepcopy(scene)
-        bad["lines"]["mooring"][key] = value
+        next(iter(bad["lines"].values()))[key] = value
         assert not validator.is_valid(bad), (key, value)
 
 
@@ -136,10 +176,16 @@ def main():
 
     law_schema = json.loads(output(capstan, "schema", "law"))
     check_law_schema(law_schema, documentation)
-    laws = check_law_validation(law_schema, os.path.join(folder, "laws"))
+    laws = check_words_validation(law_schema, os.path.join(folder, "laws"), [case[:2] for case in bad_laws.CASES],
+                                  bad_laws.BEYOND_A_SCHEMA)
+    drive_schema = json.loads(output(capstan, "schema", "drive"))
+    check_drive_schema(drive_schema, documentation)
+    drives = check_words_validation(drive_schema, os.path.join(folder, "drive"), [case[:2] for case in bad_drives.FILES],
+                                    bad_drives.BEYOND_A_SCHEMA)
     assert output(capstan, "schema") == output(capstan, "schema", "scene")
     refused = subprocess.run([capstan, "schema", "lines"], capture_output=True, text=True, check=False)
-    assert refused.returncode == 2 and "expected scene or law" in refused.stderr, refused
+    assert refused.returncode == 2 and "expected scene, law or drive" in refused.stderr, refused
+    print(f"schema of driven systems with {len(drive_schema['$defs'])} definitions, {drives} examples validated: good")
     print(f"schema of laws with {len(law_schema['$defs']['set']['properties'])} words, {laws} examples validated: good")
     print(f"schema with {len(schema['$defs'])} definitions, {len(found)} examples: good")
 

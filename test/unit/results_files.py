@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Read directories of results with independent readers: json, csv, an XML parser, and the layout of VTK's appended
 data. Arguments: the directories. A directory named *infeasible must hold a proof."""
-import csv, json, os, re, struct, sys
+import csv, json, math, os, re, struct, sys
 import xml.etree.ElementTree as tree
 
 STEP_KEYS = {"name", "outcome", "iterations", "energy", "tension_bound_rms_N", "tension_estimate_N",
@@ -102,8 +102,9 @@ def check_vtp(path, lines):
     assert set(block["friction_state"]) <= {0, 1, 2}
 
 
-def check_obstacles(path):
-    """The mesh: the bed is flat, its cells are quadrilaterals of points that exist, and a drum is round."""
+def check_obstacles(path, turned):
+    """The mesh: the bed is flat, its cells are quadrilaterals of points that exist, and a drum is round. Its first point is
+    where a turn of the drum about y by the right-hand rule has taken it: z towards x."""
     piece = tree.parse(path).getroot().find("PolyData/Piece")
     array = {a.get("Name"): a.text.split() for a in piece.iter("DataArray")}
     points = [float(x) for x in array["Points"]]
@@ -111,12 +112,17 @@ def check_obstacles(path):
     corners = [int(i) for i in array["connectivity"]]
     assert len(points) == 3 * count and len(corners) == 4 * cells and set(corners) == set(range(count))
     assert [int(i) for i in array["offsets"]] == list(range(4, 4 * cells + 1, 4))
-    assert len(array["obstacle_id"]) == cells
+    assert len(array["obstacle_id"]) == cells == len(array["sector"])
+    drum = [(obstacle, sector) for obstacle, sector in zip(array["obstacle_id"], array["sector"]) if obstacle == "1"]
+    assert not drum or len(set(drum)) == 8 and drum.count(("1", "0")) == len(drum) // 8
     for corner in corners[:4]:
         assert points[3 * corner + 2] == 0  # the bed z = 0 comes first
     for corner in corners[4:]:
         x, _, z = points[3 * corner:3 * corner + 3]
         assert abs((x * x + (z - 30) ** 2) ** 0.5 - 2) < 1e-9, (x, z)  # twelve digits are printed
+    if drum:
+        x, _, z = points[12:15]
+        assert abs(x - 2 * math.cos(turned)) < 1e-9 and abs(z - 30 + 2 * math.sin(turned)) < 1e-9, (path, x, z)
 
 
 def check_directory(directory):
@@ -125,13 +131,19 @@ def check_directory(directory):
     summary = check_summary(directory)
     check_history(directory, summary)
     steps = len(summary["steps"])
-    vtp = [f for f in files if f.endswith(".vtp") and f != "obstacles.vtp"]
+    vtp = [f for f in files if f.endswith(".vtp") and not f.endswith("obstacles.vtp")]
     assert vtp == ["step-%05d.vtp" % i for i in range(steps)], vtp
     for name in vtp:
         check_vtp(os.path.join(directory, name), len(summary["steps"][0]["lines"]))
     listed = [d.get("file") for d in tree.parse(os.path.join(directory, "result.pvd")).iter("DataSet")]
-    assert listed == [name for step in vtp for name in (step, "obstacles.vtp")]
-    check_obstacles(os.path.join(directory, "obstacles.vtp"))
+    # a drum turns by -0.75 rad in each of the steps 2 to 5
+    turns = range(2, 6) if directory.endswith("obstacles") else range(0)
+    surfaces = ["step-%05d-obstacles.vtp" % min(i, turns[-1]) if turns and i >= turns[0] else "obstacles.vtp" for i in range(steps)]
+    assert listed == [name for pair in zip(vtp, surfaces) for name in pair], listed
+    assert [f for f in files if f.endswith("obstacles.vtp")] == sorted(set(surfaces)), files
+    check_obstacles(os.path.join(directory, "obstacles.vtp"), 0)
+    for i in turns:
+        check_obstacles(os.path.join(directory, "step-%05d-obstacles.vtp" % i), -0.75 * (i - 1))
     for name in [f for f in files if f.endswith(".svg")]:
         root = tree.parse(os.path.join(directory, name)).getroot()
         assert root.tag == "{http://www.w3.org/2000/svg}svg"

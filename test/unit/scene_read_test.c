@@ -154,6 +154,44 @@ static void reads_obstacles(void **state) {
     cps_scene_file_destroy(file);
 }
 
+/* sets in the words of law files, the scene file holds them; stretches of a line */
+static void reads_friction_sets_and_zones(void **state) {
+    (void)state;
+    CpsSceneFile *file =
+        read_good(HEAD "    start: {straight: {from: [0, 0, 50], to: [10, 0, 50]}}\n" ENDS
+                       "    friction_zones: [{from: 0, to: 4, factor: 1.5}, {factor: 0, to: 10.0, from: 4.5}]\n"
+                       "obstacles:\n"
+                       "  bed: {plane: {}, friction: {set: {translate: {by: [0.1, 0], of: {ellipse: [0.6, 0.3]}}}, "
+                       "grain: [1, 2, 0]}}\n"
+                       "  pipe: {cylinder: {radius: 2}, friction: {set: {coulomb: {friction: 0.4, load: 1}}}}\n"
+                       "  ball: {sphere: {radius: 3}, friction: 0.2}\n");
+    const CpsScene *scene = cps_scene_file_scene(file);
+    CpsSetAnswer answer;
+    const double along[] = {1, 0}, across[] = {0, 1};
+    assert_int_equal(cps_set_support(scene->obstacle[0].friction_set, along, NULL, &answer, NULL), CPS_OK);
+    CHECK_NEAR(answer.value, 0.7, 1e-15); /* a rounding or two */
+    assert_int_equal(cps_set_support(scene->obstacle[0].friction_set, across, NULL, &answer, NULL), CPS_OK);
+    CHECK_NEAR(answer.value, 0.3, 1e-15);
+    assert_true(scene->obstacle[0].grain[1] == 2 && scene->obstacle[0].friction == 0);
+    assert_int_equal(cps_set_support(scene->obstacle[1].friction_set, across, NULL, &answer, NULL), CPS_OK);
+    CHECK_NEAR(answer.value, 0.4, 1e-15);
+    assert_null(scene->obstacle[2].friction_set);
+    const CpsLine *line = scene->line;
+    assert_int_equal(line->zone_count, 2);
+    assert_true(line->zone[0].from == 0 && line->zone[0].to == 4 && line->zone[0].factor == 1.5);
+    assert_true(line->zone[1].from == 4.5 && line->zone[1].to == 10 && line->zone[1].factor == 0);
+    cps_scene_file_destroy(file);
+
+    /* what was made before a fault is let go (the address sanitizer looks) */
+    CpsError err;
+    const char *bad = HEAD STRAIGHT ENDS "obstacles:\n  a: {plane: {}, friction: {set: {disc: 1}}}\n"
+                                         "  b: {plane: {}, friction: {set: {sum: [{disc: 1}, {disc: -1}]}}}\n";
+    assert_int_equal(read_text(bad, NULL, &file, &err), CPS_ERR_INPUT);
+    assert_int_equal(err.line, 11);
+    assert_int_equal(err.column, 53);
+    assert_null(file);
+}
+
 static void reads_graded_elements(void **state) {
     (void)state;
     CpsSceneFile *file = read_good(HEAD STRAIGHT ENDS "    elements: [0.5, [3, 4.5], [2, 4], 1]\n");
@@ -259,10 +297,11 @@ static void ignores_the_locale(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_defaults),  cmocka_unit_test(reads_every_key),
-        cmocka_unit_test(reads_obstacles), cmocka_unit_test(reads_graded_elements),
-        cmocka_unit_test(adds_moves),      cmocka_unit_test(knows_numbers),
-        cmocka_unit_test(keeps_limits),    cmocka_unit_test(ignores_the_locale),
+        cmocka_unit_test(reads_defaults),        cmocka_unit_test(reads_every_key),
+        cmocka_unit_test(reads_obstacles),       cmocka_unit_test(reads_friction_sets_and_zones),
+        cmocka_unit_test(reads_graded_elements), cmocka_unit_test(adds_moves),
+        cmocka_unit_test(knows_numbers),         cmocka_unit_test(keeps_limits),
+        cmocka_unit_test(ignores_the_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
