@@ -290,14 +290,14 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
 }
 
 /* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. */
-static void look_again(CpsiLine *line, double density, double *turned) {
+static void look_again(CpsiLine *line, double *turned) {
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
         memcpy(&line->friction_force[3*c], f, sizeof f);
     }
     const bool shortened = cpsi_contact_shorten(line) < 1;
-    *turned = cpsi_contact_move(line, density);
+    *turned = cpsi_contact_move(line);
     if (shortened) *turned = INFINITY;
     cpsi_contact_look(line);
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
@@ -311,6 +311,12 @@ static void look_again(CpsiLine *line, double density, double *turned) {
 static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds, bool curved) {
     const CpsiIpmReport ipm = solve(line, program, options, bounds, curved);
     return is_clean(&ipm) || !curved ? ipm : solve(line, program, options, bounds, false);
+}
+
+/* Do reactions turn with their normals within a round?  Where they press the line off a crest, that has it stay there; so not before the
+ * rounds come near what they lead to without, nor in statics. */
+static bool is_curved(const CpsiStepOptions *options, double turned) {
+    return !options->frictionless && (options->curved || turned <= NEAR);
 }
 
 /* The base of the next round: where the last one ended, or foreseen from several that close in. */
@@ -331,17 +337,17 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
     if (line->follows) cpsi_contact_look(line);
     for (int round = 0, most = options->frictionless ? LAID_ROUNDS : ROUNDS; round < most; round++) {
         if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->frictionless) look_ahead(line, turned);
-        ipm = solve_round(line, program, options, bounds, turned <= NEAR && !options->frictionless);
+        ipm = solve_round(line, program, options, bounds, is_curved(options, turned));
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
             for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
-            ipm = solve_round(line, program, options, bounds, turned <= NEAR && !options->frictionless);
+            ipm = solve_round(line, program, options, bounds, is_curved(options, turned));
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
             off = mismatch(line);
             next_bounds(line, program, unit_force(line, bounds));
         }
-        if (line->follows) look_again(line, unit_force(line, bounds)/line->length, &turned);
+        if (line->follows) look_again(line, &turned);
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
         if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
     }
@@ -397,6 +403,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     if (line->report.outcome > CPS_TAUT) {
         /* where hardly any force is left, the centre may lie farther from the boundary than the tolerance lets it */
         with.centrings = 0;
+        with.curved = true;
         if (line->follows) memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
         solve_step(line, program, &with);
     }

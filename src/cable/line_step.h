@@ -12,6 +12,7 @@ typedef struct CpsiStepOptions {
     CpsContact contact;
     bool frictionless; /* a start laid by statics */
     int centrings;     /* set by the step itself */
+    bool curved;       /* also: reactions turn with their normals from the first round on */
 } CpsiStepOptions;
 
 /* From the line's position (and its reaction and state there) to the next equilibrium under line->end.
