@@ -405,6 +405,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
         with.centrings = 0;
         with.curved = true;
         if (line->follows) memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
+        memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
         solve_step(line, program, &with);
     }
     if (!is_finite(line)) forget(line, options);
