@@ -333,8 +333,8 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     double turned = line->follows ? INFINITY : 0, off = 0;
     if (line->follows) cpsi_contact_look(line);
-    for (int round = 0, most = options->turning == CPSI_TURN_NEVER ? SLOW_ROUNDS : ROUNDS; round < most; round++) {
-        if (line->follows && bounds != CPSI_BOUNDS_TRIED && options->turning != CPSI_TURN_NEVER) look_ahead(line, turned);
+    for (int round = 0, most = options->slow ? SLOW_ROUNDS : ROUNDS; round < most; round++) {
+        if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow) look_ahead(line, turned);
         ipm = solve_round(line, program, options, bounds, is_curved(options, turned));
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
@@ -395,12 +395,14 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
 static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     static const struct {
         CpsiTurning turning;
+        bool slow;
         int centrings;
-    } WAY[] = {{CPSI_TURN_NEAR, CENTRINGS}, {CPSI_TURN_ALWAYS, 0}, {CPSI_TURN_NEVER, CENTRINGS}, {CPSI_TURN_NEVER, 0}};
-    const int first = line->follows && options->frictionless ? 2 : 0, end = line->follows ? 4 : 2;
+    } WAY[] = {{CPSI_TURN_NEVER, false, CENTRINGS}, {CPSI_TURN_NEVER, true, CENTRINGS}, {CPSI_TURN_NEVER, true, 0}, {CPSI_TURN_NEAR, false, CENTRINGS}, {CPSI_TURN_ALWAYS, false, 0}};
+    const int first = line->follows && options->frictionless ? 1 : 0, end = line->follows ? 5 : 2;
     for (int i = first; i < end; i++) {
         CpsiStepOptions with = *options;
         with.turning = WAY[i].turning;
+        with.slow = WAY[i].slow;
         with.centrings = WAY[i].centrings;
         if (i > first) memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
         if (line->follows) memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);

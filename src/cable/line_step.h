@@ -20,6 +20,7 @@ typedef struct CpsiStepOptions {
     bool frictionless; /* a start laid by statics */
     int centrings;     /* set by the step itself, */
     CpsiTurning turning; /* as this */
+    bool slow;           /* and this: many rounds, that do not look ahead */
 } CpsiStepOptions;
 
 /* From the line's position (and its reaction and state there) to the next equilibrium under line->end.
