@@ -31,7 +31,7 @@
 /* The interior point is driven to this relative gap: what the arithmetic allows, well below any tolerance asked. */
 static const double TARGET = 1e-13;
 /* Steps to the centre once there: what is left of a force's angle to its element is squared by each. */
-enum { CENTRINGS = 2 };
+static const int CENTRINGS = 2;
 /* ... and towards smaller products where friction acts: each halves what a node at its limit creeps, and takes two digits off what the
  * force of one that slips lacks. */
 static const int SHARPENINGS = 6;
@@ -49,6 +49,8 @@ static const double TAUT_SLACK = 1e-9;
 static const int ROUNDS = 12;
 /* ... and of those whose reactions do not turn. */
 static const int SLOW_ROUNDS = 100;
+/* ... which end after so many that came no nearer, and ask their certificate as often: what has no tension may go on moving. */
+static const int SLOW_PATIENCE = 20;
 /* Rounds that close in, their axes turning by no more than CLOSING [rad] in one, may be as many as this. */
 static const int MORE_ROUNDS = 24;
 static const double CLOSING = 1e-2;
@@ -313,10 +315,6 @@ static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, cons
     return is_clean(&ipm) || !curved ? ipm : solve(line, program, options, bounds, false);
 }
 
-static bool is_curved(const CpsiStepOptions *options, double turned) {
-    return options->turning == CPSI_TURN_ALWAYS || (options->turning == CPSI_TURN_NEAR && turned <= NEAR);
-}
-
 /* The base of the next round: where the last one ended, or foreseen from several that close in. */
 static void look_ahead(CpsiLine *line, double turned) {
     if (turned > NEAR) {
@@ -327,19 +325,28 @@ static void look_ahead(CpsiLine *line, double turned) {
     cpsi_contact_look(line);
 }
 
+/* The last round as an answer: is it one? */
+static bool conclude(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds,
+                     const CpsiIpmReport *ipm) {
+    if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line), let_go(line, program);
+    certify(line, options, ipm);
+    return line->report.outcome <= CPS_TAUT;
+}
+
 /* Rounds on tangent planes that move to where the nodes are. The bounds follow the reactions within each round; once the loop cannot
  * make them, they are tried: from no friction towards mu R. */
 static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
-    double turned = line->follows ? INFINITY : 0, off = 0;
+    double turned = line->follows ? INFINITY : 0, off = 0, best = INFINITY;
+    int since = 0;
     if (line->follows) cpsi_contact_look(line);
     for (int round = 0, most = options->slow ? SLOW_ROUNDS : ROUNDS; round < most; round++) {
         if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow) look_ahead(line, turned);
-        ipm = solve_round(line, program, options, bounds, is_curved(options, turned));
+        ipm = solve_round(line, program, options, bounds, options->turning);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
             for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
-            ipm = solve_round(line, program, options, bounds, is_curved(options, turned));
+            ipm = solve_round(line, program, options, bounds, options->turning);
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
             off = mismatch(line);
@@ -348,9 +355,13 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
         if (line->follows) look_again(line, &turned);
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
         if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
+        if (turned < 0.5*best) best = turned, since = round;
+        if (options->slow && round >= since + SLOW_PATIENCE) break;
+        if (options->slow && bounds != CPSI_BOUNDS_TRIED && (round + 1)%SLOW_PATIENCE == 0 &&
+            conclude(line, program, options, bounds, &ipm))
+            return;
     }
-    if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line), let_go(line, program);
-    certify(line, options, &ipm);
+    conclude(line, program, options, bounds, &ipm);
 }
 
 /* The step as it is posed, in one go or in rounds. */
@@ -389,22 +400,20 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.outcome = CPS_STALLED;
 }
 
-/* Solve in one way or another. Without centrings: where hardly any force is left, the centre may lie farther from the boundary than the
- * tolerance lets it. Reactions that turn with their normals have a line stay on a crest that it would leave, so they are not the first
- * thing tried; statics, which has no friction to hold a line there, does without. */
+/* Solve in one way or another. Slowly, where a line without tension has no place of its own to settle at; with reactions that turn with
+ * their normals last, and not in statics, because they have a line stay on a crest that it would leave; then also without centrings:
+ * where hardly any force is left, the centre may lie farther from the boundary than the tolerance lets it. */
 static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    static const struct {
-        CpsiTurning turning;
-        bool slow;
-        int centrings;
-    } WAY[] = {{CPSI_TURN_NEVER, false, CENTRINGS}, {CPSI_TURN_NEVER, true, CENTRINGS}, {CPSI_TURN_NEVER, true, 0}, {CPSI_TURN_NEAR, false, CENTRINGS}, {CPSI_TURN_ALWAYS, false, 0}};
-    const int first = line->follows && options->frictionless ? 1 : 0, end = line->follows ? 5 : 2;
-    for (int i = first; i < end; i++) {
+    enum { QUICK, SLOW, TURNING, WAYS };
+    const int first = line->follows && options->frictionless ? SLOW : QUICK;
+    for (int way = first; way < WAYS; way++) {
+        if (way == SLOW && !line->follows) continue; /* no rounds on one plane */
+        if (way == TURNING && line->follows && options->frictionless) return;
         CpsiStepOptions with = *options;
-        with.turning = WAY[i].turning;
-        with.slow = WAY[i].slow;
-        with.centrings = WAY[i].centrings;
-        if (i > first) memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
+        with.slow = way == SLOW;
+        with.turning = way == TURNING;
+        with.centrings = way == TURNING ? 0 : CENTRINGS;
+        if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
         if (line->follows) memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
         solve_step(line, program, &with);
         if (line->report.outcome <= CPS_TAUT) return;

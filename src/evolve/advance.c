@@ -3,8 +3,9 @@
  *
  * Friction depends on the path, and a step goes straight from one load to the next. A part of a step is accepted
  *   - when it converged, if the path's accuracy is not asked for;
- *   - when besides going it in two halves leads to the same place and tensions within the path tolerance: the two halves are kept.
- * Otherwise it is halved, at most `halvings` times. A part that small is accepted; if it still ends elsewhere than its halves it is a
+ *   - when besides going it in two halves leads to the same place and tensions within the path tolerance, and neither half goes nearly
+ *     all the way: the two halves are kept.
+ * Otherwise it is halved, at most `halvings` times. A part that small is accepted; if it still is not what its halves are it is a
  * snap, and reported: the line jumps by a way that does not get smaller with the load. A part that small which does not converge is
  * not cut further: the rest of the step is taken in one go and reported as it is. */
 #include "evolve/advance.h"
@@ -17,6 +18,10 @@
 
 /* A part whose halves agree this much better than asked is followed by one twice as long. */
 static const double EASY = 0.25;
+
+/* Motion that follows the load goes about half its way in each half of a part, 0.71 of it in the second half before a limit load, where
+ * it grows like a square root. A jump goes in one half all its way. */
+static const double SUDDEN = 0.75;
 
 void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contacts, bool path_tolerance) {
     const size_t all = (size_t)contacts*(size_t)n;
@@ -118,12 +123,12 @@ static Apart apart(const CpsiLine *line, const double *trial) {
     return (Apart){way/line->length, force > 0 ? tension/force : 0};
 }
 
-/* [m] The longest way of a node in the part just taken. */
-static double jump_of(const CpsiLine *line, const CpsiAdvance *room) {
-    double jump = 0;
+/* [m] The longest way of a node since the reference. */
+static double way_of(const CpsiLine *line) {
+    double way = 0;
     for (int j = 0; j < line->n; j++)
-        jump = cpsi_larger(jump, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&room->position[3*j]))));
-    return jump;
+        way = cpsi_larger(way, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&line->reference[3*j]))));
+    return way;
 }
 
 void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
@@ -142,15 +147,21 @@ void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
         bool good = converged(&taken);
         const bool halves = tolerance > 0 && good;
         Apart error = {0};
+        double longest = 0; /* way of a node in one of the halves */
+        bool sudden = false;
         if (halves) {
+            const double whole_way = way_of(line);
             keep_trial(line, room->trial);
             restore(line, room);
             taken = take(line, program, options, move, room, at, middle, known);
+            longest = way_of(line);
             if (converged(&taken)) second = take(line, program, options, move, room, middle, to, true);
             good = converged(&taken) && converged(&second);
             if (good) error = apart(line, room->trial);
+            longest = cpsi_larger(longest, way_of(line));
+            sudden = longest > SUDDEN*whole_way && longest > tolerance*line->length;
         }
-        if (!(good && error.way <= tolerance && error.tension <= tolerance) && part > least) {
+        if (!(good && !sudden && error.way <= tolerance && error.tension <= tolerance) && part > least) {
             restore(line, room);
             part *= 0.5;
             continue;
@@ -163,9 +174,9 @@ void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
         }
         add(&whole, &ledger, &taken);
         if (halves) add(&whole, &ledger, &second);
-        if (error.way > tolerance) {
+        if (sudden || error.way > tolerance) {
             whole.snaps++;
-            whole.jump = cpsi_larger(whole.jump, jump_of(line, room));
+            whole.jump = cpsi_larger(whole.jump, longest);
         }
         known = true;
         at = to;

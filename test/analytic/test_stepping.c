@@ -174,6 +174,30 @@ static void block_slides_off(void **state) {
     }
 }
 
+/* With a path tolerance the slide is an event of its step and of no other: one jump, found to a part of 2^-10 of the
+ * step, so that the ledger is open by at most L df/1024 there; 1 % for the string. */
+static void slide_is_a_snap(void **state) {
+    (void)state;
+    enum { STEPS = 10 };
+    Case c;
+    block(&c, STEPS);
+    c.scene.solver.path_tolerance = 1e-3;
+    Run run = case_open(&c);
+    double before = 0;
+    for (int k = 1; k <= STEPS; k++) {
+        case_step(&run);
+        const CpsStepReport report = cps_evolution_report(run.evolution);
+        const double force = BLOCK.last * k / STEPS;
+        const bool slides = force >= BLOCK.limit && before < BLOCK.limit;
+        CHECK_INT(report.snaps, slides);
+        /* it lands where the force of its part, between limit and `force`, strains the string */
+        if (slides) CHECK_NEAR(report.jump, 2 * BLOCK.length, (force - BLOCK.limit) / BLOCK.stiffness + 1e-6);
+        if (slides) CHECK_LESS(fabs(report.ledger.imbalance), 1.01 * BLOCK.length * BLOCK.last / STEPS / 1024);
+        before = force;
+    }
+    case_close(&run);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(linear_path_closes),
@@ -181,6 +205,7 @@ int main(void) {
         cmocka_unit_test(path_tolerance_cuts),
         cmocka_unit_test(easy_steps_stay_whole),
         cmocka_unit_test(block_slides_off),
+        cmocka_unit_test(slide_is_a_snap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
