@@ -19,9 +19,9 @@
 /* A part whose halves agree this much better than asked is followed by one twice as long. */
 static const double EASY = 0.25;
 
-/* Motion that follows the load goes about half its way in each half of a part, 0.71 of it in the second half before a limit load, where
- * it grows like a square root. A jump goes in one half all its way. */
-static const double SUDDEN = 0.75;
+/* Motion that follows the load goes about half its way in each half of a part: 0.71 of it in the one before a limit load, where it grows like
+ * a square root, 0.75 where slip grows like the square of the load. A jump goes in one half all its way. */
+static const double SUDDEN = 0.9;
 
 void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contacts, bool path_tolerance) {
     const size_t all = (size_t)contacts*(size_t)n;
