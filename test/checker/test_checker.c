@@ -118,7 +118,7 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_slide", 7, 1e-9, "slide against the way"},
     {"wound_slide", 15 + 7, 1e-9, "slide against the way"},
     {"wound_contact_gap", 2, 1e-9, "contact_gap against the distance"},
-    {"wound_contact_gap", 2, INFINITY, "nodes with no contact looked for"},
+    {"wound_contact_gap", 2, INFINITY, "contacts not looked for"},
     {"wound_friction", 7, 1, "friction above its bound"},
     {"wound_friction_bound", 2, 1.7, "friction bound"},
     {"wound_reaction", 2, 3.4, "imbalance of forces"},
