@@ -305,7 +305,7 @@ static void sweep(Rig *rig, bool pipe, int elements) {
     plane(rig, UP, 0.4)->grain[0] = 1;
     if (pipe) {
         CpsObstacle *round = rig_obstacle(rig, CPS_OBSTACLE_CYLINDER, 0.3);
-        round->radius = 0.4, round->axis[0] = 1, round->axis[1] = 0, round->point[1] = 0.7;
+        round->radius = 0.4, round->axis[0] = 1, round->axis[1] = 0, round->point[1] = 0.55;
     } else {
         plane(rig, ASIDE, 0.3)->point[1] = 0.3;
     }
