@@ -56,10 +56,11 @@ typedef struct Kept {
     int on;
     double reaction, bound, gap, force[3];
     unsigned char state;
+    bool pressed;
 } Kept;
 
 static Kept keep(const CpsiLine *line, int c) {
-    Kept kept = {line->on[c], line->reaction[c], line->friction_bound[c], line->gap[c], {0}, line->state[c]};
+    Kept kept = {line->on[c], line->reaction[c], line->friction_bound[c], line->gap[c], {0}, line->state[c], line->pressed[c]};
     memcpy(kept.force, &line->friction_force[3*c], sizeof kept.force);
     return kept;
 }
@@ -70,6 +71,7 @@ static void put(CpsiLine *line, int c, const Kept *kept) {
     line->friction_bound[c] = kept->bound;
     line->gap[c] = kept->gap;
     line->state[c] = kept->state;
+    line->pressed[c] = kept->pressed;
     memcpy(&line->friction_force[3*c], kept->force, sizeof kept->force);
 }
 
@@ -189,22 +191,20 @@ static void move(CpsiLine *line, int j) {
     const Vec3 from = vec3_load(&line->base[3*j]), to = vec3_load(&line->position[3*j]);
     const int c = line->contacts > 1 && line->reaction[j + line->n] > line->reaction[j] ? j + line->n : j;
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    if (!obstacle || !(line->reaction[c] > 0)) return;
+    if (!obstacle || !line->pressed[c]) return;
     vec3_store(&line->position[3*j], cpsi_obstacle_move(obstacle, from, vec3_sub(to, from)));
 }
 
 /* How far the axes of node j turn from its base to its position, the tangent's turn counting where it matters. INFINITY where it
  * leaves one of its obstacles for another. */
-static double turn_of(const CpsiLine *line, int j, double density) {
+static double turn_of(const CpsiLine *line, int j) {
     const Vec3 to = vec3_load(&line->position[3*j]);
     double turned = 0;
     int on[2];
     nearest(line, to, on);
     for (int i = 0; i < line->contacts; i++) {
         const int c = j + i*line->n;
-        if (!(line->reaction[c] > 0)) continue;
-        const double gap = cpsi_obstacle_gap(&line->obstacle[line->on[c]], to)/line->length;
-        if (!(line->reaction[c] > density*cpsi_line_share(line, j)*gap)) continue;
+        if (!line->pressed[c]) continue;
         if (line->on[c] != on[0] && line->on[c] != on[1]) return INFINITY;
         double now[9], curvature[3];
         cpsi_obstacle_axes(&line->obstacle[line->on[c]], to, direction(line, line->position, j), now, curvature);
@@ -216,10 +216,10 @@ static double turn_of(const CpsiLine *line, int j, double density) {
     return turned;
 }
 
-double cpsi_contact_move(CpsiLine *line, double density) {
+double cpsi_contact_move(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) move(line, j);
     double turned = 0;
-    for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j, density));
+    for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j));
     memcpy(line->base, line->position, 3*(size_t)line->n*sizeof *line->base);
     return turned;
 }

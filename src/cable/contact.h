@@ -26,8 +26,7 @@ void cpsi_contact_slide(CpsiLine *line);
 double cpsi_contact_shorten(CpsiLine *line);
 
 /* Along the surface: what `position` and then `base` become when the nodes move by `position` - base, where they touch. Returns
- * the largest angle [rad] by which a touching node's axes turn on the way: what the next look changes. It touches where its reaction
- * is larger than `density` [N/m] times its share of the line times its distance per length of the line. */
-double cpsi_contact_move(CpsiLine *line, double density);
+ * the largest angle [rad] by which a touching node's axes turn on the way: what the next look changes. */
+double cpsi_contact_move(CpsiLine *line);
 
 #endif

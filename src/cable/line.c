@@ -23,6 +23,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->axes = line->follows ? CPSI_TAKE(arena, 9*contacts, double) : NULL;
     line->curvature = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
     line->on = line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
+    line->pressed = line->follows ? CPSI_TAKE(arena, contacts, bool) : NULL;
     if (line->follows) cpsi_ahead_layout(&line->ahead, arena, line->n);
 }
 

@@ -48,6 +48,7 @@ typedef struct CpsiLine {
     double *axes;           /* (contacts, n, 9) rows first tangent, second tangent, normal */
     double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *on;                /* (contacts, n) the nearest obstacle, and the next; -1: none */
+    bool *pressed;          /* (contacts, n) in the last solution: of reaction and distance, it is the reaction that is not 0 */
     bool gains;             /* contact is looked for everywhere */
     CpsiAhead ahead;        /* of the rounds of a step */
     CpsLineReport report;

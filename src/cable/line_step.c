@@ -31,7 +31,7 @@
 /* The interior point is driven to this relative gap: what the arithmetic allows, well below any tolerance asked. */
 static const double TARGET = 1e-13;
 /* Steps to the centre once there: what is left of a force's angle to its element is squared by each. */
-static const int CENTRINGS = 2;
+enum { CENTRINGS = 2 };
 /* ... and towards smaller products where friction acts: each halves what a node at its limit creeps, and takes two digits off what the
  * force of one that slips lacks. */
 static const int SHARPENINGS = 6;
@@ -47,8 +47,8 @@ static const double HELD = 100;
 static const double TAUT_SLACK = 1e-9;
 /* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
 static const int ROUNDS = 12;
-/* ... and of a start laid by statics, which comes from afar. */
-static const int LAID_ROUNDS = 100;
+/* ... and of those whose reactions do not turn. */
+static const int SLOW_ROUNDS = 100;
 /* Rounds that close in, their axes turning by no more than CLOSING [rad] in one, may be as many as this. */
 static const int MORE_ROUNDS = 24;
 static const double CLOSING = 1e-2;
@@ -250,7 +250,7 @@ static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const Cp
     return ipm;
 }
 
-static bool is_clean(const CpsiIpmReport *ipm) { return ipm->gap + ipm->residual <= CLEAN; }
+static bool is_clean(const CpsiIpmReport *ipm) { return ipm->gap + fmax(ipm->residual, ipm->imbalance) <= CLEAN; }
 
 /* The bounds mu R, and no friction beyond them. */
 static void take_bounds(CpsiLine *line) {
@@ -290,14 +290,14 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
 }
 
 /* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. */
-static void look_again(CpsiLine *line, double density, double *turned) {
+static void look_again(CpsiLine *line, double *turned) {
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
         memcpy(&line->friction_force[3*c], f, sizeof f);
     }
     const bool shortened = cpsi_contact_shorten(line) < 1;
-    *turned = cpsi_contact_move(line, density);
+    *turned = cpsi_contact_move(line);
     if (shortened) *turned = INFINITY;
     cpsi_contact_look(line);
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
@@ -311,6 +311,10 @@ static void look_again(CpsiLine *line, double density, double *turned) {
 static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds, bool curved) {
     const CpsiIpmReport ipm = solve(line, program, options, bounds, curved);
     return is_clean(&ipm) || !curved ? ipm : solve(line, program, options, bounds, false);
+}
+
+static bool is_curved(const CpsiStepOptions *options, double turned) {
+    return options->turning == CPSI_TURN_ALWAYS || (options->turning == CPSI_TURN_NEAR && turned <= NEAR);
 }
 
 /* The base of the next round: where the last one ended, or foreseen from several that close in. */
@@ -329,19 +333,19 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     double turned = line->follows ? INFINITY : 0, off = 0;
     if (line->follows) cpsi_contact_look(line);
-    for (int round = 0, most = options->frictionless ? LAID_ROUNDS : ROUNDS; round < most; round++) {
-        if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->frictionless) look_ahead(line, turned);
-        ipm = solve_round(line, program, options, bounds, turned <= NEAR && !options->frictionless);
+    for (int round = 0, most = options->slow ? SLOW_ROUNDS : ROUNDS; round < most; round++) {
+        if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow) look_ahead(line, turned);
+        ipm = solve_round(line, program, options, bounds, is_curved(options, turned));
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
             for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
-            ipm = solve_round(line, program, options, bounds, turned <= NEAR && !options->frictionless);
+            ipm = solve_round(line, program, options, bounds, is_curved(options, turned));
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
             off = mismatch(line);
             next_bounds(line, program, unit_force(line, bounds));
         }
-        if (line->follows) look_again(line, unit_force(line, bounds)/line->length, &turned);
+        if (line->follows) look_again(line, &turned);
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
         if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
     }
@@ -385,21 +389,35 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.outcome = CPS_STALLED;
 }
 
+/* Solve in one way or another. Without centrings: where hardly any force is left, the centre may lie farther from the boundary than the
+ * tolerance lets it. Reactions that turn with their normals have a line stay on a crest that it would leave, so they are not the first
+ * thing tried; statics, which has no friction to hold a line there, does without. */
+static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    static const struct {
+        CpsiTurning turning;
+        bool slow;
+        int centrings;
+    } WAY[] = {{CPSI_TURN_NEVER, false, CENTRINGS}, {CPSI_TURN_NEVER, true, CENTRINGS}, {CPSI_TURN_NEVER, true, 0}, {CPSI_TURN_NEAR, false, CENTRINGS}, {CPSI_TURN_ALWAYS, false, 0}};
+    const int first = line->follows && options->frictionless ? 1 : 0, end = line->follows ? 5 : 2;
+    for (int i = first; i < end; i++) {
+        CpsiStepOptions with = *options;
+        with.turning = WAY[i].turning;
+        with.slow = WAY[i].slow;
+        with.centrings = WAY[i].centrings;
+        if (i > first) memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
+        if (line->follows) memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
+        solve_step(line, program, &with);
+        if (line->report.outcome <= CPS_TAUT) return;
+    }
+}
+
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     line->report = (CpsLineReport){0};
     for (int end = 0; end < 2; end++) /* where they stay if there is no equilibrium */
         memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
     pose(line, options);
     if (too_short(line) || runs_away(line, options)) return;
-    CpsiStepOptions with = *options;
-    with.centrings = CENTRINGS;
-    solve_step(line, program, &with);
-    if (line->report.outcome > CPS_TAUT) {
-        /* where hardly any force is left, the centre may lie farther from the boundary than the tolerance lets it */
-        with.centrings = 0;
-        if (line->follows) memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
-        solve_step(line, program, &with);
-    }
+    try_ways(line, program, options);
     if (!is_finite(line)) forget(line, options);
     cpsi_line_classify(line, program);
     cpsi_line_report_ends(line);

@@ -6,12 +6,21 @@
 #include "cable/line.h"
 #include "ipm/chain_program.h"
 
+/* Do the reactions turn with their normals within a round? */
+typedef enum CpsiTurning {
+    CPSI_TURN_NEAR,   /* once the rounds come near what they lead to without */
+    CPSI_TURN_ALWAYS,
+    CPSI_TURN_NEVER   /* slowly, but never on to a crest from beside it */
+} CpsiTurning;
+
 typedef struct CpsiStepOptions {
     CpsSolverOptions solver;
     CpsFriction friction;
     CpsContact contact;
     bool frictionless; /* a start laid by statics */
-    int centrings;     /* set by the step itself */
+    int centrings;     /* set by the step itself, */
+    CpsiTurning turning; /* as this */
+    bool slow;           /* and this: many rounds, that do not look ahead */
 } CpsiStepOptions;
 
 /* From the line's position (and its reaction and state there) to the next equilibrium under line->end.

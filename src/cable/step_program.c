@@ -229,8 +229,12 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program) {
 
 static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program, const CpsiStepScale *scale) {
     memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
-    for (int k = 0; k < program->stop.count; k++)
-        line->reaction[program->stop.contact[k]] = scale->force*program->stop.weight[k]*program->stop.z[k];
+    if (line->follows) memset(line->pressed, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->pressed);
+    for (int k = 0; k < program->stop.count; k++) {
+        const int c = program->stop.contact[k];
+        line->reaction[c] = scale->force*program->stop.weight[k]*program->stop.z[k];
+        if (line->follows) line->pressed[c] = program->stop.z[k] > program->stop.s[k];
+    }
 }
 
 /* The friction (f_x, f_y) of contact c, given inside the set of the bound `within`, kept inside its own. */

@@ -73,10 +73,10 @@ static double step_length(const CpsiSums *sums, double fraction) {
 
 /* Gap, residual and merit of an iterate. Forces are off balance relative to the largest, which their rounding goes with. */
 static double judge(CpsiProgram *program, const CpsiSums *sums, const CpsiIpmOptions *options, CpsiIpmReport *report) {
-    const double imbalance = program->imbalance(program)/cpsi_larger(1, sums->largest);
+    report->imbalance = program->imbalance(program)/cpsi_larger(1, sums->largest);
     report->gap = sums->sz/(options->scale + sums->scale);
-    report->residual = cpsi_larger(imbalance, sums->residual);
-    return report->gap + report->residual;
+    report->residual = sums->residual;
+    return report->gap + cpsi_larger(report->imbalance, report->residual);
 }
 
 /* From an iterate at the target: steps to the centre, at the mu reached, then below. That near, Newton's method alone converges fast. A

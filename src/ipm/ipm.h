@@ -25,7 +25,8 @@ typedef struct CpsiIpmReport {
     CpsiIpmOutcome outcome;
     int iterations;
     double gap;      /* sum of weight s.z, relative to the scale + sum of weight s0 z0 */
-    double residual; /* largest imbalance of forces or |rho| */
+    double residual; /* largest |rho| */
+    double imbalance; /* largest of forces at a node, relative to the largest dual where that exceeds 1 */
 } CpsiIpmReport;
 
 /* Minimise. The program holds its data, u at held nodes and a first guess elsewhere, and s1 = e of each stretch at that guess.

@@ -161,8 +161,8 @@ static void held_sway(void **state) {
         run.dissipated = 0;
         for (int k = 0; k < 10; k++) {
             rig_step(&run);
-            /* the same to the digits that a gap of 1e-13 leaves: 1e-7 of the tension */
-            CHECK_NEAR(run.report.end[CPS_END_B].force[1], force, 0.1);
+            /* nodes at their limit creep by the root of the sharpened products: 1e-8 of the tension, 7 mN, in a step */
+            CHECK_NEAR(run.report.end[CPS_END_B].force[1], force, 0.007);
             CHECK_INT(run.report.slipping > 0, 0);
         }
         rig_show("OC3, held sway of 20 m", "the same after 10 steps more [N]", force,
@@ -217,14 +217,16 @@ static void surge_loop(void **state) {
     (void)state;
     const double estimate = solve(1, MIDDLE).anchor - solve(-1, MIDDLE).anchor;
     const double closed = solve(-1, MIDDLE - 10).anchor - solve(-1, MIDDLE).anchor;
+    double coarse = 0;
     for (int steps = 10; steps <= 40; steps *= 2) {
         const Loop loop = cycle(200, steps, 10, false);
         char name[48];
         snprintf(name, sizeof name, "OC3, surge +-10 m, %d steps", 4 * steps);
         const double error = rig_show(name, "anchor, out less back [N]", closed, loop.out - loop.back);
-        /* C h^2 as above, of each. Besides, nodes that stick at their limit creep by what the gap of a step leaves
-         * open: the tension of what lies by up to 10 N a step, 1e-5 of it */
-        CHECK_LESS(fabs(error), 8 * 737375.0 / 200 / 200 + 10 * steps);
+        CHECK_LESS(fabs(error), 8 * 737375.0 / 200 / 200); /* C h^2 as above, of each */
+        /* more steps creep no more: 1e-6 of the tension in all */
+        if (steps == 10) coarse = loop.out - loop.back;
+        CHECK_NEAR(loop.out - loop.back, coarse, 1.0);
         rig_show(name, "the same, all sliding both ways [N]", estimate, loop.out - loop.back);
         rig_show(name, "dissipated, of area [J]", loop.area, loop.lost);
     }
