@@ -141,8 +141,8 @@ CpsOutcome cpsi_results_outcome(const CpsResults *results) {
     return worst;
 }
 
-/* Largest reaction of an obstacle on a node that does not touch it: what complementarity forbids, in newtons. A held end is carried
- * by what holds it; its reaction is only a share of that and says nothing. */
+/* Largest reaction of an obstacle on a node that does not touch it: what complementarity forbids, in newtons. A held
+ * end is carried by what holds it; its reaction is only a share of that and says nothing. */
 static double open_reaction(const CpsLineView *view) {
     const double touch = TOUCH_TOLERANCE * view->arc_length[view->elements];
     double worst = 0;
