@@ -31,13 +31,14 @@ static double lifted_friction(const CpsLineView *view, double *bounds) {
     double lifted = 0;
     const double length = view->arc_length[view->elements];
     *bounds = 0;
-    for (int j = 0; j <= view->elements; ++j) {
-        const size_t k = 3 * (size_t)j;
-        double distance = view->gap[j];
+    const size_t nodes = (size_t)view->elements + 1;
+    for (size_t c = 0; c < (size_t)view->contacts * nodes; ++c) {
+        const size_t k = 3 * (c % nodes);
+        double distance = view->gap[c];
         for (size_t x = 0; x < 3; ++x)
-            distance += view->normal[k + x] * (view->position[k + x] - view->reference[k + x]);
-        *bounds += view->friction_bound[j];
-        if (distance > 1e-9 * length) lifted += length3(view->friction + k);
+            distance += view->normal[3 * c + x] * (view->position[k + x] - view->reference[k + x]);
+        *bounds += view->friction_bound[c];
+        if (distance > 1e-9 * length) lifted += length3(view->friction + 3 * c);
     }
     return lifted;
 }

@@ -207,7 +207,7 @@ CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, doub
                          (int)how);
     if (step->slide)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "line '%s': its obstacle is curved or rubs differently in two directions; only "
+                         "line '%s': more than one obstacle, or one that is curved or has directions; only "
                          "planes with isotropic friction are completed",
                          step->name);
     memcpy(position, step->position, 3*((size_t)step->elements + 1)*sizeof *position);

@@ -119,7 +119,7 @@ CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, do
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance: found %g, expected a number between 0 and 1", tolerance);
     if (step->slide)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "line '%s': its obstacle is curved or rubs differently in two directions; only "
+                         "line '%s': more than one obstacle, or one that is curved or has directions; only "
                          "planes with isotropic friction are judged",
                          step->name);
     for (int j = 0; j <= step->elements; ++j)

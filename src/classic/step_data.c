@@ -81,7 +81,7 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
     if (view->slide)
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
-            "line '%s': its obstacle is curved or rubs differently in two directions; the paper's step slides "
+            "line '%s': more than one obstacle, or one that is curved or has directions; the paper's step slides "
             "in one tangent plane with one coefficient: use plane obstacles with friction alone",
             view->name);
     *step = (CpsiStep){.compliance = view->compliance, .held = view->end[CPS_END_B].kind == CPS_END_HELD};

@@ -26,7 +26,7 @@ static const CpsiKey KEYS[] = {
     {CPSI_SCENE, "gravity", CPSI_VECTOR, CPSI_OPTIONAL, "m/s2", ANY, 0, NULL, "[0, 0, -9.81]",
      "acceleration of gravity; its direction is that of the lines' weight"},
     {CPSI_SCENE, "obstacles", CPSI_MAPPING, CPSI_OPTIONAL, "", MAP(CPSI_OBSTACLES), "{}",
-     "what the lines lie on, by name; each node rests on the nearest one"},
+     "what the lines lie on, by name; each node rests on the nearest one, or on the two nearest"},
     {CPSI_SCENE, "lines", CPSI_MAPPING, CPSI_REQUIRED, "", MAP(CPSI_LINES), NULL,
      "the lines by name; they do not touch one another"},
     {CPSI_SCENE, "friction", CPSI_WORD, CPSI_OPTIONAL, "", NO_RANGE, 0, "frozen consistent", "\"consistent\"",

@@ -83,6 +83,12 @@ double cpsi_results_turned(const CpsResults *results, int step, int obstacle);
 /* Worst outcome so far. */
 CpsOutcome cpsi_results_outcome(const CpsResults *results);
 
+/* How node j rests, the stronger of its contacts: where it slides on one obstacle it slides. */
+static inline unsigned char cpsi_node_state(const CpsLineView *view, int j) {
+    const unsigned char state = view->state[j], other = view->contacts > 1 ? view->state[view->elements + 1 + j] : 0;
+    return other > state ? other : state;
+}
+
 /* result_snapshot.c: keep the last step for the pictures if it is among those to be drawn. */
 bool cpsi_snapshot_append(CpsResults *results, const CpsEvolution *evolution);
 void cpsi_snapshot_free(CpsiSnapshot *snapshot);

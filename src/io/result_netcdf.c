@@ -20,7 +20,7 @@
 
 static pthread_mutex_t library_lock = PTHREAD_MUTEX_INITIALIZER;
 
-enum { XYZ = 3, ENDS = 2, TANGENTS = 2, NAME_LENGTH = 96, VARIABLE_NAME_SIZE = NC_MAX_NAME + 1 };
+enum { XYZ = 3, ENDS = 2, TANGENTS = 2, CONTACTS = 2, NAME_LENGTH = 96, VARIABLE_NAME_SIZE = NC_MAX_NAME + 1 };
 
 /* the format's limit on one variable in one record, in bytes (the specification of CDF-2) */
 static const uint64_t MAX_RECORD = 4294967292;
@@ -31,6 +31,7 @@ typedef struct Field {
     const char *name, *long_name, *units;
     Place place;
     bool vector, fixed; /* fixed: does not change with the steps */
+    bool contact;       /* belongs to a contact: where nodes have a second one, there is one more variable of it */
     size_t offset;      /* of a const double * in CpsLineView */
 } Field;
 
@@ -38,21 +39,22 @@ typedef struct Field {
 #define REPORT(member) offsetof(CpsLineReport, member)
 
 static const Field FIELD[] = {
-    {"arc_length", "natural abscissa of the nodes", "m", PLACE_NODE, false, true, VIEW(arc_length)},
-    {"element_length", "natural length of the elements", "m", PLACE_ELEMENT, false, true, VIEW(element_length)},
-    {"reference", "configuration in which the step starts", "m", PLACE_NODE, true, false, VIEW(reference)},
-    {"position", "configuration", "m", PLACE_NODE, true, false, VIEW(position)},
-    {"load", "weight and forces on free ends", "N", PLACE_NODE, true, false, VIEW(load)},
-    {"normal", "normal of the obstacle touched or nearest, 0 without one", "1", PLACE_NODE, true, false, VIEW(normal)},
+    {"arc_length", "natural abscissa of the nodes", "m", PLACE_NODE, false, true, false, VIEW(arc_length)},
+    {"element_length", "natural length of the elements", "m", PLACE_ELEMENT, false, true, false, VIEW(element_length)},
+    {"reference", "configuration in which the step starts", "m", PLACE_NODE, true, false, false, VIEW(reference)},
+    {"position", "configuration", "m", PLACE_NODE, true, false, false, VIEW(position)},
+    {"load", "weight and forces on free ends", "N", PLACE_NODE, true, false, false, VIEW(load)},
+    {"normal", "normal of the obstacle touched or nearest, 0 without one", "1", PLACE_NODE, true, false, true,
+     VIEW(normal)},
     {"contact_gap", "distance that the displacement may close, infinite where no contact is looked for", "m",
-     PLACE_NODE, false, false, VIEW(gap)},
-    {"friction_bound", "largest friction force", "N", PLACE_NODE, false, false, VIEW(friction_bound)},
-    {"friction", "friction force on the line", "N", PLACE_NODE, true, false, VIEW(friction)},
-    {"reaction", "reaction of the obstacle along its normal", "N", PLACE_NODE, false, false, VIEW(reaction)},
-    {"slide", "way on the obstacle in the step, tangential", "m", PLACE_NODE, true, false, VIEW(slide)},
-    {"segment_force", "force of the B side of an element on its A side", "N", PLACE_ELEMENT, true, false,
+     PLACE_NODE, false, false, true, VIEW(gap)},
+    {"friction_bound", "largest friction force", "N", PLACE_NODE, false, false, true, VIEW(friction_bound)},
+    {"friction", "friction force on the line", "N", PLACE_NODE, true, false, true, VIEW(friction)},
+    {"reaction", "reaction of the obstacle along its normal", "N", PLACE_NODE, false, false, true, VIEW(reaction)},
+    {"slide", "way on the obstacle in the step, tangential", "m", PLACE_NODE, true, false, true, VIEW(slide)},
+    {"segment_force", "force of the B side of an element on its A side", "N", PLACE_ELEMENT, true, false, false,
      VIEW(segment_force)},
-    {"tension", "tension from the elongation", "N", PLACE_ELEMENT, false, false, VIEW(tension)},
+    {"tension", "tension from the elongation", "N", PLACE_ELEMENT, false, false, false, VIEW(tension)},
 };
 
 /* Numbers of CpsLineReport. */
@@ -148,8 +150,9 @@ enum {
 
 typedef struct LineIds {
     int node, element; /* dimensions */
-    int compliance, state, end_kind, end_value, outcome, iterations, parts, snaps, proof;
-    int field[FIELDS];
+    int contacts;      /* of a node, as in the view */
+    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, outcome, iterations, parts, snaps, proof;
+    int field[FIELDS][CONTACTS];
     int number[NUMBERS];
     int zone[ZONES]; /* unused without zones */
 } LineIds;
@@ -305,13 +308,23 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names)
     define_obstacles(nc, scene);
 }
 
+/* "LINE_NAME" of a node's first contact, "LINE_NAME_second" of its second. */
+static int add_contact(CpsiNetcdf *nc, const char *line, const char *name, int contact, nc_type type, int rank,
+                       const int *shape, const char *long_name, const char *units) {
+    char full[64], meaning[128];
+    snprintf(full, sizeof full, "%s%s", name, contact ? "_second" : "");
+    snprintf(meaning, sizeof meaning, "%s%s", long_name, contact ? ": the next nearest" : "");
+    return add_variable(nc, line, full, type, rank, shape, meaning, units);
+}
+
 static void define_field(CpsiNetcdf *nc, LineIds *ids, const char *line, int f) {
     const Field *field = &FIELD[f];
     const int along = field->place == PLACE_NODE ? ids->node : ids->element;
     const int shape[] = {nc->step, along, nc->xyz};
     const int rank = 1 + !field->fixed + field->vector;
-    ids->field[f] = add_variable(nc, line, field->name, NC_DOUBLE, rank, field->fixed ? shape + 1 : shape,
-                                 field->long_name, field->units);
+    for (int c = 0; c < (field->contact ? ids->contacts : 1); ++c)
+        ids->field[f][c] = add_contact(nc, line, field->name, c, NC_DOUBLE, rank, field->fixed ? shape + 1 : shape,
+                                       field->long_name, field->units);
 }
 
 static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
@@ -331,11 +344,17 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     snprintf(name, sizeof name, "%.200s_element", view->name);
     ids->element = add_dimension(nc, name, (size_t)view->elements);
 
+    ids->contacts = view->contacts;
     for (int f = 0; f < FIELDS; ++f) define_field(nc, ids, view->name, f);
     ids->compliance = add_variable(nc, view->name, "compliance", NC_DOUBLE, 0, NULL, "1/EA, 0: inextensible", "N-1");
     const int on_nodes[] = {nc->step, ids->node}, on_ends[] = {nc->step, nc->end, nc->xyz};
-    ids->state = add_variable(nc, view->name, "state", NC_BYTE, 2, on_nodes, "rest on the obstacle", "1");
-    add_flags(nc, ids->state, NC_BYTE, 3, "free stick slip");
+    for (int c = 0; c < ids->contacts; ++c) {
+        ids->state[c] = add_contact(nc, view->name, "state", c, NC_BYTE, 2, on_nodes, "rest on the obstacle", "1");
+        add_flags(nc, ids->state[c], NC_BYTE, 3, "free stick slip");
+        if (ids->contacts < 2) continue;
+        ids->obstacle[c] =
+            add_contact(nc, view->name, "obstacle", c, NC_INT, 2, on_nodes, "place of the obstacle in the scene", "1");
+    }
     ids->end_kind = add_variable(nc, view->name, "end_kind", NC_BYTE, 2, on_ends, "what is imposed at A and B", "1");
     add_flags(nc, ids->end_kind, NC_BYTE, 2, "held free");
     ids->end_value = add_variable(nc, view->name, "end_value", NC_DOUBLE, 3, on_ends,
@@ -372,14 +391,16 @@ static void write_doubles(CpsiNetcdf *nc, int variable, const size_t *start, con
     if (nc->status == NC_NOERR) keep(nc, nc_put_vara_double(nc->file, variable, start, count, value));
 }
 
-/* the fields that do not change (fixed), or those of a step */
+/* the fields that do not change (fixed), or those of a step; an array of contacts has the first of all nodes first */
 static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view, bool fixed) {
     for (int f = 0; f < FIELDS; ++f) {
         const Field *field = &FIELD[f];
         if (field->fixed != fixed) continue;
         const size_t along = (size_t)view->elements + (field->place == PLACE_NODE);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
-        write_doubles(nc, ids->field[f], start + fixed, count + fixed, array_of(nc, view, field));
+        const double *array = array_of(nc, view, field);
+        for (int c = 0; c < (field->contact ? ids->contacts : 1); ++c, array += along * (field->vector ? XYZ : 1))
+            write_doubles(nc, ids->field[f][c], start + fixed, count + fixed, array);
     }
 }
 
@@ -387,7 +408,12 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     write_fields(nc, ids, view, false);
     const size_t start[] = {nc->steps, 0, 0};
     const size_t nodes[] = {1, (size_t)view->elements + 1}, ends[] = {1, ENDS, XYZ}, vector[] = {1, XYZ};
-    if (nc->status == NC_NOERR) keep(nc, nc_put_vara_uchar(nc->file, ids->state, start, nodes, view->state));
+    for (int c = 0; c < ids->contacts && nc->status == NC_NOERR; ++c) {
+        const size_t from = (size_t)c * nodes[1];
+        keep(nc, nc_put_vara_uchar(nc->file, ids->state[c], start, nodes, view->state + from));
+        if (ids->contacts < 2 || nc->status != NC_NOERR) continue;
+        keep(nc, nc_put_vara_int(nc->file, ids->obstacle[c], start, nodes, view->obstacle + from));
+    }
 
     unsigned char kind[ENDS];
     double value[ENDS][XYZ];

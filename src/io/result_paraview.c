@@ -89,16 +89,24 @@ static double node_tension(const CpsLineView *view, int j) {
     return 0.5 * (view->tension[j - 1] + view->tension[j]);
 }
 
+/* reactions and friction of all contacts of a node */
+static void contact_force(const CpsLineView *view, int j, double force[3]) {
+    const int nodes = view->elements + 1;
+    for (int i = 0; i < view->contacts; ++i)
+        for (size_t c = (size_t)j + (size_t)i * (size_t)nodes, k = 0; k < 3; ++k)
+            force[k] += view->reaction[c] * view->normal[3 * c + k] + view->friction[3 * c + k];
+}
+
 static void put_node(FILE *out, const CpsLineView *view, Block block, int j) {
     double value[3] = {0};
     size_t count = 1;
     for (size_t k = 0; k < 3; ++k) {
         const size_t i = 3 * (size_t)j + k;
         if (block == BLOCK_POINTS) value[k] = view->position[i], count = 3;
-        if (block == BLOCK_CONTACT_FORCE) value[k] = view->reaction[j] * view->normal[i] + view->friction[i], count = 3;
         if (block == BLOCK_DISPLACEMENT) value[k] = view->position[i] - view->reference[i], count = 3;
     }
     if (block == BLOCK_TENSION) value[0] = node_tension(view, j);
+    if (block == BLOCK_CONTACT_FORCE) contact_force(view, j, value), count = 3;
     fwrite(value, sizeof value[0], count, out);
 }
 
@@ -115,7 +123,7 @@ static void put_block(FILE *out, const CpsEvolution *evolution, const Layout *la
             fwrite(&(int64_t){node + view.elements + 1}, sizeof(int64_t), 1, out);
             break;
         case BLOCK_FRICTION_STATE:
-            fwrite(view.state, 1, (size_t)view.elements + 1, out);
+            for (int j = 0; j <= view.elements; ++j) fputc(cpsi_node_state(&view, j), out);
             break;
         case BLOCK_LINE_ID:
             fwrite(&i, sizeof i, 1, out);

@@ -39,7 +39,7 @@ static void sample(CpsiShape *shape, const CpsLineView *view) {
     for (int i = 0; i < shape->points; ++i) {
         const size_t j = node_of(i, shape->points, view->elements);
         shape->abscissa[i] = view->arc_length[j];
-        shape->state[i] = view->state[j];
+        shape->state[i] = cpsi_node_state(view, (int)j);
         memcpy(shape->position + 3 * (size_t)i, view->position + 3 * j, 3 * sizeof(double));
         memcpy(shape->reference + 3 * (size_t)i, view->reference + 3 * j, 3 * sizeof(double));
         if (i == 0) continue;

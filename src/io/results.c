@@ -141,8 +141,8 @@ CpsOutcome cpsi_results_outcome(const CpsResults *results) {
     return worst;
 }
 
-/* Largest reaction on a node that does not touch: what complementarity forbids, in newtons. A held end is carried
- * by what holds it; its reaction is only a share of that and says nothing. */
+/* Largest reaction of an obstacle on a node that does not touch it: what complementarity forbids, in newtons. A held
+ * end is carried by what holds it; its reaction is only a share of that and says nothing. */
 static double open_reaction(const CpsLineView *view) {
     const double touch = TOUCH_TOLERANCE * view->arc_length[view->elements];
     double worst = 0;
@@ -151,9 +151,12 @@ static double open_reaction(const CpsLineView *view) {
     for (int j = first; j <= last; ++j) {
         const Vec3 moved =
             vec3_sub(vec3_load(view->position + 3 * (size_t)j), vec3_load(view->reference + 3 * (size_t)j));
-        const double distance = vec3_dot(vec3_load(view->normal + 3 * (size_t)j), moved) + view->gap[j];
-        /* written so that a NaN is seen and not passed over */
-        if (!(distance <= touch) && !(view->reaction[j] <= worst)) worst = view->reaction[j];
+        for (int i = 0; i < view->contacts; ++i) {
+            const size_t c = (size_t)j + (size_t)i * ((size_t)view->elements + 1);
+            const double distance = vec3_dot(vec3_load(view->normal + 3 * c), moved) + view->gap[c];
+            /* written so that a NaN is seen and not passed over */
+            if (!(distance <= touch) && !(view->reaction[c] <= worst)) worst = view->reaction[c];
+        }
     }
     return worst;
 }

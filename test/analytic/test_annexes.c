@@ -110,11 +110,13 @@ static Record printed_11_3(const CpsLineView *view) {
     size_t n = ELEMENTS + 1;
     Record r = {.nodes = n,
                 .elements = ELEMENTS,
+                .contacts = 1,
                 .compliance = 1,
                 .end_kind = {END_HELD, END_FREE},
                 .end_value = {{0, 0, 0}, {0, 0, 1}}};
     Vector **vector[] = {&r.reference, &r.position, &r.load, &r.normal, &r.friction, &r.slide, &r.segment_force};
-    double **scalar[] = {&r.element_length, &r.gap, &r.friction_bound, &r.reaction, &r.tension, &r.mu, &r.turn};
+    double **scalar[] = {&r.element_length, &r.gap, &r.friction_bound, &r.reaction,
+                         &r.tension,        &r.mu,  &r.turn,           &r.obstacle};
     for (size_t k = 0; k < sizeof vector / sizeof *vector; k++) assert_non_null(*vector[k] = calloc(n, sizeof(Vector)));
     for (size_t k = 0; k < sizeof scalar / sizeof *scalar; k++) assert_non_null(*scalar[k] = calloc(n, sizeof(double)));
     double h = 1.0 / ELEMENTS;

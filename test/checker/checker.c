@@ -57,8 +57,8 @@ static void same(Judge *judge, const char *what, double claimed, double found, d
 
 /* A step without friction has no bounds to be compared with the reactions. */
 static double claimed_residual(const Record *r, const Measures *m) {
-    for (size_t j = 0; j < r->nodes; j++)
-        if (r->friction_bound[j] > 0) return m->bound_residual;
+    for (size_t c = 0; c < r->contacts * r->nodes; c++)
+        if (r->friction_bound[c] > 0) return m->bound_residual;
     return r->claim[CLAIM_FRICTION_RESIDUAL] == 0 ? 0 : m->bound_residual;
 }
 
@@ -130,10 +130,11 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     at_most(judge, "depth below the obstacle", m->penetration, place);
     // frozen friction keeps nodes off the tangent planes of the reference, and with strict contact not all of them
     if (source->consistent && !source->strict) at_most(judge, "depth below an obstacle", m->sunk, place);
+    at_most(judge, "contacts that are not with the nearest obstacles", m->misplaced, 0);
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
     at_most(judge, "slide against the way from the reference", m->slide_error, COPY_TOLERANCE * (m->length + m->reach));
     at_most(judge, "contact_gap against the distance", m->gap_error, COPY_TOLERANCE * (m->length + m->reach));
-    at_most(judge, "nodes with no contact looked for", m->unwatched, 0);
+    at_most(judge, "contacts not looked for", m->unwatched, 0);
     at_most(judge, "elongation beyond the tension", m->strain_error, strain);
     at_most(judge, "distance of a held end", m->held_error, COPY_TOLERANCE * (m->length + m->extent));
     judge_claims(judge, r, m);
@@ -226,15 +227,22 @@ static void judge_record(const Source *source, const Record *r, const char *line
     report->penetration = fmax(report->penetration, m.penetration / m.length);
 }
 
+/* The reaction of an obstacle on node j: it may have been the node's other contact. */
+static double reaction_on(const Record *r, size_t j, double obstacle) {
+    for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
+        if (r->obstacle[c] == obstacle) return r->reaction[c];
+    return 0;
+}
+
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step before (frozen
  * friction) or of the step itself (consistent friction), which is `before`. Frozen friction takes nodes that carry less
  * than 1e-3 of the largest load or reaction for free, if it likes; a held node has no friction, nor one that no contact
  * is looked for. */
 static void judge_bounds(const Source *source, const Record *r, const Record *before, Judge *judge) {
     double largest = 0;
-    for (size_t j = 0; j < r->nodes; j++) {
-        const double *b = before->load[j];
-        largest = fmax(largest, fmax(before->reaction[j], hypot(hypot(b[0], b[1]), b[2])));
+    for (size_t c = 0; c < r->contacts * r->nodes; c++) {
+        const double *b = before->load[c % r->nodes];
+        largest = fmax(largest, fmax(before->reaction[c], hypot(hypot(b[0], b[1]), b[2])));
     }
     // what is not certified claims nothing; where nothing is found, the reactions are still those of the step before
     if (r->outcome == OUTCOME_STALLED || r->outcome == OUTCOME_LIMIT) return;
@@ -242,18 +250,19 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
     // a line free at both ends balances its forces by a last correction of its reactions
     bool loose = r->end_kind[0] == END_FREE && r->end_kind[1] == END_FREE;
     double shared = source->consistent && loose ? FORCE_FLOOR * 10 * largest : 0;
-    for (size_t j = 0; j < r->nodes; j++) {
+    for (size_t c = 0; c < r->contacts * r->nodes; c++) {
+        size_t j = c % r->nodes;
         bool held = (j == 0 && r->end_kind[0] == END_HELD) || (j == r->elements && r->end_kind[1] == END_HELD);
         bool was_held =
             (j == 0 && before->end_kind[0] == END_HELD) || (j == r->elements && before->end_kind[1] == END_HELD);
-        double w = r->friction_bound[j], R = before->reaction[j], expected = r->mu[j] * R;
+        double w = r->friction_bound[c], R = reaction_on(before, j, r->obstacle[c]), expected = r->mu[c] * R;
         bool free = was_held || R <= 1e-3 * largest + NOTHING;
-        if (held || (w == 0 && isinf(r->gap[j]))) continue;
+        if (held || (w == 0 && isinf(r->gap[c]))) continue;
         if (w == 0 && free && !(source->consistent && solved)) continue;
         // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes with both
-        double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[j]) : 0;
+        double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[c]) : 0;
         if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared)) {
-            find(judge, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g", w, j, r->mu[j], R);
+            find(judge, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g", w, j, r->mu[c], R);
             return;
         }
     }
@@ -261,8 +270,8 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
 
 /* a step of statics: no friction at all */
 static bool without_friction(const Record *r) {
-    for (size_t j = 0; j < r->nodes; j++)
-        if (r->friction_bound[j] != 0) return false;
+    for (size_t c = 0; c < r->contacts * r->nodes; c++)
+        if (r->friction_bound[c] != 0) return false;
     return true;
 }
 

@@ -68,7 +68,7 @@ static bool all_within(const double *value, size_t count, double low, double hig
  * may be: the rms bound, where it says nothing. */
 static const char *missing_variable(const Record *r) {
     const double most = 1.7976931348623157e308, tiny = 4.9e-324;
-    size_t n = r->nodes, m = r->elements;
+    size_t n = r->nodes, m = r->elements, all = r->contacts * n;
     const struct {
         const char *name;
         const double *value;
@@ -80,14 +80,14 @@ static const char *missing_variable(const Record *r) {
         {"reference", r->reference[0], 3 * n, -most, most},
         {"position", r->position[0], 3 * n, -most, most},
         {"load", r->load[0], 3 * n, -most, most},
-        {"normal", r->normal[0], 3 * n, -most, most},
-        {"friction", r->friction[0], 3 * n, -most, most},
-        {"slide", r->slide[0], 3 * n, -most, most},
+        {"normal", r->normal[0], 3 * all, -most, most},
+        {"friction", r->friction[0], 3 * all, -most, most},
+        {"slide", r->slide[0], 3 * all, -most, most},
         {"segment_force", r->segment_force[0], 3 * m, -most, most},
         {"tension", r->tension, m, -most, most},
-        {"friction_bound", r->friction_bound, n, 0, most},
-        {"reaction", r->reaction, n, -most, most},
-        {"contact_gap", r->gap, n, -most, INFINITY},
+        {"friction_bound", r->friction_bound, all, 0, most},
+        {"reaction", r->reaction, all, -most, most},
+        {"contact_gap", r->gap, all, -most, INFINITY},
         {"end_value", r->end_value[0], 6, -most, most},
         {"proof", r->proof, 3, -most, most},
         {"proof_value", &r->proof_value, 1, -most, most},
@@ -158,34 +158,44 @@ typedef struct Where {
     Real reach; /* [m] largest coordinate, radius and obstacle coordinate: what rounding goes with */
 } Where;
 
-/* What a node sees of the obstacles. */
+/* What a contact sees of its obstacle. */
 typedef struct Seat {
-    const Surface *surface;    /* the nearest; NULL without any */
+    const Surface *surface;    /* NULL without any */
     Triple normal, slide, own; /* own: the node's way, not less that of an obstacle that turns */
     Real gap;                  /* what contact_gap must be */
     Real axes[2][3];
     bool has_axes;
 } Seat;
 
-/* The nearest obstacle; of several that are equally near, the one whose normal is on file. */
-static const Surface *nearest(const Where *where, const Record *r, size_t j, Real margin) {
+/* The obstacle of contact c of node j, which the file says where there are several; a held node's may be that of either
+ * place, so it is the nearest here. */
+static const Surface *surface_of(const Where *where, const Record *r, size_t j, size_t c) {
     const Source *source = where->source;
-    Real least = INFINITY, best = INFINITY;
-    Triple x, n, given;
-    widen(where->place[j], x), widen(r->normal[j], given);
-    for (size_t k = 0; k < source->surfaces; k++) least = fminl(least, surface_distance(&source->surface[k], x));
-    const Surface *found = NULL;
-    for (size_t k = 0; k < source->surfaces; k++) {
-        if (surface_distance(&source->surface[k], x) > least + margin) continue;
-        surface_normal(&source->surface[k], x, n);
-        Triple off = {n[0] - given[0], n[1] - given[1], n[2] - given[2]};
-        if (size(off) < best) best = size(off), found = &source->surface[k];
-    }
-    return found;
+    if (source->surfaces == 0) return NULL;
+    if (c >= r->nodes || !held(r, j)) return &source->surface[(size_t)r->obstacle[c]];
+    Triple x;
+    widen(where->place[j], x);
+    size_t best = 0;
+    for (size_t k = 1; k < source->surfaces; k++)
+        if (surface_distance(&source->surface[k], x) < surface_distance(&source->surface[best], x)) best = k;
+    return &source->surface[best];
 }
 
-static Seat seat_of(const Where *where, const Record *r, size_t j, Real margin) {
-    Seat seat = {.surface = nearest(where, r, j, margin), .gap = INFINITY};
+/* Is the obstacle of contact c the nearest but for those before it, within a margin? */
+static bool in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
+    const Source *source = where->source;
+    const size_t mine = (size_t)r->obstacle[c], first = (size_t)r->obstacle[j];
+    Triple x;
+    widen(where->place[j], x);
+    if (c != j && mine == first) return false;
+    const Real distance = surface_distance(&source->surface[mine], x);
+    for (size_t k = 0; k < source->surfaces; k++)
+        if ((c == j || k != first) && distance > surface_distance(&source->surface[k], x) + margin) return false;
+    return true;
+}
+
+static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
+    Seat seat = {.surface = surface_of(where, r, j, c), .gap = INFINITY};
     if (!seat.surface) return seat;
     Triple x, reference, place, carried, u, along;
     widen(r->position[j], x), widen(r->reference[j], reference), widen(where->place[j], place);
@@ -210,32 +220,38 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, Real margin) 
 }
 
 /* normal, way and gap on file against those recomputed, and depth below whatever obstacle */
-static void measure_seat(const Where *where, const Record *r, size_t j, const Seat *seat, Measures *m) {
-    Triple n, slide, x, reference;
-    widen(r->normal[j], n), widen(r->slide[j], slide), widen(r->position[j], x), widen(r->reference[j], reference);
-    r->mu[j] = seat->surface ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface) : 0;
+static void measure_seat(const Where *where, const Record *r, size_t j, size_t c, const Seat *seat, Real margin,
+                         Measures *m) {
+    Triple n, slide, x;
+    widen(r->normal[c], n), widen(r->slide[c], slide), widen(r->position[j], x);
+    r->mu[c] = seat->surface ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface) : 0;
     for (int k = 0; k < 3; k++) n[k] -= seat->normal[k], slide[k] -= seat->slide[k];
     bool round = seat->surface && seat->surface->kind != SURFACE_PLANE;
     raise_to(&m->normal_error, size(n) / (1 + (round ? where->reach / seat->surface->radius : 0)));
     raise_to(&m->slide_error, size(slide));
-    for (size_t k = 0; k < where->source->surfaces; k++) {
+    for (size_t k = 0; k < where->source->surfaces && c == j; k++) {
         Real depth = -surface_distance(&where->source->surface[k], x);
         raise_to(&m->depth, depth);
         if (!held(r, j)) raise_to(&m->sunk, depth);
     }
     if (held(r, j) || !seat->surface) return;
-    if (isfinite(r->gap[j]))
-        raise_to(&m->gap_error, fabsl((Real)r->gap[j] - seat->gap));
-    else if (!where->source->strict)
+    if (r->contacts > 1 && !in_place(where, r, j, c, margin)) m->misplaced++;
+    // a second obstacle that is round is looked for up to half its radius away
+    Triple place;
+    widen(where->place[j], place);
+    bool far = c != j && round && surface_distance(seat->surface, place) > (0.5L - 1e-9L) * seat->surface->radius;
+    if (isfinite(r->gap[c]))
+        raise_to(&m->gap_error, fabsl((Real)r->gap[c] - seat->gap));
+    else if (!where->source->strict && !far)
         m->unwatched++;
 }
 
-/* friction at a node, in the axes of its obstacle */
-static void measure_friction(const Record *r, size_t j, const Seat *seat, Measures *m, Sums *s) {
+/* friction of a contact, in the axes of its obstacle */
+static void measure_friction(const Record *r, size_t c, const Seat *seat, Measures *m, Sums *s) {
     static const Surface none = {.mu = {1, 1}};
     Triple F, n;
-    widen(r->friction[j], F), widen(r->normal[j], n);
-    Real w = r->friction_bound[j], force[2] = {0, 0}, way[2] = {0, 0}, phi;
+    widen(r->friction[c], F), widen(r->normal[c], n);
+    Real w = r->friction_bound[c], force[2] = {0, 0}, way[2] = {0, 0}, phi;
     const Surface *surface = seat->surface ? seat->surface : &none;
     if (seat->has_axes)
         for (int a = 0; a < 2; a++) force[a] = dot(F, seat->axes[a]), way[a] = dot(seat->slide, seat->axes[a]);
@@ -248,7 +264,7 @@ static void measure_friction(const Record *r, size_t j, const Seat *seat, Measur
     add(&s->signed_gap, phi), add(&s->signed_gap, dot(F, seat->slide));
     add(&s->gap, gap), add(&s->law, gap);
     if (surface->set) m->beyond += fmax(0, -(double)(phi + force[0] * way[0] + force[1] * way[1]));
-    add(&s->bound_residual, fabsl(r->friction_bound[j] - (Real)r->mu[j] * r->reaction[j]));
+    add(&s->bound_residual, fabsl(r->friction_bound[c] - (Real)r->mu[c] * r->reaction[c]));
     add(&s->magnitude, phi + size(F) * size(seat->slide));
     add(&s->carried, dot(F, seat->own) - dot(F, seat->slide));
     raise_to(&m->friction_excess, surface_excess(surface, w, force));
@@ -256,15 +272,16 @@ static void measure_friction(const Record *r, size_t j, const Seat *seat, Measur
     raise_to(&m->largest_force, size(F));
 }
 
-/* friction and contact of a node; `pull` gathers the forces on it */
-static void measure_contact(const Where *where, const Record *r, size_t j, Triple pull, Measures *m, Sums *s) {
+/* contact c of node j and its friction; `pull` gathers the forces on the node */
+static void measure_contact(const Where *where, const Record *r, size_t j, size_t c, Triple pull, Measures *m,
+                            Sums *s) {
     Triple n, F, u, x, reference;
-    widen(r->normal[j], n), widen(r->friction[j], F), widen(r->reference[j], reference), widen(r->position[j], x);
+    widen(r->normal[c], n), widen(r->friction[c], F), widen(r->reference[j], reference), widen(r->position[j], x);
     subtract(r->position[j], r->reference[j], u);
-    Real R = r->reaction[j], gap = r->gap[j], force = size(F), has_normal = size(n);
+    Real R = r->reaction[c], gap = r->gap[c], force = size(F), has_normal = size(n);
     bool active = !held(r, j);
-    const Seat seat = seat_of(where, r, j, PLACE_MARGIN * total(&s->length));
-    measure_seat(where, r, j, &seat, m);
+    const Seat seat = seat_of(where, r, j, c);
+    measure_seat(where, r, j, c, &seat, PLACE_MARGIN * total(&s->length), m);
     if (R < m->reaction_least) m->reaction_least = (double)R;
     // at a held end the obstacle may share the load with the support, which needs no friction
     if (has_normal == 0) raise_to(&m->stray_force, fabsl(R));
@@ -272,7 +289,7 @@ static void measure_contact(const Where *where, const Record *r, size_t j, Tripl
     if (!active) return;
 
     for (int k = 0; k < 3; k++) pull[k] += F[k] + R * n[k];
-    measure_friction(r, j, &seat, m, s);
+    measure_friction(r, c, &seat, m, s);
     Triple start = {x[0] - seat.slide[0], x[1] - seat.slide[1], x[2] - seat.slide[2]};
     add(&s->dual, dot(F, start) + R * dot(n, reference));
     add(&s->magnitude, force * size(x) + R * size(reference));
@@ -317,7 +334,7 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     add(&s->scale, size(b) * size(arm));
     add(&s->magnitude, size(b) * size(x) + size(pull) * size(x));
     raise_to(&m->largest_force, size(b));
-    measure_contact(where, r, j, pull, m, s);
+    for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) measure_contact(where, r, j, c, pull, m, s);
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one must balance
     if (held(r, j)) {
@@ -350,16 +367,19 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
     Sum fall = {0, 0}, press = {0, 0};
     Real across = 0, steepest = 0;
     for (size_t j = 0; j < r->nodes; j++) {
-        steepest = fmaxl(steepest, r->mu[j]);
         Triple b, n, tangential;
-        widen(r->load[j], b), widen(r->normal[j], n);
-        Real rise = dot(n, v);
-        for (int k = 0; k < 3; k++) tangential[k] = v[k] - rise * n[k];
+        widen(r->load[j], b);
         add(&fall, dot(b, v));
-        if (!source->consistent) add(&fall, -(Real)r->friction_bound[j] * size(tangential));
-        add(&press, -dot(b, n));
-        across = size(tangential);
-        if (isfinite(r->gap[j]) && (double)rise < m->rigid_rise_least) m->rigid_rise_least = (double)rise;
+        for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) {
+            widen(r->normal[c], n);
+            Real rise = dot(n, v);
+            for (int k = 0; k < 3; k++) tangential[k] = v[k] - rise * n[k];
+            if (!source->consistent) add(&fall, -(Real)r->friction_bound[c] * size(tangential));
+            if (c == j) add(&press, -dot(b, n)); // reactions beside each other may exceed the load: no proof then
+            steepest = fmaxl(steepest, c == j ? r->mu[c] : INFINITY);
+            across = size(tangential);
+            if (isfinite(r->gap[c]) && (double)rise < m->rigid_rise_least) m->rigid_rise_least = (double)rise;
+        }
     }
     if (source->consistent) add(&fall, -steepest * fmaxl(0, total(&press)) * across);
     m->rigid_fall = (double)total(&fall);

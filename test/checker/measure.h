@@ -34,9 +34,10 @@ typedef struct Measures {
     double depth;            /* [m] of the deepest node below an obstacle, watched or not, >= 0 */
     double sunk;             /* [m] the same of nodes that are not held */
     double reach;            /* [m] largest coordinate or radius of anything */
-    int unwatched;           /* nodes without a contact_gap that should have one */
+    int unwatched;           /* contacts without a contact_gap that should have one */
     double gap_error;        /* [m] max |contact_gap - what it must be| */
     double slide_error;      /* [m] max |slide - way from the carried reference| */
+    int misplaced;           /* contacts with obstacles that are not the nearest and the next */
     double normal_error;     /* [-] max |n - the obstacle's|, over 1 + reach/radius on a curved one */
     double stretch;          /* [-] max |e| - 1 over inextensible elements */
     double strain_error;     /* [-] max |e| - 1 - c T beyond rounding: the tension must carry the elongation */

@@ -334,11 +334,12 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (read_dimension(source, line, "element", &record->elements, log)) return -1;
     if (record->nodes != record->elements + 1) return complain(log, "nodes are not elements + 1 in line", line, 0);
 
-    size_t n = record->nodes;
+    record->contacts = source->surfaces > 1 ? 2 : 1;
+    size_t n = record->contacts * record->nodes;
     Vector **vectors[] = {&record->reference, &record->position, &record->load,         &record->normal,
                           &record->friction,  &record->slide,    &record->segment_force};
-    double **scalars[] = {&record->element_length, &record->gap,     &record->friction_bound,
-                          &record->reaction,       &record->tension, &record->mu};
+    double **scalars[] = {&record->element_length, &record->gap, &record->friction_bound, &record->reaction,
+                          &record->tension,        &record->mu,  &record->obstacle};
     int missing = (record->turn = calloc(source->surfaces + 1, sizeof(double))) == NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
         missing |= (*vectors[k] = calloc(n, sizeof(Vector))) == NULL;
@@ -357,7 +358,7 @@ void record_destroy(Record *record) {
     free(record->normal), free(record->friction), free(record->segment_force);
     free(record->element_length), free(record->gap), free(record->friction_bound);
     free(record->reaction), free(record->tension), free(record->slide);
-    free(record->turn), free(record->mu), free(record->factor), free(record->factor_noise);
+    free(record->turn), free(record->mu), free(record->obstacle), free(record->factor), free(record->factor_noise);
     *record = (Record){0};
 }
 
@@ -394,20 +395,33 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     return 0;
 }
 
+/* what belongs to the first contact of each node, or to the second */
+static int read_contact(const Source *source, const char *line, size_t step, bool second, Record *record, FILE *log) {
+    static const char *const NAME[2][7] = {
+        {"normal", "friction", "slide", "contact_gap", "friction_bound", "reaction", "obstacle"},
+        {"normal_second", "friction_second", "slide_second", "contact_gap_second", "friction_bound_second",
+         "reaction_second", "obstacle_second"}};
+    size_t n = record->nodes, from = second ? n : 0, known = record->contacts > 1 ? 7 : 6;
+    double *to[7] = {record->normal[from],          record->friction[from],  record->slide[from],    record->gap + from,
+                     record->friction_bound + from, record->reaction + from, record->obstacle + from};
+    int bad = 0;
+    for (size_t k = 0; k < known; k++)
+        bad |= read_step(source, line, NAME[second][k], step, n, k < 3 ? 3 : 0, to[k], log);
+    for (size_t c = from; c < from + n && !bad; c++)
+        if (record->contacts > 1 && !(record->obstacle[c] >= 0 && record->obstacle[c] < (double)source->surfaces))
+            bad = complain(log, "unknown obstacle in", NAME[second][6], 0);
+    return bad;
+}
+
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
     size_t n = record->nodes, elements = record->elements;
     int bad = read_step(source, line, "reference", step, n, 3, record->reference[0], log);
     bad |= read_step(source, line, "position", step, n, 3, record->position[0], log);
     bad |= read_step(source, line, "load", step, n, 3, record->load[0], log);
-    bad |= read_step(source, line, "normal", step, n, 3, record->normal[0], log);
-    bad |= read_step(source, line, "friction", step, n, 3, record->friction[0], log);
-    bad |= read_step(source, line, "slide", step, n, 3, record->slide[0], log);
+    for (size_t k = 0; k < record->contacts; k++) bad |= read_contact(source, line, step, k > 0, record, log);
     if (source->surfaces > 0)
         bad |= read_step(source, "obstacle", "turn", step, source->surfaces, 0, record->turn, log);
     bad |= read_step(source, line, "segment_force", step, elements, 3, record->segment_force[0], log);
-    bad |= read_step(source, line, "contact_gap", step, n, 0, record->gap, log);
-    bad |= read_step(source, line, "friction_bound", step, n, 0, record->friction_bound, log);
-    bad |= read_step(source, line, "reaction", step, n, 0, record->reaction, log);
     bad |= read_step(source, line, "tension", step, elements, 0, record->tension, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }

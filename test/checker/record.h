@@ -37,18 +37,21 @@ enum { LEDGER_ENDS, LEDGER_OBSTACLES, LEDGER_ELASTIC, LEDGER_GRAVITY, LEDGER_IMB
 
 typedef double Vector[3];
 
-/* nodes 0..elements; element i joins node i and i + 1 here */
+/* nodes 0..elements; element i joins node i and i + 1 here. Contact c is the first of node c, or the second of node
+ * c - nodes. */
 typedef struct Record {
-    size_t nodes, elements;
+    size_t nodes, elements, contacts; /* contacts: 1 or 2 for each node */
     double *element_length, compliance;
-    Vector *reference, *position, *load, *normal, *friction, *slide, *segment_force;
-    double *turn; /* of each obstacle in the step [rad] */
-    double *mu;   /* not read: factor times the larger coefficient of the obstacle that a node is nearest to, by
-                     measure.h */
+    Vector *reference, *position, *load, *segment_force;
+    Vector *normal, *friction, *slide;       /* (contacts, nodes) */
+    double *gap, *friction_bound, *reaction; /* the same */
+    double *obstacle;                        /* the same: its number, by the file; where there is one contact, 0 */
+    double *turn;                            /* of each obstacle in the step [rad] */
+    double *mu; /* (contacts, nodes) not read: factor times the larger coefficient of the obstacle, by measure.h */
     /* of friction at a node, the mean over the length that it stands for, and what rounding of the abscissas may leave
      * of it in 64 bits; NULL without friction zones: 1 */
     double *factor, *factor_noise;
-    double *gap, *friction_bound, *reaction, *tension;
+    double *tension;
     int end_kind[2], outcome, iterations;
     int parts;    /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */

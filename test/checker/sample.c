@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <netcdf.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -211,29 +212,35 @@ static int write_zones(int nc, const char *line, double middle, double length, c
     return status;
 }
 
-static int write_bed(int nc, const int dims[3], const Bed *bed) {
+enum { BED_NUMBERS = 8 };
+static const char *const BED_NAME[BED_NUMBERS] = {"kind",  "point",   "axis",  "radius",
+                                                  "axial", "lateral", "shape", "grain"};
+
+static int write_bed(int nc, const int id[BED_NUMBERS], int turn, size_t k, const Bed *bed) {
     const double none[3] = {0, 0, 0};
-    const struct {
-        const char *name;
-        size_t columns;
-        const double *value;
-    } number[] = {{"kind", 1, &bed->kind},     {"point", 3, bed->point},  {"axis", 3, bed->axis},
-                  {"radius", 1, &bed->radius}, {"axial", 1, &bed->axial}, {"lateral", 1, &bed->lateral},
-                  {"shape", 1, &bed->shape},   {"grain", 3, none}};
-    enum { COUNT = sizeof number / sizeof *number };
-    int obstacle, turn, id[COUNT], status = nc_def_dim(nc, "obstacle", 1, &obstacle);
+    const double *value[BED_NUMBERS] = {&bed->kind,  bed->point,    bed->axis,   &bed->radius,
+                                        &bed->axial, &bed->lateral, &bed->shape, none};
+    const size_t start[2] = {k, 0}, count[2] = {1, 3};
+    int status = NC_NOERR;
+    for (int i = 0; i < BED_NUMBERS && !status; i++) status = nc_put_vara_double(nc, id[i], start, count, value[i]);
+    for (size_t step = 0; step < 2 && !status; step++)
+        status = nc_put_var1_double(nc, turn, (size_t[]){step, k}, &bed->turn);
+    return status;
+}
+
+/* A set is written of one bed alone. */
+static int write_beds(int nc, const int dims[3], const Bed *bed, size_t count) {
+    int obstacle, turn, id[BED_NUMBERS], status = nc_def_dim(nc, "obstacle", count, &obstacle);
     char name[64];
     const int shape[2] = {obstacle, dims[1]}, turned[2] = {dims[0], obstacle};
-    for (int k = 0; k < COUNT && !status; k++) {
-        snprintf(name, sizeof name, "obstacle_%s", number[k].name);
-        status = nc_def_var(nc, name, NC_DOUBLE, 1 + (number[k].columns > 1), shape, &id[k]);
+    for (int k = 0; k < BED_NUMBERS && !status; k++) {
+        const bool vector = k == 1 || k == 2 || k == BED_NUMBERS - 1;
+        snprintf(name, sizeof name, "obstacle_%s", BED_NAME[k]);
+        status = nc_def_var(nc, name, NC_DOUBLE, 1 + vector, shape, &id[k]);
     }
     if (!status) status = nc_def_var(nc, "obstacle_turn", NC_DOUBLE, 2, turned, &turn);
     if (!status) status = nc_enddef(nc);
-    for (int k = 0; k < COUNT && !status; k++) status = nc_put_var_double(nc, id[k], number[k].value);
-    const size_t start[2] = {0, 0}, count[2] = {2, 1};
-    const double turns[2] = {bed->turn, bed->turn};
-    if (!status) status = nc_put_vara_double(nc, turn, start, count, turns);
+    for (size_t k = 0; k < count && !status; k++) status = write_bed(nc, id, turn, k, &bed[k]);
     return status || bed->shape != 2 ? status : write_set(nc, obstacle, bed->half);
 }
 
@@ -258,7 +265,7 @@ int sample_write(const char *path) {
     fill(line);
     int nc, dims[3], status = begin_file(path, "drag tight far loose", "frozen", &nc, dims);
     if (status) return status;
-    status = write_bed(nc, dims, &BED);
+    status = write_beds(nc, dims, &BED, 1);
     for (int i = 0; i < 4 && !status; i++) {
         Field field[2][MAX_FIELDS];
         size_t count = describe(&line[i], 0, field[0]);
@@ -374,7 +381,7 @@ static int write_drum(const char *path, double factor) {
             field[k].value[j] *= factor / MU;
     int nc, dims[3], status = begin_file(path, "wound", "consistent", &nc, dims);
     if (status) return status;
-    status = write_bed(nc, dims, &drum);
+    status = write_beds(nc, dims, &drum, 1);
     if (!status) status = write_line(nc, dims, "wound", w.length, C, field, field, count);
     const double length = w.length[0] + w.length[1] + w.length[2] + w.length[3], both[2] = {factor, factor};
     if (!status && factor > 0) status = write_zones(nc, "wound", 0.375, length, both);
@@ -384,6 +391,71 @@ static int write_drum(const char *path, double factor) {
 
 int sample_write_drum(const char *path) { return write_drum(path, 0); }
 int sample_write_set(const char *path) { return write_drum(path, 1.25); }
+
+/* ---- the corner ---- */
+
+/* The line of "drag" under weight that presses it on the bed, mu = 1/2, as hard as on a wall, mu = 1/4, both along x:
+ * bounds 4 N and 2 N of an inner node, half of them at the tip. Pulled by 15 N the tension falls to 12 N, to 6 N, to 0.
+ */
+static size_t describe_corner(int again, Field *field) {
+    const SampleLine line = {.name = "corner",
+                             .end_kind = {0, 1},
+                             .compliance = C,
+                             .move = {0, 0, 0, 6 * C, 18 * C},
+                             .load = {0, 0, 0, 0, 15},
+                             .friction = {0, 0, -4, -4, -2},
+                             .segment = {0, 0, 6, 12},
+                             .tension = {0, 0, 6, 12},
+                             .end_b = 15};
+    size_t n = describe(&line, again, field);
+    /* by hand: elongation (6^2 + 12^2) C/2, friction 6 6 C + 3 18 C, and the pull on its way */
+    const double work = again ? 0 : 90 * C, tip = sqrt(15 * 15 + 4 * 4 + 4 * 4), primal = 90 * C - 15 * (4 + 18 * C);
+    const struct {
+        const char *name;
+        double value;
+    } other[] = {{"dissipated", work},
+                 {"ledger_ends", 3 * work},
+                 {"ledger_elastic", work},
+                 {"ledger_imbalance", work},
+                 {"primal", primal + work},
+                 {"dual", primal + work},
+                 {"scale", 18 + 180 * C + work + 8 * sqrt(2) * (6 + 6 * C) + tip * (4 + 18 * C)},
+                 {"largest_force", tip}};
+    static const double PRESS[NODES] = {-4, -8, -8, -8, -4}, SECOND[NODES] = {0, 0, -2, -2, -1};
+    for (size_t k = 0; k < n; k++) {
+        for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+            if (strcmp(field[k].name, other[i].name) == 0) field[k].value[0] = other[i].value;
+        for (int j = 0; j < NODES && strcmp(field[k].name, "load") == 0; j++) field[k].value[3 * j + 1] = PRESS[j];
+    }
+    Field *normal = &field[n++];
+    *normal = vectors("normal_second", NODES, NULL, 0);
+    for (int j = 0; j < NODES; j++) normal->value[3 * j + 1] = 1;
+    field[n++] = vectors("friction_second", NODES, SECOND, 0);
+    field[n++] = vectors("slide_second", NODES, again ? NULL : line.move, 0);
+    field[n++] = constant("contact_gap_second", NODES, 0, 0);
+    field[n++] = constant("friction_bound_second", NODES, 2, 1);
+    field[n] = constant("reaction_second", NODES, 8, 4);
+    field[n++].value[0] = 0;
+    field[n++] = constant("obstacle", NODES, 0, 0);
+    field[n++] = constant("obstacle_second", NODES, 1, 1);
+    return n;
+}
+
+int sample_write_corner(const char *path) {
+    static const double ONES[ELEMENTS] = {1, 1, 1, 1};
+    static const Bed BEDS[3] = {{.axis = {0, 0, 2}, .axial = 0.5, .lateral = 0.5},
+                                {.axis = {0, 1, 0}, .axial = 0.25, .lateral = 0.25},
+                                {.point = {0, 0, 10}, .axis = {0, 0, -1}, .axial = 0.5, .lateral = 0.5}};
+    Field field[2][MAX_FIELDS];
+    const size_t count = describe_corner(0, field[0]);
+    describe_corner(1, field[1]);
+    int nc, dims[3], status = begin_file(path, "corner", "consistent", &nc, dims);
+    if (status) return status;
+    status = write_beds(nc, dims, BEDS, 3);
+    if (!status) status = write_line(nc, dims, "corner", ONES, C, field[0], field[1], count);
+    int closed = nc_close(nc);
+    return status ? status : closed;
+}
 
 int sample_poke(const char *path, const char *variable, size_t index, double value) {
     int nc, id, rank = 0, dimension[3], status = nc_open(path, NC_WRITE, &nc);

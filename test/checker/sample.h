@@ -20,6 +20,10 @@ int sample_write_drum(const char *path);
 /* The same with the coefficients as a set of 1/1.25 of the size, and friction zones that make up for it. */
 int sample_write_set(const char *path);
 
+/* Two steps of one line, "corner", as "drag" but on a bed and beside a wall at once, both rough, under a ceiling that
+ * nothing touches, with consistent friction. */
+int sample_write_corner(const char *path);
+
 /* Overwrite one number: component `index` (flat; beyond the first step's: in the second) of a variable. */
 int sample_poke(const char *path, const char *variable, size_t index, double value);
 

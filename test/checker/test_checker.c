@@ -118,7 +118,7 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_slide", 7, 1e-9, "slide against the way"},
     {"wound_slide", 15 + 7, 1e-9, "slide against the way"},
     {"wound_contact_gap", 2, 1e-9, "contact_gap against the distance"},
-    {"wound_contact_gap", 2, INFINITY, "nodes with no contact looked for"},
+    {"wound_contact_gap", 2, INFINITY, "contacts not looked for"},
     {"wound_friction", 7, 1, "friction above its bound"},
     {"wound_friction_bound", 2, 1.7, "friction bound"},
     {"wound_reaction", 2, 3.4, "imbalance of forces"},
@@ -170,6 +170,36 @@ static const Tamper SET_TAMPER[] = {
     {"wound_friction_bound", 2, 4.7, "friction bound"},
 };
 
+/* the second contact: a wall beside the bed, obstacle 1; a ceiling, obstacle 2, is far */
+static const Tamper CORNER_TAMPER[] = {
+    {"corner_friction_second", 9, -1.99, "imbalance of forces"},
+    {"corner_friction_second", 9, -2.01, "friction above its bound"},
+    {"corner_friction_second", 10, 0.01, "friction along the normal"},
+    {"corner_friction_second", 0, 1, "on a held end"},
+    {"corner_friction_second", 6, NAN, "friction holds a value that cannot be"},
+    {"corner_friction_bound_second", 3, 1.9, "friction above its bound"},
+    {"corner_friction_bound_second", 3, 2.1, "friction bound"},
+    {"corner_reaction_second", 2, 8.001, "imbalance of forces"},
+    {"corner_reaction_second", 2, -1, "adhesion"},
+    {"corner_position", 10, 0.001, "sum of local gaps"},
+    {"corner_position", 10, -1e-6, "depth below the obstacle"},
+    {"corner_normal_second", 4, 0.999, "normal against the obstacle's"},
+    {"corner_slide_second", 9, 0, "slide against the way"},
+    {"corner_contact_gap_second", 1, 1e-6, "contact_gap against the distance"},
+    {"corner_contact_gap_second", 1, INFINITY, "contacts not looked for"},
+    {"corner_obstacle_second", 2, 2, "contacts that are not with the nearest"},
+    {"corner_obstacle_second", 2, 0, "contacts that are not with the nearest"},
+    {"corner_obstacle", 2, 1, "contacts that are not with the nearest"},
+    {"corner_obstacle", 2, 2, "contacts that are not with the nearest"},
+    {"corner_obstacle", 0, -1, "unknown obstacle"},
+    {"corner_obstacle_second", 2, 3, "unknown obstacle"},
+    {"obstacle_axial", 1, 0.3, "friction bound"},
+    {"obstacle_point", 4, 0.001, "depth below an obstacle"},
+    {"obstacle_point", 4, -0.001, "contact_gap against the distance"},
+    {"corner_friction_residual", 0, 1e-6, "claimed friction_residual"},
+    {"corner_dissipated", 0, 0.05, "claimed dissipated"},
+};
+
 static void refuse_each(int (*write)(const char *), const Tamper *tamper, size_t count) {
     for (size_t i = 0; i < count; i++) {
         CHECK_INT(write(path), 0);
@@ -194,6 +224,7 @@ static void every_change_is_refuted(void **state) {
     refuse_each(sample_write, TAMPER, sizeof TAMPER / sizeof *TAMPER);
     refuse_each(sample_write_drum, DRUM_TAMPER, sizeof DRUM_TAMPER / sizeof *DRUM_TAMPER);
     refuse_each(sample_write_set, SET_TAMPER, sizeof SET_TAMPER / sizeof *SET_TAMPER);
+    refuse_each(sample_write_corner, CORNER_TAMPER, sizeof CORNER_TAMPER / sizeof *CORNER_TAMPER);
 }
 
 static void drum_is_certified(void **state) {
@@ -207,6 +238,16 @@ static void drum_is_certified(void **state) {
     CHECK_INT(checker_file(path, &report, stdout), 0);
     CHECK_INT(report.certified, 2);
     CHECK_NEAR(report.gap, 0, 1e-14);
+}
+
+static void corner_is_certified(void **state) {
+    (void)state;
+    CheckerReport report;
+    CHECK_INT(sample_write_corner(path), 0);
+    CHECK_INT(checker_file(path, &report, stdout), 0);
+    CHECK_INT(report.certified, 2);
+    CHECK_NEAR(report.gap, 0, 1e-30); // every term is exact in binary
+    CHECK_NEAR(report.force, 0, 1e-30);
 }
 
 /* Triangle (0.3, 0), (0, 0.2), (-0.1, -0.4) as weights of its corners, and a half disc of radius 2 above its diameter:
@@ -293,10 +334,10 @@ static void what_is_no_result_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_solution_is_certified),  cmocka_unit_test(drum_is_certified),
-        cmocka_unit_test(every_change_is_refuted),      cmocka_unit_test(ways_are_geodesics),
-        cmocka_unit_test(sets_are_ellipse_and_box),     cmocka_unit_test(supports_and_distances),
-        cmocka_unit_test(what_is_no_result_is_refused),
+        cmocka_unit_test(exact_solution_is_certified), cmocka_unit_test(drum_is_certified),
+        cmocka_unit_test(corner_is_certified),         cmocka_unit_test(every_change_is_refuted),
+        cmocka_unit_test(ways_are_geodesics),          cmocka_unit_test(sets_are_ellipse_and_box),
+        cmocka_unit_test(supports_and_distances),      cmocka_unit_test(what_is_no_result_is_refused),
     };
     return cmocka_run_group_tests(tests, make_path, drop_path);
 }

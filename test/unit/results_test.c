@@ -277,6 +277,78 @@ static void obstacles_are_written(void **state) {
     cps_evolution_destroy(evolution);
 }
 
+/* what a variable of a .vtp begins with: its raw data, `size` bytes */
+static void block_of(const char *path, const char *name, void *out, size_t size) {
+    static char text[65536];
+    char key[64];
+    FILE *in = fopen(path, "rb");
+    assert_non_null(in);
+    const size_t length = fread(text, 1, sizeof text - 1, in);
+    assert_int_equal(fclose(in), 0);
+    snprintf(key, sizeof key, "Name=\"%s\"", name);
+    const char *found = strstr(text, key), *begin = strstr(text, "encoding=\"raw\">");
+    assert_true(found && begin);
+    const size_t offset = strtoul(strstr(found, "offset=\"") + 8, NULL, 10);
+    const char *data = strchr(begin, '_') + 1 + offset + sizeof(uint64_t);
+    assert_true(data + size <= text + length);
+    memcpy(out, data, size);
+}
+
+/* A rope that leans on a wall beside its bed: both contacts of its nodes in result.nc, and together in the .vtp. */
+static void both_contacts_are_written(void **state) {
+    (void)state;
+    enum { N = ELEMENTS + 1 };
+    Fixture f;
+    make_scene(&f);
+    CpsObstacle obstacle[2] = {f.bed, f.bed};
+    obstacle[1].name = "wall";
+    obstacle[1].normal[1] = -1, obstacle[1].normal[2] = 0;
+    f.scene.gravity[1] = 5;
+    f.scene.obstacle_count = 2, f.scene.obstacle = obstacle;
+    f.scene.line_count = f.scene.stage_count = 1;
+    CpsEvolution *evolution = run_into("results-contacts", &f.scene);
+    const CpsLineView v = cps_evolution_line_view(evolution, 0);
+    double on[2 * N], force[3 * N] = {0}, in_file[3 * N];
+    unsigned char rest[N];
+    int file, both = 0;
+    assert_int_equal(v.contacts, 2);
+    for (int c = 0; c < 2 * N; c++) {
+        on[c] = v.obstacle[c];
+        for (int a = 0; a < 3; a++)
+            force[3 * (c % N) + a] += v.reaction[c] * v.normal[3 * c + a] + v.friction[3 * c + a];
+        both += c >= N && v.reaction[c] > 1 && v.reaction[c - N] > 1;
+    }
+    assert_in_range(both, ELEMENTS / 2, N); /* a node weighs 2 N, of which the wall bears about 0.9 N */
+    assert_int_equal(nc_open("results-contacts/result.nc", NC_NOWRITE, &file), NC_NOERR);
+    same_in_file(file, "rope", "obstacle", 0, N, on), same_in_file(file, "rope", "obstacle_second", 0, N, on + N);
+    const struct {
+        const char *name;
+        size_t count;
+        const double *value;
+    } field[] = {{"normal", 3 * N, v.normal},     {"contact_gap", N, v.gap}, {"friction_bound", N, v.friction_bound},
+                 {"friction", 3 * N, v.friction}, {"slide", 3 * N, v.slide}, {"reaction", N, v.reaction}};
+    for (size_t k = 0; k < sizeof field / sizeof *field; k++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s_second", field[k].name);
+        same_in_file(file, "rope", field[k].name, 0, field[k].count, field[k].value);
+        same_in_file(file, "rope", name, 0, field[k].count, field[k].value + field[k].count);
+    }
+    assert_int_equal(nc_close(file), NC_NOERR);
+    block_of("results-contacts/step-00000.vtp", "contact_force_N", in_file, sizeof in_file);
+    block_of("results-contacts/step-00000.vtp", "friction_state", rest, sizeof rest);
+    for (int j = 0; j < N; j++) {
+        assert_int_equal(rest[j], v.state[j] > v.state[j + N] ? v.state[j] : v.state[j + N]);
+        for (int a = 0; a < 3; a++) assert_true(fabs(in_file[3 * j + a] - force[3 * j + a]) < 1e-12); /* rounding */
+    }
+    /* with one obstacle nothing is added */
+    int id;
+    assert_int_equal(nc_open("results-out/result.nc", NC_NOWRITE, &file), NC_NOERR);
+    assert_int_equal(nc_inq_varid(file, "rope_obstacle", &id), NC_ENOTVAR);
+    assert_int_equal(nc_inq_varid(file, "rope_reaction_second", &id), NC_ENOTVAR);
+    assert_int_equal(nc_close(file), NC_NOERR);
+    cps_evolution_destroy(evolution);
+}
+
 /* a shorter run into the same place leaves nothing of the longer one, and nothing that is not ours is touched */
 static void earlier_files_give_way(void **state) {
     (void)state;
@@ -353,9 +425,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_is_escaped),        cmocka_unit_test(utf8_is_judged),
         cmocka_unit_test(numbers_read_back),      cmocka_unit_test(netcdf_holds_the_last_step),
-        cmocka_unit_test(obstacles_are_written),  cmocka_unit_test(earlier_files_give_way),
-        cmocka_unit_test(no_solution_is_written), cmocka_unit_test(misuse_is_refused),
-        cmocka_unit_test(locale_does_not_matter),
+        cmocka_unit_test(obstacles_are_written),  cmocka_unit_test(both_contacts_are_written),
+        cmocka_unit_test(earlier_files_give_way), cmocka_unit_test(no_solution_is_written),
+        cmocka_unit_test(misuse_is_refused),      cmocka_unit_test(locale_does_not_matter),
     };
     return cmocka_run_group_tests_name("results", tests, NULL, NULL);
 }
