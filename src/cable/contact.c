@@ -196,12 +196,13 @@ static void move(CpsiLine *line, int j) {
 }
 
 /* How far the axes of node j turn from its base to its position, the tangent's turn counting where it matters. INFINITY where it
- * leaves one of its obstacles for another. */
+ * leaves one of its obstacles for another, or has gone through one. */
 static double turn_of(const CpsiLine *line, int j) {
     const Vec3 to = vec3_load(&line->position[3*j]);
     double turned = 0;
     int on[2];
     nearest(line, to, on);
+    if (on[0] >= 0 && cpsi_obstacle_gap(&line->obstacle[on[0]], to) < -0.1*CPSI_TOUCH*line->length) return INFINITY;
     for (int i = 0; i < line->contacts; i++) {
         const int c = j + i*line->n;
         if (!line->pressed[c]) continue;
