@@ -117,8 +117,11 @@ void cpsi_contact_clear(CpsiLine *line, int c) {
     for (int a = 0; a < 3; a++) line->friction_force[3*c + a] = 0;
 }
 
-void cpsi_contact_look(CpsiLine *line) {
+void cpsi_contact_meet(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) meet(line, j);
+}
+
+void cpsi_contact_look(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         const int j = cpsi_line_node(line, c), k = line->on[c];
         see(line, c);
@@ -151,7 +154,7 @@ void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
     memcpy(line->reference, line->position, 3*n*sizeof *line->reference);
     if (line->follows) {
         memcpy(line->base, line->reference, 3*n*sizeof *line->base);
-        for (int j = 0; j < line->n; j++) meet(line, j);
+        cpsi_contact_meet(line);
     }
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         if (line->follows)

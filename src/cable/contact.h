@@ -12,7 +12,10 @@
  * where friction is consistent. */
 void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options);
 
-/* From another place of the nodes (a line that follows): on, axes, curvature, normal, slide and gap at `base`. */
+/* The contacts of the nodes at `base` (a line that follows): the nearest obstacles. Those it had keep what they have, in whatever place. */
+void cpsi_contact_meet(CpsiLine *line);
+
+/* From another place of the nodes (a line that follows), with the contacts that they have: axes, curvature, normal, slide and gap at `base`. */
 void cpsi_contact_look(CpsiLine *line);
 
 /* No reaction and no friction at contact c. */

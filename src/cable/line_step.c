@@ -322,7 +322,6 @@ static void look_ahead(CpsiLine *line, double turned) {
         return;
     }
     cpsi_ahead_foresee(&line->ahead, line->n, line->reaction, line->base);
-    cpsi_contact_look(line);
 }
 
 /* The last round as an answer: is it one? */
@@ -339,9 +338,9 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     double turned = line->follows ? INFINITY : 0, off = 0, best = INFINITY;
     int since = 0;
-    if (line->follows) cpsi_contact_look(line);
     for (int round = 0, most = options->slow ? SLOW_ROUNDS : ROUNDS; round < most; round++) {
         if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow) look_ahead(line, turned);
+        if (line->follows) cpsi_contact_meet(line), cpsi_contact_look(line);
         ipm = solve_round(line, program, options, bounds, options->turning);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
