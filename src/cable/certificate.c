@@ -209,6 +209,24 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
     out->gap += out->law_residual + out->contact_residual;
 }
 
+bool cpsi_law_holds(const CpsiLine *line, double tolerance) {
+    const double rounding = 1e-14*line->report.certificate.largest_force*line->length;
+    double law = 0, dissipated = 0, bounds = 0;
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        const double w = line->friction_bound[c];
+        if (!(w > 0)) continue;
+        double force[3], way[3], along[3];
+        vec3_store(along, cpsi_line_slide(line, c));
+        const CpsiRubSet set = rub_set(line, c, along, way);
+        cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3*c]);
+        const double off = fabs(cpsi_rub_gap(&set, w, force, way));
+        if (off > tolerance*w*line->length + rounding) return false;
+        law += off, bounds += w*line->length;
+        dissipated += cpsi_rub_dissipation(&set, w, way);
+    }
+    return law <= tolerance*dissipated + 1e-12*bounds + rounding;
+}
+
 CpsCertificate cpsi_certificate(const CpsiLine *line) {
     CpsCertificate out = {0};
     add_segments(line, &out);

@@ -14,4 +14,8 @@ void cpsi_balance_forces(CpsiLine *line);
  * O(nodes); reads only. */
 CpsCertificate cpsi_certificate(const CpsiLine *line);
 
+/* Does friction's law hold to `tolerance` of w L at every node, and of what friction dissipates in sum?  Less what rounding leaves where
+ * nothing slides: 1e-14 of the largest force times L, and 1e-12 of all w L. Asked where rounds settle it. */
+bool cpsi_law_holds(const CpsiLine *line, double tolerance);
+
 #endif

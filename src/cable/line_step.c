@@ -52,7 +52,7 @@ static const int SLOW_ROUNDS = 100;
 /* ... which end after so many that came no nearer, and ask their certificate as often: what has no tension may go on moving. */
 static const int SLOW_PATIENCE = 20;
 /* Rounds that close in, their axes turning by no more than CLOSING [rad] in one, may be as many as this. */
-static const int MORE_ROUNDS = 24;
+static const int MORE_ROUNDS = 60;
 static const double CLOSING = 1e-2;
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
 static const double SETTLED = 1e-10;
@@ -165,6 +165,7 @@ static void straighten(CpsiLine *line) {
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool looked = line->follows && options->friction == CPS_FRICTION_CONSISTENT;
     if (looked && !(line->report.certificate.penetration <= 0.1*CPSI_TOUCH*line->length)) return false;
+    if (looked && !cpsi_law_holds(line, options->solver.tolerance)) return false;
     for (int j = 0; j < 3*line->n; j++)
         if (!(fabs(line->position[j] - line->reference[j]) <= AFAR*line->length)) return false;
     return true;
