@@ -429,5 +429,8 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     try_ways(line, program, options);
     if (!is_finite(line)) forget(line, options);
     cpsi_line_classify(line, program);
+    /* nodes that are free may have come to other obstacles in the last round */
+    if (line->contacts > 1 && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless))
+        cpsi_contact_meet(line), cpsi_contact_look(line);
     cpsi_line_report_ends(line);
 }
