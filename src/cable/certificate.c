@@ -188,8 +188,6 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
     const Vec3 anchor = vec3_load(&line->position[0]);
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3*j]), b = vec3_load(&line->load[3*j]);
-        const bool held = (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
-                          (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
         out->primal -= vec3_dot(b, x);
         out->scale += vec3_norm(b)*vec3_norm(vec3_sub(x, anchor));
         raise_to(&out->largest_force, vec3_norm(b));
@@ -198,7 +196,7 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         if (j + 1 < line->n) balance = vec3_add(balance, segment_force(line, j));
         double distance;
         if (cpsi_line_nearest(line, x, &distance) >= 0) raise_to(&out->penetration, -distance);
-        if (held) { /* the held end's share of D: what its support does, times where it is */
+        if (cpsi_line_is_held(line, j)) { /* the held end's share of D: what its support does, times where it is */
             out->dual -= vec3_dot(balance, x);
             continue;
         }

@@ -20,10 +20,6 @@ static const double LEAP = 0.5;
 /* A second obstacle is looked for up to so many of its radii away. */
 static const double NEAR = 0.5;
 
-static bool is_end(const CpsiLine *line, int j, CpsEndKind kind) {
-    return (j == 0 && line->end[CPS_END_A].kind == kind) || (j == line->n - 1 && line->end[CPS_END_B].kind == kind);
-}
-
 /* Direction of the line at node j, by its neighbours. */
 static Vec3 direction(const CpsiLine *line, const double *x, int j) {
     const int before = j > 0 ? j - 1 : 0, after = j + 1 < line->n ? j + 1 : j;
@@ -46,7 +42,7 @@ static void nearest(const CpsiLine *line, Vec3 x, int on[2]) {
  * where it is: from afar the plane of a round one shuts off what is free. */
 static bool is_watched(const CpsiLine *line, int c, double gap) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    if (!obstacle || is_end(line, cpsi_line_node(line, c), CPS_END_HELD)) return false;
+    if (!obstacle || cpsi_line_is_held(line, cpsi_line_node(line, c))) return false;
     if (!line->gains) return isfinite(line->gap[c]);
     return c < line->n || obstacle->kind == CPS_OBSTACLE_PLANE || gap <= NEAR*obstacle->radius;
 }
@@ -140,7 +136,7 @@ static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
     const int j = cpsi_line_node(line, c);
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     const double gap = obstacle ? cpsi_obstacle_gap(obstacle, vec3_load(&line->reference[3*j])) : INFINITY;
-    const bool touches = obstacle && line->state[c] != CPS_NODE_FREE, held = is_end(line, j, CPS_END_HELD);
+    const bool touches = obstacle && line->state[c] != CPS_NODE_FREE, held = cpsi_line_is_held(line, j);
     const bool rubs = touches && !held && !options->frictionless;
     line->friction_bound[c] = rubs ? cpsi_rub_set(line, c).friction*line->reaction[c] : 0;
     /* contact: everywhere, or only where the reference touches (S90 (35)) */

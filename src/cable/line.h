@@ -71,6 +71,12 @@ static inline double cpsi_line_share(const CpsiLine *line, int j) {
 static inline int cpsi_line_contacts(const CpsiLine *line) { return line->contacts*line->n; }
 static inline int cpsi_line_node(const CpsiLine *line, int c) { return c < line->n ? c : c - line->n; }
 
+/* Is node j an end that is held? */
+static inline bool cpsi_line_is_held(const CpsiLine *line, int j) {
+    return (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
+           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
+}
+
 /* The obstacle of contact c, or NULL; the axes there, those of a node being its first contact's. */
 static inline const CpsiObstacle *cpsi_line_obstacle(const CpsiLine *line, int c) {
     if (line->follows) return line->on[c] >= 0 ? &line->obstacle[line->on[c]] : NULL;

@@ -11,9 +11,10 @@
  * minimisation and may stall; then the bounds are found in rounds, each a convex step with the last round's mu R.
  *
  * On curved obstacles, or where friction follows the line's direction, each round is such a program on the tangent planes where the
- * last one ended. It is Newton's method on the step's equations with the inequalities kept whole: the reaction turns with the normal in
- * the program itself, the other turns are taken from the last round. What the last round leaves is in the certificate, which is
- * taken at the place reached, with its own normals. Frozen friction keeps the planes of the reference, as S90 has it. */
+ * last one ended: the inequalities are kept whole, normals and axes turn from round to round. Rounds come to rest where the equilibrium is
+ * stable (docs/theory.md 2a); they look ahead (ahead.h), and where that does not settle they go slowly. What the last round leaves is in
+ * the certificate, which is taken at the place reached, with its own normals. Frozen friction keeps the planes of the reference, as S90
+ * has it. */
 #include "cable/line_step.h"
 
 #include <float.h>
@@ -47,7 +48,7 @@ static const double HELD = 100;
 static const double TAUT_SLACK = 1e-9;
 /* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
 static const int ROUNDS = 12;
-/* ... and of those whose reactions do not turn. */
+/* ... and of the slow way. */
 static const int SLOW_ROUNDS = 100;
 /* ... which end after so many that came no nearer, and ask their certificate as often: what has no tension may go on moving. */
 static const int SLOW_PATIENCE = 20;

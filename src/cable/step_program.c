@@ -21,11 +21,6 @@ static const double PARALLEL = 1e-3;
 /* A node this near to two obstacles, per length of the line, may be in the corner between them. */
 static const double BOTH = 1e-3;
 
-bool cpsi_is_held(const CpsiLine *line, int j) {
-    return (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
-           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
-}
-
 static const double *base_of(const CpsiLine *line) { return line->follows ? line->base : line->reference; }
 
 /* [m] How far contact c is open at the base; INFINITY where it is not looked for. */
@@ -172,7 +167,7 @@ static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, const Cp
     program->rub.count = program->stop.count = program->shape.count = 0;
     program->rub.follow = scale->bounds == CPSI_BOUNDS_FOLLOW;
     for (int j = 0; j < line->n; j++) {
-        program->held[j] = cpsi_is_held(line, j);
+        program->held[j] = cpsi_line_is_held(line, j);
         cpsi_frame_to(&program->base.load[3*j], node_axes(line, program, j), &line->load[3*j]);
         for (int a = 0; a < 3; a++) program->base.load[3*j + a] /= scale->force;
         for (int c = j; c < cpsi_line_contacts(line); c += line->n) fill_contact(line, program, c, scale);

@@ -23,8 +23,6 @@ typedef struct CpsiStepScale {
     bool curved; /* the reactions turn with the normals */
 } CpsiStepScale;
 
-bool cpsi_is_held(const CpsiLine *line, int j);
-
 /* Write the step into the program. */
 void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale);
 

@@ -2,6 +2,8 @@
 /* Writer of the sample files: the layout of docs/results.md, reduced to what the checker reads. */
 #include "sample.h"
 
+#include "record.h"
+
 #include <math.h>
 #include <netcdf.h>
 #include <stdbool.h>
@@ -110,22 +112,9 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = scalar("ledger_imbalance", pull / 3);
     field[n++] = (Field){"proof", 3, 0, {line->proof, 0, 0}};
     field[n++] = scalar("proof_value", line->proof_value);
-    static const char *const CLAIM[] = {"primal",
-                                        "dual",
-                                        "gap",
-                                        "scale",
-                                        "tension_bound",
-                                        "tension_estimate",
-                                        "force_residual",
-                                        "largest_force",
-                                        "law_residual",
-                                        "contact_residual",
-                                        "friction_residual",
-                                        "stretch_residual",
-                                        "penetration"};
-    for (int k = 0; k < 13; k++) {
+    for (int k = 0; k < CLAIMS; k++) {
         int follows = k == 0 || k == 1 || k == 3; // primal, dual and scale
-        field[n++] = scalar(CLAIM[k], line->claim[k] - (again && follows ? work : 0));
+        field[n++] = scalar(CLAIM_NAME[k], line->claim[k] - (again && follows ? work : 0));
     }
     return n;
 }

@@ -166,16 +166,18 @@ static double residual(const Case *c, const double *x, const double *t, const do
 static void equations_hold(void **state_) {
     const CpsiLinsysOps *ops = *state_;
     uint64_t state = 5;
-    double worst = 0;
+    double worst[2] = {0, 0}; /* without and with second directions */
     for (int k = 0; k < CASES; k++) {
         double x[3*NODES], t[NODES], f[NODES];
         const Case c = random_case(&state, k%2 ? 1e-14 : 1e-3);
         solve(&c, ops, x, t, f);
-        worst = fmax(worst, residual(&c, x, t, f));
+        worst[c.pressed] = fmax(worst[c.pressed], residual(&c, x, t, f));
     }
-    print_message("%s: largest relative residual %.2g\n", ops->name, worst);
-    /* growth over 40 nodes of a few hundred; and a thousand where a second direction takes a compliance of up to 1/0.1 away */
-    CHECK_LESS(worst, 1e6*2.3e-16);
+    print_message("%s: largest relative residual %.2g, with second directions %.2g\n", ops->name, worst[0], worst[1]);
+    /* backward stable with a growth of a few hundred at most over 40 nodes */
+    CHECK_LESS(worst[0], 1e3*2.3e-16);
+    /* and a thousand where a second direction takes a compliance of up to 1/0.1 away */
+    CHECK_LESS(worst[1], 1e6*2.3e-16);
 }
 
 static void back_ends_agree(void **unused) {
@@ -187,7 +189,8 @@ static void back_ends_agree(void **unused) {
         for (int b = 0; b < BACK_ENDS; b++) solve(&c, back_ends[b], x[b], t[b], f[b]);
         for (int i = 0; i < 3*c.n; i++) size = fmax(size, fabs(x[0][i]));
         /* condition about n^2/0.1 x 1e3, and a thousand for second directions: both solutions carry it */
-        for (int i = 0; i < 3*c.n; i++) CHECK_NEAR(x[1][i], x[0][i], 1e-6*size);
+        const double tolerance = (c.pressed ? 1e-6 : 1e-9)*size;
+        for (int i = 0; i < 3*c.n; i++) CHECK_NEAR(x[1][i], x[0][i], tolerance);
     }
 }
 
