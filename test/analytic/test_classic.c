@@ -131,8 +131,9 @@ static void own_history_of_example_5_7(void **state) {
             for (size_t k = 3 * (size_t)j; k < 3 * (size_t)j + 3; k++)
                 farthest = fmax(farthest, fabs(own.position[k] - view.position[k]));
         }
-        // tensions keep the size of one step's error
-        CHECK_LESS(show("5.7, history by itself", "tension, rms [N]", 0, report.tension_rms), 4e-5);
+        // tensions keep the size of one step's error; in the last, Y4, slack is loose and its place one of many
+        const double tension = step < 3 ? 3e-5 : 4e-5;
+        CHECK_LESS(show("5.7, history by itself", "tension, rms [N]", 0, report.tension_rms), tension);
         // w/lambda, and a little more at the edge of the lifted part
         CHECK_BETWEEN(lowest, -2 * 9.81 / fine.penalty, 0);
         if (step < 2) CHECK_LESS(show("5.7, history by itself", "place [m]", 0, farthest), 2e-5);
