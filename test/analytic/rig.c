@@ -278,7 +278,7 @@ static void turns(RigRun *run, double *turn) {
     if (++run->part == stage->steps) run->part = 0, run->stage++;
 }
 
-/* The limits are those of the issue: residuals of the bound and of the law 1e-8, depth 1e-6; forces balance to
+/* The limits are those asked for: residuals of the bound and of the law 1e-8, depth 1e-6; forces balance to
  * 1e-9 of the largest, which is what the checker of result.nc asks. Sticking leaves positions that differ from
  * the reference by rounding of the length: up to 1e-13 of w l in the law's sum, of all bounds together. */
 static void check(RigRun *run, const Audit *audit) {

@@ -22,7 +22,7 @@
 
 enum { MOST_N = 10, MOST_LAWS = 6, MOST_DIM = 3, MOST_POINTS = 6, MOST_COMPONENTS = MOST_LAWS*MOST_DIM, MOST_ROWS = 4 };
 
-/* Relative to the power scale: what the issue asks of the gap. */
+/* Relative to the power scale: what is asked of the gap. */
 static const double GAP = 1e-8;
 /* Two ways to gamma: the gap and the set solver's promise of 1e-9, with a factor of 10 for the reduced map's
  * condition. */
