@@ -103,6 +103,7 @@ typedef struct Run {
     Cautions cautions;
     FILE *table;
     CpsOutcome worst;
+    bool refused; /* a step could not begin; those before it are kept */
 } Run;
 
 /* The step that the evolution stands at goes into the results and the table. */
@@ -141,6 +142,7 @@ static CpsStatus take_back(Run *run, CpsError *err) {
 static CpsStatus take_steps(Run *run, CpsError *err) {
     while (cps_evolution_remaining(run->evolution) > 0 && !cli_stopped()) {
         CpsStatus status = cps_evolution_step(run->evolution, err);
+        run->refused = status != CPS_OK;
         if (!status) status = cps_journal_append(run->journal, run->evolution, err);
         if (!status) status = keep_step(run, err);
         if (status) return status;
@@ -162,6 +164,8 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
     if (!status) status = take_steps(run, err);
     progress_end(&run->progress);
     const double wall = cli_now() - begun;
+    CpsError none;
+    if (run->refused) cps_results_finish(run->results, wall, &none); /* what is told is why it could not go on */
     if (!status) status = cps_results_finish(run->results, wall, err);
     if (!status && cps_evolution_remaining(run->evolution) == 0) cps_journal_remove(run->journal);
     if (!status && options->json) status = cps_results_write_summary(run->results, wall, stdout, err);

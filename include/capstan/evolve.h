@@ -161,7 +161,8 @@ CPS_API int cps_evolution_remaining(const CpsEvolution *evolution);
 
 /* Take the next load step. The outcome is in the report; the status is CPS_OK even when it is not solved.
  * After an infeasible or unbounded step the lines stay where they were.
- * Returns CPS_ERR_ARGUMENT when no step remains. */
+ * Returns CPS_ERR_ARGUMENT when no step remains, and where a free end that the next stage grabs would go through an obstacle on its straight
+ * way from where it is: nothing has changed then. */
 CPS_API CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err);
 
 /* The state between two steps as bytes, for going on later: the steps that follow a load give the same bits as if they had followed the

@@ -165,7 +165,7 @@ CPS_API CpsObstacle cps_obstacle_default(void);
  *
  *   err   may be NULL; err->message names the line, the value found and what was expected
  *
- * Returns CPS_OK, CPS_ERR_ARGUMENT or CPS_ERR_LIMIT. */
+ * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err);
 
 #ifdef __cplusplus

@@ -17,6 +17,7 @@
 #include "evolve/checkpoint.h"
 #include "evolve/evolution.h"
 #include "evolve/ledger.h"
+#include "evolve/path_check.h"
 #include "evolve/start.h"
 
 /* How near to the obstacle a node of a start shape counts as touching, per length of the line. */
@@ -82,6 +83,11 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     evolution->is_laid = CPSI_TAKE(arena, scene->line_count, bool);
     evolution->stage = CPSI_TAKE(arena, scene->stage_count + 1, CpsiEvolutionStage);
     evolution->obstacle = CPSI_TAKE(arena, scene->obstacle_count + 1, CpsiObstacle);
+    evolution->obstacle_name = CPSI_TAKE(arena, scene->obstacle_count + 1, const char *);
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const char *name = take_name(arena, scene->obstacle[k].name);
+        if (real) evolution->obstacle_name[k] = name;
+    }
     evolution->angle = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->room.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
@@ -267,6 +273,29 @@ static CpsEnd end_at(const CpsiChange *change, int part, int steps) {
     return end;
 }
 
+/* Free ends are grabbed where they are, and only now is it known whether the way from there leads through an obstacle. */
+static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
+    const CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
+    for (int i = 0; i < stage->change_count && evolution->part == 0; i++) {
+        const CpsiChange *change = &stage->change[i];
+        const CpsiLine *line = &evolution->line[change->line];
+        if (change->to.kind != CPS_END_HELD || line->end[change->end].kind == CPS_END_HELD) continue;
+        const CpsEnd from = end_now(line, change->end, CPS_END_HELD);
+        const double *a = from.value, *b = change->to.value;
+        for (int k = 0; k < evolution->obstacle_count; k++) {
+            const double depth =
+                cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b), CPSI_PATH_TOUCH*line->length);
+            if (depth > 0)
+                return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                 "stage '%.64s': %s.%s is grabbed at (%g, %g, %g) m and goes straight to (%g, %g, %g) m, through obstacle "
+                                 "'%s', up to %g m deep: add way points around it",
+                                 stage->name, line->name, change->end == CPS_END_A ? "A" : "B", a[0], a[1], a[2], b[0], b[1], b[2],
+                                 evolution->obstacle_name[k], depth);
+        }
+    }
+    return CPS_OK;
+}
+
 /* What the next load step does to each line, and its name. */
 static void plan(CpsEvolution *evolution) {
     CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
@@ -333,7 +362,10 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     if (cps_evolution_remaining(evolution) == 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "no load step remains: ask cps_evolution_remaining first");
     const double begin = seconds();
-    if (evolution->laid && evolution->done == 0) {
+    const bool laying = evolution->laid && evolution->done == 0;
+    const CpsStatus status = laying ? CPS_OK : check_grabs(evolution, err);
+    if (status) return status;
+    if (laying) {
         lay(evolution);
     } else {
         plan(evolution);

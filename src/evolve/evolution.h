@@ -29,6 +29,7 @@ struct CpsEvolution {
     int line_count, stage_count, step_count;
     int obstacle_count;
     CpsiObstacle *obstacle; /* (obstacle_count) */
+    const char **obstacle_name; /* (obstacle_count) */
     CpsiFrictionSet **set;  /* (obstacle_count) those given as sets, NULL where none is */
     double *angle;          /* (obstacle_count) [rad] by which each turns in the step */
     CpsiMove *move;         /* (line_count) what the step does to each line */

@@ -8,6 +8,7 @@
 #include "base/vec3.h"
 #include "cable/friction_set.h"
 #include "capstan/scene.h"
+#include "evolve/path_check.h"
 #include "evolve/start.h"
 #include "geometry/obstacle.h"
 
@@ -478,5 +479,6 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
         status = check_line(scene, i, err);
         if (status != CPS_OK) return status;
     }
-    return check_history(scene, err);
+    status = check_history(scene, err);
+    return status == CPS_OK ? cpsi_path_check(scene, err) : status;
 }

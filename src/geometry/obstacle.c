@@ -39,6 +39,13 @@ double cpsi_obstacle_gap(const CpsiObstacle *o, Vec3 x) {
     return vec3_norm(spoke(o, x)) - o->radius;
 }
 
+double cpsi_obstacle_depth(const CpsiObstacle *o, Vec3 from, Vec3 to) {
+    const Vec3 a = spoke(o, from), way = vec3_sub(spoke(o, to), a);
+    if (o->kind == CPS_OBSTACLE_PLANE) return -fmin(cpsi_obstacle_gap(o, from), cpsi_obstacle_gap(o, to));
+    const double square = vec3_dot(way, way), nearest = square > 0 ? -vec3_dot(a, way)/square : 0;
+    return o->radius - vec3_norm(vec3_axpy(fmin(1, fmax(0, nearest)), way, a));
+}
+
 Vec3 cpsi_obstacle_normal(const CpsiObstacle *o, Vec3 x) {
     if (o->kind == CPS_OBSTACLE_PLANE) return o->frame.axis[2];
     return unit(spoke(o, x), o->frame.axis[0]);

@@ -28,6 +28,8 @@ bool cpsi_obstacle_follows(const CpsiObstacle *obstacle);
 
 /* [m] Signed distance of x, positive on the free side. */
 double cpsi_obstacle_gap(const CpsiObstacle *obstacle, Vec3 x);
+/* [m] How deep the straight way between two points goes below the surface at most; negative: its distance from it. */
+double cpsi_obstacle_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 /* Unit normal at the foot of x, towards the free side. */
 Vec3 cpsi_obstacle_normal(const CpsiObstacle *obstacle, Vec3 x);
 
