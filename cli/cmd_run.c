@@ -85,9 +85,11 @@ static int exit_code(CpsOutcome worst) {
         return EXIT_OK;
     case CPS_STALLED:
     case CPS_ITERATION_LIMIT:
+    case CPS_MESH_TOO_COARSE:
         return EXIT_NOT_CERTIFIED;
     case CPS_UNBOUNDED:
     case CPS_INFEASIBLE:
+    case CPS_SLIDES:
         return EXIT_NO_SOLUTION;
     }
     return EXIT_NOT_CERTIFIED;
@@ -120,7 +122,7 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
         progress_end(&run->progress);
         report_outcomes(run->evolution);
     }
-    if (report.outcome > run->worst) run->worst = report.outcome;
+    run->worst = cps_outcome_worse(run->worst, report.outcome);
     return CPS_OK;
 }
 

@@ -41,7 +41,7 @@ static int reach_step(CpsEvolution *evolution, const char *asked) {
             fputs("capstan study: step ", stderr);
             cli_put_text(stderr, step.name, 80, false);
             fprintf(stderr, ": %s; there is nothing to compare with\n", cps_outcome_sentence(step.outcome));
-            return step.outcome >= CPS_UNBOUNDED ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
+            return cps_outcome_is_final(step.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
         }
         if (asked ? is_asked(step.name, asked) : strcmp(step.name, "laid") != 0) return EXIT_OK;
     }

@@ -109,8 +109,8 @@ static bool step_through(RopeRun *r, CpsEvolution *evolution) {
         good = cps_evolution_step(evolution, &r->run->err) == CPS_OK;
         if (!good) break;
         const CpsStepReport report = cps_evolution_report(evolution);
-        r->outcome = report.outcome > r->outcome ? report.outcome : r->outcome;
-        r->uncertified += report.outcome > CPS_TAUT;
+        r->outcome = cps_outcome_worse(r->outcome, report.outcome);
+        r->uncertified += !cps_outcome_is_certified(report.outcome);
         r->dissipated += report.dissipated, r->work += report.ledger.ends;
         r->gap += report.certificate.gap, r->scale += report.certificate.scale;
         if (wanted > 1 && (int)((long long)i * (wanted - 1) / steps) > r->shots - 1 && r->shots < wanted)
@@ -176,7 +176,7 @@ static bool follow_path(RopeRun *r) {
 
 static void tell_path(const RopeRun *r) {
     const int last = r->shots - 1, nodes = r->rope->rope.nodes;
-    if (r->outcome >= CPS_UNBOUNDED)
+    if (cps_outcome_is_final(r->outcome))
         r->run->none = true;
     else
         r->run->answered = r->run->answered && r->uncertified == 0;

@@ -130,7 +130,7 @@ static int take_steps(History *h, bool quiet) {
             fputs("capstan run: step ", stderr);
             cli_put_text(stderr, report.name, 80, false);
             fprintf(stderr, ": %s; the method of 1990 has no limit to go to\n", cps_outcome_sentence(report.outcome));
-            code = report.outcome >= CPS_UNBOUNDED ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
+            code = cps_outcome_is_final(report.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
         } else if (follow(h, &err) != CPS_OK) {
             code = cli_report(&err);
         } else {

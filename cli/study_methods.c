@@ -76,7 +76,7 @@ static int run_evolution(Histories *h, int method, int line) {
         if (report.outcome != CPS_SOLVED) {
             fprintf(stderr, "capstan study: step %d, %s: %s\n", report.index, METHOD[method],
                     cps_outcome_sentence(report.outcome));
-            code = report.outcome >= CPS_UNBOUNDED ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
+            code = cps_outcome_is_final(report.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
             break;
         }
         const CpsLineView view = cps_evolution_line_view(evolution, line);

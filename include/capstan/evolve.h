@@ -26,14 +26,16 @@ extern "C" {
 
 typedef struct CpsEvolution CpsEvolution;
 
-/* What the mathematics said. Ordered from best to worst: a step's outcome is the worst of its lines'. */
+/* What the mathematics said. A step's outcome is the worst of its lines' (cps_outcome_worse); numbers are no order. */
 #define CPS_OUTCOME_LIST(X)                                                                           \
     X(CPS_SOLVED, 0, "solved", "solved and certified")                                                \
     X(CPS_TAUT, 1, "taut", "inextensible line pulled exactly straight: tension not unique")           \
     X(CPS_STALLED, 2, "stalled", "no further progress: the answer is not certified")                  \
     X(CPS_ITERATION_LIMIT, 3, "iteration_limit", "iteration limit reached: the answer is not certified") \
     X(CPS_UNBOUNDED, 4, "unbounded", "no equilibrium: a rigid motion lowers the energy without bound") \
-    X(CPS_INFEASIBLE, 5, "infeasible", "no configuration: the ends are farther apart than the line is long")
+    X(CPS_INFEASIBLE, 5, "infeasible", "no configuration: the ends are farther apart than the line is long") \
+    X(CPS_MESH_TOO_COARSE, 6, "mesh_too_coarse", "mesh too coarse: one node turns the line by too much for its friction; the answer is not certified") \
+    X(CPS_SLIDES, 7, "slides", "slides without end: no equilibrium at any place along its way")
 
 typedef enum CpsOutcome {
 #define CPS_OUTCOME_ENUM(name, number, key, sentence) name = number,
@@ -43,6 +45,12 @@ typedef enum CpsOutcome {
 
 CPS_API const char *cps_outcome_key(CpsOutcome outcome);      /* "solved", ... */
 CPS_API const char *cps_outcome_sentence(CpsOutcome outcome);
+/* Is the answer of the step certified? */
+CPS_API bool cps_outcome_is_certified(CpsOutcome outcome);
+/* Is there no equilibrium, with a proof in the report?  Nothing can follow such a step. */
+CPS_API bool cps_outcome_is_final(CpsOutcome outcome);
+/* The worse of two, from solved to infeasible. */
+CPS_API CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b);
 
 /* The certificate of one line's step: forces that balance and a configuration, with the gap between them. */
 typedef struct CpsCertificate {

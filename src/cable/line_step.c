@@ -331,7 +331,7 @@ static bool conclude(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
                      const CpsiIpmReport *ipm) {
     if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line), let_go(line, program);
     certify(line, options, ipm);
-    return line->report.outcome <= CPS_TAUT;
+    return cps_outcome_is_certified(line->report.outcome);
 }
 
 /* Rounds on tangent planes that move to where the nodes are. The bounds follow the reactions within each round; once the loop cannot
@@ -417,7 +417,7 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
         if (line->follows) memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
         solve_step(line, program, &with);
-        if (line->report.outcome <= CPS_TAUT) return;
+        if (cps_outcome_is_certified(line->report.outcome)) return;
     }
 }
 

@@ -80,11 +80,11 @@ static Part take(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOption
     cpsi_line_step(line, program, options);
     line->report.share = to - from;
     Part part = {.report = line->report};
-    if (line->report.outcome < CPS_UNBOUNDED) part.ledger = cpsi_ledger_close(line, &start);
+    if (!cps_outcome_is_final(line->report.outcome)) part.ledger = cpsi_ledger_close(line, &start);
     return part;
 }
 
-static bool converged(const Part *part) { return part->report.outcome <= CPS_TAUT; }
+static bool converged(const Part *part) { return cps_outcome_is_certified(part->report.outcome); }
 
 /* Add a part to the whole: sums, the worst outcome, else the later state. */
 static void add(CpsLineReport *whole, CpsLedger *ledger, const Part *part) {
@@ -93,7 +93,7 @@ static void add(CpsLineReport *whole, CpsLedger *ledger, const Part *part) {
     whole->parts = before.parts + 1;
     whole->snaps = before.snaps;
     whole->jump = before.jump;
-    if (before.outcome > whole->outcome) whole->outcome = before.outcome;
+    whole->outcome = cps_outcome_worse(before.outcome, whole->outcome);
     whole->iterations += before.iterations;
     whole->dissipated += before.dissipated;
     cpsi_ledger_add(ledger, &part->ledger);
@@ -140,7 +140,7 @@ void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
         const double to = at + part < 1 ? at + part : 1, middle = at + 0.5*(to - at);
         save(line, room);
         Part taken = take(line, program, options, move, room, at, to, known), second = {0};
-        if (taken.report.outcome >= CPS_UNBOUNDED || (!converged(&taken) && part == 1 && least == 1)) {
+        if (cps_outcome_is_final(taken.report.outcome) || (!converged(&taken) && part == 1 && least == 1)) {
             add(&whole, &ledger, &taken);
             break;
         }

@@ -334,7 +334,7 @@ static void lay(CpsEvolution *evolution) {
 static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     CpsCertificate *to = &step->certificate;
     const CpsCertificate *from = &line->certificate;
-    if (line->outcome > step->outcome) step->outcome = line->outcome;
+    step->outcome = cps_outcome_worse(step->outcome, line->outcome);
     if (line->iterations > step->iterations) step->iterations = line->iterations;
     step->dissipated += line->dissipated;
     cpsi_ledger_add(&step->ledger, &line->ledger);
@@ -376,7 +376,7 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     evolution->report = (CpsStepReport){.name = evolution->step_name, .index = evolution->done};
     for (int i = 0; i < evolution->line_count; i++) add_report(&evolution->report, &evolution->line[i].report);
     evolution->done++;
-    evolution->ended = evolution->report.outcome >= CPS_UNBOUNDED;
+    evolution->ended = cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;
     return CPS_OK;
 }

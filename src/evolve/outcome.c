@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Keys and sentences of outcomes, from the list in evolve.h. */
+/* Keys, sentences and kinds of outcomes, from the list in evolve.h. */
 #include "capstan/evolve.h"
 
 const char *cps_outcome_key(CpsOutcome outcome) {
@@ -21,3 +21,26 @@ const char *cps_outcome_sentence(CpsOutcome outcome) {
     }
     return "unknown outcome";
 }
+
+bool cps_outcome_is_certified(CpsOutcome outcome) { return outcome == CPS_SOLVED || outcome == CPS_TAUT; }
+
+bool cps_outcome_is_final(CpsOutcome outcome) {
+    return outcome == CPS_UNBOUNDED || outcome == CPS_INFEASIBLE || outcome == CPS_SLIDES;
+}
+
+/* From best to worst: certified answers, answers that are not certified, proofs that there is none. */
+static int badness(CpsOutcome outcome) {
+    switch (outcome) {
+    case CPS_SOLVED: return 0;
+    case CPS_TAUT: return 1;
+    case CPS_MESH_TOO_COARSE: return 2;
+    case CPS_STALLED: return 3;
+    case CPS_ITERATION_LIMIT: return 4;
+    case CPS_SLIDES: return 5;
+    case CPS_UNBOUNDED: return 6;
+    case CPS_INFEASIBLE: return 7;
+    }
+    return 8;
+}
+
+CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b) { return badness(b) > badness(a) ? b : a; }

@@ -55,6 +55,11 @@ static void same(Judge *judge, const char *what, double claimed, double found, d
     }
 }
 
+/* Does the file call the step certified, or without a solution? */
+static bool claims_something(const Record *r) {
+    return r->outcome != OUTCOME_STALLED && r->outcome != OUTCOME_LIMIT && r->outcome != OUTCOME_COARSE;
+}
+
 /* A step without friction has no bounds to be compared with the reactions. */
 static double claimed_residual(const Record *r, const Measures *m) {
     for (size_t c = 0; c < r->contacts * r->nodes; c++)
@@ -82,7 +87,7 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m) {
     const double *claim = r->claim;
     double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent;
     double force = FORCE_FLOOR * m->largest_force;
-    bool certified = r->outcome != OUTCOME_STALLED && r->outcome != OUTCOME_LIMIT;
+    bool certified = claims_something(r);
     same(judge, "primal", claim[CLAIM_PRIMAL], m->primal, energy);
     same(judge, "dual", claim[CLAIM_DUAL], m->dual, energy);
     same(judge, "scale", claim[CLAIM_SCALE], m->scale, 0);
@@ -206,12 +211,15 @@ static void judge_record(const Source *source, const Record *r, const char *line
         case OUTCOME_UNBOUNDED:
             judge_unbounded(&judge, r, &m);
             break;
+        case OUTCOME_SLIDES:
+            find(&judge, "slides without end, without evidence");
+            break;
         default:
             judge_claims(&judge, r, &m);
             break;
         }
     }
-    bool claimed = r->outcome != OUTCOME_STALLED && r->outcome != OUTCOME_LIMIT;
+    bool claimed = claims_something(r);
     if (judge.findings > 0) {
         report->refuted++;
     } else if (claimed) {
@@ -245,7 +253,7 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
         largest = fmax(largest, fmax(before->reaction[c], hypot(hypot(b[0], b[1]), b[2])));
     }
     // what is not certified claims nothing; where nothing is found, the reactions are still those of the step before
-    if (r->outcome == OUTCOME_STALLED || r->outcome == OUTCOME_LIMIT) return;
+    if (!claims_something(r)) return;
     bool solved = r->outcome <= OUTCOME_TAUT;
     // a line free at both ends balances its forces by a last correction of its reactions
     bool loose = r->end_kind[0] == END_FREE && r->end_kind[1] == END_FREE;

@@ -10,7 +10,8 @@
 #include "surface.h"
 
 /* flag values of the file, by docs/formats.md */
-enum { OUTCOME_SOLVED, OUTCOME_TAUT, OUTCOME_STALLED, OUTCOME_LIMIT, OUTCOME_UNBOUNDED, OUTCOME_INFEASIBLE, OUTCOMES };
+enum { OUTCOME_SOLVED, OUTCOME_TAUT, OUTCOME_STALLED, OUTCOME_LIMIT, OUTCOME_UNBOUNDED, OUTCOME_INFEASIBLE,
+       OUTCOME_COARSE, OUTCOME_SLIDES, OUTCOMES };
 enum { END_HELD, END_FREE };
 
 /* the claimed certificate: index here, name of the variable in CLAIM_NAME */

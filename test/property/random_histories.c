@@ -189,7 +189,7 @@ static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, c
     const CpsStepReport step = cps_evolution_report(evolution);
     count->steps++;
     count->parts += report.parts, count->cut += report.parts > 1;
-    if (report.outcome > CPS_TAUT) {
+    if (!cps_outcome_is_certified(report.outcome)) {
         count->refused++;
         printf("seed %llu, step %d: %s\n", (unsigned long long)seed, step.index, cps_outcome_key(report.outcome));
         return;
