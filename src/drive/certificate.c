@@ -295,6 +295,6 @@ CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program
     const double forbidden = motion->speed > 0 ? totals.forbidden/motion->speed : totals.forbidden;
     report->constraint = cpsi_larger(report->constraint, forbidden);
     if (!(forbidden <= ON_BOUNDARY)) report->upper = report->value = report->minimum = INFINITY;
-    report->scale = fmax(fmax(totals.size, motion->force*motion->speed), fabs(report->load_power) + fabs(drive_power));
+    report->scale = fmax(fmax(totals.size, motion->force*motion->driven), fabs(report->load_power) + fabs(drive_power));
     return CPS_OK;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "drive/adjoint.h"
 #include "linsys/small.h"
 #include "linsys/sparse.h"
 
@@ -55,16 +56,15 @@ static void list_rows(const CpsiRows *rows, int first, CpsEntry **to) {
             *(*to)++ = (CpsEntry){first + i, rows->column[e], rows->value[e]};
 }
 
-static void list_lines(const CpsSystem *system, int first, CpsEntry **to) {
+static void list_lines(const CpsSystem *system, int first, CpsiAdjoint *adjoint, CpsEntry **to) {
     for (int k = 0; k < system->pieces; k++) {
         const CpsiPiece *piece = &system->piece[k];
         const CpsiForm *form = piece->term ? NULL : system->form[piece->form];
-        const int base = system->law[piece->law].first + piece->offset;
-        for (int l = 0; form && l < form->lines; l++, first++)
-            for (int r = 0; r < piece->space; r++)
-                for (size_t e = system->map.start[base + r]; e < system->map.start[base + r + 1]; e++)
-                    *(*to)++ = (CpsEntry){first, system->map.column[e],
-                                          form->q[l*form->n + r]*system->map.value[e]};
+        for (int l = 0; form && l < form->lines; l++, first++) {
+            cpsi_adjoint_apply(adjoint, system, piece, &form->q[(size_t)l*(size_t)form->n], 1, 1);
+            for (int i = 0; i < adjoint->count; i++)
+                *(*to)++ = (CpsEntry){first, adjoint->column[i], adjoint->sum[adjoint->column[i]]};
+        }
     }
 }
 
@@ -73,12 +73,19 @@ static CpsStatus write_rows(CpsiKinematics *k, CpsError *err) {
     int rows;
     const size_t count = count_entries(system, &rows);
     if (count > MOST_ENTRIES) return cpsi_fail(err, CPS_ERR_LIMIT, "the constraints have %zu entries", count);
+    CpsiAdjoint adjoint;
+    CpsStatus status = cpsi_adjoint_new(system, &adjoint, err);
+    if (status != CPS_OK) return status;
     CpsEntry *list = malloc((count + 1)*sizeof *list), *at = list;
-    if (!list) return out_of_memory(err);
+    if (!list) {
+        cpsi_adjoint_free(&adjoint);
+        return out_of_memory(err);
+    }
     list_rows(&system->drive, 0, &at);
     list_rows(&system->constraint, system->drive.rows, &at);
-    list_lines(system, system->drive.rows + system->constraint.rows, &at);
-    CpsStatus status = cpsi_rows_append(&k->rows, "constraints", system->n, rows, (int)count, list, err);
+    list_lines(system, system->drive.rows + system->constraint.rows, &adjoint, &at);
+    cpsi_adjoint_free(&adjoint);
+    status = cpsi_rows_append(&k->rows, "constraints", system->n, rows, (int)(at - list), list, err);
     free(list);
     k->size = malloc(((size_t)rows + 1)*sizeof *k->size);
     k->x = calloc(2*((size_t)system->n + (size_t)rows), sizeof *k->x);

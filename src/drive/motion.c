@@ -115,7 +115,7 @@ static void block(CpsMotionReport *report) {
 /* The nearest velocity that agrees with W; BLOCKED where there is none. */
 static void start_velocity(CpsMotion *motion, CpsiKinematics *kinematics) {
     cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
-    motion->speed = largest_of(motion->system->n, motion->velocity);
+    motion->speed = motion->driven = largest_of(motion->system->n, motion->velocity);
     const double left = cpsi_kinematics_contradiction(kinematics, motion->driving, motion->velocity, motion->resistance,
                                                       motion->constraint);
     if (left > CONTRADICTION) block(&motion->report);

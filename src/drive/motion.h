@@ -23,6 +23,8 @@ struct CpsMotion {
     CpsiSum *balance;                    /* (n) scratch */
     CpsMotionShare *share;               /* (laws) */
     double speed, force;                 /* sizes of velocities and forces */
+    double driven;                       /* size of the least velocity that agrees with W: what a power is measured by, as V may be
+                                            far larger where nothing resists it */
 };
 
 /* U_k = B_k V of all laws. */

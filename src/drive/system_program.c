@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "drive/adjoint.h"
 #include "linsys/small.h"
 
 /* Residual and gap above which the solver's outcome is no proof by itself; the bounds decide on motions. */
@@ -80,23 +81,24 @@ static bool push(List *list, int row, int column, double value) {
 }
 
 /* B* F of one piece: entries, and the constant to h */
-static bool push_piece(const CpsiDriveProgram *p, int k, List *list) {
+static bool push_piece(const CpsiDriveProgram *p, int k, CpsiAdjoint *adjoint, List *list) {
     const CpsSystem *system = p->system;
     const CpsiForm *form = p->form[k];
     const CpsiPiece *piece = &system->piece[k];
-    const int n = form->n, base = system->law[piece->law].first + piece->offset;
+    const size_t space = (size_t)piece->space, unknowns = (size_t)form->unknowns;
+    const double size = cpsi_adjoint_size(space*unknowns, form->p), far = cpsi_adjoint_size(space, form->origin);
     bool done = true;
-    for (int r = 0; r < piece->space; r++) {
-        const size_t begin = system->map.start[base + r], end = system->map.start[base + r + 1];
-        for (size_t e = begin; e < end; e++) {
-            const int row = system->map.column[e];
-            const double value = system->map.value[e];
-            p->h[row] += value*form->origin[r];
-            for (int j = 0; done && j < form->unknowns; j++)
-                done = push(list, row, p->first[k] + j, value*form->p[(size_t)r*(size_t)form->unknowns + (size_t)j]);
-            for (int l = 0; done && l < form->lines; l++)
-                done = push(list, row, p->line[k] + l, value*form->q[(size_t)l*(size_t)n + (size_t)r]);
-        }
+    cpsi_adjoint_apply(adjoint, system, piece, form->origin, 1, far);
+    for (int i = 0; i < adjoint->count; i++) p->h[adjoint->column[i]] += adjoint->sum[adjoint->column[i]];
+    for (int j = 0; done && j < form->unknowns; j++) {
+        cpsi_adjoint_apply(adjoint, system, piece, &form->p[j], unknowns, size);
+        for (int i = 0; done && i < adjoint->count; i++)
+            done = push(list, adjoint->column[i], p->first[k] + j, adjoint->sum[adjoint->column[i]]);
+    }
+    for (int l = 0; done && l < form->lines; l++) {
+        cpsi_adjoint_apply(adjoint, system, piece, &form->q[(size_t)l*(size_t)form->n], 1, 1);
+        for (int i = 0; done && i < adjoint->count; i++)
+            done = push(list, adjoint->column[i], p->line[k] + l, adjoint->sum[adjoint->column[i]]);
     }
     return done;
 }
@@ -113,19 +115,23 @@ static bool push_transposed(const CpsiRows *rows, int first, List *list) {
 static CpsStatus write_equations(CpsiDriveProgram *p, CpsiAim aim, CpsError *err) {
     const CpsSystem *system = p->system;
     List list = {0};
+    CpsiAdjoint adjoint;
+    CpsStatus status = cpsi_adjoint_new(system, &adjoint, err);
+    if (status != CPS_OK) return status;
     bool done = true;
-    for (int k = 0; done && k < system->pieces; k++) done = push_piece(p, k, &list);
+    for (int k = 0; done && k < system->pieces; k++) done = push_piece(p, k, &adjoint, &list);
     done = done && push_transposed(&system->drive, p->resistance, &list) &&
            push_transposed(&system->constraint, p->constraint, &list);
     for (int i = 0; done && system->load && i < system->n; i++) {
         if (aim == CPSI_AIM_FACTOR) done = push(&list, i, p->factor, system->load[i]);
         else p->h[i] += system->load[i];
     }
-    CpsStatus status = done ? CPS_OK : out_of_memory(err);
+    if (!done) status = out_of_memory(err);
     if (status == CPS_OK)
         status =
             cpsi_rows_append(&p->equation, "equilibrium", p->unknowns, system->n, (int)list.count, list.entry, err);
     free(list.entry);
+    cpsi_adjoint_free(&adjoint);
     return status;
 }
 

@@ -58,9 +58,17 @@ void cpsi_raw_count(const CpsSet *set, CpsiCount *count) {
 
 /* ---- rows of primitives ---- */
 
+/* A coefficient that is this small beside the two it is the sum of is their rounding: maps and bases are right to some tens of eps. An
+ * equation made of rounding alone would be scaled up to a full one. */
+static const double CANCELLED = 1e-14;
+
 /* out += factor in, both affine */
 static void add(const CpsiRaw *raw, double factor, const double *in, double *out) {
-    for (int j = 0; j < raw->width; j++) out[j] += factor*in[j];
+    for (int j = 0; j < raw->unknowns; j++) {
+        const double more = factor*in[j], sum = out[j] + more;
+        out[j] = fabs(sum) <= CANCELLED*(fabs(out[j]) + fabs(more)) ? 0 : sum;
+    }
+    out[raw->unknowns] += factor*in[raw->unknowns];
 }
 
 /* The same for an equation, whose constants may cancel: the largest tells what is left from rounding. */
