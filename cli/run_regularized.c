@@ -107,8 +107,8 @@ static CpsStatus follow(History *h, CpsError *err) {
         if (status != CPS_OK) return status;
         const CpsClassicView own = cps_classic_view(t->method.last);
         store(t, h->done, own.position);
-        t->tension[2 * h->done] = own.tension[0];
-        t->tension[2 * h->done + 1] = own.tension[own.cells - 1];
+        for (int end = 0; end < 2; ++end)
+            t->tension[2 * h->done + end] = cps_classic_end_tension(t->method.last, end);
     }
     return CPS_OK;
 }

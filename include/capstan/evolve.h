@@ -73,10 +73,13 @@ typedef struct CpsCertificate {
 /* How a node rests on the obstacle. */
 typedef enum CpsNodeState { CPS_NODE_FREE = 0, CPS_NODE_STICK = 1, CPS_NODE_SLIP = 2 } CpsNodeState;
 
+/* The end of a line. The last half element, of length h/2, has the weight w h/2, and where a held end lies on an obstacle its reaction
+ * and friction as well; so the force at the end is not the one in the middle of the element (docs/theory.md 3). */
 typedef struct CpsEndReport {
     double position[3]; /* [m] */
     double force[3];    /* [N] on the line at this end */
-    double tension;     /* [N] |force| */
+    double tension;     /* [N] |force|, the line's tension at this end */
+    double friction[3]; /* [N] on the half element beside a held end that lies on an obstacle; in balance with `force` */
 } CpsEndReport;
 
 /* Where the energy of a step went [J]: ends + obstacles = elastic + gravity + dissipated + imbalance. */

@@ -60,27 +60,69 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     }
 }
 
+static int end_node(const CpsiLine *line, int end) { return end == CPS_END_A ? 0 : line->n - 1; }
+
+Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k) {
+    const int j = end_node(line, end);
+    const CpsiObstacle *obstacle = &line->obstacle[k];
+    const Vec3 from = vec3_load(&line->reference[3*j]), to = vec3_load(&line->position[3*j]);
+    return cpsi_obstacle_way(obstacle, cpsi_obstacle_turn(obstacle, from, line->turn[k]), to);
+}
+
+/* v in the plane with normal `from`, turned with the normal to that of `to`; no two normals here are opposite. */
+static Vec3 turned(Vec3 v, Vec3 from, Vec3 to) {
+    const double cosine = vec3_dot(from, to);
+    return cosine > -0.5 ? vec3_axpy(-vec3_dot(to, v)/(1 + cosine), vec3_add(from, to), v) : vec3(0, 0, 0);
+}
+
+/* The friction of the half element beside an end that is held where it lies on obstacle k, with normal n and a reaction: that of the
+ * neighbouring node, F per length of the line, with the end's own zone factor. It is no larger part of its bound than F, and where the
+ * end slides no friction drives it along. */
+static Vec3 half_friction(const CpsiLine *line, int end, int k, Vec3 n, double reaction) {
+    const Vec3 none = vec3(0, 0, 0);
+    const int j = end_node(line, end), next = end == CPS_END_A ? 1 : line->n - 2;
+    for (int c = next; c < cpsi_line_contacts(line); c += line->n) {
+        const double bound = line->friction_bound[c];
+        if (cpsi_line_obstacle(line, c) != &line->obstacle[k] || !(bound > 0)) continue;
+        const double zone = line->friction_factor ? line->friction_factor[j]/line->friction_factor[next] : 1;
+        const double density = zone*cpsi_line_share(line, j)/cpsi_line_share(line, next);
+        const double part = fmin(density, cpsi_rub_set(line, j).friction*reaction/bound);
+        const Vec3 force = turned(vec3_load(&line->friction_force[3*c]), vec3_load(&line->normal[3*c]), n);
+        const Vec3 slide = cpsi_line_end_slide(line, end, k);
+        const bool drives = vec3_dot(force, slide) > 0 && vec3_norm(slide) > CPSI_TOUCH*line->length;
+        return drives ? none : vec3_scale(part, force);
+    }
+    return none;
+}
+
+/* A held end that lies on an obstacle is carried by it, and its half element rubs there: what is left of `force` for the support. */
+static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
+    const int j = end_node(line, end);
+    const Vec3 x = vec3_load(&line->position[3*j]);
+    double gap;
+    const int on = cpsi_line_nearest(line, x, &gap);
+    const Vec3 n = on < 0 ? vec3(0, 0, 0) : cpsi_obstacle_normal(&line->obstacle[on], x);
+    const double up = vec3_dot(force, n);
+    if (!(up > 0) || !(gap <= CPSI_TOUCH*line->length)) return force;
+    line->reaction[j] = up;
+    if (line->follows) line->on[j] = on;
+    line->state[j] = CPS_NODE_STICK; /* let go in the next step, it starts with its friction */
+    const Vec3 friction = half_friction(line, end, on, n, up);
+    vec3_store(line->report.end[end].friction, friction);
+    line->report.dissipated -= vec3_dot(friction, cpsi_line_end_slide(line, end, on));
+    return vec3_sub(vec3_axpy(-up, n, force), friction);
+}
+
 void cpsi_line_report_ends(CpsiLine *line) {
     for (int end = 0; end < 2; end++) {
-        const int j = end == CPS_END_A ? 0 : line->n - 1, e = end == CPS_END_A ? 0 : line->n - 2;
+        const int j = end_node(line, end), e = end == CPS_END_A ? 0 : line->n - 2;
         CpsEndReport *out = &line->report.end[end];
         memcpy(out->position, &line->position[3*j], sizeof out->position);
         Vec3 force = vec3_load(line->end[end].value);
         if (line->end[end].kind == CPS_END_HELD) {
             /* what the support does: the opposite of the element's pull and the node's own weight */
             const Vec3 pull = vec3_scale(end == CPS_END_A ? 1 : -1, vec3_load(&line->segment_force[3*e]));
-            force = vec3_scale(-1, vec3_add(pull, vec3_load(&line->load[3*j])));
-            /* an end that lies on the obstacle is carried by it */
-            double gap;
-            const int on = cpsi_line_nearest(line, vec3_load(out->position), &gap);
-            const Vec3 n = on < 0 ? vec3(0, 0, 0) : cpsi_obstacle_normal(&line->obstacle[on], vec3_load(out->position));
-            const double up = vec3_dot(force, n);
-            if (up > 0 && gap <= CPSI_TOUCH*line->length) {
-                line->reaction[j] = up;
-                if (line->follows) line->on[j] = on;
-                line->state[j] = CPS_NODE_STICK; /* let go in the next step, it starts with its friction */
-                force = vec3_axpy(-up, n, force);
-            }
+            force = rest_on_obstacle(line, end, vec3_scale(-1, vec3_add(pull, vec3_load(&line->load[3*j]))));
         }
         vec3_store(out->force, force);
         out->tension = vec3_norm(force);

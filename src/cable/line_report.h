@@ -9,7 +9,10 @@
 /* Free, stick or slip, and slack, from the pairs of the solution; grounded, slipping and slack lengths, dissipation. */
 void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program);
 
-/* Forces and tensions at the ends. */
+/* Forces and tensions at the ends, and what the friction of their half elements dissipates. */
 void cpsi_line_report_ends(CpsiLine *line);
+
+/* [m] The way of an end on obstacle k in this step: that of the node, less that of an obstacle that turns. */
+Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k);
 
 #endif

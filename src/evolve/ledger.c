@@ -6,9 +6,11 @@
  * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched, gravity = - sum (weight of the node) . x.
  * Work of an end is the mean of its force before and after times its way, the trapezium rule; where no force was there before, the one
  * after. Friction works with the force at the end of the step, on the way slid (dissipated) and on the way of the obstacle that turns
- * under it (obstacles). So the imbalance of a step is of second order in its size where nothing slides, and over a path it vanishes at
+ * under it (obstacles); the part of an end's force that is in balance with the friction of its half element does as that does. So the imbalance of a step is of second order in its size where nothing slides, and over a path it vanishes at
  * first order with the steps; on a path along which forces are linear in the ways and nothing slides it is rounding. */
 #include "evolve/ledger.h"
+
+#include "cable/line_report.h"
 
 static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
     const Vec3 weight = vec3_load(line->weight), origin = vec3_load(line->position);
@@ -35,6 +37,7 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
         for (int a = 0; a < 3; a++) {
             start.end[i].position[a] = line->position[3*j + a];
             start.end[i].force[a] = is_free ? end[i].value[a] : line->report.end[i].force[a];
+            start.end[i].friction[a] = is_free ? 0 : line->report.end[i].friction[a];
         }
     }
     return start;
@@ -44,8 +47,21 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
 static double end_work(const CpsEndReport *before, const CpsEndReport *after, bool known) {
     double work = 0;
     for (int a = 0; a < 3; a++) {
-        const double force = known ? 0.5*(before->force[a] + after->force[a]) : after->force[a];
+        const double pull = after->force[a] + after->friction[a], pulled = before->force[a] + before->friction[a];
+        const double force = (known ? 0.5*(pulled + pull) : pull) - after->friction[a];
         work += force*(after->position[a] - before->position[a]);
+    }
+    return work;
+}
+
+/* The same of the half elements at held ends. */
+static double end_obstacle_work(const CpsiLine *line) {
+    double work = 0;
+    for (int end = 0; line->follows && end < 2; end++) {
+        const int j = end == CPS_END_A ? 0 : line->n - 1, k = line->on[j];
+        if (!cpsi_line_is_held(line, j) || k < 0 || line->turn[k] == 0) continue;
+        const Vec3 own = cpsi_obstacle_way(&line->obstacle[k], vec3_load(&line->reference[3*j]), vec3_load(&line->position[3*j]));
+        work += vec3_dot(vec3_load(line->report.end[end].friction), vec3_sub(own, cpsi_line_end_slide(line, end, k)));
     }
     return work;
 }
@@ -61,7 +77,7 @@ static double obstacle_work(const CpsiLine *line) {
         const Vec3 own = cpsi_obstacle_way(obstacle, from, x);
         work += vec3_dot(vec3_load(&line->friction_force[3*c]), vec3_sub(own, cpsi_line_slide(line, c)));
     }
-    return work;
+    return work + end_obstacle_work(line);
 }
 
 CpsLedger cpsi_ledger_close(const CpsiLine *line, const CpsiLedgerStart *start) {

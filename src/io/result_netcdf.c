@@ -151,7 +151,7 @@ enum {
 typedef struct LineIds {
     int node, element; /* dimensions */
     int contacts;      /* of a node, as in the view */
-    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, outcome, iterations, parts, snaps, proof;
+    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, outcome, iterations, parts, snaps, proof;
     int field[FIELDS][CONTACTS];
     int number[NUMBERS];
     int zone[ZONES]; /* unused without zones */
@@ -359,6 +359,11 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     add_flags(nc, ids->end_kind, NC_BYTE, 2, "held free");
     ids->end_value = add_variable(nc, view->name, "end_value", NC_DOUBLE, 3, on_ends,
                                   "position in m of a held end, force in N on a free one", "m or N");
+    ids->end_force = add_variable(nc, view->name, "end_force", NC_DOUBLE, 3, on_ends, "force on the line at its ends", "N");
+    ids->end_friction = add_variable(nc, view->name, "end_friction", NC_DOUBLE, 3, on_ends,
+                                     "friction of the half element beside a held end that lies on an obstacle", "N");
+    ids->end_tension =
+        add_variable(nc, view->name, "end_tension", NC_DOUBLE, 2, on_ends, "tension of the line at its ends", "N");
     ids->outcome = add_outcome(nc, view->name);
     ids->iterations =
         add_variable(nc, view->name, "iterations", NC_INT, 1, &nc->step, "interior-point iterations", "1");
@@ -416,13 +421,19 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     }
 
     unsigned char kind[ENDS];
-    double value[ENDS][XYZ];
+    double value[ENDS][XYZ], force[ENDS][XYZ], friction[ENDS][XYZ], tension[ENDS];
     for (int e = 0; e < ENDS; ++e) {
         kind[e] = view->end[e].kind == CPS_END_FREE;
         memcpy(value[e], view->end[e].value, sizeof value[e]);
+        memcpy(force[e], report->end[e].force, sizeof force[e]);
+        memcpy(friction[e], report->end[e].friction, sizeof friction[e]);
+        tension[e] = report->end[e].tension;
     }
     if (nc->status == NC_NOERR) keep(nc, nc_put_vara_uchar(nc->file, ids->end_kind, start, ends, kind));
     write_doubles(nc, ids->end_value, start, ends, value[0]);
+    write_doubles(nc, ids->end_force, start, ends, force[0]);
+    write_doubles(nc, ids->end_friction, start, ends, friction[0]);
+    write_doubles(nc, ids->end_tension, start, ends, tension);
     write_doubles(nc, ids->proof, start, vector, report->proof);
 
     const int outcome = (int)report->outcome;

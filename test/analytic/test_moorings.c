@@ -61,11 +61,6 @@ static void move(Rig *rig, int steps, double x, double y) {
     rig_change(rig, CPS_END_B, CPS_END_HELD, x, y, HEIGHT);
 }
 
-/* [N] Tension at the anchor: that of the first element, at its middle, and half an element's friction less. */
-static double anchor(const RigRun *run, double friction) {
-    return rig_tension(&run->view, 0) - friction * WEIGHT * LENGTH / run->view.elements / 2;
-}
-
 /* Lay at `from`, go over `by` to `to`; horizontal force and anchor tension against the closed form. Touchdown falls
  * between nodes: errors under C h^2, C = 1 for h = 1/N in units of H as for the line without friction; 4 times that at
  * the anchor, which is pulled over a part of the bed that is longer or shorter by up to h/2 of friction near touchdown.
@@ -84,7 +79,7 @@ static void against(const char *name, double mu, double sign, double from, doubl
         snprintf(figure, sizeof figure, "horizontal force, N = %d [N]", n);
         const double h = rig_show(name, figure, exact.h, run.report.end[CPS_END_B].force[0]) / exact.h;
         snprintf(figure, sizeof figure, "anchor tension, N = %d [N]", n);
-        const double a = rig_show(name, figure, exact.anchor, anchor(&run, sign * mu)) / exact.h;
+        const double a = rig_show(name, figure, exact.anchor, run.report.end[CPS_END_A].tension) / exact.h;
         CHECK_LESS(fabs(h), 1.0 / n / n);
         CHECK_LESS(fabs(a), 4.0 / n / n);
         rig_close(&run);
@@ -200,7 +195,7 @@ static Loop cycle(int elements, int steps, double swing, bool sway) {
             const CpsEndReport *now = &run.report.end[CPS_END_B];
             loop.area += 0.5 * (before.force[axis] + now->force[axis]) * (now->position[axis] - before.position[axis]);
         }
-        const double found = sway ? run.report.end[CPS_END_B].force[1] : rig_tension(&run.view, 0);
+        const double found = sway ? run.report.end[CPS_END_B].force[1] : run.report.end[CPS_END_A].tension;
         if (k == 5) loop.back = found;
         if (k == 7) loop.out = found;
     }

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "ends.h"
 #include "measure.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding leaves 1e-16 per
@@ -69,7 +70,7 @@ static double claimed_residual(const Record *r, const Measures *m) {
 
 /* The ledger closes, whatever it says; of a step taken in one part its entries are those of the arrays, but for the
  * work of the ends, which needs the forces before. */
-static void judge_ledger(Judge *judge, const Record *r, const Measures *m, double floor) {
+static void judge_ledger(Judge *judge, const Record *r, const Measures *m, double ends_carried, double floor) {
     const double *entry = r->ledger;
     double spent = entry[LEDGER_ELASTIC] + entry[LEDGER_GRAVITY] + r->dissipated + entry[LEDGER_IMBALANCE],
            sizes = r->dissipated;
@@ -79,11 +80,33 @@ static void judge_ledger(Judge *judge, const Record *r, const Measures *m, doubl
     if (r->parts > 1) return;
     same(judge, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
     same(judge, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
-    same(judge, "ledger_obstacles", entry[LEDGER_OBSTACLES], m->carried, floor);
+    same(judge, "ledger_obstacles", entry[LEDGER_OBSTACLES], m->carried + ends_carried, floor);
 }
 
-/* the figures of the certificate */
-static void judge_claims(Judge *judge, const Record *r, const Measures *m) {
+/* Forces, tensions and friction of the half elements at the ends; the sums of their dissipation and of their work on the
+ * way of obstacles that turn. */
+static void judge_ends(Judge *judge, const Source *source, const Record *r, const Measures *m, double *slid,
+                       double *carried) {
+    const double force = FORCE_TOLERANCE * m->largest_force + NOTHING;
+    *slid = *carried = 0;
+    for (int e = 0; e < 2; e++) {
+        const End end = end_measure(source, r, e);
+        const double *said = r->end_force[e];
+        double off = 0, rubs = 0;
+        for (int k = 0; k < 3; k++) off = fmax(off, fabs(said[k] - (double)end.force[k]));
+        for (int k = 0; k < 3; k++) rubs = fmax(rubs, fabs(r->end_friction[e][k] - (double)end.friction[k]));
+        at_most(judge, "end_force against the half element's balance", off, force);
+        at_most(judge, "end_friction against the neighbour's per length", rubs, force);
+        at_most(judge, "end_tension against the size of end_force",
+                fabs(r->end_tension[e] - hypot(hypot(said[0], said[1]), said[2])), force / 1000);
+        at_most(judge, "reaction on a held end against what presses there",
+                fabs(r->reaction[e ? r->elements : 0] - (double)end.reaction), force);
+        *slid += (double)end.slid, *carried += (double)end.carried;
+    }
+}
+
+/* the figures of the certificate; `ends`: what friction dissipates on the half elements at held ends */
+static void judge_claims(Judge *judge, const Record *r, const Measures *m, double ends) {
     const double *claim = r->claim;
     double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent;
     double force = FORCE_FLOOR * m->largest_force;
@@ -95,7 +118,7 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m) {
     same(judge, "largest_force", claim[CLAIM_LARGEST_FORCE], m->largest_force, force);
     same(judge, "tension_estimate", claim[CLAIM_TENSION_ESTIMATE], m->tension_estimate, force);
     // what friction dissipates is -F.u_T; w |u_T| differs from it by the law residual
-    if (r->parts == 1) same(judge, "dissipated", r->dissipated, m->slid, energy + m->law);
+    if (r->parts == 1) same(judge, "dissipated", r->dissipated, m->slid + ends, energy + m->law);
     same(judge, "friction_residual", claim[CLAIM_FRICTION_RESIDUAL], claimed_residual(r, m), force * (double)r->nodes);
     same(judge, "penetration", claim[CLAIM_PENETRATION], m->depth, COPY_TOLERANCE * (m->length + m->reach));
     // what lies outside its set, a force or a place, makes a gap larger here and not everywhere: where that is no more
@@ -142,9 +165,11 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     at_most(judge, "contacts not looked for", m->unwatched, 0);
     at_most(judge, "elongation beyond the tension", m->strain_error, strain);
     at_most(judge, "distance of a held end", m->held_error, COPY_TOLERANCE * (m->length + m->extent));
-    judge_claims(judge, r, m);
+    double slid, carried;
+    judge_ends(judge, source, r, m, &slid, &carried);
+    judge_claims(judge, r, m, slid);
     // a start laid by statics comes from nowhere
-    if (!laid) judge_ledger(judge, r, m, ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->reach);
+    if (!laid) judge_ledger(judge, r, m, carried, ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->reach);
 }
 
 static void judge_taut(Judge *judge, const Record *r, const Measures *m) {
@@ -215,7 +240,7 @@ static void judge_record(const Source *source, const Record *r, const char *line
             find(&judge, "slides without end, without evidence");
             break;
         default:
-            judge_claims(&judge, r, &m);
+            judge_claims(&judge, r, &m, (double)(end_measure(source, r, 0).slid + end_measure(source, r, 1).slid));
             break;
         }
     }
@@ -233,6 +258,15 @@ static void judge_record(const Source *source, const Record *r, const char *line
     report->force = fmax(report->force, m.force > NOTHING ? m.force / m.largest_force : 0);
     report->stretch = fmax(report->stretch, m.stretch);
     report->penetration = fmax(report->penetration, m.penetration / m.length);
+}
+
+/* The work of the ends needs the forces that they had at the end of the step before. */
+static void judge_work(const Record *r, const Record *before, const Source *source, Judge *judge) {
+    if (r->outcome != OUTCOME_SOLVED || r->parts > 1 || before->outcome > OUTCOME_TAUT) return;
+    const Measures m = measure(source, r, source->follows && source->consistent);
+    if (m.missing) return;
+    same(judge, "ledger_ends", r->ledger[LEDGER_ENDS], (double)ends_work(r, before),
+         ENERGY_FLOOR * m.scale + 1e-13 * m.largest_force * m.reach);
 }
 
 /* The reaction of an obstacle on node j: it may have been the node's other contact. */
@@ -294,6 +328,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         if (step > 0 && record.parts == 1 &&
             memcmp(record.reference, previous.position, record.nodes * sizeof(Vector)) != 0)
             find(&judge, "the reference is not the position of the step before");
+        if (step > 0) judge_work(&record, &previous, source, &judge);
         // with frozen friction the reactions before a first step, or before the last part of one, are not known
         bool statics = step == 0 && source->laid && without_friction(&record);
         if (!statics && (source->consistent || (step > 0 && record.parts == 1)))

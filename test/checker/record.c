@@ -371,6 +371,9 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "share", step, 0, 0, &record->share, log);
     bad |= read_step(source, line, "end_kind", step, 2, 0, kind, log);
     bad |= read_step(source, line, "end_value", step, 2, 3, record->end_value[0], log);
+    bad |= read_step(source, line, "end_force", step, 2, 3, record->end_force[0], log);
+    bad |= read_step(source, line, "end_friction", step, 2, 3, record->end_friction[0], log);
+    bad |= read_step(source, line, "end_tension", step, 2, 0, record->end_tension, log);
     bad |= read_step(source, line, "dissipated", step, 0, 0, &record->dissipated, log);
     bad |= read_step(source, line, "proof", step, 3, 0, record->proof, log);
     bad |= read_step(source, line, "proof_value", step, 0, 0, &record->proof_value, log);

@@ -56,7 +56,8 @@ typedef struct Record {
     int end_kind[2], outcome, iterations;
     int parts;    /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */
-    Vector end_value[2], proof;
+    Vector end_value[2], end_force[2], end_friction[2], proof;
+    double end_tension[2];
     double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES];
 } Record;
 

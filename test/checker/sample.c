@@ -94,8 +94,6 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = constant("contact_gap", NODES, 0, 0);
     field[n++] = constant("friction_bound", NODES, 4, 2);
     field[n++] = constant("reaction", NODES, 8, 4);
-    field[n - 1].value[0] = line->end_kind[0] == 0 ? 0 : 4; // a held end needs no bed
-    field[n - 1].value[NODES - 1] = line->end_kind[1] == 0 ? 0 : 4;
     field[n] = constant("tension", ELEMENTS, 0, 0);
     memcpy(field[n++].value, line->tension, sizeof line->tension);
     field[n++] = scalar("outcome", line->outcome);
@@ -104,6 +102,10 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = scalar("share", 1);
     field[n++] = (Field){"end_kind", 2, 0, {line->end_kind[0], line->end_kind[1]}};
     field[n++] = (Field){"end_value", 2, 3, {0, 0, 0, line->end_b, 0, 0}};
+    // the bed carries the half element at A, next to which nothing rubs
+    field[n++] = (Field){"end_force", 2, 3, {0, 0, 0, line->end_b, 0, 0}};
+    field[n++] = (Field){"end_friction", 2, 3, {0}};
+    field[n++] = (Field){"end_tension", 2, 0, {0, line->end_b}};
     field[n++] = scalar("dissipated", again ? 0 : work);
     // the pull of 10 N on its way of 12 C, of which half is too much for a step that begins without it
     const double pull = again || line->compliance == 0 ? 0 : 120 * C;
@@ -337,6 +339,11 @@ static size_t describe_wound(const Wound *w, Field *field) {
         primal -= load->value[3 * ELEMENTS + k] * w->place[3 * ELEMENTS + k];
         far[k] = w->place[3 * ELEMENTS + k] - w->place[k];
     }
+    /* at A the drum carries what presses there, and the half element takes as large a part of its bound as node 1: all */
+    double held = T[0] * s, rub[3], sense[3], ends = MU * held * SLIP;
+    spoke(1.57079632679489661923, sense);
+    for (int k = 0; k < 3; k++) rub[k] = -MU * held * sense[k];
+    reaction->value[0] = held;
     primal += work, scale += work + largest * hypot(hypot(far[0], far[1]), far[2]);
     field[n++] = scalar("outcome", 0), field[n++] = scalar("iterations", 1);
     field[n++] = scalar("parts", 1), field[n++] = scalar("share", 1);
@@ -344,9 +351,18 @@ static size_t describe_wound(const Wound *w, Field *field) {
     field[n] = (Field){"end_value", 2, 3, {w->place[0], w->place[1], w->place[2]}};
     for (int k = 0; k < 3; k++) field[n].value[3 + k] = load->value[3 * ELEMENTS + k];
     n++;
-    field[n++] = scalar("dissipated", work), field[n++] = (Field){"proof", 3, 0, {0}},
+    field[n] = (Field){"end_force", 2, 3, {0}};
+    for (int k = 0; k < 3; k++) {
+        field[n].value[k] = -T[0] * w->chord[k] - held * w->normal[k] - rub[k];
+        field[n].value[3 + k] = load->value[3 * ELEMENTS + k];
+    }
+    const double *at_a = field[n].value;
+    field[n + 1] = (Field){"end_tension", 2, 0, {hypot(hypot(at_a[0], at_a[1]), at_a[2]), largest}};
+    n += 2;
+    field[n++] = (Field){"end_friction", 2, 3, {rub[0], rub[1], rub[2]}};
+    field[n++] = scalar("dissipated", work + ends), field[n++] = (Field){"proof", 3, 0, {0}},
     field[n++] = scalar("proof_value", 0);
-    field[n++] = scalar("ledger_obstacles", work); // which is all dissipated
+    field[n++] = scalar("ledger_obstacles", work + ends); // which is all dissipated
     static const char *const NONE[] = {"ledger_ends",  "ledger_elastic",   "ledger_gravity",    "ledger_imbalance",
                                        "gap",          "tension_bound",    "tension_estimate",  "force_residual",
                                        "law_residual", "contact_residual", "friction_residual", "stretch_residual",
@@ -415,6 +431,9 @@ static size_t describe_corner(int again, Field *field) {
         for (size_t i = 0; i < sizeof other / sizeof *other; i++)
             if (strcmp(field[k].name, other[i].name) == 0) field[k].value[0] = other[i].value;
         for (int j = 0; j < NODES && strcmp(field[k].name, "load") == 0; j++) field[k].value[3 * j + 1] = PRESS[j];
+        // the bed alone carries a held end: what presses it on the wall is left to the support
+        if (strcmp(field[k].name, "end_force") == 0) field[k].value[1] = -PRESS[0];
+        if (strcmp(field[k].name, "end_tension") == 0) field[k].value[0] = -PRESS[0];
     }
     Field *normal = &field[n++];
     *normal = vectors("normal_second", NODES, NULL, 0);

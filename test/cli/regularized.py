@@ -59,6 +59,10 @@ with tempfile.TemporaryDirectory() as folder:
         tip = step["lines"]["cable"]["B"]["position_m"]
         apart = max(abs(float(row[f"B.{x}"]) - value) for x, value in zip("xyz", tip))
         check(apart < 2e-5, f"{row['step']}: tips {apart} m apart")
+        # tensions at the ends have one meaning: at B the force applied, at A what friction creeps off in the regularised step
+        for end, allowed in (("A", 1e-4), ("B", 1e-12)):
+            apart = abs(float(row[f"tension_{end}"]) - step["lines"]["cable"][end]["tension_N"])
+            check(apart < allowed, f"{row['step']}: tensions at {end} {apart} N apart")
 
     # several lines, a picture each; one JSON object on standard output
     done = run(folder, THREE_LINES, "--method=regularized", "--json", "-o", "three")
