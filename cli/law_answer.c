@@ -134,10 +134,48 @@ static double angle(const SetAnswer *a, const double *u, const double *v) {
     return 2 * atan2(sqrt(less), sqrt(more)) * DEGREES;
 }
 
+/* Do two generators point in opposite directions, to what they are known to? */
+static bool opposite(const SetAnswer *a, int i, int k) {
+    double sum = 0;
+    for (int j = 0; j < a->n; j++) sum = fmax(sum, fabs(a->ray[i * a->n + j] + a->ray[k * a->n + j]));
+    return sum <= 1e-7;
+}
+
+/* Dimension of the largest subspace in a cone of dimension 1 or 2: each line of it has two opposite generators. `line` and `other`: one
+ * generator that belongs to such a line, and one that does not. */
+static int lineality(const SetAnswer *a, int *line, int *other) {
+    int lines = 0;
+    for (int i = 0; i < a->ray_count; i++) {
+        int partners = 0;
+        for (int k = 0; k < a->ray_count; k++) partners += k != i && opposite(a, i, k);
+        if (partners > 0) *line = i, lines++;
+        else *other = i;
+    }
+    return lines/2;
+}
+
+static void print_cone_with_lines(const SetAnswer *a, int lines, int line, int other) {
+    if (a->facts.dimension == 1) {
+        fputs("a line along", stdout);
+        print_list(a, a->ray, 1);
+    } else if (lines == 2) {
+        fputs("a whole plane, spanned by", stdout);
+        print_list(a, a->basis, 2);
+    } else {
+        fputs("a half-plane, bounded by the line along", stdout);
+        print_list(a, a->ray + line * a->n, 1);
+        fputs(", on the side of", stdout);
+        print_list(a, a->ray + other * a->n, 1);
+    }
+}
+
 static void print_cone(const SetAnswer *a) {
-    const int d = a->facts.dimension;
+    int line = 0, other = 0;
+    const int d = a->facts.dimension, lines = d <= 2 ? lineality(a, &line, &other) : 0;
     if (d == 0) {
         fputs("only the velocity 0", stdout);
+    } else if (lines > 0) {
+        print_cone_with_lines(a, lines, line, other);
     } else if (a->ray_count == 1 && d == 1) {
         fputs("a ray along", stdout);
         print_list(a, a->ray, 1);
@@ -197,6 +235,9 @@ static const char *description(const SetAnswer *a, bool cone) {
     static const char *const CONE[] = {"zero", "ray", "sector"};
     const int d = a->facts.dimension;
     if (!cone) return d <= 2 ? SET[d] : "set";
+    int line, other;
+    const int lines = d <= 2 ? lineality(a, &line, &other) : 0;
+    if (lines > 0) return d == 1 ? "line" : lines == 1 ? "half-plane" : "plane";
     return d == 0 || (d <= 2 && a->ray_count == d) ? CONE[d] : "cone";
 }
 

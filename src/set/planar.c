@@ -287,38 +287,90 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
 
 /* ---- rays of a cone ---- */
 
-/* The extreme rays of a planar cone: the corners of its cut with a box round 0, other than 0 itself. */
-static CpsStatus planar_rays(const CpsSet *set, const double *center, const double *basis, int dimension, int capacity,
-                             double *rays, int *count, CpsSetAnswer *answer, CpsError *err) {
-    const int n = set->n;
-    /* from the centre, a direction inside the cone, turn both ways until the cone ends */
-    double *d = malloc(2*(size_t)n*sizeof *d), *zero = d ? d + n : NULL;
-    if (!d) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the rays of a cone");
-    memset(zero, 0, (size_t)n*sizeof *zero);
-    CpsStatus status = CPS_OK;
-    const double middle = atan2(dimension > 1 ? cpsi_dot(n, center, basis + n) : 0, cpsi_dot(n, center, basis));
-    for (int sign = -1; !status && sign <= 1 && answer->outcome == CPS_SET_ANSWERED; sign += 2) {
-        double in = 0, out = dimension > 1 ? 0.5*TURN : 0;
-        for (int k = 0; k <= 50 && !status; k++) {
-            const double t = middle + sign*(k == 0 ? out : 0.5*(in + out)), c = cos(t), s = dimension > 1 ? sin(t) : 0;
-            CpsSetAnswer reach;
-            for (int i = 0; i < n; i++) d[i] = c*basis[i] + (dimension > 1 ? s*basis[n + i] : 0);
-            status = cpsi_reach(set, zero, d, &reach, err);
-            const bool inside = !status && reach.outcome == CPS_SET_ANSWERED && reach.value > 1e3;
-            if (k == 0 && (inside || dimension == 1)) break;
-            if (inside) in = 0.5*(in + out);
-            else out = 0.5*(in + out);
-        }
-        const double t = middle + sign*in;
-        if (*count < capacity)
-            for (int i = 0; i < n; i++)
-                rays[*count*n + i] = cos(t)*basis[i] + (dimension > 1 ? sin(t)*basis[n + i] : 0);
-        ++*count;
-        if (dimension == 1) break;
-    }
-    answer->tolerance = 1e-9;
-    free(d);
+/* A direction outside a cone by less than this share lies on its boundary: what projections are right to, with a margin. */
+static const double ON_CONE = 1e-8;
+
+/* A cone of dimension one or two in its plane: a direction inside, and the plane's axes (2, n). */
+typedef struct PlanarCone {
+    const CpsSet *set;
+    const double *basis;
+    int dimension;
+    double *d, *nearest; /* (n) */
+} PlanarCone;
+
+/* The unit vector at angle t, and its distance from the cone; the point nearest to it is left in `nearest`. */
+static CpsStatus probe(const PlanarCone *cone, double t, double *distance, CpsSetAnswer *answer, CpsError *err) {
+    const int n = cone->set->n;
+    const double c = cos(t), s = cone->dimension > 1 ? sin(t) : 0;
+    for (int i = 0; i < n; i++) cone->d[i] = c*cone->basis[i] + (cone->dimension > 1 ? s*cone->basis[n + i] : 0);
+    CpsSetAnswer near;
+    const CpsStatus status = cps_set_project(cone->set, cone->d, NULL, cone->nearest, &near, err);
+    *distance = near.value;
+    if (!status && near.outcome != CPS_SET_ANSWERED) answer->outcome = near.outcome;
     return status;
+}
+
+static void put_ray(int n, const double *ray, int capacity, double *rays, int *count) {
+    const double size = cpsi_norm(n, ray);
+    for (int i = 0; i < n && *count < capacity; i++) rays[*count*n + i] = ray[i]/size;
+    ++*count;
+}
+
+/* The bounding ray on one side of `middle`, an angle inside the cone. Turning away by less than a quarter turn past the boundary, the
+ * nearest point of the cone lies on the bounding ray. *turned: by how much, PI where the cone goes on that far. */
+static CpsStatus bounding_ray(const PlanarCone *cone, double middle, int sign, double *turned, double *ray, CpsSetAnswer *answer,
+                              CpsError *err) {
+    enum { PROBES = 6 };
+    const int n = cone->set->n;
+    *turned = 0.5*TURN;
+    for (int k = 1; k <= PROBES; k++) {
+        const double t = 0.5*TURN*k/PROBES;
+        double distance = 0;
+        const CpsStatus status = probe(cone, middle + sign*t, &distance, answer, err);
+        if (status || answer->outcome != CPS_SET_ANSWERED) return status;
+        memcpy(ray, cone->d, (size_t)n*sizeof *ray);
+        if (!(distance > ON_CONE)) continue;
+        memcpy(ray, cone->nearest, (size_t)n*sizeof *ray);
+        *turned = t - asin(fmin(1, distance));
+        return CPS_OK;
+    }
+    return CPS_OK;
+}
+
+/* Generators of a cone of dimension two: its two bounding rays; a half-plane has them opposite and one between; a plane four. */
+static CpsStatus planar_rays(const PlanarCone *cone, const double *centre, int capacity, double *rays, int *count,
+                             CpsSetAnswer *answer, CpsError *err) {
+    const int n = cone->set->n;
+    const double middle = atan2(cpsi_dot(n, centre, cone->basis + n), cpsi_dot(n, centre, cone->basis));
+    double turned[2] = {0}, opening = 0;
+    double *ray = malloc(2*(size_t)n*sizeof *ray);
+    if (!ray) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the rays of a cone");
+    CpsStatus status = CPS_OK;
+    for (int side = 0; side < 2 && !status && answer->outcome == CPS_SET_ANSWERED; side++, opening += turned[side - 1])
+        status = bounding_ray(cone, middle, side ? 1 : -1, &turned[side], &ray[side*n], answer, err);
+    if (!status && answer->outcome == CPS_SET_ANSWERED && opening > 0.75*TURN) { /* no convex cone but the plane opens so far */
+        for (int k = 0; k < 4; k++) {
+            for (int i = 0; i < n; i++) ray[i] = (k % 2 ? -1 : 1)*cone->basis[k/2*n + i];
+            put_ray(n, ray, capacity, rays, count);
+        }
+    } else if (!status && answer->outcome == CPS_SET_ANSWERED) {
+        put_ray(n, ray, capacity, rays, count);
+        put_ray(n, ray + n, capacity, rays, count);
+        if (opening > 0.5*TURN - ON_CONE) put_ray(n, centre, capacity, rays, count);
+    }
+    free(ray);
+    return status;
+}
+
+/* Generators of a cone of dimension one: a ray, or the two of a line. */
+static CpsStatus line_rays(const PlanarCone *cone, int capacity, double *rays, int *count, CpsSetAnswer *answer, CpsError *err) {
+    for (int side = 0; side < 2; side++) {
+        double distance = 0;
+        const CpsStatus status = probe(cone, side ? 0.5*TURN : 0, &distance, answer, err);
+        if (status || answer->outcome != CPS_SET_ANSWERED) return status;
+        if (!(distance > ON_CONE)) put_ray(cone->set->n, cone->d, capacity, rays, count);
+    }
+    return CPS_OK;
 }
 
 CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double *rays, int *count,
@@ -341,15 +393,23 @@ CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double
         }
         return CPS_OK;
     }
-    double *room = malloc((n*n + n)*sizeof *room);
+    if (set->kind == CPSI_SET_SCALE) { /* by a factor other than 0 */
+        const CpsStatus status = cps_set_rays(set->part[0], tolerance, capacity, rays, count, answer, err);
+        for (size_t i = 0; set->scalar < 0 && i < n*(size_t)(*count < capacity ? *count : capacity); i++) rays[i] = -rays[i];
+        return status;
+    }
+    double *room = malloc((n*n + 3*n)*sizeof *room);
     if (!room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the rays of a cone");
     CpsSetFacts facts;
     CpsStatus status = cps_set_facts(set, 0, &facts, room, room + n, err);
     answer->outcome = facts.outcome;
     answer->exact = false;
     if (!status && facts.outcome == CPS_SET_ANSWERED && facts.dimension > 0) {
+        const PlanarCone cone = {set, room + n, facts.dimension, room + n + n*n, room + 2*n + n*n};
+        answer->tolerance = ON_CONE;
         if (facts.dimension > 2 || facts.bounded || !facts.has_zero) answer->outcome = CPS_SET_NOT_PLANAR;
-        else status = planar_rays(set, room, room + n, facts.dimension, capacity, rays, count, answer, err);
+        else if (facts.dimension == 1) status = line_rays(&cone, capacity, rays, count, answer, err);
+        else status = planar_rays(&cone, room, capacity, rays, count, answer, err);
     }
     free(room);
     return status;

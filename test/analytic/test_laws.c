@@ -439,6 +439,87 @@ static void bipod(void **state) {
     cps_law_destroy(law);
 }
 
+/* ---- velocities at a force ---- */
+
+/* The rays of -N at a force, in `ray` (4, 2); their number. */
+static int velocity_rays(const CpsSet *set, const double *force, double *ray) {
+    CpsSet *velocities = NULL;
+    CpsSetAnswer answer;
+    int count = 0;
+    assert_int_equal(cps_law_velocities(set, force, 0, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(cps_set_rays(velocities, 0, 4, ray, &count, &answer, NULL), CPS_OK);
+    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    cps_set_release(velocities);
+    return count;
+}
+
+/* Is one of `count` rays the unit vector along (x, y)?  Bounding rays are right to the square root of rounding where a conic
+ * projection finds them. */
+static bool has_ray(const double *ray, int count, double x, double y) {
+    const double size = hypot(x, y);
+    for (int i = 0; i < count; i++)
+        if (hypot(ray[2*i] - x/size, ray[2*i + 1] - y/size) <= 1e-7) return true;
+    return false;
+}
+
+/* At a corner of a polygon -N lies between the inward normals of its two edges. Corners of random convex polygons on an ellipse, with
+ * further points inside that are no corners, as hull of points and as image of another polygon. */
+static void polygon_corners(void **state) {
+    (void)state;
+    enum { MOST = 9 };
+    srand(7);
+    for (int k = 0; k < 300; k++) {
+        const int corners = 3 + rand() % 4, inside = rand() % 3, at = rand() % corners;
+        double p[2*MOST], twice[2*MOST], ray[8], turn = rand() % 628*0.01, a = 1 + rand() % 9, b = 1 + rand() % 9;
+        for (int i = 0; i < corners; i++) {
+            const double t = turn + (i + rand() % 50*0.01)*2*PI/corners;
+            p[2*i] = a*cos(t), p[2*i + 1] = b*sin(t);
+        }
+        for (int i = corners; i < corners + inside; i++) /* between two corners, and drawn in */
+            for (int c = 0; c < 2; c++) p[2*i + c] = 0.3*p[2*(i - corners) + c] + 0.2*p[2*(corners - 1) + c];
+        for (int i = 0; i < 2*(corners + inside); i++) twice[i] = 2*p[i];
+        CpsSet *hull = NULL, *half = NULL, *image = NULL;
+        assert_int_equal(cps_set_hull_of_points(2, corners + inside, p, &hull, NULL), CPS_OK);
+        assert_int_equal(cps_set_hull_of_points(2, corners + inside, twice, &half, NULL), CPS_OK);
+        assert_int_equal(cps_set_image(2, (const double[]){0.5, 0, 0, 0.5}, half, &image, NULL), CPS_OK);
+        const double *here = &p[2*at], *next = &p[2*((at + 1) % corners)], *last = &p[2*((at + corners - 1) % corners)];
+        for (int form = 0; form < 2; form++) {
+            const int count = velocity_rays(form ? image : hull, here, ray);
+            assert_int_equal(count, 2);
+            /* counterclockwise: inward normal of the edge (dx, dy) is (-dy, dx) */
+            assert_true(has_ray(ray, count, here[1] - next[1], next[0] - here[0]));
+            assert_true(has_ray(ray, count, last[1] - here[1], here[0] - last[0]));
+        }
+        cps_set_release(hull), cps_set_release(half), cps_set_release(image);
+    }
+}
+
+/* A segment of forces lets its law slide freely across: along a line inside the segment, in a half-plane at its end. A law without
+ * force moves anywhere. Laws in any position: every cone is turned by the same angle. */
+static void cones_with_lines(void **state) {
+    (void)state;
+    for (int k = 0; k < 24; k++) {
+        const double t = 0.3 + k*2*PI/24, c = cos(t), s = sin(t), far = 500, zero[2] = {0, 0};
+        const double ends[4] = {-far*c, -far*s, far*c, far*s};
+        double ray[8];
+        CpsSet *segment = NULL, *nothing = NULL;
+        assert_int_equal(cps_set_hull_of_points(2, 2, ends, &segment, NULL), CPS_OK);
+        int count = velocity_rays(segment, zero, ray);
+        assert_int_equal(count, 2);
+        assert_true(has_ray(ray, count, -s, c) && has_ray(ray, count, s, -c));
+        count = velocity_rays(segment, &ends[2], ray);
+        assert_int_equal(count, 3);
+        assert_true(has_ray(ray, count, -s, c) && has_ray(ray, count, s, -c));
+        for (int i = 0; i < count; i++) assert_true(ray[2*i]*c + ray[2*i + 1]*s <= 1e-7);
+        assert_int_equal(cps_set_ball(2, zero, 0, &nothing, NULL), CPS_OK);
+        count = velocity_rays(nothing, zero, ray);
+        assert_int_equal(count, 4);
+        for (int i = 0; i < count; i++) assert_true(has_ray(ray, count, -ray[2*i], -ray[2*i + 1]));
+        cps_set_release(segment), cps_set_release(nothing);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wheel_dissipation),
@@ -453,6 +534,8 @@ int main(void) {
         cmocka_unit_test(disc_surface),
         cmocka_unit_test(rod_surface),
         cmocka_unit_test(bipod),
+        cmocka_unit_test(polygon_corners),
+        cmocka_unit_test(cones_with_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
