@@ -206,6 +206,11 @@ int source_open(const char *path, Source *source, FILE *log) {
     if (status) return complain(log, "cannot read dimension", "step", status);
     status = nc_get_att_double(source->nc, NC_GLOBAL, "tolerance", &source->tolerance);
     if (status) return complain(log, "cannot read attribute", "tolerance", status);
+    size_t numbers = 0;
+    status = nc_inq_attlen(source->nc, NC_GLOBAL, "gravity", &numbers);
+    if (!status && numbers != 3) status = NC_EBADDIM;
+    if (!status) status = nc_get_att_double(source->nc, NC_GLOBAL, "gravity", source->gravity);
+    if (status) return complain(log, "cannot read attribute", "gravity", status);
     source->consistent = attribute_is(source, "friction", "consistent");
     source->strict = attribute_is(source, "contact", "strict");
     source->laid = first_step_is_laid(source);

@@ -66,7 +66,7 @@ typedef struct Source {
     int nc;
     size_t steps, lines;
     char **line_name;
-    double tolerance;
+    double tolerance, gravity[3];
     bool consistent; /* friction bounds follow the reactions of the same step */
     bool strict;     /* only what touches at the reference is kept out */
     bool laid;       /* the first step is statics without friction, of the lines laid */

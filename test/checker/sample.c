@@ -237,7 +237,7 @@ static int write_beds(int nc, const int dims[3], const Bed *bed, size_t count) {
 
 /* dims: step, xyz, end */
 static int begin_file(const char *path, const char *names, const char *friction, int *nc, int dims[3]) {
-    const double tolerance = 1e-8;
+    const double tolerance = 1e-8, gravity[3] = {0, 0, -8};
     int status = nc_create(path, NC_CLOBBER | NC_64BIT_OFFSET, nc);
     if (status) return status;
     status = nc_def_dim(*nc, "step", NC_UNLIMITED, &dims[0]);
@@ -246,6 +246,7 @@ static int begin_file(const char *path, const char *names, const char *friction,
     if (!status) status = nc_put_att_text(*nc, NC_GLOBAL, "lines", strlen(names), names);
     if (!status) status = nc_put_att_text(*nc, NC_GLOBAL, "friction", strlen(friction), friction);
     if (!status) status = nc_put_att_double(*nc, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &tolerance);
+    if (!status) status = nc_put_att_double(*nc, NC_GLOBAL, "gravity", NC_DOUBLE, 3, gravity);
     return status;
 }
 

@@ -16,6 +16,7 @@
 
 #include "capstan/io.h"
 #include "checker.h"
+#include "given.h"
 #include "random_scene.h"
 
 static const int SCENES_PER_CLASS = 200; // 150 and more of which are what the class says
@@ -101,7 +102,7 @@ static Verdict judge_scene(const RandomScene *random, const char *directory, Tal
                 cps_outcome_key(random->expected));
         return WRONG;
     }
-    if (report.refuted > 0) return WRONG;
+    if (report.refuted > 0 || given_file(path, &random->scene, log) != 0) return WRONG;
     return result == 0 && last == random->expected ? CERTIFIED : NOT_CERTIFIED;
 }
 

@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Scene against file (given.h).
+ *
+ * A stage takes an end from where it is to the stage's value in equal steps. Where it is: the value imposed before; where
+ * the kind of the end changes, the place that it had reached, or the force that it carried. These two are results, and
+ * taken from the file's step before. */
+#include "given.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "record.h"
+
+/* Numbers of the scene are copied; a share of a stage, a weight vector and a load are a few products and sums of them. */
+static const double COPIED = 1e-14, COMPUTED = 1e-12;
+
+typedef struct Compare {
+    const CpsScene *scene;
+    Source source;
+    FILE *log;
+    int findings;
+} Compare;
+
+__attribute__((format(printf, 2, 3))) static void find(Compare *compare, const char *format, ...) {
+    compare->findings++;
+    if (!compare->log) return;
+    va_list list;
+    va_start(list, format);
+    fputs("not the scene's: ", compare->log);
+    vfprintf(compare->log, format, list);
+    fputc('\n', compare->log);
+    va_end(list);
+}
+
+static double size(const double *v) { return hypot(hypot(v[0], v[1]), v[2]); }
+
+/* count numbers equal to within `noise` of the largest, else a finding */
+static void same(Compare *compare, const char *what, const char *of, const double *file, const double *scene,
+                 size_t count, double noise) {
+    double most = 0;
+    for (size_t i = 0; i < count; i++) most = fmax(most, fabs(scene[i]));
+    for (size_t i = 0; i < count; i++)
+        if (!(fabs(file[i] - scene[i]) <= noise * most)) {
+            find(compare, "%s of %s is %.17g, in the scene %.17g", what, of, file[i], scene[i]);
+            return;
+        }
+}
+
+static void same_number(Compare *compare, const char *what, const char *of, double file, double scene) {
+    same(compare, what, of, &file, &scene, 1, COPIED);
+}
+
+/* ---- what holds for the whole run ---- */
+
+/* Two sets with the same support in DIRECTIONS directions, to what small programs leave of it. */
+static void compare_sets(Compare *compare, const CpsObstacle *o, const Surface *s) {
+    enum { DIRECTIONS = 48 };
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const double angle = 6.283185307179586 * i / DIRECTIONS, d[2] = {cos(angle), sin(angle)};
+        CpsSetAnswer answer;
+        if (cps_set_support(o->friction_set, d, NULL, &answer, NULL) != CPS_OK || answer.outcome != CPS_SET_ANSWERED) return;
+        const double file = (double)conic_support(s->set, (Real[]){d[0], d[1]});
+        if (fabs(file - answer.value) <= answer.gap + 1e-9 * (double)s->set->reach) continue;
+        find(compare, "friction set of %s reaches %.17g along (%.3g, %.3g), in the scene %.17g", o->name, file, d[0], d[1],
+             answer.value);
+        return;
+    }
+}
+
+static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) {
+    const bool plane = o->kind == CPS_OBSTACLE_PLANE;
+    const double *given = plane ? o->normal : o->axis, length = size(given);
+    double axis[3], point[3], grain[3], unit[3];
+    for (int k = 0; k < 3; k++) {
+        axis[k] = (double)s->axis[k], point[k] = (double)s->point[k], grain[k] = (double)s->grain[k];
+        unit[k] = given[k] / length;
+    }
+    same_number(compare, "kind", o->name, s->kind, o->kind);
+    same(compare, "point", o->name, point, o->point, 3, COPIED);
+    same(compare, "axis", o->name, axis, unit, 3, COMPUTED);
+    same_number(compare, "radius", o->name, (double)s->radius, plane ? 0 : o->radius);
+    if ((s->set != NULL) != (o->friction_set != NULL)) find(compare, "friction set of %s: one of the two has none", o->name);
+    if (s->set && o->friction_set) compare_sets(compare, o, s);
+    same(compare, "grain", o->name, grain, o->grain, 3, COPIED);
+    if (s->set || o->friction_set) return;
+    same_number(compare, "axial coefficient", o->name, (double)s->mu[0], o->friction);
+    same_number(compare, "lateral coefficient", o->name, (double)s->mu[1],
+                o->friction_lateral >= 0 ? o->friction_lateral : o->friction);
+    same_number(compare, "shape of friction", o->name, s->box, o->friction_shape == CPS_FRICTION_BOX);
+}
+
+static void compare_run(Compare *compare) {
+    const CpsScene *scene = compare->scene;
+    const Source *source = &compare->source;
+    same_number(compare, "tolerance", "the run", source->tolerance, scene->solver.tolerance);
+    same(compare, "gravity", "the run", source->gravity, scene->gravity, 3, COPIED);
+    if (source->consistent != (scene->friction == CPS_FRICTION_CONSISTENT)) find(compare, "friction: frozen or consistent");
+    if (source->strict != (scene->contact == CPS_CONTACT_STRICT)) find(compare, "contact: strict or gained");
+    if (source->surfaces != (size_t)scene->obstacle_count) {
+        find(compare, "%zu obstacles, in the scene %d", source->surfaces, scene->obstacle_count);
+        return;
+    }
+    for (int k = 0; k < scene->obstacle_count; k++)
+        compare_obstacle(compare, &scene->obstacle[k], &source->surface[k]);
+}
+
+static void compare_line(Compare *compare, const CpsLine *line, const Record *r) {
+    if (r->elements != (size_t)line->elements) {
+        find(compare, "%zu elements of %s, in the scene %d", r->elements, line->name, line->elements);
+        return;
+    }
+    for (size_t i = 0; i < r->elements; i++) {
+        const double given = line->element_length ? line->element_length[i] : line->length / line->elements;
+        if (fabs(r->element_length[i] - given) <= COPIED * given) continue;
+        find(compare, "element_length of %s is %.17g, in the scene %.17g", line->name, r->element_length[i], given);
+        return;
+    }
+    same_number(compare, "compliance", line->name, r->compliance, isinf(line->stiffness) ? 0 : 1 / line->stiffness);
+    /* what zones do is in the mean factors, which the reader has made of those in the file */
+    double at = 0;
+    for (size_t j = 0; j < r->nodes; j++) {
+        const double before = j > 0 ? r->element_length[j - 1] : 0, after = j < r->elements ? r->element_length[j] : 0;
+        at += before;
+        double sum = (before + after) / 2, most = 1;
+        for (int k = 0; k < line->zone_count; k++) {
+            const CpsFrictionZone *zone = &line->zone[k];
+            const double common = fmin(at + after / 2, zone->to) - fmax(at - before / 2, zone->from);
+            if (common > 0) sum += (zone->factor - 1) * common, most = fmax(most, zone->factor);
+        }
+        const double factor = sum / ((before + after) / 2), file = r->factor ? r->factor[j] : 1;
+        if (fabs(file - factor) <= COMPUTED * most * line->length / (before + after)) continue;
+        find(compare, "friction_zones of %s: factor %.17g at node %zu, in the scene %.17g", line->name, file, j, factor);
+        return;
+    }
+}
+
+/* ---- steps ---- */
+
+/* The stage and its part that a step is; false: the statics of lines laid, or a scene without stages. */
+static bool stage_of(const Compare *compare, size_t step, int *stage, int *part) {
+    if (compare->source.laid && step-- == 0) return false;
+    for (*stage = 0; *stage < compare->scene->stage_count; ++*stage) {
+        const size_t steps = (size_t)compare->scene->stage[*stage].steps;
+        *part = (int)step + 1;
+        if (step < steps) return true;
+        step -= steps;
+    }
+    return false;
+}
+
+static size_t planned(const Compare *compare) {
+    size_t steps = 0;
+    bool laid = false;
+    for (int i = 0; i < compare->scene->stage_count; i++) steps += (size_t)compare->scene->stage[i].steps;
+    for (int i = 0; i < compare->scene->line_count; i++)
+        laid = laid || compare->scene->line[i].start.kind == CPS_START_LAID;
+    return steps + laid > 0 ? steps + laid : 1;
+}
+
+/* An end of a line as the scene has it. */
+typedef struct Imposed {
+    CpsEnd from, now;
+} Imposed;
+
+/* Where the end starts: a held end without a place of its own is where the start puts it. */
+static CpsEnd first_end(const CpsLine *line, int e, const Record *r) {
+    CpsEnd end = line->end[e];
+    const CpsStart *start = &line->start;
+    const bool drawn = start->kind == CPS_START_STRAIGHT || start->kind == CPS_START_POLYLINE;
+    const double *place = drawn ? &start->point[e ? 3 * (start->point_count - 1) : 0] : r->reference[e ? r->elements : 0];
+    for (int k = 0; k < 3 && end.kind == CPS_END_HELD; k++)
+        if (isnan(end.value[k])) end.value[k] = place[k];
+    return end;
+}
+
+/* The end at part k of a stage that changes it; `before`: the step before, NULL for the first. */
+static void impose(Imposed *end, const CpsStage *stage, int part, int line, int e, const Record *before,
+                   const Record *r) {
+    for (int i = 0; i < stage->change_count; i++) {
+        const CpsChange *change = &stage->change[i];
+        if (change->line != line || change->end != e) continue;
+        if (part == 1) end->from = end->now;
+        const size_t j = e ? r->elements : 0;
+        const double *place = before ? before->position[j] : r->reference[j];
+        for (int k = 0; k < 3 && part == 1 && change->to.kind != end->now.kind; k++)
+            end->from.value[k] = change->to.kind == CPS_END_HELD ? place[k] : before ? before->end_force[e][k] : 0;
+        const double share = (double)part / stage->steps;
+        end->now.kind = change->to.kind;
+        for (int k = 0; k < 3; k++)
+            end->now.value[k] = part == stage->steps ? change->to.value[k]
+                                                     : end->from.value[k] + share * (change->to.value[k] - end->from.value[k]);
+    }
+}
+
+static void compare_end(Compare *compare, const CpsLine *line, int e, const Imposed *end, const CpsEnd *was, size_t step,
+                        const Record *r) {
+    char of[300];
+    snprintf(of, sizeof of, "%.200s, end %c, step %zu", line->name, e ? 'B' : 'A', step);
+    if (r->end_kind[e] != (end->now.kind == CPS_END_FREE)) {
+        find(compare, "end_kind of %s", of);
+        return;
+    }
+    // where a part of a step has no equilibrium, the file has the end on its way
+    const bool ended = r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE || r->outcome == OUTCOME_SLIDES;
+    if (ended && (r->parts > 1 || r->share < 1)) return;
+    const double most = fmax(size(end->now.value), size(was->value));
+    for (int k = 0; k < 3; k++)
+        if (!(fabs(r->end_value[e][k] - end->now.value[k]) <= COPIED * most))
+            find(compare, "end_value of %s is %.17g, in the scene %.17g", of, r->end_value[e][k], end->now.value[k]);
+}
+
+/* Weight, half of each element to each of its nodes, and the forces at free ends. */
+static void compare_loads(Compare *compare, const CpsLine *line, size_t step, const Record *r) {
+    const double *g = compare->scene->gravity, pull = size(g), weight = pull > 0 ? line->weight / pull : 0;
+    for (size_t j = 0; j < r->nodes; j++) {
+        const double share =
+            ((j > 0 ? r->element_length[j - 1] : 0) + (j < r->elements ? r->element_length[j] : 0)) / 2;
+        double load[3], noise = share * line->weight;
+        for (int k = 0; k < 3; k++) load[k] = share * weight * g[k];
+        for (int e = 0; e < 2; e++) {
+            if (r->end_kind[e] == END_HELD || j != (e ? r->elements : 0)) continue;
+            for (int k = 0; k < 3; k++) load[k] += r->end_value[e][k];
+            noise += size(r->end_value[e]);
+        }
+        for (int k = 0; k < 3; k++)
+            if (!(fabs(r->load[j][k] - load[k]) <= COPIED * noise)) {
+                find(compare, "load of %s at node %zu, step %zu, is %.17g, in the scene %.17g", line->name, j, step,
+                     r->load[j][k], load[k]);
+                return;
+            }
+    }
+}
+
+static void compare_turns(Compare *compare, size_t step, const Record *r) {
+    int stage = 0, part = 0;
+    const bool staged = stage_of(compare, step, &stage, &part);
+    for (int k = 0; k < compare->scene->obstacle_count; k++) {
+        double angle = 0;
+        for (int i = 0; staged && i < compare->scene->stage[stage].turn_count; i++) {
+            const CpsTurn *turn = &compare->scene->stage[stage].turn[i];
+            if (turn->obstacle == k) angle = turn->angle / compare->scene->stage[stage].steps;
+        }
+        if (!(fabs(r->turn[k] - angle) <= COPIED * fabs(angle)))
+            find(compare, "obstacle_turn of %s, step %zu, is %.17g, in the scene %.17g", compare->scene->obstacle[k].name,
+                 step, r->turn[k], angle);
+    }
+}
+
+static int compare_steps(Compare *compare, int index) {
+    const CpsLine *line = &compare->scene->line[index];
+    Record now = {0}, before = {0};
+    int bad = record_create(&compare->source, line->name, &now, compare->log);
+    if (!bad) bad = record_create(&compare->source, line->name, &before, compare->log);
+    if (!bad) compare_line(compare, line, &now);
+    Imposed end[2] = {0};
+    for (size_t step = 0; step < compare->source.steps && !bad && compare->findings == 0; step++) {
+        bad = record_read(&compare->source, line->name, step, &now, compare->log);
+        int stage, part;
+        for (int e = 0; e < 2 && !bad; e++) {
+            if (step == 0) end[e].now = first_end(line, e, &now);
+            const CpsEnd was = end[e].now;
+            if (stage_of(compare, step, &stage, &part))
+                impose(&end[e], &compare->scene->stage[stage], part, index, e, step > 0 ? &before : NULL, &now);
+            compare_end(compare, line, e, &end[e], &was, step, &now);
+        }
+        if (!bad) compare_loads(compare, line, step, &now);
+        if (!bad && index == 0) compare_turns(compare, step, &now);
+        const Record swap = before;
+        before = now;
+        now = swap;
+    }
+    record_destroy(&now);
+    record_destroy(&before);
+    return bad;
+}
+
+int given_file(const char *path, const CpsScene *scene, FILE *log) {
+    Compare compare = {.scene = scene, .log = log};
+    int bad = source_open(path, &compare.source, log);
+    if (!bad) compare_run(&compare);
+    if (!bad && compare.source.steps > planned(&compare))
+        find(&compare, "%zu steps, in the scene %zu", compare.source.steps, planned(&compare));
+    if (!bad && compare.source.lines != (size_t)scene->line_count)
+        find(&compare, "%zu lines, in the scene %d", compare.source.lines, scene->line_count);
+    for (int i = 0; i < scene->line_count && !bad && compare.findings == 0; i++) {
+        if (strcmp(compare.source.line_name[i], scene->line[i].name) == 0)
+            bad = compare_steps(&compare, i);
+        else
+            find(&compare, "line %s, in the scene %s", compare.source.line_name[i], scene->line[i].name);
+    }
+    source_close(&compare.source);
+    return bad ? -1 : compare.findings;
+}

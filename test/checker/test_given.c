@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copies of a sound file that are sound records of another scene: the checker passes them by themselves, and refuses them
+ * beside their scene. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "capstan/io.h"
+#include "check.h"
+#include "checker.h"
+#include "given.h"
+#include "sample.h"
+
+/* Ends held, moved, pulled, let go and grabbed; zones, a graded mesh, a set of friction forces, something that turns. */
+static const char SCENE[] =
+    "capstan: 1\n"
+    "gravity: [0, 0, -10]\n"
+    "obstacles:\n"
+    "  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
+    "  drum: {cylinder: {point: [0, 30, 1], axis: [0, 1, 0], radius: 1}, friction: {axial: 0.3, lateral: 0.2}}\n"
+    "  mat: {plane: {point: [0, 0, -9], normal: [0, 0, 1]}, friction: {set: {ellipse: [0.4, 0.2]}}}\n"
+    "lines:\n"
+    "  rope:\n"
+    "    length: 4\n"
+    "    elements: [1, 1, 0.5, 1.5]\n"
+    "    weight: 8\n"
+    "    stiffness: 1000\n"
+    "    friction_zones: [{from: 1, to: 2, factor: 2}]\n"
+    "    start: {straight: {from: [0, 0, 0], to: [4, 0, 0]}}\n"
+    "    ends: {A: fixed, B: free}\n"
+    "  wire:\n"
+    "    length: 4\n"
+    "    elements: 4\n"
+    "    weight: 8\n"
+    "    stiffness: .inf\n"
+    "    start: {straight: {from: [0, 5, 0], to: [4, 5, 0]}}\n"
+    "    ends: {A: fixed, B: free}\n"
+    "history:\n"
+    "  - {name: pull, steps: 2, rope.B: {force: [30, 0, 0]}, wire.B: {force: [30, 0, 0]}}\n"
+    "  - {name: turn, steps: 1, drum.turn: 0.5}\n"
+    "  - {name: grab, steps: 2, rope.B: {position: [4, 1, 0.5]}}\n"
+    "  - {name: slack, steps: 1, rope.B: {force: [0, 0, 0]}}\n";
+
+static char directory[] = "capstan-given-XXXXXX", result[64], copy[64], yaml[64];
+static CpsSceneFile *scene;
+
+static int solve(void **state) {
+    (void)state;
+    CpsError err = {0};
+    CpsEvolution *evolution = NULL;
+    CpsResults *results = NULL;
+    if (!mkdtemp(directory)) return -1;
+    snprintf(result, sizeof result, "%s/result.nc", directory);
+    snprintf(copy, sizeof copy, "%s/copy.nc", directory);
+    snprintf(yaml, sizeof yaml, "%s/scene.yaml", directory);
+    FILE *out = fopen(yaml, "w");
+    if (!out || fputs(SCENE, out) < 0 || fclose(out) != 0) return -1;
+    CpsStatus status = cps_scene_read(yaml, NULL, &scene, &err);
+    if (!status) status = cps_evolution_create(cps_scene_file_scene(scene), &evolution, &err);
+    if (!status) status = cps_results_open(directory, cps_scene_file_scene(scene), evolution, &results, &err);
+    while (!status && cps_evolution_remaining(evolution) > 0) {
+        status = cps_evolution_step(evolution, &err);
+        if (!status) status = cps_results_append(results, evolution, &err);
+    }
+    if (!status) status = cps_results_finish(results, 0, &err);
+    cps_results_destroy(results);
+    cps_evolution_destroy(evolution);
+    if (status) print_error("%s\n", err.message);
+    return status;
+}
+
+static int clean(void **state) {
+    (void)state;
+    char command[160];
+    cps_scene_file_destroy(scene);
+    snprintf(command, sizeof command, "rm -r '%s'", directory);
+    return system(command);
+}
+
+static void copy_result(void) {
+    FILE *from = fopen(result, "rb"), *to = fopen(copy, "wb");
+    assert_true(from && to);
+    for (int c; (c = getc(from)) != EOF;) putc(c, to);
+    fclose(from);
+    assert_int_equal(fclose(to), 0);
+}
+
+static void sound_file_is_the_scenes(void **state) {
+    (void)state;
+    CHECK_INT(checker_file(result, NULL, stdout), 0);
+    CHECK_INT(given_file(result, cps_scene_file_scene(scene), stdout), 0);
+}
+
+enum { POKES = 4 };
+typedef struct Falsified {
+    const char *finding;
+    bool alone; /* nothing is wrong with the copy by itself */
+    struct {
+        const char *variable;
+        size_t index;
+        double value;
+    } poke[POKES];
+} Falsified;
+
+/* the steps are 0, 1: pull; 2: turn; 3, 4: grab; 5: slack; end_value has 6 numbers in a step */
+static const Falsified FALSIFIED[] = {
+    {"end_value of rope, end B, step 1", false, {{"rope_end_value", 6 + 3, 31}}},
+    {"end_value of rope, end B, step 1", false, {{"rope_end_value", 6 + 4, 1}}},
+    {"end_value of rope, end B, step 1", true, {{"rope_end_value", 6 + 5, 1e-8}, {"rope_end_force", 6 + 5, 1e-8}}},
+    {"end_value of wire, end B, step 2", true, {{"wire_end_value", 12 + 4, 1e-8}, {"wire_end_force", 12 + 4, 1e-8}}},
+    {"end_value of rope, end B, step 3", false, {{"rope_end_value", 18 + 4, 0.6}}},
+    {"end_value of rope, end A, step 5", true, {{"rope_end_value", 30, 1e-13}}},
+    {"end_value of wire, end A, step 0", true, {{"wire_end_value", 2, 1e-13}}},
+    {"end_kind of rope, end B, step 0", false, {{"rope_end_kind", 1, 0}}},
+    {"end_kind of wire, end A, step 4", false, {{"wire_end_kind", 8, 1}}},
+    {"load of rope at node 2, step 0", false, {{"rope_load", 8, -6.1}}},
+    {"load of rope at node 2, step 0", true, {{"rope_load", 6, 1e-12}}},
+    {"element_length of rope", false, {{"rope_element_length", 1, 1.1}}},
+    {"compliance of rope", false, {{"rope_compliance", 0, 0.0011}}},
+    {"compliance of rope", true, {{"rope_compliance", 0, 0.001 * (1 + 1e-10)}}},
+    {"friction_zones of rope", false, {{"rope_zone_factor", 0, 1.9}}},
+    {"friction_zones of rope", false, {{"rope_zone_to", 0, 2.1}}},
+    {"point of bed", true, {{"obstacle_point", 0, 1}}},
+    {"axis of drum", false, {{"obstacle_axis", 3, 0.1}}},
+    {"radius of drum", false, {{"obstacle_radius", 1, 1.5}}},
+    {"kind of drum", false, {{"obstacle_kind", 1, 2}}},
+    {"axial coefficient of bed", false, {{"obstacle_axial", 0, 0.6}}},
+    {"lateral coefficient of drum", true, {{"obstacle_lateral", 1, 0.3}}},
+    {"grain of drum", true, {{"obstacle_grain", 3, 1}}},
+    {"shape of friction of drum", true, {{"obstacle_shape", 1, 1}}},
+    {"friction set of mat", true, {{"obstacle_set_origin", 4, 0.01}}},
+    {"obstacle_turn of drum, step 2", false, {{"obstacle_turn", 6 + 1, 0.4}}},
+    {"obstacle_turn of mat, step 3", true, {{"obstacle_turn", 9 + 2, 0.4}}},
+};
+
+static void falsified_copies_are_refused(void **state) {
+    (void)state;
+    int alone = 0;
+    for (size_t i = 0; i < sizeof FALSIFIED / sizeof *FALSIFIED; i++) {
+        const Falsified *f = &FALSIFIED[i];
+        copy_result();
+        for (int k = 0; k < POKES && f->poke[k].variable; k++)
+            CHECK_INT(sample_poke(copy, f->poke[k].variable, f->poke[k].index, f->poke[k].value), 0);
+        const int by_itself = checker_file(copy, NULL, NULL);
+        alone += by_itself == 0;
+        char *text = NULL;
+        size_t size = 0;
+        FILE *log = open_memstream(&text, &size);
+        const int found = given_file(copy, cps_scene_file_scene(scene), log);
+        fclose(log);
+        if (found <= 0 || !strstr(text, f->finding) || (by_itself == 0) != f->alone) {
+            print_error("%s[%zu]: by itself %d, beside the scene %d, expected \"%s\", got:\n%s", f->poke[0].variable,
+                        f->poke[0].index, by_itself, found, f->finding, text);
+            fail();
+        }
+        free(text);
+    }
+    printf("%zu falsified copies refused; %d of them are sound by themselves\n", sizeof FALSIFIED / sizeof *FALSIFIED, alone);
+}
+
+/* A tolerance, a mode or a gravity of another scene. */
+static void other_scenes_are_refused(void **state) {
+    (void)state;
+    CpsScene other = *cps_scene_file_scene(scene);
+    other.solver.tolerance = 1e-6;
+    CHECK_INT(given_file(result, &other, NULL), 1);
+    other = *cps_scene_file_scene(scene), other.friction = CPS_FRICTION_FROZEN;
+    CHECK_INT(given_file(result, &other, NULL), 1);
+    other = *cps_scene_file_scene(scene), other.contact = CPS_CONTACT_STRICT;
+    CHECK_INT(given_file(result, &other, NULL), 1);
+    other = *cps_scene_file_scene(scene), other.gravity[2] = -9;
+    CHECK_INT(given_file(result, &other, NULL), 1);
+    other = *cps_scene_file_scene(scene), other.stage_count = 1;
+    CHECK_INT(given_file(result, &other, NULL), 1); /* more steps than in the history */
+    other = *cps_scene_file_scene(scene), other.line_count = 1;
+    CHECK_INT(given_file(result, &other, NULL), 1);
+    other = *cps_scene_file_scene(scene), other.obstacle_count = 1;
+    CHECK_GREATER(given_file(result, &other, NULL), 0);
+    CHECK_INT(given_file("no-such-file.nc", cps_scene_file_scene(scene), NULL), -1);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sound_file_is_the_scenes),
+        cmocka_unit_test(falsified_copies_are_refused),
+        cmocka_unit_test(other_scenes_are_refused),
+    };
+    return cmocka_run_group_tests(tests, solve, clean);
+}
