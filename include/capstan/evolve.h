@@ -97,7 +97,7 @@ typedef struct CpsLineReport {
     int iterations;     /* of all parts */
     CpsCertificate certificate; /* of the last part */
     double dissipated; /* [J] in this step */
-    CpsLedger ledger;  /* of this step; zero for a start laid by statics */
+    CpsLedger ledger;  /* of this step; zero for a line whose start is laid by statics in it */
     int parts;         /* in which the step was taken, 1 or more */
     double share;      /* of the step that the last part was, which is what the view shows: 1 where it was not cut */
     int snaps;         /* parts in which the line jumped, however small the load */

@@ -317,13 +317,20 @@ static void plan(CpsEvolution *evolution) {
     if (++evolution->part == stage->steps) evolution->part = 0, evolution->current++;
 }
 
-/* Statics: lines laid find their first equilibrium, the others theirs under the ends as they are. */
+/* Statics: lines laid find their first equilibrium. The others take a load step under the ends as they are. */
 static void lay(CpsEvolution *evolution) {
     snprintf(evolution->step_name, CPSI_STEP_NAME, "laid");
+    for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int i = 0; i < evolution->line_count; i++) {
         CpsiLine *line = &evolution->line[i];
         CpsiStepOptions options = evolution->options;
-        if (evolution->is_laid[i]) options.frictionless = true, options.contact = CPS_CONTACT_GAINED;
+        CpsiMove *move = &evolution->move[i];
+        for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
+        if (!evolution->is_laid[i]) {
+            cpsi_line_advance(line, &evolution->program, &options, move, &evolution->room, false);
+            continue;
+        }
+        options.frictionless = true, options.contact = CPS_CONTACT_GAINED;
         cpsi_line_step(line, &evolution->program, &options);
         line->report.parts = 1;
         line->report.share = 1;

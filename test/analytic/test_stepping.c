@@ -54,6 +54,34 @@ static void linear_path_closes(void **state) {
     assert_int_equal(sum.parts, 8);
 }
 
+/* The same beside a line that is laid: it takes the step of statics under the force that it has, with a ledger of its own. No force is
+ * known before, so the work of the end is F u and the imbalance half of it; the line laid has no ledger. */
+static void lines_beside_one_laid(void **state) {
+    (void)state;
+    Case laid, c;
+    CpsError err;
+    case_begin(&laid, 10, 20, 5, 1e4);
+    case_laid(&laid, 8, 1);
+    case_begin(&c, 3, 30, 0, 100);
+    case_straight(&c, 0, 3);
+    c.line.end[CPS_END_B].value[0] = 2;
+    CpsLine lines[2] = {laid.line, c.line};
+    lines[1].name = "other";
+    c.scene.line = lines, c.scene.line_count = 2;
+    CpsEvolution *evolution = NULL;
+    assert_int_equal(cps_evolution_create(&c.scene, &evolution, &err), CPS_OK);
+    assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
+    const CpsLineReport other = cps_evolution_line_report(evolution, 1);
+    assert_int_equal(cps_evolution_report(evolution).outcome, CPS_SOLVED);
+    CHECK_NEAR(other.ledger.ends, 2*0.06, 1e-8*0.06);
+    CHECK_NEAR(other.ledger.elastic, 0.5*2*0.06, 1e-8*0.06);
+    CHECK_NEAR(other.ledger.imbalance, 0.5*2*0.06, 1e-8*0.06);
+    const CpsLedger none = cps_evolution_line_report(evolution, 0).ledger;
+    assert_true(none.ends == 0 && none.elastic == 0 && none.gravity == 0 && none.imbalance == 0);
+    CHECK_NEAR(cps_evolution_report(evolution).ledger.ends, 2*0.06, 1e-8*0.06);
+    cps_evolution_destroy(evolution);
+}
+
 /* Straight drag on a bed (dissipation on loading P^3/(6 A K)), in more and more load steps. */
 static double drag(int steps, Sum *sum) {
     Case c;
@@ -201,6 +229,7 @@ static void slide_is_a_snap(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(linear_path_closes),
+        cmocka_unit_test(lines_beside_one_laid),
         cmocka_unit_test(ledger_closes_with_the_steps),
         cmocka_unit_test(path_tolerance_cuts),
         cmocka_unit_test(easy_steps_stay_whole),

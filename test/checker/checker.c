@@ -105,6 +105,20 @@ static void judge_ends(Judge *judge, const Source *source, const Record *r, cons
     }
 }
 
+/* a step of statics: no friction at all */
+static bool without_friction(const Record *r) {
+    for (size_t c = 0; c < r->contacts * r->nodes; c++)
+        if (r->friction_bound[c] != 0) return false;
+    return true;
+}
+
+/* A line that is laid comes from nowhere and has no ledger; the other lines of that step do. */
+static bool is_laid(const Record *r) {
+    bool blank = r->dissipated == 0;
+    for (int k = 0; k < LEDGER_ENTRIES; k++) blank = blank && r->ledger[k] == 0;
+    return blank && without_friction(r);
+}
+
 /* the figures of the certificate; `ends`: what friction dissipates on the half elements at held ends */
 static void judge_claims(Judge *judge, const Record *r, const Measures *m, double ends) {
     const double *claim = r->claim;
@@ -168,7 +182,6 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     double slid, carried;
     judge_ends(judge, source, r, m, &slid, &carried);
     judge_claims(judge, r, m, slid);
-    // a start laid by statics comes from nowhere
     if (!laid) judge_ledger(judge, r, m, carried, ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->reach);
 }
 
@@ -225,7 +238,7 @@ static void judge_record(const Source *source, const Record *r, const char *line
     } else {
         switch (r->outcome) {
         case OUTCOME_SOLVED:
-            judge_solved(&judge, source, r, &m, source->laid && step == 0);
+            judge_solved(&judge, source, r, &m, source->laid && step == 0 && is_laid(r));
             break;
         case OUTCOME_TAUT:
             judge_taut(&judge, r, &m);
@@ -308,13 +321,6 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
             return;
         }
     }
-}
-
-/* a step of statics: no friction at all */
-static bool without_friction(const Record *r) {
-    for (size_t c = 0; c < r->contacts * r->nodes; c++)
-        if (r->friction_bound[c] != 0) return false;
-    return true;
 }
 
 static int check_line(const Source *source, const char *line, FILE *log, CheckerReport *report) {
