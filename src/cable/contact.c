@@ -7,7 +7,9 @@
  * move base until it is where the solution is (line_step.c).
  *
  * The way slid is that of the node on the surface since the reference, the reference carried along by an obstacle that
- * turns. A node that lands within the step counts its way from the foot of its reference. */
+ * turns. A node that lands within the step counts its way from the foot of its reference. It is the shorter way round, which is
+ * the one that was gone only if the node went round the obstacle by no more than a quarter of a turn while that turned by no
+ * more than another: the angle that it went is counted from round to round, so that a whole turn is not taken for none. */
 #include "cable/contact.h"
 
 #include <string.h>
@@ -19,6 +21,10 @@
 static const double LEAP = 0.5;
 /* A second obstacle is looked for up to so many of its radii away. */
 static const double NEAR = 0.5;
+/* [rad] More than a quarter of a turn, and not rounding of a node that is carried along by just that. */
+static const double QUARTER_ROUNDING = 1e-6;
+/* [rad] From here to half a turn rounding takes more than 1e-12 of a way's direction, which changes sign there. */
+static const double HALF_ROUND = 2*CPSI_QUARTER - 1e-2;
 
 /* Direction of the line at node j, by its neighbours. */
 static Vec3 direction(const CpsiLine *line, const double *x, int j) {
@@ -50,14 +56,21 @@ static bool is_watched(const CpsiLine *line, int c, double gap) {
 /* What a contact keeps of its obstacle from place to place. */
 typedef struct Kept {
     int on;
-    double reaction, bound, gap, force[3];
+    double reaction, bound, gap, round, force[3], normal[3];
     unsigned char state;
     bool pressed;
 } Kept;
 
 static Kept keep(const CpsiLine *line, int c) {
-    Kept kept = {line->on[c], line->reaction[c], line->friction_bound[c], line->gap[c], {0}, line->state[c], line->pressed[c]};
+    Kept kept = {.on = line->on[c],
+                 .reaction = line->reaction[c],
+                 .bound = line->friction_bound[c],
+                 .gap = line->gap[c],
+                 .round = line->round[c],
+                 .state = line->state[c],
+                 .pressed = line->pressed[c]};
     memcpy(kept.force, &line->friction_force[3*c], sizeof kept.force);
+    memcpy(kept.normal, &line->normal[3*c], sizeof kept.normal);
     return kept;
 }
 
@@ -66,9 +79,16 @@ static void put(CpsiLine *line, int c, const Kept *kept) {
     line->reaction[c] = kept->reaction;
     line->friction_bound[c] = kept->bound;
     line->gap[c] = kept->gap;
+    line->round[c] = kept->round;
     line->state[c] = kept->state;
     line->pressed[c] = kept->pressed;
     memcpy(&line->friction_force[3*c], kept->force, sizeof kept->force);
+    memcpy(&line->normal[3*c], kept->normal, sizeof kept->normal);
+}
+
+/* Normal of obstacle k at the reference of node j; 0 0 0 without an obstacle. */
+static Vec3 reference_normal(const CpsiLine *line, int k, int j) {
+    return k < 0 ? vec3(0, 0, 0) : cpsi_obstacle_normal(&line->obstacle[k], vec3_load(&line->reference[3*j]));
 }
 
 /* The contacts of node j at its base: those it had keep what they have. */
@@ -80,6 +100,7 @@ static void meet(CpsiLine *line, int j) {
     for (int i = 0; i < line->contacts; i++) before[i] = keep(line, j + i*n);
     for (int i = 0; i < line->contacts; i++) {
         Kept now = {.on = on[i], .gap = INFINITY, .state = CPS_NODE_FREE};
+        vec3_store(now.normal, reference_normal(line, on[i], j));
         for (int k = 0; k < line->contacts; k++)
             if (before[k].on == on[i] && on[i] >= 0) now = before[k];
         put(line, j + i*n, &now);
@@ -117,10 +138,24 @@ void cpsi_contact_meet(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) meet(line, j);
 }
 
+/* What contact c's node has gone round its obstacle, where its normal was `before` at the last look. */
+static void go_round(CpsiLine *line, int c, Vec3 before) {
+    const int k = line->on[c];
+    if (k < 0) return;
+    const CpsiObstacle *obstacle = &line->obstacle[k];
+    const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER;
+    const Vec3 from = summed ? before : reference_normal(line, k, cpsi_line_node(line, c));
+    const double angle = cpsi_obstacle_angle(obstacle, from, vec3_load(&line->normal[3*c]));
+    line->round[c] = summed ? line->round[c] + angle : angle;
+    if (summed && fabs(angle) > CPSI_QUARTER) line->round[c] = INFINITY; /* too far in one round to tell which way */
+}
+
 void cpsi_contact_look(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         const int j = cpsi_line_node(line, c), k = line->on[c];
+        const Vec3 before = vec3_load(&line->normal[3*c]);
         see(line, c);
+        go_round(line, c, before);
         const Vec3 x = vec3_load(&line->base[3*j]), n = vec3_load(&line->normal[3*c]);
         vec3_store(&line->slide[3*c],
                    k < 0 ? vec3(0, 0, 0) : cpsi_obstacle_way(&line->obstacle[k], carried(line, c), x));
@@ -144,19 +179,19 @@ static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
     if (is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
 }
 
+void cpsi_contact_return(CpsiLine *line) {
+    memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
+    cpsi_contact_meet(line);
+    for (int c = 0; c < cpsi_line_contacts(line); c++) see(line, c), line->round[c] = 0;
+}
+
 void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
     const size_t n = (size_t)line->n;
     line->gains = options->contact == CPS_CONTACT_GAINED;
     memcpy(line->reference, line->position, 3*n*sizeof *line->reference);
-    if (line->follows) {
-        memcpy(line->base, line->reference, 3*n*sizeof *line->base);
-        cpsi_contact_meet(line);
-    }
+    if (line->follows) cpsi_contact_return(line);
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
-        if (line->follows)
-            see(line, c);
-        else if (line->obstacle_count > 0)
-            vec3_store(&line->normal[3*c], line->obstacle->frame.axis[2]);
+        if (!line->follows && line->obstacle_count > 0) vec3_store(&line->normal[3*c], line->obstacle->frame.axis[2]);
         pose(line, c, options);
     }
     cpsi_contact_slide(line);
@@ -167,7 +202,34 @@ void cpsi_contact_slide(CpsiLine *line) {
         const Vec3 to = vec3_load(&line->position[3*cpsi_line_node(line, c)]);
         const Vec3 n = vec3_load(&line->normal[3*c]), u = vec3_sub(to, carried(line, c));
         vec3_store(&line->slide[3*c], vec3_axpy(-vec3_dot(u, n), n, u));
+        const int k = line->on[c];
+        if (k < 0) continue;
+        const Vec3 from = reference_normal(line, k, cpsi_line_node(line, c)), there = cpsi_obstacle_normal(&line->obstacle[k], to);
+        line->round[c] = cpsi_obstacle_angle(&line->obstacle[k], from, there);
     }
+}
+
+/* [rad] From where its obstacle has carried the reference to the node of contact c, the shorter way round. */
+static double apart(const CpsiLine *line, int c) {
+    const CpsiObstacle *obstacle = &line->obstacle[line->on[c]];
+    const Vec3 from = cpsi_obstacle_normal(obstacle, carried(line, c)), to = vec3_load(&line->position[3*cpsi_line_node(line, c)]);
+    return fabs(cpsi_obstacle_angle(obstacle, from, cpsi_obstacle_normal(obstacle, to)));
+}
+
+void cpsi_contact_still(CpsiLine *line) {
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        if (line->on[c] < 0 || line->friction_bound[c] > 0) continue;
+        if (apart(line, c) < HALF_ROUND) continue;
+        for (int a = 0; a < 3; a++) line->slide[3*c + a] = 0;
+    }
+}
+
+bool cpsi_contact_rounds(const CpsiLine *line) {
+    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
+        if (line->on[c] < 0 || !(line->friction_bound[c] > 0)) continue;
+        if (!(fabs(line->round[c]) <= CPSI_QUARTER + QUARTER_ROUNDING) || !(apart(line, c) < HALF_ROUND)) return true;
+    }
+    return false;
 }
 
 double cpsi_contact_shorten(CpsiLine *line) {

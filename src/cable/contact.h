@@ -8,9 +8,15 @@
 /* A node this near to the obstacle, per length of the line, touches it. */
 #define CPSI_TOUCH 1e-9
 
+/* [rad] In one part of a step no obstacle turns by more, and no node with friction goes farther round one. */
+#define CPSI_QUARTER 1.57079632679489661923
+
 /* At the reference, where a step begins: base, axes, normals, gaps; friction bounds of the reference, a first guess
  * where friction is consistent. */
 void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options);
+
+/* Back to the reference (a line that follows), from where the rounds begin. */
+void cpsi_contact_return(CpsiLine *line);
 
 /* The contacts of the nodes at `base` (a line that follows): the nearest obstacles. Those it had keep what they have, in whatever place. */
 void cpsi_contact_meet(CpsiLine *line);
@@ -24,6 +30,13 @@ void cpsi_contact_clear(CpsiLine *line, int c);
 /* The way slid from the reference to `position` on the tangent planes of the pose: where nothing follows, or friction
  * is frozen. */
 void cpsi_contact_slide(CpsiLine *line);
+
+/* A way half round an obstacle has no direction: it is 0 of what no friction acts on. After rounds. */
+void cpsi_contact_still(CpsiLine *line);
+
+/* Has a node with friction gone round its obstacle by more than a quarter of a turn, or on the obstacle, which turned by up to another,
+ * half round? Then the way that it slid is not known: a shorter part of the step is needed. */
+bool cpsi_contact_rounds(const CpsiLine *line);
 
 /* Shorten the way from `base` to `position` where it goes farther than the tangent planes there tell. Returns the share that is left. */
 double cpsi_contact_shorten(CpsiLine *line);

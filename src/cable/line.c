@@ -19,6 +19,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->tension = CPSI_TAKE(arena, n, double);
     line->state = CPSI_TAKE(arena, contacts, unsigned char);
     line->slide = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
+    line->round = line->follows ? CPSI_TAKE(arena, contacts, double) : NULL;
     line->base = line->follows ? CPSI_TAKE(arena, 3*n, double) : NULL;
     line->axes = line->follows ? CPSI_TAKE(arena, 9*contacts, double) : NULL;
     line->curvature = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;

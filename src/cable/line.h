@@ -44,6 +44,8 @@ typedef struct CpsiLine {
     unsigned char *state;   /* (contacts, n) CpsNodeState */
     /* where `follows`, else NULL: what each node sees of the obstacles, from its place `base` */
     double *slide;          /* (contacts, n, 3) [m] way of the node on the obstacle in this step, tangential */
+    double *round;          /* (contacts, n) [rad] by which the node has gone round the contact's obstacle in this step: on a cylinder
+                               the sum over the rounds, which may exceed a turn; on a ball the angle of the great circle */
     double *base;           /* (n, 3) [m] */
     double *axes;           /* (contacts, n, 9) rows first tangent, second tangent, normal */
     double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */

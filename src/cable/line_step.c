@@ -394,7 +394,7 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
     memset(line->reaction, 0, contacts*sizeof *line->reaction);
     memset(line->tension, 0, n*sizeof *line->tension);
     if (line->follows) {
-        memcpy(line->base, line->reference, 3*n*sizeof *line->base);
+        cpsi_contact_return(line);
         cpsi_contact_look(line);
     }
     certify(line, options, &none);
@@ -415,7 +415,7 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         with.turning = way == TURNING;
         with.centrings = way == TURNING ? 0 : CENTRINGS;
         if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
-        if (line->follows) memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
+        if (line->follows) cpsi_contact_return(line);
         solve_step(line, program, &with);
         if (cps_outcome_is_certified(line->report.outcome)) return;
     }
@@ -431,7 +431,8 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     if (!is_finite(line)) forget(line, options);
     cpsi_line_classify(line, program);
     /* nodes that are free may have come to other obstacles in the last round */
-    if (line->contacts > 1 && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless))
-        cpsi_contact_meet(line), cpsi_contact_look(line);
+    const bool looked = line->follows && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless);
+    if (looked && line->contacts > 1) cpsi_contact_meet(line), cpsi_contact_look(line);
+    if (looked) cpsi_contact_still(line);
     cpsi_line_report_ends(line);
 }

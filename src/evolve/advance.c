@@ -7,13 +7,18 @@
  *     all the way: the two halves are kept.
  * Otherwise it is halved, at most `halvings` times. A part that small is accepted; if it still is not what its halves are it is a
  * snap, and reported: the line jumps by a way that does not get smaller with the load. A part that small which does not converge is
- * not cut further: the rest of the step is taken in one go and reported as it is. */
+ * not cut further: the rest of the step is taken in one go and reported as it is.
+ *
+ * A way round an obstacle is known only where neither the obstacle turns nor a node goes round it by more than a quarter of a turn
+ * (cable/contact.h). A step in which an obstacle turns farther is cut beforehand into equal stretches of a quarter at most, each of
+ * which is taken as above. A part in which a node with friction goes farther has not converged. */
 #include "evolve/advance.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/larger.h"
+#include "cable/contact.h"
 #include "evolve/ledger.h"
 
 /* A part whose halves agree this much better than asked is followed by one twice as long. */
@@ -22,6 +27,9 @@ static const double EASY = 0.25;
 /* Motion that follows the load goes about half its way in each half of a part: 0.71 of it in the one before a limit load, where it grows like
  * a square root, 0.75 where slip grows like the square of the load. A jump goes in one half all its way. */
 static const double SUDDEN = 0.9;
+
+/* An angle that is a whole number of quarters but for rounding is that number. */
+static const double ROUNDING = 1e-9;
 
 void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contacts, bool path_tolerance) {
     const size_t all = (size_t)contacts*(size_t)n;
@@ -78,6 +86,7 @@ static Part take(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOption
     for (int k = 0; k < line->obstacle_count; k++) room->turn[k] = (to - from)*move->angle[k];
     const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
     cpsi_line_step(line, program, options);
+    if (cps_outcome_is_certified(line->report.outcome) && cpsi_contact_rounds(line)) line->report.outcome = CPS_STALLED;
     line->report.share = to - from;
     Part part = {.report = line->report};
     if (!cps_outcome_is_final(line->report.outcome)) part.ledger = cpsi_ledger_close(line, &start);
@@ -131,18 +140,41 @@ static double way_of(const CpsiLine *line) {
     return way;
 }
 
-void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
-                       CpsiAdvance *room, bool known) {
-    const double tolerance = options->solver.path_tolerance, least = ldexp(1, -options->solver.halvings);
-    CpsLineReport whole = {0};
-    CpsLedger ledger = {0};
+/* Equal stretches of a step in none of which an obstacle turns by more than a quarter. */
+static int stretches(const CpsiLine *line, const CpsiMove *move) {
+    double most = 0;
+    for (int k = 0; k < line->obstacle_count; k++) most = cpsi_larger(most, fabs(move->angle[k]));
+    const double quarters = ceil(most/CPSI_QUARTER - ROUNDING);
+    return quarters > 1 ? (int)quarters : 1;
+}
+
+/* A stretch of a step, and what has been done of the step. */
+typedef struct Stretch {
+    double from, to; /* shares of the step */
+    CpsLineReport whole;
+    CpsLedger ledger;
+    bool known;
+} Stretch;
+
+/* Where in the step a share of the stretch is. */
+static double within(const Stretch *stretch, double share) {
+    return share < 1 ? stretch->from + share*(stretch->to - stretch->from) : stretch->to;
+}
+
+/* Take a stretch in parts, each halved up to `halvings` times. */
+static void advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
+                    CpsiAdvance *room, int halvings, Stretch *stretch) {
+    const double tolerance = options->solver.path_tolerance, least = ldexp(1, -halvings);
+    CpsLineReport *whole = &stretch->whole;
+    CpsLedger *ledger = &stretch->ledger;
     for (double at = 0, part = 1; at < 1;) {
-        const double to = at + part < 1 ? at + part : 1, middle = at + 0.5*(to - at);
+        const double end = at + part < 1 ? at + part : 1, middle = within(stretch, at + 0.5*(end - at));
+        const double from = within(stretch, at), to = within(stretch, end);
         save(line, room);
-        Part taken = take(line, program, options, move, room, at, to, known), second = {0};
+        Part taken = take(line, program, options, move, room, from, to, stretch->known), second = {0};
         if (cps_outcome_is_final(taken.report.outcome) || (!converged(&taken) && part == 1 && least == 1)) {
-            add(&whole, &ledger, &taken);
-            break;
+            add(whole, ledger, &taken);
+            return;
         }
         bool good = converged(&taken);
         const bool halves = tolerance > 0 && good;
@@ -153,7 +185,7 @@ void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
             const double whole_way = way_of(line);
             keep_trial(line, room->trial);
             restore(line, room);
-            taken = take(line, program, options, move, room, at, middle, known);
+            taken = take(line, program, options, move, room, from, middle, stretch->known);
             longest = way_of(line);
             if (converged(&taken)) second = take(line, program, options, move, room, middle, to, true);
             good = converged(&taken) && converged(&second);
@@ -168,19 +200,31 @@ void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
         }
         if (!good) { /* no smaller: the rest in one go */
             restore(line, room);
-            taken = take(line, program, options, move, room, at, 1, known);
-            add(&whole, &ledger, &taken);
-            break;
+            taken = take(line, program, options, move, room, from, stretch->to, stretch->known);
+            add(whole, ledger, &taken);
+            return;
         }
-        add(&whole, &ledger, &taken);
-        if (halves) add(&whole, &ledger, &second);
+        add(whole, ledger, &taken);
+        if (halves) add(whole, ledger, &second);
         if (sudden || error.way > tolerance) {
-            whole.snaps++;
-            whole.jump = cpsi_larger(whole.jump, longest);
+            whole->snaps++;
+            whole->jump = cpsi_larger(whole->jump, longest);
         }
-        known = true;
-        at = to;
+        stretch->known = true;
+        at = end;
         if (error.way <= EASY*tolerance && error.tension <= EASY*tolerance) part *= 2;
     }
-    line->report = whole;
+}
+
+void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
+                       CpsiAdvance *room, bool known) {
+    const int count = stretches(line, move);
+    Stretch stretch = {.known = known};
+    for (int k = 0; k < count && !cps_outcome_is_final(stretch.whole.outcome); k++) {
+        stretch.from = (double)k/count, stretch.to = (double)(k + 1)/count;
+        /* once one part is not certified nothing is gained by cutting the rest */
+        const int halvings = cps_outcome_is_certified(stretch.whole.outcome) ? options->solver.halvings : 0;
+        advance(line, program, options, move, room, halvings, &stretch);
+    }
+    line->report = stretch.whole;
 }

@@ -25,6 +25,9 @@ static const double SUM_TOLERANCE = 1e-9;
 /* What still fits into the memory of a large machine (1 kB per element), and into a list of results. */
 enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000, MAX_OBSTACLES = 1000 };
 
+/* [rad] Of one stage, which takes a part for every quarter of a turn: 10 000 turns. */
+static const double MAX_TURN = 62831.853071795864769, DEGREES = 57.295779513082320877;
+
 CpsScene cps_scene_default(void) {
     return (CpsScene){
         .cookie = SCENE_COOKIE,
@@ -403,6 +406,9 @@ static CpsStatus check_turns(const CpsScene *scene, int index, CpsError *err) {
         if (!usable(turn->angle))
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: obstacle '%s' turns by %g, expected a finite angle", index + 1,
                              obstacle->name, turn->angle);
+        if (fabs(turn->angle) > MAX_TURN)
+            return cpsi_fail(err, CPS_ERR_LIMIT, "stage %d: obstacle '%s' turns by %g degrees, the limit is %g", index + 1,
+                             obstacle->name, turn->angle*DEGREES, MAX_TURN*DEGREES);
         for (int k = 0; k < i; k++)
             if (stage->turn[k].obstacle == turn->obstacle)
                 return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: obstacle '%s' is turned twice", index + 1, obstacle->name);

@@ -4,6 +4,8 @@
 
 /* A direction this short beside a unit vector has no direction left after rounding. */
 static const double LEAST = 1e-12;
+/* [rad] Of points this near to half round from each other rounding makes the direction. */
+static const double HALF_ROUND = 1e-8;
 
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
     CpsiObstacle out = {.kind = def->kind, .radius = def->radius, .shape = def->friction_shape, .has_set = def->friction_set};
@@ -99,10 +101,21 @@ Vec3 cpsi_obstacle_way(const CpsiObstacle *o, Vec3 from, Vec3 to) {
     if (o->kind == CPS_OBSTACLE_CYLINDER) straight = vec3_scale(vec3_dot(vec3_sub(to, from), axis), axis);
     /* the great circle from n0 to n1, its direction at n1 */
     const Vec3 pole = vec3_cross(n0, n1);
-    const double sine = vec3_norm(pole), angle = atan2(sine, vec3_dot(n0, n1));
-    if (!(sine > 0)) return straight;
+    const double sine = vec3_norm(pole), cosine = vec3_dot(n0, n1), angle = atan2(sine, cosine);
+    if (!(sine > 0) && cosine > 0) return straight;
+    if (sine < HALF_ROUND && cosine < 0) { /* every direction arrives; on a cylinder those across the axis */
+        const Vec3 across = vec3_cross(axis, n1), other = vec3_cross(o->frame.axis[0], n1);
+        return vec3_axpy(o->radius*angle, unit(vec3_norm(across) > 0.5 ? across : other, axis), straight);
+    }
     const Vec3 arrival = vec3_cross(vec3_scale(1/sine, pole), n1);
     return vec3_axpy(o->radius*angle, arrival, straight);
+}
+
+double cpsi_obstacle_angle(const CpsiObstacle *o, Vec3 from, Vec3 to) {
+    if (o->kind == CPS_OBSTACLE_PLANE) return 0;
+    const Vec3 pole = vec3_cross(from, to);
+    const double sine = o->kind == CPS_OBSTACLE_CYLINDER ? vec3_dot(pole, o->frame.axis[2]) : vec3_norm(pole);
+    return atan2(sine, vec3_dot(from, to));
 }
 
 Vec3 cpsi_obstacle_turn(const CpsiObstacle *o, Vec3 x, double angle) {

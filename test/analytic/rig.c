@@ -200,9 +200,8 @@ static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn
     const double w = fmax(o->friction, lateral) * reaction;
     tangents(o, v, j, n, first, second);
     memcpy(from, &v->reference[3 * j], sizeof from);
-    if (turn && *turn != 0) turned(o, *turn, &v->reference[3 * j], from);
+    if (*turn != 0) turned(o, *turn, &v->reference[3 * j], from);
     way(o, from, &v->position[3 * j], n, slid);
-    if (!turn) memcpy(slid, &v->slide[3 * c], sizeof slid);
     const double f1 = dot(f, first), f2 = dot(f, second), s1 = dot(slid, first), s2 = dot(slid, second);
     const double phi = support(o, lateral, reaction, s1, s2), law = phi + f1 * s1 + f2 * s2;
     audit->bound += fabs(v->friction_bound[c] - w);
@@ -229,7 +228,7 @@ static void audit_contact(Audit *audit, const CpsScene *scene, const double *tur
     const double gap = distance(o, &v->position[3 * j], n);
     add(sum, sum, v->reaction[c], n);
     audit->open += fabs(gap * v->reaction[c]) / audit->scale;
-    if (v->reaction[c] > 0) audit_rubbing(audit, o, turn ? &turn[k] : NULL, v, j, c, n, audit->scale);
+    if (v->reaction[c] > 0) audit_rubbing(audit, o, &turn[k], v, j, c, n, audit->scale);
 }
 
 Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *v) {
@@ -308,8 +307,8 @@ CpsOutcome rig_try(RigRun *run) {
     run->report = cps_evolution_line_report(run->evolution, 0);
     if (run->report.outcome != CPS_SOLVED) return run->report.outcome;
     run->solved++;
-    const bool cut = run->report.parts > 1 && (turn[0] != 0 || turn[1] != 0 || turn[2] != 0);
-    const Audit audit = rig_audit(&run->rig->scene, cut ? NULL : turn, &run->view);
+    for (int k = 0; k < RIG_OBSTACLES; k++) turn[k] *= run->report.share;
+    const Audit audit = rig_audit(&run->rig->scene, turn, &run->view);
     check(run, &audit);
     return CPS_SOLVED;
 }

@@ -50,8 +50,7 @@ typedef struct Audit {
     double scale;       /* largest force times length [J] */
 } Audit;
 
-/* turn: of each obstacle since the reference; NULL where a step was cut and its last part is not known: the ways are
- * then taken from the view */
+/* turn: of each obstacle since the reference, in the last part of the step */
 Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *view);
 
 /* A run. */

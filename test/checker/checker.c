@@ -27,6 +27,11 @@ static const double NOTHING = 1e-200;
 /* Taut: the distance of the ends equals the length within this part of it. */
 static const double TAUT_TOLERANCE = 1e-12;
 
+/* Ways are the shorter ones round. They are those that were gone where an obstacle turns by a quarter of a turn at most
+ * in a part of a step, and a node goes round it by no more: this much is rounding of a quarter that is asked for, and of
+ * a node that is carried along by it. */
+static const double TURN_ROUNDING = 1e-9, GONE_ROUNDING = 2e-6;
+
 typedef struct Judge {
     FILE *log;
     const char *line;
@@ -175,6 +180,10 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     at_most(judge, "contacts that are not with the nearest obstacles", m->misplaced, 0);
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
     at_most(judge, "slide against the way from the reference", m->slide_error, COPY_TOLERANCE * (m->length + m->reach));
+    at_most(judge, "quarters of a turn of an obstacle in one part", m->quarters, 1 + TURN_ROUNDING);
+    at_most(judge, "quarters of a turn of an obstacle by the number of parts", m->quarters / (r->share * r->parts),
+            1 + TURN_ROUNDING);
+    at_most(judge, "quarters of a turn that a node with friction went", m->gone_quarters, 1 + GONE_ROUNDING);
     at_most(judge, "contact_gap against the distance", m->gap_error, COPY_TOLERANCE * (m->length + m->reach));
     at_most(judge, "contacts not looked for", m->unwatched, 0);
     at_most(judge, "elongation beyond the tension", m->strain_error, strain);

@@ -43,6 +43,11 @@ static void subtract(const double *a, const double *b, Triple out) {
 /* Obstacles are equally near to a node within this part of the line's length. */
 static const Real PLACE_MARGIN = 1e-9L;
 
+/* [rad] of a turn */
+static const Real QUARTER = 1.57079632679489661923L;
+/* [rad] So near to half a turn rounding of places takes more than the tolerance of a way's direction. */
+static const Real HALF_ROUND = 1e-2L;
+
 /* maximum that keeps a NaN */
 static void raise_to(double *worst, Real value) {
     if (!((double)value <= *worst)) *worst = (double)value;
@@ -208,7 +213,9 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     surface_carry(seat.surface, reference, turn, carried);
     if (turn != 0) surface_way(seat.surface, reference, x, seat.own);
     if (where->reached) {
-        surface_way(seat.surface, carried, x, seat.slide);
+        /* half round no way is shorter than all others; where no friction acts none is asked for */
+        const bool half = surface_angle(seat.surface, carried, x) > 2 * QUARTER - HALF_ROUND;
+        if (!half || r->friction_bound[c] > 0) surface_way(seat.surface, carried, x, seat.slide);
         seat.gap = surface_distance(seat.surface, x) - dot(seat.normal, u);
     } else {
         Triple way = {x[0] - carried[0], x[1] - carried[1], x[2] - carried[2]};
@@ -238,6 +245,9 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
         if (!held(r, j)) raise_to(&m->sunk, depth);
     }
     if (held(r, j) || !seat->surface) return;
+    Triple from;
+    widen(r->reference[j], from);
+    if (r->friction_bound[c] > 0) raise_to(&m->gone_quarters, surface_angle(seat->surface, from, x) / QUARTER);
     if (r->contacts > 1 && !in_place(where, r, j, c, margin)) m->misplaced++;
     // a second obstacle that is round is looked for up to half its radius away
     Triple place;
@@ -406,6 +416,7 @@ Measures measure(const Source *source, const Record *r, bool reached) {
     const Where where = {source, reached ? r->position : r->reference, reached, reach_of(source, r)};
     for (size_t i = 0; i < r->elements; i++) measure_segment(r, i, &m, &s);
     for (size_t j = 0; j < r->nodes; j++) measure_node(&where, r, j, &m, &s);
+    for (size_t k = 0; k < source->surfaces; k++) raise_to(&m.quarters, fabsl(r->share * (Real)r->turn[k]) / QUARTER);
     measure_proof(source, r, &m);
 
     m.reach = (double)where.reach;

@@ -37,6 +37,8 @@ typedef struct Measures {
     int unwatched;           /* contacts without a contact_gap that should have one */
     double gap_error;        /* [m] max |contact_gap - what it must be| */
     double slide_error;      /* [m] max |slide - way from the carried reference| */
+    double quarters;         /* of a turn by which an obstacle turns in the part that the arrays show, at most */
+    double gone_quarters;    /* of a turn by which a node with friction has gone round an obstacle in it, at most */
     int misplaced;           /* contacts with obstacles that are not the nearest and the next */
     double normal_error;     /* [-] max |n - the obstacle's|, over 1 + reach/radius on a curved one */
     double stretch;          /* [-] max |e| - 1 over inextensible elements */

@@ -64,6 +64,14 @@ void surface_way(const Surface *s, const Real *from, const Real *to, Real *out) 
     }
 }
 
+Real surface_angle(const Surface *s, const Real *a, const Real *b) {
+    Real n[3], m[3], less[3], sum[3];
+    if (s->kind == SURFACE_PLANE) return 0;
+    surface_normal(s, a, n), surface_normal(s, b, m);
+    for (int k = 0; k < 3; k++) less[k] = n[k] - m[k], sum[k] = n[k] + m[k];
+    return 2 * atan2l(size(less), size(sum));
+}
+
 bool surface_axes(const Surface *s, const Real *n, const Real *along, Real axes[2][3]) {
     const Real *wanted = s->grained ? s->grain : along;
     Real rise = dot(wanted, n);

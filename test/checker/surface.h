@@ -24,8 +24,10 @@ Real surface_distance(const Surface *surface, const Real *x);
 void surface_normal(const Surface *surface, const Real *x, Real *n);
 /* x carried along by a turn of the surface. */
 void surface_carry(const Surface *surface, const Real *x, Real angle, Real *out);
-/* The geodesic between the feet of two points, as the tangent vector of its length with which it arrives. */
+/* The shorter geodesic between the feet of two points, as the tangent vector of its length with which it arrives. */
 void surface_way(const Surface *surface, const Real *from, const Real *to, Real *out);
+/* [rad] Between the normals of a round surface at two points, 0 to pi. 0 of a plane. */
+Real surface_angle(const Surface *surface, const Real *a, const Real *b);
 /* The tangent plane's axes where the normal is n: the grain, or the direction `along`, and across. False where that
  * direction has no tangent part. */
 bool surface_axes(const Surface *surface, const Real *n, const Real *along, Real axes[2][3]);

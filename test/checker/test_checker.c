@@ -143,6 +143,8 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_ledger_obstacles", 1, 0, "claimed ledger_obstacles"},
     {"wound_penetration", 0, 1e-6, "claimed penetration"},
     {"obstacle_turn", 1, -0.2, "slide against the way"},
+    {"obstacle_turn", 1, -0.125 - 2 * 3.14159265358979323846, "quarters of a turn of an obstacle in one part"},
+    {"wound_reference", 8, -1.75, "quarters of a turn that a node with friction went"},
     {"obstacle_kind", 0, 2, "normal against the obstacle's"},
     {"obstacle_kind", 0, 0, "normal against the obstacle's"},
     {"obstacle_kind", 0, 3, "senseless obstacle"},

@@ -197,8 +197,9 @@ static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, c
     count->converged++;
     if (first) return; /* laid without friction */
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
-    const bool turned = turn[0] != 0 || turn[1] != 0 || turn[2] != 0;
-    const Audit audit = rig_audit(&rig->scene, turned && report.parts > 1 ? NULL : turn, &view);
+    double last[RIG_OBSTACLES];
+    for (int k = 0; k < RIG_OBSTACLES; k++) last[k] = report.share * turn[k];
+    const Audit audit = rig_audit(&rig->scene, last, &view);
     keep_worst(&count->worst, &audit);
     if (!tight(&audit, rig->line.length)) count->loose++;
     if (right(&audit, &report.certificate)) return;

@@ -187,6 +187,42 @@ static void turn(void **state) {
     everywhere(turns);
 }
 
+/* The angle between two normals has the sign of the turn on a cylinder and none on a ball; half round a way has the length of half a
+ * turn, whatever its direction. */
+static void angles(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
+    const double angle = uniform(state, -3, 3), rounding = 2e-14 * (1 + vec3_norm(x));
+    const Vec3 n = cpsi_obstacle_normal(o, x);
+    if (o->kind == CPS_OBSTACLE_PLANE) {
+        CHECK_NEAR(cpsi_obstacle_angle(o, n, vec3(1, 0, 0)), 0, 0);
+        return;
+    }
+    const Vec3 to = cpsi_obstacle_normal(o, cpsi_obstacle_turn(o, x, angle)), far = vec3_scale(-1, n);
+    const double found = cpsi_obstacle_angle(o, n, to), pi = 3.14159265358979323846;
+    if (o->kind == CPS_OBSTACLE_CYLINDER) CHECK_NEAR(found, angle, rounding);
+    if (o->kind == CPS_OBSTACLE_SPHERE) CHECK_NEAR(cos(found), vec3_dot(n, to), rounding);
+    CHECK_NEAR(cpsi_obstacle_angle(o, to, n), o->kind == CPS_OBSTACLE_SPHERE ? found : -found, rounding);
+    CHECK_NEAR(fabs(cpsi_obstacle_angle(o, n, far)), pi, rounding);
+    const Vec3 foot = vec3_axpy(-cpsi_obstacle_gap(o, x), n, x), across = vec3_axpy(-2 * o->radius, n, foot);
+    const Vec3 way = cpsi_obstacle_way(o, foot, across);
+    CHECK_NEAR(vec3_norm(way), pi * o->radius, 1e2 * rounding);
+    CHECK_NEAR(vec3_dot(way, n), 0, 1e2 * rounding);
+}
+
+static void half_round(void **state) {
+    (void)state;
+    everywhere(angles);
+    /* exactly: the points on the axes of a ball and a cylinder at the origin, to the last bit opposite */
+    for (int kind = CPS_OBSTACLE_CYLINDER; kind <= CPS_OBSTACLE_SPHERE; kind++) {
+        CpsObstacle def = cps_obstacle_default();
+        def.kind = kind, def.radius = 2;
+        const CpsiObstacle o = cpsi_obstacle(&def); /* about the y axis */
+        const Vec3 way = cpsi_obstacle_way(&o, vec3(2, 0, 0), vec3(-2, 0, 0));
+        CHECK_NEAR(vec3_norm(way), 2 * 3.14159265358979323846, 1e-15);
+        CHECK_NEAR(way.x, 0, 0);
+        if (kind == CPS_OBSTACLE_CYLINDER) CHECK_NEAR(way.y, 0, 0);
+    }
+}
+
 /* What an obstacle asks of the nodes on it. */
 static void follows(void **state) {
     (void)state;
@@ -232,6 +268,7 @@ int main(void) {
         cmocka_unit_test(move_and_way),
         cmocka_unit_test(no_way),
         cmocka_unit_test(turn),
+        cmocka_unit_test(half_round),
         cmocka_unit_test(follows),
         cmocka_unit_test(grain),
     };

@@ -103,6 +103,12 @@ static void refuses_wrong_values(void **state) {
     make(&p), p.obstacle.kind = 7, refused(&p, "unknown kind 7");
     make(&p), p.obstacle.kind = CPS_OBSTACLE_CYLINDER, refused(&p, "radius is 0 m");
     make(&p), p.obstacle.kind = CPS_OBSTACLE_SPHERE, p.obstacle.radius = 1, p.obstacle.axis[1] = 0, refused(&p, "axis is (0, 0, 0)");
+    const CpsTurn turns[2] = {{.obstacle = 0, .angle = 7e4}, {.obstacle = 0, .angle = 6e4}};
+    for (int k = 0; k < 2; k++) {
+        make(&p), p.obstacle.kind = CPS_OBSTACLE_CYLINDER, p.obstacle.radius = 1, p.obstacle.point[2] = -1;
+        p.stage.turn_count = 1, p.stage.turn = &turns[k];
+        assert_int_equal(cps_scene_check(&p.scene, NULL), k == 0 ? CPS_ERR_LIMIT : CPS_OK);
+    }
     make(&p), p.obstacle.friction_lateral = -2, refused(&p, "lateral is -2");
     make(&p), p.obstacle.friction_shape = 5, refused(&p, "unknown shape 5");
     make(&p), p.obstacle.grain[0] = NAN, refused(&p, "grain is (nan");
