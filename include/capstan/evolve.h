@@ -73,6 +73,31 @@ typedef struct CpsCertificate {
 /* How a node rests on the obstacle. */
 typedef enum CpsNodeState { CPS_NODE_FREE = 0, CPS_NODE_STICK = 1, CPS_NODE_SLIP = 2 } CpsNodeState;
 
+/* What is known of the tensions that hold an inextensible line where it is; they need not be unique (docs/theory.md 4a). */
+#define CPS_RANGE_LIST(X)                                                                                                     \
+    X(CPS_RANGE_NONE, 0, "none", "not asked: a step within a stage, or one without a certified answer")                       \
+    X(CPS_RANGE_STRAIN, 1, "strain", "an elastic line: its strain tells the tension")                                         \
+    X(CPS_RANGE_BOUNDED, 2, "bounded", "least and greatest tension, each with its bound")                                     \
+    X(CPS_RANGE_UNBOUNDED, 3, "unbounded", "jammed: forces that hold each other may be added in any amount, the tension with them") \
+    X(CPS_RANGE_NOT_GIVEN, 4, "not_given", "friction by a set of set.h touches the line: not looked into")                    \
+    X(CPS_RANGE_FAILED, 5, "failed", "the program of the range did not converge")
+
+typedef enum CpsRange {
+#define CPS_RANGE_ENUM(name, number, key, sentence) name = number,
+    CPS_RANGE_LIST(CPS_RANGE_ENUM)
+#undef CPS_RANGE_ENUM
+} CpsRange;
+
+CPS_API const char *cps_range_key(CpsRange range); /* "bounded", ... */
+
+/* Least and greatest tension of the element at an end, of all forces that balance and obey the laws in the places and slips found. The
+ * first value is that of such forces, the second a bound from virtual displacements that none exceeds. NaN where `kind` says nothing. */
+typedef struct CpsTensionRange {
+    CpsRange kind;
+    double least, least_bound;       /* [N] */
+    double greatest, greatest_bound; /* [N] INFINITY where unbounded */
+} CpsTensionRange;
+
 /* The end of a line. The last half element, of length h/2, has the weight w h/2, and where a held end lies on an obstacle its reaction
  * and friction as well; so the force at the end is not the one in the middle of the element (docs/theory.md 3). */
 typedef struct CpsEndReport {
@@ -80,6 +105,7 @@ typedef struct CpsEndReport {
     double force[3];    /* [N] on the line at this end */
     double tension;     /* [N] |force|, the line's tension at this end */
     double friction[3]; /* [N] on the half element beside a held end that lies on an obstacle; in balance with `force` */
+    CpsTensionRange range; /* of the end element, at the last step of a stage */
 } CpsEndReport;
 
 /* Where the energy of a step went [J]: ends + obstacles = elastic + gravity + dissipated + imbalance. */

@@ -26,6 +26,10 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->on = line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
     line->pressed = line->follows ? CPSI_TAKE(arena, contacts, bool) : NULL;
     if (line->follows) cpsi_ahead_layout(&line->ahead, arena, line->n);
+    const bool inextensible = line->compliance == 0;
+    line->tension_before = inextensible ? CPSI_TAKE(arena, n, double) : NULL;
+    line->reaction_before = inextensible ? CPSI_TAKE(arena, contacts, double) : NULL;
+    line->on_before = inextensible && line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
 }
 
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {

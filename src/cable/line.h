@@ -53,10 +53,16 @@ typedef struct CpsiLine {
     bool *pressed;          /* (contacts, n) in the last solution: of reaction and distance, it is the reaction that is not 0 */
     bool gains;             /* contact is looked for everywhere */
     CpsiAhead ahead;        /* of the rounds of a step */
+    /* where it is inextensible, else NULL: what its tensions and reactions were before the step, and room to choose among those after */
+    double *tension_before;  /* (n - 1) [N] T_R */
+    double *reaction_before; /* (contacts, n) [N] */
+    int *on_before;          /* (contacts, n) where `follows`, as `on` */
+    struct CpsiForceSet *forces;
+    bool tight; /* taut and stuck only where the places say so to rounding: else what was chosen could not be certified */
     CpsLineReport report;
 } CpsiLine;
 
-/* Place the arrays of a line of line->n nodes in the arena; line->follows, line->contacts and line->has_zones are set. */
+/* Place the arrays of a line of line->n nodes in the arena; line->follows, line->contacts, line->has_zones and line->compliance are set. */
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 
 /* Fill the arc length from element_length. */

@@ -26,6 +26,7 @@
 #include "cable/line_report.h"
 #include "cable/rub_set.h"
 #include "cable/step_program.h"
+#include "cable/tension_field.h"
 #include "ipm/ipm.h"
 #include "linsys/frame.h"
 
@@ -421,15 +422,57 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
     }
 }
 
+/* What the tensions of an inextensible line, and the reactions in corners, are to be near to. */
+static void remember(CpsiLine *line) {
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    if (!line->forces) return;
+    memcpy(line->tension_before, line->tension, (n - 1)*sizeof *line->tension);
+    memcpy(line->reaction_before, line->reaction, contacts*sizeof *line->reaction);
+    if (line->follows) memcpy(line->on_before, line->on, contacts*sizeof *line->on);
+}
+
+/* Free, stick and slip, and the sums that go with them. */
+static void classify(CpsiLine *line, const CpsiChainProgram *program) {
+    CpsLineReport *report = &line->report;
+    report->grounded = report->slipping = report->slack = 0;
+    cpsi_line_classify(line, program);
+}
+
+/* The forces of an inextensible line, where its place leaves a choice: those nearest to the forces before, if they can be certified. */
+static void choose_forces(CpsiLine *line, const CpsiChainProgram *program, const CpsiStepOptions *options) {
+    if (!line->forces || !cps_outcome_is_certified(line->report.outcome)) return;
+    const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
+    const CpsCertificate before = line->report.certificate;
+    const CpsOutcome outcome = line->report.outcome;
+    cpsi_force_set_keep(line->forces, line);
+    for (int tight = 0; tight < 2; tight++) {
+        line->tight = tight;
+        if (cpsi_line_tension_field(line, line->forces, options, tight)) {
+            certify(line, options, &done);
+            if (cps_outcome_is_certified(line->report.outcome)) {
+                classify(line, program);
+                return;
+            }
+        }
+        cpsi_force_set_restore(line->forces, line);
+        line->report.certificate = before;
+        line->report.outcome = outcome;
+    }
+}
+
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     line->report = (CpsLineReport){0};
-    for (int end = 0; end < 2; end++) /* where they stay if there is no equilibrium */
+    for (int end = 0; end < 2; end++) { /* where they stay if there is no equilibrium */
         memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
+        line->report.end[end].range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
+    }
+    remember(line);
     pose(line, options);
     if (too_short(line) || runs_away(line, options)) return;
     try_ways(line, program, options);
     if (!is_finite(line)) forget(line, options);
-    cpsi_line_classify(line, program);
+    classify(line, program);
+    choose_forces(line, program, options);
     /* nodes that are free may have come to other obstacles in the last round */
     const bool looked = line->follows && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless);
     if (looked && line->contacts > 1) cpsi_contact_meet(line), cpsi_contact_look(line);

@@ -34,6 +34,7 @@ static const double ROUNDING = 1e-9;
 void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contacts, bool path_tolerance) {
     const size_t all = (size_t)contacts*(size_t)n;
     room->reaction = CPSI_TAKE(arena, all, double);
+    room->tension = CPSI_TAKE(arena, n, double);
     room->state = CPSI_TAKE(arena, all, unsigned char);
     room->on = CPSI_TAKE(arena, all, int);
     room->position = path_tolerance ? CPSI_TAKE(arena, 3*(size_t)n, double) : NULL;
@@ -43,6 +44,7 @@ void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contact
 static void save(const CpsiLine *line, CpsiAdvance *room) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
     memcpy(room->reaction, line->reaction, contacts*sizeof *line->reaction);
+    memcpy(room->tension, line->tension, (n - 1)*sizeof *line->tension);
     memcpy(room->state, line->state, contacts*sizeof *line->state);
     if (line->follows) memcpy(room->on, line->on, contacts*sizeof *line->on);
     memcpy(room->end, line->report.end, sizeof room->end);
@@ -53,6 +55,7 @@ static void save(const CpsiLine *line, CpsiAdvance *room) {
 static void restore(CpsiLine *line, const CpsiAdvance *room) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
     memcpy(line->reaction, room->reaction, contacts*sizeof *line->reaction);
+    memcpy(line->tension, room->tension, (n - 1)*sizeof *line->tension);
     memcpy(line->state, room->state, contacts*sizeof *line->state);
     if (line->follows) memcpy(line->on, room->on, contacts*sizeof *line->on);
     memcpy(line->report.end, room->end, sizeof room->end);

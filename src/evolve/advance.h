@@ -14,6 +14,7 @@ typedef struct CpsiMove {
 /* Room for the start of a part, and for what one part reached in one go. */
 typedef struct CpsiAdvance {
     double *reaction;     /* (contacts, n) */
+    double *tension;      /* (n) */
     unsigned char *state; /* (contacts, n) */
     int *on;              /* (contacts, n) */
     CpsEndReport end[2];

@@ -14,6 +14,7 @@
 
 #include "base/larger.h"
 #include "base/status.h"
+#include "cable/tension_field.h"
 #include "evolve/checkpoint.h"
 #include "evolve/evolution.h"
 #include "evolve/ledger.h"
@@ -93,7 +94,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
     const bool follows = scene_follows(scene);
     const int contacts = scene->obstacle_count > 1 ? 2 : 1;
-    int nodes = 0;
+    int nodes = 0, inextensible = 0;
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
         line->name = take_name(arena, scene->line[i].name);
@@ -101,8 +102,10 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
         line->follows = follows;
         line->contacts = contacts;
         line->has_zones = scene->line[i].zone_count > 0;
+        line->compliance = isinf(scene->line[i].stiffness) ? 0 : 1/scene->line[i].stiffness;
         cpsi_line_layout(line, arena);
         if (line->n > nodes) nodes = line->n;
+        if (line->compliance == 0 && line->n > inextensible) inextensible = line->n;
     }
     for (int i = 0; i < scene->stage_count; i++) {
         CpsiEvolutionStage *stage = real ? &evolution->stage[i] : &none;
@@ -111,6 +114,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
     cpsi_advance_layout(&evolution->room, arena, nodes, contacts, scene->solver.path_tolerance > 0);
+    if (inextensible > 0) cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts);
     cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0, largest,
                         scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain);
     return placed;
@@ -156,7 +160,6 @@ static void lift(CpsiLine *line) {
 
 static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsScene *scene, const CpsLine *def) {
     line->length = def->length;
-    line->compliance = isinf(def->stiffness) ? 0 : 1/def->stiffness;
     fill_obstacles(line, evolution);
     const Vec3 gravity = vec3_load(scene->gravity);
     const double size = vec3_norm(gravity);
@@ -190,6 +193,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
         fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
+        if (evolution->line[i].compliance == 0) evolution->line[i].forces = &evolution->forces;
         evolution->move[i].angle = evolution->angle;
         evolution->is_laid[i] = scene->line[i].start.kind == CPS_START_LAID;
         evolution->laid = evolution->laid || evolution->is_laid[i];
@@ -364,6 +368,22 @@ static double seconds(void) {
     return (double)now.tv_sec + 1e-9*(double)now.tv_nsec;
 }
 
+/* Between which values the tensions at the ends lie, where a stage or the statics of the start ends. */
+static void find_ranges(CpsEvolution *evolution) {
+    for (int i = 0; i < evolution->line_count; i++) {
+        CpsiLine *line = &evolution->line[i];
+        CpsiStepOptions options = evolution->options;
+        options.frictionless = evolution->laid && evolution->done == 0 && evolution->is_laid[i];
+        if (!cps_outcome_is_certified(line->report.outcome)) continue;
+        if (line->forces) {
+            cpsi_line_tension_range(line, line->forces, &options);
+            continue;
+        }
+        for (int end = 0; end < 2; end++)
+            line->report.end[end].range = (CpsTensionRange){CPS_RANGE_STRAIN, NAN, NAN, NAN, NAN};
+    }
+}
+
 CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     if (!evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution is NULL");
     if (cps_evolution_remaining(evolution) == 0)
@@ -380,6 +400,7 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
             cpsi_line_advance(&evolution->line[i], &evolution->program, &evolution->options, &evolution->move[i],
                               &evolution->room, evolution->done > 0);
     }
+    if (evolution->part == 0) find_ranges(evolution);
     evolution->report = (CpsStepReport){.name = evolution->step_name, .index = evolution->done};
     for (int i = 0; i < evolution->line_count; i++) add_report(&evolution->report, &evolution->line[i].report);
     evolution->done++;

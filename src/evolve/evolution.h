@@ -3,6 +3,7 @@
 #ifndef CAPSTAN_SRC_EVOLVE_EVOLUTION_H
 #define CAPSTAN_SRC_EVOLVE_EVOLUTION_H
 
+#include "cable/force_set.h"
 #include "cable/friction_set.h"
 #include "evolve/advance.h"
 
@@ -42,6 +43,7 @@ struct CpsEvolution {
     int current, part; /* next stage, steps already taken of it */
     bool ended;       /* an infeasible or unbounded step ends the history */
     CpsiChainProgram program;
+    CpsiForceSet forces; /* room for those of inextensible lines */
     uint64_t fingerprint; /* of everything that does not change: which scene this is */
 };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Keys, sentences and kinds of outcomes, from the list in evolve.h. */
+/* Keys, sentences and kinds of outcomes, and keys of ranges, from the lists in evolve.h. */
 #include "capstan/evolve.h"
 
 const char *cps_outcome_key(CpsOutcome outcome) {
@@ -44,3 +44,13 @@ static int badness(CpsOutcome outcome) {
 }
 
 CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b) { return badness(b) > badness(a) ? b : a; }
+
+const char *cps_range_key(CpsRange range) {
+    switch (range) {
+#define CASE(name, number, key, sentence)                                                                              \
+    case name: return key;
+        CPS_RANGE_LIST(CASE)
+#undef CASE
+    }
+    return "unknown";
+}

@@ -36,6 +36,11 @@ static const Column STEP_COLUMN[] = {
         {letter ".z", "m", LINE(end[e].position[2])}, {letter ".fx", "N", LINE(end[e].force[0])},                      \
         {letter ".fy", "N", LINE(end[e].force[1])}, {letter ".fz", "N", LINE(end[e].force[2])}, {                      \
         letter ".tension", "N", LINE(end[e].tension)                                                                   \
+    },                                                                                                                 \
+        {letter ".tension_least", "N", LINE(end[e].range.least)},                                                      \
+        {letter ".tension_least_bound", "N", LINE(end[e].range.least_bound)},                                          \
+        {letter ".tension_greatest", "N", LINE(end[e].range.greatest)}, {                                              \
+        letter ".tension_greatest_bound", "N", LINE(end[e].range.greatest_bound)                                       \
     }
 
 static const Column LINE_COLUMN[] = {

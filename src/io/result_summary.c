@@ -30,13 +30,24 @@ static void put_vector(FILE *out, const char *key, const double x[3], const char
     fprintf(out, "]%s", after);
 }
 
+/* between which values the tension of the element at an end lies; null where unbounded or not known, `kind` says which */
+static void put_range(FILE *out, const CpsTensionRange *range) {
+    fputs(", \n            \"tension_range_N\": {", out);
+    put_string(out, "kind", cps_range_key(range->kind), ", ");
+    put_number(out, "least", range->least, ", ");
+    put_number(out, "least_bound", range->least_bound, ", ");
+    put_number(out, "greatest", range->greatest, ", ");
+    put_number(out, "greatest_bound", range->greatest_bound, "}}");
+}
+
 static void put_end(FILE *out, const char *key, const CpsEndReport *end, const char *after) {
     fputs("          ", out);
     put_key(out, key);
     fputc('{', out);
     put_vector(out, "position_m", end->position, ", ");
     put_vector(out, "force_N", end->force, ", ");
-    put_number(out, "tension_N", end->tension, "}");
+    put_number(out, "tension_N", end->tension, "");
+    put_range(out, &end->range);
     fputs(after, out);
 }
 

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Between which values the tensions at the ends of an inextensible line lie (tension_field.h).
+ *
+ * Over the set of force_set.h the tension of one element is a linear function: its least and its greatest value are cone programs. The
+ * solution's duals z are virtual displacements of the nodes: with load + G'z = 0 no forces of the set have load.y > z.h. Whether there is
+ * a greatest value is asked first: the tension has no bound just where the directions in which the set has no end contain one along which
+ * it grows, and that is the same program without loads, with the growth held at 1. */
+#include <math.h>
+
+#include "cable/tension_field.h"
+
+/* The growth along a direction without end is 1 or 0. */
+static const double GROWS = 0.5;
+
+/* The extreme value of the tension of element e: the greatest by sign 1, the least by -1. False where the program did not converge. */
+static bool extreme(CpsiForceSet *set, int e, double sign, double *value, double *bound) {
+    *value = *bound = set->tension[e];
+    const int g = set->scalar[e];
+    if (g < 0) return true;
+    set->program.base.load[g] = sign*set->gain[e];
+    if (!cpsi_force_set_solve(set)) return false;
+    /* T >= 0 is a bound too, and better than rounding */
+    *value = fmax(0, *value + set->force*set->gain[e]*set->program.base.u[g]);
+    *bound = fmax(0, *bound + sign*set->force*cpsi_scalar_program_bound(&set->program));
+    return true;
+}
+
+/* Is there a direction of the set along which the tension of element e grows without end? False in `*known` where that was not found out. */
+static bool grows(CpsiForceSet *set, const CpsiLine *line, CpsiForceLaw law, int e, bool *known) {
+    law.directions = true;
+    *known = true;
+    if (!cpsi_force_set_build(set, line, &law) || set->scalar[e] < 0) return false;
+    const int g = set->scalar[e];
+    cpsi_scalar_program_site(&set->program, g, -1, 0);
+    const int row = cpsi_scalar_program_cone(&set->program, 1);
+    set->program.g[row][0] = -set->gain[e];
+    set->program.h[row] = 1;
+    set->program.base.load[g] = set->gain[e];
+    *known = cpsi_force_set_solve(set);
+    return *known && set->gain[e]*set->program.base.u[g] > GROWS;
+}
+
+static CpsTensionRange range_of(CpsiLine *line, CpsiForceSet *set, const CpsiForceLaw *law, int e) {
+    CpsTensionRange range = {CPS_RANGE_FAILED, NAN, NAN, NAN, NAN};
+    bool known;
+    const bool unbounded = grows(set, line, *law, e, &known);
+    if (!known) return range;
+    if (!cpsi_force_set_build(set, line, law)) {
+        range.least = range.least_bound = range.greatest = range.greatest_bound = line->tension[e];
+        range.kind = set->partial ? CPS_RANGE_NOT_GIVEN : CPS_RANGE_BOUNDED;
+        return range;
+    }
+    if (set->partial) return (CpsTensionRange){CPS_RANGE_NOT_GIVEN, NAN, NAN, NAN, NAN};
+    if (!extreme(set, e, -1, &range.least, &range.least_bound)) return range;
+    if (unbounded) {
+        range.greatest = range.greatest_bound = INFINITY;
+        range.kind = CPS_RANGE_UNBOUNDED;
+        return range;
+    }
+    cpsi_force_set_build(set, line, law);
+    if (extreme(set, e, 1, &range.greatest, &range.greatest_bound)) range.kind = CPS_RANGE_BOUNDED;
+    return range;
+}
+
+void cpsi_line_tension_range(CpsiLine *line, CpsiForceSet *set, const CpsiStepOptions *options) {
+    const CpsiForceLaw law = cpsi_force_law(options, line->tight);
+    for (int end = 0; end < 2; end++)
+        line->report.end[end].range = range_of(line, set, &law, end == CPS_END_A ? 0 : line->n - 2);
+}
