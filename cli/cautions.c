@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a user must know of a step with frozen friction or strict contact (see cautions.h).
+/* What a user must know of a step though it is certified (see cautions.h).
  *
  * Frozen friction (S90 section 2 d) takes its bound A from the reference. Where the reaction has changed much within
  * the step, A is not mu R any more (example 11.2); where the line has left the obstacle, friction still acts on it, and
@@ -14,6 +14,8 @@
 
 /* parts of all bounds from which a user is told; a sunk node from a part of the line's length that is no rounding */
 static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6;
+/* a part of the length from which slack decides what is lost: most of it */
+static const double TOLD_SLACK = 0.5;
 
 static double length3(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
@@ -58,6 +60,8 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
             note(cautions, CAUTION_BOUND, residual, bounds, step, view.name);
         if (line.certificate.penetration > TOLD_SUNK * length)
             note(cautions, CAUTION_SUNK, line.certificate.penetration, length, step, view.name);
+        if (line.slack > TOLD_SLACK * length && line.slipping > 0)
+            note(cautions, CAUTION_SLACK, line.slack, length, step, view.name);
     }
 }
 
@@ -73,6 +77,11 @@ static void put_figures(int kind, double value, double of) {
                 "friction of %.4g N, of bounds of %.4g N in all, acts where the line has left the obstacle, and an "
                 "equilibrium "
                 "without it is no solution of this step; 'friction: consistent' has none there",
+                value, of);
+    else if (kind == CAUTION_SLACK)
+        fprintf(stderr,
+                "slack over %.4g m of %.4g m: where a line has no tension its place and what friction dissipates there "
+                "depend on the mesh; compare several numbers of elements",
                 value, of);
     else
         fprintf(stderr,

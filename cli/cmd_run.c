@@ -34,10 +34,16 @@ static char *default_directory(const char *scene, const char *more) {
 }
 
 static void put_head(FILE *table) {
-    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s %12s %12s %10s %10s\n", NAME_WIDTH, "step", LINE_WIDTH, "line", "outcome",
-            "parts", "iter", "gap/scale", "tension A", "tension B", "grounded", "slipping");
-    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s %12s %12s %10s %10s\n", NAME_WIDTH, "", LINE_WIDTH, "", "", "", "", "", "N",
-            "N", "m", "m");
+    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s %12s %12s %10s %10s %10s\n", NAME_WIDTH, "step", LINE_WIDTH, "line",
+            "outcome", "parts", "iter", "gap/scale", "tension A", "tension B", "grounded", "slipping", "slack");
+    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s %12s %12s %10s %10s %10s\n", NAME_WIDTH, "", LINE_WIDTH, "", "", "", "", "",
+            "N", "N", "m", "m", "m");
+}
+
+/* [N] of an end; 0 where it is so small a part of the largest force that it is what the loop leaves, 1e-9 and less */
+static double shown_tension(const CpsLineReport *line, int end) {
+    const double tension = line->end[end].tension;
+    return tension < 1e-9 * line->certificate.largest_force ? 0 : tension;
 }
 
 static void put_rows(FILE *table, const CpsEvolution *evolution) {
@@ -48,9 +54,11 @@ static void put_rows(FILE *table, const CpsEvolution *evolution) {
         cli_put_text(table, i == 0 ? step.name : "", NAME_WIDTH, true);
         fputc(' ', table);
         cli_put_text(table, cps_evolution_line_view(evolution, i).name, LINE_WIDTH, true);
-        fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g %10.4g %10.4g\n", cps_outcome_key(line.outcome), line.parts, line.iterations,
+        fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g %10.4g %10.4g %10.4g\n", cps_outcome_key(line.outcome),
+                line.parts, line.iterations,
                 certificate->scale > 0 ? certificate->gap / certificate->scale : certificate->gap,
-                line.end[CPS_END_A].tension, line.end[CPS_END_B].tension, line.grounded, line.slipping);
+                shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B), line.grounded, line.slipping,
+                line.slack);
     }
 }
 

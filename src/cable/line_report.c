@@ -44,15 +44,6 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
         if (line->state[c] == CPS_NODE_STICK && cpsi_shape_way(program, k) > cpsi_shape_margin(&program->shape, k))
             line->state[c] = CPS_NODE_SLIP;
     }
-    for (int j = 0; j < line->n; j++) {
-        bool touches = false, slips = false;
-        for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
-            touches = touches || line->state[c] != CPS_NODE_FREE;
-            slips = slips || line->state[c] == CPS_NODE_SLIP;
-        }
-        if (touches) report->grounded += cpsi_line_share(line, j);
-        if (slips) report->slipping += cpsi_line_share(line, j);
-    }
     report->dissipated = dissipated(line);
     for (int i = 1; i < line->n; i++) {
         const double *s = program->stretch.s[i], *z = program->stretch.z[i];
@@ -126,5 +117,55 @@ void cpsi_line_report_ends(CpsiLine *line) {
         }
         vec3_store(out->force, force);
         out->tension = vec3_norm(force);
+    }
+}
+
+/* Does node j touch obstacle k?  Its reaction per length there, where the caller wants it. */
+static bool touches(const CpsiLine *line, int j, const CpsiObstacle *k, double *density) {
+    if (j < 0 || j >= line->n) return false;
+    for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
+        if (line->state[c] == CPS_NODE_FREE || cpsi_line_obstacle(line, c) != k) continue;
+        *density = line->reaction[c]/cpsi_line_share(line, j);
+        return true;
+    }
+    return false;
+}
+
+/* The part of its length with which a touching node lies on the obstacle of contact c: all of it inside a piece that lies there. Where the
+ * piece ends, as much as its reaction can be of: on a plane the weight on so much of the line, on a curved obstacle what the next node
+ * inside the piece bears per length. All of it where that says nothing. */
+static double grounded_part(const CpsiLine *line, int c) {
+    const int j = cpsi_line_node(line, c);
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    double density = 0, other = 0;
+    const bool before = touches(line, j - 1, obstacle, &density), after = touches(line, j + 1, obstacle, &density);
+    if (before && after) return 1;
+    if (obstacle->kind == CPS_OBSTACLE_PLANE)
+        density = -vec3_dot(vec3_load(line->weight), vec3_load(&line->normal[3*c]));
+    else if (before == after || !touches(line, before ? j - 2 : j + 2, obstacle, &other))
+        return 1;
+    const double bears = density*cpsi_line_share(line, j);
+    return line->reaction[c] < bears ? line->reaction[c]/bears : 1;
+}
+
+/* Has the node of contact c slid?  A held end lies on its obstacle as it is imposed. */
+static bool has_slid(const CpsiLine *line, int c) {
+    const int j = cpsi_line_node(line, c), end = j == 0 ? CPS_END_A : CPS_END_B;
+    if (!cpsi_line_is_held(line, j)) return line->state[c] == CPS_NODE_SLIP;
+    const int k = line->follows ? line->on[c] : 0;
+    return vec3_norm(cpsi_line_end_slide(line, end, k)) > CPSI_TOUCH*line->length;
+}
+
+void cpsi_line_report_lengths(CpsiLine *line) {
+    for (int j = 0; j < line->n; j++) {
+        double part = 0;
+        bool slips = false;
+        for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
+            if (line->state[c] == CPS_NODE_FREE) continue;
+            part = fmax(part, grounded_part(line, c));
+            slips = slips || has_slid(line, c);
+        }
+        line->report.grounded += part*cpsi_line_share(line, j);
+        if (slips) line->report.slipping += part*cpsi_line_share(line, j);
     }
 }

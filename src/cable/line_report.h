@@ -6,11 +6,14 @@
 #include "cable/line.h"
 #include "ipm/chain_program.h"
 
-/* Free, stick or slip, and slack, from the pairs of the solution; grounded, slipping and slack lengths, dissipation. */
+/* Free, stick or slip, and slack, from the pairs of the solution; slack length, dissipation. */
 void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program);
 
 /* Forces and tensions at the ends, and what the friction of their half elements dissipates. */
 void cpsi_line_report_ends(CpsiLine *line);
+
+/* Lengths that lie on an obstacle and that slid there, the ends having been reported. */
+void cpsi_line_report_lengths(CpsiLine *line);
 
 /* [m] The way of an end on obstacle k in this step: that of the node, less that of an obstacle that turns. */
 Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k);

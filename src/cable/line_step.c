@@ -478,4 +478,5 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     if (looked && line->contacts > 1) cpsi_contact_meet(line), cpsi_contact_look(line);
     if (looked) cpsi_contact_still(line);
     cpsi_line_report_ends(line);
+    cpsi_line_report_lengths(line);
 }

@@ -80,6 +80,10 @@ static void against(const char *name, double mu, double sign, double from, doubl
         const double h = rig_show(name, figure, exact.h, run.report.end[CPS_END_B].force[0]) / exact.h;
         snprintf(figure, sizeof figure, "anchor tension, N = %d [N]", n);
         const double a = rig_show(name, figure, exact.anchor, run.report.end[CPS_END_A].tension) / exact.h;
+        snprintf(figure, sizeof figure, "grounded, N = %d [m]", n);
+        const double on_bed = LENGTH - exact.v / WEIGHT, ground = rig_show(name, figure, on_bed, run.report.grounded);
+        /* as the vertical force is off, which is w times it, and no more than the last node's share in any case */
+        CHECK_LESS(fabs(ground) * WEIGHT / exact.v, 8.0 / n / n);
         CHECK_LESS(fabs(h), 1.0 / n / n);
         CHECK_LESS(fabs(a), 4.0 / n / n);
         rig_close(&run);
