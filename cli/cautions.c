@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "progress.h"
+#include "printable.h"
 
 /* parts of all bounds from which a user is told; a sunk node from a part of the line's length that is no rounding */
 static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6;

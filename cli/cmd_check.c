@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan check: read a scene, say what is wrong with it or what is in it; nothing is solved. */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 
 #include "capstan/io.h"
 #include "commands.h"
 #include "options.h"
+#include "printable.h"
 
 static void print_direction(const double *grain) {
     if (grain[0] != 0 || grain[1] != 0 || grain[2] != 0)
@@ -72,7 +74,7 @@ static void print_line(const CpsLine *line) {
 }
 
 static void print_scene(const CpsScene *scene) {
-    if (scene->title) printf("%s\n", scene->title);
+    if (scene->title) cli_put_text(stdout, scene->title, INT_MAX, false), putchar('\n');
     printf("gravity (%g, %g, %g) m/s2\n", scene->gravity[0], scene->gravity[1], scene->gravity[2]);
     for (int i = 0; i < scene->obstacle_count; i++) print_obstacle(&scene->obstacle[i]);
     for (int i = 0; i < scene->line_count; i++) print_line(&scene->line[i]);

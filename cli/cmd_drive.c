@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan drive: read a driven system; find its motion by least dissipation; draw it. */
+#include <limits.h>
 #include <string.h>
 
 #include "drive_answer.h"
 #include "law_answer.h"
+#include "printable.h"
 
 static const char *const KIND[] = {"system", "body", "planimeter", "rope", "sweep"};
 
@@ -38,7 +40,8 @@ static int answer(DriveRun *run) {
         law_json_text(file->title, stdout);
         printf(", \"kind\": \"%s\"", kind);
     } else if (*file->title) {
-        puts(file->title);
+        cli_put_text(stdout, file->title, INT_MAX, false);
+        putchar('\n');
     }
     const int code = ANSWER[file->kind](run);
     if (run->json) puts("}");

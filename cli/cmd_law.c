@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan law: read a law; answer velocities with sets of forces and forces with sets of velocities; draw it. */
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 #include "law_answer.h"
 #include "law_plot.h"
 #include "law_query.h"
+#include "printable.h"
 
 typedef struct LawRun {
     const CpsLawFile *file;
@@ -55,7 +57,7 @@ static bool tell_law(LawRun *run) {
     if (run->set) set_text(run, text, sizeof text);
     const bool measured = measure.outcome == CPS_SET_ANSWERED;
     if (!run->json) {
-        if (*cps_law_file_title(run->file)) printf("%s\n", cps_law_file_title(run->file));
+        if (*cps_law_file_title(run->file)) cli_put_text(stdout, cps_law_file_title(run->file), INT_MAX, false), putchar('\n');
         printf("%s, %d component%s", kind, run->n, run->n == 1 ? "" : "s");
         if (run->set) printf("\nset of forces: %s", text);
         if (measured)
@@ -224,7 +226,7 @@ static int check_picture(const LawRun *run, const CliOptions *options) {
         return EXIT_USAGE;
     }
     if (!options->plot || law_plot_axes(options->axes, run->n, axis)) return EXIT_OK;
-    fprintf(stderr, "capstan law: --axes: found '%.40s', expected two components from 1 to %d, as in 1,2\n",
+    cli_printf(stderr, "capstan law: --axes: found '%.40s', expected two components from 1 to %d, as in 1,2\n",
             options->axes, run->n);
     return EXIT_USAGE;
 }

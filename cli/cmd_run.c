@@ -15,6 +15,7 @@
 #include "cautions.h"
 #include "commands.h"
 #include "options.h"
+#include "printable.h"
 #include "progress.h"
 #include "run_regularized.h"
 #include "stop.h"
@@ -221,7 +222,7 @@ static bool adjust(CpsScene *scene, const CliOptions *options) {
     errno = 0;
     scene->solver.path_tolerance = strtod(options->tol, &end);
     if (end != options->tol && *end == '\0' && errno == 0) return true;
-    fprintf(stderr, "capstan run: --tol '%s': expected a number, 0 or 1e-9 to 1\n", options->tol);
+    cli_printf(stderr, "capstan run: --tol '%s': expected a number, 0 or 1e-9 to 1\n", options->tol);
     return false;
 }
 
@@ -229,7 +230,7 @@ static bool adjust(CpsScene *scene, const CliOptions *options) {
 static bool is_sound(const CliOptions *options, bool *regularized) {
     *regularized = options->method && strcmp(options->method, "regularized") == 0;
     if (options->method && !*regularized && strcmp(options->method, "exact") != 0)
-        fprintf(stderr, "capstan run: --method: found '%.40s', expected exact or regularized\n", options->method);
+        cli_printf(stderr, "capstan run: --method: found '%.40s', expected exact or regularized\n", options->method);
     else if (*regularized && (options->resume || options->tol))
         fputs("capstan run: --method regularized: takes the steps as given, without --tol and --resume\n", stderr);
     else
@@ -241,12 +242,12 @@ int cmd_run(int argc, char **argv) {
     CliOptions options;
     bool regularized;
     if (!cli_parse(argc, argv, FOR_RUN, "SCENE.yaml", &options) || !is_sound(&options, &regularized)) return EXIT_USAGE;
-    cli_catch_signals();
-
     CpsSceneFile *file = NULL;
     CpsError err;
     if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
 
+    /* while a scene is read there is nothing to keep: a signal ends the program at once */
+    cli_catch_signals();
     CpsScene scene = *cps_scene_file_scene(file);
     if (!adjust(&scene, &options)) {
         cps_scene_file_destroy(file);

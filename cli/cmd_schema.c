@@ -7,6 +7,7 @@
 #include "capstan/law_io.h"
 #include "commands.h"
 #include "options.h"
+#include "printable.h"
 
 int cmd_schema(int argc, char **argv) {
     static const struct {
@@ -20,6 +21,6 @@ int cmd_schema(int argc, char **argv) {
         if (options.operand && strcmp(options.operand, KIND[k].name) != 0) continue;
         return KIND[k].write(stdout, &err) == CPS_OK ? EXIT_OK : cli_report(&err);
     }
-    fprintf(stderr, "capstan schema: found '%s', expected scene, law or drive\n", options.operand);
+    cli_printf(stderr, "capstan schema: found '%s', expected scene, law or drive\n", options.operand);
     return EXIT_USAGE;
 }

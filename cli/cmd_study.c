@@ -14,6 +14,7 @@
 #include "capstan/classic_io.h"
 #include "commands.h"
 #include "options.h"
+#include "printable.h"
 #include "progress.h"
 #include "stop.h"
 #include "study_methods.h"
@@ -47,7 +48,7 @@ static int reach_step(CpsEvolution *evolution, const char *asked) {
     }
     if (cli_stopped()) return 128 + cli_stopped();
     if (asked)
-        fprintf(stderr, "capstan study: --step: found '%.80s', expected the name of a step: 'capstan run' lists them\n",
+        cli_printf(stderr, "capstan study: --step: found '%.80s', expected the name of a step: 'capstan run' lists them\n",
                 asked);
     else
         fprintf(stderr, "capstan study: the scene has no step but a laid one: give it a history\n");
@@ -59,7 +60,7 @@ static int find_line(const CpsEvolution *evolution, const char *asked) {
     if (!asked) return 0;
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i)
         if (strcmp(cps_evolution_line_view(evolution, i).name, asked) == 0) return i;
-    fprintf(stderr, "capstan study: --line: found '%.80s', expected the name of a line of the scene\n", asked);
+    cli_printf(stderr, "capstan study: --line: found '%.80s', expected the name of a line of the scene\n", asked);
     return -1;
 }
 
@@ -233,11 +234,10 @@ static bool is_sound(const CliOptions *options) {
 int cmd_study(int argc, char **argv) {
     CliOptions options;
     if (!cli_parse(argc, argv, FOR_STUDY, "SCENE.yaml", &options) || !is_sound(&options)) return EXIT_USAGE;
-    cli_catch_signals();
-
     CpsSceneFile *file = NULL;
     CpsError err;
     if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
+    cli_catch_signals();
     char *directory = options.output ? strdup(options.output) : default_directory(options.operand);
     int code = EXIT_LIMIT;
     if (!directory)

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "printable.h"
 
 bool law_plot_axes(const char *text, int n, int axis[2]) {
     char end;
@@ -20,7 +21,7 @@ bool law_plot_axes(const char *text, int n, int axis[2]) {
 }
 
 static int cannot_write(const char *path, int code) {
-    fprintf(stderr, "capstan: %s: cannot write: %s\n", path, code ? strerror(code) : "the write failed");
+    cli_printf(stderr, "capstan: %s: cannot write: %s\n", path, code ? strerror(code) : "the write failed");
     return EXIT_IO;
 }
 

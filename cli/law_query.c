@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Velocities and forces as text (see law_query.h). */
 #include "law_query.h"
+#include "printable.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -15,9 +16,9 @@ static const double LARGEST = 1e100;
 
 static int bad(const QueryList *list, const char *where, int line, const char *what, const char *text) {
     if (line > 0)
-        fprintf(stderr, "capstan: standard input:%d: %s: found '%.60s'\n", line, what, text);
+        cli_printf(stderr, "capstan: standard input:%d: %s: found '%.60s'\n", line, what, text);
     else
-        fprintf(stderr, "capstan %s: --%s: %s: found '%.60s'\n", list->command, where, what, text);
+        cli_printf(stderr, "capstan %s: --%s: %s: found '%.60s'\n", list->command, where, what, text);
     return line > 0 ? EXIT_INPUT : EXIT_USAGE;
 }
 

@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan: the command line. Finds the command, answers --help and --version, turns errors into exit codes. */
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "capstan/io.h"
 #include "commands.h"
 #include "options.h"
+#include "printable.h"
 
 typedef struct Command {
     const char *name;
@@ -48,12 +53,13 @@ static void print_version(void) {
 }
 
 int cli_report(const CpsError *err) {
-    if (!err->file[0])
-        fprintf(stderr, "capstan: %s\n", err->message);
-    else if (err->line == 0)
-        fprintf(stderr, "capstan: %s: %s\n", err->file, err->message);
-    else
-        fprintf(stderr, "capstan: %s:%d:%d: %s\n", err->file, err->line, err->column, err->message);
+    /* names and texts come from files: no control character of theirs reaches a terminal */
+    fputs("capstan: ", stderr);
+    cli_put_text(stderr, err->file, INT_MAX, false);
+    if (err->file[0] && err->line > 0) fprintf(stderr, ":%d:%d", err->line, err->column);
+    if (err->file[0]) fputs(": ", stderr);
+    cli_put_text(stderr, err->message, INT_MAX, false);
+    fputc('\n', stderr);
     switch (err->status) {
     case CPS_OK:
         return EXIT_OK;
@@ -70,7 +76,9 @@ int cli_report(const CpsError *err) {
 }
 
 static int unknown_command(const char *given) {
-    fprintf(stderr, "capstan: unknown command '%s'", given);
+    fputs("capstan: unknown command '", stderr);
+    cli_put_text(stderr, given, INT_MAX, false);
+    fputc('\'', stderr);
     const Command *best = NULL;
     int shared = 0;
     for (int i = 0; i < COMMAND_COUNT; i++) {
@@ -95,7 +103,18 @@ static int run_command(int argc, char **argv) {
     return unknown_command(argv[0]);
 }
 
+/* Standard input, output and errors are open: a file opened while one is closed would take its number, and what is printed would go
+ * into it. */
+static bool hold_standard_streams(void) {
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
+        if (fcntl(fd, F_GETFD) != -1 || errno != EBADF) continue;
+        if (open("/dev/null", fd == STDIN_FILENO ? O_RDONLY : O_WRONLY) != fd) return false;
+    }
+    return true;
+}
+
 int main(int argc, char **argv) {
+    if (!hold_standard_streams()) return EXIT_IO;
     /* without a command: --help, --version, or a usage error */
     int code;
     if (argc < 2) {

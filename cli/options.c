@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Command-line options: the table drives the parser, the help and the suggestions. */
 #include "options.h"
+#include "printable.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -84,7 +85,7 @@ static bool end_message(const char *command) {
 
 static bool unknown_option(const char *command_name, unsigned command, const char *given) {
     begin_message(command_name);
-    fprintf(stderr, "unknown option '%s'", given);
+    cli_printf(stderr, "unknown option '%s'", given);
     const Option *best = NULL;
     int shared = 0;
     for (int i = 0; i < OPTION_COUNT && given[1] == '-'; i++) {
@@ -110,7 +111,7 @@ static bool take_option(int argc, char **argv, int *i, unsigned command, CliOpti
     if (!o->argument) {
         if (attached) {
             begin_message(argv[0]);
-            fprintf(stderr, "'%s': option '--%s' takes no argument", given, o->name);
+            cli_printf(stderr, "'%s': option '--%s' takes no argument", given, o->name);
             return end_message(argv[0]);
         }
         *(bool *)field = true;
@@ -149,7 +150,7 @@ bool cli_parse(int argc, char **argv, unsigned command, const char *operand, Cli
             out->operand = word;
         } else {
             begin_message(argv[0]);
-            fprintf(stderr, "unexpected '%s'", word);
+            cli_printf(stderr, "unexpected '%s'", word);
             return end_message(argv[0]);
         }
     }

@@ -6,6 +6,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "printable.h"
+
 enum { BAR_WIDTH = 30, NAME_WIDTH = 24, SHORT_TABLE = 40 };
 
 /* a bar drawn more often than this [s] only costs time */
@@ -15,23 +17,6 @@ double cli_now(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-void cli_put_text(FILE *out, const char *text, int width, bool pad) {
-    int used = 0;
-    for (const unsigned char *c = (const unsigned char *)text; *c && used < width; ++c) {
-        const bool c1 = c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0;
-        if (*c < 0x20 || *c == 0x7F || c1) {
-            fputc('?', out);
-            c += c1;
-        } else {
-            fputc(*c, out);
-            /* the rest of a character of several bytes */
-            while (*c >= 0x80 && (c[1] & 0xC0) == 0x80) fputc(*++c, out);
-        }
-        ++used;
-    }
-    while (pad && used++ < width) fputc(' ', out);
 }
 
 bool cli_is_shown(const CpsScene *scene, int steps, int index) {

@@ -5,7 +5,6 @@
 #define CAPSTAN_CLI_PROGRESS_H
 
 #include <stdbool.h>
-#include <stdio.h>
 
 #include "capstan/scene.h"
 
@@ -19,10 +18,6 @@ typedef struct Progress {
 
 /* Monotonic time [s]. */
 double cli_now(void);
-
-/* Text from a scene file with control characters replaced, so that it cannot steer a terminal; at most `width`
- * characters, padded to it when pad is set. */
-void cli_put_text(FILE *out, const char *text, int width, bool pad);
 
 /* Is step `index` of `steps` a row of the table? A long history is shown by its first step and the last ones of its
  * stages. */

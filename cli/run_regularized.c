@@ -8,6 +8,7 @@
 
 #include "capstan/classic_io.h"
 #include "commands.h"
+#include "printable.h"
 #include "progress.h"
 #include "stop.h"
 

@@ -9,7 +9,7 @@
 
 #include "capstan/classic_io.h"
 #include "commands.h"
-#include "progress.h"
+#include "printable.h"
 #include "run_regularized.h"
 
 enum { REGULARISED, FROZEN, CONSISTENT, METHODS, NAME_SIZE = 96 };

@@ -3,14 +3,18 @@
 #include "study_solutions.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "capstan/classic_io.h"
 #include "commands.h"
-#include "progress.h"
+#include "printable.h"
 
 enum { SHOWN_PARTS = 8 };
 
@@ -26,7 +30,7 @@ CpsCompletion study_find_completion(const char *name) {
     CpsCompletion how = CPS_COMPLETION_SHORTEST;
     while (how < CPS_COMPLETIONS && strcmp(name, cps_completion_key(how)) != 0) ++how;
     if (how == CPS_COMPLETIONS)
-        fprintf(stderr, "capstan study: --complete: found '%.40s', expected shortest, straight or meander\n", name);
+        cli_printf(stderr, "capstan study: --complete: found '%.40s', expected shortest, straight or meander\n", name);
     return how;
 }
 
@@ -75,7 +79,7 @@ void study_tell_slack(const CpsLineView *view) {
 /* ---- a configuration from a file ---- */
 
 static int bad_file(const char *path, int line, const char *found, const char *expected) {
-    fprintf(stderr, "capstan: %s:%d: found %s, expected %s\n", path, line, found, expected);
+    cli_printf(stderr, "capstan: %s:%d: found %s, expected %s\n", path, line, found, expected);
     return EXIT_INPUT;
 }
 
@@ -113,19 +117,32 @@ static int read_nodes(const CpsLineView *view, const char *path, FILE *file, dou
         memcpy(position + 3 * (size_t)node++, value + n - 3, 3 * sizeof *position);
     }
     if (ferror(file)) {
-        fprintf(stderr, "capstan: %s: %s\n", path, strerror(errno));
+        cli_printf(stderr, "capstan: %s: %s\n", path, strerror(errno));
         return EXIT_IO;
     }
     if (node == view->elements + 1 && feof(file)) return EXIT_OK;
-    fprintf(stderr, "capstan: %s: found %s%d rows of nodes, expected %d\n", path, feof(file) ? "" : "more than ", node,
+    cli_printf(stderr, "capstan: %s: found %s%d rows of nodes, expected %d\n", path, feof(file) ? "" : "more than ", node,
             view->elements + 1);
     return EXIT_INPUT;
 }
 
+/* A regular file, or NULL with errno, 0 where it is something else: a pipe would be waited for. */
+static FILE *open_regular(const char *path) {
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+    struct stat about = {0};
+    if (fd < 0) return NULL;
+    if (fstat(fd, &about) == 0 && S_ISREG(about.st_mode)) return fdopen(fd, "r");
+    close(fd);
+    errno = S_ISDIR(about.st_mode) ? EISDIR : 0;
+    return NULL;
+}
+
 static int read_configuration(const CpsLineView *view, const char *path, double *position) {
-    FILE *file = fopen(path, "r");
+    FILE *file = open_regular(path);
     if (!file) {
-        fprintf(stderr, "capstan: %s: %s\n", path, strerror(errno));
+        fputs("capstan: ", stderr);
+        cli_put_text(stderr, path, INT_MAX, false);
+        fprintf(stderr, ": %s\n", errno ? strerror(errno) : "is not a regular file");
         return EXIT_IO;
     }
     const int code = read_nodes(view, path, file, position);

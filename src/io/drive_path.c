@@ -58,7 +58,7 @@ static CpsStatus parse_rows(CpsiDriveRead *r, const char *name, char *bytes, Cps
         if (!number && count == 0 && line == 1) continue;
         if (!whole || !(fabs(row[0]) <= 1e100) || !(fabs(row[1]) <= 1e100))
             return cpsi_fail_at(f->err, CPS_ERR_INPUT, name, line, 1,
-                                "found '%.60s', expected two numbers x, y (in m) in each line", text);
+                                "found something else, expected two numbers x, y (in m) in each line");
         count++;
     }
     if (count < 3)
@@ -70,8 +70,11 @@ static CpsStatus parse_rows(CpsiDriveRead *r, const char *name, char *bytes, Cps
 static CpsStatus read_curve_file(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePlanimeter *out) {
     if (node->kind != CPSI_YAML_SCALAR || !*node->text)
         return cpsi_drive_wrong(r, node, "'file'", "the name of a file");
+    /* a file from somebody else must not read what lies elsewhere on the machine */
+    if (strchr(node->text, '/'))
+        return cpsi_drive_wrong(r, node, "'file'", "the name of a file beside this one, without '/'");
     const char *slash = strrchr(r->path, '/');
-    const int folder = slash && *node->text != '/' ? (int)(slash + 1 - r->path) : 0;
+    const int folder = slash ? (int)(slash + 1 - r->path) : 0;
     const size_t room = strlen(r->path) + strlen(node->text) + 1;
     char *name = CPSI_POOL_TAKE(r->build.file.pool, room, char), *bytes = NULL;
     size_t size = 0;

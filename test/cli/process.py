@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The edges of the process: closed standard streams, pipes and signals, what reaches a terminal, which files a file may name.
+
+usage: process.py CAPSTAN"""
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+CAPSTAN = sys.argv[1]
+SCENE = """capstan: 1
+title: a rope
+obstacles:
+  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}
+lines:
+  rope: {length: 1, elements: 10, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: free}}
+history:
+  - {name: pull, rope.B: {force: [0.1, 0.1, 0]}, steps: 12}
+"""
+faults = []
+
+
+def expect(what, holds, found=""):
+    if not holds:
+        faults.append(f"{what}: {found!r}")
+
+
+def write(name, text):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def read_all(folder):
+    return {name: open(os.path.join(folder, name), "rb").read() for name in sorted(os.listdir(folder)) if name.endswith((".nc", ".csv"))}
+
+
+def closed_streams():
+    """Results do not depend on which of the three streams are open."""
+    expected = None
+    for close in ("", "<&-", ">&-", "2>&-", "<&- 2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
+        done = subprocess.run(["sh", "-c", f"exec '{CAPSTAN}' run scene.yaml -o 'out{close}' {close}"], capture_output=True, timeout=60)
+        expect(f"run {close}: exit code", done.returncode == 0, done)
+        found = {name: len(data) for name, data in read_all(f"out{close}").items()}
+        expected = expected or found
+        expect(f"run {close}: files of the same size", found.get("result.nc") == expected["result.nc"], found)
+        for name, data in read_all(f"out{close}").items():
+            expect(f"run {close}: progress in {name}", not re.search(rb"step [0-9]+ of 12", data))
+
+
+def end_while_waiting():
+    """A program that waits for its input ends at the first signal."""
+    for number in (signal.SIGTERM, signal.SIGINT):
+        waiting = subprocess.Popen([CAPSTAN, "run", "-", "-o", "waits"], stdin=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        time.sleep(0.5)  # it has begun to read
+        waiting.send_signal(number)
+        try:
+            waiting.wait(10)
+        except subprocess.TimeoutExpired:
+            waiting.kill()
+            faults.append(f"signal {number} while waiting for standard input: it goes on waiting")
+        waiting.stdin.close()
+
+
+def pipe_to_judge():
+    os.mkfifo("pipe")
+    try:
+        done = subprocess.run([CAPSTAN, "study", "frozen.yaml", "--judge", "pipe", "-o", "judged"], capture_output=True, text=True, timeout=10)
+        expect("a pipe to judge", done.returncode == 4 and "regular file" in done.stderr, done)
+    except subprocess.TimeoutExpired:
+        faults.append("a pipe to judge: it waits")
+
+
+def escapes():
+    """No control character of a name, a title or an argument reaches the terminal."""
+    write("title.yaml", SCENE.replace("a rope", '"\\e[31mred\\u009b2J"'))
+    write("law.yaml", 'capstan: 1\ntitle: "\\e[31mred"\nlaw: {disc: 1}\n')
+    commands = (["check", "title.yaml"], ["run", "title.yaml", "-o", "out"], ["law", "law.yaml"], ["check", "\x1b[2Jno.yaml"], ["\x1b[2J"],
+                ["run", "--\x1b[2J"], ["run", "scene.yaml", "\x1b[2J"], ["run", "scene.yaml", "--tol", "\x1b[2J"], ["schema", "\x1b[2J"],
+                ["study", "frozen.yaml", "--step", "\x1b[2J"], ["study", "frozen.yaml", "--judge", "\x1b[2J"],
+                ["study", "frozen.yaml", "--complete", "\x1b[2J"], ["law", "law.yaml", "-f", "\x1b[2J"],
+                ["law", "law.yaml", "--plot", "none/\x1b[2J.svg"])
+    for command in commands:
+        done = subprocess.run([CAPSTAN, *command], capture_output=True, timeout=60)
+        expect(f"control characters after {command}", not any(c < 32 and c != 10 or c == 127 for c in done.stdout + done.stderr)
+               and b"\xc2\x9b" not in done.stdout, done)
+    done = subprocess.run([CAPSTAN, "law", "law.yaml", "-f", "-"], input=b"\x1b[2J\n", capture_output=True, timeout=60)
+    expect("control characters of a row on standard input", b"\x1b" not in done.stdout + done.stderr, done)
+
+
+def named_files():
+    """A file of driven systems names only what lies beside it, and no word of it is quoted."""
+    write("secret.txt", "names\nroot password\n1, 2\n")
+    os.mkdir("below")
+    planimeter = "capstan: 1\nplanimeter: {{pole: [0, 0], pole_arm: 1, tracer_arm: 1.3, wheel: 0.4, friction: 0.2, load: 1, curve: {{file: {}}}}}\n"
+    for name in ("../secret.txt", os.path.abspath("secret.txt"), "x/../../secret.txt", "secret.txt"):
+        write("below/drive.yaml", planimeter.format(name))
+        if name == "secret.txt":
+            write("below/secret.txt", "names\nroot password\n1, 2\n")
+        done = subprocess.run([CAPSTAN, "drive", "below/drive.yaml"], capture_output=True, text=True, timeout=60)
+        expect(f"curve file {name}", done.returncode == 3 and "password" not in done.stderr, done)
+        if "/" in name:
+            expect(f"curve file {name}: why", "beside this one" in done.stderr, done.stderr)
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    write("scene.yaml", SCENE)
+    write("frozen.yaml", SCENE + "friction: frozen\n")
+    for part in (closed_streams, end_while_waiting, pipe_to_judge, escapes, named_files):
+        part()
+    os.chdir("/")
+
+print("\n".join(faults) or "process: closed streams, signals, pipes, escapes, named files")
+sys.exit(1 if faults else 0)
