@@ -20,6 +20,10 @@
 #include "linsys/frame.h"
 #include "linsys/small.h"
 
+/* What the loop (to 1e-13) and rounding leave of the gap where nothing is strained and nothing works, per length and force, the largest or
+ * all loads together: no step is asked for less. */
+static const double GAP_FLOOR = 1e-12;
+
 /* |a||b| - a.b for any two vectors, without cancellation. */
 static double angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
     const double dot = vec3_dot(a, b), sum = size_a*size_b + dot;
@@ -183,13 +187,26 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     return vec3_axpy(reaction, n, f);
 }
 
+/* The loads' part of S: the work that they do in the step, node by node and without sign, and the floor; never more than the moments
+ * |b_j| |x_j - x_A|. */
+static double load_scale(const CpsiLine *line, double largest_force, double tolerance) {
+    const Vec3 anchor = vec3_load(&line->position[0]);
+    double work = 0, moment = 0, loads = 0;
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 x = vec3_load(&line->position[3*j]), b = vec3_load(&line->load[3*j]);
+        work += fabs(vec3_dot(b, vec3_sub(x, vec3_load(&line->reference[3*j]))));
+        moment += vec3_norm(b)*vec3_norm(vec3_sub(x, anchor));
+        loads += vec3_norm(b);
+    }
+    work += GAP_FLOOR*fmax(loads, largest_force)*line->length/tolerance;
+    return work <= moment ? work : moment;
+}
+
 /* Nodes: friction, contact, loads and the balance of forces. */
 static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
-    const Vec3 anchor = vec3_load(&line->position[0]);
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3*j]), b = vec3_load(&line->load[3*j]);
         out->primal -= vec3_dot(b, x);
-        out->scale += vec3_norm(b)*vec3_norm(vec3_sub(x, anchor));
         raise_to(&out->largest_force, vec3_norm(b));
         Vec3 balance = b;
         if (j > 0) balance = vec3_sub(balance, segment_force(line, j - 1));
@@ -225,10 +242,11 @@ bool cpsi_law_holds(const CpsiLine *line, double tolerance) {
     return law <= tolerance*dissipated + 1e-12*bounds + rounding;
 }
 
-CpsCertificate cpsi_certificate(const CpsiLine *line) {
+CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance) {
     CpsCertificate out = {0};
     add_segments(line, &out);
     add_nodes(line, &out);
+    out.scale += load_scale(line, out.largest_force, tolerance);
     /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)); it says nothing beyond the tension itself */
     const double bound = line->compliance > 0 ? sqrt(2*out.gap/(line->compliance*line->length)) : NAN;
     out.tension_bound = bound <= out.largest_force ? bound : NAN;

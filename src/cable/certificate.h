@@ -11,8 +11,8 @@
 void cpsi_balance_forces(CpsiLine *line);
 
 /* The certificate of the fields in `line`: theory.md section 4, each local gap computed without cancellation.
- * O(nodes); reads only. */
-CpsCertificate cpsi_certificate(const CpsiLine *line);
+ * The gap will be compared with `tolerance` times its scale, whose floor is that of the gap. O(nodes); reads only. */
+CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance);
 
 /* Does friction's law hold to `tolerance` of w L at every node, and of what friction dissipates in sum?  Less what rounding leaves where
  * nothing slides: 1e-14 of the largest force times L, and 1e-12 of all w L. Asked where rounds settle it. */

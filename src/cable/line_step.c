@@ -198,7 +198,7 @@ static void let_go(CpsiLine *line, const CpsiChainProgram *program) {
 /* Balance the forces, and judge what has been found. */
 static void certify(CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
     cpsi_balance_forces(line);
-    line->report.certificate = cpsi_certificate(line);
+    line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
     if (options->frictionless) line->report.certificate.friction_residual = 0;
     line->report.outcome = judge(line, options, ipm);
 }
@@ -371,7 +371,7 @@ static void solve_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
     const bool consistent = options->friction == CPS_FRICTION_CONSISTENT;
     const bool follow = consistent && !options->frictionless && line->obstacle_count > 0;
     if (line->follows && (consistent || options->frictionless)) {
-        settle(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN);
+        settle(line, program, options, !follow ? CPSI_BOUNDS_GIVEN : options->trying ? CPSI_BOUNDS_TRIED : CPSI_BOUNDS_FOLLOW);
     } else {
         const CpsiIpmReport ipm = attempt(line, program, options, follow);
         if (follow && !is_clean(&ipm)) settle(line, program, options, CPSI_BOUNDS_TRIED);
@@ -403,17 +403,20 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
 }
 
 /* Solve in one way or another. Slowly, where a line without tension has no place of its own to settle at; with reactions that turn with
- * their normals last, and not in statics, because they have a line stay on a crest that it would leave; then also without centrings:
- * where hardly any force is left, the centre may lie farther from the boundary than the tolerance lets it. */
+ * their normals late, and not in statics, because they have a line stay on a crest that it would leave; then also without centrings:
+ * where hardly any force is left, the centre may lie farther from the boundary than the tolerance lets it. Last with bounds that are tried: where
+ * what rests in a corner has many answers, the loop with bounds that follow ends far from the boundary. */
 static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    enum { QUICK, SLOW, TURNING, WAYS };
+    enum { QUICK, SLOW, TURNING, TRYING, WAYS };
     const int first = line->follows && options->frictionless ? SLOW : QUICK;
     for (int way = first; way < WAYS; way++) {
         if (way == SLOW && !line->follows) continue; /* no rounds on one plane */
         if (way == TURNING && line->follows && options->frictionless) return;
+        if (way == TRYING && !line->follows) return;
         CpsiStepOptions with = *options;
         with.slow = way == SLOW;
         with.turning = way == TURNING;
+        with.trying = way == TRYING;
         with.centrings = way == TURNING ? 0 : CENTRINGS;
         if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
         if (line->follows) cpsi_contact_return(line);

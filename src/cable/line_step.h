@@ -15,6 +15,7 @@ typedef struct CpsiStepOptions {
     int centrings;
     bool slow;    /* many rounds, that do not look ahead */
     bool turning; /* reactions turn with their normals within a round */
+    bool trying;  /* bounds that are tried, not bounds that follow */
 } CpsiStepOptions;
 
 /* From the line's position (and its reaction and state there) to the next equilibrium under line->end.

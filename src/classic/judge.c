@@ -61,25 +61,34 @@ static double slide_gap(double bound, Vec3 slid, Vec3 friction) {
     return fmax(0, bound - force)*length + turned;
 }
 
-/* S of docs/theory.md (5), for the step's own solution */
-static double scale_of(const CpsLineView *step) {
-    double scale = 0;
-    for (int i = 0; i < step->elements; ++i) {
-        const double force = vec3_norm(cpsi_at(step->segment_force, i));
-        scale += step->element_length[i]*(force + step->compliance*force*force);
-    }
-    for (int j = 0; j <= step->elements; ++j) {
-        const Vec3 x = cpsi_at(step->position, j), u = vec3_sub(x, cpsi_at(step->reference, j)),
-                   n = cpsi_at(step->normal, j);
-        scale += step->friction_bound[j]*vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
-        scale += vec3_norm(cpsi_at(step->load, j))*vec3_norm(vec3_sub(x, cpsi_at(step->position, 0)));
-    }
-    return scale;
-}
+/* No gap is asked to be less than this, per length and force, the largest or all loads together (docs/theory.md (5)). */
+static const double GAP_FLOOR = 1e-12;
 
 static bool held(const CpsLineView *step, int node) {
     return (node == 0 && step->end[CPS_END_A].kind == CPS_END_HELD) ||
            (node == step->elements && step->end[CPS_END_B].kind == CPS_END_HELD);
+}
+
+/* S of docs/theory.md (5), for the step's own solution */
+static double scale_of(const CpsLineView *step, double tolerance) {
+    double scale = 0, work = 0, moment = 0, loads = 0, largest = 0;
+    for (int i = 0; i < step->elements; ++i) {
+        const double force = vec3_norm(cpsi_at(step->segment_force, i));
+        scale += step->element_length[i]*(force + step->compliance*force*force);
+        largest = cpsi_larger(largest, force);
+    }
+    for (int j = 0; j <= step->elements; ++j) {
+        const Vec3 x = cpsi_at(step->position, j), u = vec3_sub(x, cpsi_at(step->reference, j)),
+                   n = cpsi_at(step->normal, j), b = cpsi_at(step->load, j);
+        scale += step->friction_bound[j]*vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
+        work += fabs(vec3_dot(b, u));
+        loads += vec3_norm(b);
+        moment += vec3_norm(b)*vec3_norm(vec3_sub(x, cpsi_at(step->position, 0)));
+        largest = cpsi_larger(largest, vec3_norm(cpsi_at(step->friction, j)));
+        if (!held(step, j)) largest = cpsi_larger(largest, step->reaction[j]);
+    }
+    work += GAP_FLOOR*cpsi_larger(loads, largest)*step->arc_length[step->elements]/tolerance;
+    return scale + (work <= moment ? work : moment);
 }
 
 typedef struct Case {
@@ -127,7 +136,7 @@ CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, do
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "position of node %d is not finite", j);
     Case c = {0};
     look(step, position, &c);
-    const double gap = tolerance*scale_of(step), strain = sqrt(tolerance);
+    const double gap = tolerance*scale_of(step, tolerance), strain = sqrt(tolerance);
     const double length = tolerance*step->arc_length[step->elements];
     const struct {
         bool fails;

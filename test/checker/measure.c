@@ -114,7 +114,7 @@ static const char *missing_variable(const Record *r) {
 
 /* running sums of a record */
 typedef struct Sums {
-    Sum primal, dual, signed_gap, gap, scale, slid, law, contact, bound_residual, imbalance_work, magnitude, length,
+    Sum primal, dual, signed_gap, gap, scale, work, moment, loads, slid, law, contact, bound_residual, imbalance_work, magnitude, length,
         elastic, gravity, carried;
 } Sums;
 
@@ -334,17 +334,19 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
 }
 
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
-    Triple b, x, arm, pull;
+    Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
     widen(r->load[j], b), widen(r->load[j], pull), widen(r->position[j], x);
     subtract(r->position[j], r->position[0], arm);
+    subtract(r->position[j], r->reference[j], u);
     for (int k = 0; k < 3; k++) {
         if (j < r->elements) pull[k] += r->segment_force[j][k];
         if (j > 0) pull[k] -= r->segment_force[j - 1][k];
         raise_to(&m->extent, fabsl(x[k]));
     }
     add(&s->primal, -dot(b, x));
-    add(&s->scale, size(b) * size(arm));
+    add(&s->work, fabsl(dot(b, u)));
+    add(&s->moment, size(b) * size(arm)), add(&s->loads, size(b));
     add(&s->magnitude, size(b) * size(x) + size(pull) * size(x));
     raise_to(&m->largest_force, size(b));
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) measure_contact(where, r, j, c, pull, m, s);
@@ -424,7 +426,10 @@ Measures measure(const Source *source, const Record *r, bool reached) {
     m.primal = (double)total(&s.primal);
     m.dual = (double)total(&s.dual);
     m.gap = (double)total(&s.gap);
-    m.scale = (double)total(&s.scale);
+    // the loads' part of S: what they work in the step and a floor, but no more than their moments about end A
+    Real force = fmaxl((Real)m.largest_force, total(&s.loads));
+    Real work = total(&s.work) + 1e-12L * force * total(&s.length) / (Real)source->tolerance;
+    m.scale = (double)(total(&s.scale) + fminl(work, total(&s.moment)));
     m.slid = (double)total(&s.slid);
     m.law = (double)total(&s.law);
     m.contact = (double)total(&s.contact);

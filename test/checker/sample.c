@@ -22,13 +22,16 @@ typedef struct SampleLine {
     double claim[13];
 } SampleLine;
 
-static const double C = 1.0 / 1024;
+static const double C = 1.0 / 1024, TOLERANCE = 1e-8;
+
+/* The least part of the scale that a line's loads and its largest force have, by its length. */
+static double least_scale(double force, double length) { return 1e-12 / TOLERANCE * force * length; }
 
 /* Drag by H = 10 N: bounds 4 N inside and 2 N at the tip take the tension from 8 N to 4 N to 0 over two elements,
  * which stretch by c T = 4 C and 8 C. Energies by hand; the second member is the largest load, sqrt(10^2 + 4^2). */
 static void drag_claims(double *claim) {
     double tip = hypot(10, 4), primal = 40 * C + 40 * C - 10 * (4 + 12 * C);
-    double scale = 12 + 80 * C + 40 * C + 8 + 16 + 8 * (3 + 4 * C) + tip * (4 + 12 * C);
+    double scale = 12 + 80 * C + 40 * C + 120 * C + least_scale(28 + tip, 4); // the pull of 10 N works over 12 C
     double values[13] = {primal, primal, 0, scale, 0, 0, 0, tip, 0, 0, 0, 0, 0};
     memcpy(claim, values, sizeof values);
 }
@@ -115,8 +118,9 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = (Field){"proof", 3, 0, {line->proof, 0, 0}};
     field[n++] = scalar("proof_value", line->proof_value);
     for (int k = 0; k < CLAIMS; k++) {
-        int follows = k == 0 || k == 1 || k == 3; // primal, dual and scale
-        field[n++] = scalar(CLAIM_NAME[k], line->claim[k] - (again && follows ? work : 0));
+        // primal and dual lose the work of friction, the scale that of the pull as well
+        const double less = k == 0 || k == 1 ? work : k == 3 ? 4 * work : 0;
+        field[n++] = scalar(CLAIM_NAME[k], line->claim[k] - (again ? less : 0));
     }
     return n;
 }
@@ -237,7 +241,7 @@ static int write_beds(int nc, const int dims[3], const Bed *bed, size_t count) {
 
 /* dims: step, xyz, end */
 static int begin_file(const char *path, const char *names, const char *friction, int *nc, int dims[3]) {
-    const double tolerance = 1e-8, gravity[3] = {0, 0, -8};
+    const double gravity[3] = {0, 0, -8};
     int status = nc_create(path, NC_CLOBBER | NC_64BIT_OFFSET, nc);
     if (status) return status;
     status = nc_def_dim(*nc, "step", NC_UNLIMITED, &dims[0]);
@@ -245,7 +249,7 @@ static int begin_file(const char *path, const char *names, const char *friction,
     if (!status) status = nc_def_dim(*nc, "end", 2, &dims[2]);
     if (!status) status = nc_put_att_text(*nc, NC_GLOBAL, "lines", strlen(names), names);
     if (!status) status = nc_put_att_text(*nc, NC_GLOBAL, "friction", strlen(friction), friction);
-    if (!status) status = nc_put_att_double(*nc, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &tolerance);
+    if (!status) status = nc_put_att_double(*nc, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &TOLERANCE);
     if (!status) status = nc_put_att_double(*nc, NC_GLOBAL, "gravity", NC_DOUBLE, 3, gravity);
     return status;
 }
@@ -323,11 +327,11 @@ static size_t describe_wound(const Wound *w, Field *field) {
     Field *reaction = &field[n++];
     field[n] = constant("tension", ELEMENTS, 0, 0);
     memcpy(field[n++].value, T, sizeof w->tension);
-    double primal = 0, scale = 0, work = 0, far[3], largest = T[ELEMENTS - 1];
+    double primal = 0, scale = 0, work = 0, length = 0, largest = T[ELEMENTS - 1];
     for (int i = 0; i < ELEMENTS; i++) {
         for (int k = 0; k < 3; k++) segment->value[3 * i + k] = T[i] * w->chord[3 * i + k];
         primal += w->length[i] * C * T[i] * T[i] / 2;
-        scale += w->length[i] * (T[i] + C * T[i] * T[i]);
+        scale += w->length[i] * (T[i] + C * T[i] * T[i]), length += w->length[i];
     }
     for (int j = 1; j < ELEMENTS; j++) {
         reaction->value[j] = (T[j] + T[j - 1]) * s;
@@ -338,14 +342,13 @@ static size_t describe_wound(const Wound *w, Field *field) {
     for (int k = 0; k < 3; k++) {
         load->value[3 * ELEMENTS + k] = largest * w->chord[3 * (ELEMENTS - 1) + k];
         primal -= load->value[3 * ELEMENTS + k] * w->place[3 * ELEMENTS + k];
-        far[k] = w->place[3 * ELEMENTS + k] - w->place[k];
     }
     /* at A the drum carries what presses there, and the half element takes as large a part of its bound as node 1: all */
     double held = T[0] * s, rub[3], sense[3], ends = MU * held * SLIP;
     spoke(1.57079632679489661923, sense);
     for (int k = 0; k < 3; k++) rub[k] = -MU * held * sense[k];
     reaction->value[0] = held;
-    primal += work, scale += work + largest * hypot(hypot(far[0], far[1]), far[2]);
+    primal += work, scale += work + least_scale(largest, length); // nothing moves but the drum
     field[n++] = scalar("outcome", 0), field[n++] = scalar("iterations", 1);
     field[n++] = scalar("parts", 1), field[n++] = scalar("share", 1);
     field[n++] = (Field){"end_kind", 2, 0, {0, 1}};
@@ -425,7 +428,7 @@ static size_t describe_corner(int again, Field *field) {
                  {"ledger_imbalance", work},
                  {"primal", primal + work},
                  {"dual", primal + work},
-                 {"scale", 18 + 180 * C + work + 8 * sqrt(2) * (6 + 6 * C) + tip * (4 + 18 * C)},
+                 {"scale", 18 + 180 * C + 4 * work + least_scale(28 * sqrt(2) + tip, 4)}, // the pull works three times that
                  {"largest_force", tip}};
     static const double PRESS[NODES] = {-4, -8, -8, -8, -4}, SECOND[NODES] = {0, 0, -2, -2, -1};
     for (size_t k = 0; k < n; k++) {

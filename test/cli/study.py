@@ -99,7 +99,8 @@ with tempfile.TemporaryDirectory() as folder:
 
     study(folder, EXAMPLE, "--step", "Y4", "--complete", "meander", "-o", "laid")
     for row, column, by, width, words in ((790, 3, 1e-4, 0, "contact is lost"),    # slack lifted, R > 0: 0.077 N x 0.1 mm
-                                          (160, 2, 0.01, 150, "sliding outside"),  # slack that friction holds, moved aside
+                                          (160, 2, 0.001, 150, "sliding outside"), # slack that friction holds, moved aside
+                                          (160, 2, 1e-4, 0, "sliding outside"),    # one node of it: 2e-7 J, of 0.01 J that is dissipated
                                           (500, 2, 1e-3, 0, "other tensions"),     # under tension
                                           (790, 3, -1e-6, 0, "inside the obstacle"),
                                           (0, 1, 1e-6, 0, "a held end")):
