@@ -58,7 +58,7 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
             note(cautions, CAUTION_LIFTED, lifted, bounds, step, view.name);
         if (scene->friction == CPS_FRICTION_FROZEN && residual > TOLD_BOUND * bounds && bounds > 0)
             note(cautions, CAUTION_BOUND, residual, bounds, step, view.name);
-        if (line.certificate.penetration > TOLD_SUNK * length)
+        if (scene->contact == CPS_CONTACT_STRICT && line.certificate.penetration > TOLD_SUNK * length)
             note(cautions, CAUTION_SUNK, line.certificate.penetration, length, step, view.name);
         if (line.slack > TOLD_SLACK * length && line.slipping > 0)
             note(cautions, CAUTION_SLACK, line.slack, length, step, view.name);

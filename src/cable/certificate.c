@@ -81,6 +81,7 @@ static void share_out(CpsiLine *line, Vec3 rest) {
         const Vec3 n = vec3_load(&line->normal[3*c]);
         const double room = room_of(line, c);
         add_outer(m, line->reaction[c] - room, n, n);
+        if (line->frozen) add_outer(m, room, n, n), add_outer(m, -room, cpsi_line_friction_normal(line, c), cpsi_line_friction_normal(line, c));
         if (bound_follows(line, c)) add_outer(m, 1, vec3_load(&line->friction_force[3*c]), n);
         for (int i = 0; i < 3; i++) m[4*i] += room;
         trace += line->reaction[c] + 2*room;
@@ -95,7 +96,7 @@ static void share_out(CpsiLine *line, Vec3 rest) {
         const Vec3 n = vec3_load(&line->normal[3*c]), f = vec3_load(&line->friction_force[3*c]);
         const double along = vec3_dot(n, by), follow = bound_follows(line, c) ? 1 + along : 1;
         /* inside the set before it is scaled, so inside after it */
-        const Vec3 more = vec3_axpy(room_of(line, c), tangential(by, n), f);
+        const Vec3 more = vec3_axpy(room_of(line, c), tangential(by, cpsi_line_friction_normal(line, c)), f);
         vec3_store(&line->friction_force[3*c], vec3_scale(follow, more));
         line->friction_bound[c] *= follow;
         line->reaction[c] *= 1 + along;

@@ -32,25 +32,43 @@ static Vec3 direction(const CpsiLine *line, const double *x, int j) {
     return vec3_sub(vec3_load(&x[3*after]), vec3_load(&x[3*before]));
 }
 
-/* The obstacles that node j is nearest to, as many as it has contacts, the nearest first. */
-static void nearest(const CpsiLine *line, Vec3 x, int on[2]) {
+/* Does contact c stay with its obstacle through the step?  One that the reference touches, where contact is not gained; one whose frozen
+ * friction acts. */
+static bool is_kept(const CpsiLine *line, int c) {
+    if (line->on[c] < 0) return false;
+    return line->gains ? line->frozen && line->friction_bound[c] > 0 : isfinite(line->gap[c]);
+}
+
+static bool keeps(const CpsiLine *line, int j, int k) {
+    for (int c = j; c < cpsi_line_contacts(line); c += line->n)
+        if (line->on[c] == k && is_kept(line, c)) return true;
+    return false;
+}
+
+/* The obstacles of node j at x, as many as it has contacts: those that it keeps and else the nearest, the nearest first. */
+static void nearest(const CpsiLine *line, int j, Vec3 x, int on[2]) {
     double gap[2] = {INFINITY, INFINITY};
     on[0] = on[1] = -1;
     for (int k = 0; k < line->obstacle_count; k++) {
-        const double distance = cpsi_obstacle_gap(&line->obstacle[k], x);
+        const double distance = keeps(line, j, k) ? -INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x);
         const int place = distance < gap[0] ? 0 : distance < gap[1] ? 1 : 2;
         if (place == 0) gap[1] = gap[0], on[1] = on[0];
         if (place < 2) gap[place] = distance, on[place] = k;
     }
+    if (isfinite(gap[0]) || on[1] < 0) return;
+    const int first = on[0];
+    if (cpsi_obstacle_gap(&line->obstacle[first], x) <= cpsi_obstacle_gap(&line->obstacle[on[1]], x)) return;
+    on[0] = on[1], on[1] = first;
 }
 
 /* Is contact looked for where the node is `gap` away from the obstacle?  A second obstacle only as far as its tangent plane tells
- * where it is: from afar the plane of a round one shuts off what is free. */
+ * where it is: from afar the plane of a round one shuts off what is free. One that the contact keeps, always. */
 static bool is_watched(const CpsiLine *line, int c, double gap) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     if (!obstacle || cpsi_line_is_held(line, cpsi_line_node(line, c))) return false;
     if (!line->gains) return isfinite(line->gap[c]);
-    return c < line->n || obstacle->kind == CPS_OBSTACLE_PLANE || gap <= NEAR*obstacle->radius;
+    if (c < line->n || obstacle->kind == CPS_OBSTACLE_PLANE || gap <= NEAR*obstacle->radius) return true;
+    return line->follows && is_kept(line, c);
 }
 
 /* What a contact keeps of its obstacle from place to place. */
@@ -96,7 +114,7 @@ static void meet(CpsiLine *line, int j) {
     const int n = line->n;
     Kept before[2] = {{.on = -1}, {.on = -1}};
     int on[2];
-    nearest(line, vec3_load(&line->base[3*j]), on);
+    nearest(line, j, vec3_load(&line->base[3*j]), on);
     for (int i = 0; i < line->contacts; i++) before[i] = keep(line, j + i*n);
     for (int i = 0; i < line->contacts; i++) {
         Kept now = {.on = on[i], .gap = INFINITY, .state = CPS_NODE_FREE};
@@ -122,11 +140,35 @@ static void see(CpsiLine *line, int c) {
     for (int a = 0; a < 3; a++) line->curvature[3*c + a] = line->normal[3*c + a] = 0;
 }
 
+/* The axes of frozen friction: those at the reference, whatever obstacle the contact has come to. */
+static void freeze(CpsiLine *line, int c) {
+    const int j = cpsi_line_node(line, c);
+    double curvature[3], *axes = &line->first_axes[9*c];
+    memcpy(axes, line->common, sizeof line->common);
+    if (line->on[c] < 0) return;
+    cpsi_obstacle_axes(&line->obstacle[line->on[c]], vec3_load(&line->reference[3*j]), direction(line, line->reference, j), axes,
+                       curvature);
+}
+
 /* The reference of the node on the obstacle of contact c, carried along as it turns. */
 static Vec3 carried(const CpsiLine *line, int c) {
     const Vec3 x = vec3_load(&line->reference[3*cpsi_line_node(line, c)]);
     const int k = line->on[c];
     return k < 0 ? x : cpsi_obstacle_turn(&line->obstacle[k], x, line->turn[k]);
+}
+
+/* The part of the node's way to x, from where the obstacle of contact c has carried its reference, in the plane of friction. */
+static Vec3 flat_way(const CpsiLine *line, int c, Vec3 x) {
+    const Vec3 u = vec3_sub(x, carried(line, c));
+    if (line->on[c] < 0) return u;
+    const Vec3 n = vec3_load(&cpsi_line_axes(line, c)[6]);
+    return vec3_axpy(-vec3_dot(u, n), n, u);
+}
+
+/* The way of the node on the obstacle of contact c, at x: along the surface, or in the plane of friction where that is frozen. */
+static Vec3 way_to(const CpsiLine *line, int c, Vec3 x) {
+    if (line->frozen) return flat_way(line, c, x);
+    return line->on[c] < 0 ? vec3(0, 0, 0) : cpsi_obstacle_way(&line->obstacle[line->on[c]], carried(line, c), x);
 }
 
 void cpsi_contact_clear(CpsiLine *line, int c) {
@@ -156,9 +198,9 @@ void cpsi_contact_look(CpsiLine *line) {
         const Vec3 before = vec3_load(&line->normal[3*c]);
         see(line, c);
         go_round(line, c, before);
+        if (line->frozen) freeze(line, c);
         const Vec3 x = vec3_load(&line->base[3*j]), n = vec3_load(&line->normal[3*c]);
-        vec3_store(&line->slide[3*c],
-                   k < 0 ? vec3(0, 0, 0) : cpsi_obstacle_way(&line->obstacle[k], carried(line, c), x));
+        vec3_store(&line->slide[3*c], way_to(line, c, x));
         const Vec3 u = vec3_sub(x, vec3_load(&line->reference[3*j]));
         const double gap = k < 0 ? INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x);
         line->gap[c] = is_watched(line, c, gap) ? gap - vec3_dot(n, u) : INFINITY;
@@ -171,12 +213,14 @@ static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
     const int j = cpsi_line_node(line, c);
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     const double gap = obstacle ? cpsi_obstacle_gap(obstacle, vec3_load(&line->reference[3*j])) : INFINITY;
-    const bool touches = obstacle && line->state[c] != CPS_NODE_FREE, held = cpsi_line_is_held(line, j);
+    const bool held = cpsi_line_is_held(line, j);
+    /* contact: everywhere, or only where the reference touches (S90 (35)): what is below it is free */
+    const bool near = fabs(gap) <= CPSI_TOUCH*line->length, touches = line->gains ? obstacle && line->state[c] != CPS_NODE_FREE : near;
     const bool rubs = touches && !held && !options->frictionless;
     line->friction_bound[c] = rubs ? cpsi_rub_set(line, c).friction*line->reaction[c] : 0;
-    /* contact: everywhere, or only where the reference touches (S90 (35)) */
-    line->gap[c] = !held && (touches || gap <= CPSI_TOUCH*line->length) ? 0 : INFINITY;
+    line->gap[c] = !held && near ? 0 : INFINITY;
     if (is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
+    else if (!held) cpsi_contact_clear(line, c);
 }
 
 void cpsi_contact_return(CpsiLine *line) {
@@ -188,9 +232,12 @@ void cpsi_contact_return(CpsiLine *line) {
 void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
     const size_t n = (size_t)line->n;
     line->gains = options->contact == CPS_CONTACT_GAINED;
+    line->frozen = line->follows && line->gains && options->friction == CPS_FRICTION_FROZEN && !options->frictionless;
     memcpy(line->reference, line->position, 3*n*sizeof *line->reference);
+    for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = 0, line->gap[c] = INFINITY;
     if (line->follows) cpsi_contact_return(line);
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        if (line->frozen) freeze(line, c);
         if (!line->follows && line->obstacle_count > 0) vec3_store(&line->normal[3*c], line->obstacle->frame.axis[2]);
         pose(line, c, options);
     }
@@ -200,8 +247,7 @@ void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
 void cpsi_contact_slide(CpsiLine *line) {
     for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
         const Vec3 to = vec3_load(&line->position[3*cpsi_line_node(line, c)]);
-        const Vec3 n = vec3_load(&line->normal[3*c]), u = vec3_sub(to, carried(line, c));
-        vec3_store(&line->slide[3*c], vec3_axpy(-vec3_dot(u, n), n, u));
+        vec3_store(&line->slide[3*c], flat_way(line, c, to));
         const int k = line->on[c];
         if (k < 0) continue;
         const Vec3 from = reference_normal(line, k, cpsi_line_node(line, c)), there = cpsi_obstacle_normal(&line->obstacle[k], to);
@@ -256,21 +302,41 @@ static void move(CpsiLine *line, int j) {
     vec3_store(&line->position[3*j], cpsi_obstacle_move(obstacle, from, vec3_sub(to, from)));
 }
 
-/* How far the axes of node j turn from its base to its position, the tangent's turn counting where it matters. INFINITY where it
- * leaves one of its obstacles for another, or has gone through one. */
+/* [m] The distance of node j from the obstacles that keep it out, INFINITY without any: all of them, or with strict contact those of its
+ * contacts. */
+static double room_of(const CpsiLine *line, int j) {
+    const Vec3 to = vec3_load(&line->position[3*j]);
+    double least = INFINITY;
+    if (line->gains) {
+        cpsi_line_nearest(line, to, &least);
+        return least;
+    }
+    for (int c = j; c < cpsi_line_contacts(line); c += line->n)
+        if (isfinite(line->gap[c])) least = fmin(least, cpsi_obstacle_gap(cpsi_line_obstacle(line, c), to));
+    return least;
+}
+
+double cpsi_contact_depth(const CpsiLine *line) {
+    double depth = 0;
+    for (int j = 0; j < line->n; j++) depth = fmax(depth, -room_of(line, j));
+    return depth;
+}
+
+/* How far the axes of node j turn from its base to its position, the tangent's turn counting where it matters: not where friction is
+ * frozen. INFINITY where it leaves one of its obstacles for another, or has gone through one. */
 static double turn_of(const CpsiLine *line, int j) {
     const Vec3 to = vec3_load(&line->position[3*j]);
     double turned = 0;
     int on[2];
-    nearest(line, to, on);
-    if (on[0] >= 0 && cpsi_obstacle_gap(&line->obstacle[on[0]], to) < -0.1*CPSI_TOUCH*line->length) return INFINITY;
+    nearest(line, j, to, on);
+    if (room_of(line, j) < -0.1*CPSI_TOUCH*line->length) return INFINITY;
     for (int i = 0; i < line->contacts; i++) {
         const int c = j + i*line->n;
         if (!line->pressed[c]) continue;
         if (line->on[c] != on[0] && line->on[c] != on[1]) return INFINITY;
         double now[9], curvature[3];
         cpsi_obstacle_axes(&line->obstacle[line->on[c]], to, direction(line, line->position, j), now, curvature);
-        for (int row = 0; row < 3; row += 2) {
+        for (int row = line->frozen ? 2 : 0; row < 3; row += 2) {
             const Vec3 change = vec3_sub(vec3_load(&now[3*row]), vec3_load(&line->axes[9*c + 3*row]));
             turned = fmax(turned, vec3_norm(change));
         }

@@ -24,6 +24,9 @@ void cpsi_contact_meet(CpsiLine *line);
 /* From another place of the nodes (a line that follows), with the contacts that they have: axes, curvature, normal, slide and gap at `base`. */
 void cpsi_contact_look(CpsiLine *line);
 
+/* [m] How deep the deepest node is inside an obstacle that keeps it out, >= 0. */
+double cpsi_contact_depth(const CpsiLine *line);
+
 /* No reaction and no friction at contact c. */
 void cpsi_contact_clear(CpsiLine *line, int c);
 

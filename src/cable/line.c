@@ -22,6 +22,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->round = line->follows ? CPSI_TAKE(arena, contacts, double) : NULL;
     line->base = line->follows ? CPSI_TAKE(arena, 3*n, double) : NULL;
     line->axes = line->follows ? CPSI_TAKE(arena, 9*contacts, double) : NULL;
+    line->first_axes = line->follows ? CPSI_TAKE(arena, 9*contacts, double) : NULL;
     line->curvature = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
     line->on = line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
     line->pressed = line->follows ? CPSI_TAKE(arena, contacts, bool) : NULL;

@@ -48,10 +48,12 @@ typedef struct CpsiLine {
                                the sum over the rounds, which may exceed a turn; on a ball the angle of the great circle */
     double *base;           /* (n, 3) [m] */
     double *axes;           /* (contacts, n, 9) rows first tangent, second tangent, normal */
+    double *first_axes;     /* (contacts, n, 9) the same at the reference: those of frozen friction */
     double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *on;                /* (contacts, n) the nearest obstacle, and the next; -1: none */
     bool *pressed;          /* (contacts, n) in the last solution: of reaction and distance, it is the reaction that is not 0 */
     bool gains;             /* contact is looked for everywhere */
+    bool frozen;            /* friction keeps the bounds and axes of the reference while contact is looked for where the nodes are */
     CpsiAhead ahead;        /* of the rounds of a step */
     /* where it is inextensible, else NULL: what its tensions and reactions were before the step, and room to choose among those after */
     double *tension_before;  /* (n - 1) [N] T_R */
@@ -85,14 +87,20 @@ static inline bool cpsi_line_is_held(const CpsiLine *line, int j) {
            (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
 }
 
-/* The obstacle of contact c, or NULL; the axes there, those of a node being its first contact's. */
+/* The obstacle of contact c, or NULL; the axes of its friction. */
 static inline const CpsiObstacle *cpsi_line_obstacle(const CpsiLine *line, int c) {
     if (line->follows) return line->on[c] >= 0 ? &line->obstacle[line->on[c]] : NULL;
     return line->obstacle_count > 0 ? line->obstacle : NULL;
 }
 
 static inline const double *cpsi_line_axes(const CpsiLine *line, int c) {
+    if (line->frozen) return &line->first_axes[9*c];
     return line->follows ? &line->axes[9*c] : line->common;
+}
+
+/* The normal of the plane in which contact c rubs: that of the contact, but where friction is frozen that of the reference. */
+static inline Vec3 cpsi_line_friction_normal(const CpsiLine *line, int c) {
+    return vec3_load(line->frozen ? &line->first_axes[9*c + 6] : &line->normal[3*c]);
 }
 
 /* [m] The way of the node on the obstacle of contact c in this step. */

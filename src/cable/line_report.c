@@ -78,7 +78,7 @@ static Vec3 half_friction(const CpsiLine *line, int end, int k, Vec3 n, double r
         const double zone = line->friction_factor ? line->friction_factor[j]/line->friction_factor[next] : 1;
         const double density = zone*cpsi_line_share(line, j)/cpsi_line_share(line, next);
         const double part = fmin(density, cpsi_rub_set(line, j).friction*reaction/bound);
-        const Vec3 force = turned(vec3_load(&line->friction_force[3*c]), vec3_load(&line->normal[3*c]), n);
+        const Vec3 force = turned(vec3_load(&line->friction_force[3*c]), cpsi_line_friction_normal(line, c), n);
         const Vec3 slide = cpsi_line_end_slide(line, end, k);
         const bool drives = vec3_dot(force, slide) > 0 && vec3_norm(slide) > CPSI_TOUCH*line->length;
         return drives ? none : vec3_scale(part, force);
@@ -96,6 +96,7 @@ static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     const double up = vec3_dot(force, n);
     if (!(up > 0) || !(gap <= CPSI_TOUCH*line->length)) return force;
     line->reaction[j] = up;
+    vec3_store(&line->normal[3*j], n);
     if (line->follows) line->on[j] = on;
     line->state[j] = CPS_NODE_STICK; /* let go in the next step, it starts with its friction */
     const Vec3 friction = half_friction(line, end, on, n, up);

@@ -13,8 +13,8 @@
  * On curved obstacles, or where friction follows the line's direction, each round is such a program on the tangent planes where the
  * last one ended: the inequalities are kept whole, normals and axes turn from round to round. Rounds come to rest where the equilibrium is
  * stable (docs/theory.md 2a); they look ahead (ahead.h), and where that does not settle they go slowly. What the last round leaves is in
- * the certificate, which is taken at the place reached, with its own normals. Frozen friction keeps the planes of the reference, as S90
- * has it. */
+ * the certificate, which is taken at the place reached, with its own normals. Frozen friction keeps the bounds and axes of the reference, as
+ * S90 has it; strict contact beside it the planes of the reference too. */
 #include "cable/line_step.h"
 
 #include <float.h>
@@ -163,11 +163,12 @@ static void straighten(CpsiLine *line) {
         vec3_store(&line->position[3*j], vec3_axpy(line->arc_length[j]/line->length, vec3_sub(b, a), a));
 }
 
-/* Is the line where the step can have taken it, and clear of the obstacles?  Frozen friction looks at them from the reference only. */
+/* Is the line where the step can have taken it, and clear of the obstacles that keep it out?  Strict contact with frozen friction sees them
+ * from the reference only. */
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
-    const bool looked = line->follows && options->friction == CPS_FRICTION_CONSISTENT;
-    if (looked && !(line->report.certificate.penetration <= 0.1*CPSI_TOUCH*line->length)) return false;
-    if (looked && !cpsi_law_holds(line, options->solver.tolerance)) return false;
+    const bool consistent = line->follows && options->friction == CPS_FRICTION_CONSISTENT;
+    if ((consistent || line->frozen) && !(cpsi_contact_depth(line) <= 0.1*CPSI_TOUCH*line->length)) return false;
+    if (consistent && !cpsi_law_holds(line, options->solver.tolerance)) return false;
     for (int j = 0; j < 3*line->n; j++)
         if (!(fabs(line->position[j] - line->reference[j]) <= AFAR*line->length)) return false;
     return true;
@@ -370,7 +371,7 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
 static void solve_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const bool consistent = options->friction == CPS_FRICTION_CONSISTENT;
     const bool follow = consistent && !options->frictionless && line->obstacle_count > 0;
-    if (line->follows && (consistent || options->frictionless)) {
+    if (line->follows && (consistent || options->frictionless || line->frozen)) {
         settle(line, program, options, !follow ? CPSI_BOUNDS_GIVEN : options->trying ? CPSI_BOUNDS_TRIED : CPSI_BOUNDS_FOLLOW);
     } else {
         const CpsiIpmReport ipm = attempt(line, program, options, follow);
@@ -412,7 +413,7 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
     for (int way = first; way < WAYS; way++) {
         if (way == SLOW && !line->follows) continue; /* no rounds on one plane */
         if (way == TURNING && line->follows && options->frictionless) return;
-        if (way == TRYING && !line->follows) return;
+        if (way == TRYING && (!line->follows || line->frozen)) return;
         CpsiStepOptions with = *options;
         with.slow = way == SLOW;
         with.turning = way == TURNING;
@@ -478,7 +479,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     choose_forces(line, program, options);
     /* nodes that are free may have come to other obstacles in the last round */
     const bool looked = line->follows && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless);
-    if (looked && line->contacts > 1) cpsi_contact_meet(line), cpsi_contact_look(line);
+    if ((looked || line->frozen) && line->contacts > 1) cpsi_contact_meet(line), cpsi_contact_look(line);
     if (looked) cpsi_contact_still(line);
     cpsi_line_report_ends(line);
     cpsi_line_report_lengths(line);

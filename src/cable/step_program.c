@@ -80,6 +80,12 @@ static void contact_axes(const CpsiLine *line, const CpsiChainProgram *program, 
     if (c == j) axes[2] = axes[5] = axes[6] = axes[7] = 0, axes[8] = 1;
 }
 
+/* The tangents of contact c's friction, and their normal, in the axes of its node: frozen friction keeps its own. */
+static void friction_axes(const CpsiLine *line, const CpsiChainProgram *program, int c, double axes[9]) {
+    if (!line->frozen) contact_axes(line, program, c, axes);
+    else cpsi_frame_relative(axes, cpsi_line_axes(line, c), &program->frame[9*cpsi_line_node(line, c)]);
+}
+
 static double tried_or(const CpsiStepScale *scale, double bound) {
     return scale->bounds == CPSI_BOUNDS_TRIED ? fmax(bound, LEAST_TRIED) : bound;
 }
@@ -92,10 +98,10 @@ static void fill_shape(const CpsiLine *line, CpsiChainProgram *program, int c, c
     const double share = cpsi_line_share(line, j)/line->length;
     double way[3], axes[9];
     cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3*c]);
-    contact_axes(line, program, c, axes);
+    friction_axes(line, program, c, axes);
     shape->node[k] = j;
     shape->contact[k] = c;
-    shape->second[k] = c != j;
+    shape->second[k] = c != j || line->frozen; /* a first one's tangents are those of the node */
     shape->weight[k] = share;
     shape->form[k] = cpsi_friction_set_shape(set.given);
     shape->stop[k] = isfinite(line->gap[c]) ? program->stop.count - 1 : -1;
@@ -113,7 +119,7 @@ static void fill_rubs(const CpsiLine *line, CpsiChainProgram *program, int c, co
     const double share = cpsi_line_share(line, j)/line->length;
     double way[3] = {0}, axes[9];
     if (line->follows) cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3*c]);
-    contact_axes(line, program, c, axes);
+    friction_axes(line, program, c, axes);
     for (int i = 0; i < count; i++) {
         const int k = rub->count++;
         rub->node[k] = j;

@@ -65,6 +65,8 @@ static void example_11_1(void **state) {
     case_corner(&c, abar);
     c.scene.contact = CPS_CONTACT_STRICT;
     case_force(&c, 1, 0, 0, 0);
+    case_force(&c, 1, 0, 0, 0);
+    case_force(&c, 1, 0, 0, -0.5);
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);
     double tension = 0;
@@ -74,6 +76,12 @@ static void example_11_1(void **state) {
     const double *tip = &view.position[3 * ELEMENTS];
     CHECK_LESS(show("example 11.1", "tension, T = l - a [N]", 0, tension), run.tension_error * sqrt(ELEMENTS) + 1e-12);
     CHECK_NEAR(show("example 11.1", "height of the tip [m]", -part - part * part / 2, tip[2]), 0, run.motion_error);
+    // what is below touches nothing and stays free: nothing changes, and a pull stretches it on by f L/K
+    view = case_step(&run), tip = &view.position[3 * ELEMENTS];
+    CHECK_NEAR(show("example 11.1, again", "height of the tip [m]", -part - part * part / 2, tip[2]), 0, run.motion_error);
+    view = case_step(&run), tip = &view.position[3 * ELEMENTS];
+    CHECK_NEAR(show("example 11.1, pulled down", "height of the tip [m]", -part - part * part / 2 - 0.5 * part, tip[2]), 0,
+               run.motion_error);
     case_close(&run);
 }
 
@@ -149,7 +157,7 @@ static void example_11_3(void **state) {
     Record printed = printed_11_3(&view);
     Surface bed = {.kind = SURFACE_PLANE, .axis = {0, 0, 1}, .mu = {mu, mu}};
     const Source source = {.surfaces = 1, .surface = &bed};
-    Measures m = measure(&source, &printed, false);
+    Measures m = measure(&source, &printed, SIGHT_REFERENCE);
     CpsCertificate own = cps_evolution_report(run.evolution).certificate;
     assert_null(m.missing);
     CHECK_LESS(show("example 11.3, printed", "imbalance of forces [N]", 0, m.force), 1e-14);

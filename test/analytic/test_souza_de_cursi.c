@@ -75,11 +75,33 @@ static void does_not_come_back(void **state) {
     }
 }
 
+/* Contact as S90 (35): in Y3 thirteen elements are lifted, which touch nothing in Y4 and Y5 and hang at last from the node before them, with
+ * weight w: tip at -(a + w a^2/(2 K)), a = 13 h, exact in the lumped line. The energy is another conic solver's, six decimals. */
+static void strict_contact(void **state) {
+    (void)state;
+    enum { N = 800 };
+    Case c;
+    example(&c, N, 0.0255, STRAIGHT);
+    c.scene.friction = CPS_FRICTION_FROZEN;
+    c.scene.contact = CPS_CONTACT_STRICT;
+    Run run = case_open(&c);
+    CpsLineView view = {0};
+    while (cps_evolution_remaining(run.evolution) > 0) view = case_step(&run);
+    const double a = 13 * 6.28 / N, deep = a + 9.81 * a * a / 20;
+    CHECK_NEAR(show("example 5.7, strict, Y5", "height of the tip [m]", -deep, view.position[3 * N + 2]), 0, 1e-8);
+    const double energy = cps_evolution_report(run.evolution).certificate.primal;
+    CHECK_NEAR(show("example 5.7, strict, Y5", "minimum of J + j [J]", -0.042095, energy), 0, 6e-7);
+    for (int j = 0; j <= N; j++)
+        if (view.position[3 * j + 2] < -1e-6) CHECK_NEAR(view.reaction[j], 0, 0);
+    case_close(&run);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(first_step_from_the_straight_line),
         cmocka_unit_test(first_step_with_consistent_friction),
         cmocka_unit_test(does_not_come_back),
+        cmocka_unit_test(strict_contact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

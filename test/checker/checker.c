@@ -175,8 +175,8 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     at_most(judge, "adhesion (-R)", -m->reaction_least, 0);
     at_most(judge, "compression (-T)", -m->tension_least, 0);
     at_most(judge, "depth below the obstacle", m->penetration, place);
-    // frozen friction keeps nodes off the tangent planes of the reference, and with strict contact not all of them
-    if (source->consistent && !source->strict) at_most(judge, "depth below an obstacle", m->sunk, place);
+    // strict contact keeps out only what the reference touches
+    if (!source->strict) at_most(judge, "depth below an obstacle", m->sunk, place);
     at_most(judge, "contacts that are not with the nearest obstacles", m->misplaced, 0);
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
     at_most(judge, "slide against the way from the reference", m->slide_error, COPY_TOLERANCE * (m->length + m->reach));
@@ -185,7 +185,8 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
             1 + TURN_ROUNDING);
     at_most(judge, "quarters of a turn that a node with friction went", m->gone_quarters, 1 + GONE_ROUNDING);
     at_most(judge, "contact_gap against the distance", m->gap_error, COPY_TOLERANCE * (m->length + m->reach));
-    at_most(judge, "contacts not looked for", m->unwatched, 0);
+    // statics keeps a line out of everything, with strict contact as well
+    if (!(laid && source->strict)) at_most(judge, "contacts not looked for", m->unwatched, 0);
     at_most(judge, "elongation beyond the tension", m->strain_error, strain);
     at_most(judge, "distance of a held end", m->held_error, COPY_TOLERANCE * (m->length + m->extent));
     double slid, carried;
@@ -226,13 +227,14 @@ static void judge_unbounded(Judge *judge, const Record *r, const Measures *m) {
     same(judge, "proof_value", r->proof_value, m->rigid_fall, FORCE_FLOOR * m->largest_force);
 }
 
-/* Contact is seen from where the nodes end up when friction is consistent, from the reference when it is frozen; a line
- * laid by statics always from where it ends up. */
+/* Contact is seen from where the nodes end up, but from the reference on one plane, where it is the same, and where friction is frozen and contact
+ * strict; frozen friction itself always from the reference, but in a line laid by statics. */
 static Measures measure_where(const Source *source, const Record *r, size_t step) {
-    Measures m = measure(source, r, source->follows && source->consistent);
+    const Sight frozen = source->strict ? SIGHT_REFERENCE : SIGHT_FROZEN;
+    Measures m = measure(source, r, !source->follows ? SIGHT_REFERENCE : source->consistent ? SIGHT_REACHED : frozen);
     if (source->consistent || !source->follows || !source->laid || step > 0) return m;
-    Measures laid = measure(source, r, true);
-    return laid.normal_error <= m.normal_error ? laid : m;
+    Measures laid = measure(source, r, SIGHT_REACHED);
+    return laid.normal_error <= m.normal_error && laid.slide_error <= m.slide_error ? laid : m;
 }
 
 static void judge_record(const Source *source, const Record *r, const char *line, size_t step, FILE *log,

@@ -48,8 +48,10 @@ static void rub(const Source *source, const Record *r, size_t j, size_t next, si
     for (size_t c = next; c < r->contacts * r->nodes; c += r->nodes) {
         if ((size_t)r->obstacle[c] != k || !(r->friction_bound[c] > 0)) continue;
         const Real zone = r->factor ? r->factor[j] : 1, other = r->factor ? r->factor[next] : 1;
-        Triple from;
-        widen(r->normal[c], from), widen(r->friction[c], out);
+        Triple from, reference;
+        widen(r->normal[c], from), widen(r->friction[c], out), widen(r->reference[next], reference);
+        // frozen friction lies in the tangent plane of the reference
+        if (!source->consistent) surface_normal(&source->surface[k], reference, from);
         turn_with(from, n, out);
         const Real per_length = share(r, j) / share(r, next) * zone / other;
         const Real of_bound = zone * surface_friction(&source->surface[k]) * reaction / r->friction_bound[c];

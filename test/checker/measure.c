@@ -162,18 +162,24 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
 typedef struct Where {
     const Source *source;
     Vector *place;
-    bool reached;
+    bool reached, frozen; /* frozen: friction is that of the reference whatever place */
     Real reach; /* [m] largest coordinate, radius and obstacle coordinate: what rounding goes with */
 } Where;
 
 /* What a contact sees of its obstacle. */
 typedef struct Seat {
     const Surface *surface;    /* NULL without any */
-    Triple normal, slide, own; /* own: the node's way, not less that of an obstacle that turns */
+    Triple normal, plane;      /* of the contact, and of the plane in which friction acts */
+    Triple slide, own;         /* own: the node's way, not less that of an obstacle that turns */
     Real gap;                  /* what contact_gap must be */
     Real axes[2][3];
     bool has_axes;
 } Seat;
+
+/* Where the contacts of node j are seen from: a held end on which an obstacle pushes is where it came to. */
+static void place_of(const Where *where, const Record *r, size_t j, Triple x) {
+    widen(held(r, j) && r->reaction[j] > 0 ? r->position[j] : where->place[j], x);
+}
 
 /* The obstacle of contact c of node j, which the file says where there are several; a held node's may be that of either
  * place, so it is the nearest here. */
@@ -182,50 +188,65 @@ static const Surface *surface_of(const Where *where, const Record *r, size_t j, 
     if (source->surfaces == 0) return NULL;
     if (c >= r->nodes || !held(r, j)) return &source->surface[(size_t)r->obstacle[c]];
     Triple x;
-    widen(where->place[j], x);
+    place_of(where, r, j, x);
     size_t best = 0;
     for (size_t k = 1; k < source->surfaces; k++)
         if (surface_distance(&source->surface[k], x) < surface_distance(&source->surface[best], x)) best = k;
     return &source->surface[best];
 }
 
-/* Is the obstacle of contact c the nearest but for those before it, within a margin? */
+/* Does contact c stay with its obstacle through the step, whichever are near where it ends? Frozen friction does, and what strict contact
+ * keeps out. */
+static bool stays(const Where *where, const Record *r, size_t c) {
+    if (where->source->strict) return where->reached && isfinite(r->gap[c]);
+    return where->frozen && r->friction_bound[c] > 0;
+}
+
+/* Is the obstacle of contact c the nearest but for those before it, within a margin? One that stays is so at the reference, and the other
+ * contact of its node is with the nearest of the rest. */
 static bool in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
     const Source *source = where->source;
     const size_t mine = (size_t)r->obstacle[c], first = (size_t)r->obstacle[j];
+    const size_t other = c == j ? (size_t)r->obstacle[j + r->nodes] : first;
+    const bool kept = stays(where, r, c), beside = stays(where, r, c == j ? j + r->nodes : j);
     Triple x;
-    widen(where->place[j], x);
-    if (c != j && mine == first) return false;
+    widen(kept ? r->reference[j] : where->place[j], x);
+    if (mine == other) return false;
     const Real distance = surface_distance(&source->surface[mine], x);
+    size_t nearer = 0;
     for (size_t k = 0; k < source->surfaces; k++)
-        if ((c == j || k != first) && distance > surface_distance(&source->surface[k], x) + margin) return false;
-    return true;
+        if (k != mine && (kept || k != other || (c == j && !beside)))
+            nearer += distance > surface_distance(&source->surface[k], x) + margin;
+    return nearer <= kept;
 }
 
 static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     Seat seat = {.surface = surface_of(where, r, j, c), .gap = INFINITY};
     if (!seat.surface) return seat;
     Triple x, reference, place, carried, u, along;
-    widen(r->position[j], x), widen(r->reference[j], reference), widen(where->place[j], place);
+    Vector *nodes = where->frozen ? r->reference : where->place; /* whose direction friction takes */
+    widen(r->position[j], x), widen(r->reference[j], reference);
+    place_of(where, r, j, place);
     subtract(r->position[j], r->reference[j], u);
     surface_normal(seat.surface, place, seat.normal);
+    surface_normal(seat.surface, where->frozen ? reference : place, seat.plane);
     const Real turn = (Real)r->share * r->turn[seat.surface - where->source->surface];
     surface_carry(seat.surface, reference, turn, carried);
     if (turn != 0) surface_way(seat.surface, reference, x, seat.own);
-    if (where->reached) {
+    if (where->reached && !where->frozen) {
         /* half round no way is shorter than all others; where no friction acts none is asked for */
         const bool half = surface_angle(seat.surface, carried, x) > 2 * QUARTER - HALF_ROUND;
         if (!half || r->friction_bound[c] > 0) surface_way(seat.surface, carried, x, seat.slide);
-        seat.gap = surface_distance(seat.surface, x) - dot(seat.normal, u);
     } else {
         Triple way = {x[0] - carried[0], x[1] - carried[1], x[2] - carried[2]};
-        Real rise = dot(way, seat.normal);
-        for (int k = 0; k < 3; k++) seat.slide[k] = way[k] - rise * seat.normal[k];
-        seat.gap = fmaxl(0, surface_distance(seat.surface, reference));
+        Real rise = dot(way, seat.plane);
+        for (int k = 0; k < 3; k++) seat.slide[k] = way[k] - rise * seat.plane[k];
     }
+    seat.gap = where->reached ? surface_distance(seat.surface, x) - dot(seat.normal, u)
+                              : fmaxl(0, surface_distance(seat.surface, reference));
     for (int k = 0; k < 3 && turn == 0; k++) seat.own[k] = seat.slide[k];
-    subtract(where->place[j < r->elements ? j + 1 : j], where->place[j > 0 ? j - 1 : j], along);
-    seat.has_axes = surface_axes(seat.surface, seat.normal, along, seat.axes);
+    subtract(nodes[j < r->elements ? j + 1 : j], nodes[j > 0 ? j - 1 : j], along);
+    seat.has_axes = surface_axes(seat.surface, seat.plane, along, seat.axes);
     return seat;
 }
 
@@ -250,20 +271,24 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     if (r->friction_bound[c] > 0) raise_to(&m->gone_quarters, surface_angle(seat->surface, from, x) / QUARTER);
     if (r->contacts > 1 && !in_place(where, r, j, c, margin)) m->misplaced++;
     // a second obstacle that is round is looked for up to half its radius away
-    Triple place;
-    widen(where->place[j], place);
+    Triple place, reference;
+    widen(where->place[j], place), widen(r->reference[j], reference);
     bool far = c != j && round && surface_distance(seat->surface, place) > (0.5L - 1e-9L) * seat->surface->radius;
-    if (isfinite(r->gap[c]))
-        raise_to(&m->gap_error, fabsl((Real)r->gap[c] - seat->gap));
-    else if (!where->source->strict && !far)
-        m->unwatched++;
+    if (isfinite(r->gap[c])) raise_to(&m->gap_error, fabsl((Real)r->gap[c] - seat->gap));
+    if (!where->source->strict) {
+        m->unwatched += !isfinite(r->gap[c]) && !far;
+        return;
+    }
+    // strict: what the reference touches, neither more nor less, but for rounding
+    Real apart = fabsl(surface_distance(seat->surface, reference)), rounding = 4 * 0x1p-53L * where->reach;
+    if (isfinite(r->gap[c]) ? apart > margin + rounding : apart < margin - rounding) m->unwatched++;
 }
 
 /* friction of a contact, in the axes of its obstacle */
 static void measure_friction(const Record *r, size_t c, const Seat *seat, Measures *m, Sums *s) {
     static const Surface none = {.mu = {1, 1}};
-    Triple F, n;
-    widen(r->friction[c], F), widen(r->normal[c], n);
+    Triple F;
+    widen(r->friction[c], F);
     Real w = r->friction_bound[c], force[2] = {0, 0}, way[2] = {0, 0}, phi;
     const Surface *surface = seat->surface ? seat->surface : &none;
     if (seat->has_axes)
@@ -281,7 +306,7 @@ static void measure_friction(const Record *r, size_t c, const Seat *seat, Measur
     add(&s->magnitude, phi + size(F) * size(seat->slide));
     add(&s->carried, dot(F, seat->own) - dot(F, seat->slide));
     raise_to(&m->friction_excess, surface_excess(surface, w, force));
-    raise_to(&m->friction_normal, fabsl(dot(F, n)));
+    raise_to(&m->friction_normal, fabsl(dot(F, seat->plane)));
     raise_to(&m->largest_force, size(F));
 }
 
@@ -411,11 +436,12 @@ static Real reach_of(const Source *source, const Record *r) {
     return reach;
 }
 
-Measures measure(const Source *source, const Record *r, bool reached) {
+Measures measure(const Source *source, const Record *r, Sight sight) {
     Measures m = {.missing = missing_variable(r), .stretch = -INFINITY, .strain_error = -INFINITY};
     m.friction_excess = m.tension_least = -INFINITY;
     Sums s = {0};
-    const Where where = {source, reached ? r->position : r->reference, reached, reach_of(source, r)};
+    const bool reached = sight != SIGHT_REFERENCE;
+    const Where where = {source, reached ? r->position : r->reference, reached, sight == SIGHT_FROZEN, reach_of(source, r)};
     for (size_t i = 0; i < r->elements; i++) measure_segment(r, i, &m, &s);
     for (size_t j = 0; j < r->nodes; j++) measure_node(&where, r, j, &m, &s);
     for (size_t k = 0; k < source->surfaces; k++) raise_to(&m.quarters, fabsl(r->share * (Real)r->turn[k]) / QUARTER);

@@ -34,7 +34,7 @@ typedef struct Measures {
     double depth;            /* [m] of the deepest node below an obstacle, watched or not, >= 0 */
     double sunk;             /* [m] the same of nodes that are not held */
     double reach;            /* [m] largest coordinate or radius of anything */
-    int unwatched;           /* contacts without a contact_gap that should have one */
+    int unwatched;           /* contacts without a contact_gap that should have one; strict: or the other way round */
     double gap_error;        /* [m] max |contact_gap - what it must be| */
     double slide_error;      /* [m] max |slide - way from the carried reference| */
     double quarters;         /* of a turn by which an obstacle turns in the part that the arrays show, at most */
@@ -52,7 +52,11 @@ typedef struct Measures {
     double rigid_rise_least; /* [-] min n.proof over nodes that may touch */
 } Measures;
 
-/* reached: contact is seen from the configuration reached, else from the reference. Sets record->mu. */
-Measures measure(const Source *source, const Record *record, bool reached);
+/* Where contact is seen from: the configuration reached; the reference; or the one reached, but for friction, whose axes and ways are those
+ * of the reference. */
+typedef enum Sight { SIGHT_REACHED, SIGHT_REFERENCE, SIGHT_FROZEN } Sight;
+
+/* Sets record->mu. */
+Measures measure(const Source *source, const Record *record, Sight sight);
 
 #endif
