@@ -273,6 +273,7 @@ void cpsi_contact_still(CpsiLine *line) {
 bool cpsi_contact_rounds(const CpsiLine *line) {
     for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
         if (line->on[c] < 0 || !(line->friction_bound[c] > 0)) continue;
+        if (line->frozen && !(line->reaction[c] > 0)) continue; /* it has left the surface, and its way is one in the plane of the reference */
         if (!(fabs(line->round[c]) <= CPSI_QUARTER + QUARTER_ROUNDING) || !(apart(line, c) < HALF_ROUND)) return true;
     }
     return false;

@@ -187,12 +187,14 @@ static CpsOutcome judge(const CpsiLine *line, const CpsiStepOptions *options, co
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }
 
-/* What rounding leaves of the reaction of a node that is apart is none, nor is there friction, whose axes nothing holds there. */
+/* What rounding leaves of the reaction of a node that is apart is none, nor is there friction, whose axes nothing holds there, unless they
+ * are frozen. */
 static void let_go(CpsiLine *line, const CpsiChainProgram *program) {
     const CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
-        if (stop->z[k] < stop->s[k] && stop->weight[k]*stop->z[k] < LEAST_REACTION)
-            cpsi_contact_clear(line, stop->contact[k]);
+        if (!(stop->z[k] < stop->s[k] && stop->weight[k]*stop->z[k] < LEAST_REACTION)) continue;
+        if (line->frozen) line->reaction[stop->contact[k]] = 0;
+        else cpsi_contact_clear(line, stop->contact[k]);
     }
 }
 
@@ -331,7 +333,8 @@ static void look_ahead(CpsiLine *line, double turned) {
 /* The last round as an answer: is it one? */
 static bool conclude(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds,
                      const CpsiIpmReport *ipm) {
-    if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line), let_go(line, program);
+    if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line);
+    if (bounds != CPSI_BOUNDS_GIVEN || line->frozen) let_go(line, program);
     certify(line, options, ipm);
     return cps_outcome_is_certified(line->report.outcome);
 }

@@ -268,7 +268,9 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     if (held(r, j) || !seat->surface) return;
     Triple from;
     widen(r->reference[j], from);
-    if (r->friction_bound[c] > 0) raise_to(&m->gone_quarters, surface_angle(seat->surface, from, x) / QUARTER);
+    // frozen friction acts on what has left the surface as well, in the plane of the reference
+    const bool rubs = r->friction_bound[c] > 0 && !(where->frozen && r->reaction[c] == 0);
+    if (rubs) raise_to(&m->gone_quarters, surface_angle(seat->surface, from, x) / QUARTER);
     if (r->contacts > 1 && !in_place(where, r, j, c, margin)) m->misplaced++;
     // a second obstacle that is round is looked for up to half its radius away
     Triple place, reference;
