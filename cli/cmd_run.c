@@ -22,6 +22,9 @@
 
 enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
 
+/* A range narrower than this, per largest force, is one value in the table. */
+static const double RANGE_SHOWN = 1e-5;
+
 /* results/NAME and `more` for a scene .../NAME.yaml; the caller frees it */
 static char *default_directory(const char *scene, const char *more) {
     const char *slash = strrchr(scene, '/');
@@ -47,6 +50,15 @@ static double shown_tension(const CpsLineReport *line, int end) {
     return tension < 1e-9 * line->certificate.largest_force ? 0 : tension;
 }
 
+/* at the end of a stage, where forces at rest leave the tension of the end's element open */
+static void put_range(FILE *table, char end, const CpsTensionRange *range, double force) {
+    if (range->kind == CPS_RANGE_UNBOUNDED)
+        fprintf(table, "%*s element at %c: any tension from %.6g N up may hold it (jammed)\n", NAME_WIDTH + 1 + LINE_WIDTH, "", end, range->least);
+    else if (range->kind == CPS_RANGE_BOUNDED && range->greatest - range->least > RANGE_SHOWN * force)
+        fprintf(table, "%*s element at %c: any tension from %.6g to %.6g N may hold it\n", NAME_WIDTH + 1 + LINE_WIDTH, "", end, range->least,
+                range->greatest);
+}
+
 static void put_rows(FILE *table, const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
@@ -60,6 +72,7 @@ static void put_rows(FILE *table, const CpsEvolution *evolution) {
                 certificate->scale > 0 ? certificate->gap / certificate->scale : certificate->gap,
                 shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B), line.grounded, line.slipping,
                 line.slack);
+        for (int e = 0; e < 2; ++e) put_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
     }
 }
 

@@ -12,13 +12,22 @@
 /* The growth along a direction without end is 1 or 0. */
 static const double GROWS = 0.5;
 
+/* Where other forces than the one asked for have no end the loop may not settle: a small weight on all of them is tried then. What it takes off
+ * the extreme value is in the bound. */
+static const double WEIGHTS[] = {0, 1e-10, 1e-8};
+
 /* The extreme value of the tension of element e: the greatest by sign 1, the least by -1. False where the program did not converge. */
 static bool extreme(CpsiForceSet *set, int e, double sign, double *value, double *bound) {
-    *value = *bound = set->tension[e];
+    *value = *bound = fmax(0, set->tension[e]);
     const int g = set->scalar[e];
     if (g < 0) return true;
     set->program.base.load[g] = sign*set->gain[e];
-    if (!cpsi_force_set_solve(set)) return false;
+    bool solved = false;
+    for (size_t k = 0; k < sizeof WEIGHTS/sizeof *WEIGHTS && !solved; k++) {
+        cpsi_scalar_program_weigh(&set->program, WEIGHTS[k]);
+        solved = cpsi_force_set_solve(set);
+    }
+    if (!solved) return false;
     /* T >= 0 is a bound too, and better than rounding */
     *value = fmax(0, *value + set->force*set->gain[e]*set->program.base.u[g]);
     *bound = fmax(0, *bound + sign*set->force*cpsi_scalar_program_bound(&set->program));

@@ -142,7 +142,20 @@ static const struct {
      offsetof(CpsFrictionZone, factor)},
 };
 
+/* Numbers of CpsTensionRange, of each end. */
+static const struct {
+    const char *name, *long_name;
+    size_t offset;
+} RANGE[] = {
+    {"end_tension_least", "least tension of the end's element by forces that hold the line where it is",
+     offsetof(CpsTensionRange, least)},
+    {"end_tension_least_bound", "bound of it", offsetof(CpsTensionRange, least_bound)},
+    {"end_tension_greatest", "the greatest, infinite where there is none", offsetof(CpsTensionRange, greatest)},
+    {"end_tension_greatest_bound", "bound of it", offsetof(CpsTensionRange, greatest_bound)},
+};
+
 enum {
+    RANGES = sizeof RANGE / sizeof RANGE[0],
     FIELDS = sizeof FIELD / sizeof FIELD[0],
     NUMBERS = sizeof NUMBER / sizeof NUMBER[0],
     ZONES = sizeof ZONE / sizeof ZONE[0]
@@ -151,7 +164,7 @@ enum {
 typedef struct LineIds {
     int node, element; /* dimensions */
     int contacts;      /* of a node, as in the view */
-    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, outcome, iterations, parts, snaps, proof;
+    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, proof;
     int field[FIELDS][CONTACTS];
     int number[NUMBERS];
     int zone[ZONES]; /* unused without zones */
@@ -364,6 +377,8 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
                                      "friction of the half element beside a held end that lies on an obstacle", "N");
     ids->end_tension =
         add_variable(nc, view->name, "end_tension", NC_DOUBLE, 2, on_ends, "tension of the line at its ends", "N");
+    for (int i = 0; i < RANGES; ++i)
+        ids->end_range[i] = add_variable(nc, view->name, RANGE[i].name, NC_DOUBLE, 2, on_ends, RANGE[i].long_name, "N");
     ids->outcome = add_outcome(nc, view->name);
     ids->iterations =
         add_variable(nc, view->name, "iterations", NC_INT, 1, &nc->step, "interior-point iterations", "1");
@@ -434,6 +449,12 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     write_doubles(nc, ids->end_force, start, ends, force[0]);
     write_doubles(nc, ids->end_friction, start, ends, friction[0]);
     write_doubles(nc, ids->end_tension, start, ends, tension);
+    for (int i = 0; i < RANGES; ++i) {
+        double range[ENDS];
+        for (int e = 0; e < ENDS; ++e)
+            range[e] = *(const double *)(const void *)((const char *)&report->end[e].range + RANGE[i].offset);
+        write_doubles(nc, ids->end_range[i], start, ends, range);
+    }
     write_doubles(nc, ids->proof, start, vector, report->proof);
 
     const int outcome = (int)report->outcome;

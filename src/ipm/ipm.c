@@ -127,6 +127,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
     CpsiIpmReport report = {.outcome = CPSI_IPM_ITERATION_LIMIT};
     double best = INFINITY;
     int waited = 0;
+    const int patience = options->patience > 0 ? options->patience : PATIENCE;
     start(program);
     for (;; report.iterations++) {
         /* where are we, and is it enough? */
@@ -143,7 +144,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
         if (report.iterations >= options->max_iterations) break;
         waited = merit < 0.5*best ? 0 : waited + 1;
         if (waited == 0) best = merit;
-        if (waited > PATIENCE) { report.outcome = CPSI_IPM_STALLED; break; }
+        if (waited > patience) { report.outcome = CPSI_IPM_STALLED; break; }
 
         /* predictor: straight for s o z = 0; the less of the way it gets, the more the corrector centres */
         if (!scale_and_factor(program)) { report.outcome = CPSI_IPM_STALLED; break; }

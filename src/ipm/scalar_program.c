@@ -258,6 +258,12 @@ void cpsi_scalar_program_end(CpsiScalarProgram *program) {
     memset(program->base.u, 0, (size_t)program->base.size*sizeof *program->base.u);
 }
 
+void cpsi_scalar_program_weigh(CpsiScalarProgram *program, double weight) {
+    for (int g = 0; g < program->scalars; g++) program->weight[g] = weight;
+    for (int k = 0; k < program->sites; k++)
+        for (int a = 0; a < CPSI_SITE_OWN; a++) program->site[k].weight[(CPSI_SITE_OWN + 1)*a] = weight;
+}
+
 double cpsi_scalar_program_margin(const CpsiScalarProgram *program, int k) {
     const CpsiSite *site = &program->site[k];
     double seen[CPSI_SITE_SEEN], margin = INFINITY;
@@ -275,5 +281,12 @@ double cpsi_scalar_program_bound(const CpsiScalarProgram *program) {
     double sum = 0;
     for (int i = 0; i < program->cones.rows; i++) sum += program->cones.z[i]*program->h[i];
     for (int i = 0; i < base->size; i++) sum += fabs(base->residual[i]*base->u[i]);
+    for (int g = 0; g < program->scalars; g++) sum += program->weight[g]*base->u[g]*base->u[g];
+    for (int k = 0; k < program->sites; k++) {
+        const CpsiSite *site = &program->site[k];
+        for (int a = 0; a < site->own; a++)
+            for (int b = 0; b < site->own; b++)
+                sum += base->u[site->at + a]*site->weight[CPSI_SITE_OWN*a + b]*base->u[site->at + b];
+    }
     return sum;
 }

@@ -53,10 +53,13 @@ int cpsi_scalar_program_cone(CpsiScalarProgram *program, int dim);
 /* The program is whole: u = 0. */
 void cpsi_scalar_program_end(CpsiScalarProgram *program);
 
+/* The same weight on all unknowns. */
+void cpsi_scalar_program_weigh(CpsiScalarProgram *program, double weight);
+
 /* How far the unknowns are inside the cones of site k, negative where they are outside of one. */
 double cpsi_scalar_program_margin(const CpsiScalarProgram *program, int k);
 
-/* sum of z.h: with load + G'z = 0 and no weights an upper bound of load.(y, v). What is left of load + G'z counts as it does at the
+/* sum of z.h: with load + G'z = 0 an upper bound of load.(y, v). What is left of load + G'z, and the weights, count as they do at the
  * solution. */
 double cpsi_scalar_program_bound(const CpsiScalarProgram *program);
 

@@ -18,10 +18,15 @@
  *
  * Everything else, and these cases too, is compared with test/checker/rest.c, another program solved by another method. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "capstan/io.h"
+#include "checker.h"
 #include "rest.h"
 #include "rig.h"
+#include "sample.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -359,10 +364,75 @@ static void at_random(void **state) {
     CHECK_GREATER(compared, 8 * skipped);
 }
 
+/* files ------------------------------------------------------------------------------------------------------------- */
+
+/* A file with ranges passes the checker; one with another least, greatest or bound does not. */
+static void in_files(void **state) {
+    (void)state;
+    static Rig rig;
+    rig_begin(&rig, 10, 9.81, INFINITY);
+    rig_length(&rig, 2);
+    rig_obstacle(&rig, CPS_OBSTACLE_PLANE, 0.5);
+    rig_point(&rig, 0, 0, 0), rig_point(&rig, 2, 0, 0);
+    rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
+    rig_end(&rig, CPS_END_B, CPS_END_FREE, 4, 0, 0);
+    rig_stage(&rig, 1), rig_stage(&rig, 2);
+    CpsEvolution *evolution;
+    CpsResults *results;
+    CheckerReport report;
+    char directory[] = "capstan-rest-XXXXXX", path[80], text[4096];
+    assert_non_null(mkdtemp(directory));
+    assert_int_equal(cps_evolution_create(&rig.scene, &evolution, NULL), CPS_OK);
+    assert_int_equal(cps_results_open(directory, &rig.scene, evolution, &results, NULL), CPS_OK);
+    while (cps_evolution_remaining(evolution) > 0) {
+        assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
+        assert_int_equal(cps_results_append(results, evolution, NULL), CPS_OK);
+    }
+    assert_int_equal(cps_results_finish(results, 0, NULL), CPS_OK);
+    cps_results_destroy(results);
+    cps_evolution_destroy(evolution);
+    snprintf(path, sizeof path, "%s/result.nc", directory);
+    CHECK_INT(checker_file(path, &report, stderr), 0);
+    /* at A: 0 to f + mu w (L - h/2) = 13.3195, in the first and the third step; NaN in the second */
+    static const struct {
+        const char *variable, *finding;
+        size_t index;
+        double value, right;
+    } TAMPER[] = {
+        {"line_end_tension_greatest_bound", "and its bound differ", 0, 13.4, 13.3195},
+        {"line_end_tension_least_bound", "and its bound differ", 4, 0.1, 0},
+        {"line_end_tension_least", "is not whole", 2, 0, NAN},
+    };
+    for (size_t k = 0; k < sizeof TAMPER / sizeof *TAMPER; k++) {
+        FILE *log = tmpfile();
+        assert_non_null(log);
+        CHECK_INT(sample_poke(path, TAMPER[k].variable, TAMPER[k].index, TAMPER[k].value), 0);
+        CHECK_INT(checker_file(path, &report, log), 1);
+        rewind(log);
+        text[fread(text, 1, sizeof text - 1, log)] = 0;
+        fclose(log);
+        if (!strstr(text, TAMPER[k].finding)) fail_msg("%s: expected \"%s\", got %s", TAMPER[k].variable, TAMPER[k].finding, text);
+        CHECK_INT(sample_poke(path, TAMPER[k].variable, TAMPER[k].index, TAMPER[k].right), 0);
+    }
+    /* both numbers wrong together: only another program can tell */
+    static const double WRONG[] = {13.32, INFINITY, 12};
+    for (size_t k = 0; k < sizeof WRONG / sizeof *WRONG; k++) {
+        CHECK_INT(checker_file(path, &report, stderr), 0);
+        CHECK_INT(sample_poke(path, "line_end_tension_greatest", 0, WRONG[k]), 0);
+        CHECK_INT(sample_poke(path, "line_end_tension_greatest_bound", 0, WRONG[k]), 0);
+        CHECK_INT(checker_file(path, &report, NULL), 1);
+        CHECK_INT(sample_poke(path, "line_end_tension_greatest", 0, 13.3195), 0);
+        CHECK_INT(sample_poke(path, "line_end_tension_greatest_bound", 0, 13.3195), 0);
+    }
+    snprintf(path, sizeof path, "rm -rf '%s'", directory);
+    CHECK_INT(system(path), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_force), cmocka_unit_test(on_a_bed),    cmocka_unit_test(as_stiff_ones),
         cmocka_unit_test(over_a_drum),   cmocka_unit_test(in_a_groove), cmocka_unit_test(at_random),
+        cmocka_unit_test(in_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "ends.h"
+#include "ranges.h"
 #include "measure.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding leaves 1e-16 per
@@ -189,6 +190,10 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     if (!(laid && source->strict)) at_most(judge, "contacts not looked for", m->unwatched, 0);
     at_most(judge, "elongation beyond the tension", m->strain_error, strain);
     at_most(judge, "distance of a held end", m->held_error, COPY_TOLERANCE * (m->length + m->extent));
+    for (int e = 0; e < 2; e++) {
+        char text[160];
+        if (range_is_wrong(source, r, e, m->largest_force, text, sizeof text)) find(judge, "%s", text);
+    }
     double slid, carried;
     judge_ends(judge, source, r, m, &slid, &carried);
     judge_claims(judge, r, m, slid);

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *const RANGE_NAME[RANGES] = {"end_tension_least", "end_tension_least_bound", "end_tension_greatest",
+                                        "end_tension_greatest_bound"};
 const char *const CLAIM_NAME[CLAIMS] = {"primal",
                                         "dual",
                                         "gap",
@@ -386,6 +388,7 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
                                                       "ledger_gravity", "ledger_imbalance"};
     for (int k = 0; k < LEDGER_ENTRIES; k++)
         bad |= read_step(source, line, ENTRY[k], step, 0, 0, &record->ledger[k], log);
+    for (int k = 0; k < RANGES; k++) bad |= read_step(source, line, RANGE_NAME[k], step, 2, 0, record->end_range[k], log);
     for (int k = 0; k < CLAIMS; k++) bad |= read_step(source, line, CLAIM_NAME[k], step, 0, 0, &record->claim[k], log);
     if (bad) return -1;
 

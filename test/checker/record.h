@@ -33,6 +33,10 @@ enum {
 };
 extern const char *const CLAIM_NAME[CLAIMS];
 
+/* between which values the tension of an end's element lies: index here, name in RANGE_NAME */
+enum { RANGE_LEAST, RANGE_LEAST_BOUND, RANGE_GREATEST, RANGE_GREATEST_BOUND, RANGES };
+extern const char *const RANGE_NAME[RANGES];
+
 /* where the energy of a step went, by the file: ends + obstacles = elastic + gravity + dissipated + imbalance */
 enum { LEDGER_ENDS, LEDGER_OBSTACLES, LEDGER_ELASTIC, LEDGER_GRAVITY, LEDGER_IMBALANCE, LEDGER_ENTRIES };
 
@@ -57,7 +61,7 @@ typedef struct Record {
     int parts;    /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */
     Vector end_value[2], end_force[2], end_friction[2], proof;
-    double end_tension[2];
+    double end_tension[2], end_range[RANGES][2];
     double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES];
 } Record;
 

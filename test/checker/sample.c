@@ -109,6 +109,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = (Field){"end_force", 2, 3, {0, 0, 0, line->end_b, 0, 0}};
     field[n++] = (Field){"end_friction", 2, 3, {0}};
     field[n++] = (Field){"end_tension", 2, 0, {0, line->end_b}};
+    for (int k = 0; k < RANGES; k++) field[n++] = (Field){RANGE_NAME[k], 2, 0, {NAN, NAN}};
     field[n++] = scalar("dissipated", again ? 0 : work);
     // the pull of 10 N on its way of 12 C, of which half is too much for a step that begins without it
     const double pull = again || line->compliance == 0 ? 0 : 120 * C;
@@ -363,6 +364,7 @@ static size_t describe_wound(const Wound *w, Field *field) {
     const double *at_a = field[n].value;
     field[n + 1] = (Field){"end_tension", 2, 0, {hypot(hypot(at_a[0], at_a[1]), at_a[2]), largest}};
     n += 2;
+    for (int k = 0; k < RANGES; k++) field[n++] = (Field){RANGE_NAME[k], 2, 0, {NAN, NAN}};
     field[n++] = (Field){"end_friction", 2, 3, {rub[0], rub[1], rub[2]}};
     field[n++] = scalar("dissipated", work + ends), field[n++] = (Field){"proof", 3, 0, {0}},
     field[n++] = scalar("proof_value", 0);

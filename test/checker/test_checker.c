@@ -96,6 +96,8 @@ static const Tamper TAMPER[] = {
     {"drag_end_friction", 0, 1e-6, "end_friction against the neighbour's"},
     {"drag_end_tension", 1, 10.000001, "end_tension against the size"},
     {"drag_end_tension", 0, -1, "end_tension holds a value that cannot be"},
+    {"drag_end_tension_least", 1, 10, "the range of an end's tension is not whole"},
+    {"drag_end_tension_greatest_bound", 0, 10, "the range of an end's tension is not whole"},
     {"drag_reaction", 0, 0, "reaction on a held end"},
     // numbers that are none
     {"drag_position", 4, NAN, "position holds a value that cannot be"},

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Claimed ranges of tensions (ranges.h). */
+#include "ranges.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "rest.h"
+
+/* Values of a loop that stops at 1e-7 of the largest force. */
+static const double FOUND = 1e-6;
+/* Ways and missing lengths below the first are none, above the second they are some; between them places leave it open. */
+static const double NONE = 1e-9, SOME = 1e-6;
+/* The rest program is dense. */
+enum { MOST_ELEMENTS = 16 };
+
+static Real norm(const Real *a) { return sqrtl(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+
+static double length_of(const double *v) { return hypot(hypot(v[0], v[1]), v[2]); }
+
+/* Does the place leave open which elements are taut? */
+static bool taut_in_doubt(const Record *r, double force) {
+    for (size_t i = 0; i < r->elements; i++) {
+        Real dx[3];
+        for (int k = 0; k < 3; k++) dx[k] = (Real)r->position[i + 1][k] - r->position[i][k];
+        const double missing = (double)(1 - norm(dx) / r->element_length[i]);
+        if (missing > NONE && (missing < SOME || length_of(r->segment_force[i]) > NONE * force)) return true;
+    }
+    return false;
+}
+
+/* The contacts of the record for the program; false where they are not of its kind, or in doubt. */
+static bool contacts_of(const Source *source, const Record *r, double length, double force, RestContact *contact, double *friction) {
+    bool rubs = false;
+    for (size_t c = 0; c < r->contacts * r->nodes; c++) rubs = rubs || r->friction_bound[c] > 0;
+    for (size_t c = 0; c < r->contacts * r->nodes; c++) {
+        const size_t j = c % r->nodes;
+        double open = r->gap[c];
+        contact[c] = REST_APART;
+        for (int k = 0; k < 3; k++) open += r->normal[c][k] * (r->position[j][k] - r->reference[j][k]);
+        if (!(open <= NONE * length)) {
+            if (open < SOME * length || r->friction_bound[c] > NONE * force) return false;
+            continue;
+        }
+        const Surface *surface = &source->surface[(size_t)r->obstacle[c]];
+        if (surface->set || surface->mu[0] != surface->mu[1]) return false;
+        friction[c] = !rubs ? 0 : source->consistent ? r->mu[c] : r->friction_bound[c];
+        const double way = length_of(r->slide[c]);
+        if (friction[c] > 0 && way > NONE * length && way < SOME * length) return false;
+        contact[c] = friction[c] > 0 && way > NONE * length ? REST_SLIPS : REST_STICKS;
+    }
+    return true;
+}
+
+/* The value by rest.c; false where it is not asked or not found. */
+static bool recompute(const Source *source, const Record *r, size_t element, double force, double value[2], double *room) {
+    const size_t all = r->contacts * r->nodes;
+    RestContact *contact = calloc(all, sizeof *contact);
+    double *friction = calloc(all, sizeof *friction), length = 0;
+    for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
+    bool asked = contact && friction && r->elements <= MOST_ELEMENTS && force > 0 && !taut_in_doubt(r, force) &&
+                 contacts_of(source, r, length, force, contact, friction);
+    if (asked) {
+        const RestLine line = {.elements = r->elements,
+                               .contacts = r->contacts,
+                               .element_length = r->element_length,
+                               .position = (const double(*)[3])r->position,
+                               .load = (const double(*)[3])r->load,
+                               .normal = (const double(*)[3])r->normal,
+                               .slide = (const double(*)[3])r->slide,
+                               .friction = friction,
+                               .contact = contact,
+                               .frozen = !source->consistent,
+                               .held = {r->end_kind[0] == END_HELD, r->end_kind[1] == END_HELD},
+                               .force = force};
+        double second;
+        value[0] = rest_tension(&line, element, -1, room), value[1] = rest_tension(&line, element, 1, &second);
+        *room = fmax(*room, second);
+        asked = !isnan(value[0]) && !isnan(value[1]);
+    }
+    free(contact), free(friction);
+    return asked;
+}
+
+bool range_is_wrong(const Source *source, const Record *r, int e, double force, char *text, size_t size) {
+    double said[RANGES];
+    int missing = 0;
+    for (int k = 0; k < RANGES; k++) missing += isnan(said[k] = r->end_range[k][e]);
+    if (missing == RANGES) return false;
+    const size_t element = e == 0 ? 0 : r->elements - 1;
+    const double least = said[RANGE_LEAST], greatest = said[RANGE_GREATEST], tension = length_of(r->segment_force[element]);
+    if (missing > 0) return snprintf(text, size, "the range of an end's tension is not whole"), true;
+    if (r->compliance > 0) return snprintf(text, size, "a range of tensions of an elastic line"), true;
+    if (!(least >= 0 && fabs(least - said[RANGE_LEAST_BOUND]) <= FOUND * force) ||
+        !(greatest == said[RANGE_GREATEST_BOUND] || fabs(greatest - said[RANGE_GREATEST_BOUND]) <= FOUND * force))
+        return snprintf(text, size, "a least or greatest tension and its bound differ"), true;
+    if (!(tension >= least - FOUND * force && tension <= greatest + FOUND * force))
+        return snprintf(text, size, "the tension %.9g of the end's element is not in its range", tension), true;
+    double value[2], room;
+    if (!recompute(source, r, element, force, value, &room)) return false;
+    /* each node may be off balance by the room, and shallow angles enlarge it */
+    const double close = 3e3 * room * force;
+    if (!(fabs(least - value[0]) <= close) || !(greatest == value[1] || fabs(greatest - value[1]) <= close))
+        return snprintf(text, size, "claimed range of tensions %.9g to %.9g, recomputed %.9g to %.9g", least, greatest, value[0], value[1]),
+               true;
+    return false;
+}
