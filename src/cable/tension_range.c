@@ -55,7 +55,7 @@ static CpsTensionRange range_of(CpsiLine *line, CpsiForceSet *set, const CpsiFor
     const bool unbounded = grows(set, line, *law, e, &known);
     if (!known) return range;
     if (!cpsi_force_set_build(set, line, law)) {
-        range.least = range.least_bound = range.greatest = range.greatest_bound = line->tension[e];
+        range.least = range.least_bound = range.greatest = range.greatest_bound = fmax(0, set->tension[e]);
         range.kind = set->partial ? CPS_RANGE_NOT_GIVEN : CPS_RANGE_BOUNDED;
         return range;
     }
