@@ -117,6 +117,12 @@ static int exit_code(CpsOutcome worst) {
     return EXIT_NOT_CERTIFIED;
 }
 
+static CpsResultsOptions wanted_results(const CliOptions *options) {
+    return (CpsResultsOptions){.no_paraview = options->no_paraview,
+                               .sync_at_end = options->sync && strcmp(options->sync, "end") == 0,
+                               .fields = options->fields};
+}
+
 /* A run: what is solved, where it goes, what is told of it. */
 typedef struct Run {
     const CpsScene *scene;
@@ -180,9 +186,11 @@ static CpsStatus take_steps(Run *run, CpsError *err) {
 static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *options, CpsError *err) {
     const double begun = cli_now();
     CpsStatus status = cps_evolution_create(run->scene, &run->evolution, err);
-    if (!status) status = cps_results_open(directory, run->scene, run->evolution, &run->results, err);
+    const CpsResultsOptions wanted = wanted_results(options);
+    if (!status) status = cps_results_open_with(directory, run->scene, run->evolution, &wanted, &run->results, err);
     if (!status) status = cps_journal_open(directory, run->evolution, options->resume, &run->journal, err);
     if (status) return status;
+    if (wanted.sync_at_end) cps_journal_sync_late(run->journal);
     run->progress = progress_begin(cps_evolution_step_count(run->evolution), options->quiet);
     if (options->resume) status = take_back(run, err);
     if (!status) status = take_steps(run, err);
@@ -192,16 +200,18 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
     if (run->refused) cps_results_finish(run->results, wall, &none); /* what is told is why it could not go on */
     if (!status) status = cps_results_finish(run->results, wall, err);
     if (!status && cps_evolution_remaining(run->evolution) == 0) cps_journal_remove(run->journal);
+    else if (run->journal && wanted.sync_at_end) status = status ? status : cps_journal_sync(run->journal, err);
     if (!status && options->json) status = cps_results_write_summary(run->results, wall, stdout, err);
     return status;
 }
 
-static void say_where(const char *directory, const CpsEvolution *evolution) {
+static void say_where(const char *directory, const CpsEvolution *evolution, bool paraview) {
     const int steps = cps_evolution_step_count(evolution), left = cps_evolution_remaining(evolution);
     if (cli_stopped())
         fprintf(stderr, "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n",
                 steps - left, steps);
-    printf("\nresults   %s: summary.json, history.csv, result.nc, result.pvd (ParaView)\n", directory);
+    printf("\nresults   %s: summary.json, history.csv, result.nc%s\n", directory,
+           paraview ? ", result.pvd (ParaView)" : "");
     printf("pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg, loop-*.svg of closed cycles\n", directory);
 }
 
@@ -218,7 +228,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     const CpsStatus status = carry_out(&run, directory, options, &err);
     if (fclose(run.table) == 0 && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
-        say_where(directory, run.evolution);
+        say_where(directory, run.evolution, !options->no_paraview);
     }
     const int code = status ? cli_report(&err) : cli_stopped() ? 128 + cli_stopped() : exit_code(run.worst);
     free(text);
@@ -241,11 +251,18 @@ static bool adjust(CpsScene *scene, const CliOptions *options) {
 
 /* False: --method is none, or does not go with the other options, and a message has been written. */
 static bool is_sound(const CliOptions *options, bool *regularized) {
+    const CpsResultsOptions wanted = wanted_results(options);
+    CpsError err;
     *regularized = options->method && strcmp(options->method, "regularized") == 0;
     if (options->method && !*regularized && strcmp(options->method, "exact") != 0)
         cli_printf(stderr, "capstan run: --method: found '%.40s', expected exact or regularized\n", options->method);
-    else if (*regularized && (options->resume || options->tol))
-        fputs("capstan run: --method regularized: takes the steps as given, without --tol and --resume\n", stderr);
+    else if (*regularized && (options->resume || options->tol || options->no_paraview || options->fields || options->sync))
+        fputs("capstan run: --method regularized: takes the steps as given, without --tol and --resume, and writes no fields\n",
+              stderr);
+    else if (options->sync && strcmp(options->sync, "step") != 0 && strcmp(options->sync, "end") != 0)
+        cli_printf(stderr, "capstan run: --sync: found '%.40s', expected step or end\n", options->sync);
+    else if (cps_results_check_options(&wanted, &err) != CPS_OK)
+        cli_printf(stderr, "capstan run: --%s\n", err.message);
     else
         return true;
     return false;

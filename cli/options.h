@@ -21,6 +21,9 @@ typedef struct CliOptions {
     bool json, quiet, resume;
     const char *output;  /* NULL: not given */
     const char *tol;     /* run: path tolerance, NULL: the scene's */
+    bool no_paraview;    /* run: no .vtp and .pvd files */
+    const char *fields;  /* run: of result.nc, NULL: all */
+    const char *sync;    /* run: step or end, NULL: step */
     const char *method;  /* run: exact or regularized, NULL: exact */
     const char *operand; /* the scene or law file, "-" for standard input; NULL: not given */
     const char *plot;    /* law: picture, NULL: none */

@@ -48,6 +48,22 @@ typedef struct CpsResults CpsResults;
 CPS_API CpsStatus cps_results_open(const char *directory, const CpsScene *scene, const CpsEvolution *evolution,
                                    CpsResults **out, CpsError *err);
 
+/* What is written of a run. */
+typedef struct CpsResultsOptions {
+    bool no_paraview;   /* no .vtp and .pvd files */
+    bool sync_at_end;   /* files are synced at the end alone: what a power cut, not a kill, may take in between is the whole
+                           run's; result.nc cannot be read before */
+    const char *fields; /* of result.nc, per step: names of docs/results.md without the line's, separated by commas; "none":
+                           numbers alone; NULL: all, which is what the checker needs */
+} CpsResultsOptions;
+
+/* Are there such fields?  Returns CPS_OK or CPS_ERR_ARGUMENT. */
+CPS_API CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *err);
+
+/* The same with options; NULL or zeros: everything. Returns CPS_ERR_ARGUMENT also for a field that there is not. */
+CPS_API CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene, const CpsEvolution *evolution,
+                                        const CpsResultsOptions *options, CpsResults **out, CpsError *err);
+
 /* Append the step just taken (all lines). result.nc is synced. */
 CPS_API CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution, CpsError *err);
 
@@ -82,6 +98,10 @@ CPS_API CpsStatus cps_journal_open(const char *directory, const CpsEvolution *ev
 CPS_API CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *found, CpsError *err);
 /* Append the step just taken; on return it is on the disk. */
 CPS_API CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *evolution, CpsError *err);
+/* From now on steps are given to the system and not waited for: a killed run loses none of them, a power cut may take the
+ * last ones, which the next run takes again. cps_journal_sync waits for all. */
+CPS_API void cps_journal_sync_late(CpsJournal *journal);
+CPS_API CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err);
 /* Remove the file, once its run is finished; destroy the journal all the same. */
 CPS_API void cps_journal_remove(CpsJournal *journal);
 CPS_API void cps_journal_destroy(CpsJournal *journal); /* NULL is accepted */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A journal of steps (io.h): one record per step, size, checksum and the state of cps_evolution_save, each synced before the next step
- * begins. A record that a killed run left unfinished is found by its size or its checksum and dropped. */
+ * begins unless that is left to the end. A record that a killed run left unfinished, or that a power cut took a part of, is found by its
+ * size or its checksum and dropped with all that follow it. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <fcntl.h>
@@ -14,6 +15,7 @@
 struct CpsJournal {
     char *path;
     int file;
+    bool late;            /* synced by cps_journal_sync alone */
     off_t end;            /* of the last whole record read or written */
     size_t size;          /* of a state */
     unsigned char *state; /* (size) */
@@ -112,10 +114,19 @@ CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *evolution,
     const Record record = {journal->size, checksum(journal->state, journal->size)};
     const off_t body = journal->end + (off_t)sizeof record;
     if (!write_at(journal->file, &record, sizeof record, journal->end) ||
-        !write_at(journal->file, journal->state, journal->size, body) || fdatasync(journal->file) != 0)
+        !write_at(journal->file, journal->state, journal->size, body) || (!journal->late && fdatasync(journal->file) != 0))
         return fail(journal, "write", err);
     journal->end = body + (off_t)journal->size;
     return CPS_OK;
+}
+
+void cps_journal_sync_late(CpsJournal *journal) {
+    if (journal) journal->late = true;
+}
+
+CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err) {
+    if (!journal) return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal is NULL");
+    return fdatasync(journal->file) == 0 ? CPS_OK : fail(journal, "write", err);
 }
 
 void cps_journal_remove(CpsJournal *journal) {

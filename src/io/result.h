@@ -53,6 +53,7 @@ struct CpsResults {
     CpsiDirectory *directory;
     CpsiNetcdf *netcdf;
     locale_t locale; /* "C": numbers are written with a point whatever the program's locale */
+    bool paraview;   /* .vtp and .pvd files are written */
     bool failed;     /* a call has failed: nothing may be committed any more */
 
     char *title; /* "" when the scene has none */
@@ -97,9 +98,9 @@ void cpsi_snapshot_free(CpsiSnapshot *snapshot);
 void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
 void cpsi_history_write(const CpsResults *results, FILE *out);
 
-/* result_netcdf.c: result.nc, every step synced. `turn` is (obstacles) [rad], what they turned in the step. */
-CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution, CpsiNetcdf **out,
-                           CpsError *err);
+/* result_netcdf.c: result.nc. `turn` is (obstacles) [rad], what they turned in the step. */
+CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution,
+                           const CpsResultsOptions *options, CpsiNetcdf **out, CpsError *err);
 CpsStatus cpsi_netcdf_append(CpsiNetcdf *netcdf, const CpsEvolution *evolution, const double *turn, CpsError *err);
 /* Close and free; accepts NULL. Reports what could not be written. */
 CpsStatus cpsi_netcdf_close(CpsiNetcdf *netcdf, CpsError *err);

@@ -21,6 +21,7 @@ struct CpsiDirectory {
     int fd;
     bool made; /* by us: removed again when nothing is committed */
     bool committed;
+    bool late; /* files are synced at the commit, all of them, and not one by one */
     char **name; /* final names, in the order of creation */
     size_t count, capacity;
 };
@@ -63,6 +64,8 @@ CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *e
     *out = directory;
     return CPS_OK;
 }
+
+void cpsi_directory_sync_late(CpsiDirectory *directory) { directory->late = true; }
 
 bool cpsi_directory_has(const CpsiDirectory *directory, const char *name) {
     for (size_t i = 0; i < directory->count; ++i)
@@ -108,7 +111,8 @@ CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE
 
 CpsStatus cpsi_directory_close_file(CpsiDirectory *directory, FILE *stream, CpsError *err) {
     errno = 0;
-    const bool failed = ferror(stream) || fflush(stream) != 0 || fsync(fileno(stream)) != 0;
+    const bool failed =
+        ferror(stream) || fflush(stream) != 0 || (!directory->late && fsync(fileno(stream)) != 0);
     const int flush_code = errno;
     if (fclose(stream) != 0 || failed)
         return fail_path(directory, directory->name[directory->count - 1], failed ? flush_code : errno, err);
@@ -174,6 +178,11 @@ CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const ch
     for (size_t i = 0; i < directory->count; ++i)
         if (fstatat(directory->fd, directory->name[i], &found, AT_SYMLINK_NOFOLLOW) == 0 && S_ISDIR(found.st_mode))
             return fail_path(directory, directory->name[i], EISDIR, err);
+
+    for (size_t i = 0; i < directory->count && directory->late; ++i) {
+        const CpsStatus status = cpsi_directory_sync(directory, directory->name[i], err);
+        if (status) return status;
+    }
 
     for (size_t i = 0; i < directory->count; ++i) {
         temporary_name(temporary, directory->name[i]);

@@ -17,6 +17,9 @@ typedef struct CpsiDirectory CpsiDirectory;
 /* Open `path`, made if missing. Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
 CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *err);
 
+/* From now on files are synced at the commit, one after the other, and not each as it is closed. */
+void cpsi_directory_sync_late(CpsiDirectory *directory);
+
 /* Begin the file `name`; the stream is closed by cpsi_directory_close_file. */
 CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE **out, CpsError *err);
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* result.nc: every field of every step, classic netCDF with 64-bit offsets (CDF-2) and CF attributes.
  *
- * The layout is two tables, of the arrays in a line's view and of the numbers in its report; docs/results.md shows
- * the result. nc_sync after each step leaves a file that can be read while the run goes on, and after a crash.
+ * The layout is two tables, of the arrays in a line's view (result_fields.c) and of the numbers in its report;
+ * docs/results.md shows the result. nc_sync after each step leaves a file that can be read while the run goes on, and
+ * after a crash, unless it is to be synced at the end only.
  * The library keeps a list of open files of its own and is not safe for threads: one lock around its calls makes
  * it so (the only shared state in capstan-io). */
 #include <math.h>
@@ -16,6 +17,7 @@
 #include "base/vec3.h"
 #include "capstan/set.h"
 #include "io/result.h"
+#include "io/result_fields.h"
 #include "io/result_text.h"
 
 static pthread_mutex_t library_lock = PTHREAD_MUTEX_INITIALIZER;
@@ -25,37 +27,8 @@ enum { XYZ = 3, ENDS = 2, TANGENTS = 2, CONTACTS = 2, NAME_LENGTH = 96, VARIABLE
 /* the format's limit on one variable in one record, in bytes (the specification of CDF-2) */
 static const uint64_t MAX_RECORD = 4294967292;
 
-/* Arrays of CpsLineView. */
-typedef enum Place { PLACE_NODE, PLACE_ELEMENT } Place;
-typedef struct Field {
-    const char *name, *long_name, *units;
-    Place place;
-    bool vector, fixed; /* fixed: does not change with the steps */
-    bool contact;       /* belongs to a contact: where nodes have a second one, there is one more variable of it */
-    size_t offset;      /* of a const double * in CpsLineView */
-} Field;
-
 #define VIEW(member)   offsetof(CpsLineView, member)
 #define REPORT(member) offsetof(CpsLineReport, member)
-
-static const Field FIELD[] = {
-    {"arc_length", "natural abscissa of the nodes", "m", PLACE_NODE, false, true, false, VIEW(arc_length)},
-    {"element_length", "natural length of the elements", "m", PLACE_ELEMENT, false, true, false, VIEW(element_length)},
-    {"reference", "configuration in which the step starts", "m", PLACE_NODE, true, false, false, VIEW(reference)},
-    {"position", "configuration", "m", PLACE_NODE, true, false, false, VIEW(position)},
-    {"load", "weight and forces on free ends", "N", PLACE_NODE, true, false, false, VIEW(load)},
-    {"normal", "normal of the obstacle touched or nearest, 0 without one", "1", PLACE_NODE, true, false, true,
-     VIEW(normal)},
-    {"contact_gap", "distance that the displacement may close, infinite where no contact is looked for", "m",
-     PLACE_NODE, false, false, true, VIEW(gap)},
-    {"friction_bound", "largest friction force", "N", PLACE_NODE, false, false, true, VIEW(friction_bound)},
-    {"friction", "friction force on the line", "N", PLACE_NODE, true, false, true, VIEW(friction)},
-    {"reaction", "reaction of the obstacle along its normal", "N", PLACE_NODE, false, false, true, VIEW(reaction)},
-    {"slide", "way on the obstacle in the step, tangential", "m", PLACE_NODE, true, false, true, VIEW(slide)},
-    {"segment_force", "force of the B side of an element on its A side", "N", PLACE_ELEMENT, true, false, false,
-     VIEW(segment_force)},
-    {"tension", "tension from the elongation", "N", PLACE_ELEMENT, false, false, false, VIEW(tension)},
-};
 
 /* Numbers of CpsLineReport. */
 typedef struct Number {
@@ -156,7 +129,7 @@ static const struct {
 
 enum {
     RANGES = sizeof RANGE / sizeof RANGE[0],
-    FIELDS = sizeof FIELD / sizeof FIELD[0],
+    FIELDS = CPSI_FIELDS,
     NUMBERS = sizeof NUMBER / sizeof NUMBER[0],
     ZONES = sizeof ZONE / sizeof ZONE[0]
 };
@@ -172,7 +145,8 @@ typedef struct LineIds {
 
 struct CpsiNetcdf {
     int file;
-    bool open;
+    bool open, sync; /* sync: after each step */
+    unsigned wanted; /* result_fields.h */
     int status; /* of the first call that failed: later ones do nothing */
     size_t steps;
     int step, xyz, end, name_length; /* dimensions */
@@ -330,9 +304,12 @@ static int add_contact(CpsiNetcdf *nc, const char *line, const char *name, int c
     return add_variable(nc, line, full, type, rank, shape, meaning, units);
 }
 
+static bool is_wanted(const CpsiNetcdf *nc, int f) { return cpsi_field[f].fixed || (nc->wanted >> f & 1u); }
+
 static void define_field(CpsiNetcdf *nc, LineIds *ids, const char *line, int f) {
-    const Field *field = &FIELD[f];
-    const int along = field->place == PLACE_NODE ? ids->node : ids->element;
+    const CpsiField *field = &cpsi_field[f];
+    if (!is_wanted(nc, f)) return;
+    const int along = field->place == CPSI_PLACE_NODE ? ids->node : ids->element;
     const int shape[] = {nc->step, along, nc->xyz};
     const int rank = 1 + !field->fixed + field->vector;
     for (int c = 0; c < (field->contact ? ids->contacts : 1); ++c)
@@ -362,9 +339,11 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     ids->compliance = add_variable(nc, view->name, "compliance", NC_DOUBLE, 0, NULL, "1/EA, 0: inextensible", "N-1");
     const int on_nodes[] = {nc->step, ids->node}, on_ends[] = {nc->step, nc->end, nc->xyz};
     for (int c = 0; c < ids->contacts; ++c) {
-        ids->state[c] = add_contact(nc, view->name, "state", c, NC_BYTE, 2, on_nodes, "rest on the obstacle", "1");
-        add_flags(nc, ids->state[c], NC_BYTE, 3, "free stick slip");
-        if (ids->contacts < 2) continue;
+        if (nc->wanted & CPSI_WANTED_STATE) {
+            ids->state[c] = add_contact(nc, view->name, "state", c, NC_BYTE, 2, on_nodes, "rest on the obstacle", "1");
+            add_flags(nc, ids->state[c], NC_BYTE, 3, "free stick slip");
+        }
+        if (ids->contacts < 2 || !(nc->wanted & CPSI_WANTED_OBSTACLE)) continue;
         ids->obstacle[c] =
             add_contact(nc, view->name, "obstacle", c, NC_INT, 2, on_nodes, "place of the obstacle in the scene", "1");
     }
@@ -401,7 +380,7 @@ static const double *plane_slide(CpsiNetcdf *nc, const CpsLineView *view) {
     return nc->slide;
 }
 
-static const double *array_of(CpsiNetcdf *nc, const CpsLineView *view, const Field *field) {
+static const double *array_of(CpsiNetcdf *nc, const CpsLineView *view, const CpsiField *field) {
     const double *array;
     memcpy(&array, (const char *)view + field->offset, sizeof array);
     return array || field->offset != VIEW(slide) ? array : plane_slide(nc, view);
@@ -414,9 +393,9 @@ static void write_doubles(CpsiNetcdf *nc, int variable, const size_t *start, con
 /* the fields that do not change (fixed), or those of a step; an array of contacts has the first of all nodes first */
 static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view, bool fixed) {
     for (int f = 0; f < FIELDS; ++f) {
-        const Field *field = &FIELD[f];
-        if (field->fixed != fixed) continue;
-        const size_t along = (size_t)view->elements + (field->place == PLACE_NODE);
+        const CpsiField *field = &cpsi_field[f];
+        if (field->fixed != fixed || !is_wanted(nc, f)) continue;
+        const size_t along = (size_t)view->elements + (field->place == CPSI_PLACE_NODE);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
         const double *array = array_of(nc, view, field);
         for (int c = 0; c < (field->contact ? ids->contacts : 1); ++c, array += along * (field->vector ? XYZ : 1))
@@ -430,8 +409,9 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     const size_t nodes[] = {1, (size_t)view->elements + 1}, ends[] = {1, ENDS, XYZ}, vector[] = {1, XYZ};
     for (int c = 0; c < ids->contacts && nc->status == NC_NOERR; ++c) {
         const size_t from = (size_t)c * nodes[1];
-        keep(nc, nc_put_vara_uchar(nc->file, ids->state[c], start, nodes, view->state + from));
-        if (ids->contacts < 2 || nc->status != NC_NOERR) continue;
+        if (nc->wanted & CPSI_WANTED_STATE)
+            keep(nc, nc_put_vara_uchar(nc->file, ids->state[c], start, nodes, view->state + from));
+        if (ids->contacts < 2 || nc->status != NC_NOERR || !(nc->wanted & CPSI_WANTED_OBSTACLE)) continue;
         keep(nc, nc_put_vara_int(nc->file, ids->obstacle[c], start, nodes, view->obstacle + from));
     }
 
@@ -577,15 +557,18 @@ static CpsStatus check_sizes(const CpsEvolution *evolution, int count, size_t *l
     return CPS_OK;
 }
 
-CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution, CpsiNetcdf **out,
-                           CpsError *err) {
+CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution,
+                           const CpsResultsOptions *options, CpsiNetcdf **out, CpsError *err) {
     *out = NULL;
     const int lines = cps_evolution_line_count(evolution);
     size_t nodes = 0;
-    CpsStatus status = check_sizes(evolution, lines, &nodes, err);
+    unsigned wanted = 0;
+    CpsStatus status = cpsi_fields_choose(options->fields, &wanted, err);
+    if (!status) status = check_sizes(evolution, lines, &nodes, err);
     if (status) return status;
     CpsiNetcdf *nc = calloc(1, sizeof *nc);
     char *names = join_names(evolution, lines);
+    if (nc) nc->wanted = wanted, nc->sync = !options->sync_at_end;
     if (nc) nc->line = calloc((size_t)lines, sizeof *nc->line), nc->line_count = lines;
     if (nc) nc->slide = calloc(nodes, XYZ * sizeof *nc->slide);
     if (nc && nc->line && nc->slide && names) {
@@ -624,7 +607,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         write_line(nc, &nc->line[i], &view, &line);
     }
-    if (nc->status == NC_NOERR) keep(nc, nc_sync(nc->file));
+    if (nc->status == NC_NOERR && nc->sync) keep(nc, nc_sync(nc->file));
     pthread_mutex_unlock(&library_lock);
     nc->steps++;
     return result_of(nc, err);

@@ -8,6 +8,7 @@
 #include "base/status.h"
 #include "base/vec3.h"
 #include "io/result.h"
+#include "io/result_fields.h"
 
 /* A node touches when it is closer to the obstacle than this part of its line's length: far above the rounding
  * of positions, far below anything drawn. */
@@ -78,18 +79,31 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
 }
 
 static CpsStatus open_files(CpsResults *results, const char *directory, const CpsScene *scene,
-                            const CpsEvolution *evolution, CpsError *err) {
+                            const CpsEvolution *evolution, const CpsResultsOptions *options, CpsError *err) {
     CpsStatus status = cpsi_directory_open(directory, &results->directory, err);
     if (status) return status;
+    if (options->sync_at_end) cpsi_directory_sync_late(results->directory);
     char *path = NULL;
     status = cpsi_directory_reserve(results->directory, "result.nc", &path, err);
-    if (!status) status = cpsi_netcdf_open(path, scene, evolution, &results->netcdf, err);
+    if (!status) status = cpsi_netcdf_open(path, scene, evolution, options, &results->netcdf, err);
     free(path);
     return status;
 }
 
+CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *err) {
+    unsigned wanted;
+    return options ? cpsi_fields_choose(options->fields, &wanted, err) : CPS_OK;
+}
+
 CpsStatus cps_results_open(const char *directory, const CpsScene *scene, const CpsEvolution *evolution,
                            CpsResults **out, CpsError *err) {
+    return cps_results_open_with(directory, scene, evolution, NULL, out, err);
+}
+
+CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene, const CpsEvolution *evolution,
+                                const CpsResultsOptions *options, CpsResults **out, CpsError *err) {
+    static const CpsResultsOptions all = {0};
+    if (!options) options = &all;
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL; give the address of a CpsResults pointer");
     *out = NULL;
     if (!directory || !*directory || !scene || !evolution)
@@ -97,10 +111,11 @@ CpsStatus cps_results_open(const char *directory, const CpsScene *scene, const C
 
     CpsResults *results = calloc(1, sizeof *results);
     if (!results) return fail_memory(err);
+    results->paraview = !options->no_paraview;
     results->locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     CpsStatus status = CPS_OK;
     if (!results->locale || !copy_scene(results, scene, evolution)) status = fail_memory(err);
-    if (!status) status = open_files(results, directory, scene, evolution, err);
+    if (!status) status = open_files(results, directory, scene, evolution, options, err);
     if (status) {
         cps_results_destroy(results);
         return status;
@@ -197,7 +212,7 @@ static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsE
     for (int k = 0; k < results->obstacle_count; ++k) turn[k] = cpsi_results_turn(results, results->row_count - 1, k);
     const CpsStatus status = cpsi_netcdf_append(results->netcdf, evolution, turn, err);
     free(turn);
-    return status ? status : cpsi_paraview_step(results, evolution, err);
+    return status || !results->paraview ? status : cpsi_paraview_step(results, evolution, err);
 }
 
 static CpsStatus refuse_failed(CpsError *err) {
@@ -240,7 +255,7 @@ static CpsStatus write_summary(CpsResults *results, double wall, CpsError *err) 
 static bool is_step_or_loop(const char *name) {
     const char *dot = strrchr(name, '.');
     if (!dot) return false;
-    if (strcmp(name, "obstacles.vtp") == 0) return true;
+    if (strcmp(name, "obstacles.vtp") == 0 || strcmp(name, "result.pvd") == 0) return true;
     if (strncmp(name, "loop-", 5) == 0) return strcmp(dot, ".svg") == 0;
     if (strncmp(name, "step-", 5) != 0 || strspn(name + 5, "0123456789") < 5) return false;
     return strcmp(dot, ".svg") == 0 || strcmp(dot, ".vtp") == 0;
@@ -251,8 +266,8 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     results->netcdf = NULL;
     CpsStatus status = cpsi_netcdf_close(netcdf, err);
     if (!status) status = cpsi_directory_sync(results->directory, "result.nc", err);
-    if (!status) status = cpsi_paraview_list(results, err);
-    if (!status) status = cpsi_paraview_obstacles(results, err);
+    if (!status && results->paraview) status = cpsi_paraview_list(results, err);
+    if (!status && results->paraview) status = cpsi_paraview_obstacles(results, err);
     if (!status) status = cpsi_pictures_write(results, err);
     if (!status) status = write_history(results, err);
     /* last: where there is a new summary, everything it speaks of is in place */
