@@ -6,6 +6,7 @@
  * of the steps is kept beside the results until the run is finished: after a stop, of whatever kind, --resume goes on
  * from there. */
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -38,10 +39,26 @@ static char *default_directory(const char *scene, const char *more) {
 }
 
 static void put_head(FILE *table) {
-    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s %12s %12s %10s %10s %10s\n", NAME_WIDTH, "step", LINE_WIDTH, "line",
-            "outcome", "parts", "iter", "gap/scale", "tension A", "tension B", "grounded", "slipping", "slack");
-    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s %12s %12s %10s %10s %10s\n", NAME_WIDTH, "", LINE_WIDTH, "", "", "", "", "",
-            "N", "N", "m", "m", "m");
+    static const char *const NAME[] = {"tension A", "tension B"}, *const ERROR[] = {"bound", "mesh"},
+                             *const LENGTH[] = {"grounded", "slipping", "slack"};
+    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s", NAME_WIDTH, "step", LINE_WIDTH, "line", "outcome", "parts", "iter",
+            "gap/scale");
+    for (int i = 0; i < 2; ++i) fprintf(table, " %12s", NAME[i]);
+    for (int i = 0; i < 2; ++i) fprintf(table, " %8s", ERROR[i]);
+    for (int i = 0; i < 3; ++i) fprintf(table, " %10s", LENGTH[i]);
+    fprintf(table, "\n%-*s %-*s %-15s %5s %4s %9s", NAME_WIDTH, "", LINE_WIDTH, "", "", "", "", "");
+    for (int i = 0; i < 2; ++i) fprintf(table, " %12s", "N");
+    for (int i = 0; i < 2; ++i) fprintf(table, " %8s", "N");
+    for (int i = 0; i < 3; ++i) fprintf(table, " %10s", "m");
+    fputc('\n', table);
+}
+
+/* An error of the tension [N], or - where nothing is known of it. */
+static void put_error(FILE *table, double error) {
+    if (isfinite(error))
+        fprintf(table, " %8.2g", error);
+    else
+        fprintf(table, " %8s", "-");
 }
 
 /* [N] of an end; 0 where it is so small a part of the largest force that it is what the loop leaves, 1e-9 and less */
@@ -67,11 +84,13 @@ static void put_rows(FILE *table, const CpsEvolution *evolution) {
         cli_put_text(table, i == 0 ? step.name : "", NAME_WIDTH, true);
         fputc(' ', table);
         cli_put_text(table, cps_evolution_line_view(evolution, i).name, LINE_WIDTH, true);
-        fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g %10.4g %10.4g %10.4g\n", cps_outcome_key(line.outcome),
-                line.parts, line.iterations,
+        fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g", cps_outcome_key(line.outcome), line.parts, line.iterations,
                 certificate->scale > 0 ? certificate->gap / certificate->scale : certificate->gap,
-                shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B), line.grounded, line.slipping,
-                line.slack);
+                shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B));
+        const bool solved = line.outcome == CPS_SOLVED || line.outcome == CPS_TAUT;
+        put_error(table, solved ? certificate->tension_bound : NAN);
+        put_error(table, solved ? line.tension_mesh : NAN);
+        fprintf(table, " %10.4g %10.4g %10.4g\n", line.grounded, line.slipping, line.slack);
         for (int e = 0; e < 2; ++e) put_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
     }
 }
@@ -91,9 +110,14 @@ static void report_outcomes(const CpsEvolution *evolution) {
         const CpsCertificate *c = &line.certificate;
         if (line.outcome == CPS_INFEASIBLE)
             fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1], d[2]);
-        else if (line.outcome == CPS_UNBOUNDED)
+        else if (line.outcome == CPS_UNBOUNDED) {
             fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1], d[2]);
-        else if (line.outcome != CPS_TAUT)
+            if (line.coulomb > 0)
+                fprintf(stderr,
+                        " with the friction bounds of the reference; these loads press so that mu R, %.6g N in all, holds the "
+                        "line: 'friction: consistent' has an equilibrium",
+                        line.coulomb);
+        } else if (line.outcome != CPS_TAUT)
             fprintf(stderr, " (gap %.2e of the scale, force residual %.2e of the largest force)", c->gap / c->scale,
                     c->force_residual / c->largest_force);
         fputc('\n', stderr);
@@ -210,6 +234,8 @@ static void say_where(const char *directory, const CpsEvolution *evolution, bool
     if (cli_stopped())
         fprintf(stderr, "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n",
                 steps - left, steps);
+    printf("\nbound     rms error of the tension that the certificate leaves possible, in this step's own problem: it says nothing of the\n"
+           "          mesh, nor of what earlier steps have left. mesh: estimated error by the elements' length, of the step as well\n");
     printf("\nresults   %s: summary.json, history.csv, result.nc%s\n", directory,
            paraview ? ", result.pvd (ParaView)" : "");
     printf("pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg, loop-*.svg of closed cycles\n", directory);

@@ -132,10 +132,13 @@ typedef struct CpsLineReport {
     double grounded; /* [m] natural length in contact with a reaction */
     double slipping; /* [m] natural length that slid on the obstacle in this step */
     double slack;    /* [m] natural length without tension */
+    double tension_mesh; /* [N] estimated error of the tension by the elements' lengths, to leading order; NaN where there is none */
     double proof[3]; /* infeasible: unit vector from end A to end B, along which a constant force proves it;
                         unbounded: the rigid direction in which the energy falls; else 0 0 0 */
     double proof_value; /* infeasible: [m] distance of the ends - length > 0;
                            unbounded: [N] fall of the energy per metre > 0; else 0 */
+    double coulomb;     /* [N] unbounded with frozen friction: what friction bears by Coulomb's law under these loads, mu times what
+                           presses on the plane, where that is enough to hold the line; else 0 */
 } CpsLineReport;
 
 /* One step of all lines: sums of energies, residuals and forces at their worst. */

@@ -24,6 +24,7 @@
 #include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/line_report.h"
+#include "cable/mesh_error.h"
 #include "cable/rub_set.h"
 #include "cable/step_program.h"
 #include "cable/tension_field.h"
@@ -105,14 +106,15 @@ static bool too_short(CpsiLine *line) {
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     if (!both(line, CPS_END_FREE) || line->follows) return false;
     Vec3 sum = vec3(0, 0, 0);
-    double friction = 0, steepest = 0, loads = 0;
+    double friction = 0, steepest = 0, least = INFINITY, loads = 0;
     bool stopped = false;
     for (int j = 0; j < line->n; j++) {
         const Vec3 b = vec3_load(&line->load[3*j]);
         sum = vec3_add(sum, b);
         loads += vec3_norm(b);
         friction += line->friction_bound[j];
-        steepest = fmax(steepest, cpsi_rub_set(line, j).friction);
+        const double coefficient = cpsi_rub_set(line, j).friction;
+        steepest = fmax(steepest, coefficient), least = fmin(least, coefficient);
         stopped = stopped || isfinite(line->gap[j]);
     }
     const Vec3 n = vec3_load(&line->common[6]);
@@ -127,6 +129,9 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.outcome = CPS_UNBOUNDED;
     vec3_store(line->report.proof, vec3_axpy(along/fall, n, slide));
     line->report.proof_value = fall;
+    /* with bounds that follow the reactions these, which add up to what presses, would hold it wherever they are */
+    const bool frozen = options->friction == CPS_FRICTION_FROZEN && !options->frictionless;
+    if (frozen && along == 0 && pull <= least*-normal) line->report.coulomb = least*-normal;
     return true;
 }
 
@@ -486,4 +491,5 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     if (looked) cpsi_contact_still(line);
     cpsi_line_report_ends(line);
     cpsi_line_report_lengths(line);
+    line->report.tension_mesh = cpsi_mesh_error(line);
 }

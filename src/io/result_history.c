@@ -51,6 +51,7 @@ static const Column LINE_COLUMN[] = {
     {"slack", "m", LINE(slack)},
     {"dissipated", "J", LINE(dissipated)},
     {"tension_bound_rms", "N", LINE(certificate.tension_bound)},
+    {"tension_mesh_estimate", "N", LINE(tension_mesh)},
 };
 
 enum {

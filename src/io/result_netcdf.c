@@ -42,6 +42,7 @@ static const Number NUMBER[] = {
     {"gap", "sum of the local gaps", "J", REPORT(certificate.gap)},
     {"scale", "scale of the gap", "J", REPORT(certificate.scale)},
     {"tension_bound", "guaranteed rms error of the tension", "N", REPORT(certificate.tension_bound)},
+    {"tension_mesh", "estimated error of the tension by the elements' lengths", "N", REPORT(tension_mesh)},
     {"tension_estimate", "largest difference of elongation and equilibrium tension", "N",
      REPORT(certificate.tension_estimate)},
     {"force_residual", "largest imbalance of forces on a node", "N", REPORT(certificate.force_residual)},

@@ -56,6 +56,7 @@ static void put_proof(FILE *out, const CpsLineReport *report) {
     if (report->outcome != CPS_INFEASIBLE && report->outcome != CPS_UNBOUNDED) return;
     fputs("          \"proof\": {", out);
     put_vector(out, "direction", report->proof, ", ");
+    if (report->coulomb > 0) put_number(out, "coulomb_N", report->coulomb, ", ");
     put_number(out, report->outcome == CPS_INFEASIBLE ? "excess_m" : "fall_N", report->proof_value, "},\n");
 }
 
@@ -68,7 +69,8 @@ static void put_line(FILE *out, const char *name, const CpsLineReport *report, c
     put_number(out, "grounded_m", report->grounded, ", ");
     put_number(out, "slipping_m", report->slipping, ", ");
     put_number(out, "slack_m", report->slack, ", ");
-    put_number(out, "dissipated_J", report->dissipated, ",\n");
+    put_number(out, "dissipated_J", report->dissipated, ",\n          ");
+    put_number(out, "tension_mesh_estimate_N", report->tension_mesh, ",\n");
     put_proof(out, report);
     put_end(out, "A", &report->end[CPS_END_A], ",\n");
     put_end(out, "B", &report->end[CPS_END_B], "\n        }");

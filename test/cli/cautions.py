@@ -58,9 +58,30 @@ with tempfile.TemporaryDirectory() as folder:
             line, cells = step["lines"]["cable"], row.split()
             wanted = [line[end]["tension_N"] for end in "AB"]
             wanted = [0 if tension < 1e-9*step["largest_force_N"] else tension for tension in wanted] + [line["slack_m"]]
-            shown = [float(cell) for cell in (cells[-5], cells[-4], cells[-1])]
+            shown = [float(cell) for cell in (cells[-7], cells[-6], cells[-1])]
             if any(abs(a - b) > 1e-3*abs(b) for a, b in zip(shown, wanted)):
                 faults.append(f"{name}, {step['name']}: table {shown}, summary {wanted}")
+
+    # frozen bounds may hold nothing where mu R would: said with its figure, 0.5 (8 x 20 + 80) N, and only where it would
+    scene = """capstan: 1
+friction: %s
+obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}
+lines:
+  rope: {length: 8, elements: 40, weight: 20, stiffness: 1e5, start: {straight: {from: [0, 0, 0], to: [8, 0, 0]}}, ends: {A: free, B: free}}
+history: [{name: press, rope.B: {force: [%s, 0, -80]}}]
+"""
+    for friction, force, code, said in (("frozen", 100, 5, True), ("consistent", 100, 0, False), ("frozen", 121, 5, False),
+                                        ("consistent", 121, 5, False), ("frozen", 79, 0, False)):
+        path = os.path.join(folder, "press.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(scene % (friction, force))
+        done = subprocess.run([CAPSTAN, "run", path, "-o", os.path.join(folder, "press")], capture_output=True, text=True, timeout=60)
+        if done.returncode != code or ("mu R, 120 N in all" in done.stderr) != said:
+            faults.append(f"{friction}, {force} N: exit code {done.returncode}, {done.stderr}")
+        with open(os.path.join(folder, "press", "summary.json"), encoding="utf-8") as file:
+            proof = json.load(file)["steps"][0]["lines"]["rope"].get("proof", {})
+        if proof.get("coulomb_N") != (120 if said else None):
+            faults.append(f"{friction}, {force} N: proof {proof}")
 
 print("\n".join(faults) or "cautions: said with their figures, and only there")
 sys.exit(1 if faults else 0)
