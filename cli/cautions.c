@@ -4,7 +4,10 @@
  * Frozen friction (S90 section 2 d) takes its bound A from the reference. Where the reaction has changed much within
  * the step, A is not mu R any more (example 11.2); where the line has left the obstacle, friction still acts on it, and
  * an equilibrium without it may be the true one (example 11.3). Strict contact keeps out only what touched before
- * (11.1). */
+ * (11.1).
+ *
+ * A step goes straight from one equilibrium to another. Where energy is made, or much of it set free, the way between
+ * them was another one: the line jumped, or took another branch of equilibria. */
 #include "cautions.h"
 
 #include <math.h>
@@ -16,6 +19,9 @@
 static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6;
 /* a part of the length from which slack decides what is lost: most of it */
 static const double TOLD_SLACK = 0.5;
+
+/* part of what is dissipated and worked in a step from which a user is told of energy set free without a snap */
+static const double TOLD_FREED = 0.5;
 
 static double length3(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
@@ -45,12 +51,31 @@ static double lifted_friction(const CpsLineView *view, double *bounds) {
     return lifted;
 }
 
+/* [J] dissipated plus positive work of a step */
+static double exchanged(const CpsLedger *l) {
+    return l->dissipated + fmax(0, l->ends) + fmax(0, l->obstacles) + fmax(0, -l->elastic) + fmax(0, -l->gravity);
+}
+
+/* Energy that the step made, or set free. The first forces at held ends are not known: their work is known to half of
+ * it. */
+static void note_energy(Cautions *cautions, const CpsStepReport *step, const CpsLineReport *line, const char *name) {
+    const double beside = exchanged(&line->ledger), open = line->ledger.imbalance;
+    const double freed = open - (step->index == 0 ? fabs(line->ledger.ends) : 0);
+    const double known = line->certificate.gap + 1e-8 * line->certificate.scale;
+    if (line->unaccounted > 0)
+        note(cautions, CAUTION_MADE, line->unaccounted, beside, step->name, name);
+    else if (line->snaps == 0 && freed > TOLD_FREED * beside && freed > known)
+        note(cautions, CAUTION_FREED, freed, beside, step->name, name);
+}
+
 void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution *evolution) {
-    const char *step = cps_evolution_report(evolution).name;
+    const CpsStepReport report = cps_evolution_report(evolution);
+    const char *step = report.name;
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         if (line.outcome != CPS_SOLVED) continue;
+        note_energy(cautions, &report, &line, view.name);
         const double residual = line.certificate.friction_residual, length = view.arc_length[view.elements];
         double bounds;
         const double lifted = lifted_friction(&view, &bounds);
@@ -82,6 +107,16 @@ static void put_figures(int kind, double value, double of) {
         fprintf(stderr,
                 "slack over %.4g m of %.4g m: where a line has no tension its place and what friction dissipates there "
                 "depend on the mesh; compare several numbers of elements",
+                value, of);
+    else if (kind == CAUTION_MADE)
+        fprintf(stderr,
+                "the energy does not close by %.4g J, beside %.4g J dissipated and worked: the line jumps, takes another "
+                "branch, or friction is that of the reference; smaller load steps or a 'path_tolerance' tell which",
+                value, of);
+    else if (kind == CAUTION_FREED)
+        fprintf(stderr,
+                "%.4g J are set free, beside %.4g J dissipated and worked: the line falls or jumps, or the load step is "
+                "large; smaller load steps or a 'path_tolerance' tell which",
                 value, of);
     else
         fprintf(stderr,

@@ -104,6 +104,7 @@ typedef struct CpsEndReport {
     double position[3]; /* [m] */
     double force[3];    /* [N] on the line at this end */
     double tension;     /* [N] |force|, the line's tension at this end */
+    double work;        /* [J] of the force at this end in this step, over its parts: the two add up to `ends` of the ledger */
     double friction[3]; /* [N] on the half element beside a held end that lies on an obstacle; in balance with `force` */
     CpsTensionRange range; /* of the end element, at the last step of a stage */
 } CpsEndReport;
@@ -120,7 +121,7 @@ typedef struct CpsLedger {
 
 typedef struct CpsLineReport {
     CpsOutcome outcome; /* the worst of the parts that the step was taken in */
-    int iterations;     /* of all parts */
+    int iterations;     /* of all that was solved, parts that were not kept included */
     CpsCertificate certificate; /* of the last part */
     double dissipated; /* [J] in this step */
     CpsLedger ledger;  /* of this step; zero for a line whose start is laid by statics in it */
@@ -128,6 +129,8 @@ typedef struct CpsLineReport {
     double share;      /* of the step that the last part was, which is what the view shows: 1 where it was not cut */
     int snaps;         /* parts in which the line jumped, however small the load */
     double jump;       /* [m] the longest way of a node in such a part */
+    double unaccounted; /* [J] of the imbalance, what parts that could not be cut any more made from nothing; with a path tolerance also
+                           what they lost, snaps apart: 0 unless it is more than 5 % of what is dissipated and worked in such a part */
     CpsEndReport end[2];
     double grounded; /* [m] natural length in contact with a reaction */
     double slipping; /* [m] natural length that slid on the obstacle in this step */
@@ -154,6 +157,7 @@ typedef struct CpsStepReport {
     int parts;         /* largest over the lines */
     int snaps;         /* sum of the lines */
     double jump;       /* [m] largest of the lines */
+    double unaccounted; /* [J] sum of the lines */
     double wall;       /* [s] */
 } CpsStepReport;
 

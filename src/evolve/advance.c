@@ -4,7 +4,9 @@
  * Friction depends on the path, and a step goes straight from one load to the next. A part of a step is accepted
  *   - when it converged, if the path's accuracy is not asked for;
  *   - when besides going it in two halves leads to the same place and tensions within the path tolerance, and neither half goes nearly
- *     all the way: the two halves are kept.
+ *     all the way: the two halves are kept;
+ *   - in either case, when it accounts for its energy, or its halves do: equilibria before and after that lie on different branches
+ *     differ by more than was put in. Then the halves are kept.
  * Otherwise it is halved, at most `halvings` times. A part that small is accepted; if it still is not what its halves are it is a
  * snap, and reported: the line jumps by a way that does not get smaller with the load. A part that small which does not converge is
  * not cut further: the rest of the step is taken in one go and reported as it is.
@@ -28,6 +30,15 @@ static const double EASY = 0.25;
  * a square root, 0.75 where slip grows like the square of the load. A jump goes in one half all its way. */
 static const double SUDDEN = 0.9;
 
+/* A part that cannot account for more than this share of what it dissipates and of the positive work in it is taken in halves: of the
+ * imbalance that a coarse part leaves when it follows the path this is far above the common one. */
+static const double MUCH = 0.05;
+/* [-] Places are known to this much of the length: a node so near to an obstacle touches it. */
+static const double PLACES = CPSI_TOUCH;
+/* After so many parts as small as may be that cannot either, no more of a step are cut for their energy: it would take all of them, and
+ * what is left is reported. */
+static const int JUMPS = 8;
+
 /* An angle that is a whole number of quarters but for rounding is that number. */
 static const double ROUNDING = 1e-9;
 
@@ -37,7 +48,7 @@ void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contact
     room->tension = CPSI_TAKE(arena, n, double);
     room->state = CPSI_TAKE(arena, all, unsigned char);
     room->on = CPSI_TAKE(arena, all, int);
-    room->position = path_tolerance ? CPSI_TAKE(arena, 3*(size_t)n, double) : NULL;
+    room->position = CPSI_TAKE(arena, 3*(size_t)n, double);
     room->trial = path_tolerance ? CPSI_TAKE(arena, 4*(size_t)n, double) : NULL;
 }
 
@@ -48,10 +59,10 @@ static void save(const CpsiLine *line, CpsiAdvance *room) {
     memcpy(room->state, line->state, contacts*sizeof *line->state);
     if (line->follows) memcpy(room->on, line->on, contacts*sizeof *line->on);
     memcpy(room->end, line->report.end, sizeof room->end);
-    if (room->position) memcpy(room->position, line->position, 3*n*sizeof *line->position);
+    memcpy(room->position, line->position, 3*n*sizeof *line->position);
 }
 
-/* Back to the start of the part; one step after `save` the reference still is where it started. */
+/* Back to the start of the part. */
 static void restore(CpsiLine *line, const CpsiAdvance *room) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
     memcpy(line->reaction, room->reaction, contacts*sizeof *line->reaction);
@@ -59,7 +70,7 @@ static void restore(CpsiLine *line, const CpsiAdvance *room) {
     memcpy(line->state, room->state, contacts*sizeof *line->state);
     if (line->follows) memcpy(line->on, room->on, contacts*sizeof *line->on);
     memcpy(line->report.end, room->end, sizeof room->end);
-    memcpy(line->position, room->position ? room->position : line->reference, 3*n*sizeof *line->position);
+    memcpy(line->position, room->position, 3*n*sizeof *line->position);
 }
 
 /* What a part of a step did. */
@@ -67,6 +78,20 @@ typedef struct Part {
     CpsLineReport report;
     CpsLedger ledger;
 } Part;
+
+/* A step under way: what it is of, and what has been done of it. */
+typedef struct Advance {
+    CpsiLine *line;
+    CpsiChainProgram *program;
+    const CpsiStepOptions *options;
+    const CpsiMove *move;
+    CpsiAdvance *room;
+    bool known;      /* the forces at the ends are those of an equilibrium */
+    int iterations;  /* of everything that was solved, kept or not */
+    int jumps;       /* parts as small as may be whose energy is open */
+    CpsLineReport whole;
+    CpsLedger ledger;
+} Advance;
 
 /* An end at a share of the move. */
 static CpsEnd end_at(const CpsiMove *move, int end, double share) {
@@ -79,37 +104,43 @@ static CpsEnd end_at(const CpsiMove *move, int end, double share) {
 }
 
 /* The part of the move from share `from` to share `to`. */
-static Part take(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
-                 CpsiAdvance *room, double from, double to, bool known) {
+static Part take(Advance *advance, double from, double to, bool known) {
+    CpsiLine *line = advance->line;
+    const CpsiMove *move = advance->move;
     CpsEnd before[2];
     for (int end = 0; end < 2; end++) {
         before[end] = end_at(move, end, from);
         line->end[end] = end_at(move, end, to);
     }
-    for (int k = 0; k < line->obstacle_count; k++) room->turn[k] = (to - from)*move->angle[k];
+    for (int k = 0; k < line->obstacle_count; k++) advance->room->turn[k] = (to - from)*move->angle[k];
     const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
-    cpsi_line_step(line, program, options);
+    cpsi_line_step(line, advance->program, advance->options);
     if (cps_outcome_is_certified(line->report.outcome) && cpsi_contact_rounds(line)) line->report.outcome = CPS_STALLED;
     line->report.share = to - from;
-    Part part = {.report = line->report};
+    advance->iterations += line->report.iterations;
+    Part part = {0};
     if (!cps_outcome_is_final(line->report.outcome)) part.ledger = cpsi_ledger_close(line, &start);
+    part.report = line->report;
     return part;
 }
 
 static bool converged(const Part *part) { return cps_outcome_is_certified(part->report.outcome); }
 
 /* Add a part to the whole: sums, the worst outcome, else the later state. */
-static void add(CpsLineReport *whole, CpsLedger *ledger, const Part *part) {
+static void add(Advance *advance, const Part *part) {
+    CpsLineReport *whole = &advance->whole;
     const CpsLineReport before = *whole;
     *whole = part->report;
     whole->parts = before.parts + 1;
     whole->snaps = before.snaps;
     whole->jump = before.jump;
+    whole->unaccounted = before.unaccounted;
     whole->outcome = cps_outcome_worse(before.outcome, whole->outcome);
-    whole->iterations += before.iterations;
+    whole->iterations = advance->iterations;
     whole->dissipated += before.dissipated;
-    cpsi_ledger_add(ledger, &part->ledger);
-    whole->ledger = *ledger;
+    for (int end = 0; end < 2; end++) whole->end[end].work += before.end[end].work;
+    cpsi_ledger_add(&advance->ledger, &part->ledger);
+    whole->ledger = advance->ledger;
 }
 
 static void keep_trial(const CpsiLine *line, double *trial) {
@@ -143,20 +174,115 @@ static double way_of(const CpsiLine *line) {
     return way;
 }
 
-/* Equal stretches of a step in none of which an obstacle turns by more than a quarter. */
-static int stretches(const CpsiLine *line, const CpsiMove *move) {
-    double most = 0;
-    for (int k = 0; k < line->obstacle_count; k++) most = cpsi_larger(most, fabs(move->angle[k]));
-    const double quarters = ceil(most/CPSI_QUARTER - ROUNDING);
-    return quarters > 1 ? (int)quarters : 1;
+/* The energy that a part, or two of them, cannot account for: what it made, and where the path counts what it lost as well; but for
+ * what the certificate and the accuracy of places leave open of an energy. */
+typedef struct Open {
+    double energy, beside; /* [J] it, and dissipated plus positive work */
+    double noise;          /* [J] */
+} Open;
+
+static Open open_energy(const Advance *advance, const Part *first, const Part *second) {
+    Open open = {0};
+    for (int k = 0; k < (second ? 2 : 1); k++) {
+        const Part *part = k ? second : first;
+        open.energy -= part->ledger.imbalance;
+        open.beside += cpsi_ledger_exchanged(&part->ledger);
+        open.noise += part->report.certificate.gap + PLACES*part->report.certificate.largest_force*advance->line->length;
+    }
+    if (advance->options->solver.path_tolerance > 0) open.energy = fabs(open.energy);
+    return open;
 }
 
-/* A stretch of a step, and what has been done of the step. */
+static bool is_open(const Open *open) { return open->energy > MUCH*open->beside && open->energy > open->noise; }
+
+/* A part as it was taken, whole or in its two halves, and what is to be thought of it. */
+typedef struct Trial {
+    Part first, second;
+    bool halved;    /* the line is at the end of the second half */
+    bool good;      /* converged */
+    bool agrees;    /* with the halves, as far as they were asked for */
+    bool sudden;
+    Apart error;
+    double longest; /* [m] way of a node in one of the halves */
+    Open open;      /* of what is kept */
+} Trial;
+
+/* Take the halves of a part that was taken whole. */
+static void halve(Advance *advance, double from, double middle, double to, Trial *trial) {
+    restore(advance->line, advance->room);
+    trial->first = take(advance, from, middle, advance->known);
+    trial->longest = way_of(advance->line);
+    if (converged(&trial->first)) trial->second = take(advance, middle, to, true);
+    trial->good = converged(&trial->first) && converged(&trial->second);
+    trial->halved = true;
+}
+
+/* Do the halves account for the energy that the whole part left open? */
+static bool closes(const Advance *advance, Trial *trial) {
+    const Open whole = trial->open;
+    trial->open = open_energy(advance, &trial->first, &trial->second);
+    return !is_open(&whole) || (!is_open(&trial->open) && trial->open.energy < 0.5*whole.energy);
+}
+
+/* The path is asked for: the halves are kept, where they lead to the same place. */
+static void compare(Advance *advance, double from, double middle, double to, Trial *trial) {
+    const double tolerance = advance->options->solver.path_tolerance, whole_way = way_of(advance->line);
+    keep_trial(advance->line, advance->room->trial);
+    halve(advance, from, middle, to, trial);
+    if (trial->good) trial->error = apart(advance->line, advance->room->trial);
+    trial->longest = cpsi_larger(trial->longest, way_of(advance->line));
+    trial->sudden = trial->longest > SUDDEN*whole_way && trial->longest > tolerance*advance->line->length;
+    trial->agrees = !trial->sudden && trial->error.way <= tolerance && trial->error.tension <= tolerance;
+    if (trial->good && !closes(advance, trial)) trial->agrees = false;
+}
+
+/* Energy is open: the halves are kept where they close it. If they do not converge the whole part is all there is. */
+static void divide(Advance *advance, double from, double middle, double to, Trial *trial) {
+    const Trial whole = *trial;
+    halve(advance, from, middle, to, trial);
+    trial->agrees = trial->good && closes(advance, trial);
+    if (trial->good) return;
+    restore(advance->line, advance->room);
+    *trial = whole;
+    trial->first = take(advance, from, to, advance->known);
+}
+
+/* May there be another branch that cutting finds?  With frozen friction a step is one convex problem by definition (S90 P2.1): friction of
+ * the reference may make energy in it, and the path says how much that matters, if it is asked for. */
+static bool may_branch(const Advance *advance) {
+    return advance->options->friction == CPS_FRICTION_CONSISTENT && advance->jumps < JUMPS;
+}
+
+/* A part of the step; `cut`: it may be made smaller. */
+static Trial try_part(Advance *advance, double from, double middle, double to, bool cut) {
+    save(advance->line, advance->room);
+    Trial trial = {.first = take(advance, from, to, advance->known), .agrees = true};
+    trial.good = converged(&trial.first);
+    if (!trial.good) return trial;
+    trial.open = open_energy(advance, &trial.first, NULL);
+    if (advance->options->solver.path_tolerance > 0) compare(advance, from, middle, to, &trial);
+    else if (cut && may_branch(advance) && is_open(&trial.open)) divide(advance, from, middle, to, &trial);
+    return trial;
+}
+
+/* Keep a part, and say of it what cutting could not mend. */
+static void keep(Advance *advance, const Trial *trial) {
+    CpsLineReport *whole = &advance->whole;
+    add(advance, &trial->first);
+    if (trial->halved) add(advance, &trial->second);
+    advance->known = true;
+    if (trial->sudden || trial->error.way > advance->options->solver.path_tolerance) {
+        whole->snaps++;
+        whole->jump = cpsi_larger(whole->jump, trial->longest);
+    } else if (is_open(&trial->open)) {
+        whole->unaccounted += trial->open.energy;
+        advance->jumps++;
+    }
+}
+
+/* A stretch of a step. */
 typedef struct Stretch {
     double from, to; /* shares of the step */
-    CpsLineReport whole;
-    CpsLedger ledger;
-    bool known;
 } Stretch;
 
 /* Where in the step a share of the stretch is. */
@@ -165,69 +291,50 @@ static double within(const Stretch *stretch, double share) {
 }
 
 /* Take a stretch in parts, each halved up to `halvings` times. */
-static void advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
-                    CpsiAdvance *room, int halvings, Stretch *stretch) {
-    const double tolerance = options->solver.path_tolerance, least = ldexp(1, -halvings);
-    CpsLineReport *whole = &stretch->whole;
-    CpsLedger *ledger = &stretch->ledger;
+static void advance_stretch(Advance *advance, Stretch stretch, int halvings) {
+    const double tolerance = advance->options->solver.path_tolerance, least = ldexp(1, -halvings);
     for (double at = 0, part = 1; at < 1;) {
-        const double end = at + part < 1 ? at + part : 1, middle = within(stretch, at + 0.5*(end - at));
-        const double from = within(stretch, at), to = within(stretch, end);
-        save(line, room);
-        Part taken = take(line, program, options, move, room, from, to, stretch->known), second = {0};
-        if (cps_outcome_is_final(taken.report.outcome) || (!converged(&taken) && part == 1 && least == 1)) {
-            add(whole, ledger, &taken);
+        const double end = at + part < 1 ? at + part : 1, middle = within(&stretch, at + 0.5*(end - at));
+        const double from = within(&stretch, at), to = within(&stretch, end);
+        const Trial trial = try_part(advance, from, middle, to, part > least);
+        if (cps_outcome_is_final(trial.first.report.outcome) || (!trial.good && !trial.halved && part == 1 && least == 1)) {
+            add(advance, &trial.first);
             return;
         }
-        bool good = converged(&taken);
-        const bool halves = tolerance > 0 && good;
-        Apart error = {0};
-        double longest = 0; /* way of a node in one of the halves */
-        bool sudden = false;
-        if (halves) {
-            const double whole_way = way_of(line);
-            keep_trial(line, room->trial);
-            restore(line, room);
-            taken = take(line, program, options, move, room, from, middle, stretch->known);
-            longest = way_of(line);
-            if (converged(&taken)) second = take(line, program, options, move, room, middle, to, true);
-            good = converged(&taken) && converged(&second);
-            if (good) error = apart(line, room->trial);
-            longest = cpsi_larger(longest, way_of(line));
-            sudden = longest > SUDDEN*whole_way && longest > tolerance*line->length;
-        }
-        if (!(good && !sudden && error.way <= tolerance && error.tension <= tolerance) && part > least) {
-            restore(line, room);
+        if (!(trial.good && trial.agrees) && part > least) {
+            restore(advance->line, advance->room);
             part *= 0.5;
             continue;
         }
-        if (!good) { /* no smaller: the rest in one go */
-            restore(line, room);
-            taken = take(line, program, options, move, room, from, stretch->to, stretch->known);
-            add(whole, ledger, &taken);
+        if (!trial.good) { /* no smaller: the rest in one go */
+            restore(advance->line, advance->room);
+            Trial rest = {.first = take(advance, from, stretch.to, advance->known)};
+            if (converged(&rest.first)) rest.open = open_energy(advance, &rest.first, NULL);
+            keep(advance, &rest);
             return;
         }
-        add(whole, ledger, &taken);
-        if (halves) add(whole, ledger, &second);
-        if (sudden || error.way > tolerance) {
-            whole->snaps++;
-            whole->jump = cpsi_larger(whole->jump, longest);
-        }
-        stretch->known = true;
+        keep(advance, &trial);
         at = end;
-        if (error.way <= EASY*tolerance && error.tension <= EASY*tolerance) part *= 2;
+        if (trial.error.way <= EASY*tolerance && trial.error.tension <= EASY*tolerance) part *= 2;
     }
+}
+
+/* Equal stretches of a step in none of which an obstacle turns by more than a quarter. */
+static int stretches(const CpsiLine *line, const CpsiMove *move) {
+    double most = 0;
+    for (int k = 0; k < line->obstacle_count; k++) most = cpsi_larger(most, fabs(move->angle[k]));
+    const double quarters = ceil(most/CPSI_QUARTER - ROUNDING);
+    return quarters > 1 ? (int)quarters : 1;
 }
 
 void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
                        CpsiAdvance *room, bool known) {
+    Advance advance = {line, program, options, move, room, .known = known};
     const int count = stretches(line, move);
-    Stretch stretch = {.known = known};
-    for (int k = 0; k < count && !cps_outcome_is_final(stretch.whole.outcome); k++) {
-        stretch.from = (double)k/count, stretch.to = (double)(k + 1)/count;
+    for (int k = 0; k < count && !cps_outcome_is_final(advance.whole.outcome); k++) {
         /* once one part is not certified nothing is gained by cutting the rest */
-        const int halvings = cps_outcome_is_certified(stretch.whole.outcome) ? options->solver.halvings : 0;
-        advance(line, program, options, move, room, halvings, &stretch);
+        const int halvings = cps_outcome_is_certified(advance.whole.outcome) ? options->solver.halvings : 0;
+        advance_stretch(&advance, (Stretch){(double)k/count, (double)(k + 1)/count}, halvings);
     }
-    line->report = stretch.whole;
+    line->report = advance.whole;
 }

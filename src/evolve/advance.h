@@ -18,8 +18,8 @@ typedef struct CpsiAdvance {
     unsigned char *state; /* (contacts, n) */
     int *on;              /* (contacts, n) */
     CpsEndReport end[2];
-    double *position;     /* (n, 3), NULL where the path's accuracy is not asked for */
-    double *trial;        /* (n, 4), the same */
+    double *position;     /* (n, 3) */
+    double *trial;        /* (n, 4), NULL where the path's accuracy is not asked for */
     double *turn;         /* (obstacles) what line->turn points to */
 } CpsiAdvance;
 

@@ -352,6 +352,7 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     if (line->parts > step->parts) step->parts = line->parts;
     step->snaps += line->snaps;
     step->jump = cpsi_larger(step->jump, line->jump);
+    step->unaccounted += line->unaccounted;
     to->primal += from->primal, to->dual += from->dual, to->gap += from->gap, to->scale += from->scale;
     to->friction_residual += from->friction_residual, to->law_residual += from->law_residual, to->contact_residual += from->contact_residual;
     to->tension_bound = cpsi_larger(to->tension_bound, from->tension_bound);

@@ -80,15 +80,26 @@ static double obstacle_work(const CpsiLine *line) {
     return work + end_obstacle_work(line);
 }
 
-CpsLedger cpsi_ledger_close(const CpsiLine *line, const CpsiLedgerStart *start) {
+CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
     CpsLedger ledger = {.dissipated = line->report.dissipated, .obstacles = obstacle_work(line)};
     double elastic, gravity;
     potentials(line, &elastic, &gravity);
     ledger.elastic = elastic - start->elastic;
     ledger.gravity = gravity - start->gravity;
-    for (int end = 0; end < 2; end++) ledger.ends += end_work(&start->end[end], &line->report.end[end], start->known[end]);
+    for (int end = 0; end < 2; end++) {
+        CpsEndReport *report = &line->report.end[end];
+        report->work = end_work(&start->end[end], report, start->known[end]);
+        ledger.ends += report->work;
+    }
     ledger.imbalance = ledger.ends + ledger.obstacles - ledger.elastic - ledger.gravity - ledger.dissipated;
     return ledger;
+}
+
+double cpsi_ledger_exchanged(const CpsLedger *ledger) {
+    const double work[] = {ledger->ends, ledger->obstacles, -ledger->elastic, -ledger->gravity};
+    double sum = ledger->dissipated;
+    for (int k = 0; k < 4; k++) sum += work[k] > 0 ? work[k] : 0;
+    return sum;
 }
 
 void cpsi_ledger_add(CpsLedger *sum, const CpsLedger *part) {

@@ -16,8 +16,12 @@ typedef struct CpsiLedgerStart {
  * `known`, from the report of the equilibrium before. */
 CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], bool known);
 
-/* After it. */
-CpsLedger cpsi_ledger_close(const CpsiLine *line, const CpsiLedgerStart *start);
+/* After it; the work of each end goes into the report of that end. */
+CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start);
+
+/* [J] Dissipated plus positive work: that of the ends and of obstacles that turn, and what was stored and is released, each where it is
+ * positive. */
+double cpsi_ledger_exchanged(const CpsLedger *ledger);
 
 /* sum += part */
 void cpsi_ledger_add(CpsLedger *sum, const CpsLedger *part);

@@ -2,8 +2,9 @@
 /* The loops that force and displacement of a moved end describe.
  *
  * A loop is a run of stages that move a held end away and back to the same place. With u the displacement along the
- * direction of the farthest point and F the force along it, the trapezoidal sum of F du over the load steps is the
- * work done on the line there; in a steady cycle it is what friction dissipates, the loop's area. A stiff line's loop
+ * direction of the farthest point and F the force along it, the loop's area is the work done on the line there, in a
+ * steady cycle what friction dissipates. The figures of the picture are those of the ledger, which takes the parts of
+ * every load step; the curve goes straight from step to step and may enclose another area. A stiff line's loop
  * is too thin to see: the second frame shows F less the mean f(u) of the ways out and back, which opens the loop and
  * leaves its area as it is, since f(u) du sums to nothing round a closed path. */
 #include <ctype.h>
@@ -29,8 +30,8 @@ typedef struct Loop {
     int line, end, first_stage, last_stage;
     int start, last;   /* rows: the state before the loop, or its first step if there is none; its last step */
     Vec3 direction;    /* unit vector to the farthest point */
-    double area;       /* [J] work done on the line */
-    double dissipated; /* [J] by friction on this line */
+    double work;       /* [J] done on the line at this end, by the ledger */
+    double dissipated; /* [J] by friction on this line, by the ledger */
 } Loop;
 
 static const CpsEndReport *end_at(const CpsResults *results, const Loop *loop, int row) {
@@ -61,7 +62,7 @@ static bool stage_moves(const CpsResults *results, const Loop *loop, const CpsiS
     return vec3_norm(vec3_sub(b, a)) > SAME_PLACE * results->line_length[loop->line];
 }
 
-/* direction, area and dissipation of a loop whose steps are known */
+/* direction, work and dissipation of a loop whose steps are known */
 static void measure_loop(const CpsResults *results, Loop *loop) {
     Vec3 farthest = vec3(0, 0, 0);
     for (int row = loop->start; row <= loop->last; ++row) {
@@ -69,11 +70,10 @@ static void measure_loop(const CpsResults *results, Loop *loop) {
         if (vec3_norm(place) > vec3_norm(farthest)) farthest = place;
     }
     loop->direction = vec3_scale(1 / vec3_norm(farthest), farthest);
-    loop->area = loop->dissipated = 0;
+    loop->work = loop->dissipated = 0;
     for (int row = loop->start + 1; row <= loop->last; ++row) {
-        const double step = along(results, loop, row) - along(results, loop, row - 1);
-        loop->area += 0.5 * (force(results, loop, row) + force(results, loop, row - 1)) * step;
-        loop->dissipated += results->row[row].line[loop->line].report.dissipated;
+        loop->work += end_at(results, loop, row)->work;
+        loop->dissipated += results->row[row].line[loop->line].report.ledger.dissipated;
     }
 }
 
@@ -200,9 +200,8 @@ static void draw_loop(const CpsResults *results, const Loop *loop, const Path *p
              name, results->line_name[loop->line], loop->end ? "B" : "A", loop->start + 1, loop->last + 1);
     cpsi_svg_begin(out, CPSI_SHEET_WIDTH, below.top + below.height + 56, *results->title ? results->title : "capstan",
                    text);
-    const CpsiUnit joule = cpsi_unit("J", fabs(loop->area));
-    snprintf(text, sizeof text, "area %.4g %s: work done on the line at this end", loop->area * joule.factor,
-             joule.name);
+    const CpsiUnit joule = cpsi_unit("J", fmax(fabs(loop->work), loop->dissipated));
+    snprintf(text, sizeof text, "work done on the line at this end: %.4g %s", loop->work * joule.factor, joule.name);
     cpsi_svg_text(out, above.left, above.top - 12, CPSI_START, "font-size=\"14\" font-weight=\"bold\" fill=\"#2b5fa8\"",
                   text);
     snprintf(text, sizeof text, "dissipated by friction: %.4g %s", loop->dissipated * joule.factor, joule.name);

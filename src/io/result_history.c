@@ -28,6 +28,7 @@ static const Column STEP_COLUMN[] = {
     {"elastic", "J", STEP(ledger.elastic)},
     {"gravity", "J", STEP(ledger.gravity)},
     {"imbalance", "J", STEP(ledger.imbalance)},
+    {"unaccounted", "J", STEP(unaccounted)},
     {"wall", "s", STEP(wall)},
 };
 

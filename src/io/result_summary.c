@@ -104,7 +104,8 @@ static void put_certificate(FILE *out, const CpsResults *results, const CpsiRow 
 static void put_ledger(FILE *out, const CpsStepReport *report) {
     const CpsLedger *ledger = &report->ledger;
     fprintf(out, "\"parts\": %d, \"snaps\": %d, ", report->parts, report->snaps);
-    put_number(out, "jump_m", report->jump, ",\n      \"ledger_J\": {");
+    put_number(out, "jump_m", report->jump, ", ");
+    put_number(out, "unaccounted_J", report->unaccounted, ",\n      \"ledger_J\": {");
     put_number(out, "ends", ledger->ends, ", ");
     put_number(out, "obstacles", ledger->obstacles, ", ");
     put_number(out, "elastic", ledger->elastic, ", ");

@@ -74,6 +74,21 @@ static double claimed_residual(const Record *r, const Measures *m) {
     return r->claim[CLAIM_FRICTION_RESIDUAL] == 0 ? 0 : m->bound_residual;
 }
 
+/* A step in one part that makes energy, more than 5 % of what it dissipates and of the positive work in it and more than
+ * places known to 1e-9 leave of it, says how much; one that does not says 0. */
+static void judge_unaccounted(Judge *judge, const Record *r, const Measures *m) {
+    static const double MUCH = 0.05;
+    const double *entry = r->ledger, made = -entry[LEDGER_IMBALANCE];
+    double beside = r->dissipated + fmax(0, entry[LEDGER_ENDS]) + fmax(0, entry[LEDGER_OBSTACLES]) +
+                    fmax(0, -entry[LEDGER_ELASTIC]) + fmax(0, -entry[LEDGER_GRAVITY]);
+    double least = fmax(MUCH * beside, m->gap + PLACE_TOLERANCE * m->largest_force * m->length);
+    if (r->unaccounted != 0) same(judge, "unaccounted", r->unaccounted, made, 0);
+    if (made > (1 + CLAIM_TOLERANCE) * least && r->unaccounted == 0)
+        find(judge, "energy of %.6g J is made beside %.6g J, and not said to be unaccounted", made, beside);
+    if (made < (1 - CLAIM_TOLERANCE) * least && r->unaccounted != 0)
+        find(judge, "energy of %.6g J is said to be unaccounted beside %.6g J", r->unaccounted, beside);
+}
+
 /* The ledger closes, whatever it says; of a step taken in one part its entries are those of the arrays, but for the
  * work of the ends, which needs the forces before. */
 static void judge_ledger(Judge *judge, const Record *r, const Measures *m, double ends_carried, double floor) {
@@ -84,6 +99,7 @@ static void judge_ledger(Judge *judge, const Record *r, const Measures *m, doubl
     at_most(judge, "ledger: ends + obstacles - all else", fabs(entry[LEDGER_ENDS] + entry[LEDGER_OBSTACLES] - spent),
             COPY_TOLERANCE * sizes + NOTHING);
     if (r->parts > 1) return;
+    judge_unaccounted(judge, r, m);
     same(judge, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
     same(judge, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
     same(judge, "ledger_obstacles", entry[LEDGER_OBSTACLES], m->carried + ends_carried, floor);

@@ -100,6 +100,7 @@ static const char *missing_variable(const Record *r) {
         {"proof", r->proof, 3, -most, most},
         {"proof_value", &r->proof_value, 1, -most, most},
         {"dissipated", &r->dissipated, 1, -most, most},
+        {"unaccounted", &r->unaccounted, 1, 0, most},
         {"ledger", r->ledger, LEDGER_ENTRIES, -most, most},
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {

@@ -382,6 +382,7 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "end_friction", step, 2, 3, record->end_friction[0], log);
     bad |= read_step(source, line, "end_tension", step, 2, 0, record->end_tension, log);
     bad |= read_step(source, line, "dissipated", step, 0, 0, &record->dissipated, log);
+    bad |= read_step(source, line, "unaccounted", step, 0, 0, &record->unaccounted, log);
     bad |= read_step(source, line, "proof", step, 3, 0, record->proof, log);
     bad |= read_step(source, line, "proof_value", step, 0, 0, &record->proof_value, log);
     static const char *const ENTRY[LEDGER_ENTRIES] = {"ledger_ends", "ledger_obstacles", "ledger_elastic",

@@ -62,7 +62,7 @@ typedef struct Record {
     double share; /* which is so much of the step */
     Vector end_value[2], end_force[2], end_friction[2], proof;
     double end_tension[2], end_range[RANGES][2];
-    double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES];
+    double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES], unaccounted;
 } Record;
 
 /* An open file: its lines and how many steps they have. */

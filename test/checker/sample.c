@@ -115,7 +115,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     const double pull = again || line->compliance == 0 ? 0 : 120 * C;
     field[n++] = scalar("ledger_ends", pull), field[n++] = scalar("ledger_obstacles", 0);
     field[n++] = scalar("ledger_elastic", pull / 3), field[n++] = scalar("ledger_gravity", 0);
-    field[n++] = scalar("ledger_imbalance", pull / 3);
+    field[n++] = scalar("ledger_imbalance", pull / 3), field[n++] = scalar("unaccounted", 0);
     field[n++] = (Field){"proof", 3, 0, {line->proof, 0, 0}};
     field[n++] = scalar("proof_value", line->proof_value);
     for (int k = 0; k < CLAIMS; k++) {
@@ -369,7 +369,7 @@ static size_t describe_wound(const Wound *w, Field *field) {
     field[n++] = scalar("dissipated", work + ends), field[n++] = (Field){"proof", 3, 0, {0}},
     field[n++] = scalar("proof_value", 0);
     field[n++] = scalar("ledger_obstacles", work + ends); // which is all dissipated
-    static const char *const NONE[] = {"ledger_ends",  "ledger_elastic",   "ledger_gravity",    "ledger_imbalance",
+    static const char *const NONE[] = {"ledger_ends",  "ledger_elastic",   "ledger_gravity",    "ledger_imbalance", "unaccounted",
                                        "gap",          "tension_bound",    "tension_estimate",  "force_residual",
                                        "law_residual", "contact_residual", "friction_residual", "stretch_residual",
                                        "penetration"};

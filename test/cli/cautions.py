@@ -43,7 +43,11 @@ with tempfile.TemporaryDirectory() as folder:
         cured = os.path.join(folder, "cured.yaml")
         with open(cured, "w", encoding="utf-8") as file:
             file.write(text)
-        if lines := run(folder, cured):
+        lines = run(folder, cured)
+        if name == "11-1":  # it falls from the edge by its own weight: all of the energy is set free, and told
+            if len(lines) != 1 or "0.125 J are set free, beside 0.125 J" not in lines[0]:
+                faults.append(f"{name}, consistent: {lines}")
+        elif lines:
             faults.append(f"{name}, consistent: {lines}")
 
     # most of the line is slack and some of it slides; and not most of it. The table says how much, and no rounding for a tension
