@@ -48,8 +48,7 @@ bool cpsi_force_set_solve(CpsiForceSet *set);
 /* The solution into the line's fields. */
 void cpsi_force_set_apply(CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw *law);
 
-/* Forces of contact c per unit of row k of its site: for the weights of cpsi_force_set_apply's reactions. The reaction [N] of contact c as
- * it is, and how it changes with the own unknowns of its site. */
+/* By how much the reaction of contact c changes with each of the own unknowns of its site; returns the site, -1: it has none. */
 int cpsi_force_set_share(const CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law, int c, double share[CPSI_SITE_OWN]);
 
 void cpsi_force_set_keep(CpsiForceSet *set, const CpsiLine *line);

@@ -6,6 +6,7 @@
 #include "cable/force_set.h"
 #include "cable/line_step.h"
 
+/* The law that the forces of a step obey. */
 CpsiForceLaw cpsi_force_law(const CpsiStepOptions *options, bool tight);
 
 /* The forces of least sum l (T - T_R)^2, T_R = line->tension_before, of all that hold the line where it is; then, at nodes in corners, those

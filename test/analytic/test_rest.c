@@ -195,6 +195,102 @@ static void as_stiff_ones(void **state) {
     rig_close(&run[0]), rig_close(&run[1]);
 }
 
+/* Along a straight line only the axial coefficient counts, whatever the lateral one and the shape of the set, in zones their mean; with
+ * a set given as such no range is told. */
+static void with_directions(void **state) {
+    (void)state;
+    static Rig rig;
+    static const double LATERAL[] = {0.8, 0.5, 0.1, 0};
+    static const CpsFrictionZone zone = {.from = 0.5, .to = 1.5, .factor = 0.4};
+    const double f = 4;
+    CpsError err;
+    CpsSet *disc = NULL;
+    assert_int_equal(cps_set_ball(2, (const double[2]){0, 0}, 0.5, &disc, &err), CPS_OK);
+    for (int k = 0; k < 18; k++) {
+        const bool zones = k >= 8 && k < 16, given = k >= 16;
+        bed(&rig, INFINITY, k % 3 == 0, 1, 1);
+        if (k % 5 == 0) rig.scene.friction = CPS_FRICTION_FROZEN;
+        if (given) rig.obstacle[0].friction_set = disc;
+        else rig.obstacle[0].friction_lateral = LATERAL[k % 4];
+        rig.obstacle[0].friction_shape = k / 4 % 2 ? CPS_FRICTION_BOX : CPS_FRICTION_ELLIPSE;
+        if (zones) rig.line.zone = &zone, rig.line.zone_count = 1;
+        const int near = k % 3 == 0 ? CPS_END_A : CPS_END_B;
+        rig_stage(&rig, 1);
+        rig_stage(&rig, 1), rig_change(&rig, near, CPS_END_FREE, f, 0, 0);
+        CpsEvolution *evolution;
+        assert_int_equal(cps_evolution_create(&rig.scene, &evolution, &err), CPS_OK);
+        while (cps_evolution_remaining(evolution) > 0) assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
+        const CpsLineReport report = cps_evolution_line_report(evolution, 0);
+        CHECK_INT(report.outcome, CPS_SOLVED);
+        const CpsTensionRange *range = &report.end[1 - near].range;
+        /* all but the held end's half element, which lies in no zone */
+        const double length = (zones ? 1 + 0.4 : 2) - 1.0 / ELEMENTS, all = 0.5 * 9.81 * length;
+        if (given) {
+            CHECK_INT(range->kind, CPS_RANGE_NOT_GIVEN);
+        } else {
+            CHECK_NEAR(range->greatest, f + all, 1e-7 * f);
+            CHECK_NEAR(range->least, fmax(0, f - all), 1e-7 * f);
+        }
+        cps_evolution_destroy(evolution);
+    }
+    cps_set_release(disc);
+}
+
+/* Where forces have no choice the range is a point: a line that hangs, and one that slides all along. */
+static void without_choice(void **state) {
+    (void)state;
+    static Rig rig;
+    for (int slides = 0; slides < 2; slides++) {
+        bed(&rig, INFINITY, false, 1, 1);
+        if (!slides) rig.scene.obstacle_count = 0;
+        rig_stage(&rig, 1), rig_change(&rig, CPS_END_B, CPS_END_HELD, slides ? 2.1 : 1.3, 0, slides ? 0 : 0.4);
+        if (slides) rig_change(&rig, CPS_END_A, CPS_END_FREE, 0, 0, 0);
+        CpsEvolution *evolution;
+        assert_int_equal(cps_evolution_create(&rig.scene, &evolution, NULL), CPS_OK);
+        assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
+        const CpsLineReport report = cps_evolution_line_report(evolution, 0);
+        CHECK_INT(report.outcome, CPS_SOLVED);
+        for (int end = 0; end < 2; end++) {
+            const CpsTensionRange *range = &report.end[end].range;
+            CHECK_INT(range->kind, CPS_RANGE_BOUNDED);
+            CHECK_NEAR(range->greatest, range->least, 1e-9 * report.certificate.largest_force);
+        }
+        /* the pull of all friction but that of the half element at B, which moves with its support */
+        if (slides) CHECK_NEAR(report.end[CPS_END_B].range.least, 0.5 * 9.81 * (2 - 1.0 / ELEMENTS), 1e-8);
+        cps_evolution_destroy(evolution);
+    }
+}
+
+/* The same of a mooring line laid between anchor and fairlead on a bed, drawn out until all of it slides, paid back, held and drawn
+ * out again: elements rest, slide, lift and come down. */
+static void moored_as_a_stiff_one(void **state) {
+    (void)state;
+    static const double TO[] = {840, 800, 0, 840};
+    static Rig rig[2];
+    RigRun run[2];
+    for (int k = 0; k < 2; k++) {
+        rig_begin(&rig[k], 60, 698.1, k ? INFINITY : 1e12);
+        rig_length(&rig[k], 902.2);
+        rig_obstacle(&rig[k], CPS_OBSTACLE_PLANE, 1);
+        rig[k].line.start.kind = CPS_START_LAID;
+        rig_end(&rig[k], CPS_END_A, CPS_END_HELD, 0, 0, 0);
+        rig_end(&rig[k], CPS_END_B, CPS_END_HELD, 800, 0, 250);
+        for (int stage = 0; stage < 4; stage++) {
+            rig_stage(&rig[k], 3);
+            if (TO[stage] > 0) rig_change(&rig[k], CPS_END_B, CPS_END_HELD, TO[stage], 0, 250);
+        }
+        run[k] = rig_open(&rig[k]);
+    }
+    double worst = 0, most = 0;
+    for (int step = 0; step < 13; step++) {
+        const CpsLineView stiff = rig_step(&run[0]), firm = rig_step(&run[1]);
+        for (int e = 0; e < 60; e++) worst = fmax(worst, fabs(stiff.tension[e] - firm.tension[e])), most = fmax(most, firm.tension[e]);
+    }
+    printf("mooring line, EA = 1e12 and infinite: tensions differ by %.3g of the largest, 13 steps\n", worst / most);
+    CHECK_LESS(worst / most, 1e-3);
+    rig_close(&run[0]), rig_close(&run[1]);
+}
+
 /* over a drum ------------------------------------------------------------------------------------------------------ */
 
 /* A massless line over `nodes` vertices of a polygon on a drum of radius 1, each turning it by d; legs of length 0.5. */
@@ -431,6 +527,7 @@ static void in_files(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_force), cmocka_unit_test(on_a_bed),    cmocka_unit_test(as_stiff_ones),
+        cmocka_unit_test(moored_as_a_stiff_one), cmocka_unit_test(with_directions), cmocka_unit_test(without_choice),
         cmocka_unit_test(over_a_drum),   cmocka_unit_test(in_a_groove), cmocka_unit_test(at_random),
         cmocka_unit_test(in_files),
     };
