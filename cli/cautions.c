@@ -4,7 +4,8 @@
  * Frozen friction (S90 section 2 d) takes its bound A from the reference. Where the reaction has changed much within
  * the step, A is not mu R any more (example 11.2); where the line has left the obstacle, friction still acts on it, and
  * an equilibrium without it may be the true one (example 11.3). Strict contact keeps out only what touched before
- * (11.1).
+ * (11.1). An element that lies inside a round obstacle is said whatever the outcome: the step is then not certified,
+ * but for strict contact.
  *
  * A step goes straight from one equilibrium to another. Where energy is made, or much of it set free, the way between
  * them was another one: the line jumped, or took another branch of equilibria. */
@@ -15,8 +16,9 @@
 
 #include "printable.h"
 
-/* parts of all bounds from which a user is told; a sunk node from a part of the line's length that is no rounding */
-static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6;
+/* parts of all bounds from which a user is told; a sunk node from a part of the line's length that is no rounding, and an
+ * element inside an obstacle from where it is not certified */
+static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6, TOLD_PIERCED = 1e-10;
 /* a part of the length from which slack decides what is lost: most of it */
 static const double TOLD_SLACK = 0.5;
 
@@ -32,6 +34,14 @@ static void note(Cautions *cautions, int kind, double value, double of, const ch
     cautions->kind[kind].of = of;
     snprintf(cautions->kind[kind].step, sizeof cautions->kind[kind].step, "%s", step);
     snprintf(cautions->kind[kind].line, sizeof cautions->kind[kind].line, "%s", line);
+}
+
+static void note_pierced(Cautions *cautions, double value, double of, const char *step, const char *line, const char *obstacle) {
+    const bool worst = value > cautions->kind[CAUTION_PIERCED].value;
+    note(cautions, CAUTION_PIERCED, value, of, step, line);
+    if (worst)
+        snprintf(cautions->kind[CAUTION_PIERCED].obstacle, sizeof cautions->kind[CAUTION_PIERCED].obstacle, "%s",
+                 obstacle);
 }
 
 /* friction on nodes that have left the obstacle, and all bounds together [N] */
@@ -74,9 +84,12 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
+        const double length = view.arc_length[view.elements], pierced = line.certificate.element_penetration;
+        if (line.pierced >= 0 && pierced > TOLD_PIERCED * length)
+            note_pierced(cautions, pierced, length, step, view.name, scene->obstacle[line.pierced].name);
         if (line.outcome != CPS_SOLVED) continue;
         note_energy(cautions, &report, &line, view.name);
-        const double residual = line.certificate.friction_residual, length = view.arc_length[view.elements];
+        const double residual = line.certificate.friction_residual;
         double bounds;
         const double lifted = lifted_friction(&view, &bounds);
         if (scene->friction == CPS_FRICTION_FROZEN && lifted > TOLD_LIFTED * bounds)
@@ -118,11 +131,16 @@ static void put_figures(int kind, double value, double of) {
                 "%.4g J are set free, beside %.4g J dissipated and worked: the line falls or jumps, or the load step is "
                 "large; smaller load steps or a 'path_tolerance' tell which",
                 value, of);
-    else
+    else if (kind == CAUTION_SUNK)
         fprintf(stderr,
                 "the line is %.4g m inside the obstacle, of %.4g m of length: 'contact: strict' keeps out only what "
                 "touched "
                 "before; 'contact: gained' keeps all out",
+                value, of);
+    else
+        fprintf(stderr,
+                "the line goes through the obstacle: an element lies %.4g m inside it, more than a chord may, of %.4g m of length; take shorter "
+                "elements or smaller steps",
                 value, of);
 }
 
@@ -133,6 +151,10 @@ void cautions_say(const Cautions *cautions) {
         cli_put_text(stderr, cautions->kind[k].step, 80, false);
         fputs(", line ", stderr);
         cli_put_text(stderr, cautions->kind[k].line, 80, false);
+        if (k == CAUTION_PIERCED) {
+            fputs(", obstacle ", stderr);
+            cli_put_text(stderr, cautions->kind[k].obstacle, 80, false);
+        }
         fputs(": ", stderr);
         put_figures(k, cautions->kind[k].value, cautions->kind[k].of);
         if (cautions->kind[k].steps > 1) fprintf(stderr, " (the worst of %d)", cautions->kind[k].steps);

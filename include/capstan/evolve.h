@@ -68,6 +68,8 @@ typedef struct CpsCertificate {
                                  leaves out; 0 up to rounding with consistent friction and in a step without friction */
     double stretch_residual; /* [-] largest |x'| - 1 of an inextensible element */
     double penetration;      /* [m] deepest node below the obstacle, >= 0 */
+    double element_penetration; /* [m] deepest element inside a round obstacle, beyond min(l^2/(4 R), R/4) for the natural length l of
+                                   the element and the radius R; >= 0 */
 } CpsCertificate;
 
 /* How a node rests on the obstacle. */
@@ -136,6 +138,7 @@ typedef struct CpsLineReport {
     double slipping; /* [m] natural length that slid on the obstacle in this step */
     double slack;    /* [m] natural length without tension */
     double tension_mesh; /* [N] estimated error of the tension by the elements' lengths, to leading order; NaN where there is none */
+    int pierced;     /* the obstacle of the certificate's element_penetration; -1 where that is 0 */
     double proof[3]; /* infeasible: unit vector from end A to end B, along which a constant force proves it;
                         unbounded: the rigid direction in which the energy falls; else 0 0 0 */
     double proof_value; /* infeasible: [m] distance of the ends - length > 0;

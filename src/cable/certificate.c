@@ -248,6 +248,8 @@ CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance) {
     add_segments(line, &out);
     add_nodes(line, &out);
     out.scale += load_scale(line, out.largest_force, tolerance);
+    int pierced;
+    out.element_penetration = cpsi_line_pierces(line, &pierced);
     /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)); it says nothing beyond the tension itself */
     const double bound = line->compliance > 0 ? sqrt(2*out.gap/(line->compliance*line->length)) : NAN;
     out.tension_bound = bound <= out.largest_force ? bound : NAN;

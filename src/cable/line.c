@@ -45,6 +45,25 @@ int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {
     return nearest;
 }
 
+double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
+    double worst = 0;
+    *obstacle = -1;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const CpsiObstacle *o = &line->obstacle[k];
+        for (int e = 0; e + 1 < line->n; e++) {
+            const Vec3 a = vec3_load(&line->position[3*e]), b = vec3_load(&line->position[3*(e + 1)]);
+            double share;
+            if (!cpsi_obstacle_faces(o, a, b, &share)) continue;
+            const Vec3 nearest = vec3_axpy(share, vec3_sub(b, a), a);
+            const double depth = -cpsi_obstacle_gap(o, nearest) - cpsi_obstacle_allowance(o, line->element_length[e]);
+            if (!(depth > worst)) continue;
+            worst = depth;
+            *obstacle = k;
+        }
+    }
+    return worst;
+}
+
 void cpsi_line_measure(CpsiLine *line) {
     /* compensated: the last abscissa is the length to the last digit, for any number of elements */
     double sum = 0, carry = 0;

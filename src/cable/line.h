@@ -114,6 +114,10 @@ static inline Vec3 cpsi_line_slide(const CpsiLine *line, int c) {
 /* The obstacle nearest to a point (-1: none) and the distance to it (INFINITY). */
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap);
 
+/* [m] How deep an element lies in a round obstacle, beyond what its chord may cut in (cpsi_obstacle_allowance), at `position`: the
+ * worst of all, and which obstacle that is; 0 and -1 where there is none. */
+double cpsi_line_pierces(const CpsiLine *line, int *obstacle);
+
 /* The reaction at a start that is given as a shape: R = -(dT/da + w).n where it touches, T from its own strain (S90 section
  * 2 d 2). Sets reaction and state at `position`; `touch` [m] is how near counts as touching. */
 void cpsi_line_start_reaction(CpsiLine *line, double touch);

@@ -173,6 +173,8 @@ static void straighten(CpsiLine *line) {
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool consistent = line->follows && options->friction == CPS_FRICTION_CONSISTENT;
     if ((consistent || line->frozen) && !(cpsi_contact_depth(line) <= 0.1*CPSI_TOUCH*line->length)) return false;
+    /* strict contact keeps out nodes that touched, and nothing else (S90 (35)) */
+    if (line->gains && !(line->report.certificate.element_penetration <= 0.1*CPSI_TOUCH*line->length)) return false;
     if (consistent && !cpsi_law_holds(line, options->solver.tolerance)) return false;
     for (int j = 0; j < 3*line->n; j++)
         if (!(fabs(line->position[j] - line->reference[j]) <= AFAR*line->length)) return false;
@@ -473,7 +475,7 @@ static void choose_forces(CpsiLine *line, const CpsiChainProgram *program, const
 }
 
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    line->report = (CpsLineReport){0};
+    line->report = (CpsLineReport){.pierced = -1};
     for (int end = 0; end < 2; end++) { /* where they stay if there is no equilibrium */
         memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
         line->report.end[end].range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
@@ -483,6 +485,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     if (too_short(line) || runs_away(line, options)) return;
     try_ways(line, program, options);
     if (!is_finite(line)) forget(line, options);
+    cpsi_line_pierces(line, &line->report.pierced);
     classify(line, program);
     choose_forces(line, program, options);
     /* nodes that are free may have come to other obstacles in the last round */

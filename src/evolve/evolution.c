@@ -361,6 +361,7 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->largest_force = cpsi_larger(to->largest_force, from->largest_force);
     to->stretch_residual = cpsi_larger(to->stretch_residual, from->stretch_residual);
     to->penetration = cpsi_larger(to->penetration, from->penetration);
+    to->element_penetration = cpsi_larger(to->element_penetration, from->element_penetration);
 }
 
 static double seconds(void) {

@@ -118,6 +118,16 @@ double cpsi_obstacle_angle(const CpsiObstacle *o, Vec3 from, Vec3 to) {
     return atan2(sine, vec3_dot(from, to));
 }
 
+bool cpsi_obstacle_faces(const CpsiObstacle *o, Vec3 a, Vec3 b, double *share) {
+    if (o->kind == CPS_OBSTACLE_PLANE) return false;
+    const Vec3 from = spoke(o, a), along = vec3_sub(spoke(o, b), from);
+    const double passed = -vec3_dot(from, along), whole = vec3_dot(along, along);
+    *share = passed/whole;
+    return passed > 0 && passed < whole;
+}
+
+double cpsi_obstacle_allowance(const CpsiObstacle *o, double l) { return fmin(0.25*l*(l/o->radius), 0.25*o->radius); }
+
 Vec3 cpsi_obstacle_turn(const CpsiObstacle *o, Vec3 x, double angle) {
     if (angle == 0) return x;
     return vec3_add(o->frame.point, turned(vec3_sub(x, o->frame.point), o->frame.axis[2], angle));

@@ -49,6 +49,14 @@ Vec3 cpsi_obstacle_way(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
  * ball that of the great circle, from 0 to pi. 0 on a plane. */
 double cpsi_obstacle_angle(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 
+/* The point (1 - share) a + share b of the straight element from a to b that is nearest to the axis of a cylinder or the centre of a
+ * sphere. False where that is one of its ends, and for a plane. */
+bool cpsi_obstacle_faces(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double *share);
+
+/* [m] How far an element of natural length l may cut into a round obstacle of radius R: delta = min(l^2/(4 R), R/4). A chord between two
+ * points of the surface cuts in by l^2/(8 R) and more, but by less than delta up to l = 1.3 R. */
+double cpsi_obstacle_allowance(const CpsiObstacle *obstacle, double l);
+
 /* x carried along as the obstacle turns about its axis by `angle` [rad], right-hand rule. */
 Vec3 cpsi_obstacle_turn(const CpsiObstacle *obstacle, Vec3 x, double angle);
 

@@ -53,6 +53,8 @@ static const Number NUMBER[] = {
      REPORT(certificate.friction_residual)},
     {"stretch_residual", "largest stretch of an inextensible element", "1", REPORT(certificate.stretch_residual)},
     {"penetration", "depth of the deepest node below the obstacle", "m", REPORT(certificate.penetration)},
+    {"element_penetration", "depth of the deepest element inside a round obstacle, beyond what its chord may cut in", "m",
+     REPORT(certificate.element_penetration)},
     {"dissipated", "energy dissipated by friction in the step", "J", REPORT(dissipated)},
     {"share", "part of the step that the arrays show, the last one of a step that was cut", "1", REPORT(share)},
     {"jump", "longest way of a node in a snap", "m", REPORT(jump)},

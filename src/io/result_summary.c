@@ -97,6 +97,7 @@ static void put_certificate(FILE *out, const CpsResults *results, const CpsiRow 
     put_number(out, "friction_residual_N", c->friction_residual, ", ");
     put_number(out, "stretch_residual", c->stretch_residual, ", ");
     put_number(out, "penetration_m", c->penetration, ", ");
+    put_number(out, "element_penetration_m", c->element_penetration, ", ");
     put_number(out, "dissipated_J", row->report.dissipated, ",\n      ");
 }
 

@@ -157,6 +157,8 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     if (r->parts == 1) same(judge, "dissipated", r->dissipated, m->slid + ends, energy + m->law);
     same(judge, "friction_residual", claim[CLAIM_FRICTION_RESIDUAL], claimed_residual(r, m), force * (double)r->nodes);
     same(judge, "penetration", claim[CLAIM_PENETRATION], m->depth, COPY_TOLERANCE * (m->length + m->reach));
+    same(judge, "element_penetration", claim[CLAIM_ELEMENT_PENETRATION], m->pierced,
+         COPY_TOLERANCE * (m->length + m->reach));
     // what lies outside its set, a force or a place, makes a gap larger here and not everywhere: where that is no more
     // than rounding there must be agreement
     if (!certified) return;
@@ -194,6 +196,7 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     at_most(judge, "depth below the obstacle", m->penetration, place);
     // strict contact keeps out only what the reference touches
     if (!source->strict) at_most(judge, "depth below an obstacle", m->sunk, place);
+    if (!source->strict) at_most(judge, "depth of an element inside an obstacle", m->pierced, place);
     at_most(judge, "contacts that are not with the nearest obstacles", m->misplaced, 0);
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
     at_most(judge, "slide against the way from the reference", m->slide_error, COPY_TOLERANCE * (m->length + m->reach));

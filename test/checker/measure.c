@@ -439,6 +439,16 @@ static Real reach_of(const Source *source, const Record *r) {
     return reach;
 }
 
+/* elements that go through obstacles */
+static void measure_pierced(const Source *source, const Record *r, Measures *m) {
+    for (size_t i = 0; i < r->elements; i++) {
+        Triple a, b;
+        widen(r->position[i], a), widen(r->position[i + 1], b);
+        for (size_t k = 0; k < source->surfaces; k++)
+            raise_to(&m->pierced, surface_pierced(&source->surface[k], a, b, (Real)r->element_length[i]));
+    }
+}
+
 Measures measure(const Source *source, const Record *r, Sight sight) {
     Measures m = {.missing = missing_variable(r), .stretch = -INFINITY, .strain_error = -INFINITY};
     m.friction_excess = m.tension_least = -INFINITY;
@@ -449,6 +459,7 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     for (size_t j = 0; j < r->nodes; j++) measure_node(&where, r, j, &m, &s);
     for (size_t k = 0; k < source->surfaces; k++) raise_to(&m.quarters, fabsl(r->share * (Real)r->turn[k]) / QUARTER);
     measure_proof(source, r, &m);
+    measure_pierced(source, r, &m);
 
     m.reach = (double)where.reach;
     m.length = (double)total(&s.length);

@@ -33,6 +33,7 @@ typedef struct Measures {
     double penetration;      /* [m] max -(n.u + gap), >= 0 */
     double depth;            /* [m] of the deepest node below an obstacle, watched or not, >= 0 */
     double sunk;             /* [m] the same of nodes that are not held */
+    double pierced;          /* [m] how deep an element lies in a round obstacle beyond what its chord may cut in, >= 0 */
     double reach;            /* [m] largest coordinate or radius of anything */
     int unwatched;           /* contacts without a contact_gap that should have one; strict: or the other way round */
     double gap_error;        /* [m] max |contact_gap - what it must be| */

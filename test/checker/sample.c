@@ -19,7 +19,7 @@ typedef struct SampleLine {
     double compliance;
     double move[NODES], load[NODES], friction[NODES], segment[ELEMENTS], tension[ELEMENTS]; /* components along x */
     double end_b, proof, proof_value;
-    double claim[13];
+    double claim[CLAIMS];
 } SampleLine;
 
 static const double C = 1.0 / 1024, TOLERANCE = 1e-8;
@@ -32,7 +32,7 @@ static double least_scale(double force, double length) { return 1e-12 / TOLERANC
 static void drag_claims(double *claim) {
     double tip = hypot(10, 4), primal = 40 * C + 40 * C - 10 * (4 + 12 * C);
     double scale = 12 + 80 * C + 40 * C + 120 * C + least_scale(28 + tip, 4); // the pull of 10 N works over 12 C
-    double values[13] = {primal, primal, 0, scale, 0, 0, 0, tip, 0, 0, 0, 0, 0};
+    const double values[CLAIMS] = {primal, primal, 0, scale, 0, 0, 0, tip};
     memcpy(claim, values, sizeof values);
 }
 
@@ -372,7 +372,7 @@ static size_t describe_wound(const Wound *w, Field *field) {
     static const char *const NONE[] = {"ledger_ends",  "ledger_elastic",   "ledger_gravity",    "ledger_imbalance", "unaccounted",
                                        "gap",          "tension_bound",    "tension_estimate",  "force_residual",
                                        "law_residual", "contact_residual", "friction_residual", "stretch_residual",
-                                       "penetration"};
+                                       "penetration",  "element_penetration"};
     for (size_t k = 0; k < sizeof NONE / sizeof *NONE; k++) field[n++] = scalar(NONE[k], 0);
     field[n++] = scalar("primal", primal), field[n++] = scalar("dual", primal);
     field[n++] = scalar("scale", scale), field[n++] = scalar("largest_force", largest);

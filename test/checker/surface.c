@@ -33,6 +33,18 @@ void surface_normal(const Surface *s, const Real *x, Real *n) {
     for (int k = 0; k < 3; k++) n[k] = s->kind == SURFACE_PLANE ? s->axis[k] : n[k] / length;
 }
 
+Real surface_pierced(const Surface *s, const Real *a, const Real *b, Real l) {
+    Real from[3], to[3], way[3], moment[3];
+    if (s->kind == SURFACE_PLANE) return -INFINITY;
+    arm(s, a, from), arm(s, b, to);
+    for (int k = 0; k < 3; k++) way[k] = to[k] - from[k];
+    /* coming nearer at the start and going away at the end */
+    if (!(dot(from, way) < 0 && dot(to, way) > 0)) return -INFINITY;
+    cross(from, to, moment);
+    Real distance = size(moment) / size(way), chord = l * l / (4 * s->radius);
+    return s->radius - fminl(chord, s->radius / 4) - distance;
+}
+
 void surface_carry(const Surface *s, const Real *x, Real angle, Real *out) {
     Real v[3], around[3];
     for (int k = 0; k < 3; k++) v[k] = x[k] - s->point[k];

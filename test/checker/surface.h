@@ -20,6 +20,9 @@ typedef struct Surface {
 
 /* [m] above the surface, negative below it. */
 Real surface_distance(const Surface *surface, const Real *x);
+/* [m] How much deeper than its natural length l allows, min(l^2/(4 R), R/4), the straight element from a to b lies in a
+ * round obstacle between its ends; negative where it does not, -INFINITY where an end is nearest to the middle. */
+Real surface_pierced(const Surface *surface, const Real *a, const Real *b, Real l);
 /* Unit normal at the foot of x. */
 void surface_normal(const Surface *surface, const Real *x, Real *n);
 /* x carried along by a turn of the surface. */

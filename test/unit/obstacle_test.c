@@ -261,6 +261,54 @@ static void grain(void **state) {
     CHECK_NEAR(vec3_dot(vec3_load(axes), n), 0, 1e-15);
 }
 
+/* The point of an element that faces a round obstacle is where the gap along it is least, found here by golden section; it is told only
+ * where that is between the ends. */
+static void faces(void **state_) {
+    (void)state_;
+    const double golden = (sqrt(5) - 1)/2;
+    uint64_t state = 11;
+    int inside = 0;
+    for (int i = 0; i < 40*POINTS; i++) {
+        const CpsiObstacle o = make(i%2 ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE);
+        const Vec3 a = random_vector(&state, 2), b = vec3_add(a, random_vector(&state, pow(10, uniform(&state, -2, 1))));
+        double low = 0, high = 1, share;
+        for (int k = 0; k < 80; k++) {
+            const double left = high - golden*(high - low), right = low + golden*(high - low);
+            const double before = cpsi_obstacle_gap(&o, vec3_axpy(left, vec3_sub(b, a), a));
+            if (before < cpsi_obstacle_gap(&o, vec3_axpy(right, vec3_sub(b, a), a))) high = right;
+            else low = left;
+        }
+        /* a search by values finds the place of a least value to the root of rounding only */
+        const double found = 0.5*(low + high), margin = 1e-5;
+        const bool between = cpsi_obstacle_faces(&o, a, b, &share);
+        if (found > margin && found < 1 - margin) assert_true(between);
+        if (!between) continue;
+        inside++;
+        CHECK_NEAR(share, found, margin);
+    }
+    assert_true(inside > 4*POINTS);
+    double none = 0;
+    const CpsiObstacle plane = make(CPS_OBSTACLE_PLANE);
+    assert_false(cpsi_obstacle_faces(&plane, vec3(0, 0, 1), vec3(1, 0, 1), &none));
+    const CpsiObstacle ball = make(CPS_OBSTACLE_SPHERE);
+    assert_false(cpsi_obstacle_faces(&ball, vec3(1, 1, 1), vec3(1, 1, 1), &none)); /* no element at all */
+}
+
+/* A chord of up to 1.3 R cuts in by less than is allowed, one of 1.35 R by more; never more than a quarter of the radius is allowed. */
+static void allowance(void **state_) {
+    (void)state_;
+    const CpsiObstacle o = make(CPS_OBSTACLE_CYLINDER);
+    for (int i = 1; i <= 130; i++) {
+        const double l = 0.01*i*o.radius, cut = o.radius - sqrt(o.radius*o.radius - 0.25*l*l);
+        assert_true(cut < cpsi_obstacle_allowance(&o, l));
+        /* of second order, and twice the chord's own cut for short elements */
+        assert_true(cpsi_obstacle_allowance(&o, l) <= 2*cut);
+    }
+    const double l = 1.35*o.radius;
+    assert_true(o.radius - sqrt(o.radius*o.radius - 0.25*l*l) > cpsi_obstacle_allowance(&o, l));
+    CHECK_NEAR(cpsi_obstacle_allowance(&o, 100*o.radius), 0.25*o.radius, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(normal_is_gradient),
@@ -271,6 +319,8 @@ int main(void) {
         cmocka_unit_test(half_round),
         cmocka_unit_test(follows),
         cmocka_unit_test(grain),
+        cmocka_unit_test(faces),
+        cmocka_unit_test(allowance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
