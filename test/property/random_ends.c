@@ -82,7 +82,7 @@ static bool says_so(const CpsLineReport *report) {
 }
 
 typedef struct Count {
-    int pairs, steps, said, silent;
+    int pairs, steps, said, apart, silent; /* apart: of those that said so */
     double worst;
     double left[SCENE_LINES]; /* of the history so far */
 } Count;
@@ -99,6 +99,7 @@ static bool compare(Count *count, CpsEvolution *const run[2], int class_index, i
         count->left[i] += left(&view[0], &report[0]) + left(&view[1], &report[1]);
         if (says_so(&report[0]) || says_so(&report[1])) {
             count->said++;
+            count->apart += !(distance <= SAME);
             goes_on = false;
         } else if (!(distance <= fmax(SAME, count->left[i]))) {
             const CpsLedger l[2] = {report[0].ledger, report[1].ledger};
@@ -153,7 +154,8 @@ int main(int argc, char **argv) {
         for (int s = 0; s < SEEDS; s++, number++)
             if (only >= 0 ? k == only && (seed < 0 || s == seed) : number % every == 0)
                 for (int coarse = 0; coarse < 2; coarse++) run_pair(&count, k, s, coarse);
-    printf("%d pairs, %d steps: largest distance of those that agree %.1e of the length; %d said why they may differ, %d did not\n",
-           count.pairs, count.steps, count.worst, count.said, count.silent);
+    printf("%d pairs, %d steps: largest distance of those that agree %.1e of the length; %d said why they may differ, %d of "
+           "them do; %d differ and did not say so\n",
+           count.pairs, count.steps, count.worst, count.said, count.apart, count.silent);
     return count.silent > 0 || count.pairs == 0;
 }
