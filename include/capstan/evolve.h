@@ -66,6 +66,8 @@ typedef struct CpsCertificate {
     double contact_residual; /* [J] sum of R (n.u + gap) */
     double friction_residual; /* [N] sum of |A - mu R|, A the friction bounds used and R the reactions found: what freezing A
                                  leaves out; 0 up to rounding with consistent friction and in a step without friction */
+    double element_push;     /* [N] largest part of an element's force that points against it: a line cannot push */
+    double elongation_residual; /* [-] largest |x'| - (1 + c|p|) of an elastic element: elongation that its force does not explain */
     double stretch_residual; /* [-] largest |x'| - 1 of an inextensible element */
     double penetration;      /* [m] deepest node below the obstacle, >= 0 */
     double element_penetration; /* [m] deepest element inside a round obstacle, beyond min(l^2/(4 R), R/4) for the natural length l of

@@ -144,6 +144,8 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
         double size = vec3_norm(strain);
         const double force = vec3_norm(p), over = size - 1, along = force*c;
         double gap = angle_defect(p, strain, force, size);
+        if (size > 0) raise_to(&out->element_push, -vec3_dot(p, strain)/size);
+        if (c > 0) raise_to(&out->elongation_residual, over - along);
         if (over > 0 && c > 0) {
             gap += 0.5*(over - along)*((over - along)/c);
             out->primal += l*0.5*over*(over/c);

@@ -181,6 +181,13 @@ static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     return true;
 }
 
+/* What the gap may hide where other forces are large. An element that pushes with P costs 2 P |e| l, of first order, and is held to the
+ * tolerance of the largest force; one that is longer by x than its force makes it costs l x^2/(2c), of second order, and is held to the
+ * tolerance's root. */
+static bool is_a_line(const CpsCertificate *c, double tolerance) {
+    return c->element_push <= tolerance*c->largest_force && c->elongation_residual <= sqrt(tolerance);
+}
+
 /* The iterate of the loop as a certified answer, or what it is instead. The loop's own residuals (tensions against
  * elongations, positions against distances) must be well below the tolerance too, but not below what rounding leaves. */
 static CpsOutcome judge(const CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
@@ -189,7 +196,7 @@ static CpsOutcome judge(const CpsiLine *line, const CpsiStepOptions *options, co
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
     const bool consistent = options->friction == CPS_FRICTION_FROZEN || c->friction_residual <= CLEAN*c->largest_force;
     if (finite && consistent && ipm->residual <= fmax(0.01*tolerance, CLEAN) && c->gap <= tolerance*c->scale &&
-        c->stretch_residual <= tolerance && c->force_residual <= CLEAN*c->largest_force && is_in_place(line, options))
+        c->stretch_residual <= tolerance && is_a_line(c, tolerance) && c->force_residual <= CLEAN*c->largest_force && is_in_place(line, options))
         return is_taut(line) ? CPS_TAUT : CPS_SOLVED;
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }

@@ -359,6 +359,8 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->tension_estimate = cpsi_larger(to->tension_estimate, from->tension_estimate);
     to->force_residual = cpsi_larger(to->force_residual, from->force_residual);
     to->largest_force = cpsi_larger(to->largest_force, from->largest_force);
+    to->element_push = cpsi_larger(to->element_push, from->element_push);
+    to->elongation_residual = cpsi_larger(to->elongation_residual, from->elongation_residual);
     to->stretch_residual = cpsi_larger(to->stretch_residual, from->stretch_residual);
     to->penetration = cpsi_larger(to->penetration, from->penetration);
     to->element_penetration = cpsi_larger(to->element_penetration, from->element_penetration);

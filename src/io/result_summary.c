@@ -95,6 +95,8 @@ static void put_certificate(FILE *out, const CpsResults *results, const CpsiRow 
     put_number(out, "contact_residual_N", row->open_reaction, ", ");
     put_number(out, "contact_residual_J", c->contact_residual, ",\n      ");
     put_number(out, "friction_residual_N", c->friction_residual, ", ");
+    put_number(out, "element_push_N", c->element_push, ", ");
+    put_number(out, "elongation_residual", c->elongation_residual, ", ");
     put_number(out, "stretch_residual", c->stretch_residual, ", ");
     put_number(out, "penetration_m", c->penetration, ", ");
     put_number(out, "element_penetration_m", c->element_penetration, ", ");

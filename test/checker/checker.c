@@ -163,6 +163,10 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     // than rounding there must be agreement
     if (!certified) return;
     same(judge, "gap", claim[CLAIM_GAP], m->gap, energy + m->overlong + m->beyond);
+    same(judge, "element_push", claim[CLAIM_ELEMENT_PUSH], m->push, force);
+    // last bits of the coordinates over the shortest element
+    same(judge, "elongation_residual", claim[CLAIM_ELONGATION_RESIDUAL], m->elongation,
+         1e-15 * m->extent * (double)r->nodes / m->length + 1e-14);
     same(judge, "law_residual", claim[CLAIM_LAW_RESIDUAL], m->law, energy + m->beyond);
     same(judge, "contact_residual", claim[CLAIM_CONTACT_RESIDUAL], m->contact, energy);
     // sqrt(2 gap / (c L)) of a gap known up to the floor
@@ -187,6 +191,9 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     double force = FORCE_TOLERANCE * m->largest_force + NOTHING, place = PLACE_TOLERANCE * m->length;
     at_most(judge, "sum of local gaps", m->gap, tolerance * m->scale + NOTHING);
     at_most(judge, "primal - dual against the local gaps", fabs(m->identity), m->identity_noise + NOTHING);
+    // an element that pushes with P costs 2 P l of the gap, one too long by x only l x^2/(2c): the tolerance, and its root
+    at_most(judge, "elements that push", m->push, tolerance * m->largest_force + NOTHING);
+    at_most(judge, "elongation that no force explains", m->elongation, sqrt(tolerance));
     at_most(judge, "imbalance of forces", m->force, force);
     at_most(judge, "friction above its bound", m->friction_excess, force);
     at_most(judge, "friction along the normal", m->friction_normal, force);

@@ -154,6 +154,8 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     Triple here, there;
     widen(r->position[i], here), widen(r->position[i + 1], there);
     raise_to(&m->strain_error, stretch - 1 - c * T - 2 * 0x1p-53L * (size(here) + size(there)) / l);
+    if (stretch > 0) raise_to(&m->push, -dot(p, e) / stretch);
+    if (c > 0) raise_to(&m->elongation, stretch - 1 - c * force);
     raise_to(&m->tension_estimate, fabsl(T - force));
     raise_to(&m->largest_force, force);
     raise_to(&m->tension_least, -T);

@@ -44,6 +44,8 @@ typedef struct Measures {
     double normal_error;     /* [-] max |n - the obstacle's|, over 1 + reach/radius on a curved one */
     double stretch;          /* [-] max |e| - 1 over inextensible elements */
     double strain_error;     /* [-] max |e| - 1 - c T beyond rounding: the tension must carry the elongation */
+    double push;             /* [N] largest part of an element's force that points against it, >= 0 */
+    double elongation;       /* [-] max |e| - 1 - c|p| over elastic elements, >= 0 */
     double tension_least;    /* [N] */
     double tension_estimate; /* [N] max |T - |p|| */
     double tension_bound;    /* [N] sqrt(2 gap / (c L)), NaN for c = 0 */

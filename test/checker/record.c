@@ -23,7 +23,9 @@ const char *const CLAIM_NAME[CLAIMS] = {"primal",
                                         "friction_residual",
                                         "stretch_residual",
                                         "penetration",
-                                        "element_penetration"};
+                                        "element_penetration",
+                                        "element_push",
+                                        "elongation_residual"};
 
 /* more than any result of this project holds; keeps sizes far from overflow */
 enum { MAX_NODES = 20000000, MAX_LINES = 100000, MAX_SURFACES = 100000, MAX_SET = 1000, MAX_NAME = 256, MAX_RANK = 3 };

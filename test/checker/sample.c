@@ -372,7 +372,7 @@ static size_t describe_wound(const Wound *w, Field *field) {
     static const char *const NONE[] = {"ledger_ends",  "ledger_elastic",   "ledger_gravity",    "ledger_imbalance", "unaccounted",
                                        "gap",          "tension_bound",    "tension_estimate",  "force_residual",
                                        "law_residual", "contact_residual", "friction_residual", "stretch_residual",
-                                       "penetration",  "element_penetration"};
+                                       "penetration",  "element_penetration", "element_push", "elongation_residual"};
     for (size_t k = 0; k < sizeof NONE / sizeof *NONE; k++) field[n++] = scalar(NONE[k], 0);
     field[n++] = scalar("primal", primal), field[n++] = scalar("dual", primal);
     field[n++] = scalar("scale", scale), field[n++] = scalar("largest_force", largest);
