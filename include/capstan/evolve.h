@@ -102,6 +102,14 @@ typedef struct CpsTensionRange {
     double greatest, greatest_bound; /* [N] INFINITY where unbounded */
 } CpsTensionRange;
 
+/* Do the forces of a step leave the line a choice of places?  Where they do, the nearest to the reference is taken: of all places that
+ * go with the forces that of least sum h |x - x_R|^2. */
+typedef enum CpsPlaces {
+    CPS_PLACES_UNIQUE = 0,
+    CPS_PLACES_NEAREST = 1, /* not unique: the nearest is taken */
+    CPS_PLACES_ANY = 2      /* not unique, and one of them is taken: the nearest was not found with certainty */
+} CpsPlaces;
+
 /* The end of a line. The last half element, of length h/2, has the weight w h/2, and where a held end lies on an obstacle its reaction
  * and friction as well; so the force at the end is not the one in the middle of the element (docs/theory.md 3). */
 typedef struct CpsEndReport {
@@ -126,6 +134,7 @@ typedef struct CpsLedger {
 typedef struct CpsLineReport {
     CpsOutcome outcome; /* the worst of the parts that the step was taken in */
     int iterations;     /* of all that was solved, parts that were not kept included */
+    CpsPlaces places;   /* of the parts the one that leaves most open */
     CpsCertificate certificate; /* of the last part */
     double dissipated; /* [J] in this step */
     CpsLedger ledger;  /* of this step; zero for a line whose start is laid by statics in it */
@@ -161,6 +170,7 @@ typedef struct CpsStepReport {
     CpsLedger ledger;  /* sum of the lines */
     int parts;         /* largest over the lines */
     int snaps;         /* sum of the lines */
+    CpsPlaces places;  /* largest over the lines */
     double jump;       /* [m] largest of the lines */
     double unaccounted; /* [J] sum of the lines */
     double wall;       /* [s] */

@@ -132,6 +132,16 @@ void cpsi_balance_forces(CpsiLine *line) {
     }
 }
 
+/* An element on which no force acts at all is not longer than it is by this: rounding, and what a program leaves of |e| <= 1. With no
+ * force anywhere the gap has nothing to be compared with. */
+static const double LEAST_STRAIN = 1e-12;
+
+/* What the rounding of its nodes' coordinates does to the strain of an element. */
+static double coordinate_rounding(const CpsiLine *line, int e) {
+    const double sum = vec3_norm(vec3_load(&line->position[3*e])) + vec3_norm(vec3_load(&line->position[3*(e + 1)]));
+    return 4*DBL_EPSILON*sum/line->element_length[e];
+}
+
 static void raise_to(double *largest, double value) { *largest = cpsi_larger(*largest, value); }
 
 /* Elongation: the segments' part of P, D, gap, scale and tension errors. */
@@ -142,7 +152,9 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
         const Vec3 dx = vec3_sub(vec3_load(&line->position[3*(e + 1)]), vec3_load(&line->position[3*e]));
         const Vec3 strain = vec3_scale(1/l, dx), p = segment_force(line, e);
         double size = vec3_norm(strain);
-        const double force = vec3_norm(p), over = size - 1, along = force*c;
+        const double force = vec3_norm(p), along = force*c;
+        if (!(force > 0) && size > 1 && size <= 1 + LEAST_STRAIN + coordinate_rounding(line, e)) size = 1;
+        const double over = size - 1;
         double gap = angle_defect(p, strain, force, size);
         if (size > 0) raise_to(&out->element_push, -vec3_dot(p, strain)/size);
         if (c > 0) raise_to(&out->elongation_residual, over - along);

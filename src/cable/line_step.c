@@ -46,6 +46,8 @@ static const double TAUT = 1e-12;
 static const double AFAR = 1e4;
 /* A reference this much tighter than the loads and the ends explain. */
 static const double HELD = 100;
+/* ... and, where nothing else asks for any force, by more than this strain: less is what rounding leaves of |x'| <= 1. */
+static const double LEAST_STRAIN = 1e-12;
 /* A taut line's forces are those of a line longer by this share. */
 static const double TAUT_SLACK = 1e-9;
 /* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
@@ -235,16 +237,40 @@ static double reference_tension(const CpsiLine *line) {
 static double unit_force(const CpsiLine *line, CpsiBounds bounds) {
     double force = force_scale(line, end_distance(line)/(is_taut(line) ? 1 + TAUT_SLACK : 1)), all = 0;
     const double before = line->obstacle_count > 0 ? reference_tension(line) : 0;
-    if (before > HELD*force) force = before;
+    if (before > HELD*force && (force > 0 || before*line->compliance > LEAST_STRAIN)) force = before;
     for (int c = 0; c < cpsi_line_contacts(line) && bounds == CPSI_BOUNDS_TRIED; c++) all += line->friction_bound[c];
     return fmax(force, all);
 }
 
-/* Solve once, from the base of the line. */
+static bool is_clean(const CpsiIpmReport *ipm) { return ipm->gap + fmax(ipm->residual, ipm->imbalance) <= CLEAN; }
+
+/* A line that nothing loads: no force, no friction, no reaction, and the place of least motion. False where there is no such place: something
+ * must hold it then. */
+static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    memcpy(line->position, line->reference, 3*n*sizeof *line->position);
+    for (int end = 0; end < 2; end++)
+        if (line->end[end].kind == CPS_END_HELD)
+            memcpy(&line->position[end == CPS_END_A ? 0 : 3*(n - 1)], line->end[end].value, sizeof line->end[end].value);
+    memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
+    memset(line->segment_force, 0, 3*n*sizeof *line->segment_force);
+    memset(line->reaction, 0, contacts*sizeof *line->reaction);
+    memset(line->tension, 0, n*sizeof *line->tension);
+    if (bounds != CPSI_BOUNDS_GIVEN) memset(line->friction_bound, 0, contacts*sizeof *line->friction_bound);
+    if (line->follows) memset(line->pressed, 0, contacts*sizeof *line->pressed);
+    line->report.iterations += cpsi_least_motion(line, options->least, NULL, bounds, options->solver.max_iterations);
+    if (line->report.places == CPS_PLACES_ANY) return false;
+    cpsi_step_program_clear(line, program);
+    return true;
+}
+
+/* Solve once, from the base of the line, and move to the nearest of the places that go with the forces. */
 static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds,
                            bool curved) {
     const bool taut = is_taut(line);
     const double force = unit_force(line, bounds);
+    if (!(force > 0) && options->least && rests_unloaded(line, program, options, bounds))
+        return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
     CpsiStepScale scale = {.force = force > 0 ? force : 1, .longer = taut ? 1 + TAUT_SLACK : 1, .bounds = bounds, .curved = curved};
     cpsi_step_program_fill(line, program, &scale);
     double loads = 0;
@@ -258,8 +284,11 @@ static CpsiIpmReport solve(CpsiLine *line, CpsiChainProgram *program, const Cpsi
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
     cpsi_step_program_unpack(line, program, &scale);
-    if (taut) straighten(line);
     line->report.iterations += ipm.iterations;
+    line->report.places = CPS_PLACES_UNIQUE;
+    if (taut) straighten(line);
+    else if (options->least && !curved && is_clean(&ipm))
+        line->report.iterations += cpsi_least_motion(line, options->least, program, bounds, options->solver.max_iterations);
     return ipm;
 }
 
@@ -271,8 +300,6 @@ static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const Cp
     certify(line, options, &ipm);
     return ipm;
 }
-
-static bool is_clean(const CpsiIpmReport *ipm) { return ipm->gap + fmax(ipm->residual, ipm->imbalance) <= CLEAN; }
 
 /* The bounds mu R, and no friction beyond them. */
 static void take_bounds(CpsiLine *line) {
@@ -420,19 +447,22 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.outcome = CPS_STALLED;
 }
 
-/* Solve in one way or another. Slowly, where a line without tension has no place of its own to settle at; with reactions that turn with
+/* Solve in one way or another: with places as they are found, should the rule of least motion be in the way; slowly, where a line without tension has no place of its own to settle at; with reactions that turn with
  * their normals late, and not in statics, because they have a line stay on a crest that it would leave; then also without centrings:
  * where hardly any force is left, the centre may lie farther from the boundary than the tolerance lets it. Last with bounds that are tried: where
  * what rests in a corner has many answers, the loop with bounds that follow ends far from the boundary. */
 static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    enum { QUICK, SLOW, TURNING, TRYING, WAYS };
+    enum { QUICK, AS_FOUND, SLOW, TURNING, TRYING, WAYS };
     const int first = line->follows && options->frictionless ? SLOW : QUICK;
     for (int way = first; way < WAYS; way++) {
+        if (way == AS_FOUND && !(options->least && options->least->chose)) continue; /* all places were as they were found */
         if (way == SLOW && !line->follows) continue; /* no rounds on one plane */
         if (way == TURNING && line->follows && options->frictionless) return;
         if (way == TRYING && (!line->follows || line->frozen)) return;
         CpsiStepOptions with = *options;
         with.slow = way == SLOW;
+        if (way == AS_FOUND) with.least = NULL;
+        if (options->least) options->least->chose = false;
         with.turning = way == TURNING;
         with.trying = way == TRYING;
         with.centrings = way == TURNING ? 0 : CENTRINGS;
@@ -481,7 +511,50 @@ static void choose_forces(CpsiLine *line, const CpsiChainProgram *program, const
     }
 }
 
+/* Does nothing change that could move the line?  Held ends where they were, obstacles that do not turn, friction within its bounds. */
+static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) {
+    for (int end = 0; end < 2; end++) {
+        const double *at = &line->reference[end == CPS_END_A ? 0 : 3*(line->n - 1)], *to = line->end[end].value;
+        for (int a = 0; line->end[end].kind == CPS_END_HELD && a < 3; a++)
+            if (at[a] != to[a]) return false;
+    }
+    for (int k = 0; k < line->obstacle_count; k++)
+        if (line->turn[k] != 0) return false;
+    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+        double f[3], inside[3];
+        const CpsiRubSet set = cpsi_rub_set(line, c);
+        const double bound = line->friction_bound[c];
+        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
+        if (f[0] == 0 && f[1] == 0 && f[2] == 0) continue;
+        /* a given set is not asked whether it holds F: the bound must be the one that held it, as one that follows is */
+        if (set.given && !(bound > 0 && options->friction == CPS_FRICTION_CONSISTENT)) return false;
+        memcpy(inside, f, sizeof f);
+        cpsi_rub_clip(&set, bound, bound, inside);
+        const double out = hypot(f[0] - inside[0], f[1] - inside[1]) + fabs(f[2]);
+        if (!(out <= CLEAN*line->report.certificate.largest_force)) return false;
+    }
+    return true;
+}
+
+/* Is the line in equilibrium where it is, with the forces that it has?  Then it stays, and keeps them: no motion is less than none. What
+ * has been told of the step before, in `before`, is true of this one too, but that nothing slips. */
+static bool stays(CpsiLine *line, const CpsiStepOptions *options, const CpsLineReport *before) {
+    static const CpsiIpmReport nothing_left = {.outcome = CPSI_IPM_SOLVED};
+    if (!options->least || options->frictionless || !(before->share > 0)) return false;
+    line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
+    if (!nothing_moves(line, options)) return false;
+    const CpsCertificate *c = &line->report.certificate;
+    line->report.outcome = judge(line, options, &nothing_left);
+    if (!cps_outcome_is_certified(line->report.outcome) || !(c->gap <= fmax(before->certificate.gap, TARGET*c->scale))) return false;
+    for (int i = 0; i < cpsi_line_contacts(line); i++)
+        if (line->state[i] == CPS_NODE_SLIP) line->state[i] = CPS_NODE_STICK;
+    line->report.slack = before->slack;
+    line->report.places = before->places == CPS_PLACES_UNIQUE ? CPS_PLACES_UNIQUE : CPS_PLACES_NEAREST;
+    return true;
+}
+
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    const CpsLineReport before = line->report;
     line->report = (CpsLineReport){.pierced = -1};
     for (int end = 0; end < 2; end++) { /* where they stay if there is no equilibrium */
         memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
@@ -489,9 +562,19 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     }
     remember(line);
     pose(line, options);
+    if (stays(line, options, &before)) {
+        cpsi_line_pierces(line, &line->report.pierced);
+        cpsi_line_report_ends(line);
+        cpsi_line_report_lengths(line);
+        line->report.tension_mesh = cpsi_mesh_error(line);
+        return;
+    }
+    line->report.certificate = (CpsCertificate){0};
+    line->report.outcome = CPS_SOLVED;
     if (too_short(line) || runs_away(line, options)) return;
     try_ways(line, program, options);
     if (!is_finite(line)) forget(line, options);
+    if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     cpsi_line_pierces(line, &line->report.pierced);
     classify(line, program);
     choose_forces(line, program, options);

@@ -3,6 +3,7 @@
 #ifndef CAPSTAN_SRC_CABLE_LINE_STEP_H
 #define CAPSTAN_SRC_CABLE_LINE_STEP_H
 
+#include "cable/least_motion.h"
 #include "cable/line.h"
 #include "ipm/chain_program.h"
 
@@ -11,6 +12,7 @@ typedef struct CpsiStepOptions {
     CpsFriction friction;
     CpsContact contact;
     bool frictionless; /* a start laid by statics */
+    CpsiLeastMotion *least; /* scratch of the rule of least motion; NULL: places are as they are found */
     /* set by the step itself */
     int centrings;
     bool slow;    /* many rounds, that do not look ahead */

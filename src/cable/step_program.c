@@ -211,6 +211,13 @@ void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program, con
     fill_elements(line, program, scale);
 }
 
+void cpsi_step_program_clear(const CpsiLine *line, CpsiChainProgram *program) {
+    cpsi_chain_program_resize(program, line->n, line->follows);
+    program->rub.count = program->stop.count = program->shape.count = 0;
+    for (int i = 1; i < line->n; i++)
+        for (int a = 0; a < 4; a++) program->stretch.s[i][a] = a == 0, program->stretch.z[i][a] = 0;
+}
+
 /* unpack -------------------------------------------------------------------------------------------------------- */
 
 static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program) {

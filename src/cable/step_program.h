@@ -26,6 +26,9 @@ typedef struct CpsiStepScale {
 /* Write the step into the program. */
 void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale);
 
+/* The pairs of a line on which no force acts, as if they had been solved for. */
+void cpsi_step_program_clear(const CpsiLine *line, CpsiChainProgram *program);
+
 /* Positions and forces of the solution in world axes and SI units. */
 void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program, const CpsiStepScale *scale);
 

@@ -73,6 +73,11 @@ static CpsTensionRange range_of(CpsiLine *line, CpsiForceSet *set, const CpsiFor
 
 void cpsi_line_tension_range(CpsiLine *line, CpsiForceSet *set, const CpsiStepOptions *options) {
     const CpsiForceLaw law = cpsi_force_law(options, line->tight);
-    for (int end = 0; end < 2; end++)
-        line->report.end[end].range = range_of(line, set, &law, end == CPS_END_A ? 0 : line->n - 2);
+    for (int end = 0; end < 2; end++) {
+        CpsTensionRange *range = &line->report.end[end].range;
+        *range = range_of(line, set, &law, end == CPS_END_A ? 0 : line->n - 2);
+        /* with no force anywhere its bounds have nothing to be measured by, but that it has none */
+        if (range->kind == CPS_RANGE_BOUNDED && !(line->report.certificate.largest_force > 0))
+            *range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
+    }
 }

@@ -136,6 +136,7 @@ static void add(Advance *advance, const Part *part) {
     whole->jump = before.jump;
     whole->unaccounted = before.unaccounted;
     whole->outcome = cps_outcome_worse(before.outcome, whole->outcome);
+    if (before.places > whole->places) whole->places = before.places;
     whole->iterations = advance->iterations;
     whole->dissipated += before.dissipated;
     for (int end = 0; end < 2; end++) whole->end[end].work += before.end[end].work;

@@ -115,8 +115,9 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     }
     cpsi_advance_layout(&evolution->room, arena, nodes, contacts, scene->solver.path_tolerance > 0);
     if (inextensible > 0) cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts);
-    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0, largest,
-                        scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain);
+    const CpsiLinsysOps *ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain;
+    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0, largest, ops);
+    cpsi_least_motion_layout(&evolution->least, arena, nodes, contacts, ops);
     return placed;
 }
 
@@ -183,7 +184,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
 }
 
 static void fill(CpsEvolution *evolution, const CpsScene *scene) {
-    evolution->options = (CpsiStepOptions){.solver = scene->solver, .friction = scene->friction, .contact = scene->contact};
+    evolution->options = (CpsiStepOptions){
+        .solver = scene->solver, .friction = scene->friction, .contact = scene->contact, .least = &evolution->least};
     evolution->obstacle_count = scene->obstacle_count;
     for (int k = 0; k < scene->obstacle_count; k++) {
         evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
@@ -351,6 +353,7 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     cpsi_ledger_add(&step->ledger, &line->ledger);
     if (line->parts > step->parts) step->parts = line->parts;
     step->snaps += line->snaps;
+    if (line->places > step->places) step->places = line->places;
     step->jump = cpsi_larger(step->jump, line->jump);
     step->unaccounted += line->unaccounted;
     to->primal += from->primal, to->dual += from->dual, to->gap += from->gap, to->scale += from->scale;

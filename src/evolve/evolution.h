@@ -5,6 +5,7 @@
 
 #include "cable/force_set.h"
 #include "cable/friction_set.h"
+#include "cable/least_motion.h"
 #include "evolve/advance.h"
 
 enum { CPSI_STEP_NAME = 96 };
@@ -44,6 +45,7 @@ struct CpsEvolution {
     bool ended;       /* an infeasible or unbounded step ends the history */
     CpsiChainProgram program;
     CpsiForceSet forces; /* room for those of inextensible lines */
+    CpsiLeastMotion least;
     uint64_t fingerprint; /* of everything that does not change: which scene this is */
 };
 

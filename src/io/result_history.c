@@ -65,7 +65,7 @@ static double member(const void *report, const Column *column) {
 }
 
 static void put_heads(FILE *out, const CpsResults *results) {
-    fputs("step,name,outcome,iterations,parts,snaps", out);
+    fputs("step,name,outcome,iterations,parts,snaps,places_not_unique", out);
     for (int i = 0; i < STEP_COLUMNS; ++i) fprintf(out, ",%s", STEP_COLUMN[i].name);
     for (int l = 0; l < results->line_count; ++l) {
         for (int i = 0; i < LINE_COLUMNS; ++i) {
@@ -75,7 +75,7 @@ static void put_heads(FILE *out, const CpsResults *results) {
             cpsi_put_csv(out, name);
         }
     }
-    fputs("\n1,,,1,1,1", out);
+    fputs("\n1,,,1,1,1,1", out);
     for (int i = 0; i < STEP_COLUMNS; ++i) fprintf(out, ",%s", STEP_COLUMN[i].unit);
     for (int l = 0; l < results->line_count; ++l)
         for (int i = 0; i < LINE_COLUMNS; ++i) fprintf(out, ",%s", LINE_COLUMN[i].unit);
@@ -88,8 +88,8 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
         const CpsiRow *row = &results->row[r];
         fprintf(out, "%d,", row->report.index);
         cpsi_put_csv(out, row->name);
-        fprintf(out, ",%s,%d,%d,%d", cps_outcome_key(row->report.outcome), row->report.iterations, row->report.parts,
-                row->report.snaps);
+        fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_key(row->report.outcome), row->report.iterations, row->report.parts,
+                row->report.snaps, (int)row->report.places);
         for (int i = 0; i < STEP_COLUMNS; ++i) {
             fputc(',', out);
             cpsi_put_csv_number(out, member(&row->report, &STEP_COLUMN[i]));

@@ -144,7 +144,7 @@ enum {
 typedef struct LineIds {
     int node, element; /* dimensions */
     int contacts;      /* of a node, as in the view */
-    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, proof;
+    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, places, proof;
     int field[FIELDS][CONTACTS];
     int number[NUMBERS];
     int zone[ZONES]; /* unused without zones */
@@ -370,6 +370,8 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
         add_variable(nc, view->name, "iterations", NC_INT, 1, &nc->step, "interior-point iterations", "1");
     ids->parts = add_variable(nc, view->name, "parts", NC_INT, 1, &nc->step, "parts that the step was taken in", "1");
     ids->snaps = add_variable(nc, view->name, "snaps", NC_INT, 1, &nc->step, "parts in which the line jumped", "1");
+    ids->places = add_variable(nc, view->name, "places_not_unique", NC_INT, 1, &nc->step,
+                               "do the forces leave a choice of places; 0: no, 1: the nearest is taken, 2: one of them", "1");
     const int vectors[] = {nc->step, nc->xyz};
     ids->proof = add_variable(nc, view->name, "proof", NC_DOUBLE, 2, vectors, "direction that proves no solution", "1");
     for (int i = 0; i < NUMBERS; ++i)
@@ -449,6 +451,8 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->iterations, start, &report->iterations));
     if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->parts, start, &report->parts));
     if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->snaps, start, &report->snaps));
+    const int places = (int)report->places;
+    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->places, start, &places));
     for (int i = 0; i < NUMBERS; ++i) {
         const double *number = (const double *)(const void *)((const char *)report + NUMBER[i].offset);
         if (nc->status == NC_NOERR) keep(nc, nc_put_var1_double(nc->file, ids->number[i], start, number));

@@ -65,7 +65,7 @@ static void put_line(FILE *out, const char *name, const CpsLineReport *report, c
     put_key(out, name);
     fputs("{\n          ", out);
     put_string(out, "outcome", cps_outcome_key(report->outcome), ", ");
-    fprintf(out, "\"iterations\": %d,\n          ", report->iterations);
+    fprintf(out, "\"iterations\": %d, \"places_not_unique\": %d,\n          ", report->iterations, (int)report->places);
     put_number(out, "grounded_m", report->grounded, ", ");
     put_number(out, "slipping_m", report->slipping, ", ");
     put_number(out, "slack_m", report->slack, ", ");

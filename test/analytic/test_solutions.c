@@ -52,8 +52,8 @@ static void solve_bench(Bench *b) {
     take_own(b);
 }
 
-/* A slack line on a smooth bed, its ends at half its length: the chain that P4.2 returns is outside Kin; the tent and
- * the meander are in it, solve P3.1, and have no more energy. All of it is loose. */
+/* A slack line on a smooth bed, its ends at half its length: the chain of least motion is outside Kin, near B, which has gone aside; the tent
+ * and the meander are in it, solve P3.1, and have no more energy. All of it is loose. */
 static void slack_on_a_smooth_bed(void **state) {
     (void)state;
     for (int inextensible = 0; inextensible < 2; inextensible++) {
@@ -63,7 +63,7 @@ static void slack_on_a_smooth_bed(void **state) {
         solve_bench(&b);
         CpsJudgementReport own = judge(&b);
         assert_int_equal(own.judgement, CPS_JUDGED_RELAXED);
-        CHECK_GREATER(own.shortening, 0.3);
+        CHECK_GREATER(own.shortening, 0.1);
         for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
             CpsSlackReport slack = complete(&b, how);
             CHECK_NEAR(slack.slack, 1, 1e-12);
@@ -111,6 +111,7 @@ static void lifted_loop(void **state) {
     open_bench(&b, 0, 1);
     case_move(&b.c, 1, 0.5, 0, 0);
     solve_bench(&b);
+    for (int j = 0; j <= ELEMENTS; j++) b.position[3 * j] = 0.5 * j / ELEMENTS; /* a chain, evenly shortened */
     const double z = 0.004; /* less than slack elements of 0.01 over 0.005 can reach: no tension */
     const int node = 3 * 40;
     b.position[node + 2] += z;

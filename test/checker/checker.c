@@ -74,6 +74,16 @@ static double claimed_residual(const Record *r, const Measures *m) {
     return r->claim[CLAIM_FRICTION_RESIDUAL] == 0 ? 0 : m->bound_residual;
 }
 
+/* [J] A line on which no force acts at all has no scale, and what rounding makes of its strain, a part of 1e-12 and of its coordinates,
+ * would be energy. */
+static double strain_energy_of_rounding(const Record *r, const Measures *m) {
+    if (m->largest_force > 0 || !(r->compliance > 0)) return 0;
+    double shortest = r->element_length[0];
+    for (size_t i = 1; i < r->elements; i++) shortest = fmin(shortest, r->element_length[i]);
+    double strain = 1e-12 + 4 * 2.3e-16 * 2 * m->reach / shortest;
+    return m->length * strain * strain / (2 * r->compliance);
+}
+
 /* A step in one part that makes energy, more than 5 % of what it dissipates and of the positive work in it and more than
  * places known to 1e-9 leave of it, says how much; one that does not says 0. */
 static void judge_unaccounted(Judge *judge, const Record *r, const Measures *m) {
@@ -81,7 +91,7 @@ static void judge_unaccounted(Judge *judge, const Record *r, const Measures *m) 
     const double *entry = r->ledger, made = -entry[LEDGER_IMBALANCE];
     double beside = r->dissipated + fmax(0, entry[LEDGER_ENDS]) + fmax(0, entry[LEDGER_OBSTACLES]) +
                     fmax(0, -entry[LEDGER_ELASTIC]) + fmax(0, -entry[LEDGER_GRAVITY]);
-    double least = fmax(MUCH * beside, m->gap + PLACE_TOLERANCE * m->largest_force * m->length);
+    double least = fmax(MUCH * beside, m->gap + PLACE_TOLERANCE * m->largest_force * m->length + strain_energy_of_rounding(r, m));
     if (r->unaccounted != 0) same(judge, "unaccounted", r->unaccounted, made, 0);
     if (made > (1 + CLAIM_TOLERANCE) * least && r->unaccounted == 0)
         find(judge, "energy of %.6g J is made beside %.6g J, and not said to be unaccounted", made, beside);
@@ -144,7 +154,7 @@ static bool is_laid(const Record *r) {
 /* the figures of the certificate; `ends`: what friction dissipates on the half elements at held ends */
 static void judge_claims(Judge *judge, const Record *r, const Measures *m, double ends) {
     const double *claim = r->claim;
-    double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent;
+    double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent + strain_energy_of_rounding(r, m);
     double force = FORCE_FLOOR * m->largest_force;
     bool certified = claims_something(r);
     same(judge, "primal", claim[CLAIM_PRIMAL], m->primal, energy);
@@ -189,7 +199,7 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     double tolerance = source->tolerance, element = m->length / (double)r->elements;
     double strain = PLACE_TOLERANCE + (source->follows ? sqrt(2 * r->compliance * m->gap / element) : 0);
     double force = FORCE_TOLERANCE * m->largest_force + NOTHING, place = PLACE_TOLERANCE * m->length;
-    at_most(judge, "sum of local gaps", m->gap, tolerance * m->scale + NOTHING);
+    at_most(judge, "sum of local gaps", m->gap, tolerance * m->scale + strain_energy_of_rounding(r, m) + NOTHING);
     at_most(judge, "primal - dual against the local gaps", fabs(m->identity), m->identity_noise + NOTHING);
     // an element that pushes with P costs 2 P l of the gap, one too long by x only l x^2/(2c): the tolerance, and its root
     at_most(judge, "elements that push", m->push, tolerance * m->largest_force + NOTHING);
@@ -223,7 +233,9 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     double slid, carried;
     judge_ends(judge, source, r, m, &slid, &carried);
     judge_claims(judge, r, m, slid);
-    if (!laid) judge_ledger(judge, r, m, carried, ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->reach);
+    if (!laid)
+        judge_ledger(judge, r, m, carried,
+                     ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->reach + strain_energy_of_rounding(r, m));
 }
 
 static void judge_taut(Judge *judge, const Record *r, const Measures *m) {

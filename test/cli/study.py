@@ -83,13 +83,15 @@ with tempfile.TemporaryDirectory() as folder:
             csv.writer(file).writerows(lines)
 
     laid = os.path.join("laid", "completed.csv")
-    for scene, step, loose in ((EXAMPLE, "Y4", "6.2329 m  loose"), (SLACK, "back", "1 m  loose")):
+    # the chain of least motion lies shortened where the line was pulled aside, and folded back, |x'| = 1, where its end went straight back
+    for scene, step, loose, found in ((EXAMPLE, "Y4", "6.2329 m  loose", "as found: a solution of P4.2 but not of P3.1"),
+                                      (SLACK, "back", "1 m  loose", "as found: a solution of P3.1")):
         shapes = set()
         for shape in ("shortest", "straight", "meander"):
             done = study(folder, scene, "--step", step, "--complete", shape, "-o", "laid")
             check(done.returncode == 0, f"{step}, {shape}: exit code {done.returncode}\n{done.stderr}")
             check(loose in done.stdout and "kept on the obstacle by contact" in done.stdout, f"{step}: said\n{done.stdout}")
-            check("as found: a solution of P4.2 but not of P3.1" in done.stdout, f"{step}: said\n{done.stdout}")
+            check(found in done.stdout, f"{step}: said\n{done.stdout}")
             xml.parse(os.path.join(folder, "laid", "completed.svg"))
             with open(os.path.join(folder, laid), encoding="utf-8") as file:
                 shapes.add(file.read())

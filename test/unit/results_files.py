@@ -8,7 +8,7 @@ STEP_KEYS = {"name", "outcome", "iterations", "energy", "tension_bound_rms_N", "
              "force_residual_N", "largest_force_N", "law_residual_J", "contact_residual_N", "contact_residual_J",
              "friction_residual_N", "element_push_N", "elongation_residual", "stretch_residual", "penetration_m", "element_penetration_m", "dissipated_J", "parts", "snaps", "jump_m", "unaccounted_J", "ledger_J",
              "wall_s", "lines"}
-LINE_KEYS = {"outcome", "iterations", "grounded_m", "slipping_m", "slack_m", "dissipated_J", "tension_mesh_estimate_N", "A", "B"}
+LINE_KEYS = {"outcome", "iterations", "places_not_unique", "grounded_m", "slipping_m", "slack_m", "dissipated_J", "tension_mesh_estimate_N", "A", "B"}
 POINT_DATA = {"tension_N", "contact_force_N", "friction_state", "displacement_m"}
 SIZE = {"Float64": 8, "Int64": 8, "Int32": 4, "UInt8": 1}
 
