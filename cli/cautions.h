@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a user must know of a step though it is solved and certified: with frozen friction or strict contact what S90
- * annex 6 shows, where most of a line is slack, and energy that comes from nowhere or is set free;
+ * annex 6 shows, where most of a line is slack, energy that comes from nowhere or is set free, and coordinates with too few digits;
  * and, whatever the outcome, where a line goes through an obstacle. */
 #ifndef CAPSTAN_CLI_CAUTIONS_H
 #define CAPSTAN_CLI_CAUTIONS_H
 
 #include "capstan/evolve.h"
 
-enum { CAUTION_BOUND, CAUTION_LIFTED, CAUTION_SUNK, CAUTION_SLACK, CAUTION_MADE, CAUTION_FREED, CAUTION_PIERCED, CAUTIONS };
+enum { CAUTION_BOUND, CAUTION_LIFTED, CAUTION_SUNK, CAUTION_SLACK, CAUTION_MADE, CAUTION_FREED, CAUTION_ROUNDED, CAUTION_PIERCED, CAUTIONS };
 
 /* The worst case of each kind. */
 typedef struct Cautions {
