@@ -194,6 +194,18 @@ typedef struct CpsLineView {
     const unsigned char *state;       /* (contacts, n) CpsNodeState */
     double origin[3];                 /* [m] what reference, position and the places of held ends are measured from: 0 0 0, but a place
                                          near the lines where these lie more than 512 lengths away; same for all lines */
+    /* Contact of an element with a round obstacle, at the point (1 - beta) x_e + beta x_{e+1} that was nearest to its axis or centre; its forces
+     * act on the element's nodes by these shares. As above for that point, whose way is that of the point with this beta since the reference.
+     * All NULL where no obstacle is round, contact is strict or friction frozen; obstacle -1 and numbers without meaning where an element has none. */
+    const int *element_obstacle;          /* (elements) */
+    const double *element_share;          /* (elements) [-] beta */
+    const double *element_normal;         /* (elements, 3) [-] */
+    const double *element_gap;            /* (elements) [m] with what an element may lie deep, min(l^2/(4 R), R/4), added */
+    const double *element_friction_bound; /* (elements) [N] */
+    const double *element_friction;       /* (elements, 3) [N] */
+    const double *element_reaction;       /* (elements) [N] */
+    const double *element_slide;          /* (elements, 3) [m] */
+    const unsigned char *element_state;   /* (elements) */
 } CpsLineView;
 
 /* Prepare a scene.

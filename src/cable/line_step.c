@@ -236,7 +236,7 @@ static double unit_force(const CpsiLine *line, CpsiBounds bounds) {
     double force = force_scale(line, end_distance(line)/(is_taut(line) ? 1 + TAUT_SLACK : 1)), all = 0;
     const double before = line->obstacle_count > 0 ? reference_tension(line) : 0;
     if (before > HELD*force) force = before;
-    for (int c = 0; c < cpsi_line_contacts(line) && bounds == CPSI_BOUNDS_TRIED; c++) all += line->friction_bound[c];
+    for (int c = 0; c < cpsi_line_all_contacts(line) && bounds == CPSI_BOUNDS_TRIED; c++) all += line->friction_bound[c];
     return fmax(force, all);
 }
 
@@ -276,7 +276,7 @@ static bool is_clean(const CpsiIpmReport *ipm) { return ipm->gap + fmax(ipm->res
 
 /* The bounds mu R, and no friction beyond them. */
 static void take_bounds(CpsiLine *line) {
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double *axes = cpsi_line_axes(line, c);
         const CpsiRubSet set = cpsi_rub_set(line, c);
         const double within = line->friction_bound[c];
@@ -291,7 +291,7 @@ static void take_bounds(CpsiLine *line) {
 /* Sum of |A - mu R| over that of mu R: how far given bounds are from following. */
 static double mismatch(const CpsiLine *line) {
     double off = 0, all = 0;
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!isfinite(line->gap[c])) continue;
         const double follow = cpsi_rub_set(line, c).friction*line->reaction[c];
         off += fabs(line->friction_bound[c] - follow);
@@ -313,7 +313,7 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
 
 /* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. */
 static void look_again(CpsiLine *line, double *turned) {
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
         memcpy(&line->friction_force[3*c], f, sizeof f);
@@ -322,7 +322,7 @@ static void look_again(CpsiLine *line, double *turned) {
     *turned = cpsi_contact_move(line);
     if (shortened) *turned = INFINITY;
     cpsi_contact_look(line);
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3];
         cpsi_frame_from(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
         memcpy(&line->friction_force[3*c], f, sizeof f);
@@ -341,7 +341,10 @@ static void look_ahead(CpsiLine *line, double turned) {
         cpsi_ahead_start(&line->ahead, line->n, line->base);
         return;
     }
-    cpsi_ahead_foresee(&line->ahead, line->n, line->reaction, line->base);
+    memcpy(line->carries, line->reaction, (size_t)line->n*sizeof *line->carries);
+    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)
+        for (int j = e; j <= e + 1; j++) line->carries[j] += line->reaction[cpsi_line_contacts(line) + e];
+    cpsi_ahead_foresee(&line->ahead, line->n, line->carries, line->base);
 }
 
 /* The last round as an answer: is it one? */
@@ -365,7 +368,7 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
         ipm = solve_round(line, program, options, bounds, options->turning);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
-            for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
+            for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
             ipm = solve_round(line, program, options, bounds, options->turning);
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
@@ -404,7 +407,7 @@ static bool is_finite(const CpsiLine *line) {
 
 /* Back to the reference, without forces: what is reported where arithmetic has broken down. */
 static void forget(CpsiLine *line, const CpsiStepOptions *options) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     const CpsiIpmReport none = {.outcome = CPSI_IPM_STALLED};
     memcpy(line->position, line->reference, 3*n*sizeof *line->position);
     memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
@@ -436,7 +439,7 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         with.turning = way == TURNING;
         with.trying = way == TRYING;
         with.centrings = way == TURNING ? 0 : CENTRINGS;
-        if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
+        if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line)*sizeof *line->reaction);
         if (line->follows) cpsi_contact_return(line);
         solve_step(line, program, &with);
         if (cps_outcome_is_certified(line->report.outcome)) return;
@@ -445,7 +448,7 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
 
 /* What the tensions of an inextensible line, and the reactions in corners, are to be near to. */
 static void remember(CpsiLine *line) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (!line->forces) return;
     memcpy(line->tension_before, line->tension, (n - 1)*sizeof *line->tension);
     memcpy(line->reaction_before, line->reaction, contacts*sizeof *line->reaction);

@@ -53,7 +53,7 @@ void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contact
 }
 
 static void save(const CpsiLine *line, CpsiAdvance *room) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(room->reaction, line->reaction, contacts*sizeof *line->reaction);
     memcpy(room->tension, line->tension, (n - 1)*sizeof *line->tension);
     memcpy(room->state, line->state, contacts*sizeof *line->state);
@@ -64,7 +64,7 @@ static void save(const CpsiLine *line, CpsiAdvance *room) {
 
 /* Back to the start of the part. */
 static void restore(CpsiLine *line, const CpsiAdvance *room) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(line->reaction, room->reaction, contacts*sizeof *line->reaction);
     memcpy(line->tension, room->tension, (n - 1)*sizeof *line->tension);
     memcpy(line->state, room->state, contacts*sizeof *line->state);

@@ -41,6 +41,14 @@ static bool scene_follows(const CpsScene *scene) {
     return cpsi_obstacle_follows(&only);
 }
 
+/* Are elements kept out of obstacles, beside the nodes?  Of round ones, with consistent friction: strict contact and frozen friction are those
+ * of S90, which know nodes alone. */
+static bool scene_keeps_elements_out(const CpsScene *scene) {
+    bool round = false;
+    for (int k = 0; k < scene->obstacle_count; k++) round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
+    return round && scene->contact == CPS_CONTACT_GAINED && scene->friction == CPS_FRICTION_CONSISTENT;
+}
+
 static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
     for (int k = 0; set && k < scene->obstacle_count; k++) cpsi_friction_set_free(set[k]);
     free(set);
@@ -94,7 +102,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     evolution->room.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
     const bool follows = scene_follows(scene);
-    const int contacts = scene->obstacle_count > 1 ? 2 : 1;
+    const int contacts = scene->obstacle_count > 1 ? 2 : 1, element_contacts = scene_keeps_elements_out(scene) ? 1 : 0;
     int nodes = 0, inextensible = 0;
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
@@ -102,6 +110,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
         line->n = scene->line[i].elements + 1;
         line->follows = follows;
         line->contacts = contacts;
+        line->element_contacts = element_contacts;
         line->has_zones = scene->line[i].zone_count > 0;
         line->compliance = isinf(scene->line[i].stiffness) ? 0 : 1/scene->line[i].stiffness;
         cpsi_line_layout(line, arena);
@@ -114,9 +123,9 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
-    cpsi_advance_layout(&evolution->room, arena, nodes, contacts, scene->solver.path_tolerance > 0);
-    if (inextensible > 0) cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts);
-    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0, largest,
+    cpsi_advance_layout(&evolution->room, arena, nodes, contacts + element_contacts, scene->solver.path_tolerance > 0);
+    if (inextensible > 0) cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts + element_contacts);
+    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0, element_contacts > 0, largest,
                         scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain);
     return placed;
 }
@@ -169,7 +178,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         line->element_length[e] = def->element_length ? def->element_length[e] : def->length/def->elements;
     cpsi_line_measure(line);
     fill_friction_factor(line, def);
-    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) line->on[c] = -1;
+    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) line->on[c] = -1;
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
@@ -442,7 +451,7 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
 
 CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
     const CpsiLine *from = &evolution->line[line];
-    return (CpsLineView){
+    CpsLineView view = {
         .name = from->name,
         .elements = from->n - 1,
         .contacts = from->contacts,
@@ -465,4 +474,16 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .obstacle = from->on,
         .origin = {evolution->origin[0], evolution->origin[1], evolution->origin[2]},
     };
+    if (from->element_contacts == 0) return view;
+    const size_t first = (size_t)cpsi_line_contacts(from);
+    view.element_obstacle = from->on + first;
+    view.element_share = from->beta;
+    view.element_normal = from->normal + 3*first;
+    view.element_gap = from->gap + first;
+    view.element_friction_bound = from->friction_bound + first;
+    view.element_friction = from->friction_force + 3*first;
+    view.element_reaction = from->reaction + first;
+    view.element_slide = from->slide + 3*first;
+    view.element_state = from->state + first;
+    return view;
 }

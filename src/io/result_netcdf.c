@@ -145,7 +145,8 @@ typedef struct LineIds {
     int node, element; /* dimensions */
     int contacts;      /* of a node, as in the view */
     int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, proof;
-    int field[FIELDS][CONTACTS];
+    int field[FIELDS][CONTACTS]; /* unused where a view has no such array */
+    int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
     int zone[ZONES]; /* unused without zones */
 } LineIds;
@@ -317,9 +318,21 @@ static int add_contact(CpsiNetcdf *nc, const char *line, const char *name, int c
 
 static bool is_wanted(const CpsiNetcdf *nc, int f) { return cpsi_field[f].fixed || (nc->wanted >> f & 1u); }
 
-static void define_field(CpsiNetcdf *nc, LineIds *ids, const char *line, int f) {
+static const double *in_view(const CpsLineView *view, const CpsiField *field) {
+    const double *array;
+    memcpy(&array, (const char *)view + field->offset, sizeof array);
+    return array;
+}
+
+/* Has the view such an array, or is it made for it? */
+static bool has_field(const CpsLineView *view, const CpsiField *field) {
+    return field->offset == VIEW(slide) || in_view(view, field);
+}
+
+static void define_field(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view, int f) {
     const CpsiField *field = &cpsi_field[f];
-    if (!is_wanted(nc, f)) return;
+    const char *line = view->name;
+    if (!is_wanted(nc, f) || !has_field(view, field)) return;
     const int along = field->place == CPSI_PLACE_NODE ? ids->node : ids->element;
     const int shape[] = {nc->step, along, nc->xyz};
     const int rank = 1 + !field->fixed + field->vector;
@@ -346,7 +359,7 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     ids->element = add_dimension(nc, name, (size_t)view->elements);
 
     ids->contacts = view->contacts;
-    for (int f = 0; f < FIELDS; ++f) define_field(nc, ids, view->name, f);
+    for (int f = 0; f < FIELDS; ++f) define_field(nc, ids, view, f);
     ids->compliance = add_variable(nc, view->name, "compliance", NC_DOUBLE, 0, NULL, "1/EA, 0: inextensible", "N-1");
     const int on_nodes[] = {nc->step, ids->node}, on_ends[] = {nc->step, nc->end, nc->xyz};
     for (int c = 0; c < ids->contacts; ++c) {
@@ -357,6 +370,15 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
         if (ids->contacts < 2 || !(nc->wanted & CPSI_WANTED_OBSTACLE)) continue;
         ids->obstacle[c] =
             add_contact(nc, view->name, "obstacle", c, NC_INT, 2, on_nodes, "place of the obstacle in the scene", "1");
+    }
+    const int on_elements[] = {nc->step, ids->element};
+    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_OBSTACLE))
+        ids->element_obstacle = add_variable(nc, view->name, "element_obstacle", NC_INT, 2, on_elements,
+                                             "place of the obstacle that an element touches in the scene, -1: none", "1");
+    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_STATE)) {
+        ids->element_state =
+            add_variable(nc, view->name, "element_state", NC_BYTE, 2, on_elements, "rest of the element on it", "1");
+        add_flags(nc, ids->element_state, NC_BYTE, 3, "free stick slip");
     }
     ids->end_kind = add_variable(nc, view->name, "end_kind", NC_BYTE, 2, on_ends, "what is imposed at A and B", "1");
     add_flags(nc, ids->end_kind, NC_BYTE, 2, "held free");
@@ -392,8 +414,7 @@ static const double *plane_slide(CpsiNetcdf *nc, const CpsLineView *view) {
 }
 
 static const double *array_of(CpsiNetcdf *nc, const CpsLineView *view, const CpsiField *field) {
-    const double *array;
-    memcpy(&array, (const char *)view + field->offset, sizeof array);
+    const double *array = in_view(view, field);
     return array || field->offset != VIEW(slide) ? array : plane_slide(nc, view);
 }
 
@@ -405,7 +426,7 @@ static void write_doubles(CpsiNetcdf *nc, int variable, const size_t *start, con
 static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view, bool fixed) {
     for (int f = 0; f < FIELDS; ++f) {
         const CpsiField *field = &cpsi_field[f];
-        if (field->fixed != fixed || !is_wanted(nc, f)) continue;
+        if (field->fixed != fixed || !is_wanted(nc, f) || !has_field(view, field)) continue;
         const size_t along = (size_t)view->elements + (field->place == CPSI_PLACE_NODE);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
         const double *array = array_of(nc, view, field);
@@ -425,6 +446,12 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
         if (ids->contacts < 2 || nc->status != NC_NOERR || !(nc->wanted & CPSI_WANTED_OBSTACLE)) continue;
         keep(nc, nc_put_vara_int(nc->file, ids->obstacle[c], start, nodes, view->obstacle + from));
     }
+
+    const size_t elements[] = {1, (size_t)view->elements};
+    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_OBSTACLE) && nc->status == NC_NOERR)
+        keep(nc, nc_put_vara_int(nc->file, ids->element_obstacle, start, elements, view->element_obstacle));
+    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_STATE) && nc->status == NC_NOERR)
+        keep(nc, nc_put_vara_uchar(nc->file, ids->element_state, start, elements, view->element_state));
 
     unsigned char kind[ENDS];
     double value[ENDS][XYZ], force[ENDS][XYZ], friction[ENDS][XYZ], tension[ENDS];

@@ -69,7 +69,7 @@ static bool claims_something(const Record *r) {
 
 /* A step without friction has no bounds to be compared with the reactions. */
 static double claimed_residual(const Record *r, const Measures *m) {
-    for (size_t c = 0; c < r->contacts * r->nodes; c++)
+    for (size_t c = 0; c < r->contacts * r->nodes + r->elements; c++)
         if (r->friction_bound[c] > 0) return m->bound_residual;
     return r->claim[CLAIM_FRICTION_RESIDUAL] == 0 ? 0 : m->bound_residual;
 }
@@ -129,7 +129,7 @@ static void judge_ends(Judge *judge, const Source *source, const Record *r, cons
 
 /* a step of statics: no friction at all */
 static bool without_friction(const Record *r) {
-    for (size_t c = 0; c < r->contacts * r->nodes; c++)
+    for (size_t c = 0; c < r->contacts * r->nodes + r->elements; c++)
         if (r->friction_bound[c] != 0) return false;
     return true;
 }
@@ -206,6 +206,8 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     if (!source->strict) at_most(judge, "depth of an element inside an obstacle", m->pierced, place);
     at_most(judge, "contacts that are not with the nearest obstacles", m->misplaced, 0);
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
+    at_most(judge, "place of an element's contact against the nearest", m->share_error,
+            COPY_TOLERANCE * (m->length + m->reach));
     at_most(judge, "slide against the way from the reference", m->slide_error, COPY_TOLERANCE * (m->length + m->reach));
     at_most(judge, "quarters of a turn of an obstacle in one part", m->quarters, 1 + TURN_ROUNDING);
     at_most(judge, "quarters of a turn of an obstacle by the number of parts", m->quarters / (r->share * r->parts),
@@ -331,13 +333,28 @@ static double reaction_on(const Record *r, size_t j, double obstacle) {
     return 0;
 }
 
+/* The same of an element's contact, which has no other place where its reaction may have been. */
+static void judge_element_bound(const Record *r, const Record *before, size_t c, double largest, double shared, bool all,
+                                Judge *judge) {
+    const double w = r->friction_bound[c], R = before->obstacle[c] == r->obstacle[c] ? before->reaction[c] : 0;
+    const double expected = r->mu[c] * R;
+    if (r->obstacle[c] < 0 || (w == 0 && !all && R <= 1e-3 * largest + NOTHING)) return;
+    // the mean of two factors, and as of a node
+    const size_t i = c - r->contacts * r->nodes;
+    double noise = r->factor_noise ? fmax(r->factor_noise[i], r->factor_noise[i + 1]) * R * fmax(1, r->mu[c]) : 0;
+    if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared))
+        find(judge, "friction bound %.9g on element %zu, expected %.9g times the reaction %.9g", w,
+             i, r->mu[c], R);
+}
+
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step before (frozen
  * friction) or of the step itself (consistent friction), which is `before`. Frozen friction takes nodes that carry less
  * than 1e-3 of the largest load or reaction for free, if it likes; a held node has no friction, nor one that no contact
  * is looked for. */
 static void judge_bounds(const Source *source, const Record *r, const Record *before, Judge *judge) {
     double largest = 0;
-    for (size_t c = 0; c < r->contacts * r->nodes; c++) {
+    const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
+    for (size_t c = 0; c < contacts; c++) {
         const double *b = before->load[c % r->nodes];
         largest = fmax(largest, fmax(before->reaction[c], hypot(hypot(b[0], b[1]), b[2])));
     }
@@ -347,7 +364,11 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
     // a line free at both ends balances its forces by a last correction of its reactions
     bool loose = r->end_kind[0] == END_FREE && r->end_kind[1] == END_FREE;
     double shared = source->consistent && loose ? FORCE_FLOOR * 10 * largest : 0;
-    for (size_t c = 0; c < r->contacts * r->nodes; c++) {
+    for (size_t c = 0; c < contacts; c++) {
+        if (c >= r->contacts * r->nodes) {
+            judge_element_bound(r, before, c, largest, shared, source->consistent && solved, judge);
+            continue;
+        }
         size_t j = c % r->nodes;
         bool held = (j == 0 && r->end_kind[0] == END_HELD) || (j == r->elements && r->end_kind[1] == END_HELD);
         bool was_held =

@@ -40,6 +40,7 @@ typedef struct Measures {
     double slide_error;      /* [m] max |slide - way from the carried reference| */
     double quarters;         /* of a turn by which an obstacle turns in the part that the arrays show, at most */
     double gone_quarters;    /* of a turn by which a node with friction has gone round an obstacle in it, at most */
+    double share_error;      /* [m] how far the point where an element touches is from the nearest on its way */
     int misplaced;           /* contacts with obstacles that are not the nearest and the next */
     double normal_error;     /* [-] max |n - the obstacle's|, over 1 + reach/radius on a curved one */
     double stretch;          /* [-] max |e| - 1 over inextensible elements */

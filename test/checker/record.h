@@ -46,7 +46,7 @@ enum { LEDGER_ENDS, LEDGER_OBSTACLES, LEDGER_ELASTIC, LEDGER_GRAVITY, LEDGER_IMB
 typedef double Vector[3];
 
 /* nodes 0..elements; element i joins node i and i + 1 here. Contact c is the first of node c, or the second of node
- * c - nodes. */
+ * c - nodes; where elements have contacts, contact contacts nodes + i is that of element i. */
 typedef struct Record {
     size_t nodes, elements, contacts; /* contacts: 1 or 2 for each node */
     double *element_length, compliance;
@@ -54,6 +54,8 @@ typedef struct Record {
     Vector *normal, *friction, *slide;       /* (contacts, nodes) */
     double *gap, *friction_bound, *reaction; /* the same */
     double *obstacle;                        /* the same: its number, by the file; where there is one contact, 0 */
+    double *share_of;  /* (elements) where on its way element i touches */
+    bool has_elements; /* the file has contacts of elements; obstacle -1: none */
     double *turn;                            /* of each obstacle in the step [rad] */
     double *mu; /* (contacts, nodes) not read: factor times the larger coefficient of the obstacle, by measure.h */
     /* of friction at a node, the mean over the length that it stands for, and what rounding of the abscissas may leave
@@ -87,6 +89,9 @@ typedef struct Source {
 int source_open(const char *path, Source *source, FILE *log);
 int record_create(const Source *source, const char *line, Record *record, FILE *log);
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log);
+
+/* Add what the contacts of its elements do on node j: reaction and friction by their shares. */
+void record_element_forces(const Record *record, size_t j, Real *sum);
 
 /* Both accept a zeroed struct. */
 void source_close(Source *source);

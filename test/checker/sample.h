@@ -24,6 +24,9 @@ int sample_write_set(const char *path);
  * nothing touches, with consistent friction. */
 int sample_write_corner(const char *path);
 
+/* Two equal steps of one line, "line", that goes over a post with consistent friction and touches it with an element. */
+int sample_write_post(const char *path);
+
 /* Overwrite one number: component `index` (flat; beyond the first step's: in the second) of a variable. */
 int sample_poke(const char *path, const char *variable, size_t index, double value);
 

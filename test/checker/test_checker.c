@@ -226,6 +226,36 @@ static const Tamper CORNER_TAMPER[] = {
     {"corner_dissipated", 0, 0.05, "claimed dissipated"},
 };
 
+/* the element on the post is the second */
+static const Tamper POST_TAMPER[] = {
+    {"line_element_friction", 3, -1.61, "imbalance of forces"},
+    {"line_element_friction", 3, -3.1, "friction above its bound"},
+    {"line_element_friction", 4, 0.01, "friction along the normal"},
+    {"line_element_friction", 0, 1, "force without an obstacle"},
+    {"line_element_friction_bound", 1, 1.5, "friction above its bound"},
+    {"line_element_friction_bound", 1, 3.1, "friction bound"},
+    {"line_element_friction_bound", 2, 1, "force without an obstacle"},
+    {"line_element_reaction", 1, 6.001, "imbalance of forces"},
+    {"line_element_reaction", 1, -1, "adhesion"},
+    {"line_element_reaction", 0, 1, "force without an obstacle"},
+    {"line_element_normal", 4, 0.999, "normal against the obstacle's"},
+    {"line_element_slide", 3, 1e-9, "slide against the way"},
+    {"line_element_contact_gap", 1, 1e-9, "contact_gap against the distance"},
+    {"line_element_contact_gap", 1, INFINITY, "force without an obstacle"},
+    {"line_element_share", 1, 0.6001, "place of an element's contact"},
+    {"line_element_share", 1, 1.1, "element_share holds a value that cannot be"},
+    {"line_element_obstacle", 1, -1, "imbalance of forces"},
+    {"line_element_obstacle", 1, 1, "unknown obstacle"},
+    {"line_element_obstacle", 1, 0.5, "unknown obstacle"},
+    {"line_element_reaction", 1, NAN, "reaction holds a value that cannot be"},
+    {"line_element_length", 1, 1.9, "sum of local gaps"},
+    {"line_element_penetration", 0, 1e-6, "claimed element_penetration"},
+    {"line_position", 4, 0.74, "sum of local gaps"},
+    {"obstacle_radius", 0, 1.001, "depth of an element inside an obstacle"},
+    {"obstacle_radius", 0, 0.999, "contact_gap against the distance"},
+    {"obstacle_point", 0, 0.01, "place of an element's contact"},
+};
+
 static void refuse_each(int (*write)(const char *), const Tamper *tamper, size_t count) {
     for (size_t i = 0; i < count; i++) {
         CHECK_INT(write(path), 0);
@@ -251,6 +281,7 @@ static void every_change_is_refuted(void **state) {
     refuse_each(sample_write_drum, DRUM_TAMPER, sizeof DRUM_TAMPER / sizeof *DRUM_TAMPER);
     refuse_each(sample_write_set, SET_TAMPER, sizeof SET_TAMPER / sizeof *SET_TAMPER);
     refuse_each(sample_write_corner, CORNER_TAMPER, sizeof CORNER_TAMPER / sizeof *CORNER_TAMPER);
+    refuse_each(sample_write_post, POST_TAMPER, sizeof POST_TAMPER / sizeof *POST_TAMPER);
 }
 
 static void drum_is_certified(void **state) {
@@ -264,6 +295,15 @@ static void drum_is_certified(void **state) {
     CHECK_INT(checker_file(path, &report, stdout), 0);
     CHECK_INT(report.certified, 2);
     CHECK_NEAR(report.gap, 0, 1e-14);
+}
+
+static void post_is_certified(void **state) {
+    (void)state;
+    CheckerReport report;
+    CHECK_INT(sample_write_post(path), 0);
+    CHECK_INT(checker_file(path, &report, stdout), 0);
+    CHECK_INT(report.certified, 2);
+    CHECK_NEAR(report.gap, 0, 1e-14); // rounding of the sample's doubles
 }
 
 static void corner_is_certified(void **state) {
@@ -361,7 +401,8 @@ static void what_is_no_result_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_solution_is_certified), cmocka_unit_test(drum_is_certified),
-        cmocka_unit_test(corner_is_certified),         cmocka_unit_test(every_change_is_refuted),
+        cmocka_unit_test(corner_is_certified),
+        cmocka_unit_test(post_is_certified),         cmocka_unit_test(every_change_is_refuted),
         cmocka_unit_test(ways_are_geodesics),          cmocka_unit_test(sets_are_ellipse_and_box),
         cmocka_unit_test(supports_and_distances),      cmocka_unit_test(what_is_no_result_is_refused),
     };
