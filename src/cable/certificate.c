@@ -194,7 +194,9 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     out->dual += vec3_dot(f, vec3_sub(x, slide));
     raise_to(&out->largest_force, vec3_norm(f));
     if (reaction > 0) {
-        out->contact_residual += reaction*fmax(0, vec3_dot(n, vec3_sub(x, reference)) + line->gap[c]);
+        /* a node is laid on the surface by the rounds, an element is near it on either side */
+        const double distance = vec3_dot(n, vec3_sub(x, reference)) + line->gap[c];
+        out->contact_residual += reaction*(cpsi_line_element(line, c) >= 0 ? fabs(distance) : fmax(0, distance));
         out->dual += reaction*(vec3_dot(n, reference) - line->gap[c]);
         raise_to(&out->largest_force, reaction);
     }

@@ -481,7 +481,7 @@ static size_t describe_post(Field *field) {
     static const double PLACE[3 * NODES] = {-2.8, -0.45, 0, -1.2, 0.75, 0, 0.8, 0.75, 0, 2.4, -0.45, 0, 4, -1.65, 0};
     static const double FORCE[3 * ELEMENTS] = {3.2, 2.4, 0, 3.84, 0, 0, 4.8, -3.6, 0, 4.8, -3.6, 0};
     static const double TENSION[ELEMENTS] = {4, 3.84, 6, 6}, PULL[3] = {4.8, -3.6, 0}, R = 6, F = -1.6;
-    const double far = hypot(6.8, 1.2), primal = -(4.8 * 4 + 3.6 * 1.65);
+    const double primal = -(4.8 * 4 + 3.6 * 1.65);
     size_t n = no_elements(field);
     field[0].value[4] = 1, field[1].value[3] = F, field[3].value[1] = 0, field[4].value[1] = MU * R;
     field[5].value[1] = R, field[6].value[1] = 0, field[7].value[1] = 0.6;
@@ -508,14 +508,16 @@ static size_t describe_post(Field *field) {
     field[n++] = (Field){"end_force", 2, 3, {-FORCE[0], -FORCE[1], 0, PULL[0], PULL[1], 0}};
     field[n++] = (Field){"end_friction", 2, 3, {0}};
     field[n++] = (Field){"end_tension", 2, 0, {4, 6}};
+    for (int k = 0; k < RANGES; k++) field[n++] = (Field){RANGE_NAME[k], 2, 0, {NAN, NAN}};
     field[n++] = (Field){"proof", 3, 0, {0}};
     static const char *const NONE[] = {
         "dissipated", "proof_value",      "ledger_ends",     "ledger_elastic",    "ledger_gravity",   "ledger_imbalance",
         "gap",        "tension_bound",    "force_residual",  "law_residual",      "contact_residual", "ledger_obstacles",
-        "penetration", "stretch_residual", "friction_residual", "tension_estimate", "element_penetration"};
+        "penetration", "stretch_residual", "friction_residual", "tension_estimate", "element_penetration",
+        "unaccounted", "element_push", "elongation_residual"};
     for (size_t k = 0; k < sizeof NONE / sizeof *NONE; k++) field[n++] = scalar(NONE[k], 0);
     field[n++] = scalar("primal", primal), field[n++] = scalar("dual", primal);
-    field[n++] = scalar("scale", 2 * (4 + 3.84 + 6 + 6) + 6 * far), field[n++] = scalar("largest_force", 6);
+    field[n++] = scalar("scale", 2 * (4 + 3.84 + 6 + 6) + least_scale(6, 8)), field[n++] = scalar("largest_force", 6);
     return n;
 }
 
