@@ -110,7 +110,7 @@ static void report_outcomes(const CpsEvolution *evolution) {
         const CpsCertificate *c = &line.certificate;
         if (line.outcome == CPS_INFEASIBLE)
             fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1], d[2]);
-        else if (line.outcome == CPS_UNBOUNDED) {
+        else if (line.outcome == CPS_UNBOUNDED || line.outcome == CPS_SLIDES) {
             fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1], d[2]);
             if (line.coulomb > 0)
                 fprintf(stderr,

@@ -142,9 +142,12 @@ typedef struct CpsLineReport {
     double tension_mesh; /* [N] estimated error of the tension by the elements' lengths, to leading order; NaN where there is none */
     int pierced;     /* the obstacle of the certificate's element_penetration; -1 where that is 0 */
     double proof[3]; /* infeasible: unit vector from end A to end B, along which a constant force proves it;
-                        unbounded: the rigid direction in which the energy falls; else 0 0 0 */
+                        unbounded: the rigid direction in which the energy falls;
+                        slides: the velocity of the end that leads, of the field `motion` of the view; else 0 0 0 */
     double proof_value; /* infeasible: [m] distance of the ends - length > 0;
-                           unbounded: [N] fall of the energy per metre > 0; else 0 */
+                           unbounded: [N] fall of the energy per metre > 0;
+                           slides: [N] power of the loads per unit of speed, beyond all that friction can take, the least
+                           along the way > 0; else 0 */
     double coulomb;     /* [N] unbounded with frozen friction: what friction bears by Coulomb's law under these loads, mu times what
                            presses on the plane, where that is enough to hold the line; else 0 */
 } CpsLineReport;
@@ -191,6 +194,7 @@ typedef struct CpsLineView {
                                          surface; NULL on one plane with isotropic friction: the part of u in it */
     const double *segment_force;      /* (elements, 3) [N] p: what the B side does to the A side */
     const double *tension;            /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
+    const double *motion;             /* (n, 3) [-] slides: velocities that prove it, the fastest of size 1; else 0 */
     const unsigned char *state;       /* (contacts, n) CpsNodeState */
     double origin[3];                 /* [m] what reference, position and the places of held ends are measured from: 0 0 0, but a place
                                          near the lines where these lie more than 512 lengths away; same for all lines */

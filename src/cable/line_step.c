@@ -26,6 +26,7 @@
 #include "cable/line_report.h"
 #include "cable/mesh_error.h"
 #include "cable/rub_set.h"
+#include "cable/slides.h"
 #include "cable/step_program.h"
 #include "cable/tension_field.h"
 #include "ipm/ipm.h"
@@ -481,12 +482,30 @@ static void choose_forces(CpsiLine *line, const CpsiChainProgram *program, const
     }
 }
 
-void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+/* Where a line's ends are before a step: where they stay if there is no equilibrium. */
+static void keep_ends(CpsiLine *line) {
     line->report = (CpsLineReport){.pierced = -1};
-    for (int end = 0; end < 2; end++) { /* where they stay if there is no equilibrium */
+    for (int end = 0; end < 2; end++) {
         memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
         line->report.end[end].range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
     }
+}
+
+bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, double margin) {
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    if (options->friction != CPS_FRICTION_CONSISTENT || options->frictionless) return false;
+    keep_ends(line);
+    pose(line, options);
+    if (!cpsi_line_slides(line, margin)) return false;
+    line->report.outcome = CPS_SLIDES;
+    memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
+    memset(line->segment_force, 0, 3*n*sizeof *line->segment_force);
+    memset(line->tension, 0, n*sizeof *line->tension);
+    return true;
+}
+
+void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    keep_ends(line);
     remember(line);
     pose(line, options);
     if (too_short(line) || runs_away(line, options)) return;

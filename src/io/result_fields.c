@@ -27,6 +27,8 @@ const CpsiField cpsi_field[CPSI_FIELDS] = {
     {"segment_force", "force of the B side of an element on its A side", "N", CPSI_PLACE_ELEMENT, true, false, false,
      VIEW(segment_force)},
     {"tension", "tension from the elongation", "N", CPSI_PLACE_ELEMENT, false, false, false, VIEW(tension)},
+    {"motion", "velocity that proves that the line slides without end, else 0", "1", CPSI_PLACE_NODE, true, false, false,
+     VIEW(motion)},
 };
 
 static CpsStatus refuse(const char *name, int length, CpsError *err) {

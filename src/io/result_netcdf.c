@@ -67,7 +67,7 @@ static const Number NUMBER[] = {
     {"ledger_obstacles", "work of the friction of obstacles that turn", "J", REPORT(ledger.obstacles)},
     {"ledger_imbalance", "what the ledger does not close by", "J", REPORT(ledger.imbalance)},
     {"unaccounted", "of that, more than 5 % of the energies of parts that could not be cut any more", "J", REPORT(unaccounted)},
-    {"proof_value", "infeasible: excess distance in m; unbounded: fall of energy per metre in N", "m or N",
+    {"proof_value", "infeasible: excess distance in m; unbounded: fall of energy per metre in N; slides: least power in N", "m or N",
      REPORT(proof_value)},
 };
 

@@ -53,11 +53,12 @@ static void put_end(FILE *out, const char *key, const CpsEndReport *end, const c
 
 /* what proves that there is no solution, in the units of its kind */
 static void put_proof(FILE *out, const CpsLineReport *report) {
-    if (report->outcome != CPS_INFEASIBLE && report->outcome != CPS_UNBOUNDED) return;
+    if (!cps_outcome_is_final(report->outcome)) return;
+    const char *value = report->outcome == CPS_INFEASIBLE ? "excess_m" : report->outcome == CPS_SLIDES ? "power_N" : "fall_N";
     fputs("          \"proof\": {", out);
     put_vector(out, "direction", report->proof, ", ");
     if (report->coulomb > 0) put_number(out, "coulomb_N", report->coulomb, ", ");
-    put_number(out, report->outcome == CPS_INFEASIBLE ? "excess_m" : "fall_N", report->proof_value, "},\n");
+    put_number(out, value, report->proof_value, "},\n");
 }
 
 static void put_line(FILE *out, const char *name, const CpsLineReport *report, const char *after) {

@@ -9,6 +9,7 @@
 #include "ends.h"
 #include "ranges.h"
 #include "measure.h"
+#include "motion.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding leaves 1e-16 per
  * operation, and a drag over thousands of nodes must not hide in it. The same for friction above its bound, friction
@@ -258,6 +259,13 @@ static void judge_unbounded(Judge *judge, const Record *r, const Measures *m) {
     same(judge, "proof_value", r->proof_value, m->rigid_fall, FORCE_FLOOR * m->largest_force);
 }
 
+static void judge_slides(Judge *judge, const Source *source, const Record *r) {
+    double power;
+    const char *what = motion_contradiction(source, r, &power);
+    if (what) find(judge, "slides without end, but %s", what);
+    else same(judge, "proof_value", r->proof_value, power, 0);
+}
+
 /* Contact is seen from where the nodes end up, but from the reference on one plane, where it is the same, and where friction is frozen and contact
  * strict; frozen friction itself always from the reference, but in a line laid by statics. */
 static Measures measure_where(const Source *source, const Record *r, size_t step) {
@@ -292,7 +300,7 @@ static void judge_record(const Source *source, const Record *r, const char *line
             judge_unbounded(&judge, r, &m);
             break;
         case OUTCOME_SLIDES:
-            find(&judge, "slides without end, without evidence");
+            judge_slides(&judge, source, r);
             break;
         default:
             judge_claims(&judge, r, &m, (double)(end_measure(source, r, 0).slid + end_measure(source, r, 1).slid));

@@ -98,6 +98,7 @@ static const char *missing_variable(const Record *r) {
         {"end_friction", r->end_friction[0], 6, -most, most},
         {"end_tension", r->end_tension, 2, 0, most},
         {"proof", r->proof, 3, -most, most},
+        {"motion", r->motion ? r->motion[0] : NULL, r->motion ? 3 * n : 0, -most, most},
         {"proof_value", &r->proof_value, 1, -most, most},
         {"dissipated", &r->dissipated, 1, -most, most},
         {"unaccounted", &r->unaccounted, 1, 0, most},

@@ -51,6 +51,7 @@ typedef struct Record {
     size_t nodes, elements, contacts; /* contacts: 1 or 2 for each node */
     double *element_length, compliance;
     Vector *reference, *position, *load, *segment_force;
+    Vector *motion;                          /* of a line that slides without end, else 0 */
     Vector *normal, *friction, *slide;       /* (contacts, nodes) */
     double *gap, *friction_bound, *reaction; /* the same */
     double *obstacle;                        /* the same: its number, by the file; where there is one contact, 0 */

@@ -117,7 +117,8 @@ static const Tamper TAMPER[] = {
     {"drag_outcome", 0, 4, "unbounded, but an end is held"},
     {"drag_outcome", 0, 5, "infeasible, but"},
     {"drag_outcome", 0, 6, "not certified, as the file says"},
-    {"drag_outcome", 0, 7, "slides without end"},
+    {"drag_outcome", 0, 7, "slides without end, but an end is held"},
+    {"loose_outcome", 0, 7, "slides without end, but friction is frozen"},
     {"drag_outcome", 0, 8, "unknown outcome"},
     {"tight_end_value", 3, 3.999, "distance of the ends - length"},
     {"tight_position", 3, 1.1, "stretch"},
@@ -226,6 +227,26 @@ static const Tamper CORNER_TAMPER[] = {
     {"corner_dissipated", 0, 0.05, "claimed dissipated"},
 };
 
+/* a slide: its velocities, the loads that drive it, what it slides on */
+static const Tamper SPILL_TAMPER[] = {
+    {"spill_motion", 2, 0.88, "an element would lengthen"},
+    {"spill_motion", 8, 0.16, "an element would lengthen"},
+    {"spill_motion", 8, 0.1, "a node would press on an obstacle"},
+    {"spill_motion", 9, 0.04, "a node would press on an obstacle"},
+    {"spill_motion", 14, -0.1, "an element would lengthen"},
+    {"spill_motion", 5, 0, "the fastest node does not move at the speed 1"},
+    {"spill_motion", 5, NAN, "motion holds a value that cannot be"},
+    {"spill_end_value", 5, -8.9, "no power that nothing can take"},
+    {"spill_end_value", 2, -1.2, "no power that nothing can take"},
+    {"spill_load", 14, -14, "no power that nothing can take"}, // a line with weight
+    {"spill_end_kind", 0, 0, "an end is held"},
+    {"spill_proof_value", 0, 0.1, "proof_value"},
+    {"spill_reference", 6, 0.1, "an element would lengthen"},
+    {"obstacle_axial", 0, 0.51, "a node would press on an obstacle"},
+    {"obstacle_radius", 0, 1.001, "a node lies inside an obstacle"},
+    {"obstacle_kind", 0, 0, "a node would press on an obstacle"},
+};
+
 static void refuse_each(int (*write)(const char *), const Tamper *tamper, size_t count) {
     for (size_t i = 0; i < count; i++) {
         CHECK_INT(write(path), 0);
@@ -251,6 +272,7 @@ static void every_change_is_refuted(void **state) {
     refuse_each(sample_write_drum, DRUM_TAMPER, sizeof DRUM_TAMPER / sizeof *DRUM_TAMPER);
     refuse_each(sample_write_set, SET_TAMPER, sizeof SET_TAMPER / sizeof *SET_TAMPER);
     refuse_each(sample_write_corner, CORNER_TAMPER, sizeof CORNER_TAMPER / sizeof *CORNER_TAMPER);
+    refuse_each(sample_write_spill, SPILL_TAMPER, sizeof SPILL_TAMPER / sizeof *SPILL_TAMPER);
 }
 
 static void drum_is_certified(void **state) {
@@ -264,6 +286,15 @@ static void drum_is_certified(void **state) {
     CHECK_INT(checker_file(path, &report, stdout), 0);
     CHECK_INT(report.certified, 2);
     CHECK_NEAR(report.gap, 0, 1e-14);
+}
+
+static void spill_is_certified(void **state) {
+    (void)state;
+    CheckerReport report;
+    CHECK_INT(sample_write_spill(path), 0);
+    CHECK_INT(checker_file(path, &report, stdout), 0);
+    CHECK_INT(report.certified, 2);
+    CHECK_INT(report.outcome[7], 2);
 }
 
 static void corner_is_certified(void **state) {
@@ -361,7 +392,8 @@ static void what_is_no_result_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_solution_is_certified), cmocka_unit_test(drum_is_certified),
-        cmocka_unit_test(corner_is_certified),         cmocka_unit_test(every_change_is_refuted),
+        cmocka_unit_test(spill_is_certified),          cmocka_unit_test(corner_is_certified),
+        cmocka_unit_test(every_change_is_refuted),
         cmocka_unit_test(ways_are_geodesics),          cmocka_unit_test(sets_are_ellipse_and_box),
         cmocka_unit_test(supports_and_distances),      cmocka_unit_test(what_is_no_result_is_refused),
     };
