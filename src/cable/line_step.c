@@ -21,6 +21,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/bend.h"
 #include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/line_report.h"
@@ -502,4 +503,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     cpsi_line_report_ends(line);
     cpsi_line_report_lengths(line);
     line->report.tension_mesh = cpsi_mesh_error(line);
+    line->report.bend = cpsi_line_bend(line);
+    if (cps_outcome_is_certified(line->report.outcome) && cpsi_bend_locks(&line->report.bend))
+        line->report.outcome = CPS_MESH_TOO_COARSE;
 }
