@@ -47,7 +47,7 @@ def check_history(directory, summary):
         rows = list(csv.reader(file))
     names, units, rows = rows[0], rows[1], rows[2:]
     assert len(rows) == len(summary["steps"]) and len(set(names)) == len(names) == len(units)
-    assert all(unit in ("", "1", "s", "m", "N", "J") for unit in units), units
+    assert all(unit in ("", "1", "s", "m", "N", "J", "rad") for unit in units), units
     for row, step in zip(rows, summary["steps"]):
         assert len(row) == len(names)
         value = dict(zip(names, row))
