@@ -105,7 +105,7 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
         if (bend->turn > 0 && bend->ratio > (1 + TOLD_BEND) * bend->coulomb) {
             if (bend->ratio / bend->coulomb > cautions->kind[CAUTION_BEND].value) {
                 cautions->bend = *bend;
-                snprintf(cautions->obstacle, sizeof cautions->obstacle, "%s", scene->obstacle[bend->obstacle].name);
+                snprintf(cautions->kind[CAUTION_BEND].obstacle, sizeof cautions->kind[CAUTION_BEND].obstacle, "%s", scene->obstacle[bend->obstacle].name);
             }
             note(cautions, CAUTION_BEND, bend->ratio / bend->coulomb, 1, step, view.name);
         }
@@ -180,7 +180,7 @@ void cautions_say(const Cautions *cautions) {
         fputs(": ", stderr);
         if (k == CAUTION_BEND) {
             fputs("the mesh is coarse for a bend", stderr);
-            cautions_put_bend(&cautions->bend, cautions->obstacle);
+            cautions_put_bend(&cautions->bend, cautions->kind[CAUTION_BEND].obstacle);
         } else
             put_figures(k, cautions->kind[k].value, cautions->kind[k].of);
         if (cautions->kind[k].steps > 1) fprintf(stderr, " (the worst of %d)", cautions->kind[k].steps);

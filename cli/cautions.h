@@ -27,7 +27,6 @@ typedef struct Cautions {
         char step[96], line[96], obstacle[96];
     } kind[CAUTIONS];
     CpsBend bend; /* the worst */
-    char obstacle[96];
 } Cautions;
 
 /* Look at the step just taken. */

@@ -119,7 +119,7 @@ double cpsi_obstacle_angle(const CpsiObstacle *o, Vec3 from, Vec3 to) {
 
 bool cpsi_obstacle_faces(const CpsiObstacle *o, Vec3 a, Vec3 b, double *share) {
     if (o->kind == CPS_OBSTACLE_PLANE) return false;
-    const Vec3 from = spoke(o, a), along = vec3_sub(spoke(o, b), from);
+    const Vec3 from = cpsi_obstacle_spoke(o, a), along = vec3_sub(cpsi_obstacle_spoke(o, b), from);
     const double passed = -vec3_dot(from, along), whole = vec3_dot(along, along);
     *share = passed/whole;
     return passed > 0 && passed < whole;
