@@ -52,7 +52,7 @@ static void bend_at(const Source *source, const Record *r, bool reached, size_t 
     *turn = *friction = 0;
     if (j == 0 || j == r->elements || !(r->reaction[c] > 0) || !(r->friction_bound[c] > 0)) return;
     const Surface *surface = &source->surface[source->surfaces > 1 ? (size_t)r->obstacle[c] : 0];
-    Real before[3], after[3], n[3], line[3], chord[3];
+    Real before[3], after[3], n[3], line[3], chord[3], here[3], plane[3];
     Vector *place = reached ? r->position : r->reference;
     if (surface->kind == SURFACE_PLANE || !unit(r->segment_force[j - 1], least, before) ||
         !unit(r->segment_force[j], least, after))
@@ -61,9 +61,11 @@ static void bend_at(const Source *source, const Record *r, bool reached, size_t 
         n[k] = r->normal[c][k];
         line[k] = before[k] + after[k];
         chord[k] = (Real)place[j + 1][k] - place[j - 1][k];
+        here[k] = place[j][k];
     }
+    surface_normal(surface, here, plane);
     *turn = fmaxl(0, above(before, n) - above(after, n));
-    if (*turn > 0) *friction = friction_along(surface, n, line, chord, r->factor ? r->factor[j] : 1);
+    if (*turn > 0) *friction = friction_along(surface, plane, line, chord, r->factor ? r->factor[j] : 1);
 }
 
 Bend bend_of_record(const Source *source, const Record *r, bool reached, double largest_force) {

@@ -11,8 +11,8 @@ typedef struct Bend {
     double there;          /* the turn at the arc length that the file names */
 } Bend;
 
-/* The sharpest bend of a record, contact seen from the configuration reached or from the reference; forces below 1e-9
- * of the largest have no direction. */
+/* The sharpest bend of a record, the axes of friction those of the configuration reached or of the reference; forces
+ * below 1e-9 of the largest have no direction. */
 Bend bend_of_record(const Source *source, const Record *record, bool reached, double largest_force);
 
 #endif

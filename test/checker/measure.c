@@ -491,7 +491,7 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     add(&identity, s.imbalance_work.value), add(&identity, s.imbalance_work.rest);
     m.identity = (double)total(&identity);
     m.identity_noise = (double)(1024 * 0x1p-63L * total(&s.magnitude));
-    m.bend = bend_of_record(source, r, reached, m.largest_force);
+    m.bend = bend_of_record(source, r, sight == SIGHT_REACHED, m.largest_force);
     m.tension_bound = r->compliance > 0 ? sqrt(2 * m.gap / (r->compliance * m.length)) : NAN;
     return m;
 }
