@@ -10,10 +10,14 @@
  * A step goes straight from one equilibrium to another. Where energy is made, or much of it set free, the way between
  * them was another one: the line jumped, or took another branch of equilibria.
  *
+ * A coordinate is a number of 16 digits. Far from the origin of coordinates what rounding leaves of a length makes a tension, and the
+ * stiffer the line the larger a one.
+ *
  * Where a line turns by d at one node round an obstacle, the polygon holds tensions up to a ratio k, and a smooth line
  * up to exp(mu d): a mesh that is too coarse for the bend is told by their difference. */
 #include "cautions.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -26,6 +30,8 @@ static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6, TOLD
 static const double TOLD_SLACK = 0.5;
 /* parts by which the ratios of tensions of polygon and smooth line may differ */
 static const double TOLD_BEND = 0.01;
+/* ... and the tension that rounding of coordinates may make, as a part of the largest force */
+static const double TOLD_ROUNDED = 1e-3;
 
 /* part of what is dissipated and worked in a step from which a user is told of energy set free without a snap */
 static const double TOLD_FREED = 0.5;
@@ -83,6 +89,16 @@ static void note_energy(Cautions *cautions, const CpsStepReport *step, const Cps
         note(cautions, CAUTION_FREED, freed, beside, step->name, name);
 }
 
+/* [N] tension by rounding of the largest coordinate of an end, eps |x| EA/L; inextensible lines have no such figure */
+static double rounded_tension(const CpsLineView *view) {
+    double reach = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const double *b = view->position + 3 * (size_t)view->elements;
+        reach = fmax(reach, fmax(fabs(view->origin[k] + view->position[k]), fabs(view->origin[k] + b[k])));
+    }
+    return view->compliance > 0 ? DBL_EPSILON * reach / (view->compliance * view->arc_length[view->elements]) : 0;
+}
+
 void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const char *step = report.name;
@@ -113,6 +129,8 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
             note(cautions, CAUTION_SUNK, line.certificate.penetration, length, step, view.name);
         if (line.slack > TOLD_SLACK * length && line.slipping > 0)
             note(cautions, CAUTION_SLACK, line.slack, length, step, view.name);
+        const double rounded = rounded_tension(&view), force = line.certificate.largest_force;
+        if (rounded > TOLD_ROUNDED * force && force > 0) note(cautions, CAUTION_ROUNDED, rounded, force, step, view.name);
     }
 }
 
@@ -152,6 +170,11 @@ static void put_figures(int kind, double value, double of) {
         fprintf(stderr,
                 "%.4g J are set free, beside %.4g J dissipated and worked: the line falls or jumps, or the load step is "
                 "large; smaller load steps or a 'path_tolerance' tell which",
+                value, of);
+    else if (kind == CAUTION_ROUNDED)
+        fprintf(stderr,
+                "coordinates are so large that their last digit is worth %.4g N of tension, of %.4g N: measure places from "
+                "one near the lines",
                 value, of);
     else if (kind == CAUTION_SUNK)
         fprintf(stderr,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a user must know of a step though it is solved and certified: with frozen friction or strict contact what S90
- * annex 6 shows, where most of a line is slack, energy that comes from nowhere or is set free, and where the mesh is
- * coarse for the bends in it; and, whatever the outcome, where a line goes through an obstacle. */
+ * annex 6 shows, where most of a line is slack, energy that comes from nowhere or is set free, coordinates with too few digits, and
+ * where the mesh is coarse for the bends in it; and, whatever the outcome, where a line goes through an obstacle. */
 #ifndef CAPSTAN_CLI_CAUTIONS_H
 #define CAPSTAN_CLI_CAUTIONS_H
 
@@ -14,6 +14,7 @@ enum {
     CAUTION_SLACK,
     CAUTION_MADE,
     CAUTION_FREED,
+    CAUTION_ROUNDED,
     CAUTION_PIERCED,
     CAUTION_BEND,
     CAUTIONS

@@ -241,6 +241,10 @@ static void say_where(const char *directory, const CpsEvolution *evolution, bool
     printf("\nresults   %s: summary.json, history.csv, result.nc%s\n", directory,
            paraview ? ", result.pvd (ParaView)" : "");
     printf("pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg, loop-*.svg of closed cycles\n", directory);
+    const CpsLineView view = cps_evolution_line_view(evolution, 0);
+    const double *o = view.origin;
+    if (o[0] != 0 || o[1] != 0 || o[2] != 0)
+        printf("origin    places in result.nc, the ParaView files and pictures are measured from (%.15g, %.15g, %.15g) m\n", o[0], o[1], o[2]);
 }
 
 static int run(const CpsScene *scene, const char *directory, const CliOptions *options) {

@@ -105,7 +105,7 @@ typedef struct CpsTensionRange {
 /* The end of a line. The last half element, of length h/2, has the weight w h/2, and where a held end lies on an obstacle its reaction
  * and friction as well; so the force at the end is not the one in the middle of the element (docs/theory.md 3). */
 typedef struct CpsEndReport {
-    double position[3]; /* [m] */
+    double position[3]; /* [m] in the coordinates of the scene */
     double force[3];    /* [N] on the line at this end */
     double tension;     /* [N] |force|, the line's tension at this end */
     double work;        /* [J] of the force at this end in this step, over its parts: the two add up to `ends` of the ledger */
@@ -206,6 +206,8 @@ typedef struct CpsLineView {
     const double *segment_force;      /* (elements, 3) [N] p: what the B side does to the A side */
     const double *tension;            /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
     const unsigned char *state;       /* (contacts, n) CpsNodeState */
+    double origin[3];                 /* [m] what reference, position and the places of held ends are measured from: 0 0 0, but a place
+                                         near the lines where these lie more than 512 lengths away; same for all lines */
 } CpsLineView;
 
 /* Prepare a scene.

@@ -124,6 +124,7 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
                         (int)solver->linear_system,  solver->halvings};
     mix(&hash, what, sizeof what);
     mix_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
+    mix_numbers(&hash, 3, evolution->origin);
     for (int i = 0; i < evolution->line_count; i++) mix_line(&hash, &evolution->line[i]);
     for (int k = 0; k < evolution->obstacle_count; k++) mix_obstacle(&hash, &evolution->obstacle[k]);
     for (int k = 0; k < evolution->stage_count; k++) mix_stage(&hash, &evolution->stage[k]);

@@ -18,6 +18,7 @@
 #include "evolve/checkpoint.h"
 #include "evolve/evolution.h"
 #include "evolve/ledger.h"
+#include "evolve/origin.h"
 #include "evolve/path_check.h"
 #include "evolve/start.h"
 
@@ -227,18 +228,27 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
     CpsStatus status = cps_scene_check(scene, err);
     if (status == CPS_OK) status = make_sets(scene, &set, &sizes, err);
     if (status != CPS_OK) return status;
+    CpsiLocalScene local;
+    status = cpsi_local_scene(scene, &local, err);
+    if (status != CPS_OK) {
+        free_sets(scene, set);
+        return status;
+    }
     const CpsiShapeForm *largest = set ? &sizes : NULL;
     CpsiArena arena = {0};
     layout(&arena, scene, largest);
     const size_t bytes = arena.used;
     if (!cpsi_arena_allocate(&arena)) {
+        cpsi_local_scene_free(&local);
         free_sets(scene, set);
         return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had", (double)bytes*1e-6);
     }
     CpsEvolution *evolution = layout(&arena, scene, largest);
     evolution->arena = arena;
     evolution->set = set;
-    fill(evolution, scene);
+    memcpy(evolution->origin, local.origin, sizeof evolution->origin);
+    fill(evolution, &local.scene);
+    cpsi_local_scene_free(&local);
     *out = evolution;
     return CPS_OK;
 }
@@ -285,15 +295,18 @@ static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
         const CpsiLine *line = &evolution->line[change->line];
         if (change->to.kind != CPS_END_HELD || line->end[change->end].kind == CPS_END_HELD) continue;
         const CpsEnd from = end_now(line, change->end, CPS_END_HELD);
-        const double *a = from.value, *b = change->to.value;
+        const double *a = from.value, *b = change->to.value, *o = evolution->origin;
+        /* that of the data: coordinates of the scene */
+        const double rounding = cpsi_place_rounding(line->length, vec3_add(vec3_load(o), vec3_load(b)));
         for (int k = 0; k < evolution->obstacle_count; k++) {
             const double depth =
-                cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b), CPSI_PATH_TOUCH*line->length);
+                cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b), CPSI_PATH_TOUCH*line->length + rounding);
             if (depth > 0)
                 return cpsi_fail(err, CPS_ERR_ARGUMENT,
                                  "stage '%.64s': %s.%s is grabbed at (%g, %g, %g) m and goes straight to (%g, %g, %g) m, through obstacle "
                                  "'%s', up to %g m deep: add way points around it",
-                                 stage->name, line->name, change->end == CPS_END_A ? "A" : "B", a[0], a[1], a[2], b[0], b[1], b[2],
+                                 stage->name, line->name, change->end == CPS_END_A ? "A" : "B", o[0] + a[0], o[1] + a[1], o[2] + a[2],
+                                 o[0] + b[0], o[1] + b[1], o[2] + b[2],
                                  evolution->obstacle_name[k], depth);
         }
     }
@@ -419,7 +432,13 @@ CpsStepReport cps_evolution_report(const CpsEvolution *evolution) { return evolu
 
 int cps_evolution_line_count(const CpsEvolution *evolution) { return evolution->line_count; }
 
-CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) { return evolution->line[line].report; }
+CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) {
+    CpsLineReport report = evolution->line[line].report;
+    for (int end = 0; end < 2; end++)
+        for (int a = 0; a < 3; a++)
+            if (evolution->origin[a] != 0) report.end[end].position[a] += evolution->origin[a]; /* 0 keeps its sign */
+    return report;
+}
 
 CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
     const CpsiLine *from = &evolution->line[line];
@@ -444,5 +463,6 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .tension = from->tension,
         .state = from->state,
         .obstacle = from->on,
+        .origin = {evolution->origin[0], evolution->origin[1], evolution->origin[2]},
     };
 }

@@ -44,6 +44,7 @@ struct CpsEvolution {
     bool ended;       /* an infeasible or unbounded step ends the history */
     CpsiChainProgram program;
     CpsiForceSet forces; /* room for those of inextensible lines */
+    double origin[3]; /* [m] from which all places are measured */
     uint64_t fingerprint; /* of everything that does not change: which scene this is */
 };
 

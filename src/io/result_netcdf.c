@@ -282,7 +282,9 @@ static void define_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
     define_sets(nc, scene);
 }
 
-static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names) {
+static bool is_far(const double origin[XYZ]) { return origin[0] != 0 || origin[1] != 0 || origin[2] != 0; }
+
+static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origin[XYZ], const char *names) {
     add_text(nc, NC_GLOBAL, "Conventions", "CF-1.8");
     add_text(nc, NC_GLOBAL, "title", scene->title ? scene->title : "");
     char source[64];
@@ -295,6 +297,8 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names)
         keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "gravity", NC_DOUBLE, 3, scene->gravity));
     if (nc->status == NC_NOERR)
         keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &scene->solver.tolerance));
+    if (nc->status == NC_NOERR && is_far(origin))
+        keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "origin", NC_DOUBLE, 3, origin));
 
     nc->step = add_dimension(nc, "step", NC_UNLIMITED);
     nc->xyz = add_dimension(nc, "xyz", XYZ);
@@ -460,14 +464,15 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     }
 }
 
-static void write_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
+static void write_obstacles(CpsiNetcdf *nc, const CpsScene *scene, const double origin[XYZ]) {
     for (size_t k = 0; k < (size_t)scene->obstacle_count; ++k) {
         const CpsObstacle *o = &scene->obstacle[k];
         const bool plane = o->kind == CPS_OBSTACLE_PLANE;
         const double kind = o->kind, radius = plane ? 0 : o->radius, shape = o->friction_set ? 2 : o->friction_shape;
         const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
+        const double point[XYZ] = {o->point[0] - origin[0], o->point[1] - origin[1], o->point[2] - origin[2]};
         const double *value[OBSTACLE_FIELDS] = {
-            &kind, o->point, plane ? o->normal : o->axis, &radius, &o->friction, &lateral, &shape, o->grain};
+            &kind, point, plane ? o->normal : o->axis, &radius, &o->friction, &lateral, &shape, o->grain};
         const size_t start[] = {k, 0}, count[] = {1, XYZ};
         for (int f = 0; f < OBSTACLE_FIELDS; ++f) write_doubles(nc, nc->obstacle_field[f], start, count, value[f]);
     }
@@ -518,14 +523,15 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene, const
     nc->open = nc->status == NC_NOERR;
     /* everything is written once, so nothing need be filled before */
     if (nc->open) keep(nc, nc_set_fill(nc->file, NC_NOFILL, &before));
-    if (nc->open) define_run(nc, scene, names);
+    const CpsLineView first = cps_evolution_line_view(evolution, 0);
+    if (nc->open) define_run(nc, scene, first.origin, names);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         define_line(nc, &nc->line[i], &view);
         define_zones(nc, &nc->line[i], &scene->line[i]);
     }
     if (nc->status == NC_NOERR) keep(nc, nc_enddef(nc->file));
-    write_obstacles(nc, scene);
+    write_obstacles(nc, scene, first.origin);
     write_sets(nc, scene);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);

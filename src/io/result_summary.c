@@ -147,6 +147,8 @@ void cpsi_summary_write(const CpsResults *results, double wall, FILE *out) {
     fputs("{\n  ", out);
     put_string(out, "capstan", cps_version(), ",\n  ");
     put_string(out, "title", results->title, ",\n  ");
+    const double *o = results->origin; /* said where it is not 0 */
+    if (o[0] != 0 || o[1] != 0 || o[2] != 0) put_vector(out, "origin_m", o, ",\n  ");
     put_string(out, "outcome", cps_outcome_key(cpsi_results_outcome(results)), ",\n  ");
     put_number(out, "wall_s", wall, ",\n  \"steps\": [");
     for (int i = 0; i < results->row_count; ++i) {

@@ -216,6 +216,11 @@ int source_open(const char *path, Source *source, FILE *log) {
     if (!status && numbers != 3) status = NC_EBADDIM;
     if (!status) status = nc_get_att_double(source->nc, NC_GLOBAL, "gravity", source->gravity);
     if (status) return complain(log, "cannot read attribute", "gravity", status);
+    memset(source->origin, 0, sizeof source->origin);
+    status = nc_inq_attlen(source->nc, NC_GLOBAL, "origin", &numbers);
+    if (!status && numbers != 3) status = NC_EBADDIM;
+    if (!status) status = nc_get_att_double(source->nc, NC_GLOBAL, "origin", source->origin);
+    if (status && status != NC_ENOTATT) return complain(log, "cannot read attribute", "origin", status);
     source->consistent = attribute_is(source, "friction", "consistent");
     source->strict = attribute_is(source, "contact", "strict");
     source->laid = first_step_is_laid(source);

@@ -75,6 +75,7 @@ typedef struct Source {
     size_t steps, lines;
     char **line_name;
     double tolerance, gravity[3];
+    double origin[3]; /* [m] from which the places of the file are measured, in the scene's coordinates; 0 0 0 unless it says so */
     bool consistent; /* friction bounds follow the reactions of the same step */
     bool strict;     /* only what touches at the reference is kept out */
     bool laid;       /* the first step is statics without friction, of the lines laid */
