@@ -28,10 +28,10 @@
 static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6, TOLD_PIERCED = 1e-10;
 /* a part of the length from which slack decides what is lost: most of it */
 static const double TOLD_SLACK = 0.5;
-/* parts by which the ratios of tensions of polygon and smooth line may differ */
-static const double TOLD_BEND = 0.01;
 /* ... and the tension that rounding of coordinates may make, as a part of the largest force */
 static const double TOLD_ROUNDED = 1e-3;
+/* parts by which the ratios of tensions of polygon and smooth line may differ */
+static const double TOLD_BEND = 0.01;
 
 /* part of what is dissipated and worked in a step from which a user is told of energy set free without a snap */
 static const double TOLD_FREED = 0.5;
