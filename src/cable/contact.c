@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "cable/rub_set.h"
+#include "cable/side.h"
 #include "linsys/frame.h"
 
 /* No node moves farther in one go than this, per distance from the axis or centre of a round obstacle: its planes say no more. */
@@ -279,7 +280,7 @@ bool cpsi_contact_rounds(const CpsiLine *line) {
     return false;
 }
 
-double cpsi_contact_shorten(CpsiLine *line) {
+double cpsi_contact_shorten(CpsiLine *line, bool sides) {
     double share = 1;
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
@@ -289,6 +290,7 @@ double cpsi_contact_shorten(CpsiLine *line) {
         const double way = vec3_norm(vec3_sub(to, from)), within = obstacle->radius + fmax(0, cpsi_obstacle_gap(obstacle, from));
         if (way*share > LEAP*within) share = LEAP*within/way;
     }
+    if (sides) share = cpsi_side_share(line, line->base, line->position, share);
     for (int i = 0; i < 3*line->n && share < 1; i++)
         line->position[i] = line->base[i] + share*(line->position[i] - line->base[i]);
     return share;
@@ -345,8 +347,12 @@ static double turn_of(const CpsiLine *line, int j) {
     return turned;
 }
 
-double cpsi_contact_move(CpsiLine *line) {
+double cpsi_contact_move(CpsiLine *line, bool sides) {
+    /* where a surface bends away from a coarse line, its nodes go straight: the slide is looked up anew after this */
+    const size_t places = 3*(size_t)line->n*sizeof *line->position;
+    memcpy(line->slide, line->position, places);
     for (int j = 0; j < line->n; j++) move(line, j);
+    if (sides && cpsi_side_share(line, line->base, line->position, 1) < 1) memcpy(line->position, line->slide, places);
     double turned = 0;
     for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j));
     memcpy(line->base, line->position, 3*(size_t)line->n*sizeof *line->base);

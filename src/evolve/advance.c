@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "cable/bend.h"
 #include "cable/contact.h"
 #include "evolve/ledger.h"
 
@@ -115,6 +116,9 @@ static void impose(const Advance *advance, double from, double to) {
     for (int k = 0; k < advance->line->obstacle_count; k++) advance->room->turn[k] = (to - from)*advance->move->angle[k];
 }
 
+/* What the mesh makes of a bend it makes in smaller parts as well. */
+static bool is_answer(CpsOutcome outcome) { return cps_outcome_is_certified(outcome) || outcome == CPS_MESH_TOO_COARSE; }
+
 /* The part of the move from share `from` to share `to`. */
 static Part take(Advance *advance, double from, double to, bool known) {
     CpsiLine *line = advance->line;
@@ -124,7 +128,7 @@ static Part take(Advance *advance, double from, double to, bool known) {
     impose(advance, from, to);
     const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
     cpsi_line_step(line, advance->program, advance->options);
-    if (cps_outcome_is_certified(line->report.outcome) && cpsi_contact_rounds(line)) line->report.outcome = CPS_STALLED;
+    if (is_answer(line->report.outcome) && cpsi_contact_rounds(line)) line->report.outcome = CPS_STALLED;
     line->report.share = to - from;
     advance->iterations += line->report.iterations;
     Part part = {0};
@@ -133,7 +137,7 @@ static Part take(Advance *advance, double from, double to, bool known) {
     return part;
 }
 
-static bool converged(const Part *part) { return cps_outcome_is_certified(part->report.outcome); }
+static bool converged(const Part *part) { return is_answer(part->report.outcome); }
 
 /* Add a part to the whole: sums, the worst outcome, else the later state. */
 static void add(Advance *advance, const Part *part) {
@@ -145,6 +149,7 @@ static void add(Advance *advance, const Part *part) {
     whole->jump = before.jump;
     whole->unaccounted = before.unaccounted;
     whole->outcome = cps_outcome_worse(before.outcome, whole->outcome);
+    if (cpsi_bend_is_sharper(&before.bend, &whole->bend)) whole->bend = before.bend;
     whole->iterations = advance->iterations;
     whole->dissipated += before.dissipated;
     for (int end = 0; end < 2; end++) whole->end[end].work += before.end[end].work;

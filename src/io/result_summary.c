@@ -61,6 +61,18 @@ static void put_proof(FILE *out, const CpsLineReport *report) {
     put_number(out, value, report->proof_value, "},\n");
 }
 
+/* the sharpest bend round an obstacle, where there is one */
+static void put_bend(FILE *out, const CpsBend *bend) {
+    if (!(bend->turn > 0)) return;
+    fputs("          \"bend\": {", out);
+    put_number(out, "turn_rad", bend->turn, ", ");
+    put_number(out, "friction", bend->friction, ", ");
+    put_number(out, "ratio", bend->ratio, ", ");
+    put_number(out, "coulomb", bend->coulomb, ", ");
+    put_number(out, "at_m", bend->arc_length, ", ");
+    put_number(out, "element_m", bend->element, "},\n");
+}
+
 static void put_line(FILE *out, const char *name, const CpsLineReport *report, const char *after) {
     fputs("        ", out);
     put_key(out, name);
@@ -73,6 +85,7 @@ static void put_line(FILE *out, const char *name, const CpsLineReport *report, c
     put_number(out, "dissipated_J", report->dissipated, ",\n          ");
     put_number(out, "tension_mesh_estimate_N", report->tension_mesh, ",\n");
     put_proof(out, report);
+    put_bend(out, &report->bend);
     put_end(out, "A", &report->end[CPS_END_A], ",\n");
     put_end(out, "B", &report->end[CPS_END_B], "\n        }");
     fputs(after, out);

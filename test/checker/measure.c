@@ -102,6 +102,9 @@ static const char *missing_variable(const Record *r) {
         {"proof_value", &r->proof_value, 1, -most, most},
         {"dissipated", &r->dissipated, 1, -most, most},
         {"unaccounted", &r->unaccounted, 1, 0, most},
+        {"bend_turn", &r->bend_turn, 1, 0, most},
+        {"bend_friction", &r->bend_friction, 1, 0, most},
+        {"bend_at", &r->bend_at, 1, 0, most},
         {"ledger", r->ledger, LEDGER_ENTRIES, -most, most},
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
@@ -489,6 +492,7 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     add(&identity, s.imbalance_work.value), add(&identity, s.imbalance_work.rest);
     m.identity = (double)total(&identity);
     m.identity_noise = (double)(1024 * 0x1p-63L * total(&s.magnitude));
+    m.bend = bend_of_record(source, r, sight == SIGHT_REACHED, m.largest_force);
     m.tension_bound = r->compliance > 0 ? sqrt(2 * m.gap / (r->compliance * m.length)) : NAN;
     return m;
 }

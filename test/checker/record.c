@@ -393,6 +393,9 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "unaccounted", step, 0, 0, &record->unaccounted, log);
     bad |= read_step(source, line, "proof", step, 3, 0, record->proof, log);
     bad |= read_step(source, line, "proof_value", step, 0, 0, &record->proof_value, log);
+    bad |= read_step(source, line, "bend_turn", step, 0, 0, &record->bend_turn, log);
+    bad |= read_step(source, line, "bend_friction", step, 0, 0, &record->bend_friction, log);
+    bad |= read_step(source, line, "bend_at", step, 0, 0, &record->bend_at, log);
     static const char *const ENTRY[LEDGER_ENTRIES] = {"ledger_ends", "ledger_obstacles", "ledger_elastic",
                                                       "ledger_gravity", "ledger_imbalance"};
     for (int k = 0; k < LEDGER_ENTRIES; k++)

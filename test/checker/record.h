@@ -66,6 +66,7 @@ typedef struct Record {
     double share; /* which is so much of the step */
     Vector end_value[2], end_force[2], end_friction[2], proof;
     double end_tension[2], end_range[RANGES][2];
+    double bend_turn, bend_friction, bend_at; /* [rad], [-], [m] of the sharpest bend round an obstacle */
     double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES], unaccounted;
 } Record;
 

@@ -118,6 +118,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = scalar("ledger_imbalance", pull / 3), field[n++] = scalar("unaccounted", 0);
     field[n++] = (Field){"proof", 3, 0, {line->proof, 0, 0}};
     field[n++] = scalar("proof_value", line->proof_value);
+    field[n++] = scalar("bend_turn", 0), field[n++] = scalar("bend_friction", 0), field[n++] = scalar("bend_at", 0);
     for (int k = 0; k < CLAIMS; k++) {
         // primal and dual lose the work of friction, the scale that of the pull as well
         const double less = k == 0 || k == 1 ? work : k == 3 ? 4 * work : 0;
@@ -369,6 +370,8 @@ static size_t describe_wound(const Wound *w, Field *field) {
     field[n++] = scalar("dissipated", work + ends), field[n++] = (Field){"proof", 3, 0, {0}},
     field[n++] = scalar("proof_value", 0);
     field[n++] = scalar("ledger_obstacles", work + ends); // which is all dissipated
+    field[n++] = scalar("bend_turn", DELTA), field[n++] = scalar("bend_friction", MU); // the same at all inner nodes
+    field[n++] = scalar("bend_at", w->length[0] + w->length[1]);
     static const char *const NONE[] = {"ledger_ends",  "ledger_elastic",   "ledger_gravity",    "ledger_imbalance", "unaccounted",
                                        "gap",          "tension_bound",    "tension_estimate",  "force_residual",
                                        "law_residual", "contact_residual", "friction_residual", "stretch_residual",
