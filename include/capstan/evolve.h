@@ -113,6 +113,19 @@ typedef struct CpsEndReport {
     CpsTensionRange range; /* of the end element, at the last step of a stage */
 } CpsEndReport;
 
+/* The contact at which the mesh changes the law of friction most: a node on a cylinder or sphere at which the line turns by d holds
+ * tensions up to the ratio k = (1 + mu tan(d/2))/(1 - mu tan(d/2)), a smooth line exp(mu d). From mu tan(d/2) = 0.9 on the step is not
+ * certified (mesh_too_coarse). All 0 where the line turns round nothing that rubs. */
+typedef struct CpsBend {
+    double turn;       /* [rad] d, towards the obstacle */
+    double friction;   /* [-] mu, the larger coefficient for a slip along the line, this way or that */
+    double ratio;      /* [-] k; INFINITY: any */
+    double coulomb;    /* [-] exp(mu d) */
+    double arc_length; /* [m] where */
+    double element;    /* [m] elements that are no longer keep k within 1 % of exp(mu d) */
+    int obstacle;      /* index in the scene */
+} CpsBend;
+
 /* Where the energy of a step went [J]: ends + obstacles = elastic + gravity + dissipated + imbalance. */
 typedef struct CpsLedger {
     double elastic;    /* growth of the energy of elongation */
@@ -141,10 +154,14 @@ typedef struct CpsLineReport {
     double slack;    /* [m] natural length without tension */
     double tension_mesh; /* [N] estimated error of the tension by the elements' lengths, to leading order; NaN where there is none */
     int pierced;     /* the obstacle of the certificate's element_penetration; -1 where that is 0 */
+    CpsBend bend;    /* the sharpest of the parts */
     double proof[3]; /* infeasible: unit vector from end A to end B, along which a constant force proves it;
-                        unbounded: the rigid direction in which the energy falls; else 0 0 0 */
+                        unbounded: the rigid direction in which the energy falls;
+                        slides: the velocity of the end that leads, of the field `motion` of the view; else 0 0 0 */
     double proof_value; /* infeasible: [m] distance of the ends - length > 0;
-                           unbounded: [N] fall of the energy per metre > 0; else 0 */
+                           unbounded: [N] fall of the energy per metre > 0;
+                           slides: [N] power of the loads per unit of speed, beyond all that friction can take, the least
+                           along the way > 0; else 0 */
     double coulomb;     /* [N] unbounded with frozen friction: what friction bears by Coulomb's law under these loads, mu times what
                            presses on the plane, where that is enough to hold the line; else 0 */
 } CpsLineReport;
@@ -191,6 +208,7 @@ typedef struct CpsLineView {
                                          surface; NULL on one plane with isotropic friction: the part of u in it */
     const double *segment_force;      /* (elements, 3) [N] p: what the B side does to the A side */
     const double *tension;            /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
+    const double *motion;             /* (n, 3) [-] slides: velocities that prove it, the fastest of size 1; else 0 */
     const unsigned char *state;       /* (contacts, n) CpsNodeState */
     double origin[3];                 /* [m] what reference, position and the places of held ends are measured from: 0 0 0, but a place
                                          near the lines where these lie more than 512 lengths away; same for all lines */

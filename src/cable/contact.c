@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "cable/rub_set.h"
+#include "cable/side.h"
 #include "linsys/frame.h"
 
 /* No node moves farther in one go than this, per distance from the axis or centre of a round obstacle: its planes say no more. */
@@ -330,7 +331,7 @@ bool cpsi_contact_rounds(const CpsiLine *line) {
     return false;
 }
 
-double cpsi_contact_shorten(CpsiLine *line) {
+double cpsi_contact_shorten(CpsiLine *line, bool sides) {
     double share = 1;
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
@@ -340,6 +341,7 @@ double cpsi_contact_shorten(CpsiLine *line) {
         const double way = vec3_norm(vec3_sub(to, from)), within = obstacle->radius + fmax(0, cpsi_obstacle_gap(obstacle, from));
         if (way*share > LEAP*within) share = LEAP*within/way;
     }
+    if (sides) share = cpsi_side_share(line, line->base, line->position, share);
     for (int i = 0; i < 3*line->n && share < 1; i++)
         line->position[i] = line->base[i] + share*(line->position[i] - line->base[i]);
     return share;
@@ -416,8 +418,12 @@ static bool goes_through(const CpsiLine *line) {
     return line->element_contacts > 0 && cpsi_line_pierces(line, &obstacle) > 0.1*CPSI_TOUCH*line->length;
 }
 
-double cpsi_contact_move(CpsiLine *line) {
+double cpsi_contact_move(CpsiLine *line, bool sides) {
+    /* where a surface bends away from a coarse line, its nodes go straight: the slide is looked up anew after this */
+    const size_t places = 3*(size_t)line->n*sizeof *line->position;
+    memcpy(line->slide, line->position, places);
     for (int j = 0; j < line->n; j++) move(line, j);
+    if (sides && cpsi_side_share(line, line->base, line->position, 1) < 1) memcpy(line->position, line->slide, places);
     double turned = line->gains && goes_through(line) ? INFINITY : 0;
     for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) turned = fmax(turned, turn_of_element(line, e));
     for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j));

@@ -17,6 +17,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->reaction = CPSI_TAKE(arena, contacts, double);
     line->segment_force = CPSI_TAKE(arena, 3*n, double);
     line->tension = CPSI_TAKE(arena, n, double);
+    line->motion = CPSI_TAKE(arena, 3*n, double);
     line->state = CPSI_TAKE(arena, contacts, unsigned char);
     line->slide = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
     line->round = line->follows ? CPSI_TAKE(arena, contacts, double) : NULL;

@@ -43,6 +43,7 @@ typedef struct CpsiLine {
     double *reaction;       /* (contacts, n) [N] */
     double *segment_force;  /* (n - 1, 3) [N] */
     double *tension;        /* (n - 1) [N] */
+    double *motion;         /* (n, 3) [-] of a line that slides without end, else 0 */
     unsigned char *state;   /* (contacts, n) CpsNodeState */
     /* where `follows`, else NULL: what each node sees of the obstacles, from its place `base` */
     double *slide;          /* (contacts, n, 3) [m] way of the node on the obstacle in this step, tangential */

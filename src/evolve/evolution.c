@@ -470,6 +470,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .slide = from->slide,
         .segment_force = from->segment_force,
         .tension = from->tension,
+        .motion = from->motion,
         .state = from->state,
         .obstacle = from->on,
         .origin = {evolution->origin[0], evolution->origin[1], evolution->origin[2]},

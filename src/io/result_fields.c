@@ -41,6 +41,8 @@ const CpsiField cpsi_field[CPSI_FIELDS] = {
      VIEW(element_reaction)},
     {"element_slide", "way of the place where the element touches on the obstacle in the step, tangential", "m", CPSI_PLACE_ELEMENT, true,
      false, false, VIEW(element_slide)},
+    {"motion", "velocity that proves that the line slides without end, else 0", "1", CPSI_PLACE_NODE, true, false, false,
+     VIEW(motion)},
 };
 
 static CpsStatus refuse(const char *name, int length, CpsError *err) {

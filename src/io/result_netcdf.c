@@ -61,13 +61,16 @@ static const Number NUMBER[] = {
     {"dissipated", "energy dissipated by friction in the step", "J", REPORT(dissipated)},
     {"share", "part of the step that the arrays show, the last one of a step that was cut", "1", REPORT(share)},
     {"jump", "longest way of a node in a snap", "m", REPORT(jump)},
+    {"bend_turn", "turn of the line at the contact where the mesh changes the law of friction most", "rad", REPORT(bend.turn)},
+    {"bend_friction", "coefficient along the line there", "1", REPORT(bend.friction)},
+    {"bend_at", "arc length there", "m", REPORT(bend.arc_length)},
     {"ledger_elastic", "growth of the energy of elongation", "J", REPORT(ledger.elastic)},
     {"ledger_gravity", "growth of the weight's potential", "J", REPORT(ledger.gravity)},
     {"ledger_ends", "work of the forces at the ends", "J", REPORT(ledger.ends)},
     {"ledger_obstacles", "work of the friction of obstacles that turn", "J", REPORT(ledger.obstacles)},
     {"ledger_imbalance", "what the ledger does not close by", "J", REPORT(ledger.imbalance)},
     {"unaccounted", "of that, more than 5 % of the energies of parts that could not be cut any more", "J", REPORT(unaccounted)},
-    {"proof_value", "infeasible: excess distance in m; unbounded: fall of energy per metre in N", "m or N",
+    {"proof_value", "infeasible: excess distance in m; unbounded: fall of energy per metre in N; slides: least power in N", "m or N",
      REPORT(proof_value)},
 };
 
@@ -204,19 +207,21 @@ static int add_variable(CpsiNetcdf *nc, const char *prefix, const char *name, nc
 
 /* names of the values of an enumeration, as CF wants them */
 static void add_flags(CpsiNetcdf *nc, int variable, nc_type type, int count, const char *meanings) {
-    const int value[] = {0, 1, 2, 3, 4, 5};
+    const int value[] = {0, 1, 2};
     if (nc->status == NC_NOERR) keep(nc, nc_put_att_int(nc->file, variable, "flag_values", type, (size_t)count, value));
     add_text(nc, variable, "flag_meanings", meanings);
 }
 
 #define OUTCOME_WORD(name, number, key, sentence) key " "
-#define OUTCOME_ONE(name, number, key, sentence)  +1
+#define OUTCOME_NUMBER(name, number, key, sentence) number,
 static const char OUTCOME_MEANINGS[] = CPS_OUTCOME_LIST(OUTCOME_WORD);
-enum { OUTCOMES = 0 CPS_OUTCOME_LIST(OUTCOME_ONE) };
+static const int OUTCOME_VALUES[] = {CPS_OUTCOME_LIST(OUTCOME_NUMBER)};
 
 static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
     const int id = add_variable(nc, prefix, "outcome", NC_INT, 1, &nc->step, "what came of the step", "1");
-    add_flags(nc, id, NC_INT, OUTCOMES, OUTCOME_MEANINGS);
+    const size_t count = sizeof OUTCOME_VALUES / sizeof *OUTCOME_VALUES;
+    if (nc->status == NC_NOERR) keep(nc, nc_put_att_int(nc->file, id, "flag_values", NC_INT, count, OUTCOME_VALUES));
+    add_text(nc, id, "flag_meanings", OUTCOME_MEANINGS);
     return id;
 }
 

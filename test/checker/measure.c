@@ -99,9 +99,13 @@ static const char *missing_variable(const Record *r) {
         {"end_tension", r->end_tension, 2, 0, most},
         {"element_share", r->share_of, r->has_elements ? m : 0, 0, 1},
         {"proof", r->proof, 3, -most, most},
+        {"motion", r->motion ? r->motion[0] : NULL, r->motion ? 3 * n : 0, -most, most},
         {"proof_value", &r->proof_value, 1, -most, most},
         {"dissipated", &r->dissipated, 1, -most, most},
         {"unaccounted", &r->unaccounted, 1, 0, most},
+        {"bend_turn", &r->bend_turn, 1, 0, most},
+        {"bend_friction", &r->bend_friction, 1, 0, most},
+        {"bend_at", &r->bend_at, 1, 0, most},
         {"ledger", r->ledger, LEDGER_ENTRIES, -most, most},
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
@@ -561,6 +565,7 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     add(&identity, s.imbalance_work.value), add(&identity, s.imbalance_work.rest);
     m.identity = (double)total(&identity);
     m.identity_noise = (double)(1024 * 0x1p-63L * total(&s.magnitude));
+    m.bend = bend_of_record(source, r, sight == SIGHT_REACHED, m.largest_force);
     m.tension_bound = r->compliance > 0 ? sqrt(2 * m.gap / (r->compliance * m.length)) : NAN;
     return m;
 }

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "bend.h"
 #include "record.h"
 
 typedef struct Measures {
@@ -54,6 +55,7 @@ typedef struct Measures {
     double ends_distance;    /* [m] of two imposed ends, NaN otherwise */
     double rigid_fall;       /* [N] fall of the energy per metre along `proof`, NaN without a proof vector */
     double rigid_rise_least; /* [-] min n.proof over nodes that may touch */
+    Bend bend;
 } Measures;
 
 /* Where contact is seen from: the configuration reached; the reference; or the one reached, but for friction, whose axes and ways are those

@@ -352,7 +352,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     record->contacts = source->surfaces > 1 ? 2 : 1;
     size_t n = record->contacts * record->nodes + record->elements;
     Vector **vectors[] = {&record->reference, &record->position, &record->load,         &record->normal,
-                          &record->friction,  &record->slide,    &record->segment_force};
+                          &record->friction,  &record->slide,    &record->segment_force, &record->motion};
     double **scalars[] = {&record->element_length, &record->gap, &record->friction_bound, &record->reaction,
                           &record->tension,        &record->mu,  &record->obstacle,       &record->share_of};
     int missing = (record->turn = calloc(source->surfaces + 1, sizeof(double))) == NULL;
@@ -372,7 +372,7 @@ void record_destroy(Record *record) {
     free(record->reference), free(record->position), free(record->load);
     free(record->normal), free(record->friction), free(record->segment_force);
     free(record->element_length), free(record->gap), free(record->friction_bound);
-    free(record->reaction), free(record->tension), free(record->slide);
+    free(record->reaction), free(record->tension), free(record->slide), free(record->motion);
     free(record->share_of), free(record->turn), free(record->mu), free(record->obstacle), free(record->factor), free(record->factor_noise);
     *record = (Record){0};
 }
@@ -402,6 +402,9 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "unaccounted", step, 0, 0, &record->unaccounted, log);
     bad |= read_step(source, line, "proof", step, 3, 0, record->proof, log);
     bad |= read_step(source, line, "proof_value", step, 0, 0, &record->proof_value, log);
+    bad |= read_step(source, line, "bend_turn", step, 0, 0, &record->bend_turn, log);
+    bad |= read_step(source, line, "bend_friction", step, 0, 0, &record->bend_friction, log);
+    bad |= read_step(source, line, "bend_at", step, 0, 0, &record->bend_at, log);
     static const char *const ENTRY[LEDGER_ENTRIES] = {"ledger_ends", "ledger_obstacles", "ledger_elastic",
                                                       "ledger_gravity", "ledger_imbalance"};
     for (int k = 0; k < LEDGER_ENTRIES; k++)
@@ -464,6 +467,15 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
     return bad;
 }
 
+/* Files from before lines slid have none. */
+static int read_motion(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    char name[2 * MAX_NAME];
+    int id;
+    snprintf(name, sizeof name, "%s_motion", line);
+    if (nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
+    return read_step(source, line, "motion", step, record->nodes, 3, record->motion[0], log);
+}
+
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
     size_t n = record->nodes, elements = record->elements;
     int bad = read_step(source, line, "reference", step, n, 3, record->reference[0], log);
@@ -475,5 +487,6 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
         bad |= read_step(source, "obstacle", "turn", step, source->surfaces, 0, record->turn, log);
     bad |= read_step(source, line, "segment_force", step, elements, 3, record->segment_force[0], log);
     bad |= read_step(source, line, "tension", step, elements, 0, record->tension, log);
+    bad |= read_motion(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }

@@ -51,6 +51,7 @@ typedef struct Record {
     size_t nodes, elements, contacts; /* contacts: 1 or 2 for each node */
     double *element_length, compliance;
     Vector *reference, *position, *load, *segment_force;
+    Vector *motion;                          /* of a line that slides without end, else 0 */
     Vector *normal, *friction, *slide;       /* (contacts, nodes) */
     double *gap, *friction_bound, *reaction; /* the same */
     double *obstacle;                        /* the same: its number, by the file; where there is one contact, 0 */
@@ -67,6 +68,7 @@ typedef struct Record {
     double share; /* which is so much of the step */
     Vector end_value[2], end_force[2], end_friction[2], proof;
     double end_tension[2], end_range[RANGES][2];
+    double bend_turn, bend_friction, bend_at; /* [rad], [-], [m] of the sharpest bend round an obstacle */
     double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES], unaccounted;
 } Record;
 

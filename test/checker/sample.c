@@ -118,6 +118,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = scalar("ledger_imbalance", pull / 3), field[n++] = scalar("unaccounted", 0);
     field[n++] = (Field){"proof", 3, 0, {line->proof, 0, 0}};
     field[n++] = scalar("proof_value", line->proof_value);
+    field[n++] = scalar("bend_turn", 0), field[n++] = scalar("bend_friction", 0), field[n++] = scalar("bend_at", 0);
     for (int k = 0; k < CLAIMS; k++) {
         // primal and dual lose the work of friction, the scale that of the pull as well
         const double less = k == 0 || k == 1 ? work : k == 3 ? 4 * work : 0;
@@ -386,6 +387,8 @@ static size_t describe_wound(const Wound *w, Field *field) {
     field[n++] = scalar("dissipated", work + ends), field[n++] = (Field){"proof", 3, 0, {0}},
     field[n++] = scalar("proof_value", 0);
     field[n++] = scalar("ledger_obstacles", work + ends); // which is all dissipated
+    field[n++] = scalar("bend_turn", DELTA), field[n++] = scalar("bend_friction", MU); // the same at all inner nodes
+    field[n++] = scalar("bend_at", w->length[0] + w->length[1]);
     static const char *const NONE[] = {"ledger_ends",  "ledger_elastic",   "ledger_gravity",    "ledger_imbalance", "unaccounted",
                                        "gap",          "tension_bound",    "tension_estimate",  "force_residual",
                                        "law_residual", "contact_residual", "friction_residual", "stretch_residual",
@@ -546,6 +549,44 @@ int sample_write_corner(const char *path) {
     if (status) return status;
     status = write_beds(nc, dims, BEDS, 3);
     if (!status) status = write_line(nc, dims, "corner", ONES, C, field[0], field[1], count);
+    int closed = nc_close(nc);
+    return status ? status : closed;
+}
+
+/* ---- the slide ---- */
+
+/* Straight up to a drum of radius 1, two chords of a quarter turn over it, straight down. At half an eighth of a turn the
+ * pull falls by k = (1 - mu)/(1 + mu) = 1/3 from the first node on the drum to the top, and again to the last: 1 N at A
+ * holds 9 N at B, which is 10 N here. */
+static size_t describe_spill(Field *field) {
+    static const double PLACE[3 * NODES] = {-1, 0, -1, -1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, -1};
+    static const double MOTION[3 * NODES] = {0, 0, 1, -0.5, 0, 1, 1 / 3., 0, 1 / 6., 1 / 18., 0, -1 / 9., 0, 0, -1 / 9.};
+    const SampleLine line = {.name = "spill", .outcome = 7, .end_kind = {1, 1}};
+    const double fastest = sqrt(1.25);
+    size_t n = describe(&line, 1, field);
+    field[n++] = vectors("motion", NODES, NULL, 0);
+    for (size_t k = 0; k < n; k++) {
+        Field *f = &field[k];
+        if (strcmp(f->name, "reference") == 0 || strcmp(f->name, "position") == 0)
+            memcpy(f->value, PLACE, sizeof PLACE);
+        for (int i = 0; i < 3 * NODES && strcmp(f->name, "motion") == 0; i++) f->value[i] = MOTION[i] / fastest;
+        for (int j = 0; j < NODES && strcmp(f->name, "load") == 0; j++)
+            f->value[3 * j + 2] = j == 0 ? -1 : j + 1 == NODES ? -10 : 0;
+        if (strcmp(f->name, "end_value") == 0) f->value[2] = -1, f->value[3] = 0, f->value[5] = -10;
+        if (strcmp(f->name, "proof_value") == 0) f->value[0] = (10 / 9. - 1) / fastest;
+    }
+    return n;
+}
+
+int sample_write_spill(const char *path) {
+    static const Bed DRUM = {.kind = 1, .axis = {0, 1, 0}, .radius = 1, .axial = 0.5, .lateral = 0.5};
+    const double length[ELEMENTS] = {1, sqrt(2), sqrt(2), 1};
+    Field field[MAX_FIELDS];
+    const size_t count = describe_spill(field);
+    int nc, dims[3], status = begin_file(path, "spill", "consistent", &nc, dims);
+    if (status) return status;
+    status = write_beds(nc, dims, &DRUM, 1);
+    if (!status) status = write_line(nc, dims, "spill", length, C, field, field, count);
     int closed = nc_close(nc);
     return status ? status : closed;
 }
