@@ -168,6 +168,6 @@ static bool slides_to(CpsiLine *line, bool to_a, double margin) {
 
 bool cpsi_line_slides(CpsiLine *line, double margin) {
     if (line->end[CPS_END_A].kind != CPS_END_FREE || line->end[CPS_END_B].kind != CPS_END_FREE) return false;
-    if (rests_between(line)) return false;
+    if (line->element_contacts > 0 && rests_between(line)) return false;
     return slides_to(line, false, margin) || slides_to(line, true, margin);
 }

@@ -52,7 +52,8 @@ static bool is_inside(const Source *source, const Record *r, size_t j, Real leng
     return false;
 }
 
-/* Does element i lie on an obstacle between its nodes, or nearly so?  The principle above counts forces at nodes only. */
+/* Does element i lie on an obstacle between its nodes, or nearly so?  The principle above counts forces at nodes only, which are all there
+ * are with strict contact. */
 static bool rests_between(const Source *source, const Record *r, size_t i) {
     Triple a, b;
     for (int k = 0; k < 3; k++) a[k] = r->reference[i][k], b[k] = r->reference[i + 1][k];
@@ -143,7 +144,7 @@ const char *motion_contradiction(const Source *source, const Record *r, double *
     for (size_t j = 0; j < r->nodes; j++)
         if (is_inside(source, r, j, length)) return "a node lies inside an obstacle";
     for (size_t i = 0; i < r->elements; i++)
-        if (rests_between(source, r, i)) return "an element rests on an obstacle between its nodes";
+        if (r->has_elements && rests_between(source, r, i)) return "an element rests on an obstacle between its nodes";
     for (size_t j = 0; j < r->nodes; j++)
         if (is_hindered(source, r, j, length, factor)) return "a node would press on an obstacle";
     // the end that its element pulls after itself leads

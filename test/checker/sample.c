@@ -517,7 +517,7 @@ static size_t describe_post(Field *field) {
         "dissipated", "proof_value",      "ledger_ends",     "ledger_elastic",    "ledger_gravity",   "ledger_imbalance",
         "gap",        "tension_bound",    "force_residual",  "law_residual",      "contact_residual", "ledger_obstacles",
         "penetration", "stretch_residual", "friction_residual", "tension_estimate", "element_penetration",
-        "unaccounted", "element_push", "elongation_residual"};
+        "unaccounted", "element_push",     "elongation_residual", "bend_turn",        "bend_friction",    "bend_at"};
     for (size_t k = 0; k < sizeof NONE / sizeof *NONE; k++) field[n++] = scalar(NONE[k], 0);
     field[n++] = scalar("primal", primal), field[n++] = scalar("dual", primal);
     field[n++] = scalar("scale", 2 * (4 + 3.84 + 6 + 6) + least_scale(6, 8)), field[n++] = scalar("largest_force", 6);
@@ -565,6 +565,7 @@ static size_t describe_spill(Field *field) {
     const double fastest = sqrt(1.25);
     size_t n = describe(&line, 1, field);
     field[n++] = vectors("motion", NODES, NULL, 0);
+    n += no_elements(&field[n]);
     for (size_t k = 0; k < n; k++) {
         Field *f = &field[k];
         if (strcmp(f->name, "reference") == 0 || strcmp(f->name, "position") == 0)
@@ -585,7 +586,10 @@ int sample_write_spill(const char *path) {
     const size_t count = describe_spill(field);
     int nc, dims[3], status = begin_file(path, "spill", "consistent", &nc, dims);
     if (status) return status;
-    status = write_beds(nc, dims, &DRUM, 1);
+    // its chords are deeper than elements may lie: with strict contact nodes alone are kept out
+    (void)nc_redef(nc);
+    status = nc_put_att_text(nc, NC_GLOBAL, "contact", 6, "strict");
+    if (!status) status = write_beds(nc, dims, &DRUM, 1);
     if (!status) status = write_line(nc, dims, "spill", length, C, field, field, count);
     int closed = nc_close(nc);
     return status ? status : closed;
