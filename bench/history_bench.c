@@ -29,7 +29,7 @@ static Tally run(const CpsScene *scene) {
         tally.iterations += report.iterations;
         tally.seconds += report.wall;
         tally.dissipated += report.dissipated;
-        tally.uncertified += report.outcome > CPS_TAUT;
+        tally.uncertified += !cps_outcome_is_certified(report.outcome);
         tally.gap = fmax(tally.gap, report.certificate.gap/report.certificate.scale);
         tally.friction = fmax(tally.friction, report.certificate.friction_residual/report.certificate.largest_force);
     }

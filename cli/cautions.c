@@ -8,9 +8,16 @@
  * but for strict contact.
  *
  * A step goes straight from one equilibrium to another. Where energy is made, or much of it set free, the way between
- * them was another one: the line jumped, or took another branch of equilibria. */
+ * them was another one: the line jumped, or took another branch of equilibria.
+ *
+ * A coordinate is a number of 16 digits. Far from the origin of coordinates what rounding leaves of a length makes a tension, and the
+ * stiffer the line the larger a one.
+ *
+ * Where a line turns by d at one node round an obstacle, the polygon holds tensions up to a ratio k, and a smooth line
+ * up to exp(mu d): a mesh that is too coarse for the bend is told by their difference. */
 #include "cautions.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -21,6 +28,10 @@
 static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6, TOLD_PIERCED = 1e-10;
 /* a part of the length from which slack decides what is lost: most of it */
 static const double TOLD_SLACK = 0.5;
+/* ... and the tension that rounding of coordinates may make, as a part of the largest force */
+static const double TOLD_ROUNDED = 1e-3;
+/* parts by which the ratios of tensions of polygon and smooth line may differ */
+static const double TOLD_BEND = 0.01;
 
 /* part of what is dissipated and worked in a step from which a user is told of energy set free without a snap */
 static const double TOLD_FREED = 0.5;
@@ -78,6 +89,16 @@ static void note_energy(Cautions *cautions, const CpsStepReport *step, const Cps
         note(cautions, CAUTION_FREED, freed, beside, step->name, name);
 }
 
+/* [N] tension by rounding of the largest coordinate of an end, eps |x| EA/L; inextensible lines have no such figure */
+static double rounded_tension(const CpsLineView *view) {
+    double reach = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const double *b = view->position + 3 * (size_t)view->elements;
+        reach = fmax(reach, fmax(fabs(view->origin[k] + view->position[k]), fabs(view->origin[k] + b[k])));
+    }
+    return view->compliance > 0 ? DBL_EPSILON * reach / (view->compliance * view->arc_length[view->elements]) : 0;
+}
+
 void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const char *step = report.name;
@@ -96,11 +117,30 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
             note(cautions, CAUTION_LIFTED, lifted, bounds, step, view.name);
         if (scene->friction == CPS_FRICTION_FROZEN && residual > TOLD_BOUND * bounds && bounds > 0)
             note(cautions, CAUTION_BOUND, residual, bounds, step, view.name);
+        const CpsBend *bend = &line.bend;
+        if (bend->turn > 0 && bend->ratio > (1 + TOLD_BEND) * bend->coulomb) {
+            if (bend->ratio / bend->coulomb > cautions->kind[CAUTION_BEND].value) {
+                cautions->bend = *bend;
+                snprintf(cautions->kind[CAUTION_BEND].obstacle, sizeof cautions->kind[CAUTION_BEND].obstacle, "%s", scene->obstacle[bend->obstacle].name);
+            }
+            note(cautions, CAUTION_BEND, bend->ratio / bend->coulomb, 1, step, view.name);
+        }
         if (scene->contact == CPS_CONTACT_STRICT && line.certificate.penetration > TOLD_SUNK * length)
             note(cautions, CAUTION_SUNK, line.certificate.penetration, length, step, view.name);
         if (line.slack > TOLD_SLACK * length && line.slipping > 0)
             note(cautions, CAUTION_SLACK, line.slack, length, step, view.name);
+        const double rounded = rounded_tension(&view), force = line.certificate.largest_force;
+        if (rounded > TOLD_ROUNDED * force && force > 0) note(cautions, CAUTION_ROUNDED, rounded, force, step, view.name);
     }
+}
+
+void cautions_put_bend(const CpsBend *bend, const char *obstacle) {
+    fprintf(stderr, " (at %.4g m the line turns by %.4g degrees at one node round obstacle '%s', mu %.4g: it holds ", bend->arc_length,
+            bend->turn * 57.29577951308232, obstacle, bend->friction);
+    if (isinf(bend->ratio)) fputs("any tension", stderr);
+    else fprintf(stderr, "tensions up to a ratio of %.4g", bend->ratio);
+    fprintf(stderr, ", a smooth line up to exp(mu d) = %.4g; elements no longer than %.3g m keep them within 1 %%)", bend->coulomb,
+            bend->element);
 }
 
 static void put_figures(int kind, double value, double of) {
@@ -131,6 +171,11 @@ static void put_figures(int kind, double value, double of) {
                 "%.4g J are set free, beside %.4g J dissipated and worked: the line falls or jumps, or the load step is "
                 "large; smaller load steps or a 'path_tolerance' tell which",
                 value, of);
+    else if (kind == CAUTION_ROUNDED)
+        fprintf(stderr,
+                "coordinates are so large that their last digit is worth %.4g N of tension, of %.4g N: measure places from "
+                "one near the lines",
+                value, of);
     else if (kind == CAUTION_SUNK)
         fprintf(stderr,
                 "the line is %.4g m inside the obstacle, of %.4g m of length: 'contact: strict' keeps out only what "
@@ -156,7 +201,11 @@ void cautions_say(const Cautions *cautions) {
             cli_put_text(stderr, cautions->kind[k].obstacle, 80, false);
         }
         fputs(": ", stderr);
-        put_figures(k, cautions->kind[k].value, cautions->kind[k].of);
+        if (k == CAUTION_BEND) {
+            fputs("the mesh is coarse for a bend", stderr);
+            cautions_put_bend(&cautions->bend, cautions->kind[CAUTION_BEND].obstacle);
+        } else
+            put_figures(k, cautions->kind[k].value, cautions->kind[k].of);
         if (cautions->kind[k].steps > 1) fprintf(stderr, " (the worst of %d)", cautions->kind[k].steps);
         fputc('\n', stderr);
     }

@@ -1,13 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a user must know of a step though it is solved and certified: with frozen friction or strict contact what S90
- * annex 6 shows, where most of a line is slack, and energy that comes from nowhere or is set free;
- * and, whatever the outcome, where a line goes through an obstacle. */
+ * annex 6 shows, where most of a line is slack, energy that comes from nowhere or is set free, coordinates with too few digits, and
+ * where the mesh is coarse for the bends in it; and, whatever the outcome, where a line goes through an obstacle. */
 #ifndef CAPSTAN_CLI_CAUTIONS_H
 #define CAPSTAN_CLI_CAUTIONS_H
 
 #include "capstan/evolve.h"
 
-enum { CAUTION_BOUND, CAUTION_LIFTED, CAUTION_SUNK, CAUTION_SLACK, CAUTION_MADE, CAUTION_FREED, CAUTION_PIERCED, CAUTIONS };
+enum {
+    CAUTION_BOUND,
+    CAUTION_LIFTED,
+    CAUTION_SUNK,
+    CAUTION_SLACK,
+    CAUTION_MADE,
+    CAUTION_FREED,
+    CAUTION_ROUNDED,
+    CAUTION_PIERCED,
+    CAUTION_BEND,
+    CAUTIONS
+};
 
 /* The worst case of each kind. */
 typedef struct Cautions {
@@ -16,6 +27,7 @@ typedef struct Cautions {
         double value, of; /* the figure, and what it is a part of */
         char step[96], line[96], obstacle[96];
     } kind[CAUTIONS];
+    CpsBend bend; /* the worst */
 } Cautions;
 
 /* Look at the step just taken. */
@@ -23,5 +35,8 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
 
 /* A line on standard error for each kind met, with its figures and what to do. */
 void cautions_say(const Cautions *cautions);
+
+/* A bend round the obstacle, in brackets, on standard error: what the mesh makes of it, and which mesh would do. */
+void cautions_put_bend(const CpsBend *bend, const char *obstacle);
 
 #endif

@@ -96,7 +96,7 @@ static void put_rows(FILE *table, const CpsEvolution *evolution) {
 }
 
 /* what is not simply solved, said in a sentence with its proof */
-static void report_outcomes(const CpsEvolution *evolution) {
+static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
@@ -110,14 +110,16 @@ static void report_outcomes(const CpsEvolution *evolution) {
         const CpsCertificate *c = &line.certificate;
         if (line.outcome == CPS_INFEASIBLE)
             fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1], d[2]);
-        else if (line.outcome == CPS_UNBOUNDED) {
+        else if (line.outcome == CPS_UNBOUNDED || line.outcome == CPS_SLIDES) {
             fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1], d[2]);
             if (line.coulomb > 0)
                 fprintf(stderr,
                         " with the friction bounds of the reference; these loads press so that mu R, %.6g N in all, holds the "
                         "line: 'friction: consistent' has an equilibrium",
                         line.coulomb);
-        } else if (line.outcome != CPS_TAUT)
+        } else if (line.outcome == CPS_MESH_TOO_COARSE)
+            cautions_put_bend(&line.bend, scene->obstacle[line.bend.obstacle].name);
+        else if (line.outcome != CPS_TAUT)
             fprintf(stderr, " (gap %.2e of the scale, force residual %.2e of the largest force)", c->gap / c->scale,
                     c->force_residual / c->largest_force);
         fputc('\n', stderr);
@@ -172,7 +174,7 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
         put_rows(run->table, run->evolution);
     if (report.outcome != CPS_SOLVED) {
         progress_end(&run->progress);
-        report_outcomes(run->evolution);
+        report_outcomes(run->scene, run->evolution);
     }
     run->worst = cps_outcome_worse(run->worst, report.outcome);
     return CPS_OK;
@@ -239,6 +241,10 @@ static void say_where(const char *directory, const CpsEvolution *evolution, bool
     printf("\nresults   %s: summary.json, history.csv, result.nc%s\n", directory,
            paraview ? ", result.pvd (ParaView)" : "");
     printf("pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg, loop-*.svg of closed cycles\n", directory);
+    const CpsLineView view = cps_evolution_line_view(evolution, 0);
+    const double *o = view.origin;
+    if (o[0] != 0 || o[1] != 0 || o[2] != 0)
+        printf("origin    places in result.nc, the ParaView files and pictures are measured from (%.15g, %.15g, %.15g) m\n", o[0], o[1], o[2]);
 }
 
 static int run(const CpsScene *scene, const char *directory, const CliOptions *options) {

@@ -93,9 +93,10 @@ static bool make_history(History *h, double friction) {
     return whole;
 }
 
-static void store(Track *t, int step, const double *position) {
-    const size_t size = 3 * (size_t)t->points;
-    memcpy(t->position + (size_t)step * size, position, size * sizeof *position);
+/* in the coordinates of the scene */
+static void store(Track *t, int step, const double *position, const double origin[3]) {
+    double *to = t->position + (size_t)step * 3 * (size_t)t->points;
+    for (size_t i = 0; i < 3 * (size_t)t->points; ++i) to[i] = origin[i % 3] != 0 ? origin[i % 3] + position[i] : position[i];
 }
 
 /* all lines of the step that the exact history has just taken */
@@ -107,7 +108,7 @@ static CpsStatus follow(History *h, CpsError *err) {
             regularized_step(&t->method, &exact, &t->parameters[h->done], &t->report[h->done], err);
         if (status != CPS_OK) return status;
         const CpsClassicView own = cps_classic_view(t->method.last);
-        store(t, h->done, own.position);
+        store(t, h->done, own.position, exact.origin);
         for (int end = 0; end < 2; ++end)
             t->tension[2 * h->done + end] = cps_classic_end_tension(t->method.last, end);
     }
@@ -233,7 +234,10 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
     int code = EXIT_LIMIT;
     if (make_history(&h, friction)) {
         snprintf(h.name[0], STEP_NAME, "start");
-        for (int i = 0; i < h.lines; ++i) store(&h.track[i], 0, cps_evolution_line_view(h.exact, i).position);
+        for (int i = 0; i < h.lines; ++i) {
+            const CpsLineView view = cps_evolution_line_view(h.exact, i);
+            store(&h.track[i], 0, view.position, view.origin);
+        }
         code = take_steps(&h, options->quiet);
         const bool some = h.done > 1 || h.steps == 1;
         const int written = some ? write_results(&h, cli_now() - begun, directory, options) : EXIT_OK;

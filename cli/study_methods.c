@@ -39,9 +39,10 @@ static int find_line(const Histories *h) {
     return -1;
 }
 
-static void store(Histories *h, int method, int step, const double *position) {
-    const size_t size = 3 * (size_t)h->points;
-    memcpy(h->position[method] + (size_t)step * size, position, size * sizeof(double));
+/* in the coordinates of the scene */
+static void store(Histories *h, int method, int step, const double *position, const double origin[3]) {
+    double *to = h->position[method] + (size_t)step * 3 * (size_t)h->points;
+    for (size_t i = 0; i < 3 * (size_t)h->points; ++i) to[i] = origin[i % 3] != 0 ? origin[i % 3] + position[i] : position[i];
 }
 
 /* the step once more by the regularised method */
@@ -51,7 +52,7 @@ static int regularise(Histories *h, const CpsLineView *view, int step, Regulariz
     CpsClassicParameters fine;
     if (regularized_step(method, view, &fine, &report, &err) != CPS_OK) return cli_report(&err);
     h->converged = h->converged && report.converged;
-    store(h, REGULARISED, step, cps_classic_view(method->last).position);
+    store(h, REGULARISED, step, cps_classic_view(method->last).position, view->origin);
     return EXIT_OK;
 }
 
@@ -64,8 +65,9 @@ static int run_evolution(Histories *h, int method, int line) {
     Regularized own = {.friction = h->friction};
     if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
     int code = EXIT_OK;
-    store(h, method, 0, cps_evolution_line_view(evolution, line).position);
-    if (method == FROZEN) store(h, REGULARISED, 0, cps_evolution_line_view(evolution, line).position);
+    const CpsLineView start = cps_evolution_line_view(evolution, line);
+    store(h, method, 0, start.position, start.origin);
+    if (method == FROZEN) store(h, REGULARISED, 0, start.position, start.origin);
     for (int step = 1; step < h->steps && code == EXIT_OK; ++step) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) {
             code = cli_report(&err);
@@ -80,7 +82,7 @@ static int run_evolution(Histories *h, int method, int line) {
             break;
         }
         const CpsLineView view = cps_evolution_line_view(evolution, line);
-        store(h, method, step, view.position);
+        store(h, method, step, view.position, view.origin);
         if (method == FROZEN) code = regularise(h, &view, step, &own);
     }
     cps_classic_destroy(own.last);

@@ -113,13 +113,26 @@ typedef enum CpsPlaces {
 /* The end of a line. The last half element, of length h/2, has the weight w h/2, and where a held end lies on an obstacle its reaction
  * and friction as well; so the force at the end is not the one in the middle of the element (docs/theory.md 3). */
 typedef struct CpsEndReport {
-    double position[3]; /* [m] */
+    double position[3]; /* [m] in the coordinates of the scene */
     double force[3];    /* [N] on the line at this end */
     double tension;     /* [N] |force|, the line's tension at this end */
     double work;        /* [J] of the force at this end in this step, over its parts: the two add up to `ends` of the ledger */
     double friction[3]; /* [N] on the half element beside a held end that lies on an obstacle; in balance with `force` */
     CpsTensionRange range; /* of the end element, at the last step of a stage */
 } CpsEndReport;
+
+/* The contact at which the mesh changes the law of friction most: a node on a cylinder or sphere at which the line turns by d holds
+ * tensions up to the ratio k = (1 + mu tan(d/2))/(1 - mu tan(d/2)), a smooth line exp(mu d). From mu tan(d/2) = 0.9 on the step is not
+ * certified (mesh_too_coarse). All 0 where the line turns round nothing that rubs. */
+typedef struct CpsBend {
+    double turn;       /* [rad] d, towards the obstacle */
+    double friction;   /* [-] mu, the larger coefficient for a slip along the line, this way or that */
+    double ratio;      /* [-] k; INFINITY: any */
+    double coulomb;    /* [-] exp(mu d) */
+    double arc_length; /* [m] where */
+    double element;    /* [m] elements that are no longer keep k within 1 % of exp(mu d) */
+    int obstacle;      /* index in the scene */
+} CpsBend;
 
 /* Where the energy of a step went [J]: ends + obstacles = elastic + gravity + dissipated + imbalance. */
 typedef struct CpsLedger {
@@ -150,10 +163,14 @@ typedef struct CpsLineReport {
     double slack;    /* [m] natural length without tension */
     double tension_mesh; /* [N] estimated error of the tension by the elements' lengths, to leading order; NaN where there is none */
     int pierced;     /* the obstacle of the certificate's element_penetration; -1 where that is 0 */
+    CpsBend bend;    /* the sharpest of the parts */
     double proof[3]; /* infeasible: unit vector from end A to end B, along which a constant force proves it;
-                        unbounded: the rigid direction in which the energy falls; else 0 0 0 */
+                        unbounded: the rigid direction in which the energy falls;
+                        slides: the velocity of the end that leads, of the field `motion` of the view; else 0 0 0 */
     double proof_value; /* infeasible: [m] distance of the ends - length > 0;
-                           unbounded: [N] fall of the energy per metre > 0; else 0 */
+                           unbounded: [N] fall of the energy per metre > 0;
+                           slides: [N] power of the loads per unit of speed, beyond all that friction can take, the least
+                           along the way > 0; else 0 */
     double coulomb;     /* [N] unbounded with frozen friction: what friction bears by Coulomb's law under these loads, mu times what
                            presses on the plane, where that is enough to hold the line; else 0 */
 } CpsLineReport;
@@ -201,7 +218,22 @@ typedef struct CpsLineView {
                                          surface; NULL on one plane with isotropic friction: the part of u in it */
     const double *segment_force;      /* (elements, 3) [N] p: what the B side does to the A side */
     const double *tension;            /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
+    const double *motion;             /* (n, 3) [-] slides: velocities that prove it, the fastest of size 1; else 0 */
     const unsigned char *state;       /* (contacts, n) CpsNodeState */
+    double origin[3];                 /* [m] what reference, position and the places of held ends are measured from: 0 0 0, but a place
+                                         near the lines where these lie more than 512 lengths away; same for all lines */
+    /* Contact of an element with a round obstacle, at the point (1 - beta) x_e + beta x_{e+1} that was nearest to its axis or centre; its forces
+     * act on the element's nodes by these shares. As above for that point, whose way is that of the point with this beta since the reference.
+     * All NULL where no obstacle is round, contact is strict or friction frozen; obstacle -1 and numbers without meaning where an element has none. */
+    const int *element_obstacle;          /* (elements) */
+    const double *element_share;          /* (elements) [-] beta */
+    const double *element_normal;         /* (elements, 3) [-] */
+    const double *element_gap;            /* (elements) [m] with what an element may lie deep, min(l^2/(4 R), R/4), added */
+    const double *element_friction_bound; /* (elements) [N] */
+    const double *element_friction;       /* (elements, 3) [N] */
+    const double *element_reaction;       /* (elements) [N] */
+    const double *element_slide;          /* (elements, 3) [m] */
+    const unsigned char *element_state;   /* (elements) */
 } CpsLineView;
 
 /* Prepare a scene.

@@ -8,6 +8,7 @@
  *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given set's phi is its support
  *     contact    R (n.u + gap)
  *
+ * where u and s of a contact of an element are those of its point, (1 - beta) u_j + beta u_{j+1}, on whose nodes its forces act by these shares,
  * with s the way slid, u_T on a plane. Each is >= 0, where |p||e| - p.e = |p x e|^2/(|p||e| + p.e) has no cancellation. An inextensible element is taken as long as it
  * is found, |e| <= 1 up to rounding; the excess is reported as stretch_residual. */
 #include "cable/certificate.h"
@@ -34,6 +35,17 @@ static double angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
 
 static Vec3 tangential(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
 
+Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
+    for (int e = j - 1; e <= j && line->element_contacts > 0; e++) {
+        const int c = cpsi_line_contacts(line) + e;
+        if (e < 0 || e + 1 >= line->n || line->on[c] < 0) continue;
+        const double part = cpsi_line_part(line, e, j);
+        sum = vec3_axpy(part, vec3_load(&line->friction_force[3*c]), sum);
+        sum = vec3_axpy(part*line->reaction[c], vec3_load(&line->normal[3*c]), sum);
+    }
+    return sum;
+}
+
 /* Everything that acts on node j except the segments. */
 static Vec3 node_force(const CpsiLine *line, int j) {
     Vec3 sum = vec3_load(&line->load[3*j]);
@@ -41,7 +53,7 @@ static Vec3 node_force(const CpsiLine *line, int j) {
         sum = vec3_add(sum, vec3_load(&line->friction_force[3*c]));
         sum = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3*c]), sum);
     }
-    return sum;
+    return cpsi_add_element_contacts(line, j, sum);
 }
 
 static Vec3 segment_force(const CpsiLine *line, int e) { return vec3_load(&line->segment_force[3*e]); }
@@ -77,7 +89,7 @@ static bool bound_follows(const CpsiLine *line, int c) {
 static void share_out(CpsiLine *line, Vec3 rest) {
     double m[9] = {0}, lambda[3] = {-rest.x, -rest.y, -rest.z}, trace = 0;
     int pivot[3];
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const Vec3 n = vec3_load(&line->normal[3*c]);
         const double room = room_of(line, c);
         add_outer(m, line->reaction[c] - room, n, n);
@@ -92,7 +104,7 @@ static void share_out(CpsiLine *line, Vec3 rest) {
     cpsi_lu_solve(3, m, pivot, lambda);
     const Vec3 by = vec3_load(lambda);
     if (!(vec3_norm(by) < 1)) return;
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const Vec3 n = vec3_load(&line->normal[3*c]), f = vec3_load(&line->friction_force[3*c]);
         const double along = vec3_dot(n, by), follow = bound_follows(line, c) ? 1 + along : 1;
         /* inside the set before it is scaled, so inside after it */
@@ -177,8 +189,7 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
 
 /* Friction and reaction of contact c, and what they do on the node. */
 static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
-    const int j = cpsi_line_node(line, c);
-    const Vec3 x = vec3_load(&line->position[3*j]), reference = vec3_load(&line->reference[3*j]);
+    const Vec3 x = cpsi_line_place(line, line->position, c), reference = cpsi_line_place(line, line->reference, c);
     const Vec3 n = vec3_load(&line->normal[3*c]), f = vec3_load(&line->friction_force[3*c]);
     const Vec3 slide = cpsi_line_slide(line, c);
     const double w = line->friction_bound[c], reaction = line->reaction[c];
@@ -195,7 +206,9 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     out->dual += vec3_dot(f, vec3_sub(x, slide));
     raise_to(&out->largest_force, vec3_norm(f));
     if (reaction > 0) {
-        out->contact_residual += reaction*fmax(0, vec3_dot(n, vec3_sub(x, reference)) + line->gap[c]);
+        /* a node is laid on the surface by the rounds, an element is near it on either side */
+        const double distance = vec3_dot(n, vec3_sub(x, reference)) + line->gap[c];
+        out->contact_residual += reaction*(cpsi_line_element(line, c) >= 0 ? fabs(distance) : fmax(0, distance));
         out->dual += reaction*(vec3_dot(n, reference) - line->gap[c]);
         raise_to(&out->largest_force, reaction);
     }
@@ -228,6 +241,7 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         if (j + 1 < line->n) balance = vec3_add(balance, segment_force(line, j));
         double distance;
         if (cpsi_line_nearest(line, x, &distance) >= 0) raise_to(&out->penetration, -distance);
+        balance = cpsi_add_element_contacts(line, j, balance);
         if (cpsi_line_is_held(line, j)) { /* the held end's share of D: what its support does, times where it is */
             out->dual -= vec3_dot(balance, x);
             continue;
@@ -236,13 +250,15 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
             balance = vec3_add(balance, add_contact(line, c, out));
         raise_to(&out->force_residual, vec3_norm(balance));
     }
+    for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
+        if (line->on[c] >= 0) add_contact(line, c, out);
     out->gap += out->law_residual + out->contact_residual;
 }
 
 bool cpsi_law_holds(const CpsiLine *line, double tolerance) {
     const double rounding = 1e-14*line->report.certificate.largest_force*line->length;
     double law = 0, dissipated = 0, bounds = 0;
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double w = line->friction_bound[c];
         if (!(w > 0)) continue;
         double force[3], way[3], along[3];

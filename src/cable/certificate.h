@@ -10,6 +10,9 @@
  * Changes segment_force, and for two free ends friction_force and reaction. */
 void cpsi_balance_forces(CpsiLine *line);
 
+/* Add to `sum` what the contacts of the elements beside node j do on it. */
+Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum);
+
 /* The certificate of the fields in `line`: theory.md section 4, each local gap computed without cancellation.
  * The gap will be compared with `tolerance` times its scale, whose floor is that of the gap. O(nodes); reads only. */
 CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance);

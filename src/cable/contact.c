@@ -7,7 +7,8 @@
  * move base until it is where the solution is (line_step.c).
  *
  * The way slid is that of the node on the surface since the reference, the reference carried along by an obstacle that
- * turns. A node that lands within the step counts its way from the foot of its reference. It is the shorter way round, which is
+ * turns. An element has a contact with a round obstacle once it has gone deeper into it than its chord may, at the point that is nearest to
+ * the axis or centre; what is said of a node's place holds for that point. A node that lands within the step counts its way from the foot of its reference. It is the shorter way round, which is
  * the one that was gone only if the node went round the obstacle by no more than a quarter of a turn while that turned by no
  * more than another: the angle that it went is counted from round to round, so that a whole turn is not taken for none. */
 #include "cable/contact.h"
@@ -15,6 +16,7 @@
 #include <string.h>
 
 #include "cable/rub_set.h"
+#include "cable/side.h"
 #include "linsys/frame.h"
 
 /* No node moves farther in one go than this, per distance from the axis or centre of a round obstacle: its planes say no more. */
@@ -65,7 +67,8 @@ static void nearest(const CpsiLine *line, int j, Vec3 x, int on[2]) {
  * where it is: from afar the plane of a round one shuts off what is free. One that the contact keeps, always. */
 static bool is_watched(const CpsiLine *line, int c, double gap) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    if (!obstacle || cpsi_line_is_held(line, cpsi_line_node(line, c))) return false;
+    if (!obstacle || cpsi_line_is_contact_held(line, c)) return false;
+    if (cpsi_line_element(line, c) >= 0) return line->gains;
     if (!line->gains) return isfinite(line->gap[c]);
     if (c < line->n || obstacle->kind == CPS_OBSTACLE_PLANE || gap <= NEAR*obstacle->radius) return true;
     return line->follows && is_kept(line, c);
@@ -104,9 +107,9 @@ static void put(CpsiLine *line, int c, const Kept *kept) {
     memcpy(&line->normal[3*c], kept->normal, sizeof kept->normal);
 }
 
-/* Normal of obstacle k at the reference of node j; 0 0 0 without an obstacle. */
-static Vec3 reference_normal(const CpsiLine *line, int k, int j) {
-    return k < 0 ? vec3(0, 0, 0) : cpsi_obstacle_normal(&line->obstacle[k], vec3_load(&line->reference[3*j]));
+/* Normal of obstacle k at the reference of contact c; 0 0 0 without an obstacle. */
+static Vec3 reference_normal(const CpsiLine *line, int k, int c) {
+    return k < 0 ? vec3(0, 0, 0) : cpsi_obstacle_normal(&line->obstacle[k], cpsi_line_place(line, line->reference, c));
 }
 
 /* The contacts of node j at its base: those it had keep what they have. */
@@ -125,13 +128,48 @@ static void meet(CpsiLine *line, int j) {
     }
 }
 
-/* Axes and curvature of contact c at the node's base; without an obstacle those of the world. */
+/* What lies nearest of element e, placed at x, to an obstacle: its share of the way, and how far that point is from where the element may
+ * be. False where it does not face the obstacle between its nodes. */
+static bool clearance(const CpsiLine *line, const double *x, int e, int k, double *share, double *gap) {
+    const Vec3 a = vec3_load(&x[3*e]), b = vec3_load(&x[3*(e + 1)]);
+    if (!cpsi_obstacle_faces(&line->obstacle[k], a, b, share)) return false;
+    *gap = cpsi_obstacle_gap(&line->obstacle[k], vec3_axpy(*share, vec3_sub(b, a), a)) +
+           cpsi_obstacle_allowance(&line->obstacle[k], line->element_length[e]);
+    return true;
+}
+
+/* The contact of element e at its base: with the obstacle that it has gone into, else with the one it has had, as long as that is near. */
+static void meet_element(CpsiLine *line, int e) {
+    const int c = cpsi_line_contacts(line) + e;
+    Kept now = {.on = -1, .gap = INFINITY, .state = CPS_NODE_FREE};
+    const Kept before = keep(line, c);
+    double least = INFINITY;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        double share, gap;
+        if (!clearance(line, line->base, e, k, &share, &gap)) continue;
+        const bool had = k == before.on && gap <= NEAR*line->obstacle[k].radius;
+        if (!(had || gap < 0) || !(gap < least)) continue;
+        least = gap;
+        line->beta[e] = share;
+        if (had) now = before;
+        else now = (Kept){.on = k, .gap = INFINITY, .state = CPS_NODE_FREE};
+    }
+    put(line, c, &now);
+}
+
+/* Direction of the line at contact c. */
+static Vec3 direction_at(const CpsiLine *line, const double *x, int c) {
+    const int e = cpsi_line_element(line, c);
+    if (e < 0) return direction(line, x, cpsi_line_node(line, c));
+    return vec3_sub(vec3_load(&x[3*(e + 1)]), vec3_load(&x[3*e]));
+}
+
+/* Axes and curvature of contact c at its base; without an obstacle those of the world. */
 static void see(CpsiLine *line, int c) {
-    const int j = cpsi_line_node(line, c);
-    const Vec3 x = vec3_load(&line->base[3*j]);
+    const Vec3 x = cpsi_line_place(line, line->base, c);
     double *axes = &line->axes[9*c];
     if (line->on[c] >= 0) {
-        cpsi_obstacle_axes(&line->obstacle[line->on[c]], x, direction(line, line->base, j), axes,
+        cpsi_obstacle_axes(&line->obstacle[line->on[c]], x, direction_at(line, line->base, c), axes,
                            &line->curvature[3*c]);
         memcpy(&line->normal[3*c], &axes[6], 3*sizeof *axes);
         return;
@@ -152,7 +190,7 @@ static void freeze(CpsiLine *line, int c) {
 
 /* The reference of the node on the obstacle of contact c, carried along as it turns. */
 static Vec3 carried(const CpsiLine *line, int c) {
-    const Vec3 x = vec3_load(&line->reference[3*cpsi_line_node(line, c)]);
+    const Vec3 x = cpsi_line_place(line, line->reference, c);
     const int k = line->on[c];
     return k < 0 ? x : cpsi_obstacle_turn(&line->obstacle[k], x, line->turn[k]);
 }
@@ -178,31 +216,44 @@ void cpsi_contact_clear(CpsiLine *line, int c) {
 
 void cpsi_contact_meet(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) meet(line, j);
+    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) meet_element(line, e);
 }
 
-/* What contact c's node has gone round its obstacle, where its normal was `before` at the last look. */
+/* [m] How deep what touches at contact c may lie in the obstacle: of an element, what its chord cuts in. */
+static double allowance(const CpsiLine *line, int c) {
+    const int e = cpsi_line_element(line, c);
+    return e < 0 ? 0 : cpsi_obstacle_allowance(&line->obstacle[line->on[c]], line->element_length[e]);
+}
+
+/* What contact c has gone round its obstacle, where its normal was `before` at the last look; that of an element as on a ball, for the
+ * point of the element changes from look to look. */
 static void go_round(CpsiLine *line, int c, Vec3 before) {
     const int k = line->on[c];
     if (k < 0) return;
     const CpsiObstacle *obstacle = &line->obstacle[k];
-    const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER;
-    const Vec3 from = summed ? before : reference_normal(line, k, cpsi_line_node(line, c));
+    const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER && cpsi_line_element(line, c) < 0;
+    const Vec3 from = summed ? before : reference_normal(line, k, c);
     const double angle = cpsi_obstacle_angle(obstacle, from, vec3_load(&line->normal[3*c]));
     line->round[c] = summed ? line->round[c] + angle : angle;
     if (summed && fabs(angle) > CPSI_QUARTER) line->round[c] = INFINITY; /* too far in one round to tell which way */
 }
 
 void cpsi_contact_look(CpsiLine *line) {
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
-        const int j = cpsi_line_node(line, c), k = line->on[c];
+    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) {
+        const int on = line->on[cpsi_line_contacts(line) + e];
+        double share, gap;
+        if (on >= 0 && clearance(line, line->base, e, on, &share, &gap)) line->beta[e] = share;
+    }
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+        const int k = line->on[c];
         const Vec3 before = vec3_load(&line->normal[3*c]);
         see(line, c);
         go_round(line, c, before);
         if (line->frozen) freeze(line, c);
-        const Vec3 x = vec3_load(&line->base[3*j]), n = vec3_load(&line->normal[3*c]);
+        const Vec3 x = cpsi_line_place(line, line->base, c), n = vec3_load(&line->normal[3*c]);
         vec3_store(&line->slide[3*c], way_to(line, c, x));
-        const Vec3 u = vec3_sub(x, vec3_load(&line->reference[3*j]));
-        const double gap = k < 0 ? INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x);
+        const Vec3 u = vec3_sub(x, cpsi_line_place(line, line->reference, c));
+        const double gap = k < 0 ? INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x) + allowance(line, c);
         line->gap[c] = is_watched(line, c, gap) ? gap - vec3_dot(n, u) : INFINITY;
         if (!isfinite(line->gap[c])) cpsi_contact_clear(line, c);
     }
@@ -210,10 +261,9 @@ void cpsi_contact_look(CpsiLine *line) {
 
 /* Contact c at the reference: its friction bound, and its gap if it is watched. */
 static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
-    const int j = cpsi_line_node(line, c);
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    const double gap = obstacle ? cpsi_obstacle_gap(obstacle, vec3_load(&line->reference[3*j])) : INFINITY;
-    const bool held = cpsi_line_is_held(line, j);
+    const double gap = obstacle ? cpsi_obstacle_gap(obstacle, cpsi_line_place(line, line->reference, c)) + allowance(line, c) : INFINITY;
+    const bool held = cpsi_line_is_contact_held(line, c);
     /* contact: everywhere, or only where the reference touches (S90 (35)): what is below it is free */
     const bool near = fabs(gap) <= CPSI_TOUCH*line->length, touches = line->gains ? obstacle && line->state[c] != CPS_NODE_FREE : near;
     const bool rubs = touches && !held && !options->frictionless;
@@ -226,7 +276,7 @@ static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
 void cpsi_contact_return(CpsiLine *line) {
     memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
     cpsi_contact_meet(line);
-    for (int c = 0; c < cpsi_line_contacts(line); c++) see(line, c), line->round[c] = 0;
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) see(line, c), line->round[c] = 0;
 }
 
 void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
@@ -234,9 +284,11 @@ void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
     line->gains = options->contact == CPS_CONTACT_GAINED;
     line->frozen = line->follows && line->gains && options->friction == CPS_FRICTION_FROZEN && !options->frictionless;
     memcpy(line->reference, line->position, 3*n*sizeof *line->reference);
-    for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = 0, line->gap[c] = INFINITY;
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->friction_bound[c] = 0, line->gap[c] = INFINITY;
+    for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
+        if (line->state[c] == CPS_NODE_FREE) line->on[c] = -1; /* to be met again when it goes in */
     if (line->follows) cpsi_contact_return(line);
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (line->frozen) freeze(line, c);
         if (!line->follows && line->obstacle_count > 0) vec3_store(&line->normal[3*c], line->obstacle->frame.axis[2]);
         pose(line, c, options);
@@ -245,12 +297,12 @@ void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
 }
 
 void cpsi_contact_slide(CpsiLine *line) {
-    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
-        const Vec3 to = vec3_load(&line->position[3*cpsi_line_node(line, c)]);
+    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) {
+        const Vec3 to = cpsi_line_place(line, line->position, c);
         vec3_store(&line->slide[3*c], flat_way(line, c, to));
         const int k = line->on[c];
         if (k < 0) continue;
-        const Vec3 from = reference_normal(line, k, cpsi_line_node(line, c)), there = cpsi_obstacle_normal(&line->obstacle[k], to);
+        const Vec3 from = reference_normal(line, k, c), there = cpsi_obstacle_normal(&line->obstacle[k], to);
         line->round[c] = cpsi_obstacle_angle(&line->obstacle[k], from, there);
     }
 }
@@ -258,12 +310,12 @@ void cpsi_contact_slide(CpsiLine *line) {
 /* [rad] From where its obstacle has carried the reference to the node of contact c, the shorter way round. */
 static double apart(const CpsiLine *line, int c) {
     const CpsiObstacle *obstacle = &line->obstacle[line->on[c]];
-    const Vec3 from = cpsi_obstacle_normal(obstacle, carried(line, c)), to = vec3_load(&line->position[3*cpsi_line_node(line, c)]);
+    const Vec3 from = cpsi_obstacle_normal(obstacle, carried(line, c)), to = cpsi_line_place(line, line->position, c);
     return fabs(cpsi_obstacle_angle(obstacle, from, cpsi_obstacle_normal(obstacle, to)));
 }
 
 void cpsi_contact_still(CpsiLine *line) {
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (line->on[c] < 0 || line->friction_bound[c] > 0) continue;
         if (apart(line, c) < HALF_ROUND) continue;
         for (int a = 0; a < 3; a++) line->slide[3*c + a] = 0;
@@ -271,7 +323,7 @@ void cpsi_contact_still(CpsiLine *line) {
 }
 
 bool cpsi_contact_rounds(const CpsiLine *line) {
-    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) {
         if (line->on[c] < 0 || !(line->friction_bound[c] > 0)) continue;
         if (line->frozen && !(line->reaction[c] > 0)) continue; /* it has left the surface, and its way is one in the plane of the reference */
         if (!(fabs(line->round[c]) <= CPSI_QUARTER + QUARTER_ROUNDING) || !(apart(line, c) < HALF_ROUND)) return true;
@@ -279,7 +331,7 @@ bool cpsi_contact_rounds(const CpsiLine *line) {
     return false;
 }
 
-double cpsi_contact_shorten(CpsiLine *line) {
+double cpsi_contact_shorten(CpsiLine *line, bool sides) {
     double share = 1;
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
@@ -289,6 +341,7 @@ double cpsi_contact_shorten(CpsiLine *line) {
         const double way = vec3_norm(vec3_sub(to, from)), within = obstacle->radius + fmax(0, cpsi_obstacle_gap(obstacle, from));
         if (way*share > LEAP*within) share = LEAP*within/way;
     }
+    if (sides) share = cpsi_side_share(line, line->base, line->position, share);
     for (int i = 0; i < 3*line->n && share < 1; i++)
         line->position[i] = line->base[i] + share*(line->position[i] - line->base[i]);
     return share;
@@ -345,9 +398,34 @@ static double turn_of(const CpsiLine *line, int j) {
     return turned;
 }
 
-double cpsi_contact_move(CpsiLine *line) {
+/* The same of the contact of element e, and how far its place on the element moves. INFINITY where it does not face its obstacle any more. */
+static double turn_of_element(const CpsiLine *line, int e) {
+    const int c = cpsi_line_contacts(line) + e, k = line->on[c];
+    double share, gap, now[9], curvature[3];
+    if (!line->pressed[c] || k < 0) return 0;
+    if (!clearance(line, line->position, e, k, &share, &gap)) return INFINITY;
+    const Vec3 a = vec3_load(&line->position[3*e]), along = direction_at(line, line->position, c);
+    cpsi_obstacle_axes(&line->obstacle[k], vec3_axpy(share, along, a), along, now, curvature);
+    double turned = fabs(share - line->beta[e]);
+    for (int row = 0; row < 3; row += 2)
+        turned = fmax(turned, vec3_norm(vec3_sub(vec3_load(&now[3*row]), vec3_load(&line->axes[9*c + 3*row]))));
+    return turned;
+}
+
+/* Has an element gone through an obstacle?  Rounds do not end so; the next one keeps it out. */
+static bool goes_through(const CpsiLine *line) {
+    int obstacle;
+    return line->element_contacts > 0 && cpsi_line_pierces(line, &obstacle) > 0.1*CPSI_TOUCH*line->length;
+}
+
+double cpsi_contact_move(CpsiLine *line, bool sides) {
+    /* where a surface bends away from a coarse line, its nodes go straight: the slide is looked up anew after this */
+    const size_t places = 3*(size_t)line->n*sizeof *line->position;
+    memcpy(line->slide, line->position, places);
     for (int j = 0; j < line->n; j++) move(line, j);
-    double turned = 0;
+    if (sides && cpsi_side_share(line, line->base, line->position, 1) < 1) memcpy(line->position, line->slide, places);
+    double turned = line->gains && goes_through(line) ? INFINITY : 0;
+    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) turned = fmax(turned, turn_of_element(line, e));
     for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j));
     memcpy(line->base, line->position, 3*(size_t)line->n*sizeof *line->base);
     return turned;

@@ -41,11 +41,12 @@ void cpsi_contact_still(CpsiLine *line);
  * half round? Then the way that it slid is not known: a shorter part of the step is needed. */
 bool cpsi_contact_rounds(const CpsiLine *line);
 
-/* Shorten the way from `base` to `position` where it goes farther than the tangent planes there tell. Returns the share that is left. */
-double cpsi_contact_shorten(CpsiLine *line);
+/* Shorten the way from `base` to `position` where it goes farther than the tangent planes there tell, and, if `sides` matter, before an
+ * element comes to the other side of an obstacle (side.h). Returns the share that is left. */
+double cpsi_contact_shorten(CpsiLine *line, bool sides);
 
 /* Along the surface: what `position` and then `base` become when the nodes move by `position` - base, where they touch. Returns
  * the largest angle [rad] by which a touching node's axes turn on the way: what the next look changes. */
-double cpsi_contact_move(CpsiLine *line);
+double cpsi_contact_move(CpsiLine *line, bool sides);
 
 #endif

@@ -315,10 +315,17 @@ static void add_node(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw
     for (int i = 0; i < node.contacts; i++) add_contact(set, law, &node, i, gain, one);
 }
 
+/* Does an obstacle press on an element?  Those forces stay as they are. */
+static bool has_element_contacts(const CpsiLine *line) {
+    for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
+        if (line->reaction[c] > 0) return true;
+    return false;
+}
+
 bool cpsi_force_set_build(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law) {
     set->force = line->report.certificate.largest_force;
     for (int e = 0; e + 1 < line->n; e++) set->force = fmax(set->force, line->tension_before[e]);
-    set->partial = false;
+    set->partial = has_element_contacts(line);
     if (!isfinite(set->force)) return false;
     if (!(set->force > 0)) set->force = 1; /* nothing asks for a force: any unit will do */
     measure_elements(set, line, law);
@@ -419,7 +426,7 @@ void cpsi_force_set_layout(CpsiForceSet *set, CpsiArena *arena, int n, int conta
 
 /* Copy the fields of a line to their room, or back. */
 static void copy_fields(const CpsiForceSet *set, CpsiLine *line, bool back) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     const struct { double *room, *field; size_t count; } fields[] = {
         {set->segment_force, line->segment_force, 3*(n - 1)}, {set->kept_tension, line->tension, n - 1},
         {set->reaction, line->reaction, contacts}, {set->friction, line->friction_force, 3*contacts},

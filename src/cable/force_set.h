@@ -26,7 +26,7 @@ typedef struct CpsiForceLaw {
 typedef struct CpsiForceSet {
     CpsiScalarProgram program;
     double force;      /* [N] unit of the program's forces */
-    bool partial;      /* friction sets given as such: their forces stay as they are */
+    bool partial;      /* friction sets given as such, and contacts of elements: their forces stay as they are */
     double *tangent;   /* (n, 3) of element e */
     double *tension;   /* (n) [N] p.t of element e, as it is */
     double *gain;      /* (n) of element e: its tension changes by gain y of its scalar */

@@ -326,9 +326,26 @@ static void take_places(CpsiLine *line, const CpsiLeastMotion *least) {
         if (least->slack[i]) line->tension[i - 1] = 0;
 }
 
+/* Are elements kept out of obstacles in this round?  Their contacts tie two nodes each, which clusters do not know. */
+static bool ties_nodes(const CpsiLine *line, const CpsiChainProgram *program) {
+    for (int k = 0; program && k < program->stop.count; k++)
+        if (program->stop.contact[k] >= cpsi_line_contacts(line)) return true;
+    return false;
+}
+
+static bool is_slack_somewhere(const CpsiChainProgram *program) {
+    for (int i = 1; i < program->n; i++)
+        if (!(program->stretch.z[i][0] > LOOSE)) return true;
+    return false;
+}
+
 int cpsi_least_motion(CpsiLine *line, CpsiLeastMotion *least, const CpsiChainProgram *program, CpsiBounds bounds,
                       int max_iterations) {
     int iterations = 0;
+    if (ties_nodes(line, program)) {
+        line->report.places = is_slack_somewhere(program) ? CPS_PLACES_ANY : CPS_PLACES_UNIQUE;
+        return 0;
+    }
     read_round(line, least, program);
     line->report.places = CPS_PLACES_UNIQUE;
     const bool open = gather(line, least, bounds);

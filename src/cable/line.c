@@ -3,7 +3,7 @@
 #include "cable/line.h"
 
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
-    const size_t n = (size_t)line->n, contacts = (size_t)line->contacts*n;
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     line->arc_length = CPSI_TAKE(arena, n, double);
     line->element_length = CPSI_TAKE(arena, n, double);
     line->reference = CPSI_TAKE(arena, 3*n, double);
@@ -17,6 +17,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->reaction = CPSI_TAKE(arena, contacts, double);
     line->segment_force = CPSI_TAKE(arena, 3*n, double);
     line->tension = CPSI_TAKE(arena, n, double);
+    line->motion = CPSI_TAKE(arena, 3*n, double);
     line->state = CPSI_TAKE(arena, contacts, unsigned char);
     line->slide = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
     line->round = line->follows ? CPSI_TAKE(arena, contacts, double) : NULL;
@@ -26,6 +27,8 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->curvature = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
     line->on = line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
     line->pressed = line->follows ? CPSI_TAKE(arena, contacts, bool) : NULL;
+    line->beta = line->element_contacts > 0 ? CPSI_TAKE(arena, n, double) : NULL;
+    line->carries = line->follows ? CPSI_TAKE(arena, n, double) : NULL;
     if (line->follows) cpsi_ahead_layout(&line->ahead, arena, line->n);
     const bool inextensible = line->compliance == 0;
     line->tension_before = inextensible ? CPSI_TAKE(arena, n, double) : NULL;

@@ -2,7 +2,8 @@
 /* One line and its last step: the data that a step reads and the fields that it leaves. World axes, SI units.
  *
  * A node touches up to `contacts` obstacles at once. What belongs to a contact stands in arrays (contacts, n): contact c is the
- * first of node c, or the second of node c - n. */
+ * first of node c, or the second of node c - n. Where there are round obstacles and friction is consistent elements touch as well: contact contacts n + e is that of
+ * element e, at the point of it that was nearest to the axis or centre. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H
 
@@ -25,6 +26,7 @@ typedef struct CpsiLine {
     bool has_zones;     /* friction differs along the line */
     bool follows;       /* nodes have axes of their own, which follow them: more than one plane with isotropic friction */
     int contacts;       /* of a node: 2 where there is more than one obstacle, else 1 */
+    int element_contacts; /* of an element: 1 where there is a round obstacle, else 0; the arrays (contacts, n) have so many rows more */
     double common[9];   /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];      /* imposed now */
     double *arc_length;      /* (n) [m] */
@@ -41,6 +43,7 @@ typedef struct CpsiLine {
     double *reaction;       /* (contacts, n) [N] */
     double *segment_force;  /* (n - 1, 3) [N] */
     double *tension;        /* (n - 1) [N] */
+    double *motion;         /* (n, 3) [-] of a line that slides without end, else 0 */
     unsigned char *state;   /* (contacts, n) CpsNodeState */
     /* where `follows`, else NULL: what each node sees of the obstacles, from its place `base` */
     double *slide;          /* (contacts, n, 3) [m] way of the node on the obstacle in this step, tangential */
@@ -50,7 +53,9 @@ typedef struct CpsiLine {
     double *axes;           /* (contacts, n, 9) rows first tangent, second tangent, normal */
     double *first_axes;     /* (contacts, n, 9) the same at the reference: those of frozen friction */
     double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
-    int *on;                /* (contacts, n) the nearest obstacle, and the next; -1: none */
+    int *on;                /* (contacts, n) the nearest obstacle, and the next; of an element the one that it is kept out of; -1: none */
+    double *beta;           /* (n) where on its way from node e to e + 1 element e touches; NULL without such contacts */
+    double *carries;        /* (n) [N] reactions that act on the node, also by its elements */
     bool *pressed;          /* (contacts, n) in the last solution: of reaction and distance, it is the reaction that is not 0 */
     bool gains;             /* contact is looked for everywhere */
     bool frozen;            /* friction keeps the bounds and axes of the reference while contact is looked for where the nodes are */
@@ -81,10 +86,38 @@ static inline double cpsi_line_share(const CpsiLine *line, int j) {
 static inline int cpsi_line_contacts(const CpsiLine *line) { return line->contacts*line->n; }
 static inline int cpsi_line_node(const CpsiLine *line, int c) { return c < line->n ? c : c - line->n; }
 
+/* Those of the elements with them; the element of a contact, -1 of a node's. */
+static inline int cpsi_line_all_contacts(const CpsiLine *line) { return (line->contacts + line->element_contacts)*line->n; }
+static inline int cpsi_line_element(const CpsiLine *line, int c) { return c < cpsi_line_contacts(line) ? -1 : c - cpsi_line_contacts(line); }
+
+/* How much a contact of element e acts on its node j. */
+static inline double cpsi_line_part(const CpsiLine *line, int e, int j) { return j == e ? 1 - line->beta[e] : line->beta[e]; }
+
+/* The place x (n, 3) of contact c: of its node, or of the point of its element. */
+static inline Vec3 cpsi_line_place(const CpsiLine *line, const double *x, int c) {
+    const int e = cpsi_line_element(line, c);
+    if (e < 0) return vec3_load(&x[3*cpsi_line_node(line, c)]);
+    const Vec3 a = vec3_load(&x[3*e]), b = vec3_load(&x[3*(e + 1)]);
+    return vec3_axpy(line->beta[e], vec3_sub(b, a), a);
+}
+
+/* [m] Natural length that contact c stands for. */
+static inline double cpsi_line_contact_share(const CpsiLine *line, int c) {
+    const int e = cpsi_line_element(line, c);
+    return e < 0 ? cpsi_line_share(line, cpsi_line_node(line, c)) : line->element_length[e];
+}
+
 /* Is node j an end that is held? */
 static inline bool cpsi_line_is_held(const CpsiLine *line, int j) {
     return (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
            (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
+}
+
+/* Is what touches at contact c held? */
+static inline bool cpsi_line_is_contact_held(const CpsiLine *line, int c) {
+    const int e = cpsi_line_element(line, c);
+    if (e < 0) return cpsi_line_is_held(line, cpsi_line_node(line, c));
+    return cpsi_line_is_held(line, e) && cpsi_line_is_held(line, e + 1);
 }
 
 /* The obstacle of contact c, or NULL; the axes of its friction. */

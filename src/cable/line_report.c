@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/rub_set.h"
 #include "linsys/frame.h"
@@ -11,7 +12,7 @@
 /* [J] by friction in the step. */
 static double dissipated(const CpsiLine *line) {
     double sum = 0;
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!(line->friction_bound[c] > 0)) continue;
         double slide[3], way[3];
         const CpsiRubSet set = cpsi_rub_set(line, c);
@@ -28,10 +29,10 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     const double weight = vec3_norm(vec3_load(line->weight));
     const double density = weight > 0 ? weight : line->report.certificate.largest_force/line->length;
     CpsLineReport *report = &line->report;
-    memset(line->state, CPS_NODE_FREE, (size_t)cpsi_line_contacts(line));
+    memset(line->state, CPS_NODE_FREE, (size_t)cpsi_line_all_contacts(line));
     for (int k = 0; k < program->stop.count; k++) {
-        const int c = program->stop.contact[k], j = program->stop.node[k];
-        if (line->reaction[c] > density*cpsi_line_share(line, j)*program->stop.s[k]) line->state[c] = CPS_NODE_STICK;
+        const int c = program->stop.contact[k];
+        if (line->reaction[c] > density*cpsi_line_contact_share(line, c)*program->stop.s[k]) line->state[c] = CPS_NODE_STICK;
     }
     for (int k = 0; k < program->rub.count; k++) {
         const int c = program->rub.contact[k];
@@ -112,9 +113,10 @@ void cpsi_line_report_ends(CpsiLine *line) {
         memcpy(out->position, &line->position[3*j], sizeof out->position);
         Vec3 force = vec3_load(line->end[end].value);
         if (line->end[end].kind == CPS_END_HELD) {
-            /* what the support does: the opposite of the element's pull and the node's own weight */
+            /* what the support does: the opposite of the element's pull, the node's own weight and what the element's contact does on it */
             const Vec3 pull = vec3_scale(end == CPS_END_A ? 1 : -1, vec3_load(&line->segment_force[3*e]));
-            force = rest_on_obstacle(line, end, vec3_scale(-1, vec3_add(pull, vec3_load(&line->load[3*j]))));
+            const Vec3 others = cpsi_add_element_contacts(line, j, vec3_load(&line->load[3*j]));
+            force = rest_on_obstacle(line, end, vec3_scale(-1, vec3_add(pull, others)));
         }
         vec3_store(out->force, force);
         out->tension = vec3_norm(force);

@@ -21,11 +21,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/bend.h"
 #include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/line_report.h"
 #include "cable/mesh_error.h"
 #include "cable/rub_set.h"
+#include "cable/side.h"
+#include "cable/slides.h"
 #include "cable/step_program.h"
 #include "cable/tension_field.h"
 #include "ipm/ipm.h"
@@ -171,12 +174,14 @@ static void straighten(CpsiLine *line) {
 }
 
 /* Is the line where the step can have taken it, and clear of the obstacles that keep it out?  Strict contact with frozen friction sees them
- * from the reference only. */
+ * from the reference only, from where the line goes straight and passes none. */
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool consistent = line->follows && options->friction == CPS_FRICTION_CONSISTENT;
     if ((consistent || line->frozen) && !(cpsi_contact_depth(line) <= 0.1*CPSI_TOUCH*line->length)) return false;
     /* strict contact keeps out nodes that touched, and nothing else (S90 (35)) */
     if (line->gains && !(line->report.certificate.element_penetration <= 0.1*CPSI_TOUCH*line->length)) return false;
+    const bool straight = line->follows && !consistent && !line->frozen && !options->frictionless;
+    if (straight && cpsi_side_share(line, line->reference, line->position, 1) < 1) return false;
     if (consistent && !cpsi_law_holds(line, options->solver.tolerance)) return false;
     for (int j = 0; j < 3*line->n; j++)
         if (!(fabs(line->position[j] - line->reference[j]) <= AFAR*line->length)) return false;
@@ -238,7 +243,7 @@ static double unit_force(const CpsiLine *line, CpsiBounds bounds) {
     double force = force_scale(line, end_distance(line)/(is_taut(line) ? 1 + TAUT_SLACK : 1)), all = 0;
     const double before = line->obstacle_count > 0 ? reference_tension(line) : 0;
     if (before > HELD*force && (force > 0 || before*line->compliance > LEAST_STRAIN)) force = before;
-    for (int c = 0; c < cpsi_line_contacts(line) && bounds == CPSI_BOUNDS_TRIED; c++) all += line->friction_bound[c];
+    for (int c = 0; c < cpsi_line_all_contacts(line) && bounds == CPSI_BOUNDS_TRIED; c++) all += line->friction_bound[c];
     return fmax(force, all);
 }
 
@@ -247,7 +252,7 @@ static bool is_clean(const CpsiIpmReport *ipm) { return ipm->gap + fmax(ipm->res
 /* A line that nothing loads: no force, no friction, no reaction, and the place of least motion. False where there is no such place: something
  * must hold it then. */
 static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(line->position, line->reference, 3*n*sizeof *line->position);
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_HELD)
@@ -303,7 +308,7 @@ static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const Cp
 
 /* The bounds mu R, and no friction beyond them. */
 static void take_bounds(CpsiLine *line) {
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double *axes = cpsi_line_axes(line, c);
         const CpsiRubSet set = cpsi_rub_set(line, c);
         const double within = line->friction_bound[c];
@@ -318,7 +323,7 @@ static void take_bounds(CpsiLine *line) {
 /* Sum of |A - mu R| over that of mu R: how far given bounds are from following. */
 static double mismatch(const CpsiLine *line) {
     double off = 0, all = 0;
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!isfinite(line->gap[c])) continue;
         const double follow = cpsi_rub_set(line, c).friction*line->reaction[c];
         off += fabs(line->friction_bound[c] - follow);
@@ -338,22 +343,24 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
     }
 }
 
-/* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. */
-static void look_again(CpsiLine *line, double *turned) {
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+/* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. False where the
+ * line has not gone all its way. */
+static bool look_again(CpsiLine *line, bool sides, double *turned) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
         memcpy(&line->friction_force[3*c], f, sizeof f);
     }
-    const bool shortened = cpsi_contact_shorten(line) < 1;
-    *turned = cpsi_contact_move(line);
+    const bool shortened = cpsi_contact_shorten(line, sides) < 1;
+    *turned = cpsi_contact_move(line, sides);
     if (shortened) *turned = INFINITY;
     cpsi_contact_look(line);
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3];
         cpsi_frame_from(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
         memcpy(&line->friction_force[3*c], f, sizeof f);
     }
+    return !shortened;
 }
 
 /* One round: solve where the line is, the reactions turning with their normals if that can be solved. */
@@ -363,12 +370,17 @@ static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, cons
 }
 
 /* The base of the next round: where the last one ended, or foreseen from several that close in. */
-static void look_ahead(CpsiLine *line, double turned) {
+static void look_ahead(CpsiLine *line, bool sides, double turned) {
     if (turned > NEAR) {
         cpsi_ahead_start(&line->ahead, line->n, line->base);
         return;
     }
-    cpsi_ahead_foresee(&line->ahead, line->n, line->reaction, line->base);
+    memcpy(line->carries, line->reaction, (size_t)line->n*sizeof *line->carries);
+    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)
+        for (int j = e; j <= e + 1; j++) line->carries[j] += line->reaction[cpsi_line_contacts(line) + e];
+    cpsi_ahead_foresee(&line->ahead, line->n, line->carries, line->base);
+    if (sides && cpsi_side_share(line, line->position, line->base, 1) < 1)
+        memcpy(line->base, line->position, 3*(size_t)line->n*sizeof *line->base);
 }
 
 /* The last round as an answer: is it one? */
@@ -385,30 +397,32 @@ static bool conclude(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
 static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     double turned = line->follows ? INFINITY : 0, off = 0, best = INFINITY;
+    const bool sides = !options->frictionless; /* statics comes from no side */
+    bool arrived = true;
     int since = 0;
     for (int round = 0, most = options->slow ? SLOW_ROUNDS : ROUNDS; round < most; round++) {
-        if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow) look_ahead(line, turned);
+        if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow) look_ahead(line, sides, turned);
         if (line->follows) cpsi_contact_meet(line), cpsi_contact_look(line);
         ipm = solve_round(line, program, options, bounds, options->turning);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
-            for (int c = 0; c < cpsi_line_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
+            for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
             ipm = solve_round(line, program, options, bounds, options->turning);
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
             off = mismatch(line);
             next_bounds(line, program, unit_force(line, bounds));
         }
-        if (line->follows) look_again(line, &turned);
+        if (line->follows) arrived = look_again(line, sides, &turned);
         if (turned <= SETTLED && off <= MATCHED && is_clean(&ipm)) break;
         if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
         if (turned < 0.5*best) best = turned, since = round;
         if (options->slow && round >= since + SLOW_PATIENCE) break;
-        if (options->slow && bounds != CPSI_BOUNDS_TRIED && (round + 1)%SLOW_PATIENCE == 0 &&
+        if (options->slow && arrived && bounds != CPSI_BOUNDS_TRIED && (round + 1)%SLOW_PATIENCE == 0 &&
             conclude(line, program, options, bounds, &ipm))
             return;
     }
-    conclude(line, program, options, bounds, &ipm);
+    if (conclude(line, program, options, bounds, &ipm) && !arrived) line->report.outcome = CPS_STALLED;
 }
 
 /* The step as it is posed, in one go or in rounds. */
@@ -431,7 +445,7 @@ static bool is_finite(const CpsiLine *line) {
 
 /* Back to the reference, without forces: what is reported where arithmetic has broken down. */
 static void forget(CpsiLine *line, const CpsiStepOptions *options) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     const CpsiIpmReport none = {.outcome = CPSI_IPM_STALLED};
     memcpy(line->position, line->reference, 3*n*sizeof *line->position);
     memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
@@ -466,7 +480,7 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         with.turning = way == TURNING;
         with.trying = way == TRYING;
         with.centrings = way == TURNING ? 0 : CENTRINGS;
-        if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
+        if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line)*sizeof *line->reaction);
         if (line->follows) cpsi_contact_return(line);
         solve_step(line, program, &with);
         if (cps_outcome_is_certified(line->report.outcome)) return;
@@ -475,7 +489,7 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
 
 /* What the tensions of an inextensible line, and the reactions in corners, are to be near to. */
 static void remember(CpsiLine *line) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (!line->forces) return;
     memcpy(line->tension_before, line->tension, (n - 1)*sizeof *line->tension);
     memcpy(line->reaction_before, line->reaction, contacts*sizeof *line->reaction);
@@ -553,13 +567,38 @@ static bool stays(CpsiLine *line, const CpsiStepOptions *options, const CpsLineR
     return true;
 }
 
-void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    const CpsLineReport before = line->report;
+/* Where a line's ends are before a step: where they stay if there is no equilibrium. */
+static void keep_ends(CpsiLine *line) {
     line->report = (CpsLineReport){.pierced = -1};
-    for (int end = 0; end < 2; end++) { /* where they stay if there is no equilibrium */
+    for (int end = 0; end < 2; end++) {
         memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
         line->report.end[end].range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
     }
+}
+
+bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, double margin) {
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    if (options->friction != CPS_FRICTION_CONSISTENT || options->frictionless) return false;
+    keep_ends(line);
+    pose(line, options);
+    if (!cpsi_line_slides(line, margin)) return false;
+    line->report.outcome = CPS_SLIDES;
+    memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
+    memset(line->segment_force, 0, 3*n*sizeof *line->segment_force);
+    memset(line->tension, 0, n*sizeof *line->tension);
+    return true;
+}
+
+/* The bend at which the mesh changes the law of friction most; beyond all friction it is no answer. */
+static void report_bend(CpsiLine *line) {
+    line->report.bend = cpsi_line_bend(line);
+    if (cps_outcome_is_certified(line->report.outcome) && cpsi_bend_locks(&line->report.bend))
+        line->report.outcome = CPS_MESH_TOO_COARSE;
+}
+
+void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    const CpsLineReport before = line->report;
+    keep_ends(line);
     remember(line);
     pose(line, options);
     if (stays(line, options, &before)) {
@@ -567,6 +606,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
         cpsi_line_report_ends(line);
         cpsi_line_report_lengths(line);
         line->report.tension_mesh = cpsi_mesh_error(line);
+        report_bend(line);
         return;
     }
     line->report.certificate = (CpsCertificate){0};
@@ -585,4 +625,5 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     cpsi_line_report_ends(line);
     cpsi_line_report_lengths(line);
     line->report.tension_mesh = cpsi_mesh_error(line);
+    report_bend(line);
 }

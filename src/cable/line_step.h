@@ -29,4 +29,8 @@ typedef struct CpsiStepOptions {
  * Allocates nothing. */
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options);
 
+/* Instead of a step that finds no answer: does the line slide along itself without end, by this margin (slides.h)?  Then the report says so, and position,
+ * reaction and state stay. Coulomb's friction alone; frozen friction has bounds that no tension raises. */
+bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, double margin);
+
 #endif

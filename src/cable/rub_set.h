@@ -14,10 +14,18 @@ typedef struct CpsiRubSet {
     const CpsiFrictionSet *given; /* NULL: ellipse or box */
 } CpsiRubSet;
 
+/* The factor of the friction zones at contact c: that of its node, or between those of its element's nodes. */
+static inline double cpsi_line_factor(const CpsiLine *line, int c) {
+    const int e = cpsi_line_element(line, c);
+    if (!line->friction_factor) return 1;
+    if (e < 0) return line->friction_factor[cpsi_line_node(line, c)];
+    return (1 - line->beta[e])*line->friction_factor[e] + line->beta[e]*line->friction_factor[e + 1];
+}
+
 /* That of contact c of a line. */
 static inline CpsiRubSet cpsi_rub_set(const CpsiLine *line, int c) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    const double factor = line->friction_factor ? line->friction_factor[cpsi_line_node(line, c)] : 1;
+    const double factor = cpsi_line_factor(line, c);
     if (!obstacle || (obstacle->has_set && !obstacle->set)) return (CpsiRubSet){.ratio = {1, 1}};
     if (obstacle->has_set) return (CpsiRubSet){.friction = factor, .given = obstacle->set};
     const double *mu = obstacle->friction, friction = fmax(mu[0], mu[1]), by = friction > 0 ? 1/friction : 0;

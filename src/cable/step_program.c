@@ -27,10 +27,23 @@ static const double *base_of(const CpsiLine *line) { return line->follows ? line
 static double open_gap(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c);
     double gap = line->gap[c];
+    if (cpsi_line_element(line, c) >= 0) {
+        const Vec3 u = vec3_sub(cpsi_line_place(line, line->base, c), cpsi_line_place(line, line->reference, c));
+        return gap + vec3_dot(vec3_load(&line->normal[3*c]), u);
+    }
     for (int a = 0; line->follows && a < 3; a++)
         gap += line->normal[3*c + a]*(line->base[3*j + a] - line->reference[3*j + a]);
     return gap;
 }
+
+/* The node of the program that contact c acts on: its own, or the point of its element. */
+static int node_of(const CpsiLine *line, int c) {
+    const int e = cpsi_line_element(line, c);
+    return e < 0 ? cpsi_line_node(line, c) : line->n + e + 1;
+}
+
+/* Is contact c the second of its node? */
+static bool is_second(const CpsiLine *line, int c) { return c >= line->n && c < cpsi_line_contacts(line); }
 
 /* The axes of node j: those of its first contact, or of the line. Where there are two, x lies along the corner that they make, so that
  * what is stiff stays in y and z; a shape keeps its own. */
@@ -73,8 +86,9 @@ static void guess(const CpsiLine *line, CpsiChainProgram *program) {
 /* The tangents (2, 3) of contact c, row by row, and its normal, in the axes of its node; the first contact's normal is z. */
 static void contact_axes(const CpsiLine *line, const CpsiChainProgram *program, int c, double axes[9]) {
     static const double own[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    const int j = cpsi_line_node(line, c);
+    const int j = node_of(line, c);
     memcpy(axes, own, sizeof own);
+    if (j >= line->n) return;
     if (!program->frame || (c == j && memcmp(&program->frame[9*j], &line->axes[9*j], sizeof own) == 0)) return;
     cpsi_frame_relative(axes, &line->axes[9*c], &program->frame[9*j]);
     if (c == j) axes[2] = axes[5] = axes[6] = axes[7] = 0, axes[8] = 1;
@@ -94,14 +108,14 @@ static double tried_or(const CpsiStepScale *scale, double bound) {
 static void fill_shape(const CpsiLine *line, CpsiChainProgram *program, int c, const CpsiStepScale *scale) {
     CpsiShape *shape = &program->shape;
     const CpsiRubSet set = cpsi_rub_set(line, c);
-    const int j = cpsi_line_node(line, c), k = shape->count++;
-    const double share = cpsi_line_share(line, j)/line->length;
+    const int j = node_of(line, c), k = shape->count++;
+    const double share = cpsi_line_contact_share(line, c)/line->length;
     double way[3], axes[9];
     cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3*c]);
     friction_axes(line, program, c, axes);
     shape->node[k] = j;
     shape->contact[k] = c;
-    shape->second[k] = c != j || line->frozen; /* a first one's tangents are those of the node */
+    shape->second[k] = is_second(line, c) || line->frozen; /* a first one's tangents are those of the node */
     shape->weight[k] = share;
     shape->form[k] = cpsi_friction_set_shape(set.given);
     shape->stop[k] = isfinite(line->gap[c]) ? program->stop.count - 1 : -1;
@@ -115,8 +129,8 @@ static void fill_shape(const CpsiLine *line, CpsiChainProgram *program, int c, c
 static void fill_rubs(const CpsiLine *line, CpsiChainProgram *program, int c, const CpsiStepScale *scale) {
     CpsiRub *rub = &program->rub;
     const CpsiRubSet set = cpsi_rub_set(line, c);
-    const int j = cpsi_line_node(line, c), count = line->follows && set.box ? 2 : 1;
-    const double share = cpsi_line_share(line, j)/line->length;
+    const int j = node_of(line, c), count = line->follows && set.box ? 2 : 1;
+    const double share = cpsi_line_contact_share(line, c)/line->length;
     double way[3] = {0}, axes[9];
     if (line->follows) cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3*c]);
     friction_axes(line, program, c, axes);
@@ -144,11 +158,11 @@ static void turn_curvature(double out[6], const double axes[9], const double cur
 
 static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int c, const CpsiStepScale *scale) {
     CpsiStop *stop = &program->stop;
-    const int j = cpsi_line_node(line, c), k = stop->count++;
-    const double share = cpsi_line_share(line, j)/line->length;
+    const int j = node_of(line, c), k = stop->count++;
+    const double share = cpsi_line_contact_share(line, c)/line->length;
     stop->node[k] = j;
     stop->contact[k] = c;
-    stop->second[k] = c != j;
+    stop->second[k] = is_second(line, c);
     stop->weight[k] = share;
     stop->gap[k] = open_gap(line, c)/line->length;
     if (!line->follows) return;
@@ -156,7 +170,7 @@ static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int c, co
     contact_axes(line, program, c, axes);
     memcpy(stop->normal[k], &axes[6], sizeof stop->normal[k]);
     turn_curvature(stop->curvature[k], axes, &line->curvature[3*c],
-                   scale->curved ? line->reaction[c]*line->length/(scale->force*share) : 0);
+                   scale->curved && j < line->n ? line->reaction[c]*line->length/(scale->force*share) : 0);
 }
 
 static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c, const CpsiStepScale *scale) {
@@ -178,6 +192,22 @@ static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program, const Cp
         for (int a = 0; a < 3; a++) program->base.load[3*j + a] /= scale->force;
         for (int c = j; c < cpsi_line_contacts(line); c += line->n) fill_contact(line, program, c, scale);
     }
+}
+
+/* The contacts of elements, at points in axes of their own. */
+static void fill_points(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale) {
+    const int n = line->n, nodes = cpsi_line_contacts(line);
+    bool any = false;
+    for (int c = nodes; c < cpsi_line_all_contacts(line); c++) {
+        const int i = c - nodes + 1; /* element i of the program; the last contact is none */
+        const bool acts = line->on[c] >= 0 && (isfinite(line->gap[c]) || line->friction_bound[c] > 0);
+        if (i < n) program->own.share[i] = acts ? line->beta[i - 1] : 0;
+        if (!acts) continue;
+        any = true;
+        memcpy(&program->frame[9*(n + i)], &line->axes[9*c], 9*sizeof *line->axes);
+        fill_contact(line, program, c, scale);
+    }
+    if (any) cpsi_chain_program_use_points(program);
 }
 
 /* A node's displacement in the axes of the chain. */
@@ -208,6 +238,7 @@ void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program, con
     for (int j = 0; line->follows && j < line->n; j++) fill_axes(line, program, j);
     guess(line, program);
     fill_nodes(line, program, scale);
+    if (line->element_contacts > 0) fill_points(line, program, scale);
     fill_elements(line, program, scale);
 }
 
@@ -236,8 +267,8 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program) {
 }
 
 static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program, const CpsiStepScale *scale) {
-    memset(line->reaction, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->reaction);
-    if (line->follows) memset(line->pressed, 0, (size_t)cpsi_line_contacts(line)*sizeof *line->pressed);
+    memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line)*sizeof *line->reaction);
+    if (line->follows) memset(line->pressed, 0, (size_t)cpsi_line_all_contacts(line)*sizeof *line->pressed);
     for (int k = 0; k < program->stop.count; k++) {
         const int c = program->stop.contact[k];
         line->reaction[c] = scale->force*program->stop.weight[k]*program->stop.z[k];
@@ -258,7 +289,7 @@ static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program, con
     const CpsiRub *rub = &program->rub;
     const CpsiShape *shape = &program->shape;
     const bool follow = scale->bounds == CPSI_BOUNDS_FOLLOW;
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (follow || line->friction_bound[c] < LEAST_FRICTION*scale->force) line->friction_bound[c] = 0;
         for (int a = 0; a < 3; a++) line->friction_force[3*c + a] = 0;
     }

@@ -16,22 +16,25 @@ static const double GROWS = 0.5;
  * the extreme value is in the bound. */
 static const double WEIGHTS[] = {0, 1e-10, 1e-8};
 
-/* The extreme value of the tension of element e: the greatest by sign 1, the least by -1. False where the program did not converge. */
+/* A value and its bound that differ by no more than this share of the largest force are an answer: the root of the loop's rounding. */
+static const double TIGHT = 1e-7;
+
+/* The extreme value of the tension of element e, and its bound: the greatest by sign 1, the least by -1. False where no program found
+ * both close to each other. */
 static bool extreme(CpsiForceSet *set, int e, double sign, double *value, double *bound) {
-    *value = *bound = fmax(0, set->tension[e]);
+    const double now = *value = *bound = fmax(0, set->tension[e]);
     const int g = set->scalar[e];
     if (g < 0) return true;
     set->program.base.load[g] = sign*set->gain[e];
-    bool solved = false;
-    for (size_t k = 0; k < sizeof WEIGHTS/sizeof *WEIGHTS && !solved; k++) {
+    for (size_t k = 0; k < sizeof WEIGHTS/sizeof *WEIGHTS; k++) {
         cpsi_scalar_program_weigh(&set->program, WEIGHTS[k]);
-        solved = cpsi_force_set_solve(set);
+        if (!cpsi_force_set_solve(set)) continue;
+        /* T >= 0 is a bound too, and better than rounding */
+        *value = fmax(0, now + set->force*set->gain[e]*set->program.base.u[g]);
+        *bound = fmax(0, now + sign*set->force*cpsi_scalar_program_bound(&set->program));
+        if (fabs(*value - *bound) <= TIGHT*set->force) return true;
     }
-    if (!solved) return false;
-    /* T >= 0 is a bound too, and better than rounding */
-    *value = fmax(0, *value + set->force*set->gain[e]*set->program.base.u[g]);
-    *bound = fmax(0, *bound + sign*set->force*cpsi_scalar_program_bound(&set->program));
-    return true;
+    return false;
 }
 
 /* Is there a direction of the set along which the tension of element e grows without end? False in `*known` where that was not found out. */

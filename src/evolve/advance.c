@@ -9,7 +9,7 @@
  *     differ by more than was put in. Then the halves are kept.
  * Otherwise it is halved, at most `halvings` times. A part that small is accepted; if it still is not what its halves are it is a
  * snap, and reported: the line jumps by a way that does not get smaller with the load. A part that small which does not converge is
- * not cut further: the rest of the step is taken in one go and reported as it is.
+ * not cut further: the rest of the step slides without end, which is proved, or is taken in one go and reported as it is.
  *
  * A way round an obstacle is known only where neither the obstacle turns nor a node goes round it by more than a quarter of a turn
  * (cable/contact.h). A step in which an obstacle turns farther is cut beforehand into equal stretches of a quarter at most, each of
@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "cable/bend.h"
 #include "cable/contact.h"
 #include "evolve/ledger.h"
 
@@ -29,6 +30,12 @@ static const double EASY = 0.25;
 /* Motion that follows the load goes about half its way in each half of a part: 0.71 of it in the one before a limit load, where it grows like
  * a square root, 0.75 where slip grows like the square of the load. A jump goes in one half all its way. */
 static const double SUDDEN = 0.9;
+
+/* A line slides without end where the power of its loads is beyond what friction can take by this share. A certified equilibrium may have
+ * forces askew by the root of its relative gap of 1e-8, and the power of its loads may be off by as much. */
+static const double SLIDES_LEAST = 1e-4;
+/* ... by so much that smaller parts need not be tried. */
+static const double SLIDES_CLEARLY = 0.01;
 
 /* A part that cannot account for more than this share of what it dissipates and of the positive work in it is taken in halves: of the
  * imbalance that a coarse part leaves when it follows the path this is far above the common one. */
@@ -53,7 +60,7 @@ void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contact
 }
 
 static void save(const CpsiLine *line, CpsiAdvance *room) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(room->reaction, line->reaction, contacts*sizeof *line->reaction);
     memcpy(room->tension, line->tension, (n - 1)*sizeof *line->tension);
     memcpy(room->state, line->state, contacts*sizeof *line->state);
@@ -64,7 +71,7 @@ static void save(const CpsiLine *line, CpsiAdvance *room) {
 
 /* Back to the start of the part. */
 static void restore(CpsiLine *line, const CpsiAdvance *room) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(line->reaction, room->reaction, contacts*sizeof *line->reaction);
     memcpy(line->tension, room->tension, (n - 1)*sizeof *line->tension);
     memcpy(line->state, room->state, contacts*sizeof *line->state);
@@ -103,19 +110,25 @@ static CpsEnd end_at(const CpsiMove *move, int end, double share) {
     return at;
 }
 
+/* What the part of the move from share `from` to share `to` imposes. */
+static void impose(const Advance *advance, double from, double to) {
+    for (int end = 0; end < 2; end++) advance->line->end[end] = end_at(advance->move, end, to);
+    for (int k = 0; k < advance->line->obstacle_count; k++) advance->room->turn[k] = (to - from)*advance->move->angle[k];
+}
+
+/* What the mesh makes of a bend it makes in smaller parts as well. */
+static bool is_answer(CpsOutcome outcome) { return cps_outcome_is_certified(outcome) || outcome == CPS_MESH_TOO_COARSE; }
+
 /* The part of the move from share `from` to share `to`. */
 static Part take(Advance *advance, double from, double to, bool known) {
     CpsiLine *line = advance->line;
     const CpsiMove *move = advance->move;
     CpsEnd before[2];
-    for (int end = 0; end < 2; end++) {
-        before[end] = end_at(move, end, from);
-        line->end[end] = end_at(move, end, to);
-    }
-    for (int k = 0; k < line->obstacle_count; k++) advance->room->turn[k] = (to - from)*move->angle[k];
+    for (int end = 0; end < 2; end++) before[end] = end_at(move, end, from);
+    impose(advance, from, to);
     const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
     cpsi_line_step(line, advance->program, advance->options);
-    if (cps_outcome_is_certified(line->report.outcome) && cpsi_contact_rounds(line)) line->report.outcome = CPS_STALLED;
+    if (is_answer(line->report.outcome) && cpsi_contact_rounds(line)) line->report.outcome = CPS_STALLED;
     line->report.share = to - from;
     advance->iterations += line->report.iterations;
     Part part = {0};
@@ -124,7 +137,7 @@ static Part take(Advance *advance, double from, double to, bool known) {
     return part;
 }
 
-static bool converged(const Part *part) { return cps_outcome_is_certified(part->report.outcome); }
+static bool converged(const Part *part) { return is_answer(part->report.outcome); }
 
 /* Add a part to the whole: sums, the worst outcome, else the later state. */
 static void add(Advance *advance, const Part *part) {
@@ -137,6 +150,7 @@ static void add(Advance *advance, const Part *part) {
     whole->unaccounted = before.unaccounted;
     whole->outcome = cps_outcome_worse(before.outcome, whole->outcome);
     if (before.places > whole->places) whole->places = before.places;
+    if (cpsi_bend_is_sharper(&before.bend, &whole->bend)) whole->bend = before.bend;
     whole->iterations = advance->iterations;
     whole->dissipated += before.dissipated;
     for (int end = 0; end < 2; end++) whole->end[end].work += before.end[end].work;
@@ -291,6 +305,17 @@ static double within(const Stretch *stretch, double share) {
     return share < 1 ? stretch->from + share*(stretch->to - stretch->from) : stretch->to;
 }
 
+/* From share `from` to share `to`, the end of a stretch, the line slides without end: what follows is no more than that. */
+static bool add_slide(Advance *advance, double from, double to, double margin) {
+    impose(advance, from, to);
+    if (!cpsi_line_step_slides(advance->line, advance->options, margin)) return false;
+    Part part = {0};
+    part.report = advance->line->report;
+    part.report.share = to - from;
+    add(advance, &part);
+    return true;
+}
+
 /* Take a stretch in parts, each halved up to `halvings` times. */
 static void advance_stretch(Advance *advance, Stretch stretch, int halvings) {
     const double tolerance = advance->options->solver.path_tolerance, least = ldexp(1, -halvings);
@@ -298,16 +323,20 @@ static void advance_stretch(Advance *advance, Stretch stretch, int halvings) {
         const double end = at + part < 1 ? at + part : 1, middle = within(&stretch, at + 0.5*(end - at));
         const double from = within(&stretch, at), to = within(&stretch, end);
         const Trial trial = try_part(advance, from, middle, to, part > least);
-        if (cps_outcome_is_final(trial.first.report.outcome) || (!trial.good && !trial.halved && part == 1 && least == 1)) {
+        if (cps_outcome_is_final(trial.first.report.outcome)) {
             add(advance, &trial.first);
             return;
         }
         if (!(trial.good && trial.agrees) && part > least) {
             restore(advance->line, advance->room);
+            if (!trial.good && part == 1 && add_slide(advance, from, stretch.to, SLIDES_CLEARLY)) return;
+            restore(advance->line, advance->room);
             part *= 0.5;
             continue;
         }
-        if (!trial.good) { /* no smaller: the rest in one go */
+        if (!trial.good) { /* no smaller: the rest in one go, or a slide without end */
+            restore(advance->line, advance->room);
+            if (add_slide(advance, from, stretch.to, SLIDES_LEAST)) return;
             restore(advance->line, advance->room);
             Trial rest = {.first = take(advance, from, stretch.to, advance->known)};
             if (converged(&rest.first)) rest.open = open_energy(advance, &rest.first, NULL);

@@ -31,7 +31,7 @@ static void pass(Tape *tape, void *data, size_t size) {
 }
 
 static void pass_line(Tape *tape, CpsiLine *line) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     double *const nodes[] = {line->reference, line->position, line->load};
     double *const vectors[] = {line->normal, line->friction_force, line->slide};
     double *const scalars[] = {line->gap, line->friction_bound, line->reaction};
@@ -43,6 +43,7 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     pass(tape, line->tension, (n - 1)*sizeof(double));
     pass(tape, line->state, contacts*sizeof *line->state);
     if (line->on) pass(tape, line->on, contacts*sizeof *line->on);
+    if (line->beta) pass(tape, line->beta, n*sizeof *line->beta);
     pass(tape, line->end, sizeof line->end);
     pass(tape, &line->report, sizeof line->report);
 }
@@ -124,6 +125,7 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
                         (int)solver->linear_system,  solver->halvings};
     mix(&hash, what, sizeof what);
     mix_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
+    mix_numbers(&hash, 3, evolution->origin);
     for (int i = 0; i < evolution->line_count; i++) mix_line(&hash, &evolution->line[i]);
     for (int k = 0; k < evolution->obstacle_count; k++) mix_obstacle(&hash, &evolution->obstacle[k]);
     for (int k = 0; k < evolution->stage_count; k++) mix_stage(&hash, &evolution->stage[k]);

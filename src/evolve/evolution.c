@@ -18,6 +18,7 @@
 #include "evolve/checkpoint.h"
 #include "evolve/evolution.h"
 #include "evolve/ledger.h"
+#include "evolve/origin.h"
 #include "evolve/path_check.h"
 #include "evolve/start.h"
 
@@ -38,6 +39,14 @@ static bool scene_follows(const CpsScene *scene) {
     if (scene->obstacle_count != 1) return scene->obstacle_count > 1;
     const CpsiObstacle only = cpsi_obstacle(scene->obstacle);
     return cpsi_obstacle_follows(&only);
+}
+
+/* Are elements kept out of obstacles, beside the nodes?  Of round ones, with consistent friction: strict contact and frozen friction are those
+ * of S90, which know nodes alone. */
+static bool scene_keeps_elements_out(const CpsScene *scene) {
+    bool round = false;
+    for (int k = 0; k < scene->obstacle_count; k++) round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
+    return round && scene->contact == CPS_CONTACT_GAINED && scene->friction == CPS_FRICTION_CONSISTENT;
 }
 
 static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
@@ -93,7 +102,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     evolution->room.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
     const bool follows = scene_follows(scene);
-    const int contacts = scene->obstacle_count > 1 ? 2 : 1;
+    const int contacts = scene->obstacle_count > 1 ? 2 : 1, element_contacts = scene_keeps_elements_out(scene) ? 1 : 0;
     int nodes = 0, inextensible = 0;
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
@@ -101,6 +110,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
         line->n = scene->line[i].elements + 1;
         line->follows = follows;
         line->contacts = contacts;
+        line->element_contacts = element_contacts;
         line->has_zones = scene->line[i].zone_count > 0;
         line->compliance = isinf(scene->line[i].stiffness) ? 0 : 1/scene->line[i].stiffness;
         cpsi_line_layout(line, arena);
@@ -113,10 +123,10 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
-    cpsi_advance_layout(&evolution->room, arena, nodes, contacts, scene->solver.path_tolerance > 0);
-    if (inextensible > 0) cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts);
+    cpsi_advance_layout(&evolution->room, arena, nodes, contacts + element_contacts, scene->solver.path_tolerance > 0);
+    if (inextensible > 0) cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts + element_contacts);
     const CpsiLinsysOps *ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain;
-    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0, largest, ops);
+    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0, element_contacts > 0, largest, ops);
     cpsi_least_motion_layout(&evolution->least, arena, nodes, contacts, ops);
     return placed;
 }
@@ -169,7 +179,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         line->element_length[e] = def->element_length ? def->element_length[e] : def->length/def->elements;
     cpsi_line_measure(line);
     fill_friction_factor(line, def);
-    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) line->on[c] = -1;
+    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) line->on[c] = -1;
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
@@ -229,18 +239,27 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
     CpsStatus status = cps_scene_check(scene, err);
     if (status == CPS_OK) status = make_sets(scene, &set, &sizes, err);
     if (status != CPS_OK) return status;
+    CpsiLocalScene local;
+    status = cpsi_local_scene(scene, &local, err);
+    if (status != CPS_OK) {
+        free_sets(scene, set);
+        return status;
+    }
     const CpsiShapeForm *largest = set ? &sizes : NULL;
     CpsiArena arena = {0};
     layout(&arena, scene, largest);
     const size_t bytes = arena.used;
     if (!cpsi_arena_allocate(&arena)) {
+        cpsi_local_scene_free(&local);
         free_sets(scene, set);
         return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had", (double)bytes*1e-6);
     }
     CpsEvolution *evolution = layout(&arena, scene, largest);
     evolution->arena = arena;
     evolution->set = set;
-    fill(evolution, scene);
+    memcpy(evolution->origin, local.origin, sizeof evolution->origin);
+    fill(evolution, &local.scene);
+    cpsi_local_scene_free(&local);
     *out = evolution;
     return CPS_OK;
 }
@@ -287,15 +306,18 @@ static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
         const CpsiLine *line = &evolution->line[change->line];
         if (change->to.kind != CPS_END_HELD || line->end[change->end].kind == CPS_END_HELD) continue;
         const CpsEnd from = end_now(line, change->end, CPS_END_HELD);
-        const double *a = from.value, *b = change->to.value;
+        const double *a = from.value, *b = change->to.value, *o = evolution->origin;
+        /* that of the data: coordinates of the scene */
+        const double rounding = cpsi_place_rounding(line->length, vec3_add(vec3_load(o), vec3_load(b)));
         for (int k = 0; k < evolution->obstacle_count; k++) {
             const double depth =
-                cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b), CPSI_PATH_TOUCH*line->length);
+                cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b), CPSI_PATH_TOUCH*line->length + rounding);
             if (depth > 0)
                 return cpsi_fail(err, CPS_ERR_ARGUMENT,
                                  "stage '%.64s': %s.%s is grabbed at (%g, %g, %g) m and goes straight to (%g, %g, %g) m, through obstacle "
                                  "'%s', up to %g m deep: add way points around it",
-                                 stage->name, line->name, change->end == CPS_END_A ? "A" : "B", a[0], a[1], a[2], b[0], b[1], b[2],
+                                 stage->name, line->name, change->end == CPS_END_A ? "A" : "B", o[0] + a[0], o[1] + a[1], o[2] + a[2],
+                                 o[0] + b[0], o[1] + b[1], o[2] + b[2],
                                  evolution->obstacle_name[k], depth);
         }
     }
@@ -422,11 +444,17 @@ CpsStepReport cps_evolution_report(const CpsEvolution *evolution) { return evolu
 
 int cps_evolution_line_count(const CpsEvolution *evolution) { return evolution->line_count; }
 
-CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) { return evolution->line[line].report; }
+CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) {
+    CpsLineReport report = evolution->line[line].report;
+    for (int end = 0; end < 2; end++)
+        for (int a = 0; a < 3; a++)
+            if (evolution->origin[a] != 0) report.end[end].position[a] += evolution->origin[a]; /* 0 keeps its sign */
+    return report;
+}
 
 CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
     const CpsiLine *from = &evolution->line[line];
-    return (CpsLineView){
+    CpsLineView view = {
         .name = from->name,
         .elements = from->n - 1,
         .contacts = from->contacts,
@@ -445,7 +473,21 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .slide = from->slide,
         .segment_force = from->segment_force,
         .tension = from->tension,
+        .motion = from->motion,
         .state = from->state,
         .obstacle = from->on,
+        .origin = {evolution->origin[0], evolution->origin[1], evolution->origin[2]},
     };
+    if (from->element_contacts == 0) return view;
+    const size_t first = (size_t)cpsi_line_contacts(from);
+    view.element_obstacle = from->on + first;
+    view.element_share = from->beta;
+    view.element_normal = from->normal + 3*first;
+    view.element_gap = from->gap + first;
+    view.element_friction_bound = from->friction_bound + first;
+    view.element_friction = from->friction_force + 3*first;
+    view.element_reaction = from->reaction + first;
+    view.element_slide = from->slide + 3*first;
+    view.element_state = from->state + first;
+    return view;
 }

@@ -46,6 +46,7 @@ struct CpsEvolution {
     CpsiChainProgram program;
     CpsiForceSet forces; /* room for those of inextensible lines */
     CpsiLeastMotion least;
+    double origin[3]; /* [m] from which all places are measured */
     uint64_t fingerprint; /* of everything that does not change: which scene this is */
 };
 

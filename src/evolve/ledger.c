@@ -69,11 +69,11 @@ static double end_obstacle_work(const CpsiLine *line) {
 /* Work of obstacles that turn: friction on the way of the surface under the node, which is the node's own way less the way slid. */
 static double obstacle_work(const CpsiLine *line) {
     double work = 0;
-    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
-        const int j = cpsi_line_node(line, c), k = line->on[c];
+    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) {
+        const int k = line->on[c];
         if (k < 0 || line->turn[k] == 0) continue;
         const CpsiObstacle *obstacle = &line->obstacle[k];
-        const Vec3 x = vec3_load(&line->position[3*j]), from = vec3_load(&line->reference[3*j]);
+        const Vec3 x = cpsi_line_place(line, line->position, c), from = cpsi_line_place(line, line->reference, c);
         const Vec3 own = cpsi_obstacle_way(obstacle, from, x);
         work += vec3_dot(vec3_load(&line->friction_force[3*c]), vec3_sub(own, cpsi_line_slide(line, c)));
     }

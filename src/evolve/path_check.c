@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "evolve/origin.h"
 #include "evolve/start.h"
 
 /* Where both ends of a line are held; NaN while an end is free, for then the place is not known before the scene is solved. */
@@ -23,7 +24,8 @@ static CpsStatus check_way(const CpsScene *scene, int stage, const CpsChange *ch
     const double *to = change->to.value;
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
-        const double depth = cpsi_path_depth(&obstacle, vec3_load(from), vec3_load(to), CPSI_PATH_TOUCH*line->length);
+        const double touch = CPSI_PATH_TOUCH*line->length + cpsi_place_rounding(line->length, vec3_load(to));
+        const double depth = cpsi_path_depth(&obstacle, vec3_load(from), vec3_load(to), touch);
         if (depth > 0)
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
                              "stage %d: %s.%s goes straight from (%g, %g, %g) m to (%g, %g, %g) m, through obstacle '%s', up to %g m deep: "

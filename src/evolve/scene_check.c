@@ -8,6 +8,7 @@
 #include "base/vec3.h"
 #include "cable/friction_set.h"
 #include "capstan/scene.h"
+#include "evolve/origin.h"
 #include "evolve/path_check.h"
 #include "evolve/start.h"
 #include "geometry/obstacle.h"
@@ -161,6 +162,11 @@ static double height(const CpsScene *scene, Vec3 x, const char **name) {
     return least;
 }
 
+/* [m] How far a place of a line may be from where it should be. */
+static double place_tolerance(const CpsLine *line, Vec3 x) {
+    return PLACE_TOLERANCE * line->length + cpsi_place_rounding(line->length, x);
+}
+
 static CpsStatus check_elements(const CpsLine *line, CpsError *err) {
     if (line->elements < 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': elements is %d, expected at least 1", line->name,
@@ -262,13 +268,15 @@ static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
 static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
     const double shape = cpsi_start_length(line), length = line->length;
     const bool elastic = isfinite(line->stiffness);
-    if (!(shape >= length * (1 - LENGTH_TOLERANCE)))
+    const Vec3 first = line->start.point_count > 0 ? vec3_load(line->start.point) : vec3(0, 0, 0);
+    const double tolerance = LENGTH_TOLERANCE + line->start.point_count * cpsi_place_rounding(line->length, first) / length;
+    if (!(shape >= length * (1 - tolerance)))
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
             "line '%s': start is %.10g m long, shorter than the line's length %.10g m: lengthen the shape, or "
             "use 'laid'",
             line->name, shape, length);
-    if (!elastic && !(shape <= length * (1 + LENGTH_TOLERANCE)))
+    if (!elastic && !(shape <= length * (1 + tolerance)))
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
             "line '%s': start is %.10g m long, longer than the inextensible line's length %.10g m: shorten it",
@@ -286,8 +294,9 @@ static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, 
     CpsiStartWalk walk = cpsi_start_walk(line);
     for (int i = 0; i <= line->elements; i++) {
         const char *name = "";
-        const double above = height(scene, cpsi_start_next(&walk), &name);
-        if (!(above >= -PLACE_TOLERANCE * line->length))
+        const Vec3 x = cpsi_start_next(&walk);
+        const double above = height(scene, x, &name);
+        if (!(above >= -place_tolerance(line, x)))
             return cpsi_fail(
                 err, CPS_ERR_ARGUMENT,
                 "line '%s': start: node %d lies %g m below obstacle '%s': lift the shape, or turn the normal",
@@ -321,7 +330,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
                          line->name, letter, v[0], v[1], v[2]);
     const char *name = "";
     const double above = height(scene, vec3_load(v), &name);
-    if (!(above >= -PLACE_TOLERANCE * line->length))
+    if (!(above >= -place_tolerance(line, vec3_load(v))))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': ends: end %s is %g m below obstacle '%s'", line->name,
                          letter, -above, name);
     if (laid) return CPS_OK;
@@ -332,7 +341,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
     double start[3];
     cpsi_start_end(&open, end, start);
     const double off = vec3_norm(vec3_sub(vec3_load(start), vec3_load(v)));
-    if (!(off <= PLACE_TOLERANCE * line->length))
+    if (!(off <= place_tolerance(line, vec3_load(v))))
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
             "line '%s': ends: end %s is fixed at (%.10g, %.10g, %.10g) m, but the start puts it at (%.10g, %.10g, "
@@ -384,7 +393,7 @@ static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsEr
                          line->name, letter, v[0], v[1], v[2]);
     const char *name = "";
     const double above = change->to.kind == CPS_END_HELD ? height(scene, vec3_load(v), &name) : INFINITY;
-    if (!(above >= -PLACE_TOLERANCE * line->length))
+    if (!(above >= -place_tolerance(line, vec3_load(v))))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: %s.%s is moved to %g m below obstacle '%s'", stage + 1,
                          line->name, letter, -above, name);
     return CPS_OK;

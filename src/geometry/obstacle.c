@@ -30,19 +30,18 @@ static Vec3 unit(Vec3 v, Vec3 otherwise) {
 
 static Vec3 reject(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
 
-/* From the plane's point, the cylinder's axis or the sphere's centre to x. */
-static Vec3 spoke(const CpsiObstacle *o, Vec3 x) {
+Vec3 cpsi_obstacle_spoke(const CpsiObstacle *o, Vec3 x) {
     const Vec3 from = vec3_sub(x, o->frame.point);
     return o->kind == CPS_OBSTACLE_CYLINDER ? reject(from, o->frame.axis[2]) : from;
 }
 
 double cpsi_obstacle_gap(const CpsiObstacle *o, Vec3 x) {
-    if (o->kind == CPS_OBSTACLE_PLANE) return vec3_dot(spoke(o, x), o->frame.axis[2]);
-    return vec3_norm(spoke(o, x)) - o->radius;
+    if (o->kind == CPS_OBSTACLE_PLANE) return vec3_dot(cpsi_obstacle_spoke(o, x), o->frame.axis[2]);
+    return vec3_norm(cpsi_obstacle_spoke(o, x)) - o->radius;
 }
 
 double cpsi_obstacle_depth(const CpsiObstacle *o, Vec3 from, Vec3 to) {
-    const Vec3 a = spoke(o, from), way = vec3_sub(spoke(o, to), a);
+    const Vec3 a = cpsi_obstacle_spoke(o, from), way = vec3_sub(cpsi_obstacle_spoke(o, to), a);
     if (o->kind == CPS_OBSTACLE_PLANE) return -fmin(cpsi_obstacle_gap(o, from), cpsi_obstacle_gap(o, to));
     const double square = vec3_dot(way, way), nearest = square > 0 ? -vec3_dot(a, way)/square : 0;
     return o->radius - vec3_norm(vec3_axpy(fmin(1, fmax(0, nearest)), way, a));
@@ -50,7 +49,7 @@ double cpsi_obstacle_depth(const CpsiObstacle *o, Vec3 from, Vec3 to) {
 
 Vec3 cpsi_obstacle_normal(const CpsiObstacle *o, Vec3 x) {
     if (o->kind == CPS_OBSTACLE_PLANE) return o->frame.axis[2];
-    return unit(spoke(o, x), o->frame.axis[0]);
+    return unit(cpsi_obstacle_spoke(o, x), o->frame.axis[0]);
 }
 
 void cpsi_obstacle_axes(const CpsiObstacle *o, Vec3 x, Vec3 along, double axes[9], double curvature[3]) {
@@ -64,7 +63,7 @@ void cpsi_obstacle_axes(const CpsiObstacle *o, Vec3 x, Vec3 along, double axes[9
     t = unit(t, o->frame.axis[0]);
     const Vec3 b = vec3_cross(n, t);
     vec3_store(&axes[0], t), vec3_store(&axes[3], b), vec3_store(&axes[6], n);
-    const double kappa = o->kind == CPS_OBSTACLE_PLANE ? 0 : 1/fmax(vec3_norm(spoke(o, x)), 0.5*o->radius);
+    const double kappa = o->kind == CPS_OBSTACLE_PLANE ? 0 : 1/fmax(vec3_norm(cpsi_obstacle_spoke(o, x)), 0.5*o->radius);
     const Vec3 straight = o->kind == CPS_OBSTACLE_CYLINDER ? o->frame.axis[2] : vec3(0, 0, 0);
     const double c = vec3_dot(straight, t), s = vec3_dot(straight, b);
     curvature[0] = kappa*(1 - c*c), curvature[1] = -kappa*c*s, curvature[2] = kappa*(1 - s*s);
@@ -78,7 +77,7 @@ static Vec3 turned(Vec3 v, Vec3 axis, double angle) {
 
 Vec3 cpsi_obstacle_move(const CpsiObstacle *o, Vec3 x, Vec3 u) {
     if (o->kind == CPS_OBSTACLE_PLANE) return vec3_add(x, u);
-    const Vec3 n = cpsi_obstacle_normal(o, x), s = spoke(o, x);
+    const Vec3 n = cpsi_obstacle_normal(o, x), s = cpsi_obstacle_spoke(o, x);
     const double rise = vec3_dot(u, n), distance = vec3_norm(s);
     Vec3 tangent = reject(u, n), straight = vec3(0, 0, 0);
     if (o->kind == CPS_OBSTACLE_CYLINDER) {
@@ -120,7 +119,7 @@ double cpsi_obstacle_angle(const CpsiObstacle *o, Vec3 from, Vec3 to) {
 
 bool cpsi_obstacle_faces(const CpsiObstacle *o, Vec3 a, Vec3 b, double *share) {
     if (o->kind == CPS_OBSTACLE_PLANE) return false;
-    const Vec3 from = spoke(o, a), along = vec3_sub(spoke(o, b), from);
+    const Vec3 from = cpsi_obstacle_spoke(o, a), along = vec3_sub(cpsi_obstacle_spoke(o, b), from);
     const double passed = -vec3_dot(from, along), whole = vec3_dot(along, along);
     *share = passed/whole;
     return passed > 0 && passed < whole;

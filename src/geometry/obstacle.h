@@ -26,6 +26,8 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def);
 /* Does the step problem change as nodes move on it: a curved surface, or friction that follows the line's direction? */
 bool cpsi_obstacle_follows(const CpsiObstacle *obstacle);
 
+/* From the plane's point, the cylinder's axis or the sphere's centre to x, on a cylinder across the axis. */
+Vec3 cpsi_obstacle_spoke(const CpsiObstacle *obstacle, Vec3 x);
 /* [m] Signed distance of x, positive on the free side. */
 double cpsi_obstacle_gap(const CpsiObstacle *obstacle, Vec3 x);
 /* [m] How deep the straight way between two points goes below the surface at most; negative: its distance from it. */

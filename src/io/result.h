@@ -58,8 +58,9 @@ struct CpsResults {
 
     char *title; /* "" when the scene has none */
     double gravity[3];
+    double origin[3]; /* [m] that of the views */
     int obstacle_count;
-    CpsObstacle *obstacle; /* (obstacle_count), without names and friction sets */
+    CpsObstacle *obstacle; /* (obstacle_count), without names and friction sets, about the origin of the views */
     int line_count;
     char **line_name;
     double *line_length; /* [m] */

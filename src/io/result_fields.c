@@ -27,10 +27,26 @@ const CpsiField cpsi_field[CPSI_FIELDS] = {
     {"segment_force", "force of the B side of an element on its A side", "N", CPSI_PLACE_ELEMENT, true, false, false,
      VIEW(segment_force)},
     {"tension", "tension from the elongation", "N", CPSI_PLACE_ELEMENT, false, false, false, VIEW(tension)},
+    /* only where elements are kept out of round obstacles */
+    {"element_share", "where on its way from A to B an element touches", "1", CPSI_PLACE_ELEMENT, false, false, false,
+     VIEW(element_share)},
+    {"element_normal", "normal of the obstacle there, 0 without one", "1", CPSI_PLACE_ELEMENT, true, false, false,
+     VIEW(element_normal)},
+    {"element_contact_gap", "distance that the displacement there may close, infinite where no contact is looked for", "m",
+     CPSI_PLACE_ELEMENT, false, false, false, VIEW(element_gap)},
+    {"element_friction_bound", "largest friction force on the element", "N", CPSI_PLACE_ELEMENT, false, false, false,
+     VIEW(element_friction_bound)},
+    {"element_friction", "friction force on the element", "N", CPSI_PLACE_ELEMENT, true, false, false, VIEW(element_friction)},
+    {"element_reaction", "reaction of the obstacle on the element, along its normal", "N", CPSI_PLACE_ELEMENT, false, false, false,
+     VIEW(element_reaction)},
+    {"element_slide", "way of the place where the element touches on the obstacle in the step, tangential", "m", CPSI_PLACE_ELEMENT, true,
+     false, false, VIEW(element_slide)},
+    {"motion", "velocity that proves that the line slides without end, else 0", "1", CPSI_PLACE_NODE, true, false, false,
+     VIEW(motion)},
 };
 
 static CpsStatus refuse(const char *name, int length, CpsError *err) {
-    char known[400] = "";
+    char known[800] = "";
     for (int f = 0; f < CPSI_FIELDS; ++f) {
         if (cpsi_field[f].fixed) continue;
         const size_t used = strlen(known);

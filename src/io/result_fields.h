@@ -16,7 +16,7 @@ typedef struct CpsiField {
     size_t offset;      /* of a const double * in CpsLineView */
 } CpsiField;
 
-enum { CPSI_FIELDS = 13 };
+enum { CPSI_FIELDS = 21 };
 extern const CpsiField cpsi_field[CPSI_FIELDS];
 
 /* Those that are wanted: a bit for each field, and these two for arrays that hold no doubles. */

@@ -51,6 +51,9 @@ static const Column LINE_COLUMN[] = {
     {"slipping", "m", LINE(slipping)},
     {"slack", "m", LINE(slack)},
     {"dissipated", "J", LINE(dissipated)},
+    {"bend", "rad", LINE(bend.turn)},
+    {"bend_ratio", "1", LINE(bend.ratio)},
+    {"bend_coulomb", "1", LINE(bend.coulomb)},
     {"tension_bound_rms", "N", LINE(certificate.tension_bound)},
     {"tension_mesh_estimate", "N", LINE(tension_mesh)},
 };

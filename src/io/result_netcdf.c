@@ -61,13 +61,16 @@ static const Number NUMBER[] = {
     {"dissipated", "energy dissipated by friction in the step", "J", REPORT(dissipated)},
     {"share", "part of the step that the arrays show, the last one of a step that was cut", "1", REPORT(share)},
     {"jump", "longest way of a node in a snap", "m", REPORT(jump)},
+    {"bend_turn", "turn of the line at the contact where the mesh changes the law of friction most", "rad", REPORT(bend.turn)},
+    {"bend_friction", "coefficient along the line there", "1", REPORT(bend.friction)},
+    {"bend_at", "arc length there", "m", REPORT(bend.arc_length)},
     {"ledger_elastic", "growth of the energy of elongation", "J", REPORT(ledger.elastic)},
     {"ledger_gravity", "growth of the weight's potential", "J", REPORT(ledger.gravity)},
     {"ledger_ends", "work of the forces at the ends", "J", REPORT(ledger.ends)},
     {"ledger_obstacles", "work of the friction of obstacles that turn", "J", REPORT(ledger.obstacles)},
     {"ledger_imbalance", "what the ledger does not close by", "J", REPORT(ledger.imbalance)},
     {"unaccounted", "of that, more than 5 % of the energies of parts that could not be cut any more", "J", REPORT(unaccounted)},
-    {"proof_value", "infeasible: excess distance in m; unbounded: fall of energy per metre in N", "m or N",
+    {"proof_value", "infeasible: excess distance in m; unbounded: fall of energy per metre in N; slides: least power in N", "m or N",
      REPORT(proof_value)},
 };
 
@@ -145,7 +148,8 @@ typedef struct LineIds {
     int node, element; /* dimensions */
     int contacts;      /* of a node, as in the view */
     int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, places, proof;
-    int field[FIELDS][CONTACTS];
+    int field[FIELDS][CONTACTS]; /* unused where a view has no such array */
+    int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
     int zone[ZONES]; /* unused without zones */
 } LineIds;
@@ -203,19 +207,21 @@ static int add_variable(CpsiNetcdf *nc, const char *prefix, const char *name, nc
 
 /* names of the values of an enumeration, as CF wants them */
 static void add_flags(CpsiNetcdf *nc, int variable, nc_type type, int count, const char *meanings) {
-    const int value[] = {0, 1, 2, 3, 4, 5};
+    const int value[] = {0, 1, 2};
     if (nc->status == NC_NOERR) keep(nc, nc_put_att_int(nc->file, variable, "flag_values", type, (size_t)count, value));
     add_text(nc, variable, "flag_meanings", meanings);
 }
 
 #define OUTCOME_WORD(name, number, key, sentence) key " "
-#define OUTCOME_ONE(name, number, key, sentence)  +1
+#define OUTCOME_NUMBER(name, number, key, sentence) number,
 static const char OUTCOME_MEANINGS[] = CPS_OUTCOME_LIST(OUTCOME_WORD);
-enum { OUTCOMES = 0 CPS_OUTCOME_LIST(OUTCOME_ONE) };
+static const int OUTCOME_VALUES[] = {CPS_OUTCOME_LIST(OUTCOME_NUMBER)};
 
 static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
     const int id = add_variable(nc, prefix, "outcome", NC_INT, 1, &nc->step, "what came of the step", "1");
-    add_flags(nc, id, NC_INT, OUTCOMES, OUTCOME_MEANINGS);
+    const size_t count = sizeof OUTCOME_VALUES / sizeof *OUTCOME_VALUES;
+    if (nc->status == NC_NOERR) keep(nc, nc_put_att_int(nc->file, id, "flag_values", NC_INT, count, OUTCOME_VALUES));
+    add_text(nc, id, "flag_meanings", OUTCOME_MEANINGS);
     return id;
 }
 
@@ -277,7 +283,9 @@ static void define_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
     define_sets(nc, scene);
 }
 
-static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names) {
+static bool is_far(const double origin[XYZ]) { return origin[0] != 0 || origin[1] != 0 || origin[2] != 0; }
+
+static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origin[XYZ], const char *names) {
     add_text(nc, NC_GLOBAL, "Conventions", "CF-1.8");
     add_text(nc, NC_GLOBAL, "title", scene->title ? scene->title : "");
     char source[64];
@@ -290,6 +298,8 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const char *names)
         keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "gravity", NC_DOUBLE, 3, scene->gravity));
     if (nc->status == NC_NOERR)
         keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &scene->solver.tolerance));
+    if (nc->status == NC_NOERR && is_far(origin))
+        keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "origin", NC_DOUBLE, 3, origin));
 
     nc->step = add_dimension(nc, "step", NC_UNLIMITED);
     nc->xyz = add_dimension(nc, "xyz", XYZ);
@@ -313,9 +323,21 @@ static int add_contact(CpsiNetcdf *nc, const char *line, const char *name, int c
 
 static bool is_wanted(const CpsiNetcdf *nc, int f) { return cpsi_field[f].fixed || (nc->wanted >> f & 1u); }
 
-static void define_field(CpsiNetcdf *nc, LineIds *ids, const char *line, int f) {
+static const double *in_view(const CpsLineView *view, const CpsiField *field) {
+    const double *array;
+    memcpy(&array, (const char *)view + field->offset, sizeof array);
+    return array;
+}
+
+/* Has the view such an array, or is it made for it? */
+static bool has_field(const CpsLineView *view, const CpsiField *field) {
+    return field->offset == VIEW(slide) || in_view(view, field);
+}
+
+static void define_field(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view, int f) {
     const CpsiField *field = &cpsi_field[f];
-    if (!is_wanted(nc, f)) return;
+    const char *line = view->name;
+    if (!is_wanted(nc, f) || !has_field(view, field)) return;
     const int along = field->place == CPSI_PLACE_NODE ? ids->node : ids->element;
     const int shape[] = {nc->step, along, nc->xyz};
     const int rank = 1 + !field->fixed + field->vector;
@@ -342,7 +364,7 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     ids->element = add_dimension(nc, name, (size_t)view->elements);
 
     ids->contacts = view->contacts;
-    for (int f = 0; f < FIELDS; ++f) define_field(nc, ids, view->name, f);
+    for (int f = 0; f < FIELDS; ++f) define_field(nc, ids, view, f);
     ids->compliance = add_variable(nc, view->name, "compliance", NC_DOUBLE, 0, NULL, "1/EA, 0: inextensible", "N-1");
     const int on_nodes[] = {nc->step, ids->node}, on_ends[] = {nc->step, nc->end, nc->xyz};
     for (int c = 0; c < ids->contacts; ++c) {
@@ -353,6 +375,15 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
         if (ids->contacts < 2 || !(nc->wanted & CPSI_WANTED_OBSTACLE)) continue;
         ids->obstacle[c] =
             add_contact(nc, view->name, "obstacle", c, NC_INT, 2, on_nodes, "place of the obstacle in the scene", "1");
+    }
+    const int on_elements[] = {nc->step, ids->element};
+    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_OBSTACLE))
+        ids->element_obstacle = add_variable(nc, view->name, "element_obstacle", NC_INT, 2, on_elements,
+                                             "place of the obstacle that an element touches in the scene, -1: none", "1");
+    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_STATE)) {
+        ids->element_state =
+            add_variable(nc, view->name, "element_state", NC_BYTE, 2, on_elements, "rest of the element on it", "1");
+        add_flags(nc, ids->element_state, NC_BYTE, 3, "free stick slip");
     }
     ids->end_kind = add_variable(nc, view->name, "end_kind", NC_BYTE, 2, on_ends, "what is imposed at A and B", "1");
     add_flags(nc, ids->end_kind, NC_BYTE, 2, "held free");
@@ -390,8 +421,7 @@ static const double *plane_slide(CpsiNetcdf *nc, const CpsLineView *view) {
 }
 
 static const double *array_of(CpsiNetcdf *nc, const CpsLineView *view, const CpsiField *field) {
-    const double *array;
-    memcpy(&array, (const char *)view + field->offset, sizeof array);
+    const double *array = in_view(view, field);
     return array || field->offset != VIEW(slide) ? array : plane_slide(nc, view);
 }
 
@@ -403,7 +433,7 @@ static void write_doubles(CpsiNetcdf *nc, int variable, const size_t *start, con
 static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view, bool fixed) {
     for (int f = 0; f < FIELDS; ++f) {
         const CpsiField *field = &cpsi_field[f];
-        if (field->fixed != fixed || !is_wanted(nc, f)) continue;
+        if (field->fixed != fixed || !is_wanted(nc, f) || !has_field(view, field)) continue;
         const size_t along = (size_t)view->elements + (field->place == CPSI_PLACE_NODE);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
         const double *array = array_of(nc, view, field);
@@ -423,6 +453,12 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
         if (ids->contacts < 2 || nc->status != NC_NOERR || !(nc->wanted & CPSI_WANTED_OBSTACLE)) continue;
         keep(nc, nc_put_vara_int(nc->file, ids->obstacle[c], start, nodes, view->obstacle + from));
     }
+
+    const size_t elements[] = {1, (size_t)view->elements};
+    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_OBSTACLE) && nc->status == NC_NOERR)
+        keep(nc, nc_put_vara_int(nc->file, ids->element_obstacle, start, elements, view->element_obstacle));
+    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_STATE) && nc->status == NC_NOERR)
+        keep(nc, nc_put_vara_uchar(nc->file, ids->element_state, start, elements, view->element_state));
 
     unsigned char kind[ENDS];
     double value[ENDS][XYZ], force[ENDS][XYZ], friction[ENDS][XYZ], tension[ENDS];
@@ -459,14 +495,15 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     }
 }
 
-static void write_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
+static void write_obstacles(CpsiNetcdf *nc, const CpsScene *scene, const double origin[XYZ]) {
     for (size_t k = 0; k < (size_t)scene->obstacle_count; ++k) {
         const CpsObstacle *o = &scene->obstacle[k];
         const bool plane = o->kind == CPS_OBSTACLE_PLANE;
         const double kind = o->kind, radius = plane ? 0 : o->radius, shape = o->friction_set ? 2 : o->friction_shape;
         const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
+        const double point[XYZ] = {o->point[0] - origin[0], o->point[1] - origin[1], o->point[2] - origin[2]};
         const double *value[OBSTACLE_FIELDS] = {
-            &kind, o->point, plane ? o->normal : o->axis, &radius, &o->friction, &lateral, &shape, o->grain};
+            &kind, point, plane ? o->normal : o->axis, &radius, &o->friction, &lateral, &shape, o->grain};
         const size_t start[] = {k, 0}, count[] = {1, XYZ};
         for (int f = 0; f < OBSTACLE_FIELDS; ++f) write_doubles(nc, nc->obstacle_field[f], start, count, value[f]);
     }
@@ -517,14 +554,15 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene, const
     nc->open = nc->status == NC_NOERR;
     /* everything is written once, so nothing need be filled before */
     if (nc->open) keep(nc, nc_set_fill(nc->file, NC_NOFILL, &before));
-    if (nc->open) define_run(nc, scene, names);
+    const CpsLineView first = cps_evolution_line_view(evolution, 0);
+    if (nc->open) define_run(nc, scene, first.origin, names);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         define_line(nc, &nc->line[i], &view);
         define_zones(nc, &nc->line[i], &scene->line[i]);
     }
     if (nc->status == NC_NOERR) keep(nc, nc_enddef(nc->file));
-    write_obstacles(nc, scene);
+    write_obstacles(nc, scene, first.origin);
     write_sets(nc, scene);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);

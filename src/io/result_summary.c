@@ -53,11 +53,24 @@ static void put_end(FILE *out, const char *key, const CpsEndReport *end, const c
 
 /* what proves that there is no solution, in the units of its kind */
 static void put_proof(FILE *out, const CpsLineReport *report) {
-    if (report->outcome != CPS_INFEASIBLE && report->outcome != CPS_UNBOUNDED) return;
+    if (!cps_outcome_is_final(report->outcome)) return;
+    const char *value = report->outcome == CPS_INFEASIBLE ? "excess_m" : report->outcome == CPS_SLIDES ? "power_N" : "fall_N";
     fputs("          \"proof\": {", out);
     put_vector(out, "direction", report->proof, ", ");
     if (report->coulomb > 0) put_number(out, "coulomb_N", report->coulomb, ", ");
-    put_number(out, report->outcome == CPS_INFEASIBLE ? "excess_m" : "fall_N", report->proof_value, "},\n");
+    put_number(out, value, report->proof_value, "},\n");
+}
+
+/* the sharpest bend round an obstacle, where there is one */
+static void put_bend(FILE *out, const CpsBend *bend) {
+    if (!(bend->turn > 0)) return;
+    fputs("          \"bend\": {", out);
+    put_number(out, "turn_rad", bend->turn, ", ");
+    put_number(out, "friction", bend->friction, ", ");
+    put_number(out, "ratio", bend->ratio, ", ");
+    put_number(out, "coulomb", bend->coulomb, ", ");
+    put_number(out, "at_m", bend->arc_length, ", ");
+    put_number(out, "element_m", bend->element, "},\n");
 }
 
 static void put_line(FILE *out, const char *name, const CpsLineReport *report, const char *after) {
@@ -72,6 +85,7 @@ static void put_line(FILE *out, const char *name, const CpsLineReport *report, c
     put_number(out, "dissipated_J", report->dissipated, ",\n          ");
     put_number(out, "tension_mesh_estimate_N", report->tension_mesh, ",\n");
     put_proof(out, report);
+    put_bend(out, &report->bend);
     put_end(out, "A", &report->end[CPS_END_A], ",\n");
     put_end(out, "B", &report->end[CPS_END_B], "\n        }");
     fputs(after, out);
@@ -134,6 +148,8 @@ void cpsi_summary_write(const CpsResults *results, double wall, FILE *out) {
     fputs("{\n  ", out);
     put_string(out, "capstan", cps_version(), ",\n  ");
     put_string(out, "title", results->title, ",\n  ");
+    const double *o = results->origin; /* said where it is not 0 */
+    if (o[0] != 0 || o[1] != 0 || o[2] != 0) put_vector(out, "origin_m", o, ",\n  ");
     put_string(out, "outcome", cps_outcome_key(cpsi_results_outcome(results)), ",\n  ");
     put_number(out, "wall_s", wall, ",\n  \"steps\": [");
     for (int i = 0; i < results->row_count; ++i) {

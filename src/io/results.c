@@ -55,6 +55,7 @@ static bool copy_obstacles(CpsResults *results, const CpsScene *scene) {
         results->obstacle[k] = scene->obstacle[k];
         results->obstacle[k].name = NULL; /* the scene's own */
         results->obstacle[k].friction_set = NULL;
+        for (int a = 0; a < 3; ++a) results->obstacle[k].point[a] -= results->origin[a];
     }
     return true;
 }
@@ -63,6 +64,7 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->planned_steps = cps_evolution_step_count(evolution);
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
+    memcpy(results->origin, cps_evolution_line_view(evolution, 0).origin, sizeof results->origin);
     const size_t lines = (size_t)cps_evolution_line_count(evolution);
     results->line_name = calloc(lines, sizeof *results->line_name);
     results->line_length = calloc(lines, sizeof *results->line_length);

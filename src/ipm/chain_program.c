@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "linsys/frame.h"
 
 static void layout_stretch(CpsiStretch *st, CpsiArena *arena, int n) {
     st->length = CPSI_TAKE(arena, n, double);
@@ -49,8 +50,9 @@ static void layout_stop(CpsiStop *stop, CpsiArena *arena, int n) {
 
 static void clear(CpsiProgram *program) {
     CpsiMatrix *matrix = &cpsi_chain(program)->matrix;
-    memset(matrix->diagonal, 0, 6*(size_t)matrix->n*sizeof *matrix->diagonal);
-    memset(matrix->skew, 0, 2*(size_t)matrix->n*sizeof *matrix->skew);
+    const size_t places = (size_t)matrix->n*(matrix->share ? 2 : 1);
+    memset(matrix->diagonal, 0, 6*places*sizeof *matrix->diagonal);
+    memset(matrix->skew, 0, 2*places*sizeof *matrix->skew);
     if (!matrix->second) return;
     memset(matrix->second->row, 0, 3*(size_t)matrix->n*sizeof *matrix->second->row);
     memset(matrix->second->column, 0, 3*(size_t)matrix->n*sizeof *matrix->second->column);
@@ -71,12 +73,56 @@ static void solve(CpsiProgram *program) {
     cpsi_shape_turn_back(&chain->shape, program->du);
 }
 
+/* The share that node `node` has in the point of element i; 0 where there is none. */
+static double share_of(const CpsiChainProgram *chain, int i, int node) {
+    if (i < 1 || i >= chain->n || !cpsi_point_is_set(&chain->matrix, i)) return 0;
+    return node == i ? chain->matrix.share[i] : 1 - chain->matrix.share[i];
+}
+
+/* The residual of node j, with what the points of its elements leave to it. */
+static void node_residual(const CpsiChainProgram *chain, int j, double out[3]) {
+    memcpy(out, &chain->base.residual[3*j], 3*sizeof *out);
+    for (int i = j; i <= j + 1 && chain->matrix.share; i++) {
+        const double share = share_of(chain, i, j);
+        if (share == 0) continue;
+        double common[3], here[3];
+        cpsi_frame_from(common, &chain->frame[9*(chain->n + i)], &chain->base.residual[3*(chain->n + i)]);
+        cpsi_frame_to(here, &chain->frame[9*j], common);
+        for (int a = 0; a < 3; a++) out[a] += share*here[a];
+    }
+}
+
 static double imbalance(const CpsiProgram *program) {
     const CpsiChainProgram *chain = (const CpsiChainProgram *)program;
     double largest = 0;
-    for (int j = 0; j < chain->n; j++)
-        for (int a = 0; a < 3 && !chain->held[j]; a++) largest = cpsi_larger(largest, fabs(program->residual[3*j + a]));
+    for (int j = 0; j < chain->n; j++) {
+        double residual[3];
+        if (chain->held[j]) continue;
+        node_residual(chain, j, residual);
+        for (int a = 0; a < 3; a++) largest = cpsi_larger(largest, fabs(residual[a]));
+    }
     return largest;
+}
+
+void cpsi_chain_point_place(const CpsiChainProgram *program, int i, double *u) {
+    const int p = program->n + i;
+    double common[3] = {0}, own[3];
+    for (int node = i - 1; node <= i; node++) {
+        const double share = node == i ? program->own.share[i] : 1 - program->own.share[i];
+        cpsi_frame_from(own, &program->frame[9*node], &u[3*node]);
+        for (int a = 0; a < 3; a++) common[a] += share*own[a];
+    }
+    cpsi_frame_to(&u[3*p], &program->frame[9*p], common);
+}
+
+void cpsi_chain_program_use_points(CpsiChainProgram *program) {
+    const int n = program->n;
+    program->matrix.share = program->own.share;
+    program->base.size = 6*n;
+    memset(&program->base.load[3*n], 0, 3*(size_t)n*sizeof *program->base.load);
+    memset(&program->base.u[3*n], 0, 3*(size_t)n*sizeof *program->base.u);
+    for (int i = 1; i < n; i++)
+        if (program->own.share[i] > 0) cpsi_chain_point_place(program, i, program->base.u);
 }
 
 bool cpsi_chain_program_follow(CpsiChainProgram *program) {
@@ -102,9 +148,10 @@ bool cpsi_chain_program_follow(CpsiChainProgram *program) {
     return true;
 }
 
-static void layout_own(CpsiChainProgram *program, CpsiArena *arena, int nodes, int contacts) {
-    const size_t n = (size_t)nodes, stops = n*(size_t)contacts, second = contacts > 1 ? n : 0;
-    program->own.frame = CPSI_TAKE(arena, 9*n, double);
+static void layout_own(CpsiChainProgram *program, CpsiArena *arena, int nodes, int contacts, bool points) {
+    const size_t n = (size_t)nodes, stops = n*(size_t)(contacts + points), second = contacts > 1 ? n : 0;
+    program->own.frame = CPSI_TAKE(arena, 9*n*(points ? 2 : 1), double);
+    program->own.share = points ? CPSI_TAKE(arena, n, double) : NULL;
     program->own.offset = cpsi_arena_take(arena, 2*stops, sizeof *program->own.offset);
     program->own.map = cpsi_arena_take(arena, 2*stops, sizeof *program->own.map);
     program->own.normal = cpsi_arena_take(arena, stops, sizeof *program->own.normal);
@@ -125,14 +172,15 @@ void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes) 
     program->stop.normal = own_axes ? program->own.normal : NULL;
     program->stop.curvature = own_axes ? program->own.curvature : NULL;
     program->matrix.second = own_axes && program->own.two ? &program->own.second : NULL;
+    program->matrix.share = NULL;
 }
 
-void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
+void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts, bool points,
                                const CpsiShapeForm *largest, const CpsiLinsysOps *ops) {
     static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_stop, &cpsi_rub, &cpsi_shape};
     const int all = sizeof kinds/sizeof *kinds;
-    const size_t size = 3*(size_t)n;
-    const int stops = contacts > 1 ? contacts*n : n;
+    const size_t places = (size_t)n*(points ? 2 : 1), size = 3*places;
+    const int stops = (contacts > 1 ? contacts*n : n) + (points ? n : 0);
     program->base = (CpsiProgram){
         .load = CPSI_TAKE(arena, size, double),
         .u = CPSI_TAKE(arena, size, double),
@@ -149,20 +197,20 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
     layout_rub(&program->rub, arena, contacts > 0 ? 2*stops : n);
     layout_stop(&program->stop, arena, stops);
     program->shape = (CpsiShape){0};
-    if (largest) cpsi_shape_layout(&program->shape, arena, n, stops, largest);
+    if (largest) cpsi_shape_layout(&program->shape, arena, (int)places, stops, largest);
     memset(&program->own, 0, sizeof program->own);
-    if (contacts > 0) layout_own(program, arena, n, contacts);
+    if (contacts > 0) layout_own(program, arena, n, contacts, points);
     program->held = CPSI_TAKE(arena, n, unsigned char);
     program->dt = CPSI_TAKE(arena, n, double);
     program->matrix = (CpsiMatrix){
         .held = program->held,
-        .diagonal = CPSI_TAKE(arena, 6*(size_t)n, double),
-        .skew = CPSI_TAKE(arena, 2*(size_t)n, double),
+        .diagonal = CPSI_TAKE(arena, 6*places, double),
+        .skew = CPSI_TAKE(arena, 2*places, double),
         .stiffness = CPSI_TAKE(arena, n, double),
         .direction = CPSI_TAKE(arena, 3*(size_t)n, double),
         .compliance = CPSI_TAKE(arena, n, double),
     };
     program->ops = ops;
-    program->linsys = ops->layout(arena, n, contacts > 1);
+    program->linsys = ops->layout(arena, n, contacts > 1, points);
     cpsi_chain_program_resize(program, n, false);
 }

@@ -15,6 +15,9 @@
  * u_xy; those of the `second` lie as they come, and u_xy above means what u does in their own tangents. On a curved obstacle the normal
  * follows the node: R turns by u_xy over the radius, the stop's `curvature`.
  *
+ * A line whose nodes have axes of their own may have points on its elements (linsys.h): one that goes with element i is node n + i to its
+ * stop, rubs or shape, its place following from those of nodes i - 1 and i. Its normal is z, and its surface has no curvature here.
+ *
  * All quantities are dimensionless and of order one; the program knows no mechanics, but its names are those of a line:
  * stretch duals are (T, -p), rub duals (A, F), stop duals R, each per unit weight, where the weight of an element is its share
  * of the line (l_i, w_k). With weights the complementarity s.z is a density, and the same target serves a fine and a coarse
@@ -107,12 +110,13 @@ typedef struct CpsiShape {
 } CpsiShape;
 
 typedef struct CpsiChainProgram {
-    CpsiProgram base;    /* u (n, 3) and so on: node after node */
+    CpsiProgram base;    /* u (n, or 2 n with points, 3) and so on: node after node */
     int n;               /* nodes */
     unsigned char *held; /* (n) */
-    double *frame;       /* (n, 9) axes of the nodes (linsys/frame.h); NULL: the common axes */
+    double *frame;       /* (n, or 2 n, 9) axes of the nodes (linsys/frame.h); NULL: the common axes */
     struct {
         double *frame, (*offset)[2], (*map)[6], (*normal)[3], (*curvature)[6];
+        double *share;   /* (n) where on its way element i has a point, 0: none; NULL: there is no room for points */
         CpsiMatrixSecond second;
         double *press;   /* (n) w (z/s) n.du of second stops */
         bool two;        /* there is room for second stops */
@@ -128,8 +132,8 @@ typedef struct CpsiChainProgram {
 } CpsiChainProgram;
 
 /* Place a program for at most n nodes in the arena; `contacts`: 0, or nodes may have axes of their own and so many stops,
- * 1 or 2, with two rubs each; `largest`: the sizes that no shape exceeds, or NULL where there are none. */
-void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
+ * 1 or 2, with two rubs each; `points`: and elements may have a point, with one such stop; `largest`: the sizes that no shape exceeds, or NULL where there are none. */
+void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts, bool points,
                                const CpsiShapeForm *largest, const CpsiLinsysOps *ops);
 
 /* The arrays of at most `count` shapes on n nodes. */
@@ -148,6 +152,11 @@ void cpsi_shape_foresee(CpsiShape *shape, const CpsiStop *stop);
 
 /* Use n of the nodes it was laid out for, with axes of their own or without. */
 void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes);
+
+/* The points of own.share are in use from here to the next resize: their places and axes beside the nodes', no loads on them. */
+void cpsi_chain_program_use_points(CpsiChainProgram *program);
+/* Where the nodes have the point of element i: its entry of u (2 n, 3), in its own axes. */
+void cpsi_chain_point_place(const CpsiChainProgram *program, int i, double *u);
 
 /* Newton's step from bounds that were given to bounds that follow. At a solution with rub.z[.][0] = A given, and rub.stop set: what
  * the reactions become when every A moves to friction R and all else keeps its s o z. The change goes to stop.dz; s, z, u stay.

@@ -142,7 +142,7 @@ static const CpsiKind half_space = {half_start, half_measure, half_scale, half_l
 void cpsi_nearest_program_layout(CpsiNearestProgram *program, CpsiArena *arena, int n, int halves, const CpsiLinsysOps *ops) {
     /* the spring last: it drops the residuals of axes that are not free */
     static const CpsiKind *const kinds[] = {&cpsi_stretch, &half_space, &spring};
-    cpsi_chain_program_layout(&program->chain, arena, n, 1, NULL, ops);
+    cpsi_chain_program_layout(&program->chain, arena, n, 1, false, NULL, ops);
     program->chain.base.kind = kinds;
     program->chain.base.kind_count = sizeof kinds/sizeof *kinds;
     program->chain.rub.count = program->chain.stop.count = program->chain.shape.count = 0;

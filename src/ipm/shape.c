@@ -269,7 +269,7 @@ static void turn_node(CpsiMatrix *matrix, int node, const double turn[2], double
     diagonal[1] = c*s*(xx - yy) + (c*c - s*s)*xy;
     diagonal[2] = s*s*xx + 2*c*s*xy + c*c*yy;
     turn_to(turn, &diagonal[3]);
-    if (matrix->second) turn_to(turn, &matrix->second->row[3*node]), turn_to(turn, &matrix->second->column[3*node]);
+    if (matrix->second && node < matrix->n) turn_to(turn, &matrix->second->row[3*node]), turn_to(turn, &matrix->second->column[3*node]);
     for (int a = 0; a < 3; a++) {
         double pair[2] = {frame[a], frame[3 + a]};
         turn_to(turn, pair);
@@ -302,7 +302,8 @@ static void scale(CpsiProgram *base) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiShape *shape = &program->shape;
     double *scratch = shape->scratch;
-    if (shape->count > 0) memcpy(shape->frame, program->frame, 9*(size_t)program->n*sizeof *shape->frame);
+    const size_t places = (size_t)program->n*(program->matrix.share ? 2 : 1);
+    if (shape->count > 0) memcpy(shape->frame, program->frame, 9*places*sizeof *shape->frame);
     for (int k = 0; k < shape->count; k++) {
         const Element e = element(shape, k);
         const CpsiShapeForm *form = e.form;

@@ -13,6 +13,8 @@
  *
  * Where there is a second direction, Y = (X + c r^T/a)^-1 and f = r.x/a come from the inverse of [X c; r^T -a].
  *
+ * Where the element before node j has a point, its three forces stand beside t_j (chain_point.h).
+ *
  * C and m are meant in the axes of node j; where nodes have their own, they are turned on the way.
  *
  * So one pass keeps a few small quantities per node, and a solve is two passes of 3 x 3 products. Compliances in series add
@@ -21,8 +23,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "linsys/chain_point.h"
 #include "linsys/frame.h"
 #include "linsys/linsys.h"
+#include "linsys/point.h"
 
 /* The factor of one node: two cache lines that every pass reads together. */
 typedef struct ChainBlock {
@@ -40,13 +44,15 @@ typedef struct ChainSecond {
 typedef struct Chain {
     ChainBlock *block;   /* (n) */
     ChainSecond *second; /* (n) or NULL */
+    CpsiChainPoint *point; /* (n) or NULL */
 } Chain;
 
-static CpsiLinsys *chain_layout(CpsiArena *arena, int n, bool second) {
+static CpsiLinsys *chain_layout(CpsiArena *arena, int n, bool second, bool points) {
     Chain *chain = CPSI_TAKE(arena, 1, Chain);
     ChainBlock *block = CPSI_TAKE(arena, n, ChainBlock);
     ChainSecond *seconds = second ? CPSI_TAKE(arena, n, ChainSecond) : NULL;
-    if (chain) *chain = (Chain){.block = block, .second = seconds};
+    CpsiChainPoint *point = points ? CPSI_TAKE(arena, n, CpsiChainPoint) : NULL;
+    if (chain) *chain = (Chain){.block = block, .second = seconds, .point = point};
     return (CpsiLinsys *)chain;
 }
 
@@ -112,9 +118,7 @@ static void inverse_with_second(double out[9], double w[3], const double x[9], c
     }
 }
 
-static inline bool is_set(const CpsiMatrixSecond *second, int j) {
-    return second && (second->row[3*j] != 0 || second->row[3*j + 1] != 0 || second->row[3*j + 2] != 0);
-}
+static inline bool is_set(const CpsiMatrixSecond *second, int j) { return cpsi_second_is_set(second, j); }
 
 /* X of node j without its second direction: its own block, its elements' stiffness, less what the chain before takes. */
 static inline void node_block(double x[9], const CpsiMatrix *a, int j, double k, const double c[9]) {
@@ -147,6 +151,16 @@ static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
             memcpy(turned_c, c, sizeof turned_c), memcpy(turned_m, m, sizeof turned_m);
             seen_from(a, j, turned_c, turned_m);
             c = turned_c, m = turned_m;
+        }
+        if (j > 0 && cpsi_point_is_set(a, j)) {
+            double x[9];
+            node_block(x, a, j, k, c);
+            CpsiChainPoint *point = &((Chain *)self)->point[j];
+            if (!cpsi_chain_point_factor(point, a, j, x, c, m)) return false;
+            block[j] = nothing;
+            cpsi_chain_point_compliance(point, block[j].c);
+            check += block[j].c[0] + block[j].c[4] + block[j].c[8];
+            continue;
         }
         double v[3] = {0, 0, 0}, vt[3] = {0, 0, 0}, beta = 1;
         if (j > 0) {
@@ -206,7 +220,9 @@ static inline double second_force(const ChainSecond *second, const double force[
 static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, double *t, double *second_f) {
     const ChainBlock *block = ((const Chain *)self)->block;
     const ChainSecond *second = ((const Chain *)self)->second;
+    const CpsiChainPoint *point = ((const Chain *)self)->point;
     const int n = a->n;
+    if (a->share) cpsi_points_spread(a, x);
     /* forward: x_j, t_j as if nothing came after */
     double before[3] = {0, 0, 0};
     for (int j = 0; j < n; j++) {
@@ -218,6 +234,13 @@ static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, 
         }
         double *xj = &x[3*j], f[3];
         for (int i = 0; i < 3; i++) f[i] = a->held[j] ? 0 : xj[i] + k*before[i];
+        if (j > 0 && cpsi_point_is_set(a, j)) {
+            double press;
+            cpsi_chain_point_solve(&point[j], a, j, f, h, before, xj, &t[j], &x[3*(n + j)], &press);
+            memcpy(before, xj, sizeof before);
+            if (second_f) second_f[j] = press;
+            continue;
+        }
         apply(xj, block[j].c, f);
         for (int i = 0; i < 3; i++) before[i] = xj[i] += block[j].y[i]*h;
         t[j] = j > 0 ? dot(block[j].yt, f) - block[j].tt*h : 0;
@@ -231,12 +254,22 @@ static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, 
         carry(a, j, j + 1, pull);
         direction_at(a, j + 1, j, m);
         for (int i = 0; i < 3; i++) pull[i] = k*pull[i] + m[i]*tension;
+        if (cpsi_point_is_set(a, j + 1)) cpsi_chain_point_pull(a, j, &x[3*(n + j + 1)], pull);
+        if (j > 0 && cpsi_point_is_set(a, j)) {
+            double more[CPSI_CHAIN_POINT];
+            cpsi_chain_point_add(&point[j], pull, more);
+            for (int i = 0; i < 3; i++) xj[i] += more[i], x[3*(n + j) + i] += more[4 + i];
+            t[j] += more[3];
+            if (second_f) second_f[j] += more[7];
+            continue;
+        }
         apply(dx, block[j].c, pull);
         for (int i = 0; i < 3; i++) xj[i] += dx[i];
         const double more = j > 0 ? dot(block[j].yt, pull) : 0;
         t[j] += more;
         if (second_f && is_set(a->second, j) && !a->held[j]) second_f[j] += second_force(&second[j], pull, more);
     }
+    if (a->share) cpsi_points_place(a, t, x);
 }
 
 const CpsiLinsysOps cpsi_linsys_chain = {"chain", chain_layout, chain_factor, chain_solve};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The dense back end: the same matrix in full, L U with row exchanges.
  *
- * The unknowns are x_0, ..., x_{n-1} (3 each), then t_1, ..., t_{n-1}, then f of second directions. Cost 2 (4n)^3/3: for small lines, and as a second way to
+ * The unknowns are x_0, ..., x_{n-1} (3 each), then t_1, ..., t_{n-1}, then f of second directions, then the forces of points. Cost 2 (4n)^3/3: for small lines, and as a second way to
  * the same answer that shares no idea with the chain. */
 #include <float.h>
 #include <math.h>
@@ -9,6 +9,7 @@
 
 #include "linsys/frame.h"
 #include "linsys/linsys.h"
+#include "linsys/point.h"
 
 typedef struct Dense {
     double *lu; /* (size, size) row by row, L below its unit diagonal; t_0 is kept as an idle unknown, and f where a node has none */
@@ -16,11 +17,14 @@ typedef struct Dense {
     double *b;  /* (size) scratch of a solve */
 } Dense;
 
-static size_t unknowns(const CpsiMatrix *a) { return (a->second ? 5 : 4)*(size_t)a->n; }
+static size_t unknowns(const CpsiMatrix *a) { return (size_t)(4 + (a->second ? 1 : 0) + (a->share ? 3 : 0))*(size_t)a->n; }
 
-static CpsiLinsys *dense_layout(CpsiArena *arena, int n, bool second) {
+/* Where the force of element j's point begins. */
+static size_t point_at(const CpsiMatrix *a, size_t j) { return (size_t)(a->second ? 5 : 4)*(size_t)a->n + 3*j; }
+
+static CpsiLinsys *dense_layout(CpsiArena *arena, int n, bool second, bool points) {
     Dense *dense = CPSI_TAKE(arena, 1, Dense);
-    const size_t size = (second ? 5 : 4)*(size_t)n;
+    const size_t size = (size_t)(4 + (second ? 1 : 0) + (points ? 3 : 0))*(size_t)n;
     double *lu = CPSI_TAKE(arena, size*size, double), *b = CPSI_TAKE(arena, size, double);
     int *row = CPSI_TAKE(arena, size, int);
     if (dense) *dense = (Dense){.lu = lu, .row = row, .b = b};
@@ -45,11 +49,37 @@ static void fill_second(double *m, const CpsiMatrix *a) {
     }
 }
 
+/* The equations of a point's force, and that force on the nodes by their shares; 0 where there is none. */
+static void fill_points(double *m, const CpsiMatrix *a) {
+    const size_t n = (size_t)a->n, size = unknowns(a);
+    for (size_t j = 0; a->share && j < n; j++) {
+        const size_t at = point_at(a, j);
+        const bool set = cpsi_point_is_set(a, (int)j);
+        const CpsiPointLaw law = set ? cpsi_point_law(a, (int)j) : (CpsiPointLaw){.size = {1, 1, 1}};
+        for (size_t i = 0; i < 3; i++) {
+            m[(at + i)*size + at + i] -= 1/law.size[i];
+            if (i < 2) m[(at + i)*size + at + 2] += law.c[i]/law.size[i];
+        }
+        for (size_t node = j - 1; set && node <= j; node++) {
+            const double share = node == j ? a->share[j] : 1 - a->share[j];
+            double turn[9];
+            if (a->held[node]) continue;
+            cpsi_point_turn(a, (int)node, law.axes, turn);
+            for (size_t i = 0; i < 3; i++)
+                for (size_t l = 0; l < 3; l++) {
+                    m[(3*node + l)*size + at + i] = share*turn[3*l + i];
+                    m[(at + i)*size + 3*node + l] = law.e[i]/law.size[i]*share*turn[3*l + i];
+                }
+        }
+    }
+}
+
 static void dense_fill(Dense *dense, const CpsiMatrix *a) {
     const size_t n = (size_t)a->n, size = unknowns(a);
     double *m = dense->lu;
     memset(m, 0, size*size*sizeof *m);
     fill_second(m, a);
+    fill_points(m, a);
     for (int node = 0; node < a->n; node++) {
         const size_t j = (size_t)node, xj = 3*j, tj = 3*n + j;
         const double k = j > 0 ? a->stiffness[j] : 0, both = k + (j + 1 < n ? a->stiffness[j + 1] : 0);
@@ -119,7 +149,8 @@ static void dense_solve(const CpsiLinsys *self, const CpsiMatrix *matrix, double
     const size_t n = (size_t)matrix->n, size = unknowns(matrix);
     const double *lu = dense->lu;
     double *b = dense->b;
-    /* L y = P b; held nodes, t_0 and the second directions have zero on the right */
+    if (matrix->share) cpsi_points_spread(matrix, x);
+    /* L y = P b; held nodes, t_0, the second directions and the forces of points have zero on the right */
     for (size_t i = 0; i < size; i++) {
         const size_t from = (size_t)dense->row[i];
         b[i] = from < 3*n ? (matrix->held[from/3] ? 0 : x[from]) : from > 3*n && from < 4*n ? t[from - 3*n] : 0;
@@ -132,6 +163,9 @@ static void dense_solve(const CpsiLinsys *self, const CpsiMatrix *matrix, double
     memcpy(x, b, 3*n*sizeof *x);
     memcpy(t, b + 3*n, n*sizeof *t);
     if (f) memcpy(f, b + 4*n, n*sizeof *f);
+    if (!matrix->share) return;
+    memcpy(x + 3*n, b + point_at(matrix, 0), 3*n*sizeof *x);
+    cpsi_points_place(matrix, t, x);
 }
 
 const CpsiLinsysOps cpsi_linsys_dense = {"dense", dense_layout, dense_factor, dense_solve};

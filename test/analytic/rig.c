@@ -145,12 +145,8 @@ static void way(const CpsObstacle *o, const double *from, const double *to, cons
 }
 
 /* two tangents: the grain's or the line's part in the tangent plane, and the one across it */
-static void tangents(const CpsObstacle *o, const CpsLineView *v, int j, const double *n, double *first,
-                     double *second) {
-    const int before = j > 0 ? j - 1 : 0, after = j < v->elements ? j + 1 : j;
-    double along[3];
-    add(along, &v->position[3 * after], -1, &v->position[3 * before]);
-    if (norm(o->grain) > 0) memcpy(along, o->grain, sizeof along);
+static void tangents(const CpsObstacle *o, const double *direction, const double *n, double *first, double *second) {
+    const double *along = norm(o->grain) > 0 ? o->grain : direction;
     add(first, along, -dot(along, n), n);
     unit(first);
     cross(second, n, first);
@@ -191,44 +187,85 @@ static double largest(const CpsLineView *v) {
  * largest force times the length. A step is solved to a gap of 1e-13 of its scale. */
 static const double ROUNDING = 1e-14;
 
-/* Friction of node j at its contact c with obstacle o, where the normal is n. */
-static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn, const CpsLineView *v, int j, int c,
-                          const double *n, double scale) {
+/* Where something touches an obstacle, the line's direction there, and the forces of the obstacle on it. */
+typedef struct Touch {
+    double place[3], reference[3], along[3], friction[3], bound, reaction;
+} Touch;
+
+/* Its friction, where the normal is n. */
+static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn, const Touch *touch, const double *n,
+                          double length) {
     double first[3], second[3], from[3], slid[3];
-    const double *f = &v->friction[3 * c], reaction = v->reaction[c];
+    const double *f = touch->friction, reaction = touch->reaction;
     const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
     const double w = fmax(o->friction, lateral) * reaction;
-    tangents(o, v, j, n, first, second);
-    memcpy(from, &v->reference[3 * j], sizeof from);
-    if (*turn != 0) turned(o, *turn, &v->reference[3 * j], from);
-    way(o, from, &v->position[3 * j], n, slid);
+    tangents(o, touch->along, n, first, second);
+    memcpy(from, touch->reference, sizeof from);
+    if (*turn != 0) turned(o, *turn, touch->reference, from);
+    way(o, from, touch->place, n, slid);
     const double f1 = dot(f, first), f2 = dot(f, second), s1 = dot(slid, first), s2 = dot(slid, second);
     const double phi = support(o, lateral, reaction, s1, s2), law = phi + f1 * s1 + f2 * s2;
-    audit->bound += fabs(v->friction_bound[c] - w);
+    audit->bound += fabs(touch->bound - w);
     audit->bounds += w;
     audit->law += fmax(0, law);
     audit->dissipated += phi;
     if (!(w > 0)) return;
     audit->outside = fmax(audit->outside, (gauge(o, lateral, reaction, f1, f2) - reaction) / reaction);
     audit->outside = fmax(audit->outside, fabs(dot(f, n)) / w);
-    audit->node_law = fmax(audit->node_law, fmax(0, fabs(law) - ROUNDING * scale) / (w * v->arc_length[v->elements]));
+    audit->node_law = fmax(audit->node_law, fmax(0, fabs(law) - ROUNDING * audit->scale) / (w * length));
 }
 
-/* Contact c of node j: its reaction, friction and what they do on the node. */
-static void audit_contact(Audit *audit, const CpsScene *scene, const double *turn, const CpsLineView *v, int j, int c,
-                          double *sum) {
-    const int k = v->obstacle ? v->obstacle[c] : scene->obstacle_count - 1;
+/* What touches obstacle k at `touch`, as deep as it may lie there: its reaction, friction and what they do. */
+static void audit_touch(Audit *audit, const CpsScene *scene, const double *turn, const Touch *touch, int k, double depth,
+                        double length, double *sum) {
     double n[3];
-    add(sum, sum, 1, &v->friction[3 * c]);
+    add(sum, sum, 1, touch->friction);
     if (k < 0) {
-        audit->open += v->reaction[c] != 0;
+        audit->open += touch->reaction != 0;
         return;
     }
     const CpsObstacle *o = &scene->obstacle[k];
-    const double gap = distance(o, &v->position[3 * j], n);
-    add(sum, sum, v->reaction[c], n);
-    audit->open += fabs(gap * v->reaction[c]) / audit->scale;
-    if (v->reaction[c] > 0) audit_rubbing(audit, o, &turn[k], v, j, c, n, audit->scale);
+    const double gap = distance(o, touch->place, n) + depth;
+    add(sum, sum, touch->reaction, n);
+    audit->open += fabs(gap * touch->reaction) / audit->scale;
+    if (touch->reaction > 0) audit_rubbing(audit, o, &turn[k], touch, n, length);
+}
+
+/* Contact c of node j. */
+static void audit_contact(Audit *audit, const CpsScene *scene, const double *turn, const CpsLineView *v, int j, int c,
+                          double *sum) {
+    const int before = j > 0 ? j - 1 : 0, after = j < v->elements ? j + 1 : j;
+    Touch touch = {.reaction = v->reaction[c], .bound = v->friction_bound[c]};
+    memcpy(touch.friction, &v->friction[3 * c], sizeof touch.friction);
+    memcpy(touch.place, &v->position[3 * j], sizeof touch.place);
+    memcpy(touch.reference, &v->reference[3 * j], sizeof touch.reference);
+    add(touch.along, &v->position[3 * after], -1, &v->position[3 * before]);
+    audit_touch(audit, scene, turn, &touch, v->obstacle ? v->obstacle[c] : scene->obstacle_count - 1, 0,
+                v->arc_length[v->elements], sum);
+}
+
+/* The contact of element e, at the point of it that is nearest to the obstacle: what it does in all. */
+static void audit_element(Audit *audit, const CpsScene *scene, const double *turn, const CpsLineView *v, int e, double *sum) {
+    const int k = v->element_obstacle[e];
+    const double b = v->element_share[e], l = v->element_length[e];
+    Touch touch = {.reaction = v->element_reaction[e], .bound = v->element_friction_bound[e]};
+    memcpy(touch.friction, &v->element_friction[3 * e], sizeof touch.friction);
+    for (int i = 0; i < 3; i++) {
+        touch.place[i] = (1 - b) * v->position[3 * e + i] + b * v->position[3 * e + 3 + i];
+        touch.reference[i] = (1 - b) * v->reference[3 * e + i] + b * v->reference[3 * e + 3 + i];
+        touch.along[i] = v->position[3 * e + 3 + i] - v->position[3 * e + i];
+        sum[i] = 0;
+    }
+    const double radius = k < 0 ? 1 : scene->obstacle[k].radius;
+    audit_touch(audit, scene, turn, &touch, k, fmin(l * l / radius, radius) / 4, v->arc_length[v->elements], sum);
+}
+
+/* The share of element e's contact on its node j, added to `sum`. */
+static void add_element(const CpsLineView *v, int e, int j, double *sum) {
+    if (!v->element_obstacle || e < 0 || e >= v->elements || v->element_obstacle[e] < 0) return;
+    const double part = j == e ? 1 - v->element_share[e] : v->element_share[e];
+    add(sum, sum, part, &v->element_friction[3 * e]);
+    add(sum, sum, part * v->element_reaction[e], &v->element_normal[3 * e]);
 }
 
 Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *v) {
@@ -244,7 +281,17 @@ Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *v)
         for (int c = j; c < v->contacts * nodes; c += nodes) audit_contact(&audit, scene, turn, v, j, c, sum);
         if (j > 0) add(sum, sum, -1, &v->segment_force[3 * (j - 1)]);
         if (j < v->elements) add(sum, sum, 1, &v->segment_force[3 * j]);
+        add_element(v, j - 1, j, sum), add_element(v, j, j, sum);
         if (force > 0) audit.balance = fmax(audit.balance, norm(sum) / force);
+    }
+    for (int e = 0; v->element_obstacle && e < v->elements; e++) {
+        double sum[3], told[3];
+        if (v->element_obstacle[e] < 0) continue;
+        audit_element(&audit, scene, turn, v, e, sum);
+        /* the normal of the view is the obstacle's there */
+        for (int i = 0; i < 3; i++)
+            told[i] = sum[i] - v->element_friction[3 * e + i] - v->element_reaction[e] * v->element_normal[3 * e + i];
+        if (force > 0) audit.balance = fmax(audit.balance, norm(told) / force);
     }
     if (audit.bounds > 0) audit.bound /= audit.bounds;
     return audit;

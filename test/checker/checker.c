@@ -9,6 +9,7 @@
 #include "ends.h"
 #include "ranges.h"
 #include "measure.h"
+#include "motion.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding leaves 1e-16 per
  * operation, and a drag over thousands of nodes must not hide in it. The same for friction above its bound, friction
@@ -25,6 +26,10 @@ static const double CLAIM_TOLERANCE = 1e-6;
 static const double ENERGY_FLOOR = 1e-12, FORCE_FLOOR = 1e-12;
 /* Below this, in newtons or joules, there is no load at all (a line without weight that nobody pulls). */
 static const double NOTHING = 1e-200;
+/* Angles of forces and coefficients, recomputed; and a ratio of tensions that is neither here nor there. */
+static const double BEND_TOLERANCE = 1e-9;
+/* From mu tan(d/2) = 0.9 on a bend locks: (1 + 0.9)/(1 - 0.9) is the ratio of tensions that it holds then. */
+static const double LOCKING_RATIO = 19;
 /* Taut: the distance of the ends equals the length within this part of it. */
 static const double TAUT_TOLERANCE = 1e-12;
 
@@ -69,7 +74,7 @@ static bool claims_something(const Record *r) {
 
 /* A step without friction has no bounds to be compared with the reactions. */
 static double claimed_residual(const Record *r, const Measures *m) {
-    for (size_t c = 0; c < r->contacts * r->nodes; c++)
+    for (size_t c = 0; c < r->contacts * r->nodes + r->elements; c++)
         if (r->friction_bound[c] > 0) return m->bound_residual;
     return r->claim[CLAIM_FRICTION_RESIDUAL] == 0 ? 0 : m->bound_residual;
 }
@@ -139,7 +144,7 @@ static void judge_ends(Judge *judge, const Source *source, const Record *r, cons
 
 /* a step of statics: no friction at all */
 static bool without_friction(const Record *r) {
-    for (size_t c = 0; c < r->contacts * r->nodes; c++)
+    for (size_t c = 0; c < r->contacts * r->nodes + r->elements; c++)
         if (r->friction_bound[c] != 0) return false;
     return true;
 }
@@ -156,7 +161,7 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     const double *claim = r->claim;
     double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent + strain_energy_of_rounding(r, m);
     double force = FORCE_FLOOR * m->largest_force;
-    bool certified = claims_something(r);
+    bool certified = claims_something(r) || r->outcome == OUTCOME_COARSE;
     same(judge, "primal", claim[CLAIM_PRIMAL], m->primal, energy);
     same(judge, "dual", claim[CLAIM_DUAL], m->dual, energy);
     same(judge, "scale", claim[CLAIM_SCALE], m->scale, 0);
@@ -216,6 +221,8 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     if (!source->strict) at_most(judge, "depth of an element inside an obstacle", m->pierced, place);
     at_most(judge, "contacts that are not with the nearest obstacles", m->misplaced, 0);
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
+    at_most(judge, "place of an element's contact against the nearest", m->share_error,
+            COPY_TOLERANCE * (m->length + m->reach));
     at_most(judge, "slide against the way from the reference", m->slide_error, COPY_TOLERANCE * (m->length + m->reach));
     at_most(judge, "quarters of a turn of an obstacle in one part", m->quarters, 1 + TURN_ROUNDING);
     at_most(judge, "quarters of a turn of an obstacle by the number of parts", m->quarters / (r->share * r->parts),
@@ -270,6 +277,13 @@ static void judge_unbounded(Judge *judge, const Record *r, const Measures *m) {
     same(judge, "proof_value", r->proof_value, m->rigid_fall, FORCE_FLOOR * m->largest_force);
 }
 
+static void judge_slides(Judge *judge, const Source *source, const Record *r) {
+    double power;
+    const char *what = motion_contradiction(source, r, &power);
+    if (what) find(judge, "slides without end, but %s", what);
+    else same(judge, "proof_value", r->proof_value, power, 0);
+}
+
 /* Contact is seen from where the nodes end up, but from the reference on one plane, where it is the same, and where friction is frozen and contact
  * strict; frozen friction itself always from the reference, but in a line laid by statics. */
 static Measures measure_where(const Source *source, const Record *r, size_t step) {
@@ -278,6 +292,21 @@ static Measures measure_where(const Source *source, const Record *r, size_t step
     if (source->consistent || !source->follows || !source->laid || step > 0) return m;
     Measures laid = measure(source, r, SIGHT_REACHED);
     return laid.normal_error <= m.normal_error && laid.slide_error <= m.slide_error ? laid : m;
+}
+
+/* The sharpest bend, and whether the mesh is too coarse for it. Of a step in several parts the sharpest may have been in
+ * an earlier one. */
+static void judge_bend(Judge *judge, const Record *r, const Measures *m) {
+    const Bend *bend = &m->bend;
+    bool coarse = r->outcome == OUTCOME_COARSE, whole = r->parts == 1;
+    if (!coarse && bend->ratio > LOCKING_RATIO * (1 + BEND_TOLERANCE))
+        find(judge, "certified, but friction at one contact holds tensions in the ratio %.6g", bend->ratio);
+    if (!whole) return;
+    if (coarse && bend->ratio < LOCKING_RATIO * (1 - BEND_TOLERANCE))
+        find(judge, "mesh too coarse, but friction at one contact holds tensions in the ratio %.6g only", bend->ratio);
+    same(judge, "bend_turn", r->bend_turn, bend->turn, BEND_TOLERANCE);
+    same(judge, "bend_friction", r->bend_friction, bend->friction, BEND_TOLERANCE);
+    same(judge, "turn at bend_at", r->bend_turn, bend->there, BEND_TOLERANCE);
 }
 
 static void judge_record(const Source *source, const Record *r, const char *line, size_t step, FILE *log,
@@ -292,7 +321,9 @@ static void judge_record(const Source *source, const Record *r, const char *line
     } else {
         switch (r->outcome) {
         case OUTCOME_SOLVED:
+        case OUTCOME_COARSE: // solved as well, but for the mesh
             judge_solved(&judge, source, r, &m, source->laid && step == 0 && is_laid(r));
+            judge_bend(&judge, r, &m);
             break;
         case OUTCOME_TAUT:
             judge_taut(&judge, r, &m);
@@ -304,7 +335,7 @@ static void judge_record(const Source *source, const Record *r, const char *line
             judge_unbounded(&judge, r, &m);
             break;
         case OUTCOME_SLIDES:
-            find(&judge, "slides without end, without evidence");
+            judge_slides(&judge, source, r);
             break;
         default:
             judge_claims(&judge, r, &m, (double)(end_measure(source, r, 0).slid + end_measure(source, r, 1).slid));
@@ -343,23 +374,42 @@ static double reaction_on(const Record *r, size_t j, double obstacle) {
     return 0;
 }
 
+/* The same of an element's contact, which has no other place where its reaction may have been. */
+static void judge_element_bound(const Record *r, const Record *before, size_t c, double largest, double shared, bool all,
+                                Judge *judge) {
+    const double w = r->friction_bound[c], R = before->obstacle[c] == r->obstacle[c] ? before->reaction[c] : 0;
+    const double expected = r->mu[c] * R;
+    if (r->obstacle[c] < 0 || (w == 0 && !all && R <= 1e-3 * largest + NOTHING)) return;
+    // the mean of two factors, and as of a node
+    const size_t i = c - r->contacts * r->nodes;
+    double noise = r->factor_noise ? fmax(r->factor_noise[i], r->factor_noise[i + 1]) * R * fmax(1, r->mu[c]) : 0;
+    if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared))
+        find(judge, "friction bound %.9g on element %zu, expected %.9g times the reaction %.9g", w,
+             i, r->mu[c], R);
+}
+
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step before (frozen
  * friction) or of the step itself (consistent friction), which is `before`. Frozen friction takes nodes that carry less
  * than 1e-3 of the largest load or reaction for free, if it likes; a held node has no friction, nor one that no contact
  * is looked for. */
 static void judge_bounds(const Source *source, const Record *r, const Record *before, Judge *judge) {
     double largest = 0;
-    for (size_t c = 0; c < r->contacts * r->nodes; c++) {
+    const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
+    for (size_t c = 0; c < contacts; c++) {
         const double *b = before->load[c % r->nodes];
         largest = fmax(largest, fmax(before->reaction[c], hypot(hypot(b[0], b[1]), b[2])));
     }
     // what is not certified claims nothing; where nothing is found, the reactions are still those of the step before
-    if (!claims_something(r)) return;
-    bool solved = r->outcome <= OUTCOME_TAUT;
+    if (!claims_something(r) && r->outcome != OUTCOME_COARSE) return;
+    bool solved = r->outcome <= OUTCOME_TAUT || r->outcome == OUTCOME_COARSE;
     // a line free at both ends balances its forces by a last correction of its reactions
     bool loose = r->end_kind[0] == END_FREE && r->end_kind[1] == END_FREE;
     double shared = source->consistent && loose ? FORCE_FLOOR * 10 * largest : 0;
-    for (size_t c = 0; c < r->contacts * r->nodes; c++) {
+    for (size_t c = 0; c < contacts; c++) {
+        if (c >= r->contacts * r->nodes) {
+            judge_element_bound(r, before, c, largest, shared, source->consistent && solved, judge);
+            continue;
+        }
         size_t j = c % r->nodes;
         bool held = (j == 0 && r->end_kind[0] == END_HELD) || (j == r->elements && r->end_kind[1] == END_HELD);
         bool was_held =

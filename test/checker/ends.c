@@ -66,6 +66,9 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
     const size_t j = e ? r->elements : 0, next = e ? j - 1 : 1, element = e ? j - 1 : 0;
     End end = {.reaction = 0};
     for (int i = 0; i < 3; i++) end.force[i] = (e ? 1 : -1) * (Real)r->segment_force[element][i] - r->load[j][i];
+    Triple others = {0, 0, 0};
+    record_element_forces(r, j, others);
+    for (int i = 0; i < 3; i++) end.force[i] -= others[i];
     if (none) return end;
     const Surface *surface = &source->surface[k];
     Triple x, reference, carried, n, slide, own;

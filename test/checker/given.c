@@ -72,13 +72,14 @@ static void compare_sets(Compare *compare, const CpsObstacle *o, const Surface *
 static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) {
     const bool plane = o->kind == CPS_OBSTACLE_PLANE;
     const double *given = plane ? o->normal : o->axis, length = size(given);
-    double axis[3], point[3], grain[3], unit[3];
+    double axis[3], point[3], there[3], grain[3], unit[3];
     for (int k = 0; k < 3; k++) {
+        there[k] = o->point[k] - compare->source.origin[k];
         axis[k] = (double)s->axis[k], point[k] = (double)s->point[k], grain[k] = (double)s->grain[k];
         unit[k] = given[k] / length;
     }
     same_number(compare, "kind", o->name, s->kind, o->kind);
-    same(compare, "point", o->name, point, o->point, 3, COPIED);
+    same(compare, "point", o->name, point, there, 3, COPIED);
     same(compare, "axis", o->name, axis, unit, 3, COMPUTED);
     same_number(compare, "radius", o->name, (double)s->radius, plane ? 0 : o->radius);
     if ((s->set != NULL) != (o->friction_set != NULL)) find(compare, "friction set of %s: one of the two has none", o->name);
@@ -164,19 +165,25 @@ typedef struct Imposed {
     CpsEnd from, now;
 } Imposed;
 
+/* What is imposed, places about the origin of the file; NaN stays NaN. */
+static CpsEnd about(const Source *source, CpsEnd end) {
+    for (int k = 0; k < 3 && end.kind == CPS_END_HELD; k++) end.value[k] -= source->origin[k];
+    return end;
+}
+
 /* Where the end starts: a held end without a place of its own is where the start puts it. */
-static CpsEnd first_end(const CpsLine *line, int e, const Record *r) {
-    CpsEnd end = line->end[e];
+static CpsEnd first_end(const Source *source, const CpsLine *line, int e, const Record *r) {
+    CpsEnd end = about(source, line->end[e]);
     const CpsStart *start = &line->start;
     const bool drawn = start->kind == CPS_START_STRAIGHT || start->kind == CPS_START_POLYLINE;
     const double *place = drawn ? &start->point[e ? 3 * (start->point_count - 1) : 0] : r->reference[e ? r->elements : 0];
     for (int k = 0; k < 3 && end.kind == CPS_END_HELD; k++)
-        if (isnan(end.value[k])) end.value[k] = place[k];
+        if (isnan(end.value[k])) end.value[k] = place[k] - (drawn ? source->origin[k] : 0);
     return end;
 }
 
 /* The end at part k of a stage that changes it; `before`: the step before, NULL for the first. */
-static void impose(Imposed *end, const CpsStage *stage, int part, int line, int e, const Record *before,
+static void impose(const Source *source, Imposed *end, const CpsStage *stage, int part, int line, int e, const Record *before,
                    const Record *r) {
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
@@ -187,10 +194,10 @@ static void impose(Imposed *end, const CpsStage *stage, int part, int line, int 
         for (int k = 0; k < 3 && part == 1 && change->to.kind != end->now.kind; k++)
             end->from.value[k] = change->to.kind == CPS_END_HELD ? place[k] : before ? before->end_force[e][k] : 0;
         const double share = (double)part / stage->steps;
-        end->now.kind = change->to.kind;
+        const CpsEnd to = about(source, change->to);
+        end->now.kind = to.kind;
         for (int k = 0; k < 3; k++)
-            end->now.value[k] = part == stage->steps ? change->to.value[k]
-                                                     : end->from.value[k] + share * (change->to.value[k] - end->from.value[k]);
+            end->now.value[k] = part == stage->steps ? to.value[k] : end->from.value[k] + share * (to.value[k] - end->from.value[k]);
     }
 }
 
@@ -259,10 +266,11 @@ static int compare_steps(Compare *compare, int index) {
         bad = record_read(&compare->source, line->name, step, &now, compare->log);
         int stage, part;
         for (int e = 0; e < 2 && !bad; e++) {
-            if (step == 0) end[e].now = first_end(line, e, &now);
+            if (step == 0) end[e].now = first_end(&compare->source, line, e, &now);
             const CpsEnd was = end[e].now;
             if (stage_of(compare, step, &stage, &part))
-                impose(&end[e], &compare->scene->stage[stage], part, index, e, step > 0 ? &before : NULL, &now);
+                impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e, step > 0 ? &before : NULL,
+                       &now);
             compare_end(compare, line, e, &end[e], &was, step, &now);
         }
         if (!bad) compare_loads(compare, line, step, &now);

@@ -73,7 +73,7 @@ static bool all_within(const double *value, size_t count, double low, double hig
  * may be: the rms bound, where it says nothing. */
 static const char *missing_variable(const Record *r) {
     const double most = 1.7976931348623157e308, tiny = 4.9e-324;
-    size_t n = r->nodes, m = r->elements, all = r->contacts * n;
+    size_t n = r->nodes, m = r->elements, all = r->contacts * n + (r->has_elements ? m : 0);
     const struct {
         const char *name;
         const double *value;
@@ -97,10 +97,15 @@ static const char *missing_variable(const Record *r) {
         {"end_force", r->end_force[0], 6, -most, most},
         {"end_friction", r->end_friction[0], 6, -most, most},
         {"end_tension", r->end_tension, 2, 0, most},
+        {"element_share", r->share_of, r->has_elements ? m : 0, 0, 1},
         {"proof", r->proof, 3, -most, most},
+        {"motion", r->motion ? r->motion[0] : NULL, r->motion ? 3 * n : 0, -most, most},
         {"proof_value", &r->proof_value, 1, -most, most},
         {"dissipated", &r->dissipated, 1, -most, most},
         {"unaccounted", &r->unaccounted, 1, 0, most},
+        {"bend_turn", &r->bend_turn, 1, 0, most},
+        {"bend_friction", &r->bend_friction, 1, 0, most},
+        {"bend_at", &r->bend_at, 1, 0, most},
         {"ledger", r->ledger, LEDGER_ENTRIES, -most, most},
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
@@ -352,6 +357,76 @@ static void measure_contact(const Where *where, const Record *r, size_t j, size_
     add(&s->magnitude, fabsl(R * gap));
 }
 
+/* the point of element i at the share t of its way */
+static void point_of(Vector *place, size_t i, Real t, Triple out) {
+    for (int k = 0; k < 3; k++) out[k] = (1 - t) * place[i][k] + t * place[i + 1][k];
+}
+
+/* What the point x of an element, with its reference, sees of surface `on` where it is; `along` is the element's direction and `depth` how
+ * deep it may lie. */
+static Seat element_seat(const Where *where, const Record *r, const Surface *on, const Real *x, const Real *reference,
+                         const Real *along, Real depth) {
+    Seat seat = {.surface = on};
+    Triple carried, u;
+    const Real turn = (Real)r->share * r->turn[on - where->source->surface];
+    for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];
+    surface_normal(on, x, seat.normal), surface_normal(on, x, seat.plane);
+    surface_carry(on, reference, turn, carried);
+    surface_way(on, carried, x, seat.slide);
+    surface_way(on, reference, x, seat.own);
+    seat.gap = surface_distance(on, x) + depth - dot(seat.normal, u);
+    seat.has_axes = surface_axes(on, seat.normal, along, seat.axes);
+    return seat;
+}
+
+/* Contact of element i: the laws of a node's contact, for its point. */
+static void measure_element_contact(const Where *where, const Record *r, size_t i, Measures *m, Sums *s) {
+    const size_t c = r->contacts * r->nodes + i;
+    if (!r->has_elements) return;
+    r->mu[c] = 0;
+    if (r->obstacle[c] < 0) {
+        Triple none;
+        widen(r->friction[c], none);
+        raise_to(&m->stray_force, fabsl(r->reaction[c]) + size(none) + fabsl(r->friction_bound[c]));
+        return;
+    }
+    const Surface *on = &where->source->surface[(size_t)r->obstacle[c]];
+    const Real t = r->share_of[i], R = r->reaction[c], gap = r->gap[c];
+    Triple x, reference, along, a, b, n, F, slide, start;
+    point_of(r->position, i, t, x), point_of(r->reference, i, t, reference);
+    widen(r->position[i], a), widen(r->position[i + 1], b), subtract(r->position[i + 1], r->position[i], along);
+    widen(r->normal[c], n), widen(r->friction[c], F), widen(r->slide[c], slide);
+    const Seat seat = element_seat(where, r, on, x, reference, along, surface_allowance(on, r->element_length[i]));
+    const Real factor = r->factor ? (1 - t) * r->factor[i] + t * r->factor[i + 1] : 1;
+    r->mu[c] = (double)(factor * surface_friction(on));
+    // where it is, against what it says
+    if (on->kind == SURFACE_PLANE) m->misplaced++;
+    raise_to(&m->share_error, fabsl(surface_facing(on, a, b) - t) * size(along));
+    for (int k = 0; k < 3; k++) n[k] -= seat.normal[k], slide[k] -= seat.slide[k], start[k] = x[k] - seat.slide[k];
+    raise_to(&m->normal_error, size(n) / (1 + where->reach / on->radius));
+    raise_to(&m->slide_error, size(slide));
+    if (r->friction_bound[c] > 0) raise_to(&m->gone_quarters, surface_angle(on, reference, x) / QUARTER);
+    if (isfinite(r->gap[c])) raise_to(&m->gap_error, fabsl(gap - seat.gap));
+    // what it does
+    widen(r->normal[c], n);
+    if (R < m->reaction_least) m->reaction_least = (double)R;
+    measure_friction(r, c, &seat, m, s);
+    add(&s->dual, dot(F, start) + R * dot(n, reference));
+    add(&s->magnitude, size(F) * size(x) + R * size(reference));
+    raise_to(&m->largest_force, R);
+    if (isinf(gap)) {
+        raise_to(&m->stray_force, fabsl(R));
+        return;
+    }
+    Real distance = gap + dot(n, x) - dot(n, reference);
+    raise_to(&m->penetration, -distance);
+    add(&s->signed_gap, R * distance);
+    add(&s->gap, fabsl(R * distance));
+    add(&s->contact, fabsl(R * distance));
+    add(&s->dual, -R * gap);
+    add(&s->magnitude, fabsl(R * gap));
+}
+
 /* the weight of a node, its load less the force on a free end, times its way */
 static void measure_weight(const Record *r, size_t j, Sums *s) {
     Triple weight, u;
@@ -380,6 +455,7 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     add(&s->magnitude, size(b) * size(x) + size(pull) * size(x));
     raise_to(&m->largest_force, size(b));
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) measure_contact(where, r, j, c, pull, m, s);
+    record_element_forces(r, j, pull);
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one must balance
     if (held(r, j)) {
@@ -460,6 +536,7 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     for (size_t i = 0; i < r->elements; i++) measure_segment(r, i, &m, &s);
     for (size_t j = 0; j < r->nodes; j++) measure_node(&where, r, j, &m, &s);
     for (size_t k = 0; k < source->surfaces; k++) raise_to(&m.quarters, fabsl(r->share * (Real)r->turn[k]) / QUARTER);
+    for (size_t i = 0; i < r->elements; i++) measure_element_contact(&where, r, i, &m, &s);
     measure_proof(source, r, &m);
     measure_pierced(source, r, &m);
 
@@ -488,6 +565,7 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     add(&identity, s.imbalance_work.value), add(&identity, s.imbalance_work.rest);
     m.identity = (double)total(&identity);
     m.identity_noise = (double)(1024 * 0x1p-63L * total(&s.magnitude));
+    m.bend = bend_of_record(source, r, sight == SIGHT_REACHED, m.largest_force);
     m.tension_bound = r->compliance > 0 ? sqrt(2 * m.gap / (r->compliance * m.length)) : NAN;
     return m;
 }

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "bend.h"
 #include "record.h"
 
 typedef struct Measures {
@@ -40,6 +41,7 @@ typedef struct Measures {
     double slide_error;      /* [m] max |slide - way from the carried reference| */
     double quarters;         /* of a turn by which an obstacle turns in the part that the arrays show, at most */
     double gone_quarters;    /* of a turn by which a node with friction has gone round an obstacle in it, at most */
+    double share_error;      /* [m] how far the point where an element touches is from the nearest on its way */
     int misplaced;           /* contacts with obstacles that are not the nearest and the next */
     double normal_error;     /* [-] max |n - the obstacle's|, over 1 + reach/radius on a curved one */
     double stretch;          /* [-] max |e| - 1 over inextensible elements */
@@ -53,6 +55,7 @@ typedef struct Measures {
     double ends_distance;    /* [m] of two imposed ends, NaN otherwise */
     double rigid_fall;       /* [N] fall of the energy per metre along `proof`, NaN without a proof vector */
     double rigid_rise_least; /* [-] min n.proof over nodes that may touch */
+    Bend bend;
 } Measures;
 
 /* Where contact is seen from: the configuration reached; the reference; or the one reached, but for friction, whose axes and ways are those

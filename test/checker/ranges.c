@@ -44,6 +44,7 @@ static bool contacts_of(const Source *source, const Record *r, double length, do
         }
         const Surface *surface = &source->surface[(size_t)r->obstacle[c]];
         if (surface->set || surface->mu[0] != surface->mu[1]) return false;
+        if (!source->consistent && surface->kind != SURFACE_PLANE) return false; // friction keeps the plane of the reference
         friction[c] = !rubs ? 0 : source->consistent ? r->mu[c] : r->friction_bound[c];
         const double way = length_of(r->slide[c]);
         if (friction[c] > 0 && way > NONE * length && way < SOME * length) return false;

@@ -216,6 +216,11 @@ int source_open(const char *path, Source *source, FILE *log) {
     if (!status && numbers != 3) status = NC_EBADDIM;
     if (!status) status = nc_get_att_double(source->nc, NC_GLOBAL, "gravity", source->gravity);
     if (status) return complain(log, "cannot read attribute", "gravity", status);
+    memset(source->origin, 0, sizeof source->origin);
+    status = nc_inq_attlen(source->nc, NC_GLOBAL, "origin", &numbers);
+    if (!status && numbers != 3) status = NC_EBADDIM;
+    if (!status) status = nc_get_att_double(source->nc, NC_GLOBAL, "origin", source->origin);
+    if (status && status != NC_ENOTATT) return complain(log, "cannot read attribute", "origin", status);
     source->consistent = attribute_is(source, "friction", "consistent");
     source->strict = attribute_is(source, "contact", "strict");
     source->laid = first_step_is_laid(source);
@@ -345,11 +350,11 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (record->nodes != record->elements + 1) return complain(log, "nodes are not elements + 1 in line", line, 0);
 
     record->contacts = source->surfaces > 1 ? 2 : 1;
-    size_t n = record->contacts * record->nodes;
+    size_t n = record->contacts * record->nodes + record->elements;
     Vector **vectors[] = {&record->reference, &record->position, &record->load,         &record->normal,
-                          &record->friction,  &record->slide,    &record->segment_force};
+                          &record->friction,  &record->slide,    &record->segment_force, &record->motion};
     double **scalars[] = {&record->element_length, &record->gap, &record->friction_bound, &record->reaction,
-                          &record->tension,        &record->mu,  &record->obstacle};
+                          &record->tension,        &record->mu,  &record->obstacle,       &record->share_of};
     int missing = (record->turn = calloc(source->surfaces + 1, sizeof(double))) == NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
         missing |= (*vectors[k] = calloc(n, sizeof(Vector))) == NULL;
@@ -367,9 +372,18 @@ void record_destroy(Record *record) {
     free(record->reference), free(record->position), free(record->load);
     free(record->normal), free(record->friction), free(record->segment_force);
     free(record->element_length), free(record->gap), free(record->friction_bound);
-    free(record->reaction), free(record->tension), free(record->slide);
-    free(record->turn), free(record->mu), free(record->obstacle), free(record->factor), free(record->factor_noise);
+    free(record->reaction), free(record->tension), free(record->slide), free(record->motion);
+    free(record->share_of), free(record->turn), free(record->mu), free(record->obstacle), free(record->factor), free(record->factor_noise);
     *record = (Record){0};
+}
+
+void record_element_forces(const Record *r, size_t j, Real *sum) {
+    for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < r->elements && r->has_elements; i++) {
+        const size_t c = r->contacts * r->nodes + i;
+        const Real part = i == j ? 1 - (Real)r->share_of[i] : r->share_of[i];
+        for (int k = 0; k < 3 && r->obstacle[c] >= 0; k++)
+            sum[k] += part * (r->friction[c][k] + (Real)r->reaction[c] * r->normal[c][k]);
+    }
 }
 
 /* numbers that stand alone in a step */
@@ -388,6 +402,9 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "unaccounted", step, 0, 0, &record->unaccounted, log);
     bad |= read_step(source, line, "proof", step, 3, 0, record->proof, log);
     bad |= read_step(source, line, "proof_value", step, 0, 0, &record->proof_value, log);
+    bad |= read_step(source, line, "bend_turn", step, 0, 0, &record->bend_turn, log);
+    bad |= read_step(source, line, "bend_friction", step, 0, 0, &record->bend_friction, log);
+    bad |= read_step(source, line, "bend_at", step, 0, 0, &record->bend_at, log);
     static const char *const ENTRY[LEDGER_ENTRIES] = {"ledger_ends", "ledger_obstacles", "ledger_elastic",
                                                       "ledger_gravity", "ledger_imbalance"};
     for (int k = 0; k < LEDGER_ENTRIES; k++)
@@ -428,15 +445,48 @@ static int read_contact(const Source *source, const char *line, size_t step, boo
     return bad;
 }
 
+/* what belongs to the contacts of elements: where an obstacle is round, friction consistent and contact gained */
+static int read_elements(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    static const char *const NAME[8] = {
+        "element_normal",         "element_friction", "element_slide",    "element_contact_gap",
+        "element_friction_bound", "element_reaction", "element_obstacle", "element_share"};
+    const size_t n = record->elements, from = record->contacts * record->nodes;
+    double *to[8] = {record->normal[from],          record->friction[from],  record->slide[from],    record->gap + from,
+                     record->friction_bound + from, record->reaction + from, record->obstacle + from, record->share_of};
+    int bad = 0;
+    for (size_t k = 0; k < source->surfaces; k++)
+        record->has_elements |= source->surface[k].kind != SURFACE_PLANE && source->consistent && !source->strict;
+    for (size_t k = 0; k < 8 && record->has_elements; k++)
+        bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);
+    for (size_t i = from; i < from + n && !bad; i++) {
+        const double obstacle = record->obstacle[i];
+        if (!record->has_elements) record->obstacle[i] = -1;
+        else if (!(obstacle >= -1 && obstacle < (double)source->surfaces && obstacle == floor(obstacle)))
+            bad = complain(log, "unknown obstacle in", NAME[6], 0);
+    }
+    return bad;
+}
+
+/* Files from before lines slid have none. */
+static int read_motion(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    char name[2 * MAX_NAME];
+    int id;
+    snprintf(name, sizeof name, "%s_motion", line);
+    if (nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
+    return read_step(source, line, "motion", step, record->nodes, 3, record->motion[0], log);
+}
+
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
     size_t n = record->nodes, elements = record->elements;
     int bad = read_step(source, line, "reference", step, n, 3, record->reference[0], log);
     bad |= read_step(source, line, "position", step, n, 3, record->position[0], log);
     bad |= read_step(source, line, "load", step, n, 3, record->load[0], log);
     for (size_t k = 0; k < record->contacts; k++) bad |= read_contact(source, line, step, k > 0, record, log);
+    bad |= read_elements(source, line, step, record, log);
     if (source->surfaces > 0)
         bad |= read_step(source, "obstacle", "turn", step, source->surfaces, 0, record->turn, log);
     bad |= read_step(source, line, "segment_force", step, elements, 3, record->segment_force[0], log);
     bad |= read_step(source, line, "tension", step, elements, 0, record->tension, log);
+    bad |= read_motion(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }

@@ -46,14 +46,17 @@ enum { LEDGER_ENDS, LEDGER_OBSTACLES, LEDGER_ELASTIC, LEDGER_GRAVITY, LEDGER_IMB
 typedef double Vector[3];
 
 /* nodes 0..elements; element i joins node i and i + 1 here. Contact c is the first of node c, or the second of node
- * c - nodes. */
+ * c - nodes; where elements have contacts, contact contacts nodes + i is that of element i. */
 typedef struct Record {
     size_t nodes, elements, contacts; /* contacts: 1 or 2 for each node */
     double *element_length, compliance;
     Vector *reference, *position, *load, *segment_force;
+    Vector *motion;                          /* of a line that slides without end, else 0 */
     Vector *normal, *friction, *slide;       /* (contacts, nodes) */
     double *gap, *friction_bound, *reaction; /* the same */
     double *obstacle;                        /* the same: its number, by the file; where there is one contact, 0 */
+    double *share_of;  /* (elements) where on its way element i touches */
+    bool has_elements; /* the file has contacts of elements; obstacle -1: none */
     double *turn;                            /* of each obstacle in the step [rad] */
     double *mu; /* (contacts, nodes) not read: factor times the larger coefficient of the obstacle, by measure.h */
     /* of friction at a node, the mean over the length that it stands for, and what rounding of the abscissas may leave
@@ -65,6 +68,7 @@ typedef struct Record {
     double share; /* which is so much of the step */
     Vector end_value[2], end_force[2], end_friction[2], proof;
     double end_tension[2], end_range[RANGES][2];
+    double bend_turn, bend_friction, bend_at; /* [rad], [-], [m] of the sharpest bend round an obstacle */
     double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES], unaccounted;
 } Record;
 
@@ -74,6 +78,7 @@ typedef struct Source {
     size_t steps, lines;
     char **line_name;
     double tolerance, gravity[3];
+    double origin[3]; /* [m] from which the places of the file are measured, in the scene's coordinates; 0 0 0 unless it says so */
     bool consistent; /* friction bounds follow the reactions of the same step */
     bool strict;     /* only what touches at the reference is kept out */
     bool laid;       /* the first step is statics without friction, of the lines laid */
@@ -86,6 +91,9 @@ typedef struct Source {
 int source_open(const char *path, Source *source, FILE *log);
 int record_create(const Source *source, const char *line, Record *record, FILE *log);
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log);
+
+/* Add what the contacts of its elements do on node j: reaction and friction by their shares. */
+void record_element_forces(const Record *record, size_t j, Real *sum);
 
 /* Both accept a zeroed struct. */
 void source_close(Source *source);

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NODES = 5, ELEMENTS = 4, MAX_FIELDS = 64 };
+enum { NODES = 5, ELEMENTS = 4, MAX_FIELDS = 80 };
 
 /* all lines have four elements of 1 m, weigh 8 N/m and lie along x on a bed with mu = 1/2 */
 typedef struct SampleLine {
@@ -118,6 +118,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = scalar("ledger_imbalance", pull / 3), field[n++] = scalar("unaccounted", 0);
     field[n++] = (Field){"proof", 3, 0, {line->proof, 0, 0}};
     field[n++] = scalar("proof_value", line->proof_value);
+    field[n++] = scalar("bend_turn", 0), field[n++] = scalar("bend_friction", 0), field[n++] = scalar("bend_at", 0);
     for (int k = 0; k < CLAIMS; k++) {
         // primal and dual lose the work of friction, the scale that of the pull as well
         const double less = k == 0 || k == 1 ? work : k == 3 ? 4 * work : 0;
@@ -312,10 +313,27 @@ static Field *of_nodes(Field *field, const char *name, const double *value) {
     return field;
 }
 
+/* contacts of elements, none of which touches anything */
+static size_t no_elements(Field *field) {
+    static const char *const NAME[3] = {"element_normal", "element_friction", "element_slide"};
+    static const struct {
+        const char *name;
+        double value;
+    } OTHER[5] = {{"element_contact_gap", INFINITY}, {"element_friction_bound", 0}, {"element_reaction", 0},
+                  {"element_obstacle", -1},          {"element_share", 0}};
+    for (int k = 0; k < 3; k++) field[k] = (Field){NAME[k], ELEMENTS, 3, {0}};
+    for (int k = 0; k < 5; k++) {
+        field[3 + k] = (Field){OTHER[k].name, ELEMENTS, 0, {0}};
+        for (int i = 0; i < ELEMENTS; i++) field[3 + k].value[i] = OTHER[k].value;
+    }
+    return 8;
+}
+
 /* energies by hand: elongation, friction over SLIP, and the pull at B */
 static size_t describe_wound(const Wound *w, Field *field) {
     size_t n = 0;
     const double c = cos(DELTA / 2), s = sin(DELTA / 2), *T = w->tension;
+    n += no_elements(field);
     of_nodes(&field[n++], "reference", w->place), of_nodes(&field[n++], "position", w->place);
     of_nodes(&field[n++], "normal", w->normal), of_nodes(&field[n++], "slide", w->slide);
     Field *load = of_nodes(&field[n++], "load", NULL), *friction = of_nodes(&field[n++], "friction", NULL);
@@ -369,6 +387,8 @@ static size_t describe_wound(const Wound *w, Field *field) {
     field[n++] = scalar("dissipated", work + ends), field[n++] = (Field){"proof", 3, 0, {0}},
     field[n++] = scalar("proof_value", 0);
     field[n++] = scalar("ledger_obstacles", work + ends); // which is all dissipated
+    field[n++] = scalar("bend_turn", DELTA), field[n++] = scalar("bend_friction", MU); // the same at all inner nodes
+    field[n++] = scalar("bend_at", w->length[0] + w->length[1]);
     static const char *const NONE[] = {"ledger_ends",  "ledger_elastic",   "ledger_gravity",    "ledger_imbalance", "unaccounted",
                                        "gap",          "tension_bound",    "tension_estimate",  "force_residual",
                                        "law_residual", "contact_residual", "friction_residual", "stretch_residual",
@@ -455,6 +475,68 @@ static size_t describe_corner(int again, Field *field) {
     return n;
 }
 
+/* ---- the post ---- */
+
+/* An inextensible line over a post of radius 1 about z, which element 1 touches at 0.6 of its way: it lies a quarter of
+ * the radius deep. Before and after it the line goes up and down by 3 in 5; tensions 4 N and 6 N there and
+ * R = 0.6 (4 + 6) N on the element, shared as 0.4 to 0.6. Friction holds the difference along the element, 1.6 N. */
+static size_t describe_post(Field *field) {
+    static const double PLACE[3 * NODES] = {-2.8, -0.45, 0, -1.2, 0.75, 0, 0.8, 0.75, 0, 2.4, -0.45, 0, 4, -1.65, 0};
+    static const double FORCE[3 * ELEMENTS] = {3.2, 2.4, 0, 3.84, 0, 0, 4.8, -3.6, 0, 4.8, -3.6, 0};
+    static const double TENSION[ELEMENTS] = {4, 3.84, 6, 6}, PULL[3] = {4.8, -3.6, 0}, R = 6, F = -1.6;
+    const double primal = -(4.8 * 4 + 3.6 * 1.65);
+    size_t n = no_elements(field);
+    field[0].value[4] = 1, field[1].value[3] = F, field[3].value[1] = 0, field[4].value[1] = MU * R;
+    field[5].value[1] = R, field[6].value[1] = 0, field[7].value[1] = 0.6;
+    of_nodes(&field[n++], "reference", PLACE), of_nodes(&field[n++], "position", PLACE);
+    Field *normal = of_nodes(&field[n++], "normal", NULL);
+    of_nodes(&field[n++], "slide", NULL), of_nodes(&field[n++], "friction", NULL);
+    memcpy(&of_nodes(&field[n++], "load", NULL)->value[3 * ELEMENTS], PULL, sizeof PULL);
+    field[n] = constant("contact_gap", NODES, 0, 0);
+    Field *gap = &field[n++];
+    for (int j = 0; j < NODES; j++) {
+        const double from = hypot(PLACE[3 * j], PLACE[3 * j + 1]);
+        gap->value[j] = j > 0 ? from - 1 : INFINITY;
+        for (int k = 0; k < 2; k++) normal->value[3 * j + k] = PLACE[3 * j + k] / from;
+    }
+    field[n] = (Field){"segment_force", ELEMENTS, 3, {0}};
+    memcpy(field[n++].value, FORCE, sizeof FORCE);
+    field[n++] = constant("friction_bound", NODES, 0, 0), field[n++] = constant("reaction", NODES, 0, 0);
+    field[n] = constant("tension", ELEMENTS, 0, 0);
+    memcpy(field[n++].value, TENSION, sizeof TENSION);
+    field[n++] = scalar("outcome", 0), field[n++] = scalar("iterations", 1);
+    field[n++] = scalar("parts", 1), field[n++] = scalar("share", 1);
+    field[n++] = (Field){"end_kind", 2, 0, {0, 1}};
+    field[n++] = (Field){"end_value", 2, 3, {PLACE[0], PLACE[1], 0, PULL[0], PULL[1], 0}};
+    field[n++] = (Field){"end_force", 2, 3, {-FORCE[0], -FORCE[1], 0, PULL[0], PULL[1], 0}};
+    field[n++] = (Field){"end_friction", 2, 3, {0}};
+    field[n++] = (Field){"end_tension", 2, 0, {4, 6}};
+    for (int k = 0; k < RANGES; k++) field[n++] = (Field){RANGE_NAME[k], 2, 0, {NAN, NAN}};
+    field[n++] = (Field){"proof", 3, 0, {0}};
+    static const char *const NONE[] = {
+        "dissipated", "proof_value",      "ledger_ends",     "ledger_elastic",    "ledger_gravity",   "ledger_imbalance",
+        "gap",        "tension_bound",    "force_residual",  "law_residual",      "contact_residual", "ledger_obstacles",
+        "penetration", "stretch_residual", "friction_residual", "tension_estimate", "element_penetration",
+        "unaccounted", "element_push",     "elongation_residual", "bend_turn",        "bend_friction",    "bend_at"};
+    for (size_t k = 0; k < sizeof NONE / sizeof *NONE; k++) field[n++] = scalar(NONE[k], 0);
+    field[n++] = scalar("primal", primal), field[n++] = scalar("dual", primal);
+    field[n++] = scalar("scale", 2 * (4 + 3.84 + 6 + 6) + least_scale(6, 8)), field[n++] = scalar("largest_force", 6);
+    return n;
+}
+
+int sample_write_post(const char *path) {
+    static const double TWOS[ELEMENTS] = {2, 2, 2, 2};
+    static const Bed POST = {.kind = 1, .axis = {0, 0, 2}, .radius = 1, .axial = MU, .lateral = MU};
+    Field field[MAX_FIELDS];
+    const size_t count = describe_post(field);
+    int nc, dims[3], status = begin_file(path, "line", "consistent", &nc, dims);
+    if (status) return status;
+    status = write_beds(nc, dims, &POST, 1);
+    if (!status) status = write_line(nc, dims, "line", TWOS, 0, field, field, count);
+    int closed = nc_close(nc);
+    return status ? status : closed;
+}
+
 int sample_write_corner(const char *path) {
     static const double ONES[ELEMENTS] = {1, 1, 1, 1};
     static const Bed BEDS[3] = {{.axis = {0, 0, 2}, .axial = 0.5, .lateral = 0.5},
@@ -467,6 +549,48 @@ int sample_write_corner(const char *path) {
     if (status) return status;
     status = write_beds(nc, dims, BEDS, 3);
     if (!status) status = write_line(nc, dims, "corner", ONES, C, field[0], field[1], count);
+    int closed = nc_close(nc);
+    return status ? status : closed;
+}
+
+/* ---- the slide ---- */
+
+/* Straight up to a drum of radius 1, two chords of a quarter turn over it, straight down. At half an eighth of a turn the
+ * pull falls by k = (1 - mu)/(1 + mu) = 1/3 from the first node on the drum to the top, and again to the last: 1 N at A
+ * holds 9 N at B, which is 10 N here. */
+static size_t describe_spill(Field *field) {
+    static const double PLACE[3 * NODES] = {-1, 0, -1, -1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, -1};
+    static const double MOTION[3 * NODES] = {0, 0, 1, -0.5, 0, 1, 1 / 3., 0, 1 / 6., 1 / 18., 0, -1 / 9., 0, 0, -1 / 9.};
+    const SampleLine line = {.name = "spill", .outcome = 7, .end_kind = {1, 1}};
+    const double fastest = sqrt(1.25);
+    size_t n = describe(&line, 1, field);
+    field[n++] = vectors("motion", NODES, NULL, 0);
+    n += no_elements(&field[n]);
+    for (size_t k = 0; k < n; k++) {
+        Field *f = &field[k];
+        if (strcmp(f->name, "reference") == 0 || strcmp(f->name, "position") == 0)
+            memcpy(f->value, PLACE, sizeof PLACE);
+        for (int i = 0; i < 3 * NODES && strcmp(f->name, "motion") == 0; i++) f->value[i] = MOTION[i] / fastest;
+        for (int j = 0; j < NODES && strcmp(f->name, "load") == 0; j++)
+            f->value[3 * j + 2] = j == 0 ? -1 : j + 1 == NODES ? -10 : 0;
+        if (strcmp(f->name, "end_value") == 0) f->value[2] = -1, f->value[3] = 0, f->value[5] = -10;
+        if (strcmp(f->name, "proof_value") == 0) f->value[0] = (10 / 9. - 1) / fastest;
+    }
+    return n;
+}
+
+int sample_write_spill(const char *path) {
+    static const Bed DRUM = {.kind = 1, .axis = {0, 1, 0}, .radius = 1, .axial = 0.5, .lateral = 0.5};
+    const double length[ELEMENTS] = {1, sqrt(2), sqrt(2), 1};
+    Field field[MAX_FIELDS];
+    const size_t count = describe_spill(field);
+    int nc, dims[3], status = begin_file(path, "spill", "consistent", &nc, dims);
+    if (status) return status;
+    // its chords are deeper than elements may lie: with strict contact nodes alone are kept out
+    (void)nc_redef(nc);
+    status = nc_put_att_text(nc, NC_GLOBAL, "contact", 6, "strict");
+    if (!status) status = write_beds(nc, dims, &DRUM, 1);
+    if (!status) status = write_line(nc, dims, "spill", length, C, field, field, count);
     int closed = nc_close(nc);
     return status ? status : closed;
 }

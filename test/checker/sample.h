@@ -24,6 +24,13 @@ int sample_write_set(const char *path);
  * nothing touches, with consistent friction. */
 int sample_write_corner(const char *path);
 
+/* Two equal steps of one line, "line", that goes over a post with consistent friction and touches it with an element. */
+int sample_write_post(const char *path);
+
+/* Two equal steps of one massless line, "spill", over a drum with mu = 1/2, which A follows and B pulls beyond the limit: it
+ * slides without end. */
+int sample_write_spill(const char *path);
+
 /* Overwrite one number: component `index` (flat; beyond the first step's: in the second) of a variable. */
 int sample_poke(const char *path, const char *variable, size_t index, double value);
 

@@ -41,8 +41,16 @@ Real surface_pierced(const Surface *s, const Real *a, const Real *b, Real l) {
     /* coming nearer at the start and going away at the end */
     if (!(dot(from, way) < 0 && dot(to, way) > 0)) return -INFINITY;
     cross(from, to, moment);
-    Real distance = size(moment) / size(way), chord = l * l / (4 * s->radius);
-    return s->radius - fminl(chord, s->radius / 4) - distance;
+    return s->radius - surface_allowance(s, l) - size(moment) / size(way);
+}
+
+Real surface_allowance(const Surface *s, Real l) { return fminl(l * l / s->radius, s->radius) / 4; }
+
+Real surface_facing(const Surface *s, const Real *a, const Real *b) {
+    Real from[3], to[3], way[3];
+    arm(s, a, from), arm(s, b, to);
+    for (int k = 0; k < 3; k++) way[k] = to[k] - from[k];
+    return (dot(from, from) - dot(from, to)) / dot(way, way);
 }
 
 void surface_carry(const Surface *s, const Real *x, Real angle, Real *out) {

@@ -20,7 +20,11 @@ typedef struct Surface {
 
 /* [m] above the surface, negative below it. */
 Real surface_distance(const Surface *surface, const Real *x);
-/* [m] How much deeper than its natural length l allows, min(l^2/(4 R), R/4), the straight element from a to b lies in a
+/* How deep an element of natural length l may lie in a round obstacle: its chord cuts in, min(l^2/(4 R), R/4). */
+Real surface_allowance(const Surface *surface, Real l);
+/* Where between its ends a (0) and b (1) an element is nearest to the axis or centre, if anywhere. */
+Real surface_facing(const Surface *surface, const Real *a, const Real *b);
+/* [m] How much deeper than its natural length l allows the straight element from a to b lies in a
  * round obstacle between its ends; negative where it does not, -INFINITY where an end is nearest to the middle. */
 Real surface_pierced(const Surface *surface, const Real *a, const Real *b, Real l);
 /* Unit normal at the foot of x. */

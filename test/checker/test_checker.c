@@ -116,8 +116,9 @@ static const Tamper TAMPER[] = {
     {"drag_outcome", 0, 1, "taut, but the line is elastic"},
     {"drag_outcome", 0, 4, "unbounded, but an end is held"},
     {"drag_outcome", 0, 5, "infeasible, but"},
-    {"drag_outcome", 0, 6, "not certified, as the file says"},
-    {"drag_outcome", 0, 7, "slides without end"},
+    {"drag_outcome", 0, 6, "mesh too coarse, but friction at one contact"},
+    {"drag_outcome", 0, 7, "slides without end, but an end is held"},
+    {"loose_outcome", 0, 7, "slides without end, but friction is frozen"},
     {"drag_outcome", 0, 8, "unknown outcome"},
     {"tight_end_value", 3, 3.999, "distance of the ends - length"},
     {"tight_position", 3, 1.1, "stretch"},
@@ -154,6 +155,12 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_penetration", 0, 1e-6, "claimed penetration"},
     {"wound_element_penetration", 0, 1e-6, "claimed element_penetration"},
     {"wound_element_length", 0, 0.1, "depth of an element inside an obstacle"},
+    {"wound_bend_turn", 0, 0.26, "claimed bend_turn"},
+    {"wound_bend_friction", 0, 0.25, "claimed bend_friction"},
+    {"wound_bend_at", 0, 0, "claimed turn at bend_at"},
+    {"wound_bend_turn", 1, NAN, "bend_turn holds a value that cannot be"},
+    {"wound_outcome", 0, 6, "mesh too coarse, but friction at one contact holds tensions in the ratio 1.13"},
+    {"obstacle_axial", 0, 7.3, "certified, but friction at one contact holds tensions in the ratio 23"},
     {"obstacle_turn", 1, -0.2, "slide against the way"},
     {"obstacle_turn", 1, -0.125 - 2 * 3.14159265358979323846, "quarters of a turn of an obstacle in one part"},
     {"wound_reference", 8, -1.75, "quarters of a turn that a node with friction went"},
@@ -226,6 +233,56 @@ static const Tamper CORNER_TAMPER[] = {
     {"corner_dissipated", 0, 0.05, "claimed dissipated"},
 };
 
+/* the element on the post is the second */
+static const Tamper POST_TAMPER[] = {
+    {"line_element_friction", 3, -1.61, "imbalance of forces"},
+    {"line_element_friction", 3, -3.1, "friction above its bound"},
+    {"line_element_friction", 4, 0.01, "friction along the normal"},
+    {"line_element_friction", 0, 1, "force without an obstacle"},
+    {"line_element_friction_bound", 1, 1.5, "friction above its bound"},
+    {"line_element_friction_bound", 1, 3.1, "friction bound"},
+    {"line_element_friction_bound", 2, 1, "force without an obstacle"},
+    {"line_element_reaction", 1, 6.001, "imbalance of forces"},
+    {"line_element_reaction", 1, -1, "adhesion"},
+    {"line_element_reaction", 0, 1, "force without an obstacle"},
+    {"line_element_normal", 4, 0.999, "normal against the obstacle's"},
+    {"line_element_slide", 3, 1e-9, "slide against the way"},
+    {"line_element_contact_gap", 1, 1e-9, "contact_gap against the distance"},
+    {"line_element_contact_gap", 1, INFINITY, "force without an obstacle"},
+    {"line_element_share", 1, 0.6001, "place of an element's contact"},
+    {"line_element_share", 1, 1.1, "element_share holds a value that cannot be"},
+    {"line_element_obstacle", 1, -1, "imbalance of forces"},
+    {"line_element_obstacle", 1, 1, "unknown obstacle"},
+    {"line_element_obstacle", 1, 0.5, "unknown obstacle"},
+    {"line_element_reaction", 1, NAN, "reaction holds a value that cannot be"},
+    {"line_element_length", 1, 1.9, "sum of local gaps"},
+    {"line_element_penetration", 0, 1e-6, "claimed element_penetration"},
+    {"line_position", 4, 0.74, "sum of local gaps"},
+    {"obstacle_radius", 0, 1.001, "depth of an element inside an obstacle"},
+    {"obstacle_radius", 0, 0.999, "contact_gap against the distance"},
+    {"obstacle_point", 0, 0.01, "place of an element's contact"},
+};
+
+/* a slide: its velocities, the loads that drive it, what it slides on */
+static const Tamper SPILL_TAMPER[] = {
+    {"spill_motion", 2, 0.88, "an element would lengthen"},
+    {"spill_motion", 8, 0.16, "an element would lengthen"},
+    {"spill_motion", 8, 0.1, "a node would press on an obstacle"},
+    {"spill_motion", 9, 0.04, "a node would press on an obstacle"},
+    {"spill_motion", 14, -0.1, "an element would lengthen"},
+    {"spill_motion", 5, 0, "the fastest node does not move at the speed 1"},
+    {"spill_motion", 5, NAN, "motion holds a value that cannot be"},
+    {"spill_end_value", 5, -8.9, "no power that nothing can take"},
+    {"spill_end_value", 2, -1.2, "no power that nothing can take"},
+    {"spill_load", 14, -14, "no power that nothing can take"}, // a line with weight
+    {"spill_end_kind", 0, 0, "an end is held"},
+    {"spill_proof_value", 0, 0.1, "proof_value"},
+    {"spill_reference", 6, 0.1, "an element would lengthen"},
+    {"obstacle_axial", 0, 0.51, "a node would press on an obstacle"},
+    {"obstacle_radius", 0, 1.001, "a node lies inside an obstacle"},
+    {"obstacle_kind", 0, 0, "a node would press on an obstacle"},
+};
+
 static void refuse_each(int (*write)(const char *), const Tamper *tamper, size_t count) {
     for (size_t i = 0; i < count; i++) {
         CHECK_INT(write(path), 0);
@@ -251,6 +308,8 @@ static void every_change_is_refuted(void **state) {
     refuse_each(sample_write_drum, DRUM_TAMPER, sizeof DRUM_TAMPER / sizeof *DRUM_TAMPER);
     refuse_each(sample_write_set, SET_TAMPER, sizeof SET_TAMPER / sizeof *SET_TAMPER);
     refuse_each(sample_write_corner, CORNER_TAMPER, sizeof CORNER_TAMPER / sizeof *CORNER_TAMPER);
+    refuse_each(sample_write_post, POST_TAMPER, sizeof POST_TAMPER / sizeof *POST_TAMPER);
+    refuse_each(sample_write_spill, SPILL_TAMPER, sizeof SPILL_TAMPER / sizeof *SPILL_TAMPER);
 }
 
 static void drum_is_certified(void **state) {
@@ -264,6 +323,24 @@ static void drum_is_certified(void **state) {
     CHECK_INT(checker_file(path, &report, stdout), 0);
     CHECK_INT(report.certified, 2);
     CHECK_NEAR(report.gap, 0, 1e-14);
+}
+
+static void post_is_certified(void **state) {
+    (void)state;
+    CheckerReport report;
+    CHECK_INT(sample_write_post(path), 0);
+    CHECK_INT(checker_file(path, &report, stdout), 0);
+    CHECK_INT(report.certified, 2);
+    CHECK_NEAR(report.gap, 0, 1e-14); // rounding of the sample's doubles
+}
+
+static void spill_is_certified(void **state) {
+    (void)state;
+    CheckerReport report;
+    CHECK_INT(sample_write_spill(path), 0);
+    CHECK_INT(checker_file(path, &report, stdout), 0);
+    CHECK_INT(report.certified, 2);
+    CHECK_INT(report.outcome[7], 2);
 }
 
 static void corner_is_certified(void **state) {
@@ -361,7 +438,8 @@ static void what_is_no_result_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_solution_is_certified), cmocka_unit_test(drum_is_certified),
-        cmocka_unit_test(corner_is_certified),         cmocka_unit_test(every_change_is_refuted),
+        cmocka_unit_test(spill_is_certified),          cmocka_unit_test(corner_is_certified),
+        cmocka_unit_test(post_is_certified),           cmocka_unit_test(every_change_is_refuted),
         cmocka_unit_test(ways_are_geodesics),          cmocka_unit_test(sets_are_ellipse_and_box),
         cmocka_unit_test(supports_and_distances),      cmocka_unit_test(what_is_no_result_is_refused),
     };

@@ -30,7 +30,7 @@ def check_summary(directory):
         assert abs(ledger["ends"] + ledger["obstacles"] - spent) <= 1e-12 * sum(abs(x) for x in ledger.values()), ledger
         assert set(step["energy"]) == {"primal_J", "dual_J", "gap_J", "scale_J"}
         for name, line in step["lines"].items():
-            assert set(line) - {"proof"} == LINE_KEYS, set(line)
+            assert set(line) - {"proof", "bend"} == LINE_KEYS, set(line)
             assert set(line["A"]) == {"position_m", "force_N", "tension_N", "tension_range_N"} and len(line["B"]["force_N"]) == 3
             assert name in step["tension_bound_rms_N"]
     assert "\x1b[31m" in summary["title"] and "</title>" in summary["title"], summary["title"]
@@ -47,7 +47,7 @@ def check_history(directory, summary):
         rows = list(csv.reader(file))
     names, units, rows = rows[0], rows[1], rows[2:]
     assert len(rows) == len(summary["steps"]) and len(set(names)) == len(names) == len(units)
-    assert all(unit in ("", "1", "s", "m", "N", "J") for unit in units), units
+    assert all(unit in ("", "1", "s", "m", "N", "J", "rad") for unit in units), units
     for row, step in zip(rows, summary["steps"]):
         assert len(row) == len(names)
         value = dict(zip(names, row))

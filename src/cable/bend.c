@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bends round obstacles (bend.h).
+ *
+ * A node at which a line under the tensions T and T' turns by d round an obstacle is pressed by R = (T + T') sin(d/2) and rubbed by
+ * F = (T' - T) cos(d/2), so that |F| <= mu R holds tensions up to the ratio k = (1 + mu tan(d/2))/(1 - mu tan(d/2)) where a smooth
+ * line holds exp(mu d). They agree to order d^3, and at mu tan(d/2) = 1 the node holds anything.
+ *
+ * Only the turn towards the obstacle presses: asin(e.n) - asin(e'.n), e and e' the directions of the two forces. A line bent to the
+ * side on a surface is held by friction that its weight or other bends give, and loses nothing of the law. Nor do planes press by a turn: both
+ * elements of a node on a plane lead away from it. */
+#include "cable/bend.h"
+
+#include "cable/rub_set.h"
+#include "linsys/frame.h"
+
+/* A force below this share of the largest one has the direction that rounding gave it. */
+static const double LEAST_FORCE = 1e-9;
+/* Ratios that differ by this share are told; the mesh that keeps them nearer is the one that is advised. */
+static const double TOLD = 0.01;
+/* From mu tan(d/2) = 1 on any tension is held; from here on the ratio, 19 and more, is the mesh's. */
+static const double LOCKED = 0.9;
+
+/* ln of the ratio of tensions that a turn by d holds. */
+static double held(double friction, double turn) {
+    const double t = friction*tan(0.5*turn);
+    return t < 1 ? 2*atanh(t) : INFINITY;
+}
+
+/* How far the node holds more than a smooth line: ln of the quotient of the ratios. */
+static double excess(const CpsBend *bend) { return held(bend->friction, bend->turn) - bend->friction*bend->turn; }
+
+bool cpsi_bend_locks(const CpsBend *bend) { return bend->friction*tan(0.5*bend->turn) >= LOCKED; }
+
+bool cpsi_bend_is_sharper(const CpsBend *a, const CpsBend *b) {
+    const bool locks = cpsi_bend_locks(a);
+    return locks != cpsi_bend_locks(b) ? locks : excess(a) > excess(b);
+}
+
+/* The turn from which on the two ratios differ by what is told. */
+static double told_turn(double friction) {
+    double low = 0, high = acos(-1.0);
+    for (int i = 0; i < 60; i++) {
+        const double turn = 0.5*(low + high);
+        if (held(friction, turn) - friction*turn < log1p(TOLD)) low = turn;
+        else high = turn;
+    }
+    return low;
+}
+
+/* The larger coefficient for a slip along the line, this way or that: the support of the set of forces. */
+static double friction_along(const CpsiLine *line, int c, Vec3 along) {
+    const CpsiRubSet set = cpsi_rub_set(line, c);
+    double wanted[3], way[3];
+    vec3_store(wanted, along);
+    cpsi_frame_to(way, cpsi_line_axes(line, c), wanted);
+    const double size = hypot(way[0], way[1]);
+    const double forth[2] = {size > 0 ? way[0]/size : 1, size > 0 ? way[1]/size : 0}, back[2] = {-forth[0], -forth[1]};
+    return fmax(cpsi_rub_dissipation(&set, set.friction, forth), cpsi_rub_dissipation(&set, set.friction, back));
+}
+
+/* The bend at contact c; turn 0 where the reaction does not come from a turn of the line round a curved obstacle. */
+static CpsBend bend_of(const CpsiLine *line, int c) {
+    const int j = cpsi_line_node(line, c);
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    CpsBend bend = {0};
+    if (j == 0 || j == line->n - 1 || !obstacle || obstacle->kind == CPS_OBSTACLE_PLANE ||
+        !(line->reaction[c] > 0 && line->friction_bound[c] > 0))
+        return bend;
+    const Vec3 before = vec3_load(&line->segment_force[3*(j - 1)]), after = vec3_load(&line->segment_force[3*j]);
+    const double least = LEAST_FORCE*line->report.certificate.largest_force, p = vec3_norm(before), q = vec3_norm(after);
+    if (!(p > least && q > least)) return bend;
+    const Vec3 n = vec3_load(&line->normal[3*c]), e = vec3_scale(1/p, before), f = vec3_scale(1/q, after);
+    const double rise = fmax(-1, fmin(1, vec3_dot(e, n))), fall = fmax(-1, fmin(1, vec3_dot(f, n)));
+    bend.turn = fmax(0, asin(rise) - asin(fall));
+    if (bend.turn > 0) bend.friction = friction_along(line, c, vec3_add(e, f));
+    bend.arc_length = line->arc_length[j];
+    bend.obstacle = (int)(obstacle - line->obstacle);
+    return bend;
+}
+
+CpsBend cpsi_line_bend(const CpsiLine *line) {
+    CpsBend worst = {0};
+    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
+        const CpsBend bend = bend_of(line, c);
+        if (cpsi_bend_is_sharper(&bend, &worst)) worst = bend;
+    }
+    if (!(worst.turn > 0)) return worst;
+    worst.ratio = exp(held(worst.friction, worst.turn));
+    worst.coulomb = exp(worst.friction*worst.turn);
+    worst.element = 2*line->obstacle[worst.obstacle].radius*sin(0.5*told_turn(worst.friction));
+    return worst;
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Lines against posts and balls that are thin beside their elements: nodes are kept out of them and so are elements.
+ *
+ * A line of 2 m, EA = 1e4 N, drawn out by 1 %, is carried sideways against a post by both of its ends. Without friction it is a string drawn
+ * over the post: two tangents and an arc. Here it is a chain; its chords cut in by up to min(l^2/(4 R), R/4). */
+#include "rig.h"
+
+static const double LENGTH = 2, STIFFNESS = 1e4, STRETCH = 1.01;
+
+/* m below an obstacle of radius R at which an element of natural length l lies at most */
+static double allowed(double l, double radius) { return fmin(l * l / (4 * radius), radius / 4); }
+
+/* The deepest place of any element, at 200 places of each, beyond what is allowed. */
+static double deepest(const Rig *rig, const CpsLineView *v) {
+    const CpsObstacle *o = &rig->scene.obstacle[0];
+    double worst = -INFINITY;
+    for (int e = 0; e < v->elements; e++)
+        for (int i = 0; i <= 200; i++) {
+            double from[3];
+            for (int k = 0; k < 3; k++) {
+                const double a = v->position[3 * e + k], b = v->position[3 * e + 3 + k];
+                from[k] = a + (b - a) * i / 200 - o->point[k];
+            }
+            const double out = o->kind == CPS_OBSTACLE_SPHERE ? hypot(hypot(from[0], from[1]), from[2]) : hypot(from[0], from[1]);
+            worst = fmax(worst, o->radius - out - allowed(v->element_length[e], o->radius));
+        }
+    return worst;
+}
+
+/* A line along x at height `below`, its middle `off` beside the obstacle's axis (z) or centre, is taken to height `above`. */
+static RigRun pose(Rig *rig, CpsObstacleKind kind, double radius, double mu, int elements, double off, double below, double above,
+                   int steps) {
+    const double half = 0.5 * STRETCH * LENGTH;
+    rig_begin(rig, elements, 0, STIFFNESS);
+    rig_length(rig, LENGTH);
+    rig_obstacle(rig, kind, mu);
+    CpsObstacle *o = (CpsObstacle *)(uintptr_t)&rig->scene.obstacle[0];
+    o->radius = radius;
+    for (int k = 0; k < 3; k++) o->point[k] = 0, o->axis[k] = k == 2;
+    rig_point(rig, off - half, below, 0);
+    rig_point(rig, off + half, below, 0);
+    rig_end(rig, CPS_END_A, CPS_END_HELD, off - half, below, 0);
+    rig_end(rig, CPS_END_B, CPS_END_HELD, off + half, below, 0);
+    rig_stage(rig, steps);
+    rig_change(rig, CPS_END_A, CPS_END_HELD, off - half, above, 0);
+    rig_change(rig, CPS_END_B, CPS_END_HELD, off + half, above, 0);
+    return rig_open(rig);
+}
+
+/* Every step is solved, passes the audit, and no element lies deeper than its chord may. */
+static void carry(const char *name, CpsObstacleKind kind, double radius, double mu, double h, double off, int steps) {
+    static Rig rig;
+    RigRun run = pose(&rig, kind, radius, mu, (int)(LENGTH / h + 0.5), off, -1.5 * radius - 0.02, 0.2, steps);
+    double worst = -INFINITY, least = INFINITY;
+    for (int k = 0; k < steps; k++) {
+        const CpsLineView view = rig_step(&run);
+        worst = fmax(worst, deepest(&rig, &view));
+        CHECK_LESS(run.report.certificate.element_penetration, 1e-10 * LENGTH);
+        for (int e = 0; e < view.elements; e++) least = fmin(least, view.element_reaction[e]);
+    }
+    rig_show(name, "deepest element beyond its chord [m]", 0, fmax(0, worst));
+    /* rounds end where nothing is deeper than 1e-10 of the length */
+    CHECK_LESS(worst, 1e-9);
+    CHECK_LESS(-least, 1e-300);
+    rig_close(&run);
+}
+
+static void thin_posts(void **state) {
+    (void)state;
+    carry("R = 0.05, h = 0.1, one step", CPS_OBSTACLE_CYLINDER, 0.05, 0.3, 0.1, 0.026, 1);
+    carry("R = 0.05, h = 0.1", CPS_OBSTACLE_CYLINDER, 0.05, 0.3, 0.1, 0.026, 4);
+    carry("R = 0.08, h = 0.2", CPS_OBSTACLE_CYLINDER, 0.08, 0.3, 0.2, 0.07, 20);
+    carry("R = 0.01, h = 0.1", CPS_OBSTACLE_CYLINDER, 0.01, 0.3, 0.1, 0.026, 100);
+    carry("R = 0.01, h = 0.1, smooth", CPS_OBSTACLE_CYLINDER, 0.01, 0, 0.1, 0.026, 50);
+}
+
+/* The tension over a smooth post against that of a string, at h from two radii down. The nodes lie on the post in the end, and a chord of it is
+ * shorter than its arc by h^3/(24 R^2): in all by turn h^2/(24 R), and by up to h^3/(6 R^2) at either end of the arc, where the string
+ * leaves the post within an element. */
+static void order(void **state) {
+    (void)state;
+    static Rig rig;
+    const double radius = 0.1, above = 0.2, half = 0.5 * STRETCH * LENGTH, quarter = 1.57079632679489661923;
+    const double r = hypot(half, above), straight = sqrt(r * r - radius * radius);
+    const double turn = 2 * (quarter + atan2(above, half) - acos(radius / r));
+    const double exact = STIFFNESS * ((2 * straight + radius * turn) / LENGTH - 1);
+    for (int n = 10; n <= 640; n *= 4) {
+        RigRun run = pose(&rig, CPS_OBSTACLE_CYLINDER, radius, 0, n, 0.0, -0.2, above, 4);
+        CpsLineView view = {0};
+        for (int i = 0; i < 4; i++) view = rig_step(&run);
+        const double h = LENGTH / n, off = rig_show("smooth post", "tension [N]", exact, rig_tension(&view, 0));
+        const double chords = fmin(radius * turn * turn * turn, h * h / radius * (turn + 8 * h / radius)) / 24;
+        CHECK_LESS(fabs(off), STIFFNESS / LENGTH * (h < radius ? chords : 2 * allowed(h, radius)));
+        rig_close(&run);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(thin_posts), cmocka_unit_test(order)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

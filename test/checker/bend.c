@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bends (bend.h). Two forces of a line and the action of a contact make a triangle. On the verge of slipping the action
+ * is the angle of friction phi = atan(mu) away from the normal, and a line that turns by d evenly to both sides of it
+ * meets it under 90 degrees less d/2 - phi on one side and less d/2 + phi on the other, so that by the law of sines the
+ * forces are as cos(d/2 - phi) to cos(d/2 + phi). From 90 degrees on they may have any ratio. */
+#include "bend.h"
+
+#include <math.h>
+
+static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* unit vector of a force; false where it is too small to have a direction */
+static bool unit(const double *force, Real least, Real *out) {
+    for (int k = 0; k < 3; k++) out[k] = force[k];
+    Real size = sqrtl(dot(out, out));
+    if (!(size > least)) return false;
+    for (int k = 0; k < 3; k++) out[k] /= size;
+    return true;
+}
+
+/* angle of a direction above the tangent plane */
+static Real above(const Real *e, const Real *n) {
+    Real rise = dot(e, n), flat[3];
+    for (int k = 0; k < 3; k++) flat[k] = e[k] - rise * n[k];
+    return atan2l(rise, sqrtl(dot(flat, flat)));
+}
+
+/* The larger coefficient for a slip along the line, this way or that: what friction does against a slip of 1 under a
+ * reaction of 1. */
+static Real friction_along(const Surface *surface, const Real *n, const Real *line, const Real *chord, Real factor) {
+    Real axes[2][3], way[2], most = 0, phi;
+    static const Real none[2] = {0, 0};
+    if (!surface_axes(surface, n, chord, axes)) return 0;
+    for (int a = 0; a < 2; a++) way[a] = dot(line, axes[a]);
+    Real size = hypotl(way[0], way[1]);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const Real slip[2] = {size > 0 ? sign * way[0] / size : sign, size > 0 ? sign * way[1] / size : 0};
+        surface_gap(surface, factor * surface_friction(surface), none, slip, &phi);
+        most = fmaxl(most, phi);
+    }
+    return most;
+}
+
+static Real ratio_of(Real turn, Real friction) {
+    Real phi = atanl(friction), low = cosl(turn / 2 + phi);
+    return low > 0 ? cosl(turn / 2 - phi) / low : INFINITY;
+}
+
+/* turn and coefficient at contact c of node j; no turn where nothing rubs, or the obstacle is flat */
+static void bend_at(const Source *source, const Record *r, bool reached, size_t j, size_t c, Real least, Real *turn,
+                    Real *friction) {
+    *turn = *friction = 0;
+    if (j == 0 || j == r->elements || !(r->reaction[c] > 0) || !(r->friction_bound[c] > 0)) return;
+    const Surface *surface = &source->surface[source->surfaces > 1 ? (size_t)r->obstacle[c] : 0];
+    Real before[3], after[3], n[3], line[3], chord[3], here[3], plane[3];
+    Vector *place = reached ? r->position : r->reference;
+    if (surface->kind == SURFACE_PLANE || !unit(r->segment_force[j - 1], least, before) ||
+        !unit(r->segment_force[j], least, after))
+        return;
+    for (int k = 0; k < 3; k++) {
+        n[k] = r->normal[c][k];
+        line[k] = before[k] + after[k];
+        chord[k] = (Real)place[j + 1][k] - place[j - 1][k];
+        here[k] = place[j][k];
+    }
+    surface_normal(surface, here, plane);
+    *turn = fmaxl(0, above(before, n) - above(after, n));
+    if (*turn > 0) *friction = friction_along(surface, plane, line, chord, r->factor ? r->factor[j] : 1);
+}
+
+Bend bend_of_record(const Source *source, const Record *r, bool reached, double largest_force) {
+    Bend bend = {.ratio = 1};
+    Real worst = 0, arc = 0, length = 0;
+    for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
+    for (size_t j = 0; j < r->nodes; arc += j < r->elements ? r->element_length[j] : 0, j++) {
+        for (size_t c = j; source->surfaces > 0 && c < r->contacts * r->nodes; c += r->nodes) {
+            Real turn, friction;
+            bend_at(source, r, reached, j, c, 1e-9L * largest_force, &turn, &friction);
+            if (fabsl(arc - r->bend_at) <= 1e-12L * length) bend.there = fmax(bend.there, (double)turn);
+            Real ratio = ratio_of(turn, friction), off = logl(ratio) - friction * turn;
+            // what locks counts before what is only far off
+            if (isfinite(off) && ratio >= 19) off += 1e6L;
+            if (!(off > worst)) continue;
+            worst = off;
+            bend.turn = (double)turn, bend.friction = (double)friction, bend.ratio = (double)ratio;
+        }
+    }
+    return bend;
+}
