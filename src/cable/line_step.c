@@ -461,10 +461,11 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.outcome = CPS_STALLED;
 }
 
-/* Solve in one way or another: with places as they are found, should the rule of least motion be in the way; slowly, where a line without tension has no place of its own to settle at; with reactions that turn with
- * their normals late, and not in statics, because they have a line stay on a crest that it would leave; then also without centrings:
- * where hardly any force is left, the centre may lie farther from the boundary than the tolerance lets it. Last with bounds that are tried: where
- * what rests in a corner has many answers, the loop with bounds that follow ends far from the boundary. */
+/* Solve in one way or another: with places as they are found, should the rule of least motion be in the way; slowly, where a line without
+ * tension has no place of its own to settle at; with reactions that turn with their normals late, and not in statics, because they have a
+ * line stay on a crest that it would leave; then also without centrings: where hardly any force is left, the centre may lie farther from
+ * the boundary than the tolerance lets it. Last with bounds that are tried: where what rests in a corner has many answers, the loop with
+ * bounds that follow ends far from the boundary. */
 static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     enum { QUICK, AS_FOUND, SLOW, TURNING, TRYING, WAYS };
     const int first = line->follows && options->frictionless ? SLOW : QUICK;
@@ -534,7 +535,7 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
     }
     for (int k = 0; k < line->obstacle_count; k++)
         if (line->turn[k] != 0) return false;
-    for (int c = 0; c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3], inside[3];
         const CpsiRubSet set = cpsi_rub_set(line, c);
         const double bound = line->friction_bound[c];
@@ -560,7 +561,7 @@ static bool stays(CpsiLine *line, const CpsiStepOptions *options, const CpsLineR
     const CpsCertificate *c = &line->report.certificate;
     line->report.outcome = judge(line, options, &nothing_left);
     if (!cps_outcome_is_certified(line->report.outcome) || !(c->gap <= fmax(before->certificate.gap, TARGET*c->scale))) return false;
-    for (int i = 0; i < cpsi_line_contacts(line); i++)
+    for (int i = 0; i < cpsi_line_all_contacts(line); i++)
         if (line->state[i] == CPS_NODE_SLIP) line->state[i] = CPS_NODE_STICK;
     line->report.slack = before->slack;
     line->report.places = before->places == CPS_PLACES_UNIQUE ? CPS_PLACES_UNIQUE : CPS_PLACES_NEAREST;
@@ -577,7 +578,7 @@ static void keep_ends(CpsiLine *line) {
 }
 
 bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, double margin) {
-    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_contacts(line);
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (options->friction != CPS_FRICTION_CONSISTENT || options->frictionless) return false;
     keep_ends(line);
     pose(line, options);

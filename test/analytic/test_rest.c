@@ -59,7 +59,8 @@ static bool copy(const Rig *rig, const CpsLineView *view, const CpsLineReport *r
                            .contact = out->contact,
                            .frozen = rig->scene.friction == CPS_FRICTION_FROZEN,
                            .held = {view->end[0].kind == CPS_END_HELD, view->end[1].kind == CPS_END_HELD},
-                           .force = 1.37 * report->certificate.largest_force}; /* a unit of its own, so that the two programs differ */
+                           .force = 1.37 * report->certificate.largest_force}; /* a unit of its own: at places held exactly
+                              the checker's program breaks down on one drum in the program's unit, and says so with NaN */
     for (int c = 0; c < view->contacts * n; c++) {
         const double *x = &view->position[3 * (c % n)], *from = &view->reference[3 * (c % n)], *normal = &view->normal[3 * c];
         const int on = view->obstacle ? view->obstacle[c] : 0;

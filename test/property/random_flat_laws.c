@@ -45,7 +45,7 @@ static void need(CpsStatus status, const char *call) {
     exit(1);
 }
 
-/* ---- exact elimination: integers, numbers a/b never needed ---- */
+/* ---- exact elimination in integers ---- */
 
 typedef long long Integer;
 
