@@ -16,6 +16,7 @@
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
+#include "run_regularized.h"
 #include "stop.h"
 #include "study_methods.h"
 #include "study_solutions.h"
@@ -180,10 +181,19 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
     return code;
 }
 
-static int study(const CpsScene *scene, const char *directory, const CliOptions *options) {
+/* Say which friction bounds the solutions are judged with. */
+static void tell_bounds(const CpsScene *scene) {
+    puts(scene->friction == CPS_FRICTION_CONSISTENT ? "friction: consistent, A = mu R at x; P4.2 and P3.1 are those with this A"
+                                                    : "friction: frozen, A = mu R_R of the reference, (78)");
+}
+
+/* The methods of the paper take the frozen history; configurations are judged and completed in the scene's own. */
+static int study(const CpsScene *given, const char *directory, const CliOptions *options) {
     CpsError err;
     CpsEvolution *evolution = NULL;
-    if (cps_evolution_create(scene, &evolution, &err) != CPS_OK) return cli_report(&err);
+    const bool solutions = options->judge || options->complete;
+    const CpsScene scene = solutions ? *given : regularized_scene(given);
+    if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
     const int line = find_line(evolution, options->line);
     int code = line < 0 ? EXIT_USAGE : reach_step(evolution, options->step);
     if (code == EXIT_OK) {
@@ -193,11 +203,17 @@ static int study(const CpsScene *scene, const char *directory, const CliOptions 
         const int parts = cps_evolution_line_report(evolution, line).parts;
         if (parts > 1)
             fprintf(stderr, "capstan study: the step was taken in %d parts: this is about the last one\n", parts);
-        snprintf(title, sizeof title, "%.120s: %.60s, %.60s", scene->title ? scene->title : "capstan", step.name,
+        snprintf(title, sizeof title, "%.120s: %.60s, %.60s", scene.title ? scene.title : "capstan", step.name,
                  view.name);
         if (!options->quiet) {
             cli_put_text(stdout, title, 240, false);
             putchar('\n');
+            if (solutions) {
+                tell_bounds(given);
+            } else {
+                regularized_tell_friction(given);
+                regularized_tell_steps(given);
+            }
         }
         if (options->judge)
             code = study_judge(&view, options->judge, options->quiet);

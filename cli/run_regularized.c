@@ -32,6 +32,16 @@ CpsScene regularized_scene(const CpsScene *scene) {
     return frozen;
 }
 
+void regularized_tell_friction(const CpsScene *scene) {
+    if (scene->friction == CPS_FRICTION_CONSISTENT)
+        puts("friction: A = mu R_R of the reference, (78), in every step, as P2.1 has it; the scene's own, consistent, is A = mu R at x");
+}
+
+void regularized_tell_steps(const CpsScene *scene) {
+    if (scene->solver.path_tolerance > 0)
+        puts("steps are taken whole, as given: the scene's path_tolerance is not applied to any method");
+}
+
 CpsStatus regularized_step(Regularized *method, const CpsLineView *exact, CpsClassicParameters *parameters,
                            CpsClassicReport *report, CpsError *err) {
     CpsClassic *next = NULL;
@@ -242,7 +252,11 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
         const bool some = h.done > 1 || h.steps == 1;
         const int written = some ? write_results(&h, cli_now() - begun, directory, options) : EXIT_OK;
         if (written != EXIT_OK) code = written;
-        if (some && written == EXIT_OK && !options->quiet && !options->json) tell(&h, directory);
+        if (some && written == EXIT_OK && !options->quiet && !options->json) {
+            regularized_tell_friction(scene);
+            regularized_tell_steps(scene);
+            tell(&h, directory);
+        }
         if (code == EXIT_OK && !all_converged(&h)) code = EXIT_NOT_CERTIFIED;
         if (cli_stopped())
             fprintf(stderr, "capstan: stopped by a signal after %d of %d steps\n", h.done - 1, h.steps - 1);

@@ -20,6 +20,10 @@ double regularized_friction(const CpsScene *scene, const char *command);
 /* The scene with what the method asks for: friction frozen, steps whole. */
 CpsScene regularized_scene(const CpsScene *scene);
 
+/* Say where that is not what the scene asks for: its friction; its steps in parts. */
+void regularized_tell_friction(const CpsScene *scene);
+void regularized_tell_steps(const CpsScene *scene);
+
 /* The step that the exact history has just taken, at the parameters with which a study ends. */
 CpsStatus regularized_step(Regularized *method, const CpsLineView *exact, CpsClassicParameters *parameters,
                            CpsClassicReport *report, CpsError *err);

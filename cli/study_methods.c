@@ -59,7 +59,10 @@ static int regularise(Histories *h, const CpsLineView *view, int step, Regulariz
 /* all steps of one evolution; the frozen one takes the regularised method along */
 static int run_evolution(Histories *h, int method, int line) {
     CpsScene scene = regularized_scene(h->scene);
-    if (method == CONSISTENT) scene.friction = CPS_FRICTION_CONSISTENT, scene.solver = h->scene->solver;
+    if (method == CONSISTENT) {
+        scene.friction = CPS_FRICTION_CONSISTENT;
+        scene.solver.halvings = h->scene->solver.halvings; /* nothing promises that a whole step converges */
+    }
     CpsError err;
     CpsEvolution *evolution = NULL;
     Regularized own = {.friction = h->friction};
@@ -124,7 +127,7 @@ static int run_all(Histories *h, const char *directory, bool quiet) {
     const CpsStatus status = cps_methods_write(directory, title, METHODS, method, h->steps, h->points, name, &err);
     free(name);
     if (status != CPS_OK) return cli_report(&err);
-    if (!quiet) tell(h);
+    if (!quiet) regularized_tell_steps(h->scene), tell(h);
     if (!quiet) printf("\nresults   %s: methods.csv, methods.svg\n", directory);
     if (!h->converged) fprintf(stderr, "capstan study: a regularised solve did not converge\n");
     return h->converged ? EXIT_OK : EXIT_NOT_CERTIFIED;

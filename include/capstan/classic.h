@@ -109,7 +109,8 @@ CPS_API CpsClassicParameters cps_classic_fine(const CpsClassic *classic);
 
 /* The next step of a history of the regularised method by itself: loads, ends and normals of `step`, but the reference
  * is the last solution of `previous` on the step's own elements, and the friction bound is `friction` times the push of
- * the penalty there, mu R_R of section 2 d 2. Errors of one step go into the next.
+ * the penalty there, mu R_R of section 2 d 2, times the friction factor of the step's zones. Errors of one step go into
+ * the next.
  *
  *   step      of the exact history, on a plane obstacle or none
  *   friction  mu of the obstacle, >= 0

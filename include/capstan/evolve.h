@@ -212,6 +212,7 @@ typedef struct CpsLineView {
     const double *normal;             /* (contacts, n, 3) [-] that of the obstacle at the configuration reached; 0 0 0 without */
     const double *gap;                /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked for */
     const double *friction_bound;     /* (contacts, n) [N] w = A h, of the larger coefficient (of a friction set: its multiple); 0 where friction does not act */
+    const double *friction_factor;    /* (n) [-] of the friction zones, the mean over the length that a node stands for; NULL: 1 */
     const double *friction;           /* (contacts, n, 3) [N] F, in the set of forces that w bounds */
     const double *reaction;           /* (contacts, n) [N] R >= 0, along the normal */
     const double *slide;              /* (contacts, n, 3) [m] way on the obstacle in this step, tangential, on a curved one along the

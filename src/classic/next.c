@@ -10,14 +10,21 @@
 #include "classic/handle.h"
 #include "classic/places.h"
 
+/* [N] what the obstacle pushed on a place of the last solution: the penalty's force, or where an end was held that of its half element */
+static double push_of(const CpsClassic *previous, int j, double height) {
+    const CpsiCells *own = &previous->cells;
+    if (j == own->cells && previous->step.held) return cpsi_end_push(previous, CPS_END_B);
+    return previous->f.parameters.penalty*own->share[j]*fmax(0, -height);
+}
+
 /* reference, gap and bound of a node as the last solution has them */
 static void continue_node(CpsiCells *own, const CpsClassic *previous, double friction, int j) {
     const Vec3 from = cpsi_at(own->reference, j), now = cpsi_at(previous->f.place, j), n = cpsi_at(own->normal, j);
     vec3_store(own->reference + 3*(size_t)j, now);
-    if (isfinite(own->gap[j])) own->gap[j] += vec3_dot(n, vec3_sub(now, from));
-    const double sunk = isfinite(own->gap[j]) ? fmax(0, -own->gap[j]) : 0;
-    own->bound[j] =
-        own->bound[j] > 0 || sunk > 0 ? friction*previous->f.parameters.penalty*own->share[j]*sunk : 0;
+    own->bound[j] = 0;
+    if (!isfinite(own->gap[j])) return;
+    own->gap[j] += vec3_dot(n, vec3_sub(now, from));
+    own->bound[j] = friction*own->factor[j]*push_of(previous, j, own->gap[j]);
 }
 
 CpsStatus cps_classic_next(const CpsLineView *step, double friction, const CpsClassic *previous, CpsClassic **out,

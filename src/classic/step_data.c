@@ -19,6 +19,7 @@ static void layout(CpsiCells *c, int cells, CpsiArena *arena) {
                      .normal = CPSI_TAKE(arena, 3*(size_t)n, double),
                      .gap = CPSI_TAKE(arena, n, double),
                      .bound = CPSI_TAKE(arena, n, double),
+                     .factor = CPSI_TAKE(arena, n, double),
                      .load = CPSI_TAKE(arena, 3*(size_t)n, double),
                      .tension = CPSI_TAKE(arena, cells, double),
                      .position = CPSI_TAKE(arena, 3*(size_t)n, double)};
@@ -37,6 +38,7 @@ static void fill_own(CpsiCells *own, const CpsLineView *view) {
     memcpy(own->load, view->load, 3*n*sizeof(double));
     memcpy(own->tension, view->tension, elements*sizeof(double));
     memcpy(own->position, view->position, 3*n*sizeof(double));
+    for (size_t j = 0; j < n; ++j) own->factor[j] = view->friction_factor ? view->friction_factor[j] : 1;
     for (size_t i = 0; i < elements; ++i) {
         own->share[i] += own->width[i]/2;
         own->share[i + 1] += own->width[i]/2;
@@ -115,12 +117,15 @@ static void mix3(double t, const double *v, int i, double out[3]) {
     for (int k = 0; k < 3; ++k) out[k] = mix(t, v[3*(size_t)i + (size_t)k], v[3*(size_t)(i + 1) + (size_t)k]);
 }
 
-/* friction bound per length; a held node has none, and is given its neighbour's */
+double cpsi_zone_ratio(const CpsiCells *cells, int place, int next) {
+    return cells->factor[next] > 0 ? cells->factor[place]/cells->factor[next] : 0;
+}
+
+/* friction bound per length; a held node has none, and is given its neighbour's with its own zone factor */
 static double bound_at(const CpsiStep *step, int node) {
     const CpsiCells *own = &step->own;
-    if (node == 0) node = 1;
-    if (node == own->cells && step->held) node = own->cells - 1;
-    return own->bound[node]/own->share[node];
+    const int from = node == 0 ? 1 : node == own->cells && step->held ? own->cells - 1 : node;
+    return own->bound[from]/own->share[from]*(from == node ? 1 : cpsi_zone_ratio(own, node, from));
 }
 
 /* everything at place j of the external cells, from element i and position t along it */
@@ -135,6 +140,7 @@ static void sample(CpsiCells *c, int j, const CpsiStep *step, int i, double t) {
     if (norm > 0) vec3_store(c->normal + k, vec3_scale(1/norm, n));
     c->gap[j] = mix(t, own->gap[i], own->gap[i + 1]);
     c->bound[j] = c->share[j]*mix(t, bound_at(step, i), bound_at(step, i + 1));
+    c->factor[j] = mix(t, own->factor[i], own->factor[i + 1]);
 
     /* loads per length without the force on end B, which stays on the last place */
     for (int x = 0; x < 3; ++x) {

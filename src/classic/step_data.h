@@ -22,6 +22,7 @@ typedef struct CpsiCells {
     double *normal;    /* (m + 1, 3) */
     double *gap;       /* (m + 1) [m], INFINITY: no contact */
     double *bound;     /* (m + 1) [N] friction */
+    double *factor;    /* (m + 1) [-] of the coefficient of friction, by zones */
     double *load;      /* (m + 1, 3) [N] */
     double *tension;   /* (m) [N] of the step's solution, in the middle of the cell */
     double *position;  /* (m + 1, 3) [m] of the step's solution */
@@ -45,6 +46,9 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
 /* Cells: those of the step's elements, arrays of the step, when cells is 0; else the external approximation of that
  * number, placed in an arena: called twice, as arena.h says, and filled by the second call. */
 void cpsi_cells_place(CpsiCells *out, const CpsiStep *step, int cells, CpsiArena *arena);
+
+/* [-] The friction factor of a place over that of its neighbour; 0 where the neighbour has none. */
+double cpsi_zone_ratio(const CpsiCells *cells, int place, int next);
 
 /* Value at abscissa `at` of a quantity given in the middles of cells with ends arc (cells + 1); linear between the
  * middles, constant beyond the outer ones. */

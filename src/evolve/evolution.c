@@ -468,6 +468,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .normal = from->normal,
         .gap = from->gap,
         .friction_bound = from->friction_bound,
+        .friction_factor = from->friction_factor,
         .friction = from->friction_force,
         .reaction = from->reaction,
         .slide = from->slide,

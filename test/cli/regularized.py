@@ -13,6 +13,29 @@ EXAMPLE = os.path.join(EXAMPLES, "souza-de-cursi-1990.yaml")
 THREE_LINES = os.path.join(EXAMPLES, "souza-de-cursi-1990-plane.yaml")
 SLACK = os.path.join(EXAMPLES, "souza-de-cursi-1990-slack.yaml")
 
+# The last half rubs three times as much; end B is held on the bed in the fourth step and let go in the last.
+ZONES = """\
+capstan: 1
+friction: frozen
+gravity: [0, 0, -9.81]
+obstacles: {bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.3}}
+lines:
+  rope:
+    length: 1
+    elements: 40
+    weight: 1
+    stiffness: 5
+    friction_zones: [{from: 0, to: 0.1, factor: 0.5}, {from: 0.5, to: 1, factor: 3}]
+    start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}
+    ends: {A: {fixed: [0, 0, 0]}, B: {force: [0, 0, 0]}}
+history:
+  - {name: along, rope.B: {force: [0.3, 0.3, 0]}}
+  - {name: aside, rope.B: {force: [0, 0.5, 0]}}
+  - {name: back, rope.B: {force: [-0.3, 0.5, 0]}}
+  - {name: hold, rope.B: {position: [-0.2, 1.0, 0]}}
+  - {name: let go, rope.B: {force: [-0.1, 0.3, 0]}}
+"""
+
 faults = []
 
 
@@ -70,6 +93,22 @@ with tempfile.TemporaryDirectory() as folder:
     check(sorted(json.loads(done.stdout)["steps"][2]["lines"]) == ["around", "aside", "direct"], "three lines: JSON")
     check(os.path.exists(os.path.join(folder, "three", "line-3.svg")), "three lines: no picture of the third")
     check(len(table(os.path.join(folder, "three", "history.csv"))) == 9, "three lines: rows")
+
+    # friction zones: from the second step on friction is that of the zones too. The frozen run has it by other code (src/cable)
+    with open(os.path.join(folder, "zones.yaml"), "w", encoding="utf-8") as file:
+        file.write(ZONES)
+    exact, own = run(folder, "zones.yaml", "-o", "zones-exact"), run(folder, "zones.yaml", "--method", "regularized", "-o", "zones-own")
+    check(exact.returncode == 0 and own.returncode == 0, f"zones: {exact.stderr}{own.stderr}")
+    with open(os.path.join(folder, "zones-exact", "summary.json"), encoding="utf-8") as file:
+        steps = json.load(file)["steps"]
+    for row, step in zip(table(os.path.join(folder, "zones-own", "history.csv")), steps):
+        tip = step["lines"]["rope"]["B"]["position_m"]
+        apart = max(abs(float(row[f"B.{x}"]) - value) for x, value in zip("xyz", tip))
+        # what the penalty leaves: it sinks by w/lambda = 7e-8 m, creep is less
+        check(apart < 1e-6, f"zones, {row['step']}: tips {apart} m apart")
+        apart = abs(float(row["tension_A"]) - step["lines"]["rope"]["A"]["tension_N"])
+        # beside a held end, which does not sink, the line hangs by its tension, T w/(lambda l) = 2e-6 N of a bound in the next step
+        check(apart < (2e-5 if row["step"] == "let go" else 1e-6), f"zones, {row['step']}: tensions at A {apart} N apart")
 
     # what is wrong
     for arguments, code, words in (
