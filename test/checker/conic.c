@@ -11,8 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a value is found to, of data of order one; 64-bit mantissas leave 1e-19. */
-static const Real ACCURACY = 1e-14L;
+/* What a value is found to, of data of order one; 64-bit mantissas leave 1e-19. Where multipliers are large, as those of shallow angles, cones
+ * shrink below that rounding before the weight is as large as this asks: then the last weight that was settled counts, if it leaves no more
+ * than ENOUGH. */
+static const Real ACCURACY = 1e-14L, ENOUGH = 1e-10L;
 /* Cones that leave less room than LEAST_ROOM, of rows of order one, are widened by WIDER. */
 static const Real LEAST_ROOM = 1e-9L, WIDER = 1e-13L;
 static const Real GROWTH = 10, LAST_DECREMENT = 1e-3L;
@@ -23,6 +25,7 @@ typedef struct Program {
     const size_t *cone;
     const Real *a, *b, *c;
     Real *v, *gradient, *step, *cost; /* (n) */
+    Real *settled;                    /* (n) v of the last weight that was settled */
     Real *z, *dz, *at;                /* (m) */
     Real *root, *r;                   /* (n, m), (n, n) */
 } Program;
@@ -141,21 +144,24 @@ static Real settle(const Program *p, Real t, Real wanted) {
 /* From v inside to <c, v> that exceeds the minimum by no more than *gap. False: not found. */
 static bool minimise(const Program *p, Real *gap) {
     Real nu = 0, t = 1, left = 0;
+    *gap = INFINITY;
     for (size_t i = 0; i < p->m; i += p->cone[i]) nu += degree(p->cone[i]);
     for (; t * ACCURACY < nu * GROWTH; t *= GROWTH) {
         left = settle(p, t, LAST_DECREMENT);
-        if (!(left < 0.5L)) return false;
+        if (!(left < 0.5L)) break;
         *gap = (nu + left * sqrtl(nu) / (1 - left)) / t;
+        memcpy(p->settled, p->v, p->n * sizeof *p->v);
     }
-    return true;
+    if (*gap < INFINITY) memcpy(p->v, p->settled, p->n * sizeof *p->v);
+    return *gap <= ENOUGH;
 }
 
 /* Scratch for n unknowns and m rows, in one block that begins at v. */
 static bool take(Program *p, size_t n, size_t m) {
-    Real *block = calloc(4 * n + 3 * m + n * m + n * n + 1, sizeof *block);
+    Real *block = calloc(5 * n + 3 * m + n * m + n * n + 1, sizeof *block);
     p->n = n, p->m = m;
     p->v = block, p->gradient = block + n, p->step = block + 2 * n, p->cost = block + 3 * n;
-    p->z = block + 4 * n, p->dz = p->z + m, p->at = p->dz + m, p->root = p->at + m, p->r = p->root + n * m;
+    p->settled = block + 4 * n, p->z = block + 5 * n, p->dz = p->z + m, p->at = p->dz + m, p->root = p->at + m, p->r = p->root + n * m;
     p->c = p->cost;
     return block != NULL;
 }

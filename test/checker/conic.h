@@ -26,7 +26,7 @@ void conic_free(Conic *set);
  * no memory. */
 bool conic_prepare(Conic *set);
 
-/* An upper bound of max <d, F> over the set, above it by no more than 1e-14 of reach |d|. */
+/* An upper bound of max <d, F> over the set, above it by no more than 1e-14 of reach |d|; where rounding stops before, 1e-10. NAN: not found. */
 Real conic_support(const Conic *set, const Real d[2]);
 /* An upper bound of the distance of F from the set, as tight. NAN: no memory. */
 Real conic_distance(const Conic *set, const Real F[2]);

@@ -54,7 +54,7 @@ static bool contacts_of(const Source *source, const Record *r, double length, do
 }
 
 /* The value by rest.c; false where it is not asked or not found. */
-static bool recompute(const Source *source, const Record *r, size_t element, double force, double value[2], double *room) {
+static bool recompute(const Source *source, const Record *r, size_t element, double force, RestTension found[2]) {
     const size_t all = r->contacts * r->nodes;
     RestContact *contact = calloc(all, sizeof *contact);
     double *friction = calloc(all, sizeof *friction), length = 0;
@@ -74,10 +74,8 @@ static bool recompute(const Source *source, const Record *r, size_t element, dou
                                .frozen = !source->consistent,
                                .held = {r->end_kind[0] == END_HELD, r->end_kind[1] == END_HELD},
                                .force = force};
-        double second;
-        value[0] = rest_tension(&line, element, -1, room), value[1] = rest_tension(&line, element, 1, &second);
-        *room = fmax(*room, second);
-        asked = !isnan(value[0]) && !isnan(value[1]);
+        found[0] = rest_tension(&line, element, -1), found[1] = rest_tension(&line, element, 1);
+        asked = !isnan(found[0].value) && !isnan(found[1].value);
     }
     free(contact), free(friction);
     return asked;
@@ -97,12 +95,15 @@ bool range_is_wrong(const Source *source, const Record *r, int e, double force, 
         return snprintf(text, size, "a least or greatest tension and its bound differ"), true;
     if (!(tension >= least - FOUND * force && tension <= greatest + FOUND * force))
         return snprintf(text, size, "the tension %.9g of the end's element is not in its range", tension), true;
-    double value[2], room;
-    if (!recompute(source, r, element, force, value, &room)) return false;
-    /* each node may be off balance by the room, and shallow angles enlarge it */
-    const double close = 3e3 * room * force;
-    if (!(fabs(least - value[0]) <= close) || !(greatest == value[1] || fabs(greatest - value[1]) <= close))
-        return snprintf(text, size, "claimed range of tensions %.9g to %.9g, recomputed %.9g to %.9g", least, greatest, value[0], value[1]),
+    RestTension found[2];
+    if (!recompute(source, r, element, force, found)) return false;
+    /* no wider than the room for what places are known to, no narrower than what is left without it */
+    const double close = FOUND * force;
+    const bool low = least >= found[0].wide - close && least <= found[0].value + close;
+    const bool high = greatest == found[1].value || (greatest <= found[1].wide + close && greatest >= found[1].value - close);
+    if (!low || !high)
+        return snprintf(text, size, "claimed range of tensions %.9g to %.9g, recomputed %.9g to %.9g, at most %.9g to %.9g", least, greatest,
+                        found[0].value, found[1].value, found[0].wide, found[1].wide),
                true;
     return false;
 }

@@ -145,8 +145,14 @@ static double extreme(const RestLine *line, size_t element, int sign, double roo
     return (double)(sign * value * line->force);
 }
 
-double rest_tension(const RestLine *line, size_t element, int sign, double *room) {
-    double value = NAN;
-    for (size_t k = 0; k < sizeof ROOMS / sizeof *ROOMS && isnan(value); k++) value = extreme(line, element, sign, *room = ROOMS[k]);
-    return value;
+/* The room widens a range: a node that turns the line by a shallow angle holds it back by its tension times that angle, so room over angle is
+ * added to the tension. The greatest value is a concave function v of the room, as that of any convex program is of what bounds it, so that
+ * 2 v(r) - v(2 r) lies between v(0) and v(r): what the room adds in proportion is gone. So with the least one. */
+RestTension rest_tension(const RestLine *line, size_t element, int sign) {
+    RestTension out = {NAN, NAN};
+    double room = 0;
+    for (size_t k = 0; k < sizeof ROOMS / sizeof *ROOMS && isnan(out.wide); k++)
+        out.wide = extreme(line, element, sign, room = ROOMS[k]);
+    out.value = isfinite(out.wide) ? 2 * out.wide - extreme(line, element, sign, 2 * room) : out.wide;
+    return out;
 }
