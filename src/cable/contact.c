@@ -412,10 +412,18 @@ static double turn_of_element(const CpsiLine *line, int e) {
     return turned;
 }
 
-/* Has an element gone through an obstacle?  Rounds do not end so; the next one keeps it out. */
-static bool goes_through(const CpsiLine *line) {
-    int obstacle;
-    return line->element_contacts > 0 && cpsi_line_pierces(line, &obstacle) > 0.1*CPSI_TOUCH*line->length;
+/* Is an element deeper in an obstacle than it may be?  Rounds do not end so. INFINITY where the next round has to meet an obstacle first, else
+ * the angle [rad] that goes with the depth. */
+static double turn_of_deepest(const CpsiLine *line) {
+    double worst = 0;
+    for (int e = 0; e + 1 < line->n; e++)
+        for (int k = 0; k < line->obstacle_count; k++) {
+            double share, gap;
+            if (!clearance(line, line->position, e, k, &share, &gap) || gap >= -0.1*CPSI_TOUCH*line->length) continue;
+            if (line->on[cpsi_line_contacts(line) + e] != k) return INFINITY;
+            worst = fmax(worst, sqrt(-gap/line->obstacle[k].radius));
+        }
+    return worst;
 }
 
 double cpsi_contact_move(CpsiLine *line, bool sides) {
@@ -424,7 +432,7 @@ double cpsi_contact_move(CpsiLine *line, bool sides) {
     memcpy(line->slide, line->position, places);
     for (int j = 0; j < line->n; j++) move(line, j);
     if (sides && cpsi_side_share(line, line->base, line->position, 1) < 1) memcpy(line->position, line->slide, places);
-    double turned = line->gains && goes_through(line) ? INFINITY : 0;
+    double turned = line->gains && line->element_contacts > 0 ? turn_of_deepest(line) : 0;
     for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) turned = fmax(turned, turn_of_element(line, e));
     for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j));
     memcpy(line->base, line->position, 3*(size_t)line->n*sizeof *line->base);

@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Random lines carried against posts and balls, thick and thin beside their elements; every element is looked at.
+ *
+ *   random_posts [--share S] [--scene K]
+ *
+ * One to three cylinders and balls stand beside a line of 4 to 70 elements, h/R from 0.05 to 10; both ends are carried past them, or one end is
+ * carried and the other pulled, and then one end goes back. Of every certified step is asked, with code of its own:
+ *   - no element is deeper in an obstacle than min(l^2/(4 R), R/4), no node deeper than 0, but for 1e-10 of the length;
+ *   - the angle by which the line winds about a cylinder changes by what the ways of its ends go round it and by nothing else (over a ball it may
+ *     slip);
+ *   - with consistent friction forces balance and obey the law (rig.h).
+ * No scene takes more than 10 s of processor time. With consistent friction at least 99.5 % of the steps are certified, or proved to have
+ * no equilibrium. What is not is printed; --scene K runs a scene alone. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "rig.h"
+
+enum { SCENES = 200 };
+/* Rounds end where nothing is deeper than 1e-10 of the length; beside it the rounding of a distance. */
+static const double DEEP = 1.01e-10;
+/* [rad] Windings are whole turns apart where an axis was passed: rounding is far below this. */
+static const double SAME = 1e-6;
+/* Share of the steps with consistent friction that are certified or proved to have no equilibrium, at least. */
+static const double CERTIFIED = 0.995;
+/* [s] of processor time, of a scene */
+static const double LATE = 10;
+
+static const double PI = 3.14159265358979323846;
+
+/* random numbers: splitmix64 */
+static uint64_t state;
+
+static double uniform(double low, double high) {
+    uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    z ^= z >> 31;
+    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
+}
+
+static double decades(double low, double high) { return pow(10, uniform(low, high)); }
+static bool chance(double probability) { return uniform(0, 1) < probability; }
+
+/* the scene ----------------------------------------------------------------------------------------------------- */
+
+typedef struct Scene {
+    Rig rig;
+    double thickest; /* h/R of the thinnest obstacle */
+    bool flat;       /* all stays in the plane z = 0 */
+} Scene;
+
+static void rubbing(CpsObstacle *o) {
+    if (chance(0.15)) return;
+    o->friction = uniform(0.05, 0.6);
+    if (chance(0.2)) o->friction_lateral = uniform(0.05, 0.6);
+    if (chance(0.1)) o->friction_shape = CPS_FRICTION_BOX;
+    if (chance(0.1)) o->grain[0] = uniform(-1, 1), o->grain[2] = 1;
+}
+
+/* Is there room for a post of this radius at x, y? */
+static bool fits(const Scene *s, double x, double y, double radius) {
+    for (int k = 0; k < s->rig.scene.obstacle_count; k++) {
+        const CpsObstacle *o = &s->rig.obstacle[k];
+        if (hypot(x - o->point[0], y - o->point[1]) < 1.15 * (radius + o->radius)) return false;
+    }
+    return true;
+}
+
+static void stand(Scene *s, double length, double radius) {
+    double x = 0, y = 0;
+    for (int i = 0;; i++) {
+        if (i == 100) return;
+        const double room = 0.48 * length - radius; /* clear of the ways of the ends */
+        x = uniform(-0.75, 0.75) * room, y = uniform(0, 0.3) * length;
+        if (fits(s, x, y, radius)) break;
+    }
+    const bool post = chance(0.6);
+    CpsObstacle *o = rig_obstacle(&s->rig, post ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE, 0);
+    rubbing(o);
+    o->radius = radius, o->point[0] = x, o->point[1] = y, o->axis[1] = 0, o->axis[2] = 1;
+    if (s->flat) return;
+    if (post && chance(0.4)) o->axis[0] = uniform(-0.3, 0.3), o->axis[1] = uniform(-0.3, 0.3);
+    if (!post) o->point[2] = uniform(-0.3, 0.3) * radius;
+}
+
+static void make(Scene *s, int number) {
+    state = 7919u * (uint64_t)(number + 1);
+    const double unit = chance(0.3) ? decades(-2, 2) : 1, ratio = decades(log10(0.05), 1);
+    const int fewest = (int)ceil(3 / ratio), elements = (fewest > 4 ? fewest : 4) + (int)uniform(0, 20);
+    const double length = elements * unit, radius = fmin(unit / ratio, length / 3);
+    const bool pulled = chance(0.4), rigid = pulled && chance(0.3), heavy = chance(0.5);
+    const double stiffness = decades(2, 4) * unit, force = 0.01 * stiffness;
+    Rig *rig = &s->rig;
+    rig_begin(rig, elements, heavy ? decades(-3, -1) : 0, rigid ? INFINITY : stiffness);
+    rig_length(rig, length);
+    s->flat = !heavy && chance(0.3);
+    s->thickest = 0;
+    double low = INFINITY, high = -INFINITY;
+    const int wanted = 1 + (int)uniform(0, 3);
+    for (int k = 0; k < wanted; k++) stand(s, length, radius * (wanted > 1 ? uniform(0.7, 1.3) : 1));
+    for (int k = 0; k < rig->scene.obstacle_count; k++) {
+        const CpsObstacle *o = &rig->obstacle[k];
+        low = fmin(low, o->point[1] - 1.3 * o->radius), high = fmax(high, o->point[1] + o->radius);
+        s->thickest = fmax(s->thickest, unit / o->radius);
+    }
+    const double half = (rigid ? 0.5 : 0.505) * length, y = low - uniform(0.3, 0.8) * unit, up = high + uniform(0, 0.15) * length;
+    rig_point(rig, -half, y, 0), rig_point(rig, half, y, 0);
+    rig_end(rig, CPS_END_A, CPS_END_HELD, -half, y, 0);
+    if (pulled) rig_end(rig, CPS_END_B, CPS_END_FREE, force, 0, 0);
+    else rig_end(rig, CPS_END_B, CPS_END_HELD, half, y, 0);
+    const int steps = 1 + (int)uniform(0, 30);
+    rig_stage(rig, steps);
+    rig_change(rig, CPS_END_A, CPS_END_HELD, -half, up, s->flat ? 0 : uniform(-0.05, 0.05) * length);
+    if (pulled) rig_change(rig, CPS_END_B, CPS_END_FREE, force, 0.4 * force, 0);
+    else rig_change(rig, CPS_END_B, CPS_END_HELD, half, up * uniform(0.5, 1), 0);
+    rig_stage(rig, 1 + steps / 2);
+    rig_change(rig, CPS_END_A, CPS_END_HELD, -0.98 * half, 0.8 * up, 0);
+    rig->scene.friction = chance(0.15) ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+}
+
+/* what is looked at --------------------------------------------------------------------------------------------- */
+
+/* x as seen from an obstacle: across its axis in two coordinates, or from its centre in three. */
+static void seen(const CpsObstacle *o, const double *x, double out[3]) {
+    double from[3], axis[3], first[3] = {1, 0, 0}, second[3];
+    for (int a = 0; a < 3; a++) from[a] = x[a] - o->point[a];
+    memcpy(out, from, sizeof from);
+    if (o->kind == CPS_OBSTACLE_SPHERE) return;
+    const double size = hypot(hypot(o->axis[0], o->axis[1]), o->axis[2]);
+    for (int a = 0; a < 3; a++) axis[a] = o->axis[a] / size;
+    const double across = sqrt(1 - axis[0] * axis[0]); /* the axes are within 30 degrees of z */
+    for (int a = 0; a < 3; a++) first[a] = (first[a] - axis[0] * axis[a]) / across;
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        second[a] = axis[b] * first[c] - axis[c] * first[b];
+    }
+    out[0] = out[1] = out[2] = 0;
+    for (int a = 0; a < 3; a++) out[0] += first[a] * from[a], out[1] += second[a] * from[a];
+}
+
+/* The distance of the origin from the straight piece between a and b. */
+static double apart(const double *a, const double *b) {
+    double length = 0, passed = 0, d = 0;
+    for (int i = 0; i < 3; i++) length += (b[i] - a[i]) * (b[i] - a[i]), passed -= a[i] * (b[i] - a[i]);
+    const double share = length > 0 ? fmin(1, fmax(0, passed / length)) : 0;
+    for (int i = 0; i < 3; i++) d += pow(a[i] + share * (b[i] - a[i]), 2);
+    return sqrt(d);
+}
+
+/* How far elements and nodes are deeper than they may be, over the length of the line. */
+static double depth(const Scene *s, const CpsLineView *view) {
+    double worst = -INFINITY;
+    for (int k = 0; k < s->rig.scene.obstacle_count; k++) {
+        const CpsObstacle *o = &s->rig.obstacle[k];
+        double a[3], b[3];
+        seen(o, view->position, b);
+        for (int e = 0; e < view->elements; e++) {
+            const double l = view->element_length[e], allowed = fmin(l * l / (4 * o->radius), o->radius / 4);
+            memcpy(a, b, sizeof a);
+            seen(o, &view->position[3 * e + 3], b);
+            worst = fmax(worst, fmax(o->radius - allowed - apart(a, b), o->radius - apart(b, b)));
+        }
+    }
+    return worst / s->rig.line.length;
+}
+
+/* [rad] by which the straight way from a to b goes round, between -pi and pi */
+static double angle(const double *a, const double *b) { return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]); }
+
+static double winding(const CpsObstacle *o, const double *x, int elements) {
+    double sum = 0, a[3], b[3];
+    seen(o, x, b);
+    for (int e = 0; e < elements; e++) {
+        memcpy(a, b, sizeof a);
+        seen(o, &x[3 * e + 3], b);
+        sum += angle(a, b);
+    }
+    return sum;
+}
+
+/* Turns by which the line has come round an obstacle beyond what its ends went, from place `from` to place `to`. A free end's way is
+ * straight as long as it is short. */
+static double passed(const Scene *s, const double *from, const double *to) {
+    const int elements = s->rig.line.elements;
+    double worst = 0;
+    for (int k = 0; k < s->rig.scene.obstacle_count; k++) {
+        const CpsObstacle *o = &s->rig.obstacle[k];
+        if (o->kind == CPS_OBSTACLE_SPHERE) continue;
+        double off = winding(o, to, elements) - winding(o, from, elements), a[3], b[3];
+        for (int end = 0; end < 2; end++) {
+            seen(o, &from[end ? 3 * elements : 0], a), seen(o, &to[end ? 3 * elements : 0], b);
+            off += (end ? -1 : 1) * angle(a, b);
+        }
+        worst = fmax(worst, fabs(off));
+    }
+    return worst / (2 * PI);
+}
+
+/* the run ------------------------------------------------------------------------------------------------------- */
+
+typedef struct Tally {
+    int scenes, steps, certified, proved, coarse, refused, late, wrong;
+    long iterations;
+    double slowest;
+} Tally;
+
+/* What a certified step promises of its forces. */
+static bool right(const Audit *a, const CpsCertificate *c) {
+    return a->balance <= 1e-9 && a->open <= 1e-8 && a->bound <= 1e-8 && a->outside <= 1e-8 && a->law <= c->gap + 1e-12 * a->scale &&
+           c->gap <= 1e-8 * c->scale;
+}
+
+static void judge(const Scene *s, const char *name, const CpsEvolution *evolution, const double *before, Tally *tally) {
+    static const double still[RIG_OBSTACLES] = {0};
+    const CpsLineView view = cps_evolution_line_view(evolution, 0);
+    const CpsLineReport report = cps_evolution_line_report(evolution, 0);
+    const char *step = cps_evolution_report(evolution).name;
+    tally->steps++;
+    if (!cps_outcome_is_certified(report.outcome)) {
+        const bool final = cps_outcome_is_final(report.outcome), coarse = report.outcome == CPS_MESH_TOO_COARSE;
+        tally->proved += final, tally->coarse += coarse, tally->refused += !final && !coarse;
+        if (!final && !coarse) printf("%s, %s: %s\n", name, step, cps_outcome_key(report.outcome));
+        return;
+    }
+    tally->certified++;
+    const double deep = depth(s, &view), turns = passed(s, before, view.position);
+    bool wrong = !(deep <= DEEP) || !(turns * 2 * PI <= SAME);
+    if (wrong) printf("%s, %s: WRONG: certified, %.3g of the length too deep, %.6f turns round an obstacle\n", name, step, fmax(0, deep), turns);
+    if (s->rig.scene.friction == CPS_FRICTION_CONSISTENT) {
+        const Audit audit = rig_audit(&s->rig.scene, still, &view);
+        if (!right(&audit, &report.certificate)) {
+            wrong = true;
+            printf("%s, %s: WRONG: balance %.1e, open %.1e, bound %.1e, outside %.1e, law %.1e beside a gap of %.1e\n", name, step, audit.balance,
+                   audit.open, audit.bound, audit.outside, audit.law, report.certificate.gap);
+        }
+    }
+    tally->wrong += wrong;
+}
+
+static void run(int number, Tally tallies[2]) {
+    static Scene s;
+    CpsEvolution *evolution;
+    CpsError err;
+    char name[160];
+    make(&s, number);
+    Tally *tally = &tallies[s.rig.scene.friction];
+    const int nodes = s.rig.line.elements + 1;
+    snprintf(name, sizeof name, "scene %d, %d obstacles, %d elements, h/R %.2f, %s%s", number, s.rig.scene.obstacle_count, nodes - 1, s.thickest,
+             s.rig.scene.friction == CPS_FRICTION_FROZEN ? "frozen" : "consistent", s.rig.line.end[1].kind == CPS_END_FREE ? ", pulled" : "");
+    const clock_t begun = clock();
+    if (cps_evolution_create(&s.rig.scene, &evolution, &err)) {
+        printf("%s: %s\n", name, err.message);
+        tally->wrong++;
+        return;
+    }
+    double *before = malloc(3 * (size_t)nodes * sizeof *before), spent = 0;
+    if (!before) abort();
+    while (cps_evolution_remaining(evolution) > 0 && spent <= LATE) {
+        memcpy(before, cps_evolution_line_view(evolution, 0).position, 3 * (size_t)nodes * sizeof *before);
+        if (cps_evolution_step(evolution, &err)) break; /* an end's way leads through an obstacle */
+        tally->iterations += cps_evolution_report(evolution).iterations;
+        judge(&s, name, evolution, before, tally);
+        spent = (double)(clock() - begun) / CLOCKS_PER_SEC;
+    }
+    free(before);
+    cps_evolution_destroy(evolution);
+    tally->scenes++;
+    tally->slowest = fmax(tally->slowest, spent);
+    if (spent <= LATE) return;
+    tally->late++;
+    printf("%s: beyond %g s\n", name, LATE);
+}
+
+/* Says what was found; is the share of the steps that are certified, or proved to have no equilibrium, as large as asked for? */
+static bool tell(const char *friction, const Tally *t, double asked) {
+    printf("%s: %d scenes, %d steps: %d certified, %d proved to have no equilibrium, %d with a mesh too coarse, %d not certified, %d WRONG; %ld "
+           "iterations, the slowest scene took %.1f s, %d more than %g s\n",
+           friction, t->scenes, t->steps, t->certified, t->proved, t->coarse, t->refused, t->wrong, t->iterations, t->slowest, t->late, LATE);
+    return t->certified + t->proved >= asked * t->steps;
+}
+
+int main(int argc, char **argv) {
+    double share = 1;
+    int only = -1;
+    for (int i = 1; i < argc; i += 2) {
+        if (i + 1 < argc && !strcmp(argv[i], "--share")) share = strtod(argv[i + 1], NULL);
+        else if (i + 1 < argc && !strcmp(argv[i], "--scene")) only = (int)strtol(argv[i + 1], NULL, 10);
+        else return fprintf(stderr, "usage: random_posts [--share S] [--scene K]\n"), 2;
+    }
+    Tally tally[2] = {{0}};
+    setvbuf(stdout, NULL, _IOLBF, 0); /* what a time limit ends has told so far */
+    for (int k = 0; only < 0 && k < SCENES * share; k++) run(k, tally);
+    if (only >= 0) run(only, tally);
+    const bool enough = tell("consistent friction", &tally[CPS_FRICTION_CONSISTENT], CERTIFIED);
+    tell("frozen friction", &tally[CPS_FRICTION_FROZEN], 0);
+    return tally[0].wrong + tally[1].wrong > 0 || tally[0].late + tally[1].late > 0 || !enough;
+}
