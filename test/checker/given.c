@@ -3,7 +3,7 @@
  *
  * A stage takes an end from where it is to the stage's value in equal steps. Where it is: the value imposed before; where
  * the kind of the end changes, the place that it had reached, or the force that it carried. These two are results, and
- * taken from the file's step before. */
+ * taken from the file's step before; before the first step an end is where the start shape puts it. */
 #include "given.h"
 
 #include <math.h>
@@ -163,6 +163,7 @@ static size_t planned(const Compare *compare) {
 /* An end of a line as the scene has it. */
 typedef struct Imposed {
     CpsEnd from, now;
+    double noise; /* COPIED, or COMPUTED where it starts from the end of an arc, a sum of angles */
 } Imposed;
 
 /* What is imposed, places about the origin of the file; NaN stays NaN. */
@@ -171,26 +172,49 @@ static CpsEnd about(const Source *source, CpsEnd end) {
     return end;
 }
 
+/* End B of an arc: elements are chords of the circle about the axis through the centre, one after the other from A. */
+static void arc_end(const CpsLine *line, const Record *r, double place[3]) {
+    const double *from = line->start.point, *centre = &line->start.point[3], *axis = line->start.axis;
+    const double length = size(axis);
+    double unit[3], spoke[3], along = 0, angle = 0;
+    for (int k = 0; k < 3; k++) unit[k] = axis[k] / length, along += (from[k] - centre[k]) * unit[k];
+    for (int k = 0; k < 3; k++) spoke[k] = from[k] - centre[k] - along * unit[k];
+    for (size_t i = 0; i < r->elements; i++) angle += 2 * asin(r->element_length[i] / (2 * size(spoke)));
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        place[k] = centre[k] + along * unit[k] + cos(angle) * spoke[k] + sin(angle) * (unit[a] * spoke[b] - unit[b] * spoke[a]);
+    }
+}
+
+/* Where the start puts an end. The first record has it as well, but only where the step was taken in one part. */
+static void start_place(const Source *source, const CpsLine *line, int e, const Record *r, double place[3]) {
+    const CpsStart *start = &line->start;
+    const bool arc = start->kind == CPS_START_ARC, drawn = start->kind != CPS_START_LAID;
+    const double *point = drawn ? &start->point[e && !arc ? 3 * (start->point_count - 1) : 0] : r->reference[e ? r->elements : 0];
+    memcpy(place, point, 3 * sizeof *place);
+    if (arc && e) arc_end(line, r, place);
+    for (int k = 0; k < 3 && drawn; k++) place[k] -= source->origin[k];
+}
+
 /* Where the end starts: a held end without a place of its own is where the start puts it. */
 static CpsEnd first_end(const Source *source, const CpsLine *line, int e, const Record *r) {
     CpsEnd end = about(source, line->end[e]);
-    const CpsStart *start = &line->start;
-    const bool drawn = start->kind == CPS_START_STRAIGHT || start->kind == CPS_START_POLYLINE;
-    const double *place = drawn ? &start->point[e ? 3 * (start->point_count - 1) : 0] : r->reference[e ? r->elements : 0];
+    double place[3];
+    start_place(source, line, e, r, place);
     for (int k = 0; k < 3 && end.kind == CPS_END_HELD; k++)
-        if (isnan(end.value[k])) end.value[k] = place[k] - (drawn ? source->origin[k] : 0);
+        if (isnan(end.value[k])) end.value[k] = place[k];
     return end;
 }
 
-/* The end at part k of a stage that changes it; `before`: the step before, NULL for the first. */
+/* The end at part k of a stage that changes it; `before`: the step before, NULL for the first; `start`: where it starts. */
 static void impose(const Source *source, Imposed *end, const CpsStage *stage, int part, int line, int e, const Record *before,
-                   const Record *r) {
+                   const double start[3]) {
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
         if (change->line != line || change->end != e) continue;
         if (part == 1) end->from = end->now;
-        const size_t j = e ? r->elements : 0;
-        const double *place = before ? before->position[j] : r->reference[j];
+        const double *place = before ? before->position[e ? before->elements : 0] : start;
+        if (part == 1 && before) end->noise = COPIED;
         for (int k = 0; k < 3 && part == 1 && change->to.kind != end->now.kind; k++)
             end->from.value[k] = change->to.kind == CPS_END_HELD ? place[k] : before ? before->end_force[e][k] : 0;
         const double share = (double)part / stage->steps;
@@ -214,7 +238,7 @@ static void compare_end(Compare *compare, const CpsLine *line, int e, const Impo
     if (ended && (r->parts > 1 || r->share < 1)) return;
     const double most = fmax(size(end->now.value), size(was->value));
     for (int k = 0; k < 3; k++)
-        if (!(fabs(r->end_value[e][k] - end->now.value[k]) <= COPIED * most))
+        if (!(fabs(r->end_value[e][k] - end->now.value[k]) <= end->noise * most))
             find(compare, "end_value of %s is %.17g, in the scene %.17g", of, r->end_value[e][k], end->now.value[k]);
 }
 
@@ -266,11 +290,15 @@ static int compare_steps(Compare *compare, int index) {
         bad = record_read(&compare->source, line->name, step, &now, compare->log);
         int stage, part;
         for (int e = 0; e < 2 && !bad; e++) {
-            if (step == 0) end[e].now = first_end(&compare->source, line, e, &now);
+            if (step == 0) {
+                end[e].now = first_end(&compare->source, line, e, &now);
+                end[e].noise = line->start.kind == CPS_START_ARC ? COMPUTED : COPIED;
+            }
             const CpsEnd was = end[e].now;
+            double start[3];
+            start_place(&compare->source, line, e, &now, start);
             if (stage_of(compare, step, &stage, &part))
-                impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e, step > 0 ? &before : NULL,
-                       &now);
+                impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e, step > 0 ? &before : NULL, start);
             compare_end(compare, line, e, &end[e], &was, step, &now);
         }
         if (!bad) compare_loads(compare, line, step, &now);

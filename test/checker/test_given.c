@@ -42,32 +42,39 @@ static const char SCENE[] =
     "  - {name: grab, steps: 2, rope.B: {position: [4, 1, 0.5]}}\n"
     "  - {name: slack, steps: 1, rope.B: {force: [0, 0, 0]}}\n";
 
-static char directory[] = "capstan-given-XXXXXX", result[64], copy[64], yaml[64];
+static char directory[] = "capstan-given-XXXXXX", result[64], copy[64];
 static CpsSceneFile *scene;
 
-static int solve(void **state) {
-    (void)state;
+/* A scene file into results in `where`. `parts`: of its first step, if not NULL. */
+static int run(const char *text, const char *where, CpsSceneFile **read, int *parts) {
     CpsError err = {0};
     CpsEvolution *evolution = NULL;
     CpsResults *results = NULL;
-    if (!mkdtemp(directory)) return -1;
-    snprintf(result, sizeof result, "%s/result.nc", directory);
-    snprintf(copy, sizeof copy, "%s/copy.nc", directory);
-    snprintf(yaml, sizeof yaml, "%s/scene.yaml", directory);
+    char yaml[80];
+    snprintf(yaml, sizeof yaml, "%s/scene.yaml", where);
     FILE *out = fopen(yaml, "w");
-    if (!out || fputs(SCENE, out) < 0 || fclose(out) != 0) return -1;
-    CpsStatus status = cps_scene_read(yaml, NULL, &scene, &err);
-    if (!status) status = cps_evolution_create(cps_scene_file_scene(scene), &evolution, &err);
-    if (!status) status = cps_results_open(directory, cps_scene_file_scene(scene), evolution, &results, &err);
-    while (!status && cps_evolution_remaining(evolution) > 0) {
+    if (!out || fputs(text, out) < 0 || fclose(out) != 0) return -1;
+    CpsStatus status = cps_scene_read(yaml, NULL, read, &err);
+    if (!status) status = cps_evolution_create(cps_scene_file_scene(*read), &evolution, &err);
+    if (!status) status = cps_results_open(where, cps_scene_file_scene(*read), evolution, &results, &err);
+    for (bool first = true; !status && cps_evolution_remaining(evolution) > 0; first = false) {
         status = cps_evolution_step(evolution, &err);
         if (!status) status = cps_results_append(results, evolution, &err);
+        if (!status && parts && first) *parts = cps_evolution_line_report(evolution, 0).parts;
     }
     if (!status) status = cps_results_finish(results, 0, &err);
     cps_results_destroy(results);
     cps_evolution_destroy(evolution);
     if (status) print_error("%s\n", err.message);
     return status;
+}
+
+static int solve(void **state) {
+    (void)state;
+    if (!mkdtemp(directory)) return -1;
+    snprintf(result, sizeof result, "%s/result.nc", directory);
+    snprintf(copy, sizeof copy, "%s/copy.nc", directory);
+    return run(SCENE, directory, &scene, NULL);
 }
 
 static int clean(void **state) {
@@ -180,11 +187,46 @@ static void other_scenes_are_refused(void **state) {
     CHECK_INT(given_file("no-such-file.nc", cps_scene_file_scene(scene), NULL), -1);
 }
 
+/* An end that is grabbed, or moved, in the first step starts from where the start shape puts it, also where the step is taken in parts and
+ * the record's reference is that of the last of them; far from the origin of the coordinates as well. */
+static void first_step_in_parts(void **state) {
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        const double x = k % 2 ? 5e5 : 0;
+        char start[160], text[1200], where[] = "capstan-first-XXXXXX", path[64];
+        if (k / 2 % 3 == 0) snprintf(start, sizeof start, "straight: {from: [%.9g, 0, 0], to: [%.9g, 0, 0]}", x, x + 4);
+        if (k / 2 % 3 == 1)
+            snprintf(start, sizeof start, "polyline: [[%.9g, 0, 0], [%.9g, 1, 0], [%.9g, 2, 0]]", x, x + 1.75, x + 3.5);
+        if (k / 2 % 3 == 2)
+            snprintf(start, sizeof start, "arc: {from: [%.9g, 0, 0], center: [%.9g, 0.5, 3], axis: [0, 0, -2]}", x, x + 1);
+        snprintf(text, sizeof text,
+                 "capstan: 1\ngravity: [0, 0, -10]\nsolver: {path_tolerance: 1e-3, halvings: 4}\n"
+                 "obstacles:\n  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
+                 "lines:\n  rope:\n    length: 4\n    elements: 8\n    weight: 8\n    stiffness: 1000\n"
+                 "    start: {%s}\n    ends: {A: %s, B: %s}\n"
+                 "history:\n  - {name: grab, steps: 2, rope.B: {position: [%.9g, 1.5, 0.7]}}\n",
+                 start, k < 6 ? "fixed" : "free", k < 6 ? "free" : "fixed", x + 3);
+        assert_non_null(mkdtemp(where));
+        CpsSceneFile *file = NULL;
+        int parts = 0;
+        CHECK_INT(run(text, where, &file, &parts), CPS_OK);
+        CHECK_GREATER(parts, 1);
+        snprintf(path, sizeof path, "%s/result.nc", where);
+        CHECK_INT(given_file(path, cps_scene_file_scene(file), stdout), 0);
+        CHECK_INT(sample_poke(path, "rope_end_value", 4, 1.25), 0); /* y of end B half way */
+        CHECK_GREATER(given_file(path, cps_scene_file_scene(file), NULL), 0);
+        cps_scene_file_destroy(file);
+        snprintf(path, sizeof path, "rm -r '%s'", where);
+        CHECK_INT(system(path), 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sound_file_is_the_scenes),
         cmocka_unit_test(falsified_copies_are_refused),
         cmocka_unit_test(other_scenes_are_refused),
+        cmocka_unit_test(first_step_in_parts),
     };
     return cmocka_run_group_tests(tests, solve, clean);
 }
