@@ -214,7 +214,8 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
     CpsStatus status = cps_evolution_create(run->scene, &run->evolution, err);
     const CpsResultsOptions wanted = wanted_results(options);
     if (!status) status = cps_results_open_with(directory, run->scene, run->evolution, &wanted, &run->results, err);
-    if (!status) status = cps_journal_open(directory, run->evolution, options->resume, &run->journal, err);
+    const CpsJournalMode journal = options->resume ? CPS_JOURNAL_RESUME : options->overwrite ? CPS_JOURNAL_REPLACE : CPS_JOURNAL_NEW;
+    if (!status) status = cps_journal_open(directory, run->evolution, journal, &run->journal, err);
     if (status) return status;
     if (wanted.sync_at_end) cps_journal_sync_late(run->journal);
     run->progress = progress_begin(cps_evolution_step_count(run->evolution), options->quiet);

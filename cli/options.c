@@ -24,6 +24,8 @@ static const Option OPTIONS[] = {
      "path tolerance: cut steps until halves agree (0: steps as given)"},
     {"resume", 'r', NULL, FOR_RUN, offsetof(CliOptions, resume), false,
      "go on where a run into the same directory was stopped or killed"},
+    {"force", 0, NULL, FOR_RUN, offsetof(CliOptions, overwrite), false,
+     "begin anew where a run into the same directory was interrupted, without its steps"},
     {"no-paraview", 0, NULL, FOR_RUN, offsetof(CliOptions, no_paraview), false, "write no .vtp and .pvd files"},
     {"fields", 0, "NAME,..", FOR_RUN, offsetof(CliOptions, fields), false,
      "fields along the lines in result.nc, or none (default: all, which the checker needs)"},

@@ -258,12 +258,13 @@ CPS_API int cps_evolution_remaining(const CpsEvolution *evolution);
 CPS_API CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err);
 
 /* The state between two steps as bytes, for going on later: the steps that follow a load give the same bits as if they had followed the
- * save.
+ * save. The bytes are the same in every run: no address, no padding, but the time that the last step took.
  *
  *   state  (cps_evolution_state_size) bytes, written; of the same program and the same kind of machine
  *
- * cps_evolution_load takes a state saved from an evolution of the same scene. Returns CPS_OK, or CPS_ERR_ARGUMENT when the state is of
- * another scene, of other settings or not whole; the evolution is untouched then. */
+ * cps_evolution_load takes a state saved from an evolution of the same scene; what it says is checked against its ranges, as a scene is.
+ * Returns CPS_OK, CPS_ERR_MEMORY, or CPS_ERR_ARGUMENT when the state is of another scene, of other settings, not whole or none that steps
+ * can leave; the evolution is untouched then. */
 CPS_API size_t cps_evolution_state_size(const CpsEvolution *evolution);
 CPS_API void cps_evolution_save(const CpsEvolution *evolution, void *state);
 CPS_API CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t size, CpsError *err);

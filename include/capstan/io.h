@@ -77,7 +77,7 @@ CPS_API void cps_results_destroy(CpsResults *results);
 
 /* A journal of the steps taken, `directory`/.journal: after a run has been killed, another one goes on from it and ends with the same bits.
  *
- *     cps_journal_open(directory, evolution, resume, &journal, &err);
+ *     cps_journal_open(directory, evolution, resume ? CPS_JOURNAL_RESUME : CPS_JOURNAL_NEW, &journal, &err);
  *     for (found = resume; found;) {                      the steps that are there already
  *         cps_journal_next(journal, evolution, &found, &err);
  *         if (found) cps_results_append(results, evolution, &err);
@@ -87,16 +87,26 @@ CPS_API void cps_results_destroy(CpsResults *results);
  *         cps_journal_append(journal, evolution, &err);
  *         cps_results_append(results, evolution, &err);
  *     }
- *     cps_journal_remove(journal); */
+ *     cps_journal_remove(journal);
+ *
+ * A journal is of one version and build of the program and of one scene with its settings. */
 typedef struct CpsJournal CpsJournal;
 
-/* Open the journal in an existing directory: an empty one, or with `resume` the one that is there, if any. */
-CPS_API CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution, bool resume, CpsJournal **out,
+typedef enum CpsJournalMode {
+    CPS_JOURNAL_NEW = 0,    /* an empty one; the steps of an interrupted run are refused, not lost */
+    CPS_JOURNAL_RESUME = 1, /* the one that is there, if any */
+    CPS_JOURNAL_REPLACE = 2 /* an empty one, in place of an interrupted run's */
+} CpsJournalMode;
+
+/* Open the journal of an evolution that has taken no step yet, in an existing directory. A file of that name that is no journal, a link
+ * or a device is refused and stays. On return the journal and its name are on the disk.
+ * Returns CPS_OK, CPS_ERR_IO, CPS_ERR_MEMORY, or CPS_ERR_ARGUMENT where it is to be resumed and is of another scene, version or build. */
+CPS_API CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution, CpsJournalMode mode, CpsJournal **out,
                                    CpsError *err);
-/* Load the next step into the evolution: *found tells whether there was one. A record that is not whole ends the journal.
- * Returns CPS_OK, CPS_ERR_IO, or CPS_ERR_ARGUMENT where the journal is of another scene. */
+/* Load the next step into the evolution: *found tells whether there was one. Where no whole record follows, the journal ends.
+ * Returns CPS_OK, CPS_ERR_IO, CPS_ERR_MEMORY, or CPS_ERR_ARGUMENT where the record is no state of this evolution. */
 CPS_API CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *found, CpsError *err);
-/* Append the step just taken; on return it is on the disk. */
+/* Append the step just taken, which follows the last one of the journal; on return it is on the disk. */
 CPS_API CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *evolution, CpsError *err);
 /* From now on steps are given to the system and not waited for: a killed run loses none of them, a power cut may take the
  * last ones, which the next run takes again. cps_journal_sync waits for all. */
@@ -104,7 +114,7 @@ CPS_API void cps_journal_sync_late(CpsJournal *journal);
 CPS_API CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err);
 /* Remove the file, once its run is finished; destroy the journal all the same. */
 CPS_API void cps_journal_remove(CpsJournal *journal);
-CPS_API void cps_journal_destroy(CpsJournal *journal); /* NULL is accepted */
+CPS_API void cps_journal_destroy(CpsJournal *journal); /* NULL is accepted; a journal without steps is removed */
 
 /* A running JSON summary, the object that `capstan run --json` prints. */
 CPS_API CpsStatus cps_results_write_summary(const CpsResults *results, double wall, FILE *out, CpsError *err);

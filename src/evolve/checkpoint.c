@@ -2,12 +2,15 @@
 /* The state of an evolution as bytes: everything that steps change and that later steps or the views read.
  *
  * One walk over the state serves to measure, to save and to load. Numbers are copied as they are, so that a run that goes on from a
- * saved state gives the same bits as one that was never interrupted; a state is for the same program on the same kind of machine. */
+ * saved state gives the same bits as one that was never interrupted; a state is for the same program on the same kind of machine.
+ * Structs go field by field: the bytes hold no padding and no address, and are the same in every run. */
 #include "evolve/checkpoint.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
+#include "evolve/state_check.h"
 
 /* What a state begins with. */
 typedef struct Head {
@@ -15,7 +18,7 @@ typedef struct Head {
     uint64_t size, fingerprint;
 } Head;
 
-static const char MAGIC[8] = "capstan2";
+static const char MAGIC[8] = "capstan3";
 
 /* Bytes on their way out, in, or only counted. */
 typedef struct Tape {
@@ -30,9 +33,94 @@ static void pass(Tape *tape, void *data, size_t size) {
     tape->at += size;
 }
 
+#define PASS(tape, field) pass(tape, &(field), sizeof(field))
+
+/* A field that is added to one of these has to be passed below as well. */
+#if UINTPTR_MAX == 0xffffffffffffffff
+_Static_assert(sizeof(CpsCertificate) == 16*8 && sizeof(CpsLedger) == 6*8 && sizeof(CpsTensionRange) == 5*8, "pass_certificate, ..");
+_Static_assert(sizeof(CpsEndReport) == 11*8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7*8, "pass_end_report, pass_bend");
+_Static_assert(sizeof(CpsLineReport) == 18*8 + sizeof(CpsCertificate) + sizeof(CpsLedger) + 2*sizeof(CpsEndReport) + sizeof(CpsBend),
+               "pass_line_report");
+_Static_assert(sizeof(CpsStepReport) == 9*8 + sizeof(CpsCertificate) + sizeof(CpsLedger), "pass_step_report");
+_Static_assert(sizeof(CpsEnd) == 4*8, "pass_end");
+#endif
+
+/* numbers alone: there is nothing between them */
+static void pass_energies(Tape *tape, CpsCertificate *certificate, CpsLedger *ledger) {
+    PASS(tape, *certificate);
+    PASS(tape, *ledger);
+}
+
+static void pass_end(Tape *tape, CpsEnd *end) {
+    PASS(tape, end->kind);
+    PASS(tape, end->value);
+}
+
+static void pass_end_report(Tape *tape, CpsEndReport *end) {
+    PASS(tape, end->position);
+    PASS(tape, end->force);
+    PASS(tape, end->tension);
+    PASS(tape, end->work);
+    PASS(tape, end->friction);
+    CpsTensionRange *range = &end->range;
+    PASS(tape, range->kind);
+    PASS(tape, range->least);
+    PASS(tape, range->least_bound);
+    PASS(tape, range->greatest);
+    PASS(tape, range->greatest_bound);
+}
+
+static void pass_bend(Tape *tape, CpsBend *bend) {
+    PASS(tape, bend->turn);
+    PASS(tape, bend->friction);
+    PASS(tape, bend->ratio);
+    PASS(tape, bend->coulomb);
+    PASS(tape, bend->arc_length);
+    PASS(tape, bend->element);
+    PASS(tape, bend->obstacle);
+}
+
+static void pass_line_report(Tape *tape, CpsLineReport *report) {
+    PASS(tape, report->outcome);
+    PASS(tape, report->iterations);
+    PASS(tape, report->places);
+    pass_energies(tape, &report->certificate, &report->ledger);
+    PASS(tape, report->dissipated);
+    PASS(tape, report->parts);
+    PASS(tape, report->share);
+    PASS(tape, report->snaps);
+    PASS(tape, report->jump);
+    PASS(tape, report->unaccounted);
+    for (int end = 0; end < 2; end++) pass_end_report(tape, &report->end[end]);
+    PASS(tape, report->grounded);
+    PASS(tape, report->slipping);
+    PASS(tape, report->slack);
+    PASS(tape, report->tension_mesh);
+    PASS(tape, report->pierced);
+    pass_bend(tape, &report->bend);
+    PASS(tape, report->proof);
+    PASS(tape, report->proof_value);
+    PASS(tape, report->coulomb);
+}
+
+/* all but its name, which is the evolution's step_name */
+static void pass_step_report(Tape *tape, CpsStepReport *report) {
+    PASS(tape, report->index);
+    PASS(tape, report->outcome);
+    PASS(tape, report->iterations);
+    pass_energies(tape, &report->certificate, &report->ledger);
+    PASS(tape, report->dissipated);
+    PASS(tape, report->parts);
+    PASS(tape, report->snaps);
+    PASS(tape, report->places);
+    PASS(tape, report->jump);
+    PASS(tape, report->unaccounted);
+    PASS(tape, report->wall);
+}
+
 static void pass_line(Tape *tape, CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
-    double *const nodes[] = {line->reference, line->position, line->load};
+    double *const nodes[] = {line->reference, line->position, line->load, line->motion};
     double *const vectors[] = {line->normal, line->friction_force, line->slide};
     double *const scalars[] = {line->gap, line->friction_bound, line->reaction};
     for (size_t i = 0; i < sizeof nodes/sizeof *nodes; i++) pass(tape, nodes[i], 3*n*sizeof(double));
@@ -44,21 +132,19 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     pass(tape, line->state, contacts*sizeof *line->state);
     if (line->on) pass(tape, line->on, contacts*sizeof *line->on);
     if (line->beta) pass(tape, line->beta, n*sizeof *line->beta);
-    pass(tape, line->end, sizeof line->end);
-    pass(tape, &line->report, sizeof line->report);
+    for (int end = 0; end < 2; end++) pass_end(tape, &line->end[end]);
+    pass_line_report(tape, &line->report);
 }
 
 static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     tape->at = sizeof(Head);
-    pass(tape, &evolution->report, sizeof evolution->report);
-    pass(tape, evolution->step_name, sizeof evolution->step_name);
-    pass(tape, &evolution->done, sizeof evolution->done);
-    pass(tape, &evolution->current, sizeof evolution->current);
-    pass(tape, &evolution->part, sizeof evolution->part);
-    pass(tape, &evolution->ended, sizeof evolution->ended);
+    pass_step_report(tape, &evolution->report);
+    PASS(tape, evolution->step_name);
+    PASS(tape, evolution->done);
+    PASS(tape, evolution->current);
+    PASS(tape, evolution->part);
     for (int k = 0; k < evolution->stage_count; k++)
-        for (int i = 0; i < evolution->stage[k].change_count; i++)
-            pass(tape, &evolution->stage[k].change[i].from, sizeof evolution->stage[k].change[i].from);
+        for (int i = 0; i < evolution->stage[k].change_count; i++) pass_end(tape, &evolution->stage[k].change[i].from);
     for (int i = 0; i < evolution->line_count; i++) pass_line(tape, &evolution->line[i]);
     return tape->at;
 }
@@ -157,8 +243,15 @@ CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t 
     if (head.size != size || size != cps_evolution_state_size(evolution))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state has %zu bytes, expected %zu", size,
                          cps_evolution_state_size(evolution));
-    Tape tape = {.in = state};
-    pass_state(&tape, evolution);
+    /* what a state says is believed only once it has been checked, and the check needs it in place */
+    unsigned char *before = malloc(size);
+    if (!before) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while loading a state");
+    cps_evolution_save(evolution, before);
+    pass_state(&(Tape){.in = state}, evolution);
+    const char *fault = cpsi_state_fault(evolution);
+    if (fault) pass_state(&(Tape){.in = before}, evolution);
+    free(before);
     evolution->report.name = evolution->step_name;
-    return CPS_OK;
+    evolution->ended = cps_outcome_is_final(evolution->report.outcome);
+    return fault ? cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state is damaged: %s", fault) : CPS_OK;
 }

@@ -1,39 +1,61 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A journal of steps (io.h): one record per step, size, checksum and the state of cps_evolution_save, each synced before the next step
- * begins unless that is left to the end. A record that a killed run left unfinished, or that a power cut took a part of, is found by its
- * size or its checksum and dropped with all that follow it. */
+/* A journal of steps (io.h): a head that says which program and which scene it is of, then one record per step: its number, a checksum and
+ * the state of cps_evolution_save, each synced before the next step begins unless that is left to the end. The journal ends where no whole
+ * record follows: what a killed run left unfinished, and what a power cut made of the tail, is dropped. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/status.h"
 #include "capstan/io.h"
 
+static const char NAME[] = ".journal";
+
 struct CpsJournal {
-    char *path;
-    int file;
+    char *directory;
+    int folder, file;     /* the directory, the journal in it */
     bool late;            /* synced by cps_journal_sync alone */
-    off_t end;            /* of the last whole record read or written */
+    bool begun;           /* here and now, and not resumed */
+    bool tail;            /* what lies behind the last whole record has not been cut off yet */
+    uint64_t steps;       /* records read or written */
+    off_t end;            /* of the last of them */
     size_t size;          /* of a state */
     unsigned char *state; /* (size) */
 };
 
+/* What a journal begins with. The scene is known by the state of its evolution before the first step. */
+typedef struct Head {
+    char magic[8], program[64];
+    uint64_t build, scene, size; /* checksums of the program's version and build and of that state; bytes of a state */
+    uint64_t checksum;           /* of all before */
+} Head;
+
+static const char MAGIC[8] = "capstnJ2", PROGRAM[] = CAPSTAN_COMMIT " " CAPSTAN_BUILD;
+
 typedef struct Record {
-    uint64_t size, checksum;
+    uint64_t step, checksum; /* the latter of the number and of the state */
 } Record;
 
-/* FNV-1a over 64-bit words, the last one filled with zeros. */
-static uint64_t checksum(const unsigned char *byte, size_t size) {
-    uint64_t hash = 14695981039346656037u;
+/* FNV-1a over 64-bit words, the last one filled with zeros; begins with `hash`. */
+static uint64_t checksum(uint64_t hash, const void *bytes, size_t size) {
+    const unsigned char *byte = bytes;
     for (size_t i = 0; i < size; i += 8) {
         uint64_t word = 0;
         memcpy(&word, byte + i, size - i < 8 ? size - i : 8);
         hash = (hash ^ word)*1099511628211u;
     }
     return hash;
+}
+
+static const uint64_t CHECKSUM_BEGINS = 14695981039346656037u;
+
+static uint64_t record_checksum(uint64_t step, const CpsJournal *journal) {
+    return checksum(checksum(CHECKSUM_BEGINS, &step, sizeof step), journal->state, journal->size);
 }
 
 /* All bytes or a failure, at an offset; a short read is no failure: *got says how many. */
@@ -59,26 +81,98 @@ static bool write_at(int file, const void *from, size_t size, off_t at) {
 }
 
 static CpsStatus fail(const CpsJournal *journal, const char *what, CpsError *err) {
-    return cpsi_fail(err, CPS_ERR_IO, "cannot %s the journal %s: %s", what, journal->path, strerror(errno));
+    return cpsi_fail(err, CPS_ERR_IO, "cannot %s the journal %s/%s: %s", what, journal->directory, NAME, strerror(errno));
 }
 
-CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution, bool resume, CpsJournal **out, CpsError *err) {
+/* refuse: the journal stays as it is */
+static CpsStatus refuse(const CpsJournal *journal, CpsStatus status, const char *why, CpsError *err) {
+    return cpsi_fail(err, status, "%s/%s %s", journal->directory, NAME, why);
+}
+
+/* open --------------------------------------------------------------------------------------------------------- */
+
+static Head make_head(const CpsJournal *journal) {
+    Head head = {.build = checksum(CHECKSUM_BEGINS, PROGRAM, sizeof PROGRAM), .size = journal->size};
+    memcpy(head.magic, MAGIC, sizeof MAGIC);
+    snprintf(head.program, sizeof head.program, "%s", cps_version());
+    head.build = checksum(head.build, head.program, sizeof head.program);
+    snprintf(head.program, sizeof head.program, "capstan %s, %s", cps_version(), CAPSTAN_COMMIT);
+    head.scene = checksum(CHECKSUM_BEGINS, journal->state, journal->size);
+    head.checksum = checksum(CHECKSUM_BEGINS, &head, offsetof(Head, checksum));
+    return head;
+}
+
+/* An empty journal, on the disk together with its name. */
+static CpsStatus begin(CpsJournal *journal, CpsError *err) {
+    const Head head = make_head(journal);
+    journal->begun = true;
+    journal->end = (off_t)sizeof head;
+    if (ftruncate(journal->file, 0) != 0 || !write_at(journal->file, &head, sizeof head, 0) || fdatasync(journal->file) != 0)
+        return fail(journal, "write", err);
+    /* a file system that cannot sync a directory is accepted */
+    return fsync(journal->folder) == 0 || errno == EINVAL ? CPS_OK : fail(journal, "write", err);
+}
+
+/* What is there is a journal as far as it goes: `got` bytes of its head. */
+static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const Head *found, size_t got, CpsError *err) {
+    if (memcmp(found->magic, MAGIC, got < sizeof MAGIC ? got : sizeof MAGIC) != 0)
+        return refuse(journal, CPS_ERR_IO, "is no journal of capstan: move it away, or choose another directory", err);
+    struct stat about;
+    if (fstat(journal->file, &about) != 0) return fail(journal, "read", err);
+    const Head own = make_head(journal);
+    const bool empty = about.st_size <= (off_t)sizeof own;
+    if (mode == CPS_JOURNAL_REPLACE || empty) return begin(journal, err);
+    if (mode == CPS_JOURNAL_NEW)
+        return refuse(journal, CPS_ERR_IO,
+                      "keeps the steps of a run that was interrupted: go on with it (--resume), or begin anew without them (--force)", err);
+    if (found->checksum != checksum(CHECKSUM_BEGINS, found, offsetof(Head, checksum)))
+        return refuse(journal, CPS_ERR_ARGUMENT, "has a damaged head: nothing can be taken from it; begin anew (--force)", err);
+    if (found->build != own.build)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s/%s is of another program, %.*s; this is %s, or another build of it: go on with that one, or begin anew (--force)",
+                         journal->directory, NAME, (int)sizeof found->program - 1, found->program, own.program);
+    if (found->scene != own.scene || found->size != own.size)
+        return refuse(journal, CPS_ERR_ARGUMENT, "is of another scene than this one, or of other settings: begin anew (--force)", err);
+    journal->end = (off_t)sizeof own;
+    return CPS_OK;
+}
+
+/* The file in the directory itself, never one that a link names. */
+static CpsStatus open_file(CpsJournal *journal, CpsJournalMode mode, CpsError *err) {
+    enum { HOW = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC };
+    journal->folder = open(journal->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (journal->folder < 0) return fail(journal, "open", err);
+    journal->file = openat(journal->folder, NAME, HOW | O_CREAT | O_EXCL, 0666);
+    if (journal->file >= 0) return begin(journal, err);
+    if (errno != EEXIST) return fail(journal, "open", err);
+    struct stat about;
+    journal->file = openat(journal->folder, NAME, HOW);
+    if (journal->file < 0 && errno != ELOOP) return fail(journal, "open", err);
+    if (journal->file < 0 || fstat(journal->file, &about) != 0 || !S_ISREG(about.st_mode))
+        return refuse(journal, CPS_ERR_IO, "is not a file but a link or a device: move it away, or choose another directory", err);
+    Head found = {0};
+    size_t got;
+    if (!read_at(journal->file, &found, sizeof found, 0, &got)) return fail(journal, "read", err);
+    return take_up(journal, mode, &found, got, err);
+}
+
+CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution, CpsJournalMode mode, CpsJournal **out, CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL; give the address of a CpsJournal pointer");
     *out = NULL;
     if (!directory || !evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory and evolution are both needed");
+    if (cps_evolution_report(evolution).index >= 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the evolution has taken steps already: open its journal before the first one");
     CpsJournal *journal = calloc(1, sizeof *journal);
-    const size_t length = strlen(directory) + sizeof "/.journal";
-    if (journal) *journal = (CpsJournal){.file = -1, .size = cps_evolution_state_size(evolution), .path = malloc(length)};
+    if (journal)
+        *journal = (CpsJournal){.folder = -1, .file = -1, .size = cps_evolution_state_size(evolution), .directory = strdup(directory)};
     if (journal) journal->state = malloc(journal->size);
-    if (!journal || !journal->path || !journal->state) {
+    if (!journal || !journal->directory || !journal->state) {
         cps_journal_destroy(journal);
         return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while opening the journal");
     }
-    memcpy(journal->path, directory, length - sizeof "/.journal");
-    memcpy(journal->path + length - sizeof "/.journal", "/.journal", sizeof "/.journal");
-    journal->file = open(journal->path, O_RDWR | O_CREAT | O_CLOEXEC | (resume ? 0 : O_TRUNC), 0666);
-    if (journal->file < 0) {
-        const CpsStatus status = fail(journal, "open", err);
+    cps_evolution_save(evolution, journal->state);
+    const CpsStatus status = open_file(journal, mode, err);
+    if (status) {
         cps_journal_destroy(journal);
         return status;
     }
@@ -86,37 +180,48 @@ CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution,
     return CPS_OK;
 }
 
+/* steps -------------------------------------------------------------------------------------------------------- */
+
 CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *found, CpsError *err) {
     if (!journal || !evolution || !found) return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal, evolution and found are all needed");
     *found = false;
     Record record;
     size_t got;
     if (!read_at(journal->file, &record, sizeof record, journal->end, &got)) return fail(journal, "read", err);
-    if (got < sizeof record) return CPS_OK;
-    if (record.size != journal->size)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the journal %s is of another scene than this one: remove it, or run without going on",
-                         journal->path);
-    if (!read_at(journal->file, journal->state, journal->size, journal->end + (off_t)sizeof record, &got))
-        return fail(journal, "read", err);
-    if (got < journal->size || checksum(journal->state, journal->size) != record.checksum) return CPS_OK;
+    const bool begun = got == sizeof record && record.step == journal->steps;
+    const off_t body = journal->end + (off_t)sizeof record;
+    if (begun && !read_at(journal->file, journal->state, journal->size, body, &got)) return fail(journal, "read", err);
+    if (!begun || got < journal->size || record_checksum(record.step, journal) != record.checksum) {
+        journal->tail = true;
+        return CPS_OK;
+    }
     CpsError inner;
-    if (cps_evolution_load(evolution, journal->state, journal->size, &inner) != CPS_OK)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the journal %s: %s: remove it, or run without going on", journal->path,
-                         inner.message);
-    journal->end += (off_t)(sizeof record + journal->size);
+    const CpsStatus status = cps_evolution_load(evolution, journal->state, journal->size, &inner);
+    if (status == CPS_OK && cps_evolution_report(evolution).index != (int)journal->steps)
+        return refuse(journal, CPS_ERR_ARGUMENT, "has its steps in another order: begin anew (--force)", err);
+    if (status != CPS_OK)
+        return cpsi_fail(err, status, "%s/%s: %s: begin anew (--force)", journal->directory, NAME, inner.message);
+    journal->end = body + (off_t)journal->size;
+    journal->steps++;
     *found = true;
     return CPS_OK;
 }
 
 CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *evolution, CpsError *err) {
     if (!journal || !evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal and evolution are both needed");
+    if (cps_evolution_report(evolution).index != (int)journal->steps)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d follows the %d steps of the journal; append every step once",
+                         cps_evolution_report(evolution).index, (int)journal->steps);
+    if (journal->tail && ftruncate(journal->file, journal->end) != 0) return fail(journal, "write", err);
+    journal->tail = false;
     cps_evolution_save(evolution, journal->state);
-    const Record record = {journal->size, checksum(journal->state, journal->size)};
+    const Record record = {journal->steps, record_checksum(journal->steps, journal)};
     const off_t body = journal->end + (off_t)sizeof record;
     if (!write_at(journal->file, &record, sizeof record, journal->end) ||
         !write_at(journal->file, journal->state, journal->size, body) || (!journal->late && fdatasync(journal->file) != 0))
         return fail(journal, "write", err);
     journal->end = body + (off_t)journal->size;
+    journal->steps++;
     return CPS_OK;
 }
 
@@ -129,14 +234,20 @@ CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err) {
     return fdatasync(journal->file) == 0 ? CPS_OK : fail(journal, "write", err);
 }
 
+/* Only the file that was opened: what has taken its name meanwhile is somebody's. */
 void cps_journal_remove(CpsJournal *journal) {
-    if (journal) unlink(journal->path);
+    struct stat own, named;
+    if (journal && journal->file >= 0 && fstat(journal->file, &own) == 0 &&
+        fstatat(journal->folder, NAME, &named, AT_SYMLINK_NOFOLLOW) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino)
+        unlinkat(journal->folder, NAME, 0);
 }
 
 void cps_journal_destroy(CpsJournal *journal) {
     if (!journal) return;
+    if (journal->begun && journal->steps == 0) cps_journal_remove(journal); /* nothing to go on from */
     if (journal->file >= 0) close(journal->file);
-    free(journal->path);
+    if (journal->folder >= 0) close(journal->folder);
+    free(journal->directory);
     free(journal->state);
     free(journal);
 }
