@@ -135,14 +135,14 @@ static void tell_first_order(const CpsFirstOrderReport *r) {
 }
 
 static void tell(const CpsStudy *study, const CpsFirstOrder *first_order, const CpsLineView *view, const Teller *teller,
-                 const char *directory) {
+                 double tolerance, const char *directory) {
     printf("exact: J** + j = %.10g J on %d elements; everything below is against it\n\n", teller->step.energy,
            teller->step.elements);
     put_head();
     for (int i = 0; i < cps_study_row_count(study); ++i) put_row(cps_study_row(study, i), &teller->step);
     const CpsFirstOrderReport report = cps_first_order_report(first_order);
     tell_first_order(&report);
-    study_tell_slack(view);
+    study_tell_slack(view, tolerance);
     printf("\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, relaxed.svg\n",
            directory, directory);
 }
@@ -168,7 +168,7 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
         const CpsStudyFiles files = {title, classic, study, first_order};
         status = cps_study_write(directory, &files, &err);
     }
-    if (status == CPS_OK && !options->quiet) tell(study, first_order, view, &teller, directory);
+    if (status == CPS_OK && !options->quiet) tell(study, first_order, view, &teller, study_find_tolerance(options->tolerance), directory);
     const int code = status != CPS_OK   ? cli_report(&err)
                      : cli_stopped()    ? 128 + cli_stopped()
                      : teller.converged ? EXIT_OK
@@ -200,6 +200,7 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
         char title[256];
         const CpsStepReport step = cps_evolution_report(evolution);
         const CpsLineView view = cps_evolution_line_view(evolution, line);
+        const double tolerance = study_find_tolerance(options->tolerance);
         const int parts = cps_evolution_line_report(evolution, line).parts;
         if (parts > 1)
             fprintf(stderr, "capstan study: the step was taken in %d parts: this is about the last one\n", parts);
@@ -216,9 +217,9 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
             }
         }
         if (options->judge)
-            code = study_judge(&view, options->judge, options->quiet);
+            code = study_judge(&view, options->judge, tolerance, options->quiet);
         else if (options->complete)
-            code = study_complete(&view, study_find_completion(options->complete), title, directory, options->quiet);
+            code = study_complete(&view, study_find_completion(options->complete), tolerance, title, directory, options->quiet);
         else
             code = study_step(&view, title, directory, options);
     }
@@ -244,6 +245,7 @@ static bool is_sound(const CliOptions *options) {
         fputs("capstan study: found two of --history, --judge and --complete, expected one at most\n", stderr);
         return false;
     }
+    if (!(study_find_tolerance(options->tolerance) > 0)) return false;
     return !options->complete || study_find_completion(options->complete) != CPS_COMPLETIONS;
 }
 

@@ -45,6 +45,8 @@ static const Option OPTIONS[] = {
      "lay the slack of the step out, so that |x'| = 1: shortest, straight or meander"},
     {"judge", 'j', "FILE.csv", FOR_STUDY, offsetof(CliOptions, judge), false,
      "is this configuration a solution of the step, and if not, why"},
+    {"tolerance", 0, "TOL", FOR_STUDY, offsetof(CliOptions, tolerance), false,
+     "with which configurations are judged: gaps up to TOL times their scale are none (default: 1e-8)"},
     {"step", 's', "NAME", FOR_STUDY, offsetof(CliOptions, step), false, "the step to study (default: the first)"},
     {"line", 'l', "NAME", FOR_STUDY, offsetof(CliOptions, line), false, "the line to study (default: the first)"},
     {"eliminate", 'e', NULL, FOR_DRIVE, offsetof(CliOptions, eliminate), false,

@@ -18,12 +18,18 @@
 
 enum { SHOWN_PARTS = 8 };
 
-/* gaps up to this part of the scale are none; the step is certified to it */
-static const double JUDGED = 1e-8;
-
 static int out_of_memory(void) {
     fprintf(stderr, "capstan: out of memory\n");
     return EXIT_LIMIT;
+}
+
+double study_find_tolerance(const char *text) {
+    if (!text) return 1e-8; /* what a step is certified to */
+    char *end = NULL;
+    const double tolerance = strtod(text, &end);
+    if (end != text && *end == '\0' && tolerance > 0 && tolerance < 1) return tolerance;
+    cli_printf(stderr, "capstan study: --tolerance '%.40s': expected a number above 0 and below 1\n", text);
+    return NAN;
 }
 
 CpsCompletion study_find_completion(const char *name) {
@@ -39,7 +45,8 @@ CpsCompletion study_find_completion(const char *name) {
 static const char *hold_of(const CpsSlackPart *part) {
     if (part->loose) return "loose";
     if (!part->rubs) return "held by its ends";
-    return part->sliding ? "held by friction, at its bound: may slide on" : "held by friction";
+    if (part->sliding) return "held by friction, at its bound: may slide on";
+    return part->at_bound ? "held by friction, at its bound where nothing slides by itself" : "held by friction";
 }
 
 static int tell_parts(const CpsLineView *view) {
@@ -53,25 +60,25 @@ static int tell_parts(const CpsLineView *view) {
     return parts;
 }
 
-static void tell_judgement(const char *what, const CpsLineView *view, const double *position) {
+static void tell_judgement(const char *what, const CpsLineView *view, const double *position, double tolerance) {
     CpsError err;
     CpsJudgementReport report;
-    if (cps_solution_judge(view, position, JUDGED, &report, &err) == CPS_OK)
+    if (cps_solution_judge(view, position, tolerance, &report, &err) == CPS_OK)
         printf("  %s: %s\n", what, cps_judgement_sentence(report.judgement));
 }
 
-void study_tell_slack(const CpsLineView *view) {
+void study_tell_slack(const CpsLineView *view, double tolerance) {
     CpsError err;
     CpsSlackReport slack;
     char what[96];
     tell_parts(view);
-    tell_judgement("as found", view, view->position);
+    tell_judgement("as found", view, view->position, tolerance);
     double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
     if (position && cps_solution_complete(view, CPS_COMPLETION_MEANDER, position, &slack, &err) == CPS_OK &&
         slack.parts > 0) {
         snprintf(what, sizeof what, "laid out %s, %.6g m of it", cps_completion_sentence(CPS_COMPLETION_MEANDER),
                  slack.loose);
-        tell_judgement(what, view, position);
+        tell_judgement(what, view, position, tolerance);
     }
     free(position);
 }
@@ -150,7 +157,7 @@ static int read_configuration(const CpsLineView *view, const char *path, double 
     return code;
 }
 
-static void tell_report(const CpsJudgementReport *r) {
+static void tell_report(const CpsJudgementReport *r, double tolerance, double length) {
     printf("%s\n\n", cps_judgement_sentence(r->judgement));
     printf("energy above the minimum  %12.5g J, of which\n", r->energy);
     printf("  tension                 %12.5g J  0 where tensions and their directions are those of the step\n",
@@ -162,18 +169,20 @@ static void tell_report(const CpsJudgementReport *r) {
         "inside the obstacle       %12.5g m\nheld ends off              %12.5g m\nlargest 1 - |x'|          %12.5g\n",
         r->penetration, r->end_error, r->shortening);
     if (r->judgement != CPS_JUDGED_SOLUTION) printf("what fails is largest at a = %.6g m\n", r->arc_length);
+    printf("tolerance %.3g: sums up to %.3g J, of the scale S = %.5g J; lengths up to %.3g m; 1 - |x'| up to %.3g, its root\n", tolerance,
+           tolerance * r->scale, r->scale, tolerance * length, sqrt(tolerance));
 }
 
-int study_judge(const CpsLineView *view, const char *path, bool quiet) {
+int study_judge(const CpsLineView *view, const char *path, double tolerance, bool quiet) {
     CpsError err;
     CpsJudgementReport report;
     double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
     if (!position) return out_of_memory();
     int code = read_configuration(view, path, position);
-    if (code == EXIT_OK && cps_solution_judge(view, position, JUDGED, &report, &err) != CPS_OK)
+    if (code == EXIT_OK && cps_solution_judge(view, position, tolerance, &report, &err) != CPS_OK)
         code = cli_report(&err);
     else if (code == EXIT_OK) {
-        if (!quiet) cli_put_text(stdout, path, 200, false), printf(": "), tell_report(&report);
+        if (!quiet) cli_put_text(stdout, path, 200, false), printf(": "), tell_report(&report, tolerance, view->arc_length[view->elements]);
         code = report.judgement == CPS_JUDGED_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
     }
     free(position);
@@ -193,7 +202,7 @@ static CpsStatus complete_all(const CpsLineView *view, double *all, CpsCompleted
     return status;
 }
 
-int study_complete(const CpsLineView *view, CpsCompletion how, const char *title, const char *directory, bool quiet) {
+int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance, const char *title, const char *directory, bool quiet) {
     CpsError err;
     CpsSlackReport slack[CPS_COMPLETIONS];
     CpsJudgementReport report = {0};
@@ -201,11 +210,11 @@ int study_complete(const CpsLineView *view, CpsCompletion how, const char *title
     double *all = malloc(3 * CPS_COMPLETIONS * ((size_t)view->elements + 1) * sizeof *all);
     if (!all) return out_of_memory();
     CpsStatus status = complete_all(view, all, &line, slack, &err);
-    if (status == CPS_OK) status = cps_solution_judge(view, line.position[how], JUDGED, &report, &err);
+    if (status == CPS_OK) status = cps_solution_judge(view, line.position[how], tolerance, &report, &err);
     if (status == CPS_OK) status = cps_completed_write(directory, &line, &err);
     if (status == CPS_OK && !quiet) {
         tell_parts(view);
-        tell_judgement("as found", view, view->position);
+        tell_judgement("as found", view, view->position, tolerance);
         printf("  laid out %s, %.6g m of it in %d piece%s: %s\n", cps_completion_sentence(how), slack[how].loose,
                slack[how].parts, slack[how].parts == 1 ? "" : "s", cps_judgement_sentence(report.judgement));
         if (slack[how].left > 0)

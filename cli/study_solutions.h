@@ -8,15 +8,18 @@
 /* The completion of this name; CPS_COMPLETIONS after a message where there is none. */
 CpsCompletion study_find_completion(const char *name);
 
+/* The tolerance of judgements from its text, 1e-8 for NULL; NaN after a message where it is none. */
+double study_find_tolerance(const char *text);
+
 /* Print the slack parts with what holds them, and how the configuration found and a meander are judged. */
-void study_tell_slack(const CpsLineView *view);
+void study_tell_slack(const CpsLineView *view, double tolerance);
 
 /* Judge the configuration of a CSV file: x,y,z or arc_length,x,y,z in a row per node, after rows of names and units.
  * Returns EXIT_OK where it is a solution of P3.1, EXIT_NOT_CERTIFIED where it is none. */
-int study_judge(const CpsLineView *view, const char *path, bool quiet);
+int study_judge(const CpsLineView *view, const char *path, double tolerance, bool quiet);
 
 /* Lay the slack out and write completed.csv and completed.svg. Returns the exit code; EXIT_NOT_CERTIFIED where the
  * configuration written is no solution of P3.1. */
-int study_complete(const CpsLineView *view, CpsCompletion how, const char *title, const char *directory, bool quiet);
+int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance, const char *title, const char *directory, bool quiet);
 
 #endif

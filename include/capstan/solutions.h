@@ -41,6 +41,7 @@ CPS_API const char *cps_judgement_sentence(CpsJudgement judgement);
 
 typedef struct CpsJudgementReport {
     CpsJudgement judgement;
+    double scale;   /* [J] S of docs/theory.md (5): a gap up to tolerance times S is none */
     double energy;  /* [J] above the step's minimum: the sum of the next three, and exact up to the step's own gap */
     double tension; /* [J] sum of l (W(x') + W*(p) - p.x') */
     double contact; /* [J] sum of R (n.u + gap) */
@@ -67,9 +68,11 @@ CPS_API CpsStatus cps_solution_judge(const CpsLineView *step, const double *posi
 /* A stretch of line without tension, all of it loose or all of it not. */
 typedef struct CpsSlackPart {
     double from, to; /* [m] natural abscissas */
-    bool loose;      /* its nodes may move and stay a solution; else friction or an end holds each */
-    bool rubs;       /* friction holds one of its nodes at least */
-    bool sliding;    /* friction is at its bound on one of them: that node may slide on, against its friction force */
+    bool loose;      /* its nodes may move and stay a solution; else friction or an end holds each, or it is straight between two */
+    bool rubs;       /* friction acts on one of its nodes at least */
+    bool at_bound;   /* friction is at its bound on one of them */
+    bool sliding;    /* one of those, with what its elements carry along, may slide on against its friction force, or back, and leave a
+                        solution; elsewhere friction at its bound holds slack as well, as where a part begins beside one that is taut */
     bool grounded;   /* the obstacle pushes on one of its nodes at least: contact keeps those down */
 } CpsSlackPart;
 
@@ -104,7 +107,9 @@ typedef struct CpsSlackReport {
 } CpsSlackReport;
 
 /* Complete the slack so that |x'| = 1 there: nodes without friction between two that stay are laid out, within the
- * plane they rest on, at the full length of their elements. (55) with a tangent of one's own choice.
+ * plane they rest on, at the full length of their elements; the first and the last element come down from a node that stays above it.
+ * (55) with a tangent of one's own choice. What no directions of the elements close, one of them being longer than all others and the
+ * chord, stays as found, or up to a free end goes straight on.
  *
  *   step       a solved step
  *   position   (elements + 1, 3) [m] out: the step's configuration with the slack laid out

@@ -1,28 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The slack of a step laid out at its full length: S90 (55) with a tangent of one's own where T = 0.
  *
- * A node of a slack part may move without changing the energy if it bears no friction bound and keeps its height above
- * the plane. Between two nodes that stay, the length L of the elements is longer than the chord d; parted into L1 in
- * one direction and L2 in another, they and the chord are the sides of a triangle. Taking half of L first gives two
- * straight pieces, taking elements from the two in turn a meander. With L1 - L2 as close to d as the elements let it be
- * the triangle is flat: to and fro along the chord itself. All end where they should, whatever the element lengths. */
+ * Between two nodes that stay, the elements of a piece (slack.h) reach r_i within the plane of its loose nodes: their length, but for an
+ * element that comes down from a node above the plane. Laid out in groups of one direction each, the groups and the chord between the feet
+ * of the two nodes are the sides of a triangle, or of a quadrilateral. Taking half of the length first gives two straight pieces, taking
+ * elements for the shorter side in turn a meander. With the two sides differing by as much of the chord as the elements let them the triangle is flat: to
+ * and fro along the chord itself. Where the sides differ by more than the chord, as with an odd number of elements between nodes that
+ * nearly meet, the last element is laid across first. Where that does not close either there are three groups: elements up to half of the
+ * way round, the element across that half, and the rest; each is at most half, so that they close whenever any directions of the elements do. */
 #include <math.h>
 #include <string.h>
 
-#include "base/larger.h"
 #include "base/status.h"
-#include "capstan/solutions.h"
 #include "classic/places.h"
-
-/* an element is slack with a tension below this part of the step's largest force: its complement, the slack, is then
- * larger */
-static const double SLACK_TENSION = 1e-5;
-
-/* an element closer to its length than this needs no laying out [-] */
-static const double FULL = 1e-9;
-
-/* a friction force this part below its bound is at it: what a step's certificate of 1e-8 leaves of it */
-static const double AT_BOUND = 1e-6;
+#include "classic/slack.h"
 
 static const struct {
     const char *key, *sentence;
@@ -40,163 +31,170 @@ const char *cps_completion_sentence(CpsCompletion completion) {
     return (unsigned)completion < CPS_COMPLETIONS ? COMPLETION[completion].sentence : "unknown completion";
 }
 
-static double largest_force(const CpsLineView *step) {
-    double most = 0, sum = 0;
-    for (int i = 0; i < step->elements; ++i) most = cpsi_larger(most, step->tension[i]);
-    for (int j = 0; j <= step->elements; ++j) sum += vec3_norm(cpsi_at(step->load, j));
-    return cpsi_larger(most, sum);
-}
-
-static bool slack(const CpsLineView *step, int element, double force) {
-    return element >= 0 && element < step->elements && step->tension[element] <= SLACK_TENSION*force;
-}
-
-/* may a node move within its plane? Both its elements are slack, no friction acts or could, and it is no end. */
-static bool loose(const CpsLineView *step, int node, double force) {
-    return node > 0 && node < step->elements && slack(step, node - 1, force) && slack(step, node, force) &&
-           !(step->friction_bound[node] > 0);
-}
-
-/* the same of end B: free, without tension, without friction */
-static bool loose_end(const CpsLineView *step, double force) {
-    const int n = step->elements;
-    return step->end[CPS_END_B].kind != CPS_END_HELD && slack(step, n - 1, force) && !(step->friction_bound[n] > 0);
-}
-
-static double stretch(const CpsLineView *step, const double *position, int i) {
-    return vec3_norm(vec3_sub(cpsi_at(position, i + 1), cpsi_at(position, i)))/step->element_length[i];
-}
-
-/* ---- laying out ---- */
-
-/* Elements first..last between the nodes first and last + 1 that stay. */
-typedef struct Piece {
-    int first, last;
+/* A piece, how it is laid out, and the sides of its polygon [m]. */
+typedef struct Laying {
+    const CpsLineView *step;
+    CpsiPiece piece;
     CpsCompletion how;
-} Piece;
+    double chord, length; /* between the feet, and the sum of what the elements reach */
+    double side[3];
+    bool third;           /* three groups */
+} Laying;
 
-/* does element i go in the first of the two directions? So far `on` of the length before it did, `back` did not; the
- * chord is `d` of the whole length. */
-static bool first_side(const CpsLineView *step, const Piece *piece, int i, double d, double on, double back) {
-    const double length = step->arc_length[piece->last + 1] - step->arc_length[piece->first];
-    const double before = step->arc_length[i] - step->arc_length[piece->first], l = step->element_length[i];
-    if (piece->how == CPS_COMPLETION_MEANDER) return (i - piece->first)%2 == 0;
-    if (piece->how == CPS_COMPLETION_STRAIGHT) return before < 0.5*length || i == piece->first;
-    /* on, unless that leads past the place due at the end of the element */
-    return on - back + l <= d*(before + l)/length*(1 + FULL);
+static double reach(const Laying *lay, int i) { return cpsi_piece_reach(lay->step, &lay->piece, i); }
+
+/* The group of element i; `gone` is the length laid out before it in each group. */
+static int group_of(const Laying *lay, int i, const double gone[3]) {
+    const double before = gone[0] + gone[1] + gone[2], r = reach(lay, i);
+    if (lay->third) {
+        const double half = (lay->length + lay->chord)/2;
+        return gone[1] > 0 ? 2 : before + r > half*(1 + CPSI_FULL) ? 1 : 0;
+    }
+    switch (lay->how) {
+    case CPS_COMPLETION_MEANDER:
+        return gone[1] < gone[0]*(1 - CPSI_FULL);
+    case CPS_COMPLETION_STRAIGHT:
+        return !(before < 0.5*lay->length*(1 - CPSI_FULL) || i == lay->piece.first);
+    default:
+        /* on, unless that leads past the place due at the end of the element */
+        return !(gone[0] - gone[1] + r <= lay->chord*(before + r)/lay->length*(1 + CPSI_FULL));
+    }
 }
 
-/* a unit vector in the plane of the nodes, across the chord */
-static Vec3 sideways(const CpsLineView *step, const Piece *piece, Vec3 along) {
-    Vec3 n = cpsi_at(step->normal, piece->first + 1);
-    if (!(vec3_norm(n) > 0)) n = fabs(along.z) < 0.9 ? vec3(0, 0, 1) : vec3(1, 0, 0);
-    const Vec3 across = vec3_cross(n, along);
-    const double length = vec3_norm(across);
-    return length > 1e-6 ? vec3_scale(1/length, across) : vec3_cross(vec3(0, 1, 0), along);
+static void measure_sides(Laying *lay) {
+    memset(lay->side, 0, sizeof lay->side);
+    for (int i = lay->piece.first; i <= lay->piece.last; ++i) {
+        double *side = &lay->side[group_of(lay, i, lay->side)];
+        *side += reach(lay, i);
+    }
 }
 
-/* lengths laid out in the first and in the second direction */
-static void sides(const CpsLineView *step, const Piece *piece, double d, double side[2]) {
-    side[0] = side[1] = 0;
-    for (int i = piece->first; i <= piece->last; ++i)
-        side[!first_side(step, piece, i, d, side[0], side[1])] += step->element_length[i];
+/* unit vectors along the plane: along the chord, and across it to the left */
+static void axes(const Laying *lay, Vec3 *along, Vec3 *across) {
+    const Vec3 n = lay->piece.normal, chord = vec3_sub(lay->piece.foot[1], lay->piece.foot[0]);
+    Vec3 t = chord;
+    if (!(lay->chord > CPSI_FULL*lay->length)) {
+        const Vec3 x = vec3_axpy(-n.x, n, vec3(1, 0, 0));
+        t = vec3_norm(x) > 0.1 ? x : vec3_axpy(-n.y, n, vec3(0, 1, 0));
+    }
+    *along = vec3_scale(1/vec3_norm(t), t);
+    *across = vec3_cross(n, *along);
 }
 
-/* false when the triangle does not close: one side is longer than the other and the chord */
-static bool lay_out(const CpsLineView *step, const Piece *piece, double *position) {
-    const Vec3 from = cpsi_at(position, piece->first), chord = vec3_sub(cpsi_at(position, piece->last + 1), from);
-    const double d = vec3_norm(chord), length = step->arc_length[piece->last + 1] - step->arc_length[piece->first];
-    double side[2];
-    sides(step, piece, d, side);
-    if (!(length > d*(1 + FULL)) || !(fabs(side[0] - side[1]) <= d*(1 + FULL))) return false;
+/* cosine of the angle between the sides a and b of a triangle with the third side c */
+static double corner(double a, double b, double c) {
+    return a > 0 && b > 0 ? fmax(-1, fmin(1, (a*a + b*b - c*c)/(2*a*b))) : 1;
+}
 
-    /* law of cosines; a chord of length 0 is left in any direction along the plane */
-    const Vec3 along = d > 0 ? vec3_scale(1/d, chord) : vec3(1, 0, 0);
-    const Vec3 across = sideways(step, piece, along);
-    const double turn[2] = {d > 0 ? (d*d + (side[0] - side[1])*length)/(2*d*side[0]) : 0,
-                            d > 0 ? (d*d - (side[0] - side[1])*length)/(2*d*side[1]) : 0};
-    double gone[2] = {0, 0};
-    Vec3 x = from;
-    for (int i = piece->first; i < piece->last; ++i) {
-        const int k = !first_side(step, piece, i, d, gone[0], gone[1]);
-        const double c = fmax(-1, fmin(1, turn[k])), s = sqrt(1 - c*c)*(k ? -1 : 1), l = step->element_length[i];
-        x = vec3_axpy(l*c, along, vec3_axpy(l*s, across, x));
+static double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
+
+/* The groups' directions, as cosine and sine of their angles from the chord. */
+static void directions(const Laying *lay, double out[3][2]) {
+    const double *l = lay->side, d = lay->chord;
+    if (!lay->third) {
+        const bool tiny = !(d > CPSI_FULL*lay->length);
+        for (int k = 0; k < 2; ++k) {
+            out[k][0] = tiny ? 0 : corner(l[k], d, l[1 - k]);
+            out[k][1] = (k ? -1 : 1)*sqrt(1 - out[k][0]*out[k][0]);
+        }
+        return;
+    }
+    /* a diagonal from the start to the end of the second group makes two triangles, with the chord and with the first two groups */
+    const double least = fmax(fabs(l[0] - l[1]), fabs(l[2] - d)), most = fmin(l[0] + l[1], l[2] + d);
+    const double diagonal = clamp((least + most)/2, least, most), turn = acos(corner(diagonal, d, l[2]));
+    const double angle[3] = {turn + acos(corner(l[0], diagonal, l[1])), turn - acos(corner(l[1], diagonal, l[0])),
+                             -acos(corner(l[2], d, diagonal))};
+    for (int k = 0; k < 3; ++k) out[k][0] = cos(angle[k]), out[k][1] = sin(angle[k]);
+}
+
+static Laying begin(const CpsLineView *step, const CpsiPiece *piece, CpsCompletion how) {
+    Laying lay = {.step = step, .piece = *piece, .how = how, .chord = vec3_norm(vec3_sub(piece->foot[1], piece->foot[0]))};
+    for (int i = piece->first; i <= piece->last; ++i) lay.length += reach(&lay, i);
+    return lay;
+}
+
+static bool two_close(Laying *lay) {
+    lay->third = false;
+    measure_sides(lay);
+    return fabs(lay->side[0] - lay->side[1]) <= lay->chord*(1 + CPSI_FULL);
+}
+
+static bool three_close(Laying *lay) {
+    const double half = (lay->length + lay->chord)/2*(1 + CPSI_FULL);
+    lay->third = true;
+    measure_sides(lay);
+    return lay->side[0] <= half && lay->side[1] <= half;
+}
+
+/* The piece without its last element, which is laid across the chord. */
+static Laying without_last(const Laying *lay) {
+    CpsiPiece piece = lay->piece;
+    Vec3 along, across;
+    axes(lay, &along, &across);
+    piece.foot[1] = vec3_axpy(-reach(lay, piece.last), across, piece.foot[1]);
+    piece.height[1] = 0;
+    --piece.last;
+    return begin(lay->step, &piece, lay->how);
+}
+
+/* Lay out a piece between two nodes that stay; false where no directions close: one element is longer than all others and the chord. */
+static bool lay_out(Laying lay, double *position) {
+    if (!two_close(&lay)) {
+        Laying shorter = lay.piece.last > lay.piece.first + 1 ? without_last(&lay) : lay;
+        if (shorter.piece.last < lay.piece.last && two_close(&shorter)) {
+            vec3_store(position + 3*(size_t)lay.piece.last, shorter.piece.foot[1]);
+            lay = shorter;
+        } else if (!three_close(&lay)) {
+            return false;
+        }
+    }
+    Vec3 along, across;
+    double direction[3][2], gone[3] = {0, 0, 0};
+    axes(&lay, &along, &across);
+    directions(&lay, direction);
+    Vec3 x = lay.piece.foot[0];
+    for (int i = lay.piece.first; i < lay.piece.last; ++i) {
+        const int k = group_of(&lay, i, gone);
+        const double r = reach(&lay, i);
+        x = vec3_axpy(r*direction[k][0], along, vec3_axpy(r*direction[k][1], across, x));
         vec3_store(position + 3*(size_t)(i + 1), x);
-        gone[k] += l;
+        gone[k] += r;
     }
     return true;
 }
 
-/* Straight on from the last node that stays to a loose end, in the direction in which the end lies, along the plane. */
-static void lay_straight_on(const CpsLineView *step, int first, double *position) {
-    const Vec3 from = cpsi_at(position, first), chord = vec3_sub(cpsi_at(position, step->elements), from);
-    const Vec3 n = cpsi_at(step->normal, step->elements), flat = vec3_axpy(-vec3_dot(n, chord), n, chord);
-    const double d = vec3_norm(flat);
-    const Piece piece = {first, step->elements - 1, CPS_COMPLETION_STRAIGHT};
-    const Vec3 along = d > 0 ? vec3_scale(1/d, flat) : sideways(step, &piece, vec3(1, 0, 0));
-    for (int j = first + 1; j <= step->elements; ++j)
-        vec3_store(position + 3*(size_t)j, vec3_axpy(step->arc_length[j] - step->arc_length[first], along, from));
-}
-
-/* what holds a node, added to its part */
-static void note_node(const CpsLineView *step, int j, CpsSlackPart *part) {
-    const double bound = step->friction_bound[j];
-    part->grounded = part->grounded || step->reaction[j] > 0;
-    part->rubs = part->rubs || bound > 0;
-    part->sliding = part->sliding || (bound > 0 && vec3_norm(cpsi_at(step->friction, j)) >= bound*(1 - AT_BOUND));
-}
-
-int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part) {
-    const double force = largest_force(step);
-    int parts = 0;
-    CpsSlackPart now = {.to = -1};
-    for (int i = 0; i < step->elements; ++i) {
-        if (!slack(step, i, force)) continue;
-        const bool end = i == step->elements - 1 && loose_end(step, force);
-        const bool moves = loose(step, i, force) || loose(step, i + 1, force) || end;
-        if (parts == 0 || now.to < step->arc_length[i] || now.loose != moves) {
-            now = (CpsSlackPart){.from = step->arc_length[i], .loose = moves};
-            ++parts;
-            note_node(step, i, &now);
-        }
-        now.to = step->arc_length[i + 1];
-        note_node(step, i + 1, &now);
-        if (parts <= room) part[parts - 1] = now;
+/* Straight on to a free end, from the last node that stays, in the direction in which the end lies. */
+static void lay_straight_on(const Laying *lay, double *position) {
+    const CpsiPiece *piece = &lay->piece;
+    Vec3 along, across;
+    axes(lay, &along, &across);
+    const bool forth = piece->open[1];
+    Vec3 x = piece->foot[!forth];
+    for (int k = piece->first; k <= piece->last; ++k) {
+        const int i = forth ? k : piece->first + piece->last - k;
+        x = vec3_axpy(forth ? reach(lay, i) : -reach(lay, i), along, x);
+        vec3_store(position + 3*(size_t)(forth ? i + 1 : i), x);
     }
-    return parts;
-}
-
-/* The same, and where the two sides differ by more than the chord, an odd number of elements between nodes that nearly
- * meet, once more after the last element is laid across. */
-static bool lay_out_any(const CpsLineView *step, Piece piece, double *position) {
-    if (lay_out(step, &piece, position)) return true;
-    const Vec3 end = cpsi_at(position, piece.last + 1), chord = vec3_sub(end, cpsi_at(position, piece.first));
-    const double d = vec3_norm(chord), l = step->element_length[piece.last];
-    if (piece.last - piece.first < 2 ||
-        !(step->arc_length[piece.last + 1] - step->arc_length[piece.first] > d*(1 + FULL)))
-        return false;
-    const Vec3 across = sideways(step, &piece, d > 0 ? vec3_scale(1/d, chord) : vec3(1, 0, 0));
-    vec3_store(position + 3*(size_t)piece.last, vec3_axpy(-l, across, end));
-    --piece.last;
-    return lay_out(step, &piece, position);
 }
 
 /* Lay out a piece and count it. */
-static void take_piece(const CpsLineView *step, const Piece *piece, bool end, double *position, CpsSlackReport *r) {
+static void take_piece(const CpsLineView *step, const CpsiPiece *piece, CpsCompletion how, double *position, CpsSlackReport *r) {
+    const bool moves = cpsi_piece_moves(step, piece), open = piece->open[0] || piece->open[1];
     const double length = step->arc_length[piece->last + 1] - step->arc_length[piece->first];
-    const bool moves = piece->last > piece->first || end;
     r->slack += length;
     *(moves ? &r->loose : &r->held) += length;
     for (int i = piece->first; i <= piece->last; ++i)
-        if (stretch(step, position, i) >= 1 - FULL) r->straight += step->element_length[i];
-    if (end && piece->how == CPS_COMPLETION_STRAIGHT) {
-        lay_straight_on(step, piece->first, position);
-        ++r->parts;
-    } else if (moves && lay_out_any(step, *piece, position)) {
-        ++r->parts;
+        if (cpsi_element_stretch(step, position, i) >= 1 - CPSI_FULL) r->straight += step->element_length[i];
+    const Laying lay = begin(step, piece, how);
+    const bool straight_on = open && how == CPS_COMPLETION_STRAIGHT;
+    bool laid = !straight_on && moves && piece->last > piece->first && lay_out(lay, position);
+    if (open && !laid) {
+        lay_straight_on(&lay, position);
+        laid = true;
     }
+    r->parts += laid;
     for (int i = piece->first; i <= piece->last; ++i)
-        if (stretch(step, position, i) < 1 - FULL) r->left += step->element_length[i];
+        if (cpsi_element_stretch(step, position, i) < 1 - CPSI_FULL) r->left += step->element_length[i];
 }
 
 CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, double *position, CpsSlackReport *report,
@@ -212,13 +210,10 @@ CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, doub
                          step->name);
     memcpy(position, step->position, 3*((size_t)step->elements + 1)*sizeof *position);
     CpsSlackReport r = {0};
-    const double force = largest_force(step);
+    const double force = cpsi_slack_force(step);
     for (int i = 0; i < step->elements;) {
-        /* a piece: up to the next node that stays */
-        Piece piece = {i, i, how};
-        while (loose(step, piece.last + 1, force)) ++piece.last;
-        const bool end = piece.last == step->elements - 1 && loose_end(step, force);
-        if (slack(step, i, force)) take_piece(step, &piece, end, position, &r);
+        const CpsiPiece piece = cpsi_piece_at(step, i, force);
+        if (piece.slack) take_piece(step, &piece, how, position, &r);
         i = piece.last + 1;
     }
     if (report) *report = r;

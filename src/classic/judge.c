@@ -80,7 +80,7 @@ static double scale_of(const CpsLineView *step, double tolerance) {
     for (int j = 0; j <= step->elements; ++j) {
         const Vec3 x = cpsi_at(step->position, j), u = vec3_sub(x, cpsi_at(step->reference, j)),
                    n = cpsi_at(step->normal, j), b = cpsi_at(step->load, j);
-        scale += step->friction_bound[j]*vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
+        if (!held(step, j)) scale += step->friction_bound[j]*vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
         work += fabs(vec3_dot(b, u));
         loads += vec3_norm(b);
         moment += vec3_norm(b)*vec3_norm(vec3_sub(x, cpsi_at(step->position, 0)));
@@ -136,7 +136,7 @@ CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, do
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "position of node %d is not finite", j);
     Case c = {0};
     look(step, position, &c);
-    const double gap = tolerance*scale_of(step, tolerance), strain = sqrt(tolerance);
+    const double scale = scale_of(step, tolerance), gap = tolerance*scale, strain = sqrt(tolerance);
     const double length = tolerance*step->arc_length[step->elements];
     const struct {
         bool fails;
@@ -149,7 +149,8 @@ CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, do
                  {!(c.contact.sum <= gap), CPS_JUDGED_CONTACT, &c.contact},
                  {!(c.sliding.sum <= gap), CPS_JUDGED_SLIDING, &c.sliding},
                  {!(c.shorter.most <= strain), CPS_JUDGED_RELAXED, &c.shorter}};
-    *report = (CpsJudgementReport){.energy = c.tension.sum + c.contact.sum + c.sliding.sum,
+    *report = (CpsJudgementReport){.scale = scale,
+                                   .energy = c.tension.sum + c.contact.sum + c.sliding.sum,
                                    .tension = c.tension.sum,
                                    .contact = c.contact.sum,
                                    .sliding = c.sliding.sum,

@@ -103,6 +103,84 @@ static void slack_between_ends_that_meet(void **state) {
     case_close(&b.run);
 }
 
+/* Laid out in each shape, by the program: C, |x'| and the place of the ends are looked at node by node, on the bed z = 0. */
+static void check_laid(Bench *b, bool closes) {
+    for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
+        CpsSlackReport slack = complete(b, how);
+        CHECK_BETWEEN(slack.left, closes ? 0 : 0.1, closes ? 0 : 1);
+        assert_int_equal(judge(b).judgement, closes ? CPS_JUDGED_SOLUTION : CPS_JUDGED_RELAXED);
+        for (int i = 0; i < b->view.elements && closes; i++) {
+            const double *x = &b->position[3 * i];
+            double length = sqrt(pow(x[3] - x[0], 2) + pow(x[4] - x[1], 2) + pow(x[5] - x[2], 2));
+            CHECK_BETWEEN(length / b->view.element_length[i], 1 - 1e-9, INFINITY);
+            CHECK_BETWEEN(x[2], -1e-12, INFINITY);
+            // what the bed carries stays on it; 1e-9 N is far below a node's weight of 0.01 N
+            if (i > 0 && b->view.reaction[i] > 1e-9) CHECK_BETWEEN(x[2], -1e-12, 1e-9);
+        }
+        const int tip = 3 * b->view.elements;
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR(b->position[k], b->view.position[k], 0);
+            CHECK_NEAR(b->position[tip + k], b->view.position[tip + k], 0);
+        }
+    }
+}
+
+/* An end held above a smooth bed: by less than an element, which comes down without tension, and by so much that some hang. */
+static void slack_below_a_lifted_end(void **state) {
+    (void)state;
+    const double height[] = {0.005, 0.0099, 0.3};
+    for (int k = 0; k < 3; k++) {
+        Bench b;
+        open_bench(&b, 0, k == 2 ? 1 : INFINITY);
+        case_move(&b.c, 1, 0.5, 0.1, height[k]);
+        solve_bench(&b);
+        check_laid(&b, true);
+        case_close(&b.run);
+    }
+}
+
+/* Elements of uneven length: two sides need not close, three do; and where one element is longer than all others and the chord nothing does. */
+static void slack_of_uneven_elements(void **state) {
+    (void)state;
+    static const double MESH[][6] = {{0.3, 0.01, 0.29, 0.1, 0.25, 0.05}, {0.02, 0.04, 0.08, 0.16, 0.32, 0.38}, {0.1, 0.02, 0.62, 0.06, 0.1, 0.1}};
+    const double chord[] = {0.003, 0.001, 0.2};
+    for (int k = 0; k < 3; k++) {
+        Bench b;
+        open_bench(&b, 0, 1);
+        b.c.line.elements = 6;
+        b.c.line.element_length = MESH[k];
+        case_move(&b.c, 1, chord[k], 0, 0);
+        solve_bench(&b);
+        check_laid(&b, k < 2);
+        case_close(&b.run);
+    }
+}
+
+/* Straight at its length between two held ends on a smooth bed: without tension, and nothing can move. */
+static void straight_slack(void **state) {
+    (void)state;
+    Bench b;
+    open_bench(&b, 0, 1);
+    case_move(&b.c, 1, 1, 0, 0);
+    solve_bench(&b);
+    CpsSlackPart part;
+    CHECK_INT(cps_solution_slack(&b.view, 1, &part), 1);
+    assert_false(part.loose);
+    case_close(&b.run);
+}
+
+/* The scale of a judgement is that of the certificate, (5). */
+static void scale_of_a_judgement(void **state) {
+    (void)state;
+    Bench b;
+    open_bench(&b, 0.3, 1);
+    case_force(&b.c, 1, 0.5, 0.2, 0.1);
+    solve_bench(&b);
+    const double scale = cps_evolution_line_report(b.run.evolution, 0).certificate.scale;
+    CHECK_NEAR(judge(&b).scale, scale, 1e-12 * scale);
+    case_close(&b.run);
+}
+
 /* The same with one node lifted: the tensions are still those of the solution, its own (55), but the bed pushed there.
  * The energy is the weight's, R z. Proposition 7.4 as printed would let it pass. */
 static void lifted_loop(void **state) {
@@ -144,12 +222,17 @@ static void slack_held_by_friction(void **state) {
     CHECK_INT(slack.parts, 0);
 
     assert_true(part.rubs && !part.sliding && part.grounded);
-    // a made-up friction force at its bound shows: that node could slide on
-    static double rub[COORDINATES];
+    // a made-up friction force at its bound: the elements beside it are straight at their length, and hold node 30
+    static double rub[COORDINATES], shorter[COORDINATES];
     memcpy(rub, b.view.friction, sizeof rub);
     rub[3 * 30 + 1] = b.view.friction_bound[30];
     CpsLineView made_up = b.view;
     made_up.friction = rub;
+    CHECK_INT(cps_solution_slack(&made_up, 1, &part), 1);
+    assert_true(part.at_bound && !part.sliding);
+    // and where they are short it may slide on
+    for (int k = 0; k < COORDINATES; k++) shorter[k] = 0.9 * b.view.position[k];
+    made_up.position = shorter;
     CHECK_INT(cps_solution_slack(&made_up, 1, &part), 1);
     assert_true(part.sliding);
 
@@ -377,6 +460,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slack_on_a_smooth_bed),
         cmocka_unit_test(slack_between_ends_that_meet),
+        cmocka_unit_test(slack_below_a_lifted_end),
+        cmocka_unit_test(slack_of_uneven_elements),
+        cmocka_unit_test(straight_slack),
+        cmocka_unit_test(scale_of_a_judgement),
         cmocka_unit_test(lifted_loop),
         cmocka_unit_test(slack_held_by_friction),
         cmocka_unit_test(other_tensions),

@@ -99,7 +99,22 @@ with tempfile.TemporaryDirectory() as folder:
             check(done.returncode == 0 and "a solution of P3.1" in done.stdout, f"{step}, {shape}, judged: {done.stdout}{done.stderr}")
         check(len(shapes) == 3, f"{step}: {len(shapes)} different shapes, expected 3")
 
+    # a node at its bound where the tension begins slides on nowhere: what is taut holds it, and the configuration is unique
+    done = study(folder, os.path.join(EXAMPLES, "souza-de-cursi-1990-circle.yaml"), "--step", "Y2", "--complete", "meander", "-o", "circle")
+    check("at its bound where nothing slides by itself" in done.stdout and "may slide" not in done.stdout, f"full circle, Y2: said\n{done.stdout}")
+
+    # the tolerance of a judgement is printed with its scale, and an option
     study(folder, EXAMPLE, "--step", "Y4", "--complete", "meander", "-o", "laid")
+    change("moved.csv", 790, 3, 1e-4)
+    for arguments, code, words in (([], 1, "tolerance 1e-08"), (["--tolerance", "1e-3"], 0, "tolerance 0.001"),
+                                   (["--tolerance=0"], 2, ""), (["--tolerance", "1"], 2, ""), (["--tolerance", "nan"], 2, "")):
+        done = study(folder, EXAMPLE, "--step", "Y4", "--judge", "moved.csv", *arguments)
+        check(done.returncode == code and words in done.stdout, f"--judge {arguments}: {done.returncode} {done.stdout}{done.stderr}")
+    # 0.077 N x 0.1 mm of contact beside a scale that the program prints: the ratio decides
+    done = study(folder, EXAMPLE, "--step", "Y4", "--judge", "moved.csv")
+    scale = float(done.stdout.split("the scale S = ")[1].split()[0]) if "the scale S = " in done.stdout else 0
+    check(1e-8 * scale < 9.81 * 0.00785 * 1e-4 < 1e-3 * scale, f"scale of the judgement: {scale} J")
+
     for row, column, by, width, words in ((790, 3, 1e-4, 0, "contact is lost"),    # slack lifted, R > 0: 0.077 N x 0.1 mm
                                           (160, 2, 0.001, 150, "sliding outside"), # slack that friction holds, moved aside
                                           (160, 2, 1e-4, 0, "sliding outside"),    # one node of it: 2e-7 J, of 0.01 J that is dissipated
