@@ -242,8 +242,8 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         double distance;
         if (cpsi_line_nearest(line, x, &distance) >= 0) raise_to(&out->penetration, -distance);
         balance = cpsi_add_element_contacts(line, j, balance);
-        if (cpsi_line_is_held(line, j)) { /* the held end's share of D: what its support does, times where it is */
-            out->dual -= vec3_dot(balance, x);
+        if (cpsi_line_is_held(line, j)) { /* the held end's share of D: what its support does, times where it is held */
+            out->dual -= vec3_dot(balance, vec3_load(line->end[j == 0 ? CPS_END_A : CPS_END_B].value));
             continue;
         }
         for (int c = j; c < cpsi_line_contacts(line); c += line->n)

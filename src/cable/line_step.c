@@ -173,6 +173,13 @@ static void straighten(CpsiLine *line) {
         vec3_store(&line->position[3*j], vec3_axpy(line->arc_length[j]/line->length, vec3_sub(b, a), a));
 }
 
+/* Is the line no farther away than a step can take it? */
+static bool is_near(const CpsiLine *line) {
+    for (int j = 0; j < 3*line->n; j++)
+        if (!(fabs(line->position[j] - line->reference[j]) <= AFAR*line->length)) return false;
+    return true;
+}
+
 /* Is the line where the step can have taken it, and clear of the obstacles that keep it out?  Strict contact with frozen friction sees them
  * from the reference only, from where the line goes straight and passes none. */
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
@@ -183,9 +190,7 @@ static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool straight = line->follows && !consistent && !line->frozen && !options->frictionless;
     if (straight && cpsi_side_share(line, line->reference, line->position, 1) < 1) return false;
     if (consistent && !cpsi_law_holds(line, options->solver.tolerance)) return false;
-    for (int j = 0; j < 3*line->n; j++)
-        if (!(fabs(line->position[j] - line->reference[j]) <= AFAR*line->length)) return false;
-    return true;
+    return is_near(line);
 }
 
 /* What the gap may hide where other forces are large. An element that pushes with P costs 2 P |e| l, of first order, and is held to the
@@ -443,7 +448,7 @@ static bool is_finite(const CpsiLine *line) {
     return isfinite(c->primal) && isfinite(c->dual) && isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
 }
 
-/* Back to the reference, without forces: what is reported where arithmetic has broken down. */
+/* Back to the reference, without forces: what is reported where arithmetic has broken down, or the line was on its way to nowhere. */
 static void forget(CpsiLine *line, const CpsiStepOptions *options) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     const CpsiIpmReport none = {.outcome = CPSI_IPM_STALLED};
@@ -614,7 +619,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     line->report.outcome = CPS_SOLVED;
     if (too_short(line) || runs_away(line, options)) return;
     try_ways(line, program, options);
-    if (!is_finite(line)) forget(line, options);
+    if (!is_finite(line) || !is_near(line)) forget(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     cpsi_line_pierces(line, &line->report.pierced);
     classify(line, program);
