@@ -27,6 +27,7 @@
 #include "linsys/frame.h"
 #include "linsys/linsys.h"
 #include "linsys/point.h"
+#include "linsys/residual.h"
 
 /* The factor of one node: two cache lines that every pass reads together. */
 typedef struct ChainBlock {
@@ -36,15 +37,17 @@ typedef struct ChainBlock {
     double tt;    /* 1/beta */
 } ChainBlock;
 
-/* Of a second direction: f = w.(force on the node - v t). */
+/* Of a second direction: f = w.(force on the node - v t) + corner g, and x gains column g, where r.x - a f = g. */
 typedef struct ChainSecond {
-    double w[3], v[3];
+    double w[3], v[3], column[3], corner;
+    double pull; /* v'.column */
 } ChainSecond;
 
 typedef struct Chain {
     ChainBlock *block;   /* (n) */
     ChainSecond *second; /* (n) or NULL */
     CpsiChainPoint *point; /* (n) or NULL */
+    CpsiUnknowns scratch[2]; /* of a solve with points */
 } Chain;
 
 static CpsiLinsys *chain_layout(CpsiArena *arena, int n, bool second, bool points) {
@@ -52,7 +55,8 @@ static CpsiLinsys *chain_layout(CpsiArena *arena, int n, bool second, bool point
     ChainBlock *block = CPSI_TAKE(arena, n, ChainBlock);
     ChainSecond *seconds = second ? CPSI_TAKE(arena, n, ChainSecond) : NULL;
     CpsiChainPoint *point = points ? CPSI_TAKE(arena, n, CpsiChainPoint) : NULL;
-    if (chain) *chain = (Chain){.block = block, .second = seconds, .point = point};
+    const CpsiUnknowns one = cpsi_unknowns_layout(arena, points ? n : 0), other = cpsi_unknowns_layout(arena, points ? n : 0);
+    if (chain) *chain = (Chain){.block = block, .second = seconds, .point = point, .scratch = {one, other}};
     return (CpsiLinsys *)chain;
 }
 
@@ -85,36 +89,36 @@ static inline void inverse(double out[9], const double a[9]) {
     out[8] = iz - iz*(a[6]*out[2] + a[7]*out[5]);
 }
 
-/* The first three rows and columns of the inverse of [X c; r^T -a], and w, of its last row: r.x/a = w.f of the x that f gives. By row
+/* The inverse of [X c; r^T -a]: its first three rows and columns, w of its last row, r.x/a = w.f of the x that f gives, and its last column. By row
  * exchanges: X may be next to nothing (a slack line), huge (an obstacle) or both. */
-static void inverse_with_second(double out[9], double w[3], const double x[9], const double c[3], const double r[3], double a) {
-    double m[4][7] = {{x[0], x[1], x[2], c[0], 1, 0, 0},
-                      {x[3], x[4], x[5], c[1], 0, 1, 0},
-                      {x[6], x[7], x[8], c[2], 0, 0, 1},
-                      {r[0], r[1], r[2], -a, 0, 0, 0}};
+static void inverse_with_second(double out[9], ChainSecond *second, const double x[9], const double c[3], const double r[3], double a) {
+    double m[4][8] = {{x[0], x[1], x[2], c[0], 1, 0, 0, 0},
+                      {x[3], x[4], x[5], c[1], 0, 1, 0, 0},
+                      {x[6], x[7], x[8], c[2], 0, 0, 1, 0},
+                      {r[0], r[1], r[2], -a, 0, 0, 0, 1}};
     for (int k = 0; k < 4; k++) {
         int best = k;
         for (int i = k + 1; i < 4; i++)
             if (fabs(m[i][k]) > fabs(m[best][k])) best = i;
-        for (int l = 0; l < 7 && best != k; l++) {
+        for (int l = 0; l < 8 && best != k; l++) {
             const double swap = m[k][l];
             m[k][l] = m[best][l], m[best][l] = swap;
         }
         if (fabs(m[k][k]) < DBL_MIN) m[k][k] = DBL_MIN;
         for (int i = k + 1; i < 4; i++) {
             const double by = m[i][k]/m[k][k];
-            for (int l = k + 1; l < 7; l++) m[i][l] -= by*m[k][l];
+            for (int l = k + 1; l < 8; l++) m[i][l] -= by*m[k][l];
         }
     }
-    for (int l = 4; l < 7; l++) {
+    for (int l = 4; l < 8; l++) {
         double z[4];
         for (int k = 3; k >= 0; k--) {
             z[k] = m[k][l];
             for (int i = k + 1; i < 4; i++) z[k] -= m[k][i]*z[i];
             z[k] /= m[k][k];
         }
-        for (int i = 0; i < 3; i++) out[3*i + l - 4] = z[i];
-        w[l - 4] = z[3];
+        for (int i = 0; i < 3; i++) *(l < 7 ? &out[3*i + l - 4] : &second->column[i]) = z[i];
+        *(l < 7 ? &second->w[l - 4] : &second->corner) = z[3];
     }
 }
 
@@ -179,8 +183,8 @@ static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
             if (is_set(a->second, j)) {
                 ChainSecond *second = &((Chain *)self)->second[j];
                 memcpy(second->v, v, sizeof v);
-                inverse_with_second(ix, second->w, x, &a->second->column[3*j], &a->second->row[3*j],
-                                    a->second->compliance[j]);
+                inverse_with_second(ix, second, x, &a->second->column[3*j], &a->second->row[3*j], a->second->compliance[j]);
+                second->pull = dot(vt, second->column);
             } else {
                 inverse(ix, x);
             }
@@ -217,12 +221,13 @@ static inline double second_force(const ChainSecond *second, const double force[
     return dot(second->w, force) - dot(second->w, second->v)*tension;
 }
 
-static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, double *t, double *second_f) {
+/* Forward and back. */
+static void pass(const CpsiLinsys *self, const CpsiMatrix *a, const CpsiUnknowns *of) {
     const ChainBlock *block = ((const Chain *)self)->block;
     const ChainSecond *second = ((const Chain *)self)->second;
     const CpsiChainPoint *point = ((const Chain *)self)->point;
     const int n = a->n;
-    if (a->share) cpsi_points_spread(a, x);
+    double *x = of->x, *t = of->t, *second_f = of->f;
     /* forward: x_j, t_j as if nothing came after */
     double before[3] = {0, 0, 0};
     for (int j = 0; j < n; j++) {
@@ -235,7 +240,7 @@ static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, 
         double *xj = &x[3*j], f[3];
         for (int i = 0; i < 3; i++) f[i] = a->held[j] ? 0 : xj[i] + k*before[i];
         if (j > 0 && cpsi_point_is_set(a, j)) {
-            double press;
+            double press = second_f ? second_f[j] : 0;
             cpsi_chain_point_solve(&point[j], a, j, f, h, before, xj, &t[j], &x[3*(n + j)], &press);
             memcpy(before, xj, sizeof before);
             if (second_f) second_f[j] = press;
@@ -244,7 +249,15 @@ static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, 
         apply(xj, block[j].c, f);
         for (int i = 0; i < 3; i++) before[i] = xj[i] += block[j].y[i]*h;
         t[j] = j > 0 ? dot(block[j].yt, f) - block[j].tt*h : 0;
-        if (second_f) second_f[j] = is_set(a->second, j) && !a->held[j] ? second_force(&second[j], f, t[j]) : 0;
+        if (!second_f) continue;
+        const double g = second_f[j];
+        const bool has = is_set(a->second, j) && !a->held[j];
+        if (has && g != 0) {
+            const ChainSecond *own = &second[j];
+            t[j] += own->pull*block[j].tt*g;
+            for (int i = 0; i < 3; i++) before[i] = xj[i] += (own->column[i] - block[j].y[i]*own->pull)*g;
+        }
+        second_f[j] = has ? second_force(&second[j], f, t[j]) + second[j].corner*g : 0;
     }
     /* backward: what comes after pulls on node j with k_{j+1} x_{j+1} + m_{j+1} t_{j+1} */
     for (int j = n - 2; j >= 0; j--) {
@@ -269,7 +282,13 @@ static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, 
         t[j] += more;
         if (second_f && is_set(a->second, j) && !a->held[j]) second_f[j] += second_force(&second[j], pull, more);
     }
-    if (a->share) cpsi_points_place(a, t, x);
+}
+
+static void chain_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, double *t, double *second_f) {
+    const CpsiUnknowns found = {x, t, second_f};
+    if (second_f) memset(second_f, 0, (size_t)a->n*sizeof *second_f);
+    if (a->share) cpsi_linsys_solve_points(self, a, pass, &found, ((const Chain *)self)->scratch);
+    else pass(self, a, &found);
 }
 
 const CpsiLinsysOps cpsi_linsys_chain = {"chain", chain_layout, chain_factor, chain_solve};

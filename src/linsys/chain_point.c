@@ -85,10 +85,10 @@ void cpsi_chain_point_compliance(const CpsiChainPoint *point, double c[9]) {
 void cpsi_chain_point_solve(const CpsiChainPoint *point, const CpsiMatrix *a, int j, const double f[3], double h, const double before[3],
                             double x[3], double *t, double phi[3], double *second) {
     const CpsiPointLaw law = cpsi_point_law(a, j);
-    double r[9], along[3], right[SIZE] = {f[0], f[1], f[2], h}, out[SIZE];
+    double r[9], along[3], right[SIZE] = {f[0], f[1], f[2], h, [SIZE - 1] = *second}, out[SIZE];
     cpsi_point_turn(a, j, law.axes, r);
     cpsi_frame_from(along, r, before);
-    for (int k = 0; k < 3; k++) right[NODE + 1 + k] = -(1 - a->share[j])*(law.e[k]/law.size[k]*along[k]);
+    for (int k = 0; k < 3; k++) right[NODE + 1 + k] = phi[k] - (1 - a->share[j])*(law.e[k]/law.size[k]*along[k]);
     for (int i = 0; i < SIZE; i++) out[i] = cpsi_dot(SIZE, &point->inverse[SIZE*i], right);
     memcpy(x, out, NODE*sizeof *x);
     *t = out[NODE];

@@ -31,7 +31,8 @@ bool cpsi_chain_point_factor(CpsiChainPoint *point, const CpsiMatrix *a, int j, 
 void cpsi_chain_point_compliance(const CpsiChainPoint *point, double c[9]);
 
 /* x_j, t_j, phi and f of the second direction for the force f on the node, h of its element and the place `before` of the node before, all
- * in the axes of node j; phi (3) in those of the point. */
+ * in the axes of node j; phi (3) in those of the point. On entry phi and
+ * *second hold the right-hand sides of their equations. */
 void cpsi_chain_point_solve(const CpsiChainPoint *point, const CpsiMatrix *a, int j, const double f[3], double h, const double before[3],
                             double x[3], double *t, double phi[3], double *second);
 

@@ -10,11 +10,13 @@
 #include "linsys/frame.h"
 #include "linsys/linsys.h"
 #include "linsys/point.h"
+#include "linsys/residual.h"
 
 typedef struct Dense {
     double *lu; /* (size, size) row by row, L below its unit diagonal; t_0 is kept as an idle unknown, and f where a node has none */
     int *row;   /* (size) row i of the factors is row[i] of the matrix */
     double *b;  /* (size) scratch of a solve */
+    CpsiUnknowns scratch[2]; /* of a solve with points */
 } Dense;
 
 static size_t unknowns(const CpsiMatrix *a) { return (size_t)(4 + (a->second ? 1 : 0) + (a->share ? 3 : 0))*(size_t)a->n; }
@@ -27,7 +29,8 @@ static CpsiLinsys *dense_layout(CpsiArena *arena, int n, bool second, bool point
     const size_t size = (size_t)(4 + (second ? 1 : 0) + (points ? 3 : 0))*(size_t)n;
     double *lu = CPSI_TAKE(arena, size*size, double), *b = CPSI_TAKE(arena, size, double);
     int *row = CPSI_TAKE(arena, size, int);
-    if (dense) *dense = (Dense){.lu = lu, .row = row, .b = b};
+    const CpsiUnknowns one = cpsi_unknowns_layout(arena, points ? n : 0), other = cpsi_unknowns_layout(arena, points ? n : 0);
+    if (dense) *dense = (Dense){.lu = lu, .row = row, .b = b, .scratch = {one, other}};
     return (CpsiLinsys *)dense;
 }
 
@@ -144,28 +147,42 @@ static bool dense_factor(CpsiLinsys *self, const CpsiMatrix *matrix) {
     return true;
 }
 
-static void dense_solve(const CpsiLinsys *self, const CpsiMatrix *matrix, double *x, double *t, double *f) {
+/* The entry of the right-hand sides that belongs to an unknown; those of held nodes and of t_0 are zero. */
+static double *entry(const CpsiMatrix *a, const CpsiUnknowns *of, size_t i) {
+    const size_t n = (size_t)a->n, points = point_at(a, 0);
+    if (i < 3*n) return a->held[i/3] ? NULL : &of->x[i];
+    if (i < 4*n) return i > 3*n ? &of->t[i - 3*n] : NULL;
+    if (i < points) return of->f ? &of->f[i - 4*n] : NULL;
+    return &of->x[3*n + i - points];
+}
+
+/* L U y = P b, in place. */
+static void pass(const CpsiLinsys *self, const CpsiMatrix *a, const CpsiUnknowns *of) {
     const Dense *dense = (const Dense *)self;
-    const size_t n = (size_t)matrix->n, size = unknowns(matrix);
+    const size_t size = unknowns(a);
     const double *lu = dense->lu;
     double *b = dense->b;
-    if (matrix->share) cpsi_points_spread(matrix, x);
-    /* L y = P b; held nodes, t_0, the second directions and the forces of points have zero on the right */
     for (size_t i = 0; i < size; i++) {
-        const size_t from = (size_t)dense->row[i];
-        b[i] = from < 3*n ? (matrix->held[from/3] ? 0 : x[from]) : from > 3*n && from < 4*n ? t[from - 3*n] : 0;
+        const double *right = entry(a, of, (size_t)dense->row[i]);
+        b[i] = right ? *right : 0;
         for (size_t j = 0; j < i; j++) b[i] -= lu[i*size + j]*b[j];
     }
     for (size_t i = size; i-- > 0;) {
         for (size_t j = i + 1; j < size; j++) b[i] -= lu[i*size + j]*b[j];
         b[i] /= lu[i*size + i];
     }
-    memcpy(x, b, 3*n*sizeof *x);
-    memcpy(t, b + 3*n, n*sizeof *t);
-    if (f) memcpy(f, b + 4*n, n*sizeof *f);
-    if (!matrix->share) return;
-    memcpy(x + 3*n, b + point_at(matrix, 0), 3*n*sizeof *x);
-    cpsi_points_place(matrix, t, x);
+    memcpy(of->x, b, 3*(size_t)a->n*sizeof *b), memcpy(of->t, b + 3*(size_t)a->n, (size_t)a->n*sizeof *b);
+    for (size_t i = 4*(size_t)a->n; i < size; i++) {
+        double *out = entry(a, of, i);
+        if (out) *out = b[i];
+    }
+}
+
+static void dense_solve(const CpsiLinsys *self, const CpsiMatrix *a, double *x, double *t, double *f) {
+    const CpsiUnknowns found = {x, t, f};
+    if (f) memset(f, 0, (size_t)a->n*sizeof *f);
+    if (a->share) cpsi_linsys_solve_points(self, a, pass, &found, ((const Dense *)self)->scratch);
+    else pass(self, a, &found);
 }
 
 const CpsiLinsysOps cpsi_linsys_dense = {"dense", dense_layout, dense_factor, dense_solve};
