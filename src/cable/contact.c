@@ -203,10 +203,23 @@ static Vec3 flat_way(const CpsiLine *line, int c, Vec3 x) {
     return vec3_axpy(-vec3_dot(u, n), n, u);
 }
 
+/* [m] How deep what touches at contact c may lie in the obstacle: of an element, what its chord cuts in. */
+static double allowance(const CpsiLine *line, int c) {
+    const int e = cpsi_line_element(line, c);
+    return e < 0 ? 0 : cpsi_obstacle_allowance(&line->obstacle[line->on[c]], line->element_length[e]);
+}
+
+Vec3 cpsi_contact_way(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
+    CpsiObstacle touched = line->obstacle[line->on[c]];
+    if (touched.kind == CPS_OBSTACLE_PLANE) return cpsi_obstacle_way(&touched, from, to);
+    touched.radius -= allowance(line, c);
+    return cpsi_obstacle_way(&touched, from, to);
+}
+
 /* The way of the node on the obstacle of contact c, at x: along the surface, or in the plane of friction where that is frozen. */
 static Vec3 way_to(const CpsiLine *line, int c, Vec3 x) {
     if (line->frozen) return flat_way(line, c, x);
-    return line->on[c] < 0 ? vec3(0, 0, 0) : cpsi_obstacle_way(&line->obstacle[line->on[c]], carried(line, c), x);
+    return line->on[c] < 0 ? vec3(0, 0, 0) : cpsi_contact_way(line, c, carried(line, c), x);
 }
 
 void cpsi_contact_clear(CpsiLine *line, int c) {
@@ -217,12 +230,6 @@ void cpsi_contact_clear(CpsiLine *line, int c) {
 void cpsi_contact_meet(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) meet(line, j);
     for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) meet_element(line, e);
-}
-
-/* [m] How deep what touches at contact c may lie in the obstacle: of an element, what its chord cuts in. */
-static double allowance(const CpsiLine *line, int c) {
-    const int e = cpsi_line_element(line, c);
-    return e < 0 ? 0 : cpsi_obstacle_allowance(&line->obstacle[line->on[c]], line->element_length[e]);
 }
 
 /* What contact c has gone round its obstacle, where its normal was `before` at the last look; that of an element as on a ball, for the

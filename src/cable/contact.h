@@ -27,6 +27,10 @@ void cpsi_contact_look(CpsiLine *line);
 /* [m] How deep the deepest node is inside an obstacle that keeps it out, >= 0. */
 double cpsi_contact_depth(const CpsiLine *line);
 
+/* [m] The way between two points along the surface that contact c touches, as cpsi_obstacle_way: of an element that of the obstacle shrunk by
+ * what its chord may cut in. */
+Vec3 cpsi_contact_way(const CpsiLine *line, int c, Vec3 from, Vec3 to);
+
 /* No reaction and no friction at contact c. */
 void cpsi_contact_clear(CpsiLine *line, int c);
 

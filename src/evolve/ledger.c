@@ -10,6 +10,7 @@
  * first order with the steps; on a path along which forces are linear in the ways and nothing slides it is rounding. */
 #include "evolve/ledger.h"
 
+#include "cable/contact.h"
 #include "cable/line_report.h"
 
 static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
@@ -72,9 +73,8 @@ static double obstacle_work(const CpsiLine *line) {
     for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) {
         const int k = line->on[c];
         if (k < 0 || line->turn[k] == 0) continue;
-        const CpsiObstacle *obstacle = &line->obstacle[k];
         const Vec3 x = cpsi_line_place(line, line->position, c), from = cpsi_line_place(line, line->reference, c);
-        const Vec3 own = cpsi_obstacle_way(obstacle, from, x);
+        const Vec3 own = cpsi_contact_way(line, c, from, x);
         work += vec3_dot(vec3_load(&line->friction_force[3*c]), vec3_sub(own, cpsi_line_slide(line, c)));
     }
     return work + end_obstacle_work(line);

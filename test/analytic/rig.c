@@ -228,7 +228,9 @@ static void audit_touch(Audit *audit, const CpsScene *scene, const double *turn,
     const double gap = distance(o, touch->place, n) + depth;
     add(sum, sum, touch->reaction, n);
     audit->open += fabs(gap * touch->reaction) / audit->scale;
-    if (touch->reaction > 0) audit_rubbing(audit, o, &turn[k], touch, n, length);
+    CpsObstacle within = *o; /* at the depth at which the point goes round */
+    within.radius -= depth;
+    if (touch->reaction > 0) audit_rubbing(audit, &within, &turn[k], touch, n, length);
 }
 
 /* Contact c of node j. */

@@ -372,8 +372,11 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];
     surface_normal(on, x, seat.normal), surface_normal(on, x, seat.plane);
     surface_carry(on, reference, turn, carried);
-    surface_way(on, carried, x, seat.slide);
-    surface_way(on, reference, x, seat.own);
+    // the point goes round at its own depth: what friction works on is shorter than the way of its foot
+    Surface within = *on;
+    within.radius -= depth;
+    surface_way(&within, carried, x, seat.slide);
+    surface_way(&within, reference, x, seat.own);
     seat.gap = surface_distance(on, x) + depth - dot(seat.normal, u);
     seat.has_axes = surface_axes(on, seat.normal, along, seat.axes);
     return seat;
