@@ -9,12 +9,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "capstan/io.h"
 #include "cautions.h"
 #include "commands.h"
+#include "destination.h"
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
@@ -25,18 +25,6 @@ enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
 
 /* A range narrower than this, per largest force, is one value in the table. */
 static const double RANGE_SHOWN = 1e-5;
-
-/* results/NAME and `more` for a scene .../NAME.yaml; the caller frees it */
-static char *default_directory(const char *scene, const char *more) {
-    const char *slash = strrchr(scene, '/');
-    const char *stem = strcmp(scene, "-") == 0 ? "scene" : slash ? slash + 1 : scene;
-    const char *dot = strrchr(stem, '.');
-    const int length = dot && dot != stem ? (int)(dot - stem) : (int)strlen(stem);
-    const size_t size = sizeof "results/" + (size_t)length + strlen(more);
-    char *path = malloc(size);
-    if (path) snprintf(path, size, "results/%.*s%s", length, stem, more);
-    return path;
-}
 
 static void put_head(FILE *table) {
     static const char *const NAME[] = {"tension A", "tension B"}, *const ERROR[] = {"bound", "mesh"},
@@ -217,6 +205,9 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
     const CpsJournalMode journal = options->resume ? CPS_JOURNAL_RESUME : options->overwrite ? CPS_JOURNAL_REPLACE : CPS_JOURNAL_NEW;
     if (!status) status = cps_journal_open(directory, run->evolution, journal, &run->journal, err);
     if (status) return status;
+    if (cps_results_found_mixed(run->results))
+        cli_printf(stderr, "capstan: the files in %s are not all of one run: putting them in place was interrupted; this run replaces them\n",
+                   directory);
     if (wanted.sync_at_end) cps_journal_sync_late(run->journal);
     run->progress = progress_begin(cps_evolution_step_count(run->evolution), options->quiet);
     if (options->resume) status = take_back(run, err);
@@ -316,17 +307,9 @@ int cmd_run(int argc, char **argv) {
         cps_scene_file_destroy(file);
         return EXIT_USAGE;
     }
-    /* the results directory itself is made by the library; its parent only where it is ours */
-    char *directory =
-        options.output ? strdup(options.output) : default_directory(options.operand, regularized ? "-regularized" : "");
-    int code = EXIT_LIMIT;
-    if (!directory)
-        fprintf(stderr, "capstan: out of memory\n");
-    else if (!options.output && mkdir("results", 0777) != 0 && errno != EEXIST) {
-        fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n", strerror(errno));
-        code = EXIT_IO;
-    } else
-        code = regularized ? run_regularized(&scene, directory, &options) : run(&scene, directory, &options);
+    int code;
+    char *directory = cli_destination(&options, regularized ? "-regularized" : "", &code);
+    if (directory) code = regularized ? run_regularized(&scene, directory, &options) : run(&scene, directory, &options);
     free(directory);
     cps_scene_file_destroy(file);
     return code;

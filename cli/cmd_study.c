@@ -13,6 +13,7 @@
 
 #include "capstan/classic_io.h"
 #include "commands.h"
+#include "destination.h"
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
@@ -227,18 +228,6 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
     return code;
 }
 
-/* results/NAME-study for a scene .../NAME.yaml; the caller frees it */
-static char *default_directory(const char *scene) {
-    const char *slash = strrchr(scene, '/');
-    const char *stem = strcmp(scene, "-") == 0 ? "scene" : slash ? slash + 1 : scene;
-    const char *dot = strrchr(stem, '.');
-    const int length = dot && dot != stem ? (int)(dot - stem) : (int)strlen(stem);
-    const size_t size = sizeof "results/-study" + (size_t)length;
-    char *path = malloc(size);
-    if (path) snprintf(path, size, "results/%.*s-study", length, stem);
-    return path;
-}
-
 /* one thing at a time, and one that there is */
 static bool is_sound(const CliOptions *options) {
     if (options->history + (options->judge != NULL) + (options->complete != NULL) > 1) {
@@ -256,16 +245,11 @@ int cmd_study(int argc, char **argv) {
     CpsError err;
     if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
     cli_catch_signals();
-    char *directory = options.output ? strdup(options.output) : default_directory(options.operand);
-    int code = EXIT_LIMIT;
-    if (!directory)
-        fprintf(stderr, "capstan: out of memory\n");
-    else if (!options.output && mkdir("results", 0777) != 0 && errno != EEXIST) {
-        fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n", strerror(errno));
-        code = EXIT_IO;
-    } else if (options.history)
+    int code;
+    char *directory = cli_destination(&options, "-study", &code);
+    if (directory && options.history)
         code = study_methods(cps_scene_file_scene(file), options.line, directory, options.quiet);
-    else
+    else if (directory)
         code = study(cps_scene_file_scene(file), directory, &options);
     free(directory);
     cps_scene_file_destroy(file);

@@ -19,7 +19,7 @@ typedef struct CliList {
 typedef struct CliOptions {
     bool help, version;
     bool json, quiet, resume;
-    bool overwrite;      /* run: --force, in place of what is there */
+    bool overwrite;      /* run, study: --force, in place of what is there */
     const char *output;  /* NULL: not given */
     const char *tol;     /* run: path tolerance, NULL: the scene's */
     bool no_paraview;    /* run: no .vtp and .pvd files */

@@ -42,7 +42,8 @@ CPS_API CpsStatus cps_scene_write_schema(FILE *out, CpsError *err);
 typedef struct CpsResults CpsResults;
 
 /* Open `directory` (made if missing; one level) for the results of `evolution`. Nothing that was there is touched until
- * cps_results_finish, which renames each finished file into place.
+ * cps_results_finish, which renames each finished file into place. The file .capstan in it lists what capstan has written there: a directory
+ * that is not empty and has none is refused, and only listed files are ever replaced or removed.
  *
  * Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_results_open(const char *directory, const CpsScene *scene, const CpsEvolution *evolution,
@@ -64,12 +65,21 @@ CPS_API CpsStatus cps_results_check_options(const CpsResultsOptions *options, Cp
 CPS_API CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene, const CpsEvolution *evolution,
                                         const CpsResultsOptions *options, CpsResults **out, CpsError *err);
 
+/* May results be written to `directory`?  Asked before anything is computed. One that is not empty and that capstan has not written to is
+ * refused, or with `force` taken over: what lies in it under names of results counts as capstan's from then on and may be replaced. One that
+ * is missing will be made. Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_IO or CPS_ERR_MEMORY. */
+CPS_API CpsStatus cps_results_prepare(const char *directory, bool force, CpsError *err);
+
+/* Were the files in the directory, when it was opened, of two runs, because replacing them had been interrupted?  Finishing replaces them. */
+CPS_API bool cps_results_found_mixed(const CpsResults *results);
+
 /* Append the step just taken (all lines). result.nc is synced. */
 CPS_API CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution, CpsError *err);
 
 /* Write what needs the whole history (summary, pictures), close and rename everything into place.
  *   wall   [s] time of the whole run, for the summary
- * On failure the temporary files are removed and what was there before stays. */
+ * On failure the temporary files are removed and what was there before stays; or, where a file could not be renamed after others were, the
+ * message says that the files are of two runs, summary.json is missing, and the next run recognises it (cps_results_found_mixed). */
 CPS_API CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError *err);
 
 /* Close without keeping unfinished files; accepts NULL; needed after cps_results_finish too. */

@@ -199,12 +199,12 @@ CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *
     Portrait *portraits = calloc((size_t)run->lines, sizeof *portraits);
     if (set && portraits) {
         set[0] = (CpsiFile){"history.csv", history, run};
-        set[1] = (CpsiFile){"summary.json", summary, run};
         for (int i = 0; i < run->lines; ++i) {
             portraits[i] = (Portrait){.run = run, .line = i};
             snprintf(portraits[i].name, sizeof portraits[i].name, "line-%d.svg", i + 1);
-            set[2 + i] = (CpsiFile){portraits[i].name, portrait, &portraits[i]};
+            set[1 + i] = (CpsiFile){portraits[i].name, portrait, &portraits[i]};
         }
+        set[1 + run->lines] = (CpsiFile){"summary.json", summary, run}; /* last: where it is, all is */
         status = cpsi_file_set_write(directory, set, run->lines + 2, err);
     } else {
         status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");

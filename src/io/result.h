@@ -97,6 +97,8 @@ void cpsi_snapshot_free(CpsiSnapshot *snapshot);
 
 /* result_summary.c, result_history.c: the rows as JSON and CSV. */
 void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
+/* The same with the list of the run's files. */
+CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, CpsError *err);
 void cpsi_history_write(const CpsResults *results, FILE *out);
 
 /* result_netcdf.c: result.nc. `turn` is (obstacles) [rad], what they turned in the step. */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Temporary name, write, sync, rename: a set of files that appears whole or not at all (see result_file.h).
- * The order is that of POSIX fsync(2) and rename(2): data first, then names, then the directory itself. */
+ * The order is that of POSIX fsync(2) and rename(2): data first, then names, then the directory itself. Where files are replaced the one
+ * that comes last is removed first, so that its absence tells a set that was replaced in part. */
 #define _DEFAULT_SOURCE /* flock */
 
 #include "io/result_file.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -15,18 +15,22 @@
 #include <unistd.h>
 
 #include "base/status.h"
+#include "io/result_marker.h"
 
 struct CpsiDirectory {
     char *path;
     int fd;
-    bool made; /* by us: removed again when nothing is committed */
-    bool committed;
+    bool made;   /* by us: removed again when nothing is committed */
+    bool marked; /* by us: the same */
+    bool committed; /* files have begun to take their names */
+    CpsiMarker marker; /* what is there of capstan's */
+    int notes;
     bool late; /* files are synced at the commit, all of them, and not one by one */
     char **name; /* final names, in the order of creation */
     size_t count, capacity;
 };
 
-enum { TEMPORARY_SIZE = 256 };
+enum { TEMPORARY_SIZE = CPSI_NAME_SIZE };
 
 static CpsStatus fail_path(const CpsiDirectory *directory, const char *name, int code, CpsError *err) {
     return cpsi_fail(err, CPS_ERR_IO, "cannot write %s/%s: %s; earlier results are kept", directory->path, name,
@@ -37,20 +41,22 @@ static void temporary_name(char out[TEMPORARY_SIZE], const char *name) {
     snprintf(out, TEMPORARY_SIZE, ".%s.part", name);
 }
 
-CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *err) {
+/* `make`: where it is missing. *out is NULL, and the status CPS_OK, where it is missing and not made. */
+static CpsStatus open_folder(const char *path, bool make, CpsiDirectory **out, CpsError *err) {
     *out = NULL;
     CpsiDirectory *directory = calloc(1, sizeof *directory);
-    if (directory) directory->path = strdup(path), directory->fd = -1;
+    if (directory) directory->path = strdup(path), directory->fd = directory->notes = -1;
     if (!directory || !directory->path) {
         free(directory);
         return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while opening the results directory");
     }
 
-    directory->made = mkdir(path, 0777) == 0;
-    if (directory->made || errno == EEXIST) directory->fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    directory->made = make && mkdir(path, 0777) == 0;
+    if (directory->made || !make || errno == EEXIST) directory->fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (directory->fd < 0) {
-        const CpsStatus status =
-            cpsi_fail(err, CPS_ERR_IO, "cannot use %s as a directory for results: %s", path, strerror(errno));
+        const CpsStatus status = !make && errno == ENOENT
+                                     ? CPS_OK
+                                     : cpsi_fail(err, CPS_ERR_IO, "cannot use %s as a directory for results: %s", path, strerror(errno));
         cpsi_directory_destroy(directory);
         return status;
     }
@@ -65,6 +71,56 @@ CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *e
     return CPS_OK;
 }
 
+/* Has capstan written to the directory before, or is there nothing in it? */
+static CpsStatus look_round(CpsiDirectory *directory, CpsError *err) {
+    const CpsStatus status = cpsi_marker_read(directory->fd, directory->path, &directory->marker, err);
+    if (status != CPS_OK || directory->marker.found || cpsi_marker_is_alone(directory->fd)) return status;
+    return cpsi_fail(err, CPS_ERR_IO,
+                     "%s is not empty and was not written by capstan: choose another directory, or add --force to replace the files in it "
+                     "that have names of results",
+                     directory->path);
+}
+
+CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *err) {
+    CpsStatus status = open_folder(path, true, out, err);
+    if (status != CPS_OK) return status;
+    CpsiDirectory *directory = *out;
+    status = look_round(directory, err);
+    if (status == CPS_OK && !directory->marker.found) {
+        status = cpsi_marker_write(&directory->marker, directory->fd, path, false, err);
+        directory->marked = status == CPS_OK;
+    }
+    if (status == CPS_OK) status = cpsi_marker_begin(directory->fd, path, &directory->notes, err);
+    if (status == CPS_OK) return CPS_OK;
+    cpsi_directory_destroy(directory);
+    *out = NULL;
+    return status;
+}
+
+CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsError *err) {
+    CpsiDirectory *directory;
+    CpsStatus status = open_folder(path, false, &directory, err);
+    if (status != CPS_OK || !directory) return status;
+    if (!force) {
+        status = look_round(directory, err);
+    } else {
+        status = cpsi_marker_read(directory->fd, path, &directory->marker, err);
+        if (status == CPS_OK) status = cpsi_marker_adopt(&directory->marker, directory->fd, err);
+        if (status == CPS_OK) status = cpsi_marker_write(&directory->marker, directory->fd, path, true, err);
+    }
+    cpsi_directory_destroy(directory);
+    return status;
+}
+
+static bool is_there(const CpsiDirectory *directory, const char *name) {
+    struct stat found;
+    return fstatat(directory->fd, name, &found, AT_SYMLINK_NOFOLLOW) == 0;
+}
+
+bool cpsi_directory_is_mixed(const CpsiDirectory *directory) {
+    return directory->marker.replacing && !is_there(directory, directory->marker.last);
+}
+
 void cpsi_directory_sync_late(CpsiDirectory *directory) { directory->late = true; }
 
 bool cpsi_directory_has(const CpsiDirectory *directory, const char *name) {
@@ -75,7 +131,8 @@ bool cpsi_directory_has(const CpsiDirectory *directory, const char *name) {
 
 /* remember a name, so that its temporary file is removed or renamed later */
 static CpsStatus remember(CpsiDirectory *directory, const char *name, CpsError *err) {
-    if (strlen(name) + sizeof "..part" > TEMPORARY_SIZE) return fail_path(directory, name, ENAMETOOLONG, err);
+    if (!cpsi_marker_knows(name))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "'%s' is no name of a file of results: add it to those in result_marker.c", name);
     if (directory->count == directory->capacity) {
         const size_t capacity = directory->capacity ? 2 * directory->capacity : 64;
         char **grown = realloc(directory->name, capacity * sizeof *grown);
@@ -86,6 +143,8 @@ static CpsStatus remember(CpsiDirectory *directory, const char *name, CpsError *
     char *copy = strdup(name);
     if (!copy) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while writing %s", name);
     directory->name[directory->count++] = copy;
+    const CpsStatus status = cpsi_marker_note(directory->notes, directory->path, name, err);
+    if (status != CPS_OK) return status;
 
     /* what a killed run has left behind */
     char temporary[TEMPORARY_SIZE];
@@ -140,59 +199,111 @@ CpsStatus cpsi_directory_sync(CpsiDirectory *directory, const char *name, CpsErr
     return code ? fail_path(directory, name, code, err) : CPS_OK;
 }
 
-static int compare_names(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
+size_t cpsi_directory_count(const CpsiDirectory *directory) { return directory->count; }
 
-/* is `name`, or the file of which it is the temporary form, stale and not one of ours? */
-static bool is_leftover(const CpsiDirectory *directory, const char *name, bool (*stale)(const char *name)) {
-    char plain[TEMPORARY_SIZE];
-    const size_t length = strlen(name);
-    if (length >= sizeof plain) return false;
-    memcpy(plain, name, length + 1);
-    if (name[0] == '.' && length > 6 && strcmp(name + length - 5, ".part") == 0) {
-        memcpy(plain, name + 1, length - 6);
-        plain[length - 6] = '\0';
-    }
-    const char *key = plain;
-    return stale(plain) && !bsearch(&key, directory->name, directory->count, sizeof key, compare_names);
+const char *cpsi_directory_name(const CpsiDirectory *directory, size_t i) { return directory->name[i]; }
+
+int cpsi_directory_reopen(const CpsiDirectory *directory, const char *name) {
+    char temporary[TEMPORARY_SIZE];
+    temporary_name(temporary, name);
+    return openat(directory->fd, temporary, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-/* pictures and steps of an earlier, longer run would be taken for this run's; failing to remove one does no harm */
-static void remove_leftovers(CpsiDirectory *directory, bool (*stale)(const char *name)) {
-    qsort(directory->name, directory->count, sizeof *directory->name, compare_names);
-    const int fd = openat(directory->fd, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    DIR *listing = fd >= 0 ? fdopendir(fd) : NULL;
-    if (!listing) {
-        if (fd >= 0) close(fd);
-        return;
+/* commit --------------------------------------------------------------------------------------------------------- */
+
+static CpsStatus fail_mixed(const CpsiDirectory *directory, const char *name, CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_IO,
+                     "cannot put %s/%s in its place: %s; the files there are now of two runs, and %s is missing: run again into this "
+                     "directory (--resume goes on from the journal) to replace them all",
+                     directory->path, name, strerror(errno), directory->marker.last);
+}
+
+static CpsStatus fail_late(const CpsiDirectory *directory, CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_IO, "all files of %s are in place, but the disk has not confirmed it: %s", directory->path, strerror(errno));
+}
+
+/* a file system that cannot sync a directory is accepted */
+static bool sync_folder(const CpsiDirectory *directory) { return fsync(directory->fd) == 0 || errno == EINVAL; }
+
+/* What would be refused or lost, before the first earlier file is replaced. *replaces: there are such files. */
+static CpsStatus look_ahead(const CpsiDirectory *directory, bool *replaces, CpsError *err) {
+    *replaces = false;
+    for (size_t i = 0; i < directory->count; ++i) {
+        const char *name = directory->name[i];
+        struct stat found;
+        if (fstatat(directory->fd, name, &found, AT_SYMLINK_NOFOLLOW) != 0) continue;
+        if (S_ISDIR(found.st_mode)) return fail_path(directory, name, EISDIR, err);
+        if (!cpsi_marker_lists(&directory->marker, name))
+            return cpsi_fail(err, CPS_ERR_IO,
+                             "%s/%s was not written by capstan: move it away, or add --force to replace it (and --resume to go on from the "
+                             "journal); earlier results are kept",
+                             directory->path, name);
+        *replaces = true;
     }
-    for (struct dirent *entry; (entry = readdir(listing)) != NULL;)
-        if (is_leftover(directory, entry->d_name, stale)) unlinkat(directory->fd, entry->d_name, 0);
-    closedir(listing);
+    return CPS_OK;
+}
+
+/* The names of this run in order, and those of the marker with them: all memory that a commit takes. */
+static CpsStatus list_names(CpsiDirectory *directory, CpsiMarker *own, CpsError *err) {
+    CpsStatus status = CPS_OK;
+    for (size_t i = 0; i < directory->count && status == CPS_OK; ++i) {
+        status = cpsi_marker_add(own, directory->name[i], err);
+        if (status == CPS_OK) status = cpsi_marker_add(&directory->marker, directory->name[i], err);
+    }
+    return status;
+}
+
+/* All names but the last, and what earlier runs have left beyond them. */
+static CpsStatus put_in_place(CpsiDirectory *directory, const CpsiMarker *own, bool (*stale)(const char *name), CpsError *err) {
+    char temporary[TEMPORARY_SIZE];
+    for (size_t i = 0; i + 1 < directory->count; ++i) {
+        temporary_name(temporary, directory->name[i]);
+        if (renameat(directory->fd, temporary, directory->fd, directory->name[i]) != 0) return fail_mixed(directory, directory->name[i], err);
+    }
+    /* pictures and steps of an earlier, longer run would be taken for this run's; one that cannot be removed stays in the list, for the next */
+    CpsiMarker *marker = &directory->marker;
+    for (size_t i = marker->count; i-- > 0;) {
+        const char *name = marker->name[i];
+        if (!stale(name) || cpsi_marker_lists(own, name)) continue;
+        if (unlinkat(directory->fd, name, 0) == 0 || errno == ENOENT) cpsi_marker_drop(marker, i);
+    }
+    return CPS_OK;
+}
+
+/* From here on the list names old files and new ones, and the one whose absence tells. */
+static CpsStatus replace(CpsiDirectory *directory, const CpsiMarker *own, bool (*stale)(const char *name), bool replaces, CpsError *err) {
+    CpsiMarker *marker = &directory->marker;
+    const char *last = directory->name[directory->count - 1];
+    marker->replacing = true;
+    snprintf(marker->last, sizeof marker->last, "%s", last);
+    CpsStatus status = cpsi_marker_write(marker, directory->fd, directory->path, replaces, err);
+    if (status != CPS_OK) return status;
+    directory->committed = true;
+    if (replaces && !sync_folder(directory)) return fail_path(directory, ".", errno, err);
+    if (unlinkat(directory->fd, last, 0) != 0 && errno != ENOENT) return fail_path(directory, last, errno, err);
+    if (replaces && !sync_folder(directory)) return fail_mixed(directory, last, err);
+
+    status = put_in_place(directory, own, stale, err);
+    if (status != CPS_OK) return status;
+    char temporary[TEMPORARY_SIZE];
+    temporary_name(temporary, last);
+    if (!sync_folder(directory) || renameat(directory->fd, temporary, directory->fd, last) != 0) return fail_mixed(directory, last, err);
+    marker->replacing = false;
+    if (cpsi_marker_write(marker, directory->fd, directory->path, replaces, NULL) != CPS_OK || !sync_folder(directory)) return fail_late(directory, err);
+    return CPS_OK;
 }
 
 CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const char *name), CpsError *err) {
-    char temporary[TEMPORARY_SIZE];
-    struct stat found;
-
-    /* look for what rename would refuse before the first earlier file is replaced */
-    for (size_t i = 0; i < directory->count; ++i)
-        if (fstatat(directory->fd, directory->name[i], &found, AT_SYMLINK_NOFOLLOW) == 0 && S_ISDIR(found.st_mode))
-            return fail_path(directory, directory->name[i], EISDIR, err);
-
-    for (size_t i = 0; i < directory->count && directory->late; ++i) {
-        const CpsStatus status = cpsi_directory_sync(directory, directory->name[i], err);
-        if (status) return status;
-    }
-
-    for (size_t i = 0; i < directory->count; ++i) {
-        temporary_name(temporary, directory->name[i]);
-        if (renameat(directory->fd, temporary, directory->fd, directory->name[i]) != 0)
-            return fail_path(directory, directory->name[i], errno, err);
-        directory->committed = true;
-    }
-    remove_leftovers(directory, stale);
-    if (fsync(directory->fd) != 0 && errno != EINVAL) return fail_path(directory, ".", errno, err);
-    return CPS_OK;
+    if (directory->count == 0) return CPS_OK;
+    bool replaces;
+    CpsiMarker own = {0};
+    CpsStatus status = look_ahead(directory, &replaces, err);
+    for (size_t i = 0; i < directory->count && directory->late && status == CPS_OK; ++i)
+        status = cpsi_directory_sync(directory, directory->name[i], err);
+    if (status == CPS_OK) status = list_names(directory, &own, err);
+    if (status == CPS_OK) status = replace(directory, &own, stale, replaces, err);
+    cpsi_marker_free(&own);
+    return status;
 }
 
 void cpsi_directory_destroy(CpsiDirectory *directory) {
@@ -203,6 +314,9 @@ void cpsi_directory_destroy(CpsiDirectory *directory) {
         unlinkat(directory->fd, temporary, 0); /* gone already where it was renamed */
         free(directory->name[i]);
     }
+    cpsi_marker_end(directory->fd, directory->notes);
+    if (directory->marked && !directory->committed && cpsi_marker_is_alone(directory->fd)) cpsi_marker_remove(directory->fd);
+    cpsi_marker_free(&directory->marker);
     if (directory->fd >= 0) close(directory->fd);
     if (directory->made && !directory->committed) rmdir(directory->path);
     free(directory->name);

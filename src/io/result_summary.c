@@ -2,6 +2,7 @@
 /* The summary as one JSON object (RFC 8259): what `capstan run --json` prints and summary.json holds.
  * Keys are stable and carry their units; a number that says nothing is null. docs/results.md lists them. */
 #include "io/result.h"
+#include "io/result_list.h"
 #include "io/result_text.h"
 
 static void put_key(FILE *out, const char *key) {
@@ -144,7 +145,7 @@ static void put_step(FILE *out, const CpsResults *results, const CpsiRow *row) {
     fputs("      }\n    }", out);
 }
 
-void cpsi_summary_write(const CpsResults *results, double wall, FILE *out) {
+static void put_run(const CpsResults *results, double wall, FILE *out) {
     fputs("{\n  ", out);
     put_string(out, "capstan", cps_version(), ",\n  ");
     put_string(out, "title", results->title, ",\n  ");
@@ -156,5 +157,18 @@ void cpsi_summary_write(const CpsResults *results, double wall, FILE *out) {
         fputs(i ? ",\n" : "\n", out);
         put_step(out, results, &results->row[i]);
     }
-    fputs(results->row_count ? "\n  ]\n}\n" : "]\n}\n", out);
+    fputs(results->row_count ? "\n  ]" : "]", out);
+}
+
+void cpsi_summary_write(const CpsResults *results, double wall, FILE *out) {
+    put_run(results, wall, out);
+    fputs("\n}\n", out);
+}
+
+CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, CpsError *err) {
+    put_run(results, wall, out);
+    fputs(",\n", out);
+    const CpsStatus status = cpsi_result_list_put(results->directory, out, err);
+    fputs("}\n", out);
+    return status;
 }

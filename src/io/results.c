@@ -92,6 +92,15 @@ static CpsStatus open_files(CpsResults *results, const char *directory, const Cp
     return status;
 }
 
+CpsStatus cps_results_prepare(const char *directory, bool force, CpsError *err) {
+    if (!directory || !*directory) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL or empty");
+    return cpsi_directory_prepare(directory, force, err);
+}
+
+bool cps_results_found_mixed(const CpsResults *results) {
+    return results && results->directory && cpsi_directory_is_mixed(results->directory);
+}
+
 CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *err) {
     unsigned wanted;
     return options ? cpsi_fields_choose(options->fields, &wanted, err) : CPS_OK;
@@ -249,8 +258,9 @@ static CpsStatus write_summary(CpsResults *results, double wall, CpsError *err) 
     FILE *out = NULL;
     const CpsStatus status = cpsi_directory_create(results->directory, "summary.json", &out, err);
     if (status) return status;
-    cpsi_summary_write(results, wall, out);
-    return cpsi_directory_close_file(results->directory, out, err);
+    const CpsStatus listed = cpsi_summary_file(results, wall, out, err);
+    const CpsStatus closed = cpsi_directory_close_file(results->directory, out, listed ? NULL : err);
+    return listed ? listed : closed;
 }
 
 /* names of which an earlier run may have left more than this one writes */

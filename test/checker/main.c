@@ -8,6 +8,7 @@
 #include "capstan/io.h"
 #include "checker.h"
 #include "given.h"
+#include "whole.h"
 
 /* Findings against the scene; -1: it cannot be read. */
 static int against_scene(const char *file, const char *path) {
@@ -32,6 +33,7 @@ int main(int argc, char **argv) {
     CheckerReport report;
     int result = checker_file(argv[1], &report, stderr);
     const int findings = operands > 1 && result != 2 ? against_scene(argv[1], argv[2]) : 0;
+    const int foreign = whole_file(argv[1], stderr);
     if (verbose || result != 0 || findings != 0) {
         printf("records %d, certified %d, not certified %d, refuted %d, not finite %d\n", report.records,
                report.certified, report.uncertified, report.refuted, report.not_finite);
@@ -39,5 +41,5 @@ int main(int argc, char **argv) {
                report.gap, report.force, report.stretch, report.penetration);
         if (operands > 1) printf("against the scene: %d findings\n", findings);
     }
-    return result == 0 && findings == 0 ? 0 : 1;
+    return result == 0 && findings == 0 && foreign == 0 ? 0 : 1;
 }

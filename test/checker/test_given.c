@@ -56,6 +56,7 @@ static int run(const char *text, const char *where, CpsSceneFile **read, int *pa
     if (!out || fputs(text, out) < 0 || fclose(out) != 0) return -1;
     CpsStatus status = cps_scene_read(yaml, NULL, read, &err);
     if (!status) status = cps_evolution_create(cps_scene_file_scene(*read), &evolution, &err);
+    if (!status) status = cps_results_prepare(where, true, &err); /* the scene lies there */
     if (!status) status = cps_results_open(where, cps_scene_file_scene(*read), evolution, &results, &err);
     for (bool first = true; !status && cps_evolution_remaining(evolution) > 0; first = false) {
         status = cps_evolution_step(evolution, &err);

@@ -180,6 +180,7 @@ def crafted(journal, size, count):
             bytes_[at:at + len(value)] = value
         shutil.rmtree("crafted", ignore_errors=True)
         os.mkdir("crafted")
+        write("crafted/.capstan", "capstan directory 1\n")
         write("crafted/.journal", journal[:HEAD] + record(0, bytes(bytes_)))
         done = run("crafted", "--resume", code=None)
         if done.returncode not in (0, 1, 3, 5) or (done.returncode == 3 and "state" not in done.stderr and "order" not in done.stderr):

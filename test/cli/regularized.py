@@ -60,7 +60,7 @@ with tempfile.TemporaryDirectory() as folder:
     check("no certificate" in done.stdout, f"said\n{done.stdout}")
     place = os.path.join(folder, "results", "souza-de-cursi-1990-regularized")
     names = sorted(os.listdir(place))
-    check(names == ["history.csv", "line-1.svg", "summary.json"], f"files: {names}")
+    check(names == [".capstan", "history.csv", "line-1.svg", "summary.json"], f"files: {names}")
     check("nan" not in xml.tostring(xml.parse(os.path.join(place, "line-1.svg")).getroot(), encoding="unicode"), "draws NaN")
     rows = table(os.path.join(place, "history.csv"))
     check([row["step"] for row in rows] == ["Y2", "Y3", "Y4", "Y5"], "history.csv: steps")

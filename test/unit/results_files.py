@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Read directories of results with independent readers: json, csv, an XML parser, and the layout of VTK's appended
 data. Arguments: the directories. A directory named *infeasible must hold a proof."""
-import csv, json, math, os, re, struct, sys
+import csv, json, math, os, re, struct, sys, zlib
 import xml.etree.ElementTree as tree
 
 STEP_KEYS = {"name", "outcome", "iterations", "energy", "tension_bound_rms_N", "tension_estimate_N",
@@ -20,7 +20,13 @@ def no_constant(name):
 def check_summary(directory):
     with open(os.path.join(directory, "summary.json"), encoding="utf-8") as file:
         summary = json.load(file, parse_constant=no_constant)
-    assert set(summary) == {"capstan", "title", "outcome", "wall_s", "steps"}, set(summary)
+    assert set(summary) == {"capstan", "title", "outcome", "wall_s", "steps", "files"}, set(summary)
+    listed = {entry["name"]: (entry["bytes"], entry["crc32"]) for entry in summary["files"]}
+    for name, entry in listed.items():
+        with open(os.path.join(directory, name), "rb") as file:
+            data = file.read()
+        assert entry == (len(data), f"{zlib.crc32(data):08x}"), name
+    assert set(listed) == set(os.listdir(directory)) - {".capstan", "summary.json"}
     for step in summary["steps"]:
         assert set(step) == STEP_KEYS, set(step) ^ STEP_KEYS
         ledger = step["ledger_J"]
@@ -127,7 +133,7 @@ def check_obstacles(path, turned):
 
 def check_directory(directory):
     files = sorted(os.listdir(directory))
-    assert not [f for f in files if f.startswith(".") or f.endswith(".part")], files
+    assert not [f for f in files if f.startswith(".") and f != ".capstan" or f.endswith(".part")], files
     summary = check_summary(directory)
     check_history(directory, summary)
     steps = len(summary["steps"])

@@ -87,6 +87,7 @@ static CpsEvolution *run_into(const char *directory, const CpsScene *scene) {
     CpsError err;
     CpsResults *results = NULL;
     CpsEvolution *evolution = evolution_of(scene);
+    must(cps_results_prepare(directory, true, &err), &err); /* of an earlier run of this test, of whatever version */
     must(cps_results_open(directory, scene, evolution, &results, &err), &err);
     while (cps_evolution_remaining(evolution) > 0) {
         must(cps_evolution_step(evolution, &err), &err);

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Where a command writes its results (see destination.h). */
+#include "destination.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "capstan/io.h"
+#include "commands.h"
+
+/* A name made of dots alone would be results itself, or what it lies in. */
+static char *default_directory(const char *scene, const char *more) {
+    const char *slash = strrchr(scene, '/');
+    const char *stem = slash ? slash + 1 : scene;
+    const char *dot = strrchr(stem, '.');
+    size_t length = dot && dot != stem ? (size_t)(dot - stem) : strlen(stem);
+    if (strcmp(scene, "-") == 0 || strspn(stem, ".") >= length) stem = "scene", length = strlen(stem);
+    const size_t size = sizeof "results/" + length + strlen(more);
+    char *path = malloc(size);
+    if (path) snprintf(path, size, "results/%.*s%s", (int)length, stem, more);
+    return path;
+}
+
+char *cli_destination(const CliOptions *options, const char *more, int *code) {
+    char *directory = options->output ? strdup(options->output) : default_directory(options->operand, more);
+    CpsError err;
+    *code = EXIT_LIMIT;
+    if (!directory) {
+        fprintf(stderr, "capstan: out of memory\n");
+        return NULL;
+    }
+    /* the directory itself is made by the library; its parent only where it is ours */
+    if (!options->output && mkdir("results", 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n", strerror(errno));
+        *code = EXIT_IO;
+    } else if (cps_results_prepare(directory, options->overwrite, &err) != CPS_OK) {
+        *code = cli_report(&err);
+    } else {
+        return directory;
+    }
+    free(directory);
+    return NULL;
+}

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Directories of results: which are entered, what is replaced and removed in them, and what an interrupted run leaves there.
+
+usage: directory.py CAPSTAN CHECKER"""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+CAPSTAN, CHECKER = (os.path.abspath(path) for path in sys.argv[1:3])
+SCENE = """capstan: 1
+obstacles:
+  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}
+lines:
+  rope: {length: 1, elements: 10, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: fixed}}
+history:
+  - {name: out, rope.B: {position: [1.1, 0, 0]}, steps: STEPS}
+  - {name: back, rope.B: {position: [1, 0, 0]}, steps: STEPS}
+"""
+faults = []
+
+
+def expect(what, holds, found=""):
+    if not holds:
+        faults.append(f"{what}: {found!r}")
+
+
+def write(name, text):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def read(name):
+    with open(name, "rb") as file:
+        return file.read()
+
+
+def files(folder):
+    return {name: read(os.path.join(folder, name)) for name in sorted(os.listdir(folder))}
+
+
+def run(*more, scene="scene.yaml", code=0, verb="run"):
+    done = subprocess.run([CAPSTAN, verb, scene, "-q", *more], capture_output=True, text=True, timeout=120)
+    if code is not None:
+        expect(f"{verb} {scene} {more}: exit code {done.returncode}, expected {code}", done.returncode == code, done.stderr)
+    return done
+
+
+def foreign():
+    """A directory with files of somebody else is refused as it is; with --force what has other names stays."""
+    for verb, more, name in (("run", [], "plan.svg"), ("run", ["--method", "regularized"], "line-1.svg"), ("study", [], "study.csv"),
+                             ("run", [], "notes.txt"), ("run", [], "loop-mine.svg"), ("run", [], "step-00001-plan.svg")):
+        shutil.rmtree("mine", ignore_errors=True)
+        os.mkdir("mine")
+        for other in (name, "notes.txt", "stepping.svg", "loop.txt"):
+            write(f"mine/{other}", "mine")
+        before = files("mine")
+        done = run(*more, "-o", "mine", verb=verb, scene="frozen.yaml", code=4)
+        expect(f"{verb} {more}: why", "--force" in done.stderr and "not empty" in done.stderr, done.stderr)
+        expect(f"{verb} {more}: changed", files("mine") == before, sorted(os.listdir("mine")))
+        run(*more, "-o", "mine", "--force", verb=verb, scene="frozen.yaml", code=None)
+        after = files("mine")
+        expect(f"{verb} {more} --force: marker", ".capstan" in after, sorted(after))
+        for other in ("notes.txt", "stepping.svg", "loop.txt"):
+            expect(f"{verb} {more} --force: {other} is lost", after.get(other) == b"mine")
+    for name in (".capstan", ".capstan.run"):  # what is not ours under the marker's own names
+        shutil.rmtree("mine", ignore_errors=True)
+        os.mkdir("mine")
+        write(f"mine/{name}", "mine")
+        run("-o", "mine", code=4)
+        expect(f"{name}: changed", read(f"mine/{name}") == b"mine")
+    os.unlink("mine/.capstan.run")
+    os.symlink("../scene.yaml", "mine/.capstan")
+    run("-o", "mine", "--force", code=4)
+    expect("a link as a marker", read("scene.yaml").startswith(b"capstan: 1"))
+
+
+def again():
+    """Into a directory of capstan's without a word; what it did not write there stays, and is not written over."""
+    run("-o", "out")
+    listed = {line[2:] for line in read("out/.capstan").decode().splitlines()[1:]}
+    expect("marker: list", listed == set(os.listdir("out")) - {".capstan"}, listed)
+    for name in ("loop-other.svg", "step-00099-plan.svg", "step-00099.vtp", "obstacles.txt"):
+        write(f"out/{name}", "mine")
+    run("-o", "out", scene="short.yaml")
+    names = set(os.listdir("out"))
+    expect("what an earlier run wrote and this one did not", "step-00005.vtp" not in names and "step-00001.vtp" in names, names)
+    for name in ("loop-other.svg", "step-00099-plan.svg", "step-00099.vtp", "obstacles.txt"):
+        expect(f"{name} is lost", name in names and read(f"out/{name}") == b"mine")
+    run("-o", "out", "--no-paraview")
+    names = set(os.listdir("out"))
+    expect("--no-paraview: what is left", {name for name in names if name.endswith(".vtp")} == {"step-00099.vtp"}, names)
+    write("out/step-00003.vtp", "mine")  # where a result of the next run is to go
+    before = files("out")
+    done = run("-o", "out", code=4)
+    expect("my own step: why", "step-00003.vtp was not written by capstan" in done.stderr, done.stderr)
+    after = files("out")
+    expect("my own step: changed", {name: after[name] for name in before} == before)
+    run("-o", "out", "--resume", "--force")  # the steps are not computed again
+    expect("my own step: not replaced with --force", read("out/step-00003.vtp") != b"mine")
+    expect("my own step: journal", not os.path.exists("out/.journal"))
+
+
+def listed():
+    """summary.json knows each file of its run by size and checksum, and the checker notices one of another run."""
+    run("-o", "listed")
+    with open("listed/summary.json", encoding="utf-8") as file:
+        summary = json.load(file)
+    found = {entry["name"]: (entry["bytes"], entry["crc32"]) for entry in summary["files"]}
+    expected = {name: (len(data), f"{zlib.crc32(data):08x}") for name, data in files("listed").items() if name not in (".capstan", "summary.json")}
+    expect("files of the summary", found == expected, found.keys() ^ expected.keys())
+    check = lambda: subprocess.run([CHECKER, "listed/result.nc"], capture_output=True, text=True, timeout=60)
+    expect("checker: whole", check().returncode == 0, check())
+    run("-o", "other", scene="short.yaml")
+    kept = read("listed/result.nc")
+    shutil.copy("other/result.nc", "listed/result.nc")
+    expect("checker: result.nc of another run", check().returncode == 1 and "not of its run" in check().stderr, check())
+    with open("listed/result.nc", "wb") as file:
+        file.write(kept)
+    # as a rename that failed leaves it
+    write("listed/.capstan", read("listed/.capstan").decode() + "x summary.json\n")
+    expect("checker: replaced whole", check().returncode == 0, check())
+    os.unlink("listed/summary.json")
+    expect("checker: a mixture", check().returncode == 1 and "two runs" in check().stderr, check())
+    done = run("-o", "listed")
+    expect("run: a mixture", "not all of one run" in done.stderr, done.stderr)
+    done = run("-o", "listed")
+    expect("run: whole again", done.stderr == "" and check().returncode == 0, done.stderr)
+
+
+def killed():
+    """What a killed run has begun is cleared by the next one."""
+    process = subprocess.Popen([CAPSTAN, "run", "long.yaml", "-q", "-o", "killed"])
+    while process.poll() is None and not (os.path.isdir("killed") and len(os.listdir("killed")) > 20):
+        time.sleep(0.001)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    left = [name for name in os.listdir("killed") if name.endswith(".part")]
+    expect("killed: left", len(left) > 10, left)
+    write("killed/.mine.part", "mine")
+    run("-o", "killed", "--force", "--no-paraview", scene="short.yaml")
+    left = [name for name in os.listdir("killed") if name.endswith((".part", ".run", ".journal", ".vtp"))]
+    expect("killed: left after the next run", left == [".mine.part"], left)
+    # a run that fails leaves nothing: neither marker nor directory
+    done = run("-o", "failed", scene="grab.yaml", code=3)
+    expect("failed: why", "grabbed" in done.stderr, done.stderr)
+
+
+def names():
+    """A scene whose name is dots does not write into the working directory."""
+    for name in ("...yaml", "..yaml", ".yaml", "....yaml", "a.b.yaml"):
+        shutil.copy("short.yaml", name)
+        before = set(os.listdir("."))
+        run(scene=f"./{name}")
+        expect(f"{name}: in the working directory", set(os.listdir(".")) - before <= {"results"}, set(os.listdir(".")) - before)
+        expect(f"{name}: in results itself", not os.path.exists("results/result.nc"))
+        os.unlink(name)
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    for name, steps in (("scene.yaml", 4), ("short.yaml", 1), ("long.yaml", 200)):
+        write(name, SCENE.replace("STEPS", str(steps)))
+    write("frozen.yaml", SCENE.replace("STEPS", "1") + "friction: frozen\n")
+    write("grab.yaml", SCENE.replace("STEPS", "1").replace("A: fixed, B: fixed", "A: fixed, B: free").replace("rope.B: {position: [1.1, 0, 0]}",
+          "rope.B: {force: [0.1, 0, 0]}").replace("bed:", "post: {cylinder: {point: [1.5, 0, 0], axis: [0, 0, 1], radius: 0.2}, friction: 0.1}\n  bed:")
+          .replace("[1, 0, 0]}, steps", "[2, 0, 0]}, steps"))
+    for part in (foreign, again, listed, killed, names):
+        part()
+    os.chdir("/")
+
+print("\n".join(faults) or "directories: entered, replaced, listed, interrupted")
+sys.exit(1 if faults else 0)
