@@ -90,12 +90,15 @@ static bool tell_law(LawRun *run) {
 
 /* ---- questions ---- */
 
-/* phi or the dissipated power at V, and the forces */
-static CpsStatus ask_velocity(LawRun *run, const double *velocity, double *power, CpsSet **forces,
+/* the dissipated power at V, of a resistance law phi too, which is another number, and the forces */
+static CpsStatus ask_velocity(LawRun *run, const double *velocity, double *power, double *potential, CpsSet **forces,
                               CpsSetAnswer *answer) {
     if (run->resistance) {
-        const CpsStatus status = cps_resistance_forces(run->resistance, velocity, 0, forces, answer, &run->err);
+        CpsResistanceValue value = {.potential = NAN};
+        CpsStatus status = cps_resistance_forces(run->resistance, velocity, 0, forces, answer, &run->err);
+        if (status == CPS_OK) status = cps_resistance_value(run->resistance, velocity, &value, NULL, &run->err);
         *power = answer->value;
+        *potential = value.potential;
         return status;
     }
     const CpsStatus status = cps_law_forces(run->set, velocity, 0, forces, answer, &run->err);
@@ -103,31 +106,34 @@ static CpsStatus ask_velocity(LawRun *run, const double *velocity, double *power
     return status;
 }
 
-/* the velocities at a force; of a resistance law one velocity, whose set is a point */
+/* the velocities at a force */
 static CpsStatus ask_force(LawRun *run, const double *force, CpsSet **velocities, CpsSetAnswer *answer) {
-    if (run->set) return cps_law_velocities(run->set, force, 0, velocities, answer, &run->err);
-    double *velocity = malloc((size_t)run->n * sizeof *velocity);
-    if (!velocity) {
-        run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
-        return CPS_ERR_MEMORY;
-    }
-    CpsStatus status = cps_resistance_conjugate(run->resistance, force, velocity, answer, &run->err);
-    if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED)
-        status = cps_set_point(run->n, velocity, velocities, &run->err);
-    free(velocity);
-    return status;
+    return run->set ? cps_law_velocities(run->set, force, 0, velocities, answer, &run->err)
+                    : cps_resistance_velocities(run->resistance, force, velocities, answer, &run->err);
+}
+
+/* Is what goes with a force a cone?  Of dry terms alone it is, beyond one point. */
+static bool is_cone(const LawRun *run, const SetAnswer *about) {
+    if (run->set) return true;
+    return about->facts.outcome == CPS_SET_ANSWERED && about->facts.dimension > 0 &&
+           cps_resistance_is_dry(run->resistance);
 }
 
 /* one velocity with its forces, or one force with its velocities */
 static bool tell_answer(LawRun *run, bool velocity, const double *asked, int i) {
-    const bool cone = !velocity && run->set;
+    bool cone = !velocity && run->set;
     CpsSet *set = NULL;
     CpsSetAnswer answer;
     SetAnswer about = {.n = run->n};
-    double power = NAN;
-    CpsStatus status =
-        velocity ? ask_velocity(run, asked, &power, &set, &answer) : ask_force(run, asked, &set, &answer);
+    double power = NAN, potential = NAN;
+    CpsStatus status = velocity ? ask_velocity(run, asked, &power, &potential, &set, &answer)
+                                : ask_force(run, asked, &set, &answer);
     if (status == CPS_OK && set) status = law_answer_ask(set, cone, &about, &run->err);
+    if (status == CPS_OK && set && !velocity && !cone && is_cone(run, &about)) {
+        law_answer_free(&about);
+        cone = true;
+        status = law_answer_ask(set, cone, &about, &run->err);
+    }
     cps_set_release(set);
     if (status != CPS_OK) {
         law_answer_free(&about);
@@ -139,6 +145,8 @@ static bool tell_answer(LawRun *run, bool velocity, const double *asked, int i) 
         printf("%s{\"%s\": ", separator(i), velocity ? "velocity" : "force");
         law_json_vector(run->n, asked, stdout);
         if (velocity) fputs(", \"dissipation_W\": ", stdout), law_json_number(some ? power : NAN, stdout);
+        if (velocity && run->resistance)
+            fputs(", \"potential_W\": ", stdout), law_json_number(some ? potential : NAN, stdout);
         printf(", \"%s\": ", velocity ? "forces" : "velocities");
         if (some)
             law_answer_json(&about, cone, stdout);
@@ -154,6 +162,7 @@ static bool tell_answer(LawRun *run, bool velocity, const double *asked, int i) 
         if (velocity && some && !isfinite(power)) fputs("\n  dissipates more than can be written", stdout);
         if (velocity && some && isfinite(power))
             printf("\n  dissipates %.12g W%s (gap %.2g W)", power, answer.exact ? ", exact" : "", answer.gap);
+        if (velocity && run->resistance && some && isfinite(potential)) printf("; phi = %.12g W", potential);
         fputs(velocity ? "\n  forces: " : "\n  velocities: ", stdout);
         if (some)
             law_answer_print(&about, cone);
@@ -206,6 +215,9 @@ static bool tell_all(LawRun *run, const QueryList *velocity, const QueryList *fo
         for (int i = 0; i < force->count; i++)
             if (!tell_pair(run, force->row + (size_t)i * n, velocity->row + (size_t)i * n, i)) return false;
         if (run->json) fputs("]", stdout);
+    } else if (force->count > 0 && velocity->count > 0 && !run->json) {
+        printf("no pairs: %d velocities and %d forces; pairs are told of as many of each, in the order given\n",
+               velocity->count, force->count);
     }
     if (run->json) puts("}");
     return true;

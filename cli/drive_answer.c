@@ -53,30 +53,38 @@ typedef struct All {
     double *low, *high;
 } All;
 
+/* All there is of one motion. */
+typedef struct Solutions {
+    All velocities, forces, resistances;
+} Solutions;
+
 static int force_components(const CpsSystem *system) {
     int n = 0;
     for (int k = 0; k < cps_system_laws(system); k++) n += cps_system_law_space(system, k);
     return n;
 }
 
+typedef enum Asked { VELOCITIES, FORCES, RESISTANCES } Asked;
+
 /* all solutions of small systems; else an outcome that says so */
-static bool ask_all(DriveRun *run, const CpsMotion *motion, bool forces, All *all) {
+static bool ask_all(DriveRun *run, const CpsMotion *motion, Asked what, All *all) {
+    typedef CpsStatus Ask(const CpsMotion *, double, CpsSolutionSet *, double *, double *, CpsError *);
+    static Ask *const ASK[] = {cps_motion_velocities, cps_motion_forces, cps_motion_resistances};
     const CpsDriveSystem *s = &run->file->system;
-    all->n = forces ? force_components(s->system) : s->parameters;
+    all->n = what == FORCES ? force_components(s->system) : what == VELOCITIES ? s->parameters : s->driven;
     all->set = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
     all->low = NULL;
     const CpsMotionOutcome outcome = cps_motion_report(motion)->outcome;
     if (s->parameters + force_components(s->system) > MOST_DENSE || outcome == CPS_MOTION_NO_BALANCE ||
-        outcome == CPS_MOTION_BLOCKED)
+        outcome == CPS_MOTION_BLOCKED || outcome == CPS_MOTION_NOT_ATTAINED)
         return true;
-    all->low = calloc(2 * (size_t)all->n, sizeof *all->low);
+    all->low = calloc(2 * (size_t)all->n + 1, sizeof *all->low);
     if (!all->low) {
         run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
         return false;
     }
     all->high = all->low + all->n;
-    return (forces ? cps_motion_forces(motion, 0, &all->set, all->low, all->high, &run->err)
-                   : cps_motion_velocities(motion, 0, &all->set, all->low, all->high, &run->err)) == CPS_OK;
+    return ASK[what](motion, 0, &all->set, all->low, all->high, &run->err) == CPS_OK;
 }
 
 static void free_all(All *all) {
@@ -94,6 +102,12 @@ static void print_all(const All *all, const char *what) {
         printf("  %s: no other\n", what);
     else
         printf("  not unique: the %s are a set of dimension %d\n", what, all->set.dimension);
+}
+
+/* Is component i open by more than the tolerance? */
+static bool is_open(const All *all, int i) {
+    const double low = all->low[i], high = all->high[i];
+    return !isfinite(low) || !isfinite(high) || high - low > all->set.tolerance * (fabs(low) + fabs(high));
 }
 
 /* rounding is not shown */
@@ -122,13 +136,41 @@ static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const A
         printf(", dissipates %.10g W",
                tidy(cps_motion_law_share(motion, k)->dissipated, cps_motion_report(motion)->scale));
         for (int i = 0; i < n && all->set.outcome == CPS_SET_ANSWERED; i++, at++)
-            if (all->high[at] - all->low[at] > all->set.tolerance * (fabs(all->low[at]) + fabs(all->high[at])))
+            if (is_open(all, at))
                 printf("; component %d from %.6g to %.6g N", i + 1, all->low[at] + 0.0, all->high[at] + 0.0);
         puts("");
     }
 }
 
-static void print_motion(DriveRun *run, const CpsMotion *motion, const All *velocities, const All *forces) {
+/* what else the device may feel; nothing where G is unique, or unknown */
+static void print_resistances(const All *all) {
+    if (all->set.outcome != CPS_SET_ANSWERED || all->set.unique) return;
+    printf("  not unique: the resistances are a set of dimension %d", all->set.dimension);
+    for (int i = 0; i < all->n && i < MOST_PRINTED; i++)
+        if (is_open(all, i))
+            printf("; component %d from %.6g to %.6g N", i + 1, all->low[i] + 0.0, all->high[i] + 0.0);
+    puts("");
+}
+
+static void print_lambda(const CpsMotion *motion) {
+    const int count = cps_motion_constraints(motion);
+    if (count == 0) return;
+    fputs("  constraint forces lambda = ", stdout);
+    law_print_vector(count < MOST_PRINTED ? count : MOST_PRINTED, cps_motion_constraint_forces(motion));
+    puts(count > MOST_PRINTED ? " .." : "");
+}
+
+static void print_not_attained(const CpsDriveSystem *s, const CpsMotion *motion, const All *velocities) {
+    const CpsMotionReport *r = cps_motion_report(motion);
+    printf("  %s\n", cps_motion_outcome_sentence(r->outcome));
+    printf("  gamma = %.8g W is an infimum, between bounds %.2g W apart, and not attained; it is approached along\n",
+           fabs(r->value) <= r->minimum ? 0 : r->value, r->minimum);
+    print_velocity(s, cps_motion_direction(motion), velocities);
+    printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition), cps_composition_sentence(r->composition));
+}
+
+static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions *all) {
+    const All *velocities = &all->velocities, *forces = &all->forces;
     const CpsDriveSystem *s = &run->file->system;
     const CpsMotionReport *r = cps_motion_report(motion);
     if (r->outcome == CPS_MOTION_NO_BALANCE || r->outcome == CPS_MOTION_BLOCKED) {
@@ -143,18 +185,31 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const All *velo
         }
         return;
     }
-    printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", r->value + 0.0, r->minimum);
+    if (r->outcome == CPS_MOTION_NOT_ATTAINED) {
+        print_not_attained(s, motion, velocities);
+        return;
+    }
+    if (isfinite(r->minimum))
+        printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", r->value + 0.0, r->minimum);
+    else
+        printf("  gamma is at most %.12g W; no forces in equilibrium were found that bound it from below\n", r->value + 0.0);
+    /* of resistances gamma is not what is dissipated */
+    if (isfinite(r->minimum) && fabs(r->value + r->load_power - r->dissipated) > 1e-6 * r->scale)
+        printf("  gamma is the least of the potential phi less the load's power; the laws dissipate %.12g W\n", r->dissipated);
     if (r->outcome != CPS_MOTION_SOLVED) printf("  note: %s\n", cps_motion_outcome_sentence(r->outcome));
     print_velocity(s, cps_motion_velocity(motion), velocities);
     print_all(velocities, "velocities");
     fputs("  resistance G = ", stdout);
     law_print_vector(s->driven, cps_motion_resistance(motion));
     puts("");
+    print_resistances(&all->resistances);
+    print_lambda(motion);
     print_laws(s, motion, forces);
     print_all(forces, "forces");
     if (s->loaded) printf("  load: gives %.10g W; ", tidy(r->load_power, r->scale));
+    if (s->loaded && isnan(r->load_factor)) puts("how much of it can be balanced is not known");
     if (s->loaded && isfinite(r->load_factor)) printf("up to %.6g times as much can be balanced\n", r->load_factor);
-    if (s->loaded && !isfinite(r->load_factor)) puts("any multiple of it can be balanced");
+    if (s->loaded && isinf(r->load_factor)) puts("any multiple of it can be balanced");
     printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition), cps_composition_sentence(r->composition));
     printf("  residuals: drive %.1e, constraints %.1e, equilibrium %.1e, laws %.1e; power gap %.1e of %.3g W\n",
            r->drive, r->constraint, r->equilibrium, r->outside, fmax(r->law, 0), r->scale);
@@ -189,7 +244,7 @@ static void json_laws(const CpsDriveSystem *s, const CpsMotion *motion) {
     putchar(']');
 }
 
-static void json_motion(DriveRun *run, const CpsMotion *motion, const All *velocities, const All *forces) {
+static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions *all) {
     const CpsDriveSystem *s = &run->file->system;
     const CpsMotionReport *r = cps_motion_report(motion);
     drive_json_word("outcome", cps_motion_outcome_name(r->outcome));
@@ -197,11 +252,16 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const All *veloc
     drive_json("lower_W", r->lower);
     drive_json("upper_W", r->upper);
     drive_json("scale_W", r->scale);
+    drive_json("dissipated_W", r->dissipated);
     drive_json_list("V", s->parameters, cps_motion_velocity(motion));
+    if (cps_motion_direction(motion)) drive_json_list("direction", s->parameters, cps_motion_direction(motion));
     drive_json_list("G", s->driven, cps_motion_resistance(motion));
     json_laws(s, motion);
-    json_all("velocities", velocities);
-    json_all("forces", forces);
+    if (cps_motion_constraints(motion) > 0)
+        drive_json_list("lambda", cps_motion_constraints(motion), cps_motion_constraint_forces(motion));
+    json_all("velocities", &all->velocities);
+    json_all("forces", &all->forces);
+    json_all("resistances", &all->resistances);
     drive_json_word("composition", cps_composition_name(r->composition));
     drive_json("load_power_W", r->load_power);
     drive_json("load_factor", r->load_factor);
@@ -218,24 +278,27 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const All *veloc
 static bool tell_motion(DriveRun *run, const double *velocity, int i) {
     const CpsDriveSystem *s = &run->file->system;
     CpsMotion *motion = NULL;
-    All velocities = {.low = NULL}, forces = {.low = NULL};
+    Solutions all = {.velocities = {.low = NULL}};
     bool good = cps_system_solve(s->system, velocity, NULL, &motion, &run->err) == CPS_OK &&
-                ask_all(run, motion, false, &velocities) && ask_all(run, motion, true, &forces);
+                ask_all(run, motion, VELOCITIES, &all.velocities) && ask_all(run, motion, FORCES, &all.forces) &&
+                ask_all(run, motion, RESISTANCES, &all.resistances);
     if (good && run->json) {
         printf("%s{\"velocity\": ", i ? ",\n    " : "\n    ");
         law_json_vector(s->driven, velocity, stdout);
-        json_motion(run, motion, &velocities, &forces);
+        json_motion(run, motion, &all);
         putchar('}');
     } else if (good) {
         if (s->driven) fputs("velocity W = ", stdout), law_print_vector(s->driven, velocity);
         puts(s->driven ? "" : "nothing is driven");
-        print_motion(run, motion, &velocities, &forces);
+        print_motion(run, motion, &all);
     }
     const CpsMotionOutcome outcome = good ? cps_motion_report(motion)->outcome : CPS_MOTION_SOLVED;
     run->answered = run->answered && outcome != CPS_MOTION_INACCURATE;
-    run->none = run->none || outcome == CPS_MOTION_NO_BALANCE || outcome == CPS_MOTION_BLOCKED;
-    free_all(&velocities);
-    free_all(&forces);
+    run->none = run->none || outcome == CPS_MOTION_NO_BALANCE || outcome == CPS_MOTION_BLOCKED ||
+                outcome == CPS_MOTION_NOT_ATTAINED;
+    free_all(&all.velocities);
+    free_all(&all.forces);
+    free_all(&all.resistances);
     cps_motion_destroy(motion);
     return good;
 }
@@ -260,11 +323,14 @@ static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, 
             law_answer_json(&about, !velocity, stdout);
         else
             printf("{\"outcome\": \"%s\"}", cps_set_outcome_name(answer.outcome));
+        drive_json("gap", answer.gap);
+        if (velocity) printf(", \"exact\": %s", answer.exact ? "true" : "false");
         putchar('}');
     } else if (good) {
         printf("%s ", key);
         law_print_vector(n, asked);
-        if (velocity && found) printf("\n  dissipates %.12g W (gap %.2g W)", answer.value + 0.0, answer.gap);
+        if (velocity && found)
+            printf("\n  dissipates %.12g W%s (gap %.2g W)", answer.value + 0.0, answer.exact ? ", exact" : "", answer.gap);
         printf("\n  %s: ", velocity ? "forces" : "velocities");
         if (found)
             law_answer_print(&about, !velocity);
@@ -277,6 +343,15 @@ static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, 
     law_answer_free(&about);
     cps_set_release(found);
     return good;
+}
+
+/* Forces that balance the load: none, where the reduced set is empty. */
+static bool tell_empty(DriveRun *run) {
+    run->none = true;
+    if (run->json) printf(", \"components\": %d, \"forces\": {\"outcome\": \"%s\"}", run->file->system.driven,
+                          cps_set_outcome_name(CPS_SET_EMPTY));
+    else printf("no reduced law: %s\n", cps_motion_outcome_sentence(CPS_MOTION_NO_BALANCE));
+    return true;
 }
 
 static bool tell_elimination(DriveRun *run, const CpsSet *set, CpsComposition composition) {
@@ -315,15 +390,18 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
     const size_t n = (size_t)run->file->system.driven;
     if (cps_system_eliminate(run->file->system.system, NULL, &set, &composition, &run->err) != CPS_OK)
         return cli_report(&run->err);
-    bool good = tell_elimination(run, set, composition);
+    CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
+    bool good = cps_set_facts(set, 0, &facts, NULL, NULL, &run->err) == CPS_OK;
+    const bool empty = good && facts.outcome == CPS_SET_EMPTY;
+    good = good && (empty ? tell_empty(run) : tell_elimination(run, set, composition));
     if (run->json) fputs(",\n  \"answers\": [", stdout);
-    for (int i = 0; i < velocity->count && good; i++)
+    for (int i = 0; i < velocity->count && good && !empty; i++)
         good = tell_reduced(run, set, velocity->row + (size_t)i * n, true, i);
-    for (int i = 0; i < force->count && good; i++)
+    for (int i = 0; i < force->count && good && !empty; i++)
         good = tell_reduced(run, set, force->row + (size_t)i * n, false, velocity->count + i);
     if (run->json) putchar(']');
     int code = good ? EXIT_OK : cli_report(&run->err);
-    if (code == EXIT_OK && run->options->plot) code = draw_reduced(run, set, velocity, force);
+    if (code == EXIT_OK && run->options->plot && !empty) code = draw_reduced(run, set, velocity, force);
     cps_set_release(set);
     return code;
 }

@@ -57,13 +57,14 @@ void law_json_text(const char *text, FILE *out) {
 
 static bool take_block(SetAnswer *a) {
     const size_t n = (size_t)a->n;
-    a->block = calloc(n * n + 3 * n + 2 * MOST_LISTED * n, sizeof *a->block);
+    a->block = calloc(2 * n * n + 3 * n + 2 * MOST_LISTED * n, sizeof *a->block);
     if (!a->block) return false;
     a->center = a->block;
     a->low = a->center + n, a->high = a->low + n;
     a->vertex = a->high + n;
     a->ray = a->vertex + MOST_LISTED * n;
     a->basis = a->ray + MOST_LISTED * n;
+    a->line = a->basis + n * n;
     return true;
 }
 
@@ -72,6 +73,41 @@ static void take_middle(SetAnswer *a) {
     double along = 0.5 * (a->low[0] + a->high[0]);
     for (int i = 0; i < a->n; i++) along -= a->basis[i] * a->center[i];
     for (int i = 0; i < a->n; i++) a->center[i] += along * a->basis[i];
+}
+
+/* The pointed part of a cone, which lies across its lines: rays where it has dimension 1 or 2, and the lines both ways. */
+static CpsStatus ask_pointed(const CpsSet *cone, SetAnswer *a, CpsError *err) {
+    const size_t n = (size_t)a->n, lines = (size_t)a->lineality;
+    CpsSet *across = NULL, *pointed = NULL;
+    CpsSetAnswer listed;
+    int count = 0;
+    CpsStatus status = cps_set_subspace(a->n, a->n - a->lineality, a->line + lines * n, &across, err);
+    if (status == CPS_OK) status = cps_set_intersection(2, (const CpsSet *const[]){cone, across}, &pointed, err);
+    if (status == CPS_OK && a->facts.dimension > a->lineality)
+        status = cps_set_rays(pointed, 0, MOST_LISTED, a->ray, &count, &listed, err);
+    const bool known = status == CPS_OK && (a->facts.dimension == a->lineality || listed.outcome == CPS_SET_ANSWERED);
+    if (known && (size_t)count + 2 * lines <= MOST_LISTED) {
+        a->ray_count = count;
+        for (size_t k = 0; k < 2 * lines; k++)
+            for (size_t i = 0; i < n; i++)
+                a->ray[(size_t)a->ray_count * n + i] = (k % 2 ? -1 : 1) * a->line[k / 2 * n + i], a->ray_count += i == n - 1;
+    }
+    cps_set_release(across);
+    cps_set_release(pointed);
+    return status;
+}
+
+/* The largest subspace in a cone N: what N and -N have in common. */
+static CpsStatus ask_lines(const CpsSet *cone, SetAnswer *a, CpsError *err) {
+    CpsSet *turned = NULL, *both = NULL;
+    CpsSetFacts facts = {.outcome = CPS_SET_INACCURATE};
+    CpsStatus status = cps_set_scale(-1, cone, &turned, err);
+    if (status == CPS_OK) status = cps_set_intersection(2, (const CpsSet *const[]){cone, turned}, &both, err);
+    if (status == CPS_OK) status = cps_set_facts(both, 0, &facts, NULL, a->line, err);
+    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED) a->lineality = facts.dimension;
+    cps_set_release(turned);
+    cps_set_release(both);
+    return status == CPS_OK && a->lineality > 0 ? ask_pointed(cone, a, err) : status;
 }
 
 CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *err) {
@@ -97,6 +133,7 @@ CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *e
     if (status == CPS_OK && cone) {
         status = cps_set_rays(set, 0, MOST_LISTED, a->ray, &count, &listed, err);
         if (status == CPS_OK && listed.outcome == CPS_SET_ANSWERED) a->ray_count = count;
+        if (status == CPS_OK && a->facts.dimension > 0) status = ask_lines(set, a, err);
     } else if (status == CPS_OK && a->facts.bounded) {
         status = cps_set_vertices(set, 0, MOST_LISTED, a->vertex, &count, &listed, err);
         if (status == CPS_OK && listed.outcome == CPS_SET_ANSWERED) a->vertex_count = count;
@@ -134,48 +171,45 @@ static double angle(const SetAnswer *a, const double *u, const double *v) {
     return 2 * atan2(sqrt(less), sqrt(more)) * DEGREES;
 }
 
-/* Do two generators point in opposite directions, to what they are known to? */
-static bool opposite(const SetAnswer *a, int i, int k) {
-    double sum = 0;
-    for (int j = 0; j < a->n; j++) sum = fmax(sum, fabs(a->ray[i * a->n + j] + a->ray[k * a->n + j]));
-    return sum <= 1e-7;
+/* "line", "plane" or "space of dimension 3" */
+static void print_flat(int dimension) {
+    if (dimension > 2) printf("space of dimension %d", dimension);
+    else fputs(dimension > 1 ? "plane" : "line", stdout);
 }
 
-/* Dimension of the largest subspace in a cone of dimension 1 or 2: each line of it has two opposite generators. `line` and `other`: one
- * generator that belongs to such a line, and one that does not. */
-static int lineality(const SetAnswer *a, int *line, int *other) {
-    int lines = 0;
-    for (int i = 0; i < a->ray_count; i++) {
-        int partners = 0;
-        for (int k = 0; k < a->ray_count; k++) partners += k != i && opposite(a, i, k);
-        if (partners > 0) *line = i, lines++;
-        else *other = i;
-    }
-    return lines/2;
-}
-
-static void print_cone_with_lines(const SetAnswer *a, int lines, int line, int other) {
-    if (a->facts.dimension == 1) {
+/* Lines first: then all is said of what lies across them. */
+static void print_cone_with_lines(const SetAnswer *a) {
+    const int d = a->facts.dimension, l = a->lineality;
+    if (l == d && d == 1) {
         fputs("a line along", stdout);
-        print_list(a, a->ray, 1);
-    } else if (lines == 2) {
-        fputs("a whole plane, spanned by", stdout);
-        print_list(a, a->basis, 2);
+    } else if (l == d) {
+        fputs("a whole ", stdout), print_flat(d), fputs(", spanned by", stdout);
+    } else if (l == d - 1) {
+        fputs(d == 2 ? "a half-plane, bounded by the line along" : "a half-space", stdout);
+        if (d > 2) printf(" of dimension %d, bounded by the ", d), print_flat(l), fputs(" spanned by", stdout);
     } else {
-        fputs("a half-plane, bounded by the line along", stdout);
-        print_list(a, a->ray + line * a->n, 1);
+        printf("a cone of dimension %d with the ", d), print_flat(l), fputs(l == 1 ? " along" : " spanned by", stdout);
+    }
+    print_list(a, a->line, l);
+    if (l == d) return;
+    if (l == d - 1 && a->ray_count > 0) {
         fputs(", on the side of", stdout);
-        print_list(a, a->ray + other * a->n, 1);
+        print_list(a, a->ray, 1);
+    } else if (l == d - 2 && a->ray_count > 1) {
+        printf(", and across it a sector of %.6g degrees between", angle(a, a->ray, a->ray + a->n));
+        print_list(a, a->ray, 2);
+    } else {
+        fputs(", around", stdout);
+        print_list(a, a->center, 1);
     }
 }
 
 static void print_cone(const SetAnswer *a) {
-    int line = 0, other = 0;
-    const int d = a->facts.dimension, lines = d <= 2 ? lineality(a, &line, &other) : 0;
+    const int d = a->facts.dimension;
     if (d == 0) {
         fputs("only the velocity 0", stdout);
-    } else if (lines > 0) {
-        print_cone_with_lines(a, lines, line, other);
+    } else if (a->lineality > 0) {
+        print_cone_with_lines(a);
     } else if (a->ray_count == 1 && d == 1) {
         fputs("a ray along", stdout);
         print_list(a, a->ray, 1);
@@ -191,6 +225,24 @@ static void print_cone(const SetAnswer *a) {
     }
 }
 
+/* (x + factor d) */
+static void print_sum(int n, const double *x, double factor, const double *d) {
+    putchar('(');
+    for (int i = 0; i < n; i++) printf("%s%.10g", i ? ", " : "", (x ? x[i] : 0) + factor * d[i] + 0.0);
+    putchar(')');
+}
+
+/* A half-line from its end, or a line. */
+static void print_line(const SetAnswer *a) {
+    const bool down = isfinite(a->high[0]), ends = down || isfinite(a->low[0]);
+    double along = down ? a->high[0] : ends ? a->low[0] : 0;
+    for (int i = 0; i < a->n && ends; i++) along -= a->basis[i] * a->center[i];
+    fputs(ends ? "a half-line from " : "a line through ", stdout);
+    print_sum(a->n, a->center, along, a->basis);
+    fputs(" along ", stdout);
+    print_sum(a->n, NULL, down ? -1 : 1, a->basis);
+}
+
 static void print_set(const SetAnswer *a) {
     const int d = a->facts.dimension;
     if (d == 0) {
@@ -199,6 +251,8 @@ static void print_set(const SetAnswer *a) {
     } else if (d == 1 && a->vertex_count == 2) {
         printf("a segment between");
         print_list(a, a->vertex, 2);
+    } else if (d == 1 && !a->facts.bounded) {
+        print_line(a);
     } else {
         printf("a set of dimension %d around ", d);
         law_print_vector(a->n, a->center);
@@ -234,10 +288,11 @@ static const char *description(const SetAnswer *a, bool cone) {
     static const char *const SET[] = {"point", "segment", "planar set"};
     static const char *const CONE[] = {"zero", "ray", "sector"};
     const int d = a->facts.dimension;
+    if (!cone && d == 1 && !a->facts.bounded)
+        return isfinite(a->low[0]) || isfinite(a->high[0]) ? "half-line" : "line";
     if (!cone) return d <= 2 ? SET[d] : "set";
-    int line, other;
-    const int lines = d <= 2 ? lineality(a, &line, &other) : 0;
-    if (lines > 0) return d == 1 ? "line" : lines == 1 ? "half-plane" : "plane";
+    if (a->lineality > 0 && a->lineality == d) return d == 1 ? "line" : d == 2 ? "plane" : "space";
+    if (a->lineality > 0 && a->lineality == d - 1) return d == 2 ? "half-plane" : "half-space";
     return d == 0 || (d <= 2 && a->ray_count == d) ? CONE[d] : "cone";
 }
 
@@ -250,6 +305,8 @@ void law_answer_json(const SetAnswer *a, bool cone, FILE *out) {
     law_json_vector(a->n, a->center, out);
     if (a->vertex_count >= 0) json_list(a, "vertices", a->vertex, a->vertex_count, out);
     if (a->ray_count >= 0) json_list(a, "rays", a->ray, a->ray_count, out);
+    if (cone) fprintf(out, ", \"lineality\": %d", a->lineality);
+    if (cone && a->lineality > 0) json_list(a, "lines", a->line, a->lineality, out);
     if (!cone) {
         fputs(", \"extent\": [", out);
         for (int i = 0; i < a->facts.dimension; i++) {

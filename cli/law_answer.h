@@ -19,6 +19,8 @@ typedef struct SetAnswer {
     double *vertex;     /* (vertex_count x n) */
     int ray_count;      /* -1: not known, or no cone */
     double *ray;        /* (ray_count x n) unit generators */
+    int lineality;      /* of a cone: dimension of the largest subspace in it */
+    double *line;       /* (lineality x n) orthonormal */
     double *block;      /* all of the above */
 } SetAnswer;
 

@@ -95,7 +95,8 @@ CPS_API CpsStatus cps_system_set_load(CpsSystem *system, const double *load, Cps
  * ask, plot, compose it. Dense: for systems up to a few hundred parameters and force components.
  *
  *   law          the law; NULL: not wanted. Refused where the load is not 0: a set with a load need not contain 0
- *   forces       D as a set, also with a load (M77 section 12, remark); NULL: not wanted. The caller releases it
+ *   forces       D as a set, also with a load (M77 section 12, remark), empty where the laws cannot balance that; NULL: not
+ *                wanted. The caller releases it
  *   composition  whether the reverse of Proposition 1 holds, that every (W, G) of the law belongs to a motion: the
  *                forces that balance meet the C_k in their interior, relative interior, ..; NULL: not wanted
  *
@@ -112,7 +113,8 @@ CPS_API CpsStatus cps_system_eliminate(const CpsSystem *system, CpsLaw **law, Cp
     X(CPS_MOTION_LIMIT_LOAD, 1, "the load is at the limit of what the laws balance: a motion may fail to exist")       \
     X(CPS_MOTION_NO_BALANCE, 2, "no forces of the laws balance the load: its power exceeds what they can dissipate")   \
     X(CPS_MOTION_BLOCKED, 3, "no velocity that constraints and one-sided laws admit agrees with the drive")            \
-    X(CPS_MOTION_INACCURATE, 4, "rounding kept the bounds from the tolerance; they hold as they are")
+    X(CPS_MOTION_INACCURATE, 4, "rounding kept the bounds from the tolerance; they hold as they are")                  \
+    X(CPS_MOTION_NOT_ATTAINED, 5, "no motion: the least dissipation is approached by ever faster velocities only")
 
 typedef enum CpsMotionOutcome {
 #define CPS_MOTION_OUTCOME_ENUM(name, number, sentence) name = number,
@@ -166,14 +168,15 @@ typedef struct CpsMotion CpsMotion;
  * its proof:
  *
  *   SOLVED, LIMIT_LOAD   V, F_k, G, lambda and the bounds
+ *   NOT_ATTAINED         the same, the bounds being those of the infimum; V is a velocity near it
  *   NO_BALANCE           V with D V = 0, C V = 0 and <load, V> > sum of phi_k(B_k V): the way the load runs off
  *   BLOCKED              G, lambda, and F_k in the recession cones of the C_k, in equilibrium without the load, with
  *                        <W, G> < 0: the resistance grows beyond all bounds
  *
  *   options  NULL: the default
  *
- * Where composition is CPS_COMPOSE_NOT_SATISFIED a minimum need not be attained: V then is a velocity near the
- * infimum, and by Proposition 1 the pairs (W, G) of motions still obey the reduced law. `lower` counts residuals
+ * Where composition is CPS_COMPOSE_NOT_SATISFIED a minimum need not be attained, which is then found out by two more
+ * programs; by Proposition 1 the pairs (W, G) of motions still obey the reduced law. `lower` counts residuals
  * against V and the sets against F, so it is a bound up to what velocities much faster than V could add.
  *
  * Time and memory are linear in the size for chains, trees and stars. The system must outlive the motion and not be
@@ -185,8 +188,11 @@ CPS_API void cps_motion_destroy(CpsMotion *motion); /* NULL is accepted */
 /* Views, valid until the motion is destroyed. */
 CPS_API const CpsMotionReport *cps_motion_report(const CpsMotion *motion);
 CPS_API const double *cps_motion_velocity(const CpsMotion *motion);            /* V (n) */
+/* For NOT_ATTAINED (n), largest component 1: velocities V + t direction dissipate less and less as t grows; else NULL. */
+CPS_API const double *cps_motion_direction(const CpsMotion *motion);
 CPS_API const double *cps_motion_resistance(const CpsMotion *motion);          /* G (m) */
 CPS_API const double *cps_motion_constraint_forces(const CpsMotion *motion);   /* lambda, in the order of the rows */
+CPS_API int cps_motion_constraints(const CpsMotion *motion);                   /* how many there are */
 CPS_API const double *cps_motion_law_velocity(const CpsMotion *motion, int k); /* U_k = B_k V */
 CPS_API const double *cps_motion_law_force(const CpsMotion *motion, int k);    /* F_k */
 CPS_API const CpsMotionShare *cps_motion_law_share(const CpsMotion *motion, int k);
@@ -244,6 +250,10 @@ CPS_API CpsStatus cps_motion_velocities(const CpsMotion *motion, double toleranc
  * components. */
 CPS_API CpsStatus cps_motion_forces(const CpsMotion *motion, double tolerance, CpsSolutionSet *all, double *low,
                                     double *high, CpsError *err);
+/* All resistances G (m) that go with W. They leave directions open where rows of the drive depend on each other or on the
+ * constraints. */
+CPS_API CpsStatus cps_motion_resistances(const CpsMotion *motion, double tolerance, CpsSolutionSet *all, double *low,
+                                         double *high, CpsError *err);
 CPS_API void cps_solution_set_clear(CpsSolutionSet *all);
 
 #ifdef __cplusplus

@@ -215,6 +215,15 @@ CPS_API CpsStatus cps_resistance_forces(const CpsResistance *law, const double *
 CPS_API CpsStatus cps_resistance_conjugate(const CpsResistance *law, const double *force, double *velocity,
                                            CpsSetAnswer *answer, CpsError *err);
 
+/* Dry terms alone: the velocities at a force are a cone. */
+CPS_API bool cps_resistance_is_dry(const CpsResistance *law);
+
+/* All velocities of the law at F, the subgradients of phi* at -F: one with a viscous term and where slopes rise, else a cone
+ * (dry terms at their limit) or what is between two speeds of the same slope. *velocities NULL where there are none;
+ * answer as of the conjugate. */
+CPS_API CpsStatus cps_resistance_velocities(const CpsResistance *law, const double *force, CpsSet **velocities,
+                                            CpsSetAnswer *answer, CpsError *err);
+
 /* How far (F, V) is from the law: the Fenchel gap phi(V) + phi*(-F) + <V, F> >= 0 [W] to *gap (NAN where the conjugate
  * has no answer), and dist(F, forces of the law at V) [N] to *distance. */
 CPS_API CpsStatus cps_resistance_residual(const CpsResistance *law, const double *force, const double *velocity,

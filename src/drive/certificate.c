@@ -22,6 +22,10 @@
 /* Velocities that one-sided laws forbid count as on the boundary up to this share of the largest velocity. */
 static const double ON_BOUNDARY = 1e-8;
 
+/* Forces that miss equilibrium by more than this share of the largest are not in equilibrium: a hundred times what a solution
+ * may be off by. */
+static const double BALANCED = 1e-6;
+
 /* What closed forms of potentials, conjugates and distances, and the few additions that make a bound of them, may be
  * off by, relative to their size: each is right to a few eps. Sums over rows, columns and laws are in twice the
  * digits. */
@@ -295,6 +299,8 @@ CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program
     const double forbidden = motion->speed > 0 ? totals.forbidden/motion->speed : totals.forbidden;
     report->constraint = cpsi_larger(report->constraint, forbidden);
     if (!(forbidden <= ON_BOUNDARY)) report->upper = report->value = report->minimum = INFINITY;
+    /* forces that miss balance say nothing about velocities other than V */
+    if (!(report->equilibrium <= BALANCED)) report->lower = -INFINITY, report->minimum = INFINITY;
     report->scale = fmax(fmax(totals.size, motion->force*motion->driven), fabs(report->load_power) + fabs(drive_power));
     return CPS_OK;
 }

@@ -18,6 +18,8 @@
 
 /* Rows of the drive count as dependent at this share: rounding of the given numbers. */
 static const double DEPENDENT = 1e-9;
+/* A force outside its law by more than this share of its size is none of it. */
+static const double CONTRADICTION = 1e-9;
 /* Forces nearer to a law's boundary than this share of its size are on it. */
 static const double BOUNDARY = 1e-6;
 
@@ -160,9 +162,25 @@ static CpsStatus compose_law(const Reduction *r, const CpsLaw *product, CpsLaw *
     return status;
 }
 
+/* The one F0 that balances, as a set of G: empty where the laws do not bear it. */
+static CpsStatus only_force(const Reduction *r, const CpsSet *product, CpsSet **out, CpsError *err) {
+    const size_t m = (size_t)r->m;
+    CpsSetAnswer inside;
+    double *rows = calloc(2*m, sizeof *rows);
+    if (!rows) return out_of_memory(err);
+    rows[0] = 1, rows[m] = -1;
+    CpsStatus status = cps_set_contains(product, r->dense.start, NULL, &inside, err);
+    const double size = fmax(1, cpsi_norm(r->dense.components, r->dense.start));
+    const bool out_of_it = inside.outcome == CPS_SET_ANSWERED && inside.value < -CONTRADICTION*size;
+    if (status == CPS_OK && out_of_it) status = cps_set_inequalities(r->m, 2, rows, (const double[]){-1, -1}, out, err);
+    else if (status == CPS_OK) status = cps_set_point(r->m, r->origin, out, err);
+    free(rows);
+    return status;
+}
+
 /* with a load: the same as sets */
 static CpsStatus compose_set(const Reduction *r, const CpsSet *product, CpsSet **out, CpsError *err) {
-    if (r->p == 0) return cps_set_point(r->m, r->origin, out, err);
+    if (r->p == 0) return only_force(r, product, out, err);
     if (r->invertible) return cps_set_preimage(r->m, r->direct, r->shift, product, out, err);
     const size_t m = (size_t)r->m, p = (size_t)r->p;
     double *turned = malloc((m*p + 1)*sizeof *turned);

@@ -3,6 +3,7 @@
  * lie. */
 #include "drive/motion.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,14 +70,15 @@ static CpsStatus motion_new(const CpsSystem *system, const double *driving, CpsM
         forces += (size_t)system->piece[k].space;
     }
     motion->balance = calloc(n + 1, sizeof *motion->balance);
-    motion->driving = calloc(2*m + n + rows + 2*components + forces + 1, sizeof *motion->driving);
+    motion->driving = calloc(2*m + 2*n + rows + 2*components + forces + 1, sizeof *motion->driving);
     if (!motion->driving || !motion->balance || !motion->piece_at || !motion->share) {
         cps_motion_destroy(motion);
         return out_of_memory(err);
     }
     motion->resistance = motion->driving + m;
     motion->velocity = motion->resistance + m;
-    motion->constraint = motion->velocity + n;
+    motion->direction = motion->velocity + n;
+    motion->constraint = motion->direction + n;
     motion->law_velocity = motion->constraint + rows;
     motion->law_force = motion->law_velocity + components;
     motion->piece_force = motion->law_force + components;
@@ -125,25 +127,40 @@ static void start_velocity(CpsMotion *motion, CpsiKinematics *kinematics) {
     }
 }
 
-/* The largest factor on the load; where it is below one, V of the program proves it: 1 = <load, V>, phi(V) = factor. */
+/* The largest factor on the load. Where it is below one, V of the program has <load, V> = 1 and phi(V) = factor: a proof,
+ * where phi(V) < <load, V> beyond rounding. */
 static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, double band, CpsError *err) {
     CpsMotionReport *report = &motion->report;
     CpsiDriveProgram program;
-    CpsStatus status = cpsi_drive_program_new(motion->system, CPSI_AIM_FACTOR, NULL, 1, &program, err);
+    CpsStatus status = cpsi_drive_program_new(motion->system, CPSI_AIM_FACTOR, NULL, 1, false, &program, err);
     if (status != CPS_OK) return status;
     cpsi_drive_program_solve(&program);
     report->iterations += program.result.iterations;
-    if (program.result.outcome == CPSI_CONIC_SOLVED) report->load_factor = cpsi_drive_program_factor(&program);
-    if (program.result.outcome == CPSI_CONIC_FAILED) report->outcome = CPS_MOTION_INACCURATE;
+    const CpsiConicOutcome outcome = program.result.outcome;
+    if (outcome == CPSI_CONIC_SOLVED) report->load_factor = cpsi_drive_program_factor(&program);
+    else if (outcome != CPSI_CONIC_UNBOUNDED) report->load_factor = NAN;
+    if (outcome == CPSI_CONIC_FAILED) report->outcome = CPS_MOTION_INACCURATE;
     if (report->load_factor < 1 + band) report->outcome = CPS_MOTION_LIMIT_LOAD;
-    if (report->load_factor < 1 - band) {
-        report->outcome = CPS_MOTION_NO_BALANCE;
-        memset(motion->driving, 0, (size_t)motion->system->drive.rows*sizeof *motion->driving);
-        cpsi_drive_program_velocity(&program, motion->velocity);
-        cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
-        cpsi_motion_take_forces(motion, &program);
-        status = cpsi_motion_certify(motion, &program, err);
-        report->value = report->lower = report->upper = -INFINITY;
+    if (report->load_factor < 1) {
+        const size_t m = (size_t)motion->system->drive.rows;
+        double *driving = malloc((m + 1)*sizeof *driving);
+        if (!driving) status = out_of_memory(err);
+        else {
+            memcpy(driving, motion->driving, m*sizeof *driving);
+            memset(motion->driving, 0, m*sizeof *driving);
+            cpsi_drive_program_velocity(&program, motion->velocity);
+            cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
+            cpsi_motion_take_forces(motion, &program);
+            status = cpsi_motion_certify(motion, &program, err);
+            if (report->upper < 0) {
+                report->outcome = CPS_MOTION_NO_BALANCE;
+                report->value = report->lower = report->upper = -INFINITY;
+            } else {
+                memcpy(motion->driving, driving, m*sizeof *driving);
+                start_velocity(motion, kinematics);
+            }
+        }
+        free(driving);
     }
     cpsi_drive_program_clear(&program);
     return status;
@@ -163,11 +180,12 @@ static bool close_enough(const CpsMotionReport *report, double tolerance, double
 }
 
 /* The program itself, with velocities of size `speed`, and the bounds of what comes out. */
-static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double speed, bool still, CpsError *err) {
+static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double speed, bool even, bool still,
+                         CpsError *err) {
     CpsMotionReport *report = &motion->report;
     CpsiDriveProgram program;
     CpsStatus status =
-        cpsi_drive_program_new(motion->system, CPSI_AIM_MOTION, motion->driving, speed, &program, err);
+        cpsi_drive_program_new(motion->system, CPSI_AIM_MOTION, motion->driving, speed, even, &program, err);
     if (status != CPS_OK) return status;
     cpsi_drive_program_solve(&program);
     report->iterations += program.result.iterations;
@@ -185,7 +203,9 @@ static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double s
     return status;
 }
 
-/* A motion. The size of velocities is a guess, and only resistances are about it: another one where it was wrong. */
+/* A motion. The size of velocities is a guess, and only resistances are about it: another one where it was wrong. Equations
+ * divided each by its own forces tell strong laws from weak ones best; where a weak law's equation decides velocities that a
+ * strong one resists, one divisor for all does. */
 static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics, const CpsMotionOptions *options, CpsError *err) {
     static const double GUESS[] = {1, 100, 0.01, 1e4};
     const CpsSystem *system = motion->system;
@@ -195,15 +215,22 @@ static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics, const CpsMo
     const bool still = motion->speed == 0 && !(resistance && cpsi_system_loaded(system));
     const double least = motion->force*REST, first = motion->speed;
     const CpsMotionOutcome so_far = motion->report.outcome;
-    for (size_t k = 0; k < (resistance ? sizeof GUESS/sizeof *GUESS : 1); k++) {
+    for (size_t k = 0; k < 2*(resistance ? sizeof GUESS/sizeof *GUESS : 1); k++) {
         motion->speed = first;
         motion->report.outcome = so_far;
-        const CpsStatus status = attempt(motion, kinematics, speed*GUESS[k], still, err);
+        const CpsStatus status = attempt(motion, kinematics, speed*GUESS[k/2], k % 2 == 1, still, err);
         if (status != CPS_OK || motion->report.outcome == CPS_MOTION_BLOCKED) return status;
         if (close_enough(&motion->report, options->tolerance, least)) return CPS_OK;
         motion->report.outcome = CPS_MOTION_INACCURATE;
     }
     return CPS_OK;
+}
+
+/* Forces that touch a curved set at one point only are known to the root of their rounding along its boundary, and so is the
+ * power that they bound. */
+static void widen(CpsMotionReport *report, double power) {
+    report->lower -= sqrt(DBL_EPSILON)*power;
+    report->minimum = report->upper - report->lower;
 }
 
 static CpsStatus check(const CpsSystem *system, const double *driving, const CpsMotionOptions *options, CpsMotion **out,
@@ -244,8 +271,12 @@ CpsStatus cps_system_solve(const CpsSystem *system, const double *driving, const
         status = balance_load(motion, kinematics, chosen.boundary, err);
     const bool possible = report->outcome == CPS_MOTION_SOLVED || report->outcome == CPS_MOTION_LIMIT_LOAD;
     if (status == CPS_OK && possible) status = move(motion, kinematics, &chosen, err);
-    if (status == CPS_OK && possible && chosen.composition)
+    if (status == CPS_OK && possible && chosen.composition) {
         status = cpsi_motion_composition(system, chosen.boundary, &report->composition, &report->iterations, err);
+        if (status == CPS_OK && report->composition == CPS_COMPOSE_NOT_SATISFIED && report->outcome != CPS_MOTION_BLOCKED)
+            status = cpsi_motion_attained(motion, err);
+        if (report->outcome == CPS_MOTION_NOT_ATTAINED) widen(report, motion->force*motion->driven);
+    }
     cpsi_kinematics_free(kinematics);
     if (status == CPS_OK) *out = motion;
     else cps_motion_destroy(motion);
@@ -284,7 +315,7 @@ static double margin_of(const CpsiForm *form, const double *s) {
 CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsComposition *composition,
                                   int *iterations, CpsError *err) {
     CpsiDriveProgram program;
-    CpsStatus status = cpsi_drive_program_new(system, CPSI_AIM_MIDDLE, NULL, 1, &program, err);
+    CpsStatus status = cpsi_drive_program_new(system, CPSI_AIM_MIDDLE, NULL, 1, false, &program, err);
     if (status != CPS_OK) return status;
     cpsi_drive_program_solve(&program);
     *iterations += program.result.iterations;
@@ -311,8 +342,12 @@ CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsC
 
 const CpsMotionReport *cps_motion_report(const CpsMotion *motion) { return &motion->report; }
 const double *cps_motion_velocity(const CpsMotion *motion) { return motion->velocity; }
+const double *cps_motion_direction(const CpsMotion *motion) {
+    return motion->report.outcome == CPS_MOTION_NOT_ATTAINED ? motion->direction : NULL;
+}
 const double *cps_motion_resistance(const CpsMotion *motion) { return motion->resistance; }
 const double *cps_motion_constraint_forces(const CpsMotion *motion) { return motion->constraint; }
+int cps_motion_constraints(const CpsMotion *motion) { return motion->system->constraint.rows; }
 
 const double *cps_motion_law_velocity(const CpsMotion *motion, int k) {
     const bool there = k >= 0 && k < motion->system->laws;

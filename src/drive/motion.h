@@ -16,6 +16,7 @@ struct CpsMotion {
     CpsMotionReport report;
     double *driving;                     /* (m) W */
     double *velocity;                    /* (n) V */
+    double *direction;                   /* (n) along which the infimum is approached, where it is not attained */
     double *resistance, *constraint;     /* (m), (rows of C) G, lambda */
     double *law_velocity, *law_force;    /* (components) U, F */
     double *piece_force;                 /* the forces of all pieces, one after the other */
@@ -34,6 +35,10 @@ void cpsi_motion_take_forces(CpsMotion *motion, const CpsiDriveProgram *program)
 /* Shares, residuals and bounds from V, F, G and lambda alone. `program` (NULL: none) only supplies velocities of
  * one-sided laws on the boundary of those that are allowed. */
 CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program, CpsError *err);
+
+/* Makes the outcome CPS_MOTION_NOT_ATTAINED where the infimum is (attained.c); asked where Proposition 1's condition does not
+ * hold. */
+CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsError *err);
 
 /* Where the forces in the middle of all that balance lie in the laws' sets. */
 CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsComposition *composition,

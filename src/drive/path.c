@@ -40,7 +40,7 @@ static CpsPathStep account(const CpsMotion *motion, const double *w, int m, doub
 }
 
 static bool has_motion(CpsMotionOutcome outcome) {
-    return outcome != CPS_MOTION_NO_BALANCE && outcome != CPS_MOTION_BLOCKED;
+    return outcome != CPS_MOTION_NO_BALANCE && outcome != CPS_MOTION_BLOCKED && outcome != CPS_MOTION_NOT_ATTAINED;
 }
 
 CpsStatus cps_system_drive_path(const CpsSystem *system, int count, const double *duration, const double *driving,

@@ -9,7 +9,6 @@
  *
  * U* and F* are known to rounding, so a cone or face is moved to the nearest place where it holds them; how far is
  * reported. */
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -163,36 +162,6 @@ static bool has_solution(const CpsMotion *motion) {
 
 /* ---- motions ---- */
 
-/* The velocities of a term at its force: where h' is constant between low and high the gauge is free there. NULL:
- * not known. */
-static CpsStatus term_velocities(const CpsiPiece *piece, const double *u, const double *f, double tolerance,
-                                 CpsSet **out, CpsError *err) {
-    if (piece->term->kind == CPSI_VISCOUS) return cps_set_point(piece->space, u, out, err);
-    CpsSetAnswer gauge, answer;
-    CpsiTermDual dual = {0};
-    CpsSet *cone = NULL, *strip = NULL;
-    double *point = malloc(((size_t)piece->space + 1)*sizeof *point);
-    if (!point) return out_of_memory(err);
-    CpsStatus status = cps_set_gauge(piece->set, f, &gauge, err);
-    const double s = gauge.outcome == CPS_SET_ANSWERED ? gauge.value*(1 - 4*DBL_EPSILON) : 0;
-    if (status == CPS_OK) status = cpsi_term_dual(piece->term, s, &dual, err);
-    const bool none = !(s > tolerance), known = gauge.outcome == CPS_SET_ANSWERED && (!none || dual.high == 0);
-    for (int i = 0; i < piece->space; i++) point[i] = none ? 0 : f[i]/gauge.value;
-    if (status == CPS_OK && known) status = cps_law_velocities(piece->set, point, tolerance, &cone, &answer, err);
-    /* g = phi(U) = -<U, point> between low and high */
-    if (status == CPS_OK && cone && !none && isfinite(dual.high))
-        status = cps_set_strip(piece->space, point, -dual.high, -dual.low, &strip, err);
-    else if (status == CPS_OK && cone && !none)
-        status = cps_set_half_space(piece->space, point, -dual.low, &strip, err);
-    if (status == CPS_OK && strip)
-        status = cps_set_intersection(2, (const CpsSet *const[]){cone, strip}, out, err);
-    else if (status == CPS_OK && cone) *out = cps_set_retain(cone);
-    cps_set_release(cone);
-    cps_set_release(strip);
-    free(point);
-    return status;
-}
-
 static CpsStatus velocities_of_piece(Gather *g, int k, CpsError *err) {
     const CpsMotion *motion = g->motion;
     const CpsiPiece *piece = &motion->system->piece[k];
@@ -201,8 +170,10 @@ static CpsStatus velocities_of_piece(Gather *g, int k, CpsError *err) {
     CpsSet *cone = NULL;
     CpsSetAnswer answer = {.outcome = CPS_SET_NOT_AVAILABLE};
     const bool term = piece->term && piece->term->kind != CPSI_DRY;
-    CpsStatus status = term ? term_velocities(piece, u, f, g->tolerance, &cone, err)
-                            : cps_law_velocities(piece->set, f, g->tolerance, &cone, &answer, err);
+    CpsStatus status;
+    if (term && piece->term->kind == CPSI_VISCOUS) status = cps_set_point(piece->space, u, &cone, err);
+    else if (term) status = cpsi_term_velocities(piece->space, piece->term, f, g->tolerance, &cone, err);
+    else status = cps_law_velocities(piece->set, f, g->tolerance, &cone, &answer, err);
     if (status != CPS_OK) return status;
     if (!cone) {
         g->found.outcome = term ? CPS_SET_NOT_AVAILABLE : answer.outcome;

@@ -158,7 +158,7 @@ static void measure_columns(const CpsiDriveProgram *p, double *largest) {
 /* Columns first: cones are brought to the force of all bounded laws together, which bounds what they may have to
  * carry in a chain. Then each equation is divided by its largest entry of a bounded law, and each free column by its
  * largest entry. */
-static void scale(CpsiDriveProgram *p) {
+static void scale(CpsiDriveProgram *p, bool even) {
     CpsiRows *e = &p->equation;
     const int n = p->system->n, laws = p->resistance;
     double *largest = p->c, total = 0, force = 0; /* the objective is written later */
@@ -180,7 +180,7 @@ static void scale(CpsiDriveProgram *p) {
             if (e->column[k] < laws && p->column_scale[e->column[k]] == 1) most = fmax(most, fabs(e->value[k]));
             e->value[k] *= p->column_scale[e->column[k]];
         }
-        if (most == 0) most = force > 0 ? force : 1;
+        if (most == 0 || even) most = force > 0 ? force : 1;
         p->row_scale[i] = 1/most;
         p->h[i] /= most;
         for (size_t k = e->start[i]; k < e->start[i + 1]; k++) e->value[k] /= most;
@@ -208,7 +208,7 @@ static void write_objective(CpsiDriveProgram *p, CpsiAim aim, const double *driv
     for (int j = 0; j < p->unknowns; j++) p->c[j] /= p->power;
 }
 
-CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving, double speed,
+CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving, double speed, bool even,
                                  CpsiDriveProgram *out, CpsError *err) {
     CpsiDriveProgram p = {.system = system};
     int blocks = 0;
@@ -222,7 +222,7 @@ CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const dou
     }
     if (status == CPS_OK) status = write_equations(&p, aim, err);
     if (status == CPS_OK) {
-        scale(&p);
+        scale(&p, even);
         write_objective(&p, aim, driving);
         const CpsiSparseData data = {.unknowns = p.unknowns, .equations = system->n, .blocks = blocks,
                                      .block = p.block, .start = p.equation.start, .column = p.equation.column,

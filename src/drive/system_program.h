@@ -36,8 +36,8 @@ typedef struct CpsiDriveProgram {
 } CpsiDriveProgram;
 
 /* Write the program down and prepare it. For a motion `driving` (m) is W and `speed` > 0 the size of velocities,
- * for terms. */
-CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving, double speed,
+ * for terms. even: all equations are divided by one force, not each by the largest in it. */
+CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving, double speed, bool even,
                                  CpsiDriveProgram *out, CpsError *err);
 void cpsi_drive_program_clear(CpsiDriveProgram *p);
 void cpsi_drive_program_solve(CpsiDriveProgram *p);

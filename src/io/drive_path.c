@@ -182,7 +182,7 @@ CpsStatus cpsi_drive_read_rope(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveR
     const CpsiYaml *shape = NULL, *ends = NULL, *path = NULL;
     int elements = 100;
     out->steps = 40, out->shots = 6;
-    void *const to[] = {&shape, &elements, &out->friction, &out->weight, &ends, &path, &out->steps, &out->shots};
+    void *const to[] = {&shape, &elements, &out->friction, &out->weight, &ends, &out->rope.slack, &path, &out->steps, &out->shots};
     CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ROPE, to);
     if (status == CPS_OK) status = read_shape(r, shape, elements, out);
     out->rope.resistance = out->friction * out->weight;

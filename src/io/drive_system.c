@@ -150,6 +150,11 @@ static CpsStatus read_law(const Names *names, const CpsiYaml *node, int number, 
     CpsStatus status = cpsi_drive_fields(names->r, node, CPSI_DRIVE_LAW, to);
     if (status == CPS_OK && !law == !terms)
         return cpsi_drive_wrong(names->r, node, "law", "exactly one of 'law' and 'resistance' in it");
+    const CpsiLawFile *f = &names->r->build.file;
+    for (int k = 0; k < number && status == CPS_OK; k++)
+        if (strcmp(cps_system_law_name(system, k), name) == 0)
+            status = cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, node->line, node->column,
+                                  "law '%.64s' is there already; names tell laws apart", name);
     Map map;
     if (status == CPS_OK) status = read_map(names, on, "'on'", &map);
     return status ? status : add_law(names, node, name, &map, law ? law : terms, terms != NULL, system);

@@ -139,6 +139,8 @@ static const CpsiDriveWord WORD[] = {
         {"friction", CPSI_FIELD_NUMBER, NEEDED_POSITIVE, "coefficient", 0},
         {"weight", CPSI_FIELD_NUMBER, NEEDED_POSITIVE, "N/m", 0},
         {"ends", CPSI_FIELD_MAPPING, NEEDED, "what the ends do, as in {A: held, B: [1, 0]}", CPSI_DRIVE_ENDS},
+        {"slack", CPSI_FIELD_FLAG, GIVEN,
+         "may elements become shorter, without tension?  Unless true, the velocity keeps every length", 0},
         {"path", CPSI_FIELD_PATH, GIVEN, "points that end B then passes", 0},
         {"steps", CPSI_FIELD_COUNT, GIVEN_COUNT(10000), "load steps along the path; 40 unless given", 0},
         {"shots", CPSI_FIELD_COUNT, GIVEN_COUNT(24), "shapes along the path in the picture; 6 unless given", 0}}},

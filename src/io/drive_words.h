@@ -75,7 +75,7 @@ typedef struct CpsiField {
     CpsiDriveMapping inside; /* of mappings and lists of them */
 } CpsiField;
 
-enum { CPSI_DRIVE_MOST_FIELDS = 9 };
+enum { CPSI_DRIVE_MOST_FIELDS = 10 };
 
 typedef struct CpsiDriveWord {
     const char *name;  /* in messages: "'arc'" */

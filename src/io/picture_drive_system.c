@@ -29,7 +29,8 @@ static CpsStatus solve_grid(Maps *m, CpsError *err) {
         const CpsStatus status = cps_system_solve(s->system, w, &options, &motion, err);
         if (status != CPS_OK) return status;
         const CpsMotionReport *r = cps_motion_report(motion);
-        const bool none = r->outcome == CPS_MOTION_NO_BALANCE || r->outcome == CPS_MOTION_BLOCKED;
+        const bool none = r->outcome == CPS_MOTION_NO_BALANCE || r->outcome == CPS_MOTION_BLOCKED ||
+                          r->outcome == CPS_MOTION_NOT_ATTAINED;
         m->gamma[at] = none ? NAN : r->value;
         for (int k = 0; k < 2; k++) m->resistance[2 * at + k] = none ? NAN : cps_motion_resistance(motion)[k];
         for (int k = 0; k < m->parameters; k++)

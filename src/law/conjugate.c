@@ -22,8 +22,7 @@ static const CpsSetAnswer NO_VELOCITY = {.outcome = CPS_SET_OUTSIDE, .exact = tr
 
 /* ---- dry and viscous terms ---- */
 
-/* the sum of the dry terms' sets */
-static CpsStatus gather_dry(const CpsResistance *law, CpsSet **dry, CpsError *err) {
+CpsStatus cpsi_dry_sum(const CpsResistance *law, CpsSet **dry, CpsError *err) {
     const CpsSet **set = malloc((size_t)law->count * sizeof *set);
     if (!set) return out_of_memory(err);
     int count = 0;
@@ -102,7 +101,7 @@ static CpsStatus quadratic_conjugate(const CpsResistance *law, const double *for
     double *excess = malloc((size_t)law->n * sizeof *excess);
     if (!excess) return out_of_memory(err);
     CpsSet *dry = NULL;
-    CpsStatus status = gather_dry(law, &dry, err);
+    CpsStatus status = cpsi_dry_sum(law, &dry, err);
     if (status == CPS_OK) status = closed_conjugate(dry, law->n, viscosity, force, velocity, excess, answer, err);
     *closed = status == CPS_OK && answer->exact;
     cps_set_release(dry);
@@ -123,6 +122,11 @@ static CpsStatus term_conjugate(const CpsResistance *law, const double *force, d
 
     CpsiTermDual dual;
     status = cpsi_term_dual(term, gauge.value, &dual, err);
+    /* beyond the largest slope by rounding it is on it */
+    if (status == CPS_OK && isinf(dual.value)) {
+        status = cpsi_term_dual(term, gauge.value * (1 - ON_BOUNDARY), &dual, err);
+        answer->tolerance = ON_BOUNDARY * cpsi_norm(law->n, force);
+    }
     if (status != CPS_OK) return status;
     answer->value = dual.value;
     answer->gap = gauge.gap * dual.low;
@@ -132,7 +136,7 @@ static CpsStatus term_conjugate(const CpsResistance *law, const double *force, d
     }
     if (!velocity) return CPS_OK;
     CpsSetAnswer split;
-    status = cpsi_sum_conjugate(law, force, velocity, &split, err);
+    status = cpsi_sum_conjugate(law, force, velocity, NULL, &split, err);
     if (status == CPS_OK) answer->outcome = split.outcome;
     return status;
 }
@@ -153,7 +157,7 @@ CpsStatus cps_resistance_conjugate(const CpsResistance *law, const double *force
         status = quadratic_conjugate(law, force, velocity, &closed, answer, err);
     if (status != CPS_OK || closed) return status;
     if (law->count == 1 && !quadratic) return term_conjugate(law, force, velocity, answer, err);
-    return cpsi_sum_conjugate(law, force, velocity, answer, err);
+    return cpsi_sum_conjugate(law, force, velocity, NULL, answer, err);
 }
 
 /* ---- a pair ---- */

@@ -39,8 +39,20 @@ CpsStatus cpsi_function_at(const CpsiTerm *term, double g, double *h, double *sl
 CpsStatus cpsi_function_dual(const CpsiTerm *term, double s, CpsiTermDual *dual, CpsError *err);
 CpsStatus cpsi_function_check(const CpsiTerm *term, CpsError *err);
 
-/* cps_resistance_conjugate for any sum of terms (sum.c). */
-CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity, CpsSetAnswer *answer,
-                             CpsError *err);
+/* False for a power without factor and a table of zeros: no force at any speed. */
+bool cpsi_term_resists(const CpsiTerm *term);
+
+/* cps_resistance_conjugate for any sum of terms (sum.c). share (count, n) or NULL: the terms' shares of the force at least
+ * cost. */
+CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity, double *share,
+                             CpsSetAnswer *answer, CpsError *err);
+
+/* The sum of the dry terms' sets. */
+CpsStatus cpsi_dry_sum(const CpsResistance *law, CpsSet **dry, CpsError *err);
+
+/* The velocities of one term, no viscous one, at its share of the force, known to the share `tolerance` (velocities.c);
+ * *out NULL: not known. */
+CpsStatus cpsi_term_velocities(int n, const CpsiTerm *term, const double *force, double tolerance, CpsSet **out,
+                               CpsError *err);
 
 #endif

@@ -69,6 +69,8 @@ typedef struct Sum {
     Bounds now, best;
     double *cost; /* (count) */
     double *work; /* (2n) */
+    double *kept; /* (count, n) the shares of the best upper bound */
+    int *place;   /* (count) the law's term; the first for all viscous ones */
     CpsSetOutcome outcome;
 } Sum;
 
@@ -115,6 +117,7 @@ static void sum_free(Sum *sum) {
     free(sum->part);
     free(sum->share);
     free(sum->block);
+    free(sum->place);
 }
 
 static CpsStatus sum_make(const CpsResistance *law, const double *force, Sum *sum, CpsError *err) {
@@ -122,18 +125,19 @@ static CpsStatus sum_make(const CpsResistance *law, const double *force, Sum *su
     *sum = (Sum){.n = law->n, .force = force, .outcome = CPS_SET_ANSWERED};
     sum->part = calloc(count, sizeof *sum->part);
     sum->share = calloc(count, sizeof *sum->share);
-    sum->block = calloc((count + 4) * n + count, sizeof *sum->block);
-    if (!sum->part || !sum->share || !sum->block) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    sum->block = calloc((2 * count + 4) * n + count, sizeof *sum->block);
+    sum->place = calloc(count, sizeof *sum->place);
+    if (!sum->part || !sum->share || !sum->block || !sum->place) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     double *at = sum->block + count * n; /* after the shares */
     sum->now = (Bounds){.velocity = at};
     sum->best = (Bounds){.velocity = at + n, .upper = INFINITY, .lower = -INFINITY};
-    sum->work = at + 2 * n, sum->cost = at + 4 * n;
+    sum->work = at + 2 * n, sum->cost = at + 4 * n, sum->kept = sum->cost + count;
     CpsStatus status = add_viscous(sum, law, err);
     for (int i = 0; i < law->count && status == CPS_OK; i++) {
         const CpsiTerm *term = &law->term[i];
-        const bool nothing = (term->kind == CPSI_POWER && !(term->factor > 0)) ||
-                             (term->kind == CPSI_TABLE && !(term->data[2 * term->count - 1] > 0));
-        if (term->kind != CPSI_VISCOUS && !nothing) status = add_part(sum, term, cps_set_retain(term->set), err);
+        if (term->kind == CPSI_VISCOUS || !cpsi_term_resists(term)) continue;
+        sum->place[sum->count] = i;
+        status = add_part(sum, term, cps_set_retain(term->set), err);
     }
     for (int i = 0; i < sum->count; i++) {
         sum->share[i].form = sum->part[i].form;
@@ -201,6 +205,7 @@ static CpsStatus bound_above(Sum *sum, CpsError *err) {
     int bearer;
     CpsStatus status = choose_bearer(sum, ROUNDING, cost, &bearer, &more, err);
     if (status == CPS_OK && bearer < 0) status = choose_bearer(sum, ON_BOUNDARY, cost, &bearer, &more, err);
+    for (size_t a = 0; bearer >= 0 && a < n; a++) sum->share[bearer].force[a] += lack[a];
     sum->now.upper += more;
     return status;
 }
@@ -240,7 +245,10 @@ static bool keep_best(Sum *sum) {
     Bounds *best = &sum->best;
     const double before = best->upper - best->lower;
     if (now->upper < best->upper || now->lower > best->lower) best->error = now->error;
-    best->upper = fmin(best->upper, now->upper);
+    if (now->upper < best->upper) {
+        best->upper = now->upper;
+        memcpy(sum->kept, sum->block, (size_t)sum->count * (size_t)sum->n * sizeof *sum->kept);
+    }
     if (now->lower > best->lower) {
         best->lower = now->lower, best->potential = now->potential;
         memcpy(best->velocity, now->velocity, (size_t)sum->n * sizeof *best->velocity);
@@ -414,6 +422,7 @@ static CpsStatus conjugate(Sum *sum, double *velocity, CpsSetAnswer *answer, Cps
     if (outcome != CPS_SET_ANSWERED) return CPS_OK;
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .tolerance = ON_BOUNDARY * length};
     if (velocity) memset(velocity, 0, n * sizeof *velocity);
+    memcpy(sum->kept, sum->block, (size_t)sum->count * n * sizeof *sum->kept);
     if (beyond_rest(sum) <= ON_BOUNDARY) return CPS_OK;
 
     /* these shares and rest are the first bounds */
@@ -429,8 +438,8 @@ static CpsStatus conjugate(Sum *sum, double *velocity, CpsSetAnswer *answer, Cps
     return CPS_OK;
 }
 
-CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity, CpsSetAnswer *answer,
-                             CpsError *err) {
+CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity, double *share,
+                             CpsSetAnswer *answer, CpsError *err) {
     Sum sum;
     CpsStatus status = sum_make(law, force, &sum, err);
     if (status == CPS_OK && sum.outcome != CPS_SET_ANSWERED) {
@@ -441,6 +450,9 @@ CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, doub
     } else if (status == CPS_OK) {
         status = conjugate(&sum, velocity, answer, err);
     }
+    const size_t n = (size_t)law->n;
+    for (int i = 0; status == CPS_OK && share && i < sum.count; i++)
+        memcpy(&share[(size_t)sum.place[i] * n], &sum.kept[(size_t)i * n], n * sizeof *share);
     sum_free(&sum);
     return status;
 }

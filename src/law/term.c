@@ -53,6 +53,11 @@ static CpsiTermDual table_dual(const CpsiTerm *t, double s) {
 
 /* ---- all kinds ---- */
 
+bool cpsi_term_resists(const CpsiTerm *term) {
+    if (term->kind == CPSI_POWER) return term->factor > 0;
+    return term->kind != CPSI_TABLE || term->data[2 * term->count - 1] > 0;
+}
+
 CpsStatus cpsi_term_at(const CpsiTerm *term, double g, double *h, double *slope, CpsError *err) {
     switch (term->kind) {
     case CPSI_DRY:

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A rope on a table as a driven system (see rope.h): V the nodes' velocities, -V_k in N(F_k) for a disc of radius
- * resistance x half the length of the neighbouring elements, and -U_i in N(F_i) for the half-line F_i <= 0, which says
- * U_i <= 0, F_i U_i = 0: tension only where an element keeps its length. */
+ * resistance x half the length of the neighbouring elements, and -U_i in N(F_i) for the line of all F_i, which says
+ * U_i = 0, or where the rope may go slack for the half-line F_i <= 0, which says U_i <= 0, F_i U_i = 0: tension only where an
+ * element keeps its length. */
 #include "capstan/rope.h"
 
 #include <math.h>
@@ -63,7 +64,7 @@ static CpsStatus add_elements(CpsSystem *system, const CpsRope *rope, CpsError *
     CpsSet *pull = NULL;
     CpsLaw *law = NULL;
     char name[32];
-    CpsStatus status = cps_set_interval(-INFINITY, 0, &pull, err);
+    CpsStatus status = cps_set_interval(-INFINITY, rope->slack ? 0 : INFINITY, &pull, err);
     if (status == CPS_OK) status = cps_law_friction(pull, &law, err);
     for (int i = 0; i + 1 < rope->nodes && status == CPS_OK; i++) {
         const double *x = rope->node + 2 * (size_t)i, length = element_length(rope, i);

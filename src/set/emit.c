@@ -15,9 +15,12 @@
 
 #include "set/node.h"
 
+/* How a node is written: as it is made, or by its own form. */
+static CpsiSetKind kind_of(const CpsSet *set) { return set->touching ? CPSI_SET_CONIC : set->kind; }
+
 static void count_own(const CpsSet *set, CpsiCount *count) {
     const size_t n = (size_t)set->n, items = (size_t)set->count;
-    switch (set->kind) {
+    switch (kind_of(set)) {
     case CPSI_SET_POINTS:
         count->equations += n;
         if (items == 1) break;
@@ -52,7 +55,7 @@ static void count_own(const CpsSet *set, CpsiCount *count) {
 
 void cpsi_raw_count(const CpsSet *set, CpsiCount *count) {
     count_own(set, count);
-    if (!set->part || set->kind == CPSI_SET_POLAR) return;
+    if (!set->part || set->kind == CPSI_SET_POLAR || set->touching) return;
     for (int k = 0; k < set->count; k++) cpsi_raw_count(set->part[k], count);
 }
 
@@ -276,7 +279,7 @@ static bool emit_sum(CpsiRaw *raw, const CpsSet *set, const double *x, const dou
 }
 
 bool cpsi_raw_emit(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
-    switch (set->kind) {
+    switch (kind_of(set)) {
     case CPSI_SET_POINTS: emit_points(raw, set, x, t); return true;
     case CPSI_SET_BALL:
     case CPSI_SET_ELLIPSOID: emit_ball(raw, set, x, t); return true;

@@ -2,7 +2,7 @@
 /* The face {x in C : <w, x> = h(w)} as a set of its own.
  *
  * Down the expression as far as it goes: the face of a product, sum, image, translate or scale is the same operation
- * on the parts' faces at w's image; of a hull the hull of the faces that reach the maximum; of the primitives a point,
+ * on the parts' faces at w's image; of a hull the hull of the faces that reach the maximum, where they are bounded; of the primitives a point,
  * a smaller hull, a smaller box. On a conic form the interior-point solution (v, s, z) lies in the relative interior
  * of the optimal set, so z tells the face cone by cone:
  *
@@ -151,6 +151,10 @@ static CpsStatus simplest(CpsiForm *form, const double *x, CpsSet **out, CpsErro
     if (!done) return cpsi_set_from_form(form, out, err);
     cpsi_form_free(form);
     return status;
+}
+
+CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, CpsiForm **out, CpsError *err) {
+    return restrict_form(form, at, LEAST_ANGLE, out, err);
 }
 
 static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, CpsSet **out, CpsSetAnswer *answer,
@@ -316,8 +320,12 @@ static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSe
             }
             break;
         case CPSI_SET_PRODUCT:
-        case CPSI_SET_SUM:
-        case CPSI_SET_HULL: status = face_of_parts(set, w, slack, value, out, answer, err); break;
+        case CPSI_SET_SUM: status = face_of_parts(set, w, slack, value, out, answer, err); break;
+        case CPSI_SET_HULL:
+            /* an unbounded part adds its directions to the faces of all others: of the closure the conic form knows them */
+            if (set->closure) status = conic_face(set, w, slack, out, answer, err);
+            else status = face_of_parts(set, w, slack, value, out, answer, err);
+            break;
         case CPSI_SET_IMAGE:
         case CPSI_SET_TRANSLATE:
         case CPSI_SET_SCALE: status = face_of_mapped(set, w, slack, out, answer, err); break;

@@ -132,7 +132,7 @@ static int eliminate(const CpsiRaw *raw, Work *work, double tolerance) {
     return rank;
 }
 
-static CpsiForm *form_new(int n, int unknowns, int lines, int rows, int cones) {
+CpsiForm *cpsi_form_new(int n, int unknowns, int lines, int rows, int cones) {
     CpsiForm *form = calloc(1, sizeof *form);
     if (!form) return NULL;
     const size_t nn = (size_t)n, u = (size_t)unknowns, m = (size_t)rows;
@@ -197,7 +197,7 @@ static void take_cones(const CpsiRaw *raw, int left, const double *rows, double 
 /* The form over the unknowns t that are left, rows and map affine in them. */
 static CpsiForm *assemble(const CpsiRaw *raw, int n, int left, int lines, const double *rows, const double *map,
                           const double *q, double length) {
-    CpsiForm *form = form_new(n, left, lines, raw->rows, raw->cones);
+    CpsiForm *form = cpsi_form_new(n, left, lines, raw->rows, raw->cones);
     if (!form) return NULL;
     take_cones(raw, left, rows, length, form);
     memcpy(form->q, q, (size_t)lines*(size_t)n*sizeof *q);
@@ -262,7 +262,7 @@ CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines
     if (lines > 0) memcpy(work.lines, q, (size_t)lines*(size_t)n*sizeof *q);
     const int u = raw->unknowns, rank = eliminate(raw, &work, tolerance);
     if (rank < 0) {
-        form = form_new(n, 0, 0, 0, 0);
+        form = cpsi_form_new(n, 0, 0, 0, 0);
         if (form) form->empty = true;
     } else {
         /* over what the equations leave free, then over what the cones see of it */

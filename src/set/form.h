@@ -68,6 +68,8 @@ CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines
                            CpsiForm **out, CpsError *err);
 /* The reduced form of a set; the caller frees it. */
 CpsStatus cpsi_form_make(const CpsSet *set, CpsiForm **out, CpsError *err);
+/* A form of zeros with room for so many unknowns, lines, rows and cones; NULL: no memory. */
+CpsiForm *cpsi_form_new(int n, int unknowns, int lines, int rows, int cones);
 void cpsi_form_free(CpsiForm *form);
 
 /* A solution of  min <c, x>  over the form. */
@@ -84,5 +86,12 @@ CpsStatus cpsi_form_minimise(const CpsiForm *form, const double *c, CpsiSolution
 void cpsi_solution_free(CpsiSolution *solution);
 /* Make the outcome CPS_SET_NOT_ATTAINED where the point that attains the value is too far away to be one. */
 void cpsi_judge_attained(const CpsiForm *form, const double *c, CpsiSolution *solution);
+
+/* The part of the form on the face of its cones that the multipliers z of `at` select, written round the point with s and
+ * x (face.c). */
+CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, CpsiForm **out, CpsError *err);
+/* Replace a form without interior by one over the faces of its cones that it lies in; *touching becomes true then
+ * (touching.c). */
+CpsStatus cpsi_form_deepen(CpsiForm **form, bool *touching, CpsError *err);
 
 #endif

@@ -44,6 +44,7 @@ struct CpsSet {
     void *user;
     CpsiForm *form;        /* conic form where questions need it at once, else NULL */
     CpsiForm *dual;
+    bool touching;         /* its parts meet without an interior: what is written of it is its form (touching.c) */
 };
 
 /* A node with room for `doubles` numbers at a; parts are retained, their array copied. */

@@ -106,13 +106,14 @@ static CpsStatus as_rays(CpsiForm *form, CpsSet **out, CpsError *err) {
             for (size_t i = 0; i < n; i++) ray[i] = cpsi_dot(form->unknowns, &form->p[i*u], column);
             const double size = cpsi_norm(form->n, ray);
             for (size_t i = 0; i < n; i++) ray[i] = size > 0 ? ray[i]/size : 0;
+            simple = simple && size > 0; /* a combination of the unknowns that P does not see */
         }
-        for (size_t l = 0; l < lines; l++)
+        for (size_t l = 0; l < lines && simple; l++)
             for (size_t i = 0; i < n; i++) {
                 rays[(u + 2*l)*n + i] = form->q[l*n + i];
                 rays[(u + 2*l + 1)*n + i] = -form->q[l*n + i];
             }
-        status = cps_set_cone_of_rays(form->n, (int)(u + 2*lines), rays, out, err);
+        if (simple) status = cps_set_cone_of_rays(form->n, (int)(u + 2*lines), rays, out, err);
     }
     free(inverse);
     free(pivot);

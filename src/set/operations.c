@@ -32,6 +32,7 @@ static CpsStatus finish(CpsSet *set, CpsSet **out, CpsError *err) {
     if (!cpsi_set_has_user(set)) {
         if (set->kind == CPSI_SET_POLAR) status = cpsi_form_make(set->part[0], &set->dual, err);
         if (!status) status = cpsi_form_make(set, &set->form, err);
+        if (!status) status = cpsi_form_deepen(&set->form, &set->touching, err);
     }
     if (status) cps_set_release(set);
     else *out = set;

@@ -290,6 +290,99 @@ static void loads(void **state) {
     cps_system_destroy(light), cps_system_destroy(limit), cps_system_destroy(heavy), cps_system_destroy(driven);
 }
 
+/* A disc moved so that 0 is on its boundary, driven across and free along its normal: phi(1, b) = sqrt(1 + b^2) - b falls to 0 for
+ * ever. The same as a load at the limit. */
+static void infimum_not_attained(void **state) {
+    (void)state;
+    CpsSet *moved = NULL, *ball = NULL;
+    ok(cps_set_ball(2, NULL, 1, &ball, &err));
+    ok(cps_set_translate((const double[]){0, 1}, ball, &moved, &err));
+    for (int k = 0; k < 2; k++) {
+        CpsSystem *system = k ? block(0, 10) : NULL;
+        if (!k) ok(cps_system_create(2, &system, &err));
+        CpsLaw *law = NULL;
+        if (!k) ok(cps_law_friction(moved, &law, &err));
+        if (!k) ok(cps_system_add_friction(system, "beside", law, 2, (const CpsEntry[]){{0, 0, 1}, {1, 1, 1}}, &err));
+        ok(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err));
+        CpsMotion *motion = solve(system, (const double[]){2});
+        const CpsMotionReport *r = cps_motion_report(motion);
+        CHECK_INT(r->outcome, CPS_MOTION_NOT_ATTAINED);
+        CHECK_NEAR(r->upper, 0, 1e-6*(k ? 20 : 2)); /* the root of rounding, of the size of force times W */
+        CHECK_GREATER(r->upper, 0);
+        CHECK_LESS(r->lower, r->upper);
+        const double *d = cps_motion_direction(motion);
+        CHECK_NEAR(d[0], 0, 1e-9), CHECK_NEAR(d[1], 1, 1e-9);
+        cps_motion_destroy(motion), cps_system_destroy(system), cps_law_destroy(law);
+    }
+    cps_set_release(ball), cps_set_release(moved);
+    /* at rest the limit load has motions */
+    CpsSystem *still = block(0, 10);
+    ok(cps_system_set_drive(still, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err));
+    CpsMotion *motion = solve(still, (const double[]){0});
+    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_LIMIT_LOAD);
+    cps_motion_destroy(motion), cps_system_destroy(still);
+}
+
+/* A load above the limit by one part in 1e7 to 1e12 has no balance, and the proof says so; below it it has. */
+static void loads_beside_the_limit(void **state) {
+    (void)state;
+    for (int k = 7; k <= 12; k++) {
+        for (int side = -1; side <= 1; side += 2) {
+            CpsSystem *system = block(6*(1 + side*pow(10, -k)), 8*(1 + side*pow(10, -k)));
+            CpsMotion *motion = solve(system, NULL);
+            const CpsMotionReport *r = cps_motion_report(motion);
+            CHECK_INT(r->outcome, side > 0 ? CPS_MOTION_NO_BALANCE : CPS_MOTION_LIMIT_LOAD);
+            if (side > 0) assert_true(isinf(r->value) && r->value < 0);
+            else CHECK_NEAR(r->value, 0, 0);
+            cps_motion_destroy(motion), cps_system_destroy(system);
+        }
+    }
+}
+
+/* A brake of 1e-9 beside a ground of 500: the wheel rolls, gamma = 500 |side| + 1e-9 |roll|/0.3. */
+static void weak_beside_strong(void **state) {
+    (void)state;
+    CpsSystem *system = NULL;
+    ok(cps_system_create(3, &system, &err));
+    add(system, "brake", interval(-1e-9, 1e-9), 1, (const CpsEntry[]){{0, 0, 1}});
+    add(system, "ground", disc(500), 2, (const CpsEntry[]){{0, 1, 1}, {1, 2, 1}});
+    ok(cps_system_set_drive(system, 2, 3, (const CpsEntry[]){{0, 1, 1}, {1, 2, 1}, {1, 0, -0.3}}, &err));
+    static const double W[][2] = {{1, 1}, {1, -1}, {0.3, 2}, {-1, 0.001}};
+    for (int k = 0; k < 4; k++) {
+        CpsMotion *motion = solve(system, W[k]);
+        certified(motion);
+        /* the solver's own bound, and its root: phi is curved in the velocity that nothing but the ground resists */
+        CHECK_RELATIVE(cps_motion_report(motion)->value, 500*fabs(W[k][0]) + 1e-9*fabs(W[k][1])/0.3, 1e-8);
+        CHECK_NEAR(cps_motion_velocity(motion)[0], -W[k][1]/0.3, 1e-4);
+        cps_motion_destroy(motion);
+    }
+    cps_system_destroy(system);
+}
+
+/* All resistances: dependent rows of the drive leave G open along a line; at rest it is as open as the forces. */
+static void resistances_that_are_open(void **state) {
+    (void)state;
+    CpsSystem *system = NULL;
+    double low[2], high[2];
+    CpsSolutionSet all;
+    ok(cps_system_create(1, &system, &err));
+    add(system, "table", interval(-3, 3), 1, (const CpsEntry[]){{0, 0, 1}});
+    ok(cps_system_set_drive(system, 2, 2, (const CpsEntry[]){{0, 0, 1}, {1, 0, 2}}, &err));
+    CpsMotion *motion = solve(system, (const double[]){1, 2});
+    ok(cps_motion_resistances(motion, 0, &all, low, high, &err));
+    CHECK_INT(all.dimension, 1);
+    assert_true(!all.unique && !all.bounded && isinf(low[0]) && isinf(high[1]));
+    CpsSetExtent extent; /* G1 + 2 G2 = -3 all the same */
+    ok(cps_set_extent(all.set, (const double[]){1, 2}, &extent, &err));
+    CHECK_NEAR(extent.low, -3, 1e-9), CHECK_NEAR(extent.high, -3, 1e-9);
+    cps_solution_set_clear(&all), cps_motion_destroy(motion);
+    ok(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err));
+    motion = solve(system, (const double[]){0});
+    ok(cps_motion_resistances(motion, 0, &all, low, high, &err));
+    CHECK_NEAR(low[0], -3, 1e-9), CHECK_NEAR(high[0], 3, 1e-9);
+    cps_solution_set_clear(&all), cps_motion_destroy(motion), cps_system_destroy(system);
+}
+
 /* a driver that holds the block by 8 slips on it; one that holds it by 12 moves it */
 static void driver_of_bounded_strength(void **state) {
     (void)state;
@@ -450,6 +543,10 @@ int main(void) {
         cmocka_unit_test(wheel_along_its_plane),
         cmocka_unit_test(bipod_about_one_support),
         cmocka_unit_test(loads),
+        cmocka_unit_test(infimum_not_attained),
+        cmocka_unit_test(loads_beside_the_limit),
+        cmocka_unit_test(weak_beside_strong),
+        cmocka_unit_test(resistances_that_are_open),
         cmocka_unit_test(driver_of_bounded_strength),
         cmocka_unit_test(dashpots_in_series),
         cmocka_unit_test(terms_side_by_side),

@@ -497,6 +497,53 @@ static void polygon_corners(void **state) {
 
 /* A segment of forces lets its law slide freely across: along a line inside the segment, in a half-plane at its end. A law without
  * force moves anywhere. Laws in any position: every cone is turned by the same angle. */
+/* The velocities of a resistance law at F = -s (cos, sin): along -F between two speeds, low and high. */
+static void speeds_at(const CpsResistance *law, double s, double low, double high) {
+    for (int k = 0; k < 12; k++) {
+        const double n[2] = {cos(0.6*k), sin(0.6*k)}, across[2] = {-n[1], n[0]};
+        CpsSet *velocities = NULL;
+        CpsSetAnswer answer;
+        CpsSetExtent extent;
+        assert_int_equal(cps_resistance_velocities(law, (double[]){s*n[0], s*n[1]}, &velocities, &answer, NULL), CPS_OK);
+        CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+        assert_int_equal(cps_set_extent(velocities, (double[]){-n[0], -n[1]}, &extent, NULL), CPS_OK);
+        CHECK_NEAR(extent.low, low, 1e-7);
+        if (isinf(high)) assert_true(isinf(extent.high));
+        else CHECK_NEAR(extent.high, high, 1e-7);
+        assert_int_equal(cps_set_extent(velocities, across, &extent, NULL), CPS_OK);
+        if (!isinf(high)) CHECK_NEAR(extent.low, 0, 1e-7), CHECK_NEAR(extent.high, 0, 1e-7);
+        cps_set_release(velocities);
+    }
+}
+
+/* Resistance laws are set-valued both ways: dry friction at its limit, flat pieces of a table and what lies beyond its end, also in
+ * a sum, and the power of a segment, which leaves the velocity across it free. */
+static void velocities_of_resistances(void **state) {
+    (void)state;
+    CpsLaw *unit = disc_law(1), *three = disc_law(3);
+    CpsResistance *dry = NULL, *table = NULL, *sum = NULL, *power = NULL;
+    assert_int_equal(cps_resistance_dry(three, &dry, NULL), CPS_OK);
+    assert_int_equal(cps_resistance_table(unit, 4, (double[]){0, 1, 3, 4}, (double[]){1, 2, 2, 5}, &table, NULL), CPS_OK);
+    assert_int_equal(cps_resistance_sum(2, (const CpsResistance *const[]){dry, table}, &sum, NULL), CPS_OK);
+    speeds_at(dry, 3, 0, INFINITY), speeds_at(dry, 2, 0, 0);
+    speeds_at(table, 1, 0, 0), speeds_at(table, 1.5, 0.5, 0.5), speeds_at(table, 2, 1, 3), speeds_at(table, 5, 4, INFINITY);
+    speeds_at(sum, 4, 0, 0), speeds_at(sum, 4.5, 0.5, 0.5), speeds_at(sum, 5, 1, 3), speeds_at(sum, 8, 4, INFINITY);
+    CpsSet *segment = NULL, *velocities = NULL;
+    assert_int_equal(cps_set_segment(2, (double[]){-1, 0}, (double[]){1, 0}, &segment, NULL), CPS_OK);
+    CpsLaw *flat = set_law(segment);
+    assert_int_equal(cps_resistance_power(flat, 3, 1, &power, NULL), CPS_OK);
+    CpsSetAnswer answer;
+    CpsSetExtent extent;
+    assert_int_equal(cps_resistance_velocities(power, (double[]){4, 0}, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_extent(velocities, (double[]){1, 0}, &extent, NULL), CPS_OK);
+    CHECK_NEAR(extent.low, -2, 1e-8), CHECK_NEAR(extent.high, -2, 1e-8); /* h' = g^2 */
+    assert_int_equal(cps_set_extent(velocities, (double[]){0, 1}, &extent, NULL), CPS_OK);
+    assert_true(isinf(extent.low) && isinf(extent.high));
+    cps_set_release(velocities);
+    cps_resistance_destroy(dry), cps_resistance_destroy(table), cps_resistance_destroy(sum), cps_resistance_destroy(power);
+    cps_law_destroy(unit), cps_law_destroy(three), cps_law_destroy(flat);
+}
+
 static void cones_with_lines(void **state) {
     (void)state;
     for (int k = 0; k < 24; k++) {
@@ -535,6 +582,7 @@ int main(void) {
         cmocka_unit_test(rod_surface),
         cmocka_unit_test(bipod),
         cmocka_unit_test(polygon_corners),
+        cmocka_unit_test(velocities_of_resistances),
         cmocka_unit_test(cones_with_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

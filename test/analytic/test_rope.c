@@ -21,8 +21,8 @@ typedef struct Case {
     CpsMotion *motion;
 } Case;
 
-static Case make(int elements, bool held) {
-    Case c = {.rope = {.nodes = elements + 1, .resistance = 1, .driven = {held, true}}};
+static Case make(int elements, bool held, bool slack) {
+    Case c = {.rope = {.nodes = elements + 1, .resistance = 1, .driven = {held, true}, .slack = slack}};
     c.node = malloc(2 * ((size_t)elements + 1) * sizeof *c.node);
     assert_non_null(c.node);
     c.rope.node = c.node;
@@ -74,7 +74,7 @@ static void pulled_aslant(void **state) {
     (void)state;
     const double psi = PI / 3;
     for (int elements = 10; elements <= 1000; elements *= 10) {
-        Case c = make(elements, false);
+        Case c = make(elements, false, true);
         straight(&c, 1);
         const double h = 1.0 / elements;
         const CpsMotionReport *r = solve(&c, (double[]){cos(psi), sin(psi)});
@@ -100,7 +100,7 @@ static void arc_bound(void **state) {
     (void)state;
     const double theta = 1;
     for (int elements = 100; elements <= 10000; elements *= 10) {
-        Case c = make(elements, false);
+        Case c = make(elements, false, true);
         arc(&c, 1, theta);
         const CpsMotionReport *r = solve(&c, (double[]){-sin(theta), cos(theta)});
         const double last = tension(&c, elements - 1), h = theta / elements;
@@ -117,7 +117,7 @@ static void arc_bound(void **state) {
 /* both ends apart: no velocity agrees with an inextensible rope, and the forces that prove it pull it apart */
 static void pulled_apart(void **state) {
     (void)state;
-    Case c = make(20, true);
+    Case c = make(20, true, true);
     straight(&c, 1);
     const CpsMotionReport *r = solve(&c, (double[]){-1, 0, 1, 0});
     CHECK_INT(r->outcome, CPS_MOTION_BLOCKED);
@@ -126,7 +126,7 @@ static void pulled_apart(void **state) {
     finish(&c);
 
     /* towards each other they move alone: the rope between goes slack */
-    c = make(20, true);
+    c = make(20, true, true);
     straight(&c, 1);
     r = solve(&c, (double[]){1, 0, -1, 0});
     CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
@@ -135,21 +135,51 @@ static void pulled_apart(void **state) {
     finish(&c);
 }
 
+/* M77's rope keeps its length: pushed at its end along itself a straight one moves as a whole, gamma = f w L W, with the
+ * tension -f w (s + h/2) in the element whose middle is s from the free end; both ends towards each other: no velocity agrees. */
+static void inextensible(void **state) {
+    (void)state;
+    for (int elements = 10; elements <= 1000; elements *= 10) {
+        Case c = make(elements, false, false);
+        straight(&c, 2);
+        const CpsMotionReport *r = solve(&c, (double[]){-1, 0});
+        CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
+        CHECK_NEAR(r->value, 2, 1e-8); /* the solver's own bound, of a scale of 2 */
+        for (int i = 0; i < elements; i++) CHECK_NEAR(tension(&c, i), -(i + 0.5)*2/elements, 1e-6);
+        finish(&c);
+    }
+    /* an arc pushed back along its end's tangent: no element changes its length, which is dearer than to go slack */
+    double value[2];
+    for (int slack = 0; slack < 2; slack++) {
+        Case c = make(100, false, slack);
+        arc(&c, 1, 1);
+        value[slack] = solve(&c, (double[]){sin(1), -cos(1)})->value;
+        for (int i = 0; i < 100 && !slack; i++)
+            CHECK_NEAR(cps_motion_law_velocity(c.motion, c.rope.nodes + i)[0], 0, 1e-9); /* linear residual */
+        finish(&c);
+    }
+    CHECK_GREATER(value[0], 10*value[1]);
+    Case c = make(20, true, false);
+    straight(&c, 1);
+    CHECK_INT(solve(&c, (double[]){1, 0, -1, 0})->outcome, CPS_MOTION_BLOCKED);
+    finish(&c);
+}
+
 static void refused(void **state) {
     (void)state;
     CpsSystem *system = NULL;
     CpsError err;
     const double node[] = {0, 0, 1, 0, 1, 0};
-    const CpsRope bad[] = {{1, node, 1, {false, true}},
-                           {3, node, 1, {false, true}},
-                           {2, node, -1, {false, true}},
-                           {2, node, NAN, {false, true}},
-                           {2, NULL, 1, {false, true}}};
+    const CpsRope bad[] = {{1, node, 1, {false, true}, false},
+                           {3, node, 1, {false, true}, false},
+                           {2, node, -1, {false, true}, false},
+                           {2, node, NAN, {false, true}, false},
+                           {2, NULL, 1, {false, true}, false}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         CHECK_INT(cps_rope_system(&bad[i], &system, &err), CPS_ERR_ARGUMENT);
         assert_null(system);
     }
-    const CpsRope long_rope = {CPS_ROPE_MAX_NODES + 1, node, 1, {false, true}};
+    const CpsRope long_rope = {CPS_ROPE_MAX_NODES + 1, node, 1, {false, true}, false};
     CHECK_INT(cps_rope_system(&long_rope, &system, &err), CPS_ERR_LIMIT);
 }
 
@@ -158,6 +188,7 @@ int main(void) {
         cmocka_unit_test(pulled_aslant),
         cmocka_unit_test(arc_bound),
         cmocka_unit_test(pulled_apart),
+        cmocka_unit_test(inextensible),
         cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

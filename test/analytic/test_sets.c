@@ -416,6 +416,67 @@ static void rod_limit_surface(void **state) {
 }
 
 /* Two supports at +-1: turning about one of them leaves its whole disc free, a face of dimension 2. */
+/* Sets that touch: two discs, a ball and a plane, a line and a disc as a preimage. What they have in common is one point, its
+ * normals all directions; the discs' directions do not have exact sines, so that rounding decides whether they meet. */
+static void touching_sets(void **state) {
+    (void)state;
+    for (int k = 0; k < 60; k++) {
+        const double a = 0.1*k, r = 0.5 + 0.05*k, n[2] = {cos(a), sin(a)};
+        CpsSet *part[2], *both = NULL, *cone = NULL;
+        CpsSetAnswer answer;
+        CpsSetFacts facts;
+        double point[2];
+        assert_int_equal(cps_set_ball(2, (double[]){n[0], n[1]}, 1, &part[0], NULL), CPS_OK);
+        assert_int_equal(cps_set_ball(2, (double[]){-r*n[0], -r*n[1]}, r, &part[1], NULL), CPS_OK);
+        assert_int_equal(cps_set_intersection(2, (const CpsSet *const *)part, &both, NULL), CPS_OK);
+        assert_int_equal(cps_set_support(both, (double[]){-n[1], n[0]}, point, &answer, NULL), CPS_OK);
+        CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+        CHECK_NEAR(point[0], 0, 1e-7), CHECK_NEAR(point[1], 0, 1e-7); /* the root of what rounding lets them overlap */
+        assert_int_equal(cps_set_facts(both, 0, &facts, NULL, NULL, NULL), CPS_OK);
+        CHECK_INT(facts.dimension, 0);
+        assert_int_equal(cps_set_normal_cone(both, (double[]){0, 0}, 1e-6, &cone, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_set_facts(cone, 0, &facts, NULL, NULL, NULL), CPS_OK);
+        CHECK_INT(facts.dimension, 2);
+        assert_true(facts.zero_interior);
+        cps_set_release(cone), cps_set_release(both), cps_set_release(part[0]), cps_set_release(part[1]);
+    }
+    /* {(x, y) : (x, y, 1) in the unit ball} = {0}, and a ball on a plane of its own height */
+    CpsSet *ball = NULL, *touch = NULL, *half = NULL;
+    CpsSetAnswer answer;
+    double nearest[3];
+    assert_int_equal(cps_set_ball(3, NULL, 1, &ball, NULL), CPS_OK);
+    assert_int_equal(
+        cps_set_preimage(2, (double[]){1, 0, 0, 1, 0, 0}, (double[]){0, 0, 1}, ball, &touch, NULL), CPS_OK);
+    assert_int_equal(cps_set_project(touch, (double[]){3, 4}, NULL, nearest, &answer, NULL), CPS_OK);
+    CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+    CHECK_NEAR(answer.value, 5, 1e-9);
+    cps_set_release(touch);
+    assert_int_equal(cps_set_half_space(3, (double[]){0, 0, -1}, -1, &half, NULL), CPS_OK);
+    assert_int_equal(cps_set_intersection(2, (const CpsSet *const[]){ball, half}, &touch, NULL), CPS_OK);
+    assert_int_equal(cps_set_project(touch, (double[]){3, 4, 1}, NULL, nearest, &answer, NULL), CPS_OK);
+    CHECK_NEAR(answer.value, 5, 1e-9);
+    CHECK_NEAR(nearest[2], 1, 1e-12);
+    cps_set_release(touch), cps_set_release(half), cps_set_release(ball);
+}
+
+/* The hull of a disc and a half-plane below it is, closed, the half-plane up to the disc's top: its face there is the whole line. */
+static void face_of_an_unbounded_hull(void **state) {
+    (void)state;
+    CpsSet *part[2], *hull = NULL, *face = NULL;
+    CpsSetAnswer answer;
+    CpsSetExtent extent;
+    assert_int_equal(cps_set_ball(2, NULL, 1, &part[0], NULL), CPS_OK);
+    assert_int_equal(cps_set_half_space(2, (double[]){0, 1}, 0, &part[1], NULL), CPS_OK);
+    assert_int_equal(cps_set_hull(2, (const CpsSet *const *)part, &hull, NULL), CPS_OK);
+    assert_int_equal(cps_set_face(hull, (double[]){0, 1}, 0, &face, &answer, NULL), CPS_OK);
+    CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(cps_set_extent(face, (double[]){1, 0}, &extent, NULL), CPS_OK);
+    assert_true(isinf(extent.low) && isinf(extent.high));
+    assert_int_equal(cps_set_extent(face, (double[]){0, 1}, &extent, NULL), CPS_OK);
+    CHECK_NEAR(extent.low, 1, 1e-9), CHECK_NEAR(extent.high, 1, 1e-9);
+    cps_set_release(face), cps_set_release(hull), cps_set_release(part[0]), cps_set_release(part[1]);
+}
+
 static void bipod_face(void **state) {
     (void)state;
     const double at[4] = {1, 0, -1, 0}, half[2] = {0.5, 0.5}, about_right[3] = {0, -1, 1};
@@ -439,6 +500,8 @@ int main(void) {
         cmocka_unit_test(wheel_faces),        cmocka_unit_test(corners_between_arcs),
         cmocka_unit_test(ring_limit_surface), cmocka_unit_test(disc_limit_surface),
         cmocka_unit_test(rod_limit_surface),  cmocka_unit_test(bipod_face),
+        cmocka_unit_test(touching_sets),
+        cmocka_unit_test(face_of_an_unbounded_hull),
         cmocka_unit_test(thin_ellipses),      cmocka_unit_test(polygons_and_cut_discs),
         cmocka_unit_test(margins_inside),     cmocka_unit_test(rosette),
     };

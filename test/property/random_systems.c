@@ -454,6 +454,24 @@ static void check_blocked(const System *s, const CpsMotion *motion) {
         }
 }
 
+/* Ever faster along the direction, which drives nothing, less and less is dissipated, and at every speed more than gamma. */
+static void check_not_attained(const System *s, const CpsMotion *motion) {
+    const CpsMotionReport *report = cps_motion_report(motion);
+    const double *d = cps_motion_direction(motion), size = fmax(largest(s->drives, s->w), 1e-300);
+    double force = 0, last = INFINITY, v[MOST_N], forbidden = 0;
+    for (int k = 0; k < s->laws; k++) force = fmax(force, s->law[k].size);
+    check("not attained: Proposition 1 holds", report->composition != CPS_COMPOSE_NOT_SATISFIED, 0);
+    check("not attained: the direction drives", kinematics(s, d, 0), LINEAR);
+    for (double t = 1; t <= 1e4; t *= 10) {
+        for (int j = 0; j < s->n; j++) v[j] = cps_motion_velocity(motion)[j] + t*largest(s->n, cps_motion_velocity(motion))*d[j];
+        const double now = objective(s, v, &forbidden);
+        /* rounding of velocities t times as large */
+        check("not attained: the value rises", now - last, 1e-12*force*largest(s->n, v));
+        check("not attained: the value falls below the bound", report->lower - now, GAP*force*size + 1e-12*force*largest(s->n, v));
+        last = now;
+    }
+}
+
 /* ---- both propositions ---- */
 
 static void check_reduced(const System *s, const CpsMotion *motion) {
@@ -562,12 +580,14 @@ static void check_missed_interior(void) {
     check("missed interior: composition", report->composition != CPS_COMPOSE_NOT_SATISFIED, 0);
     check("missed interior: lower bound", report->lower, 1e-6*law.size);
     check("missed interior: upper bound", -report->upper, 0);
+    check("missed interior: attained", report->outcome != CPS_MOTION_NOT_ATTAINED, 0);
+    check("missed interior: no direction", cps_motion_direction(motion) == NULL, 0);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
     cps_law_destroy(law.law);
 }
 
-static int count_outcome[5];
+static int count_outcome[6];
 
 static void one_case(uint64_t number) {
     System s;
@@ -598,6 +618,7 @@ static void one_case(uint64_t number) {
         check("blocked without a half-line", s.one_sided ? 0 : 1, 0);
         check_blocked(&s, motion);
         break;
+    case CPS_MOTION_NOT_ATTAINED: check_not_attained(&s, motion); break;
     case CPS_MOTION_INACCURATE:
         fprintf(stderr, "seed %llu: inaccurate: gap %.3g of %.3g, composition %s\n", (unsigned long long)seed,
                 report->minimum, fmax(fabs(report->value), report->scale), cps_composition_name(report->composition));
@@ -615,9 +636,9 @@ int main(int count, char **argument) {
         if (!strcmp(argument[i], "--seed")) first = atol(argument[i + 1]);
     }
     for (long i = 0; i < cases; i++) one_case((uint64_t)(first + i));
-    printf("%ld systems: %d solved, %d at the limit, %d without balance, %d blocked, %d inaccurate; %d of %d sets of "
+    printf("%ld systems: %d solved, %d at the limit, %d without balance, %d blocked, %d inaccurate, %d not attained; %d of %d sets of "
            "solutions open; %d motions found beside them; %d failures\n",
-           cases, count_outcome[0], count_outcome[1], count_outcome[2], count_outcome[3], count_outcome[4], open, asked,
+           cases, count_outcome[0], count_outcome[1], count_outcome[2], count_outcome[3], count_outcome[4], count_outcome[5], open, asked,
            pushed, failures);
     return failures > 0;
 }

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Is the infimum gamma(W) attained?
+ *
+ * Where the balancing forces meet the sets' relative interiors, or miss them in polyhedral factors only, it is
+ * (Rockafellar 1970, theorem 31.1). Else phi may fall for ever along a direction d that drives nothing and dissipates
+ * nothing. To find out, a friction of s on every parameter is added: then the minimum over E of phi + s |V|_1 is
+ * attained by some V(s). As s falls, V(s) goes to a motion where there is one, and beyond all bounds where there is
+ * none (a limit of V(s) would be a motion). phi falls like a power of the distance: where it falls like its -p-th,
+ * |V(s)| grows like s to the -1/(1 + p). */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/larger.h"
+#include "base/status.h"
+#include "drive/motion.h"
+
+/* The two frictions, relative to the size of forces, and the growth of |V| that means none: |V| grows as s^(-1/5) at
+ * least for sets as flat as |x|^(4/3), a motion as far as 100 W would have to lie between the two. */
+static const double STRONG = 1e-5, WEAK = 1e-9, GROWTH = 5, FAR = 50;
+
+static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion"); }
+
+/* Rows `first` to `first` + count - 1 as entries of their own. */
+static CpsStatus entries_of(const CpsiRows *rows, int first, int count, CpsEntry **entry, int *entries, CpsError *err) {
+    const size_t from = count > 0 ? rows->start[first] : 0, to = count > 0 ? rows->start[first + count] : 0;
+    *entry = malloc((to - from + 1)*sizeof **entry);
+    *entries = 0;
+    if (!*entry) return out_of_memory(err);
+    for (int i = first; i < first + count; i++)
+        for (size_t e = rows->start[i]; e < rows->start[i + 1]; e++)
+            (*entry)[(*entries)++] = (CpsEntry){i - first, rows->column[e], rows->value[e]};
+    return CPS_OK;
+}
+
+/* The system once more. */
+static CpsStatus copy_system(const CpsSystem *system, CpsSystem **out, CpsError *err) {
+    CpsSystem *copy = NULL;
+    CpsEntry *entry = NULL;
+    int count = 0;
+    CpsStatus status = cps_system_create(system->n, &copy, err);
+    for (int k = 0; status == CPS_OK && k < system->laws; k++) {
+        const CpsiSystemLaw *law = &system->law[k];
+        status = entries_of(&system->map, law->first, law->space, &entry, &count, err);
+        if (status == CPS_OK && law->friction)
+            status = cps_system_add_friction(copy, law->name, law->friction, count, entry, err);
+        else if (status == CPS_OK) status = cps_system_add_resistance(copy, law->name, law->resistance, count, entry, err);
+        free(entry), entry = NULL;
+    }
+    if (status == CPS_OK && system->constraint.rows > 0) {
+        status = entries_of(&system->constraint, 0, system->constraint.rows, &entry, &count, err);
+        if (status == CPS_OK) status = cps_system_add_constraints(copy, system->constraint.rows, count, entry, err);
+        free(entry), entry = NULL;
+    }
+    if (status == CPS_OK) {
+        status = entries_of(&system->drive, 0, system->drive.rows, &entry, &count, err);
+        if (status == CPS_OK) status = cps_system_set_drive(copy, system->drive.rows, count, entry, err);
+        free(entry);
+    }
+    if (status == CPS_OK && system->load) status = cps_system_set_load(copy, system->load, err);
+    if (status == CPS_OK) *out = copy;
+    else cps_system_destroy(copy);
+    return status;
+}
+
+/* V(s), and its size; 0 where there is no answer. */
+static CpsStatus with_friction(const CpsMotion *motion, double s, double *velocity, double *size, CpsError *err) {
+    CpsSystem *system = NULL;
+    CpsSet *interval = NULL;
+    CpsLaw *law = NULL;
+    CpsMotion *found = NULL;
+    CpsMotionOptions options = cps_motion_options_default();
+    options.composition = false;
+    *size = 0;
+    CpsStatus status = copy_system(motion->system, &system, err);
+    if (status == CPS_OK) status = cps_set_interval(-s, s, &interval, err);
+    if (status == CPS_OK) status = cps_law_friction(interval, &law, err);
+    for (int j = 0; status == CPS_OK && j < motion->system->n; j++)
+        status = cps_system_add_friction(system, "at rest", law, 1, &(CpsEntry){0, j, 1}, err);
+    if (status == CPS_OK) status = cps_system_solve(system, motion->driving, &options, &found, err);
+    for (int j = 0; status == CPS_OK && j < motion->system->n; j++) {
+        velocity[j] = cps_motion_velocity(found)[j];
+        *size = cpsi_larger(*size, fabs(velocity[j]));
+    }
+    cps_motion_destroy(found);
+    cps_law_destroy(law);
+    cps_set_release(interval);
+    cps_system_destroy(system);
+    return status;
+}
+
+CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsError *err) {
+    const size_t n = (size_t)motion->system->n;
+    if (!(motion->driven > 0)) return CPS_OK; /* rest dissipates nothing */
+    double *near = calloc(2*n, sizeof *near), *far = near ? near + n : NULL, near_size, far_size = 0, most = 0;
+    if (!near) return out_of_memory(err);
+    CpsStatus status = with_friction(motion, STRONG*motion->force, near, &near_size, err);
+    if (status == CPS_OK) status = with_friction(motion, WEAK*motion->force, far, &far_size, err);
+    if (status == CPS_OK && near_size > 0 && far_size > GROWTH*near_size && far_size > FAR*motion->driven) {
+        motion->report.outcome = CPS_MOTION_NOT_ATTAINED;
+        for (size_t j = 0; j < n; j++) far[j] -= near[j], most = fmax(most, fabs(far[j]));
+        for (size_t j = 0; j < n; j++) motion->direction[j] = far[j]/most;
+    }
+    free(near);
+    return status;
+}

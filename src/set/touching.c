@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sets whose parts touch without a common interior: facial reduction (Borwein and Wolkowicz 1981).
+ *
+ * The form {v : A v + b in K} has an interior where some v has A v + b - t e in K with t > 0, e the middle of the cones.
+ * The largest such t, at most 1, is a program with an interior on both sides:
+ *
+ *     max t,   A v + b - t e in K,   t <= 1           dual:  A'z = 0,  z in K,  <z, e> = 1,   min b.z
+ *
+ * Where it is 0, every v of the form has <z, A v + b> = 0: the form lies in the face of K that z selects, and is written
+ * over that face (face.c). Each round lowers the dimension, so that there are no more of them than unknowns. Programs on
+ * the form that is left have multipliers again. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "linsys/small.h"
+#include "set/node.h"
+
+/* Parts that overlap, or miss each other, by less than this share of their size touch: what the depth is known to. A lens
+ * of this thickness is as wide as its root. */
+static const double TOUCH = 1e-13;
+/* This share inside, and no more need be asked. */
+static const double CLEAR = 1e-6;
+
+/* The program for the depth as a form of its own, over (v, t). */
+static CpsiForm *depth_form(const CpsiForm *form) {
+    const size_t u = (size_t)form->unknowns, w = u + 1, m = (size_t)form->rows;
+    CpsiForm *depth = cpsi_form_new(form->unknowns + 1, form->unknowns + 1, 0, form->rows + 1, form->cones + 1);
+    if (!depth) return NULL;
+    for (size_t i = 0; i < w; i++) depth->p[i*w + i] = 1;
+    for (size_t i = 0; i < m; i++) memcpy(&depth->a[i*w], &form->a[i*u], u*sizeof *depth->a);
+    memcpy(depth->b, form->b, m*sizeof *depth->b);
+    for (int k = 0, i = 0; k < form->cones; i += form->dim[k++]) {
+        depth->a[(size_t)i*w + u] = -1;
+        depth->dim[k] = form->dim[k];
+    }
+    depth->a[m*w + u] = -1, depth->b[m] = 1;
+    depth->dim[form->cones] = 1;
+    depth->rows = form->rows + 1, depth->cones = form->cones + 1;
+    depth->largest_cone = form->largest_cone;
+    return depth;
+}
+
+/* Are the cones' parts of s all this deep inside? */
+static bool all_inside(const CpsiForm *form, const double *s) {
+    for (int k = 0; k < form->cones; s += form->dim[k++])
+        if (!(s[0] - cpsi_norm(form->dim[k] - 1, s + 1) > CLEAR)) return false;
+    return true;
+}
+
+/* Is an inner point seen at once, at v = 0 or where the solver ends that has nothing to minimise? */
+static CpsStatus is_clear(const CpsiForm *form, const double *nothing, bool *clear, CpsError *err) {
+    *clear = all_inside(form, form->b);
+    if (*clear) return CPS_OK;
+    CpsiSolution at = {.outcome = CPS_SET_INACCURATE};
+    const CpsStatus status = cpsi_form_minimise(form, nothing, &at, err);
+    *clear = status == CPS_OK && at.outcome == CPS_SET_ANSWERED && at.s && all_inside(form, at.s);
+    cpsi_solution_free(&at);
+    return status;
+}
+
+/* One round: *reduced, or NULL where the form has an interior, is empty, or the depth is not known. */
+static CpsStatus reduce_once(const CpsiForm *form, CpsiForm **reduced, CpsError *err) {
+    const size_t u = (size_t)form->unknowns;
+    CpsiSolution at = {.outcome = CPS_SET_INACCURATE};
+    bool clear = false;
+    double *cost = calloc(u + 1 + (size_t)form->n, sizeof *cost);
+    CpsiForm *depth = NULL;
+    CpsStatus status = cost ? is_clear(form, cost, &clear, err) : CPS_OK;
+    if (!status && !clear) depth = depth_form(form);
+    if (!status && !clear && (!depth || !cost))
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");
+    if (!status && !clear) {
+        cost[u] = -1;
+        status = cpsi_form_minimise(depth, cost, &at, err);
+    }
+    if (!status && at.outcome == CPS_SET_ANSWERED && fabs(at.value) <= TOUCH) {
+        double *x = &cost[u + 1];
+        for (int i = 0; i < form->n; i++)
+            x[i] = form->origin[i] + cpsi_dot(form->unknowns, &form->p[(size_t)i*u], at.x);
+        const CpsiSolution touching = {.s = at.s, .z = at.z, .x = x};
+        status = cpsi_form_restrict(form, &touching, reduced, err);
+    }
+    cpsi_solution_free(&at);
+    cpsi_form_free(depth);
+    free(cost);
+    return status;
+}
+
+CpsStatus cpsi_form_deepen(CpsiForm **form, bool *touching, CpsError *err) {
+    CpsStatus status = CPS_OK;
+    for (int round = (*form)->unknowns; !status && round > 0 && (*form)->unknowns > 0 && (*form)->rows > 0; round--) {
+        CpsiForm *reduced = NULL;
+        if ((*form)->empty) break;
+        status = reduce_once(*form, &reduced, err);
+        if (status || !reduced) break;
+        *touching = true;
+        cpsi_form_free(*form);
+        *form = reduced;
+    }
+    return status;
+}
