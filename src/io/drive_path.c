@@ -81,7 +81,7 @@ static CpsStatus read_curve_file(CpsiDriveRead *r, const CpsiYaml *node, CpsDriv
     if (!name) return cpsi_drive_no_memory(r);
     snprintf(name, room, "%.*s%s", folder, r->path, node->text);
     if (strcmp(name, "-") == 0) return cpsi_drive_wrong(r, node, "'file'", "a file, not standard input");
-    CpsStatus status = cpsi_read_file(name, name, r->max_bytes, &bytes, &size, r->build.file.err);
+    CpsStatus status = cpsi_read_file_itself(name, r->max_bytes, &bytes, &size, r->build.file.err);
     if (status == CPS_OK && strlen(bytes) != size)
         status = cpsi_fail_at(r->build.file.err, CPS_ERR_INPUT, name, 0, 0, "found a zero byte: is this text?");
     if (status == CPS_OK) status = parse_rows(r, name, bytes, out);

@@ -17,9 +17,10 @@ static CpsStatus io_error(const char *file, const char *what, CpsError *err) {
     return cpsi_fail_at(err, CPS_ERR_IO, file, 0, 0, "%s", what);
 }
 
-/* Open a regular file; a FIFO must not block us, a device must not be read. */
-static CpsStatus open_regular(const char *path, int *fd, CpsError *err) {
-    *fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+/* Open a regular file; a FIFO must not block us, a device must not be read. `how`: 0 or O_NOFOLLOW. */
+static CpsStatus open_regular(const char *path, int how, int *fd, CpsError *err) {
+    *fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY | how);
+    if (*fd < 0 && errno == ELOOP && how == O_NOFOLLOW) return io_error(path, "is a symbolic link, expected a file of this name itself", err);
     if (*fd < 0) return cpsi_fail_at(err, CPS_ERR_IO, path, 0, 0, "cannot open: %s", strerror(errno));
     struct stat about = {0};
     if (fstat(*fd, &about) == 0 && S_ISREG(about.st_mode)) return CPS_OK;
@@ -63,9 +64,18 @@ CpsStatus cpsi_read_file(const char *path, const char *file, size_t max_bytes, c
                          CpsError *err) {
     int fd = STDIN_FILENO;
     const bool input = strcmp(path, "-") == 0;
-    CpsStatus status = input ? CPS_OK : open_regular(path, &fd, err);
+    CpsStatus status = input ? CPS_OK : open_regular(path, 0, &fd, err);
     if (status != CPS_OK) return status;
     status = read_bytes(fd, file, max_bytes, bytes, size, err);
     if (!input) close(fd);
+    return status;
+}
+
+CpsStatus cpsi_read_file_itself(const char *path, size_t max_bytes, char **bytes, size_t *size, CpsError *err) {
+    int fd;
+    CpsStatus status = open_regular(path, O_NOFOLLOW, &fd, err);
+    if (status != CPS_OK) return status;
+    status = read_bytes(fd, path, max_bytes, bytes, size, err);
+    close(fd);
     return status;
 }

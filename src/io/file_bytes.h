@@ -16,4 +16,7 @@
 CpsStatus cpsi_read_file(const char *path, const char *file, size_t max_bytes, char **bytes, size_t *size,
                          CpsError *err);
 
+/* The same of a file that another file names: never through a link, never standard input. */
+CpsStatus cpsi_read_file_itself(const char *path, size_t max_bytes, char **bytes, size_t *size, CpsError *err);
+
 #endif

@@ -11,6 +11,7 @@
 
 #include "base/status.h"
 #include "io/result_text.h"
+#include "io/yaml_lines.h"
 
 /* Values of a file, and bytes of one scalar: far more than a file needs, few enough to stay within memory. */
 enum { MAX_VALUES = 4000000, MAX_SCALAR = 65536 };
@@ -322,6 +323,9 @@ CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes,
     CpsStatus status = check_characters(&p, bytes, size);
     if (status != CPS_OK) return status;
     if (size == 0) return refuse_nothing(&p, "an empty file");
+    int line;
+    const char *found;
+    if (!cpsi_yaml_lines(bytes, size, &line, &found)) return refuse(&p, line, 1, found);
 
     /* messages are collected instead of printed */
     struct fy_diag_cfg quiet;
