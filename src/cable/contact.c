@@ -41,18 +41,18 @@ static bool is_kept(const CpsiLine *line, int c) {
     return line->gains ? line->frozen && line->friction_bound[c] > 0 : isfinite(line->gap[c]);
 }
 
-static bool keeps(const CpsiLine *line, int j, int k) {
+static bool keeps(const CpsiLine *line, int j, int k, bool pressed) {
     for (int c = j; c < cpsi_line_contacts(line); c += line->n)
-        if (line->on[c] == k && is_kept(line, c)) return true;
+        if (line->on[c] == k && (is_kept(line, c) || (pressed && line->pressed[c]))) return true;
     return false;
 }
 
 /* The obstacles of node j at x, as many as it has contacts: those that it keeps and else the nearest, the nearest first. */
-static void nearest(const CpsiLine *line, int j, Vec3 x, int on[2]) {
+static void nearest(const CpsiLine *line, int j, Vec3 x, bool pressed, int on[2]) {
     double gap[2] = {INFINITY, INFINITY};
     on[0] = on[1] = -1;
     for (int k = 0; k < line->obstacle_count; k++) {
-        const double distance = keeps(line, j, k) ? -INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x);
+        const double distance = keeps(line, j, k, pressed) ? -INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x);
         const int place = distance < gap[0] ? 0 : distance < gap[1] ? 1 : 2;
         if (place == 0) gap[1] = gap[0], on[1] = on[0];
         if (place < 2) gap[place] = distance, on[place] = k;
@@ -113,11 +113,11 @@ static Vec3 reference_normal(const CpsiLine *line, int k, int c) {
 }
 
 /* The contacts of node j at its base: those it had keep what they have. */
-static void meet(CpsiLine *line, int j) {
+static void meet(CpsiLine *line, int j, bool pressed) {
     const int n = line->n;
     Kept before[2] = {{.on = -1}, {.on = -1}};
     int on[2];
-    nearest(line, j, vec3_load(&line->base[3*j]), on);
+    nearest(line, j, vec3_load(&line->base[3*j]), pressed, on);
     for (int i = 0; i < line->contacts; i++) before[i] = keep(line, j + i*n);
     for (int i = 0; i < line->contacts; i++) {
         Kept now = {.on = on[i], .gap = INFINITY, .state = CPS_NODE_FREE};
@@ -227,9 +227,10 @@ void cpsi_contact_clear(CpsiLine *line, int c) {
     for (int a = 0; a < 3; a++) line->friction_force[3*c + a] = 0;
 }
 
-void cpsi_contact_meet(CpsiLine *line) {
-    for (int j = 0; j < line->n; j++) meet(line, j);
-    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) meet_element(line, e);
+void cpsi_contact_meet(CpsiLine *line, bool pressed) {
+    for (int j = 0; j < line->n; j++) meet(line, j, pressed);
+    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)
+        if (!(pressed && line->pressed[cpsi_line_contacts(line) + e])) meet_element(line, e);
 }
 
 /* What contact c has gone round its obstacle, where its normal was `before` at the last look; that of an element as on a ball, for the
@@ -282,7 +283,7 @@ static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
 
 void cpsi_contact_return(CpsiLine *line) {
     memcpy(line->base, line->reference, 3*(size_t)line->n*sizeof *line->base);
-    cpsi_contact_meet(line);
+    cpsi_contact_meet(line, false);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) see(line, c), line->round[c] = 0;
 }
 
@@ -384,17 +385,14 @@ double cpsi_contact_depth(const CpsiLine *line) {
 }
 
 /* How far the axes of node j turn from its base to its position, the tangent's turn counting where it matters: not where friction is
- * frozen. INFINITY where it leaves one of its obstacles for another, or has gone through one. */
+ * frozen. INFINITY where it has gone through an obstacle: of three that are equally near it rests on those that press. */
 static double turn_of(const CpsiLine *line, int j) {
     const Vec3 to = vec3_load(&line->position[3*j]);
     double turned = 0;
-    int on[2];
-    nearest(line, j, to, on);
     if (room_of(line, j) < -0.1*CPSI_TOUCH*line->length) return INFINITY;
     for (int i = 0; i < line->contacts; i++) {
         const int c = j + i*line->n;
         if (!line->pressed[c]) continue;
-        if (line->on[c] != on[0] && line->on[c] != on[1]) return INFINITY;
         double now[9], curvature[3];
         cpsi_obstacle_axes(&line->obstacle[line->on[c]], to, direction(line, line->position, j), now, curvature);
         for (int row = line->frozen ? 2 : 0; row < 3; row += 2) {

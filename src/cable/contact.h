@@ -18,8 +18,9 @@ void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options);
 /* Back to the reference (a line that follows), from where the rounds begin. */
 void cpsi_contact_return(CpsiLine *line);
 
-/* The contacts of the nodes at `base` (a line that follows): the nearest obstacles. Those it had keep what they have, in whatever place. */
-void cpsi_contact_meet(CpsiLine *line);
+/* The contacts of the nodes at `base` (a line that follows): the nearest obstacles. Those it had keep what they have, in whatever place.
+ * `pressed`: one that is pressed stays with its obstacle, whatever is as near. */
+void cpsi_contact_meet(CpsiLine *line, bool pressed);
 
 /* From another place of the nodes (a line that follows), with the contacts that they have: axes, curvature, normal, slide and gap at `base`. */
 void cpsi_contact_look(CpsiLine *line);

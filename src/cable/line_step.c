@@ -407,7 +407,7 @@ static void settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
     int since = 0;
     for (int round = 0, most = options->slow ? SLOW_ROUNDS : ROUNDS; round < most; round++) {
         if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow) look_ahead(line, sides, turned);
-        if (line->follows) cpsi_contact_meet(line), cpsi_contact_look(line);
+        if (line->follows) cpsi_contact_meet(line, false), cpsi_contact_look(line);
         ipm = solve_round(line, program, options, bounds, options->turning);
         if (bounds == CPSI_BOUNDS_FOLLOW && !is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
@@ -624,9 +624,9 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     cpsi_line_pierces(line, &line->report.pierced);
     classify(line, program);
     choose_forces(line, program, options);
-    /* nodes that are free may have come to other obstacles in the last round */
+    /* contacts that are free may have come to other obstacles in the last round; the forces of the others are those that were certified */
     const bool looked = line->follows && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless);
-    if ((looked || line->frozen) && line->contacts > 1) cpsi_contact_meet(line), cpsi_contact_look(line);
+    if ((looked || line->frozen) && line->contacts > 1) cpsi_contact_meet(line, true), cpsi_contact_look(line);
     if (looked) cpsi_contact_still(line);
     cpsi_line_report_ends(line);
     cpsi_line_report_lengths(line);
