@@ -129,6 +129,7 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
             note(cautions, CAUTION_SUNK, line.certificate.penetration, length, step, view.name);
         if (line.slack > TOLD_SLACK * length && line.slipping > 0)
             note(cautions, CAUTION_SLACK, line.slack, length, step, view.name);
+        if (line.places != CPS_PLACES_UNIQUE) note(cautions, CAUTION_PLACES, (double)line.places, 0, step, view.name);
         const double rounded = rounded_tension(&view), force = line.certificate.largest_force;
         if (rounded > TOLD_ROUNDED * force && force > 0) note(cautions, CAUTION_ROUNDED, rounded, force, step, view.name);
     }
@@ -161,6 +162,9 @@ static void put_figures(int kind, double value, double of) {
                 "slack over %.4g m of %.4g m: where a line has no tension its place and what friction dissipates there "
                 "depend on the mesh; compare several numbers of elements",
                 value, of);
+    else if (kind == CAUTION_PLACES)
+        fprintf(stderr, "its forces leave a choice of places: %s",
+                value > CPS_PLACES_NEAREST ? "one of them is taken, which says nothing of the others" : "the nearest to where the step began is taken");
     else if (kind == CAUTION_MADE)
         fprintf(stderr,
                 "the energy does not close by %.4g J, beside %.4g J dissipated and worked: the line jumps, takes another "
