@@ -278,7 +278,8 @@ static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
     line->friction_bound[c] = rubs ? cpsi_rub_set(line, c).friction*line->reaction[c] : 0;
     line->gap[c] = !held && near ? 0 : INFINITY;
     if (is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
-    else if (!held) cpsi_contact_clear(line, c);
+    /* what is free has no reaction, but for what the loop left of it */
+    if (!held && (!is_watched(line, c, gap) || line->state[c] == CPS_NODE_FREE)) cpsi_contact_clear(line, c);
 }
 
 void cpsi_contact_return(CpsiLine *line) {
