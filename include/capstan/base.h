@@ -8,7 +8,8 @@
  *   - The library copies what it needs. Each create has one destroy, and destroy accepts NULL.
  *   - A returned `const double *` is a view owned by the handle, valid until the next non-const call on it.
  *   - The library never prints, exits or aborts, and has no mutable global state: different handles may be
- *     used from different threads at the same time. */
+ *     used from different threads at the same time. That is promised of capstan's own code: libfyaml, which reads
+ *     files, and libnetcdf, which writes result.nc, may end the process where they get no memory (capstan-io only). */
 #ifndef CAPSTAN_BASE_H
 #define CAPSTAN_BASE_H
 

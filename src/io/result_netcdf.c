@@ -7,7 +7,6 @@
  * The library keeps a list of open files of its own and is not safe for threads: one lock around its calls makes
  * it so (the only shared state in capstan-io). */
 #include <math.h>
-#include <netcdf.h>
 #include <pthread.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -16,6 +15,7 @@
 #include "base/status.h"
 #include "base/vec3.h"
 #include "capstan/set.h"
+#include "io/netcdf_library.h"
 #include "io/result.h"
 #include "io/result_fields.h"
 #include "io/result_text.h"
@@ -155,6 +155,7 @@ typedef struct LineIds {
 } LineIds;
 
 struct CpsiNetcdf {
+    CpsiNetcdfLibrary library;
     int file;
     bool open, sync; /* sync: after each step */
     unsigned wanted; /* result_fields.h */
@@ -179,17 +180,17 @@ static void keep(CpsiNetcdf *nc, int status) {
 static CpsStatus result_of(const CpsiNetcdf *nc, CpsError *err) {
     if (nc->status == NC_NOERR) return CPS_OK;
     return cpsi_fail(err, nc->status == NC_ENOMEM ? CPS_ERR_MEMORY : CPS_ERR_IO, "cannot write result.nc: %s",
-                     nc_strerror(nc->status));
+                     nc->library.strerror(nc->status));
 }
 
 static int add_dimension(CpsiNetcdf *nc, const char *name, size_t size) {
     int id = -1;
-    if (nc->status == NC_NOERR) keep(nc, nc_def_dim(nc->file, name, size, &id));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.def_dim(nc->file, name, size, &id));
     return id;
 }
 
 static void add_text(CpsiNetcdf *nc, int variable, const char *name, const char *text) {
-    if (nc->status == NC_NOERR) keep(nc, nc_put_att_text(nc->file, variable, name, strlen(text), text));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_att_text(nc->file, variable, name, strlen(text), text));
 }
 
 /* a variable "prefix_name", or "name" without a prefix */
@@ -199,7 +200,7 @@ static int add_variable(CpsiNetcdf *nc, const char *prefix, const char *name, nc
     int id = -1;
     const int length = snprintf(full, sizeof full, "%s%s%s", prefix, *prefix ? "_" : "", name);
     if (length < 0 || (size_t)length >= sizeof full) keep(nc, NC_EMAXNAME);
-    if (nc->status == NC_NOERR) keep(nc, nc_def_var(nc->file, full, type, rank, shape, &id));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.def_var(nc->file, full, type, rank, shape, &id));
     add_text(nc, id, "long_name", long_name);
     if (units) add_text(nc, id, "units", units);
     return id;
@@ -208,7 +209,7 @@ static int add_variable(CpsiNetcdf *nc, const char *prefix, const char *name, nc
 /* names of the values of an enumeration, as CF wants them */
 static void add_flags(CpsiNetcdf *nc, int variable, nc_type type, int count, const char *meanings) {
     const int value[] = {0, 1, 2};
-    if (nc->status == NC_NOERR) keep(nc, nc_put_att_int(nc->file, variable, "flag_values", type, (size_t)count, value));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_att_int(nc->file, variable, "flag_values", type, (size_t)count, value));
     add_text(nc, variable, "flag_meanings", meanings);
 }
 
@@ -220,7 +221,7 @@ static const int OUTCOME_VALUES[] = {CPS_OUTCOME_LIST(OUTCOME_NUMBER)};
 static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
     const int id = add_variable(nc, prefix, "outcome", NC_INT, 1, &nc->step, "what came of the step", "1");
     const size_t count = sizeof OUTCOME_VALUES / sizeof *OUTCOME_VALUES;
-    if (nc->status == NC_NOERR) keep(nc, nc_put_att_int(nc->file, id, "flag_values", NC_INT, count, OUTCOME_VALUES));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_att_int(nc->file, id, "flag_values", NC_INT, count, OUTCOME_VALUES));
     add_text(nc, id, "flag_meanings", OUTCOME_MEANINGS);
     return id;
 }
@@ -295,11 +296,11 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     add_text(nc, NC_GLOBAL, "friction", scene->friction == CPS_FRICTION_CONSISTENT ? "consistent" : "frozen");
     add_text(nc, NC_GLOBAL, "contact", scene->contact == CPS_CONTACT_STRICT ? "strict" : "gained");
     if (nc->status == NC_NOERR)
-        keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "gravity", NC_DOUBLE, 3, scene->gravity));
+        keep(nc, nc->library.put_att_double(nc->file, NC_GLOBAL, "gravity", NC_DOUBLE, 3, scene->gravity));
     if (nc->status == NC_NOERR)
-        keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &scene->solver.tolerance));
+        keep(nc, nc->library.put_att_double(nc->file, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &scene->solver.tolerance));
     if (nc->status == NC_NOERR && is_far(origin))
-        keep(nc, nc_put_att_double(nc->file, NC_GLOBAL, "origin", NC_DOUBLE, 3, origin));
+        keep(nc, nc->library.put_att_double(nc->file, NC_GLOBAL, "origin", NC_DOUBLE, 3, origin));
 
     nc->step = add_dimension(nc, "step", NC_UNLIMITED);
     nc->xyz = add_dimension(nc, "xyz", XYZ);
@@ -426,7 +427,7 @@ static const double *array_of(CpsiNetcdf *nc, const CpsLineView *view, const Cps
 }
 
 static void write_doubles(CpsiNetcdf *nc, int variable, const size_t *start, const size_t *count, const double *value) {
-    if (nc->status == NC_NOERR) keep(nc, nc_put_vara_double(nc->file, variable, start, count, value));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_vara_double(nc->file, variable, start, count, value));
 }
 
 /* the fields that do not change (fixed), or those of a step; an array of contacts has the first of all nodes first */
@@ -449,16 +450,16 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     for (int c = 0; c < ids->contacts && nc->status == NC_NOERR; ++c) {
         const size_t from = (size_t)c * nodes[1];
         if (nc->wanted & CPSI_WANTED_STATE)
-            keep(nc, nc_put_vara_uchar(nc->file, ids->state[c], start, nodes, view->state + from));
+            keep(nc, nc->library.put_vara_uchar(nc->file, ids->state[c], start, nodes, view->state + from));
         if (ids->contacts < 2 || nc->status != NC_NOERR || !(nc->wanted & CPSI_WANTED_OBSTACLE)) continue;
-        keep(nc, nc_put_vara_int(nc->file, ids->obstacle[c], start, nodes, view->obstacle + from));
+        keep(nc, nc->library.put_vara_int(nc->file, ids->obstacle[c], start, nodes, view->obstacle + from));
     }
 
     const size_t elements[] = {1, (size_t)view->elements};
     if (view->element_obstacle && (nc->wanted & CPSI_WANTED_OBSTACLE) && nc->status == NC_NOERR)
-        keep(nc, nc_put_vara_int(nc->file, ids->element_obstacle, start, elements, view->element_obstacle));
+        keep(nc, nc->library.put_vara_int(nc->file, ids->element_obstacle, start, elements, view->element_obstacle));
     if (view->element_obstacle && (nc->wanted & CPSI_WANTED_STATE) && nc->status == NC_NOERR)
-        keep(nc, nc_put_vara_uchar(nc->file, ids->element_state, start, elements, view->element_state));
+        keep(nc, nc->library.put_vara_uchar(nc->file, ids->element_state, start, elements, view->element_state));
 
     unsigned char kind[ENDS];
     double value[ENDS][XYZ], force[ENDS][XYZ], friction[ENDS][XYZ], tension[ENDS];
@@ -469,7 +470,7 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
         memcpy(friction[e], report->end[e].friction, sizeof friction[e]);
         tension[e] = report->end[e].tension;
     }
-    if (nc->status == NC_NOERR) keep(nc, nc_put_vara_uchar(nc->file, ids->end_kind, start, ends, kind));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_vara_uchar(nc->file, ids->end_kind, start, ends, kind));
     write_doubles(nc, ids->end_value, start, ends, value[0]);
     write_doubles(nc, ids->end_force, start, ends, force[0]);
     write_doubles(nc, ids->end_friction, start, ends, friction[0]);
@@ -483,15 +484,15 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     write_doubles(nc, ids->proof, start, vector, report->proof);
 
     const int outcome = (int)report->outcome;
-    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->outcome, start, &outcome));
-    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->iterations, start, &report->iterations));
-    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->parts, start, &report->parts));
-    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->snaps, start, &report->snaps));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, ids->outcome, start, &outcome));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, ids->iterations, start, &report->iterations));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, ids->parts, start, &report->parts));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, ids->snaps, start, &report->snaps));
     const int places = (int)report->places;
-    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, ids->places, start, &places));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, ids->places, start, &places));
     for (int i = 0; i < NUMBERS; ++i) {
         const double *number = (const double *)(const void *)((const char *)report + NUMBER[i].offset);
-        if (nc->status == NC_NOERR) keep(nc, nc_put_var1_double(nc->file, ids->number[i], start, number));
+        if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_double(nc->file, ids->number[i], start, number));
     }
 }
 
@@ -542,7 +543,7 @@ static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line)
     for (size_t k = 0; k < (size_t)line->zone_count; ++k)
         for (int i = 0; i < ZONES && nc->status == NC_NOERR; ++i) {
             const double *number = (const double *)(const void *)((const char *)&line->zone[k] + ZONE[i].offset);
-            keep(nc, nc_put_var1_double(nc->file, ids->zone[i], &k, number));
+            keep(nc, nc->library.put_var1_double(nc->file, ids->zone[i], &k, number));
         }
 }
 
@@ -550,10 +551,10 @@ static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line)
 static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene, const CpsEvolution *evolution,
                   const char *names) {
     int before = 0;
-    keep(nc, nc_create(path, NC_CLOBBER | NC_64BIT_OFFSET, &nc->file));
+    keep(nc, nc->library.create(path, NC_CLOBBER | NC_64BIT_OFFSET, &nc->file));
     nc->open = nc->status == NC_NOERR;
     /* everything is written once, so nothing need be filled before */
-    if (nc->open) keep(nc, nc_set_fill(nc->file, NC_NOFILL, &before));
+    if (nc->open) keep(nc, nc->library.set_fill(nc->file, NC_NOFILL, &before));
     const CpsLineView first = cps_evolution_line_view(evolution, 0);
     if (nc->open) define_run(nc, scene, first.origin, names);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
@@ -561,16 +562,16 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene, const
         define_line(nc, &nc->line[i], &view);
         define_zones(nc, &nc->line[i], &scene->line[i]);
     }
-    if (nc->status == NC_NOERR) keep(nc, nc_enddef(nc->file));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.enddef(nc->file));
     write_obstacles(nc, scene, first.origin);
     write_sets(nc, scene);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         write_fields(nc, &nc->line[i], &view, true);
         write_zones(nc, &nc->line[i], &scene->line[i]);
-        if (nc->status == NC_NOERR) keep(nc, nc_put_var_double(nc->file, nc->line[i].compliance, &view.compliance));
+        if (nc->status == NC_NOERR) keep(nc, nc->library.put_var_double(nc->file, nc->line[i].compliance, &view.compliance));
     }
-    if (nc->status == NC_NOERR) keep(nc, nc_sync(nc->file));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.sync(nc->file));
 }
 
 static void free_sets(CpsiNetcdf *nc, const CpsScene *scene) {
@@ -620,13 +621,14 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
     if (nc) nc->wanted = wanted, nc->sync = !options->sync_at_end;
     if (nc) nc->line = calloc((size_t)lines, sizeof *nc->line), nc->line_count = lines;
     if (nc) nc->slide = calloc(nodes, XYZ * sizeof *nc->slide);
-    if (nc && nc->line && nc->slide && names) {
+    if (nc && nc->line && nc->slide && names) status = cpsi_netcdf_library(&nc->library, err);
+    if (!status && nc && nc->line && nc->slide && names) {
         pthread_mutex_lock(&library_lock);
         begin(nc, path, scene, evolution, names);
         free_sets(nc, scene);
         pthread_mutex_unlock(&library_lock);
         status = result_of(nc, err);
-    } else {
+    } else if (!status) {
         status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while opening result.nc");
     }
     free(names);
@@ -646,9 +648,9 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
     memcpy(name, given, cpsi_utf8_cut(given, sizeof name));
 
     pthread_mutex_lock(&library_lock);
-    if (nc->status == NC_NOERR) keep(nc, nc_put_vara_text(nc->file, nc->step_name, start, count, name));
-    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_int(nc->file, nc->outcome, start, &outcome));
-    if (nc->status == NC_NOERR) keep(nc, nc_put_var1_double(nc->file, nc->wall, start, &report.wall));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_vara_text(nc->file, nc->step_name, start, count, name));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, nc->outcome, start, &outcome));
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_double(nc->file, nc->wall, start, &report.wall));
     const size_t turns[] = {1, (size_t)nc->obstacle_count};
     if (nc->obstacle_count > 0) write_doubles(nc, nc->turn, start, turns, turn);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {
@@ -656,7 +658,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         write_line(nc, &nc->line[i], &view, &line);
     }
-    if (nc->status == NC_NOERR && nc->sync) keep(nc, nc_sync(nc->file));
+    if (nc->status == NC_NOERR && nc->sync) keep(nc, nc->library.sync(nc->file));
     pthread_mutex_unlock(&library_lock);
     nc->steps++;
     return result_of(nc, err);
@@ -666,11 +668,12 @@ CpsStatus cpsi_netcdf_close(CpsiNetcdf *nc, CpsError *err) {
     if (!nc) return CPS_OK;
     if (nc->open) {
         pthread_mutex_lock(&library_lock);
-        const int status = nc_close(nc->file);
+        const int status = nc->library.close(nc->file);
         pthread_mutex_unlock(&library_lock);
         keep(nc, status);
     }
     const CpsStatus status = result_of(nc, err);
+    cpsi_netcdf_library_close(&nc->library);
     free(nc->line);
     free(nc->slide);
     free(nc);

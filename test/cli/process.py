@@ -111,6 +111,15 @@ def named_files():
     expect("curve file by a link", done.returncode == 4 and "symbolic link" in done.stderr, done)
 
 
+def libraries():
+    """libnetcdf is loaded by the command that writes a result.nc, and by no other. (LD_DEBUG is glibc's: elsewhere nothing is seen.)"""
+    for command, loads in ((["check", "scene.yaml"], False), (["law", "law.yaml"], False), (["study", "frozen.yaml", "-o", "studied"], False),
+                           (["--version"], False), (["run", "scene.yaml", "-o", "loaded"], True)):
+        done = subprocess.run([CAPSTAN, *command], capture_output=True, text=True, timeout=60, env={**os.environ, "LD_DEBUG": "files"})
+        seen = "libm.so" in done.stderr
+        expect(f"{command}: loads libnetcdf", not seen or ("libnetcdf" in done.stderr) == loads)
+
+
 def slow_lines():
     """No file below 1 MB takes more than 2 s of processor time: lines that libfyaml takes long for are refused before it sees them."""
     begin = "capstan: 1\na: "
@@ -134,7 +143,7 @@ with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     write("scene.yaml", SCENE)
     write("frozen.yaml", SCENE + "friction: frozen\n")
-    for part in (closed_streams, end_while_waiting, pipe_to_judge, escapes, named_files, slow_lines):
+    for part in (closed_streams, end_while_waiting, pipe_to_judge, escapes, named_files, libraries, slow_lines):
         part()
     os.chdir("/")
 
