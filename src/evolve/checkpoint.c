@@ -220,10 +220,12 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
 
 size_t cps_evolution_state_size(const CpsEvolution *evolution) {
     Tape tape = {0};
+    if (!evolution) return 0;
     return pass_state(&tape, (CpsEvolution *)(uintptr_t)evolution); /* counts only */
 }
 
 void cps_evolution_save(const CpsEvolution *evolution, void *state) {
+    if (!evolution || !state) return;
     Head head = {.size = cps_evolution_state_size(evolution), .fingerprint = evolution->fingerprint};
     memcpy(head.magic, MAGIC, sizeof MAGIC);
     memcpy(state, &head, sizeof head);

@@ -274,10 +274,10 @@ void cps_evolution_destroy(CpsEvolution *evolution) {
 
 /* step ---------------------------------------------------------------------------------------------------------- */
 
-int cps_evolution_step_count(const CpsEvolution *evolution) { return evolution->step_count; }
+int cps_evolution_step_count(const CpsEvolution *evolution) { return evolution ? evolution->step_count : 0; }
 
 int cps_evolution_remaining(const CpsEvolution *evolution) {
-    return evolution->ended ? 0 : evolution->step_count - evolution->done;
+    return !evolution || evolution->ended ? 0 : evolution->step_count - evolution->done;
 }
 
 /* Where an end is taken from: its position if it is to be held, the force that it carries if it is let go. */
@@ -440,11 +440,16 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
 
 /* report -------------------------------------------------------------------------------------------------------- */
 
-CpsStepReport cps_evolution_report(const CpsEvolution *evolution) { return evolution->report; }
+CpsStepReport cps_evolution_report(const CpsEvolution *evolution) {
+    return evolution ? evolution->report : (CpsStepReport){.name = "", .index = -1, .outcome = CPS_STALLED};
+}
 
-int cps_evolution_line_count(const CpsEvolution *evolution) { return evolution->line_count; }
+int cps_evolution_line_count(const CpsEvolution *evolution) { return evolution ? evolution->line_count : 0; }
+
+static bool has_line(const CpsEvolution *evolution, int line) { return line >= 0 && line < cps_evolution_line_count(evolution); }
 
 CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) {
+    if (!has_line(evolution, line)) return (CpsLineReport){.outcome = CPS_STALLED, .pierced = -1};
     CpsLineReport report = evolution->line[line].report;
     for (int end = 0; end < 2; end++)
         for (int a = 0; a < 3; a++)
@@ -453,6 +458,7 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
 }
 
 CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
+    if (!has_line(evolution, line)) return (CpsLineView){.name = ""};
     const CpsiLine *from = &evolution->line[line];
     CpsLineView view = {
         .name = from->name,

@@ -185,6 +185,8 @@ CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution,
 CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *found, CpsError *err) {
     if (!journal || !evolution || !found) return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal, evolution and found are all needed");
     *found = false;
+    if (cps_evolution_state_size(evolution) != journal->size)
+        return refuse(journal, CPS_ERR_ARGUMENT, "was opened for another evolution than this one", err);
     Record record;
     size_t got;
     if (!read_at(journal->file, &record, sizeof record, journal->end, &got)) return fail(journal, "read", err);
@@ -209,6 +211,8 @@ CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *f
 
 CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *evolution, CpsError *err) {
     if (!journal || !evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal and evolution are both needed");
+    if (cps_evolution_state_size(evolution) != journal->size)
+        return refuse(journal, CPS_ERR_ARGUMENT, "was opened for another evolution than this one", err);
     if (cps_evolution_report(evolution).index != (int)journal->steps)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d follows the %d steps of the journal; append every step once",
                          cps_evolution_report(evolution).index, (int)journal->steps);

@@ -64,6 +64,7 @@ struct CpsResults {
     int line_count;
     char **line_name;
     double *line_length; /* [m] */
+    int *line_elements;
     int stage_count;
     CpsiStage *stage;
     int planned_steps;

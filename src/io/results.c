@@ -68,11 +68,13 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     const size_t lines = (size_t)cps_evolution_line_count(evolution);
     results->line_name = calloc(lines, sizeof *results->line_name);
     results->line_length = calloc(lines, sizeof *results->line_length);
-    if (!results->title || !results->line_name || !results->line_length) return false;
+    results->line_elements = calloc(lines, sizeof *results->line_elements);
+    if (!results->title || !results->line_name || !results->line_length || !results->line_elements) return false;
     if (!copy_obstacles(results, scene)) return false;
     for (size_t i = 0; i < lines; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, (int)i);
         results->line_length[i] = view.arc_length[view.elements];
+        results->line_elements[i] = view.elements;
         results->line_name[i] = copy_text(view.name);
         results->line_count = (int)i + 1;
         if (!results->line_name[i]) return false;
@@ -226,6 +228,14 @@ static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsE
     return status || !results->paraview ? status : cpsi_paraview_step(results, evolution, err);
 }
 
+/* Are the lines those that the results were opened for? */
+static bool has_these_lines(const CpsResults *results, const CpsEvolution *evolution) {
+    if (cps_evolution_line_count(evolution) != results->line_count) return false;
+    for (int i = 0; i < results->line_count; ++i)
+        if (cps_evolution_line_view(evolution, i).elements != results->line_elements[i]) return false;
+    return true;
+}
+
 static CpsStatus refuse_failed(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_ARGUMENT,
                      "these results have failed or are finished; destroy them and open new ones");
@@ -234,6 +244,8 @@ static CpsStatus refuse_failed(CpsError *err) {
 CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
     if (!results || !evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and evolution are both needed");
     if (results->failed) return refuse_failed(err);
+    if (!has_these_lines(results, evolution))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the evolution has other lines than the one that these results were opened for");
     const CpsStepReport report = cps_evolution_report(evolution);
     if (report.index != results->row_count)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d follows step %d of the results; append every step once",
@@ -327,6 +339,7 @@ void cps_results_destroy(CpsResults *results) {
     free(results->stage);
     free(results->line_name);
     free(results->line_length);
+    free(results->line_elements);
     free(results->obstacle);
     free(results->title);
     if (results->locale) freelocale(results->locale);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Results of small runs: text that stays text, files that hold what the evolution said, calls out of order.
  * The files are left in the working directory, where results_files.py reads them with other people's readers. */
+#include <limits.h>
 #include <locale.h>
 #include <math.h>
 #include <netcdf.h>
@@ -382,6 +383,54 @@ static void no_solution_is_written(void **state) {
     cps_evolution_destroy(evolution);
 }
 
+/* handles that are NULL, lines that there are not, an evolution of another scene, a journal out of turn */
+static void what_is_not_there_is_refused(void **state) {
+    (void)state;
+    Fixture f;
+    make_scene(&f);
+    CpsError err;
+    CpsEvolution *evolution = evolution_of(&f.scene), *other;
+    CpsScene smaller = f.scene;
+    smaller.line_count = 1, smaller.stage_count = 0;
+    other = evolution_of(&smaller);
+    assert_int_equal(cps_evolution_line_count(NULL), 0);
+    assert_int_equal(cps_evolution_step_count(NULL), 0);
+    assert_int_equal(cps_evolution_remaining(NULL), 0);
+    assert_int_equal(cps_evolution_report(NULL).index, -1);
+    assert_int_equal(cps_evolution_state_size(NULL), 0);
+    cps_evolution_save(NULL, NULL);
+    const int absent[] = {-1, LINES, INT_MAX, INT_MIN};
+    for (size_t i = 0; i < sizeof absent / sizeof *absent; i++) {
+        const CpsLineView view = cps_evolution_line_view(evolution, absent[i]);
+        assert_int_equal(view.elements, 0);
+        assert_null(view.position);
+        assert_int_equal(cps_evolution_line_report(evolution, absent[i]).outcome, CPS_STALLED);
+        assert_null(cps_evolution_line_view(NULL, absent[i]).position);
+    }
+    CpsResults *results = NULL;
+    must(cps_results_prepare("results-misuse", true, &err), &err);
+    must(cps_results_open("results-misuse", &f.scene, evolution, &results, &err), &err);
+    must(cps_evolution_step(other, &err), &err);
+    assert_int_equal(cps_results_append(results, other, &err), CPS_ERR_ARGUMENT);
+    assert_false(cps_results_found_mixed(NULL));
+    assert_int_equal(cps_results_prepare("", false, &err), CPS_ERR_ARGUMENT);
+
+    CpsJournal *journal = NULL;
+    bool found;
+    assert_int_equal(cps_journal_open("results-misuse", other, CPS_JOURNAL_NEW, &journal, &err), CPS_ERR_ARGUMENT); /* has taken a step */
+    must(cps_journal_open("results-misuse", evolution, CPS_JOURNAL_NEW, &journal, &err), &err);
+    assert_int_equal(cps_journal_append(journal, evolution, &err), CPS_ERR_ARGUMENT); /* no step yet */
+    assert_int_equal(cps_journal_append(journal, other, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_journal_next(journal, other, &found, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_journal_sync(NULL, &err), CPS_ERR_ARGUMENT);
+    cps_journal_remove(NULL), cps_journal_sync_late(NULL), cps_journal_destroy(NULL);
+    cps_journal_destroy(journal);
+    cps_results_destroy(results);
+    cps_evolution_destroy(evolution), cps_evolution_destroy(other);
+    struct stat gone;
+    assert_int_not_equal(stat("results-misuse", &gone), 0);
+}
+
 static void misuse_is_refused(void **state) {
     (void)state;
     Fixture f;
@@ -428,7 +477,7 @@ int main(void) {
         cmocka_unit_test(numbers_read_back),      cmocka_unit_test(netcdf_holds_the_last_step),
         cmocka_unit_test(obstacles_are_written),  cmocka_unit_test(both_contacts_are_written),
         cmocka_unit_test(earlier_files_give_way), cmocka_unit_test(no_solution_is_written),
-        cmocka_unit_test(misuse_is_refused),      cmocka_unit_test(locale_does_not_matter),
+        cmocka_unit_test(what_is_not_there_is_refused), cmocka_unit_test(misuse_is_refused),      cmocka_unit_test(locale_does_not_matter),
     };
     return cmocka_run_group_tests_name("results", tests, NULL, NULL);
 }
