@@ -183,7 +183,9 @@ CPS_API CpsClassicView cps_study_stage_end(const CpsStudy *study, CpsStudyStage 
       "no solution: the balance (90) shortens a slack part, t_R.u' < 0 where (86) asks for >= 0")                      \
     X(CPS_FIRST_ORDER_UNBALANCED, 2, "unbalanced",                                                                     \
       "no solution: a force across the line, which (84) lets nothing carry where the reference is slack")              \
-    X(CPS_FIRST_ORDER_UNDECIDED, 3, "undecided", "not decided: the iteration came to no end")
+    X(CPS_FIRST_ORDER_UNDECIDED, 3, "undecided", "not decided: the iteration came to no end")                          \
+    X(CPS_FIRST_ORDER_MESH, 4, "mesh_only",                                                                            \
+      "a solution on this mesh only: (87) has none, half an element carries the force on a slack end")
 
 typedef enum CpsFirstOrderVerdict {
 #define CPS_FIRST_ORDER_ENUM(name, number, key, sentence) name = number,
@@ -191,17 +193,22 @@ typedef enum CpsFirstOrderVerdict {
 #undef CPS_FIRST_ORDER_ENUM
 } CpsFirstOrderVerdict;
 
+/* Which nodes the obstacle keeps out. (77) asks u.n >= 0 on D(x_R), where the reference touches, and nothing elsewhere; with `gained`
+ * contact the step itself asks n.u + psi(x_R) >= 0 of every node, (16). The answers differ where a node comes down. */
+typedef enum CpsFirstOrderContact { CPS_FIRST_ORDER_TOUCHING, CPS_FIRST_ORDER_GAINED } CpsFirstOrderContact;
+
 CPS_API const char *cps_first_order_key(CpsFirstOrderVerdict verdict);
 CPS_API const char *cps_first_order_sentence(CpsFirstOrderVerdict verdict);
 
 typedef struct CpsFirstOrderReport {
     CpsFirstOrderVerdict verdict;
+    CpsFirstOrderContact contact;
     int rounds, iterations;  /* of multipliers, of Newton steps in all */
     double residual;         /* [N] largest force by which balance, friction or contact still fail */
     double least_strain;     /* [-] least t_R.u' where the reference is slack, +infinity where it is nowhere */
     double least_strain_arc; /* [m] where */
     double shortened;        /* [m] natural length where (86) fails */
-    double unbalanced[3];    /* [N] the largest force on a place that nothing balances, and where [m] */
+    double unbalanced[3];    /* [N] the largest force on a place that nothing balances, of the mesh alone: on the slack end; and where [m] */
     double unbalanced_arc;
     double slack;        /* [m] natural length without tension in the reference, D of (85) */
     double outside;      /* [m] of it with |x_R'| < 1, a reference outside Kin: taken as slack with strain 0 */
@@ -223,8 +230,11 @@ typedef struct CpsFirstOrder CpsFirstOrder;
 
 /* Assemble P10.1 about the step's reference and solve it, on the step's own elements.
  *
+ *   contact  CPS_FIRST_ORDER_TOUCHING is the paper's, (77)
+ *
  * Returns CPS_OK whatever the verdict, CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. */
-CPS_API CpsStatus cps_first_order_solve(const CpsClassic *classic, CpsFirstOrder **out, CpsError *err);
+CPS_API CpsStatus cps_first_order_solve(const CpsClassic *classic, CpsFirstOrderContact contact, CpsFirstOrder **out,
+                                        CpsError *err);
 CPS_API void cps_first_order_destroy(CpsFirstOrder *solution); /* NULL is accepted */
 CPS_API CpsFirstOrderReport cps_first_order_report(const CpsFirstOrder *solution);
 CPS_API CpsFirstOrderView cps_first_order_view(const CpsFirstOrder *solution);

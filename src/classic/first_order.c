@@ -35,7 +35,7 @@ static Vec3 pressed(const CpsiFirstOrder *f, int j, double *push) {
     const CpsiCells *c = &f->step->own;
     const Vec3 u = cpsi_at(f->u, j), n = cpsi_at(c->normal, j);
     const double across = vec3_dot(u, n), r = f->augment*c->share[j];
-    *push = isfinite(c->gap[j]) ? f->push[j] - r*(across + c->gap[j]) : 0;
+    *push = isfinite(f->gap[j]) ? f->push[j] - r*(across + f->gap[j]) : 0;
     return vec3_axpy(r, vec3_axpy(-across, n, u), cpsi_at(f->rub, j));
 }
 

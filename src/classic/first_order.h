@@ -28,6 +28,7 @@ typedef struct CpsiFirstOrder {
     double *tangent;  /* (m, 3) t */
     double *stretch;  /* (m) s = |x_R'| */
     double *strain;   /* (m) e; 0: slack, element of D */
+    double *gap;      /* (m + 1) [m] n.u >= -gap; INFINITY: not asked */
     double *u;        /* (m + 1, 3) [m] */
     double *before;   /* (m + 1, 3) [m] u of the round before */
     double *rub;      /* (m + 1, 3) [N] q */

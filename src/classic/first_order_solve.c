@@ -61,6 +61,7 @@ static void layout(CpsFirstOrder *s, int elements, CpsiArena *arena) {
     f->tangent = CPSI_TAKE(arena, 3*m, double);
     f->stretch = CPSI_TAKE(arena, m, double);
     f->strain = CPSI_TAKE(arena, m, double);
+    f->gap = CPSI_TAKE(arena, n, double);
     f->u = CPSI_TAKE(arena, 3*n, double);
     f->before = CPSI_TAKE(arena, 3*n, double);
     f->rub = CPSI_TAKE(arena, 3*n, double);
@@ -74,6 +75,18 @@ static void layout(CpsFirstOrder *s, int elements, CpsiArena *arena) {
     s->work = CPSI_TAKE(arena, 3*n*(4 + CPSI_FIRST_ORDER_BAND + 1), double);
 }
 
+/* a node this near to the obstacle, per length of the line, touches it, as with strict contact */
+static const double TOUCH = 1e-9;
+
+/* (77), or (16) at every node */
+static void set_contact(CpsiFirstOrder *f, CpsFirstOrderContact contact) {
+    const CpsiCells *c = &f->step->own;
+    for (int j = 0; j <= c->cells; ++j) {
+        const bool touches = c->gap[j] <= TOUCH*f->step->length;
+        f->gap[j] = contact == CPS_FIRST_ORDER_GAINED ? c->gap[j] : touches ? 0 : INFINITY;
+    }
+}
+
 /* (71), (85); the imposed displacements of the ends */
 static void set_reference(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
     const CpsiCells *c = &f->step->own;
@@ -81,9 +94,9 @@ static void set_reference(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
         const Vec3 slope =
             vec3_scale(1/c->width[i], vec3_sub(cpsi_at(c->reference, i + 1), cpsi_at(c->reference, i)));
         const double s = vec3_norm(slope);
-        f->stretch[i] = s > 0 ? s : 1;
-        vec3_store(f->tangent + 3*(size_t)i, vec3_scale(1/f->stretch[i], slope));
+        vec3_store(f->tangent + 3*(size_t)i, vec3_scale(s > 0 ? 1/s : 1, slope));
         f->strain[i] = s - 1 > SLACK_STRAIN ? s - 1 : 0;
+        f->stretch[i] = f->strain[i] > 0 ? s : 1;
         if (f->strain[i] == 0) r->slack += c->width[i];
         if (s - 1 < -SLACK_STRAIN) r->outside += c->width[i];
     }
@@ -164,6 +177,26 @@ static void run_rounds(CpsFirstOrder *s) {
 
 /* ---- the answer ---- */
 
+/* At a free end that is slack (84) has T along t_R alone, and (86) lets it only pull: the part of the end force that (87) can then not hold
+ * for. The obstacle takes what presses on it. Lumped, half an element's friction and weight may carry it. */
+static Vec3 end_excess(const CpsiFirstOrder *f) {
+    const int last = f->step->own.cells;
+    if (f->step->held || f->strain[last - 1] > 0) return vec3(0, 0, 0);
+    const Vec3 force = vec3_load(f->step->end_force), t = cpsi_at(f->tangent, last - 1), n = cpsi_at(f->step->own.normal, last);
+    const Vec3 rest = vec3_axpy(-fmax(0, vec3_dot(force, t)), t, force);
+    const double down = isfinite(f->gap[last]) ? fmin(0, vec3_dot(rest, n)) : 0;
+    return vec3_axpy(-down, n, rest);
+}
+
+static void judge_end(CpsFirstOrder *s) {
+    CpsFirstOrderReport *r = &s->report;
+    const Vec3 excess = end_excess(&s->f);
+    if (r->verdict != CPS_FIRST_ORDER_SOLVED || !(vec3_norm(excess) > FORCE_TOLERANCE*s->f.step->force)) return;
+    r->verdict = CPS_FIRST_ORDER_MESH;
+    vec3_store(r->unbalanced, excess);
+    r->unbalanced_arc = s->f.step->length;
+}
+
 static void finish(CpsFirstOrder *s) {
     CpsiFirstOrder *f = &s->f;
     CpsFirstOrderReport *r = &s->report;
@@ -192,9 +225,11 @@ static void finish(CpsFirstOrder *s) {
         memset(r->unbalanced, 0, sizeof r->unbalanced);
         r->unbalanced_arc = 0;
     }
+    judge_end(s);
 }
 
-CpsStatus cps_first_order_solve(const CpsClassic *classic, CpsFirstOrder **out, CpsError *err) {
+CpsStatus cps_first_order_solve(const CpsClassic *classic, CpsFirstOrderContact contact, CpsFirstOrder **out,
+                                CpsError *err) {
     if (!classic || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic or out is NULL");
     *out = NULL;
     CpsFirstOrder *s = calloc(1, sizeof *s);
@@ -211,6 +246,8 @@ CpsStatus cps_first_order_solve(const CpsClassic *classic, CpsFirstOrder **out, 
     s->f.unknowns = 3*(step->own.cells - (step->held ? 1 : 0));
     memcpy(s->arc, step->own.arc, ((size_t)step->own.cells + 1)*sizeof(double));
     set_reference(&s->f, &s->report);
+    set_contact(&s->f, contact);
+    s->report.contact = contact;
     run_rounds(s);
     finish(s);
     *out = s;

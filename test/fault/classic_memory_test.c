@@ -19,7 +19,7 @@ static CpsStatus questions(const CpsLineView *view) {
         for (int s = 0; s < CPS_STUDY_STAGES; s++) options.values[s] = 2;
         status = cps_study_run(classic, &options, NULL, NULL, &study, NULL);
     }
-    if (status == CPS_OK) status = cps_first_order_solve(classic, &first_order, NULL);
+    if (status == CPS_OK) status = cps_first_order_solve(classic, CPS_FIRST_ORDER_TOUCHING, &first_order, NULL);
     if (status == CPS_OK) status = cps_classic_next(view, 0.3, classic, &next, NULL);
     if (status == CPS_OK) {
         const CpsClassicParameters coarse = cps_classic_coarse(next);

@@ -212,7 +212,82 @@ def refused(scene):
     return words or None
 
 
-# ---- the four verbs; each returns what was compared ----
+# ---- P10.1: the conditions of its minimum, at the displacements and forces of the file ----
+
+FIRST_ORDER = (("a solution of P10.1", "solved"), ("on this mesh only", "mesh"), ("shortens a slack part", "shortens"),
+               ("a force across the line", "unbalanced"), ("not decided", "undecided"))
+
+
+def vectors(rows, name, unit):
+    return [tuple(float(r[f"{name}.{c}"]) / unit for c in "xyz") for r in rows]
+
+
+def first_order_forces(step, reference, u):
+    """(84) with T_R, per element; e, t and t.u'."""
+    result = []
+    for a, b, p, q, l in zip(reference, reference[1:], u, u[1:], step.lengths):
+        slope, du = tuple((y - x) / l for x, y in zip(a, b)), tuple((y - x) / l for x, y in zip(p, q))
+        s = norm(slope)
+        t = tuple(c / s for c in slope)
+        e = s - 1 if s - 1 > 1e-9 else 0.0
+        s = s if e > 0 else 1.0
+        strain = dot(t, du)
+        result.append((tuple(step.stiffness * (e * tk + (e * dk + strain * tk) / s) for tk, dk in zip(t, du)), e, t, strain))
+    return result
+
+
+def check_first_order(scene, step, folder, said):
+    """Balance, (80)-(82), (79) with C of (77), (86) and (87); where nothing balances, a displacement that lowers the energy for ever."""
+    rows = table(os.path.join(folder, "out", "first-order.csv"))
+    force = scene.length * scene.weight
+    reference, u = vectors(rows, "reference", scene.length), vectors(rows, "u", scene.length)
+    rub, push = vectors(rows, "friction", force), [float(r["reaction"]) / force for r in rows]
+    line = said.split("C of (77)")[1].split("\n")[0]
+    verdict = next((v for words, v in FIRST_ORDER if words in line), line)
+    elements = first_order_forces(step, reference, u)
+    free = [j for j in range(len(u)) if j not in step.held]
+    unit = max([norm(b) for b in step.load] + [sum(norm(b) for b in step.load)])
+    along = [dot(p, step.normal) for p in u]
+    slid = [tuple(c - a * n for c, n in zip(p, step.normal)) for p, a in zip(u, along)]
+    touches = [h is not None and h <= 1e-9 for h in step.height]
+    need(verdict != "undecided", f"P10.1 not decided: {said}")
+    if verdict == "unbalanced":
+        far = max(norm(p) for p in u)
+        quadratic = sum(l * step.stiffness / 2 * (e * dot(d, d) + w * w) for l, (_, e, _, w), d in
+                        ((l, q, tuple((b - a) / l for a, b in zip(p1, p2))) for l, q, p1, p2 in zip(step.lengths, elements, u, u[1:]))) / far ** 2
+        pull = sum(dot(step.load[j], u[j]) - step.bound[j] * norm(slid[j]) for j in free)
+        pull -= sum(dot(tuple(step.stiffness * e * c for c in t), sub(q, p)) for (_, e, t, _), p, q in zip(elements, u, u[1:]))
+        need(min([0.0] + [along[j] / far for j in free if touches[j]]) >= -1e-3, "P10.1: the ray leads into the bed")
+        need(pull / far > 0 and quadratic <= 0.02 * pull / far, f"P10.1 said to have no minimum: a ray with power {pull / far}, stiffness {quadratic}")
+        return
+    for j in free:
+        rest = [b + push[j] * n + f for b, n, f in zip(step.load[j], step.normal, rub[j])]
+        for side in (-1, 1):
+            i = j - (side < 0)
+            if 0 <= i < len(elements):
+                rest = [a + side * c for a, c in zip(rest, elements[i][0])]
+        need(norm(rest) <= 2e-6 * unit, f"P10.1: {rest} left at node {j}")
+        need(norm(rub[j]) <= step.bound[j] * (1 + 1e-6) + 1e-9 * unit, f"P10.1: friction beyond its bound at node {j}")
+        need(step.bound[j] * norm(slid[j]) + dot(rub[j], slid[j]) <= 1e-6 * unit * max(norm(slid[j]), 1e-3), f"P10.1: (81), (82) at node {j}")
+        need(push[j] >= -1e-9 * unit and (touches[j] or push[j] == 0), f"P10.1: reaction {push[j]} at node {j}")
+        need(not touches[j] or (along[j] >= -1e-6 and push[j] * along[j] <= 1e-6 * unit), f"P10.1: (77), (79) at node {j}: {along[j]}")
+    least = min([math.inf] + [w for _, e, _, w in elements if e == 0])
+    limit = 1e-6 * unit / step.stiffness
+    if least < -2 * limit or least > -0.5 * limit:
+        need((least < -limit) == (verdict == "shortens"), f"P10.1: least strain {least} of slack elements, said {verdict}")
+    if verdict != "shortens":
+        _, e, t, _ = elements[-1]
+        over = [0.0, 0.0, 0.0]
+        if scene.count not in step.held and e == 0:
+            f = scene.steps[-1][1]
+            over = [c - max(0.0, dot(f, t)) * tk for c, tk in zip(f, t)]
+            if touches[-1] and dot(over, step.normal) < 0:
+                over = [c - dot(over, step.normal) * n for c, n in zip(over, step.normal)]
+        if not 1e-10 < norm(over) / unit < 1e-8:
+            need((norm(over) > 1e-9 * unit) == (verdict == "mesh"), f"P10.1: {over} across the slack end, said {verdict}")
+
+
+# ---- the four verbs ----
 
 def check_study(scene, capstan, folder):
     done = call(capstan, folder, "study", "scene.yaml", "--step", f"s{len(scene.steps) - 1}", "-o", "out")
@@ -231,6 +306,7 @@ def check_study(scene, capstan, folder):
         y, left = minimise(step, *p)
         own, found = step.functional(y, *p), float(row["total"]) / unit
         need(abs(own - found) <= margin + 1e-9 * size + 1e-13 / step.lengths[0], f"P5.5 at {p}: {found}, expected {own}")
+    check_first_order(scene, step, folder, done.stdout)
 
 
 def check_history(scene, capstan, folder):

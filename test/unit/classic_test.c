@@ -236,7 +236,7 @@ static void first_order_against_differences(void **state) {
         double across = 0.6 * rub[3 * j] + 0.8 * rub[3 * j + 2];
         rub[3 * j] -= 0.6 * across, rub[3 * j + 2] -= 0.8 * across;
     }
-    CpsiFirstOrder f = {&copy, 3 * ELEMENTS, tangent, stretch, strain, u, anchor, rub, push, gradient, 4, 0.3};
+    CpsiFirstOrder f = {&copy, 3 * ELEMENTS, tangent, stretch, strain, copy.own.gap, u, anchor, rub, push, gradient, 4, 0.3};
     CpsiSmooth smooth = cpsi_first_order_smooth(&f);
     double g[COORDINATES], before[COORDINATES], after[COORDINATES], a[COORDINATES * (CPSI_FIRST_ORDER_BAND + 1)] = {0};
     smooth.gradient(smooth.user, x, g);
