@@ -7,17 +7,22 @@
  * attained by some V(s). As s falls, V(s) goes to a motion where there is one, and beyond all bounds where there is
  * none (a limit of V(s) would be a motion). phi falls like a power of the distance: where it falls like its -p-th,
  * |V(s)| grows like s to the -1/(1 + p). */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/larger.h"
 #include "base/status.h"
+#include "drive/kinematics.h"
 #include "drive/motion.h"
 
 /* The two frictions, relative to the size of forces, and the growth of |V| that means none: |V| grows as s^(-1/5) at
- * least for sets as flat as |x|^(4/3), a motion as far as 100 W would have to lie between the two. */
-static const double STRONG = 1e-5, WEAK = 1e-9, GROWTH = 5, FAR = 50;
+ * least for sets as flat as |x|^(4/3), and stays where a motion needs less than 1e4 times the driving velocity. */
+static const double STRONG = 1e-8, WEAK = 1e-11, GROWTH = 3, FAR = 100;
+
+/* As of the bounds in certificate.c. */
+static const double ROUNDING = 16*DBL_EPSILON;
 
 static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion"); }
 
@@ -89,7 +94,40 @@ static CpsStatus with_friction(const CpsMotion *motion, double s, double *veloci
     return status;
 }
 
-CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsError *err) {
+/* phi less the load's power at V, with the rounding of both: of powers that may cancel to nothing. */
+static double value_at(const CpsMotion *motion) {
+    double phi = 0, terms = fabs(motion->report.load_power), speed = 0;
+    for (int j = 0; j < motion->system->n; j++) speed = cpsi_larger(speed, fabs(motion->velocity[j]));
+    for (int l = 0; l < motion->system->laws; l++)
+        phi += motion->share[l].potential, terms += fabs(motion->share[l].potential);
+    return phi - motion->report.load_power + ROUNDING*(terms + motion->force*speed);
+}
+
+/* The least value at V + t direction: farther on phi is lower, but lost in the rounding of two large powers. The forces are those
+ * that were found, and the lower bound with them. */
+static CpsStatus lower_value(CpsMotion *motion, const double *from, CpsError *err) {
+    const size_t n = (size_t)motion->system->n;
+    const CpsMotionReport found = motion->report;
+    double *best = malloc(n*sizeof *best), least = found.upper;
+    if (!best) return out_of_memory(err);
+    memcpy(best, motion->velocity, n*sizeof *best);
+    CpsStatus status = CPS_OK;
+    for (double t = 1e3; status == CPS_OK && t < 1e9; t *= 10) {
+        for (size_t j = 0; j < n; j++) motion->velocity[j] = from[j] + t*motion->driven*motion->direction[j];
+        status = cpsi_motion_certify(motion, NULL, err);
+        const double value = value_at(motion);
+        if (value < least) least = value, memcpy(best, motion->velocity, n*sizeof *best);
+    }
+    memcpy(motion->velocity, best, n*sizeof *best);
+    free(best);
+    if (status == CPS_OK) status = cpsi_motion_certify(motion, NULL, err);
+    motion->report.lower = fmin(found.lower, least);
+    motion->report.value = motion->report.upper = least;
+    motion->report.minimum = least - motion->report.lower;
+    return status;
+}
+
+CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsiKinematics *kinematics, CpsError *err) {
     const size_t n = (size_t)motion->system->n;
     if (!(motion->driven > 0)) return CPS_OK; /* rest dissipates nothing */
     double *near = calloc(2*n, sizeof *near), *far = near ? near + n : NULL, near_size, far_size = 0, most = 0;
@@ -98,8 +136,12 @@ CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsError *err) {
     if (status == CPS_OK) status = with_friction(motion, WEAK*motion->force, far, &far_size, err);
     if (status == CPS_OK && near_size > 0 && far_size > GROWTH*near_size && far_size > FAR*motion->driven) {
         motion->report.outcome = CPS_MOTION_NOT_ATTAINED;
-        for (size_t j = 0; j < n; j++) far[j] -= near[j], most = fmax(most, fabs(far[j]));
-        for (size_t j = 0; j < n; j++) motion->direction[j] = far[j]/most;
+        /* what the drive imposes is no part of the direction */
+        memset(near, 0, n*sizeof *near);
+        cpsi_kinematics_project(kinematics, motion->driving, near);
+        for (size_t j = 0; j < n; j++) near[j] = far[j] - near[j], most = fmax(most, fabs(near[j]));
+        for (size_t j = 0; j < n; j++) motion->direction[j] = near[j]/most;
+        status = lower_value(motion, far, err);
     }
     free(near);
     return status;

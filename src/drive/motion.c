@@ -229,7 +229,7 @@ static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics, const CpsMo
 /* Forces that touch a curved set at one point only are known to the root of their rounding along its boundary, and so is the
  * power that they bound. */
 static void widen(CpsMotionReport *report, double power) {
-    report->lower -= sqrt(DBL_EPSILON)*power;
+    report->lower -= sqrt(16*DBL_EPSILON)*power;
     report->minimum = report->upper - report->lower;
 }
 
@@ -274,7 +274,7 @@ CpsStatus cps_system_solve(const CpsSystem *system, const double *driving, const
     if (status == CPS_OK && possible && chosen.composition) {
         status = cpsi_motion_composition(system, chosen.boundary, &report->composition, &report->iterations, err);
         if (status == CPS_OK && report->composition == CPS_COMPOSE_NOT_SATISFIED && report->outcome != CPS_MOTION_BLOCKED)
-            status = cpsi_motion_attained(motion, err);
+            status = cpsi_motion_attained(motion, kinematics, err);
         if (report->outcome == CPS_MOTION_NOT_ATTAINED) widen(report, motion->force*motion->driven);
     }
     cpsi_kinematics_free(kinematics);

@@ -3,6 +3,7 @@
 #ifndef CAPSTAN_SRC_DRIVE_MOTION_H
 #define CAPSTAN_SRC_DRIVE_MOTION_H
 
+#include "drive/kinematics.h"
 #include "drive/system_program.h"
 #include "drive/system.h"
 
@@ -38,7 +39,7 @@ CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program
 
 /* Makes the outcome CPS_MOTION_NOT_ATTAINED where the infimum is (attained.c); asked where Proposition 1's condition does not
  * hold. */
-CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsError *err);
+CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsiKinematics *kinematics, CpsError *err);
 
 /* Where the forces in the middle of all that balance lie in the laws' sets. */
 CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsComposition *composition,

@@ -179,7 +179,10 @@ static bool project_moved(const CpsSet *set, const double *p, double *nearest) {
 bool cpsi_closed_project(const CpsSet *set, const double *p, double *nearest) {
     const int n = set->n;
     switch (set->kind) {
-    case CPSI_SET_POINTS: return set->count <= 2 && (project_segment(set, p, nearest), true);
+    case CPSI_SET_POINTS:
+        if (set->hull) cpsi_hull_project(set->hull, p, nearest);
+        else if (set->count <= 2) project_segment(set, p, nearest);
+        return set->hull || set->count <= 2;
     case CPSI_SET_BALL: {
         double distance = 0;
         for (int i = 0; i < n; i++) distance = hypot(distance, p[i] - set->a[i]);
@@ -240,6 +243,9 @@ bool cpsi_closed_gauge(const CpsSet *set, const double *p, double *value) {
         return cc < square*(1 - 1e-6);
     }
     case CPSI_SET_ELLIPSOID: return gauge_ellipsoid(set, p, value);
+    case CPSI_SET_POINTS:
+        if (set->hull) *value = cpsi_hull_gauge(set->hull, p);
+        return set->hull != NULL;
     case CPSI_SET_BOX:
         for (int i = 0; i < n; i++)
             if (p[i] != 0) *value = fmax(*value, p[i] > 0 ? p[i]/fmax(set->b[i], 0) : p[i]/fmin(set->a[i], -0.0));

@@ -22,6 +22,11 @@ static void count_own(const CpsSet *set, CpsiCount *count) {
     const size_t n = (size_t)set->n, items = (size_t)set->count;
     switch (kind_of(set)) {
     case CPSI_SET_POINTS:
+        if (set->hull) {
+            count->equations += n - (size_t)set->hull->dimension;
+            count->rows += (size_t)set->hull->rows, count->cones += (size_t)set->hull->rows;
+            break;
+        }
         count->equations += n;
         if (items == 1) break;
         count->equations += 1, count->unknowns += items, count->rows += items, count->cones += items;
@@ -85,7 +90,32 @@ static double *unknown(CpsiRaw *raw, double *affine) {
     return affine;
 }
 
+/* out += sum of a_i X_i */
+static void add_product(const CpsiRaw *raw, int n, double factor, const double *a, const double *x, double *out) {
+    for (int i = 0; i < n; i++)
+        if (a[i] != 0) add(raw, factor*a[i], &x[(size_t)i*(size_t)raw->width], out);
+}
+
+/* by facets */
+static void emit_hull(CpsiRaw *raw, const CpsiHull *hull, const double *x, const double *t) {
+    const size_t n = (size_t)hull->n;
+    for (size_t k = 0; k < n - (size_t)hull->dimension; k++) {
+        double *equation = cpsi_raw_equation(raw);
+        for (size_t i = 0; i < n; i++) balance(raw, hull->normal[k*n + i], &x[i*(size_t)raw->width], equation);
+        balance(raw, -hull->level[k], t, equation);
+    }
+    for (int k = 0; k < hull->rows; k++) {
+        double *row = cpsi_raw_cone(raw, 1);
+        add_product(raw, hull->n, -1, &hull->row[(size_t)k*n], x, row);
+        add(raw, hull->offset[k], t, row);
+    }
+}
+
 static void emit_points(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
+    if (set->hull) {
+        emit_hull(raw, set->hull, x, t);
+        return;
+    }
     const int n = set->n, first = raw->next;
     /* X = sum factor_k point_k, factors >= 0 that add up to t */
     double *equation = NULL;
@@ -135,12 +165,6 @@ static void emit_box(CpsiRaw *raw, const CpsSet *set, const double *x, const dou
             add(raw, -1, xi, row), add(raw, set->b[i], t, row);
         }
     }
-}
-
-/* out += sum of a_i X_i */
-static void add_product(const CpsiRaw *raw, int n, double factor, const double *a, const double *x, double *out) {
-    for (int i = 0; i < n; i++)
-        if (a[i] != 0) add(raw, factor*a[i], &x[(size_t)i*(size_t)raw->width], out);
 }
 
 static void emit_inequalities(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {

@@ -138,6 +138,12 @@ static CpsiZero known_primitive(const CpsSet *set, const double *zero) {
     case CPSI_SET_RAYS:
     case CPSI_SET_POLAR: return CPSI_ZERO_INSIDE;
     case CPSI_SET_POINTS:
+        if (set->hull) {
+            for (int i = 0; i < set->n - set->hull->dimension; i++)
+                if (fabs(set->hull->level[i]) > 1e-14*set->hull->size) return CPSI_ZERO_UNKNOWN;
+            margin = cpsi_hull_margin(set->hull, zero);
+            return margin > least ? CPSI_ZERO_RELATIVE : margin >= 0 ? CPSI_ZERO_INSIDE : CPSI_ZERO_UNKNOWN;
+        }
         if (set->count != 1 || cpsi_norm(set->n, set->a) > 0) return CPSI_ZERO_UNKNOWN;
         return CPSI_ZERO_RELATIVE;
     case CPSI_SET_BOX:

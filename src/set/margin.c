@@ -115,7 +115,9 @@ static bool inner_radius(const CpsSet *set, const double *p, double *radius) {
     const int n = set->n;
     double least = INFINITY, part = 0;
     switch (set->kind) {
-    case CPSI_SET_POINTS: *radius = 0; return set->count <= 2 && (n > 1 || set->count == 1);
+    case CPSI_SET_POINTS:
+        *radius = set->hull && set->hull->dimension == n ? cpsi_hull_margin(set->hull, p) : 0;
+        return set->hull || (set->count <= 2 && (n > 1 || set->count == 1));
     case CPSI_SET_BALL:
         for (int i = 0; i < n; i++) part = hypot(part, p[i] - set->a[i]);
         *radius = set->scalar - part;
@@ -162,7 +164,7 @@ bool cpsi_closed_margin(const CpsSet *set, const double *p, double *separating, 
     }
     const int n = set->n;
     double distance = 0;
-    const bool inside = inner_radius(set, p, margin) && *margin >= 0 && set->kind != CPSI_SET_POINTS;
+    const bool inside = inner_radius(set, p, margin) && *margin >= 0 && (set->kind != CPSI_SET_POINTS || (set->hull && set->hull->dimension == n));
     if (inside && (set->kind != CPSI_SET_SUBSPACE || set->count == n)) {
         if (separating) memset(separating, 0, (size_t)n*sizeof *separating);
         return true;

@@ -72,6 +72,7 @@ void cps_set_release(CpsSet *set) {
     for (int k = 0; set->part && k < set->count; k++) cps_set_release(set->part[k]);
     cpsi_form_free(set->form);
     cpsi_form_free(set->dual);
+    cpsi_hull_free(set->hull);
     free(set);
 }
 

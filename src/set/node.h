@@ -8,6 +8,7 @@
 #include "base/status.h"
 #include "capstan/set.h"
 #include "set/form.h"
+#include "set/hull.h"
 
 /* kind: its arrays in `data` */
 typedef enum CpsiSetKind {
@@ -44,6 +45,7 @@ struct CpsSet {
     void *user;
     CpsiForm *form;        /* conic form where questions need it at once, else NULL */
     CpsiForm *dual;
+    CpsiHull *hull;        /* of points: their facets, where they are known */
     bool touching;         /* its parts meet without an interior: what is written of it is its form (touching.c) */
 };
 

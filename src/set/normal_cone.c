@@ -239,8 +239,29 @@ static CpsStatus cone_of_moved(const CpsSet *set, const double *p, double tolera
     return status;
 }
 
+/* The rays of the facets that p lies on, and the normals of the span both ways. */
+static CpsStatus cone_of_hull(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsError *err) {
+    const CpsiHull *hull = set->hull;
+    const size_t n = (size_t)set->n, lines = n - (size_t)hull->dimension;
+    double *rays = malloc(((size_t)hull->rows + 2*lines)*n*sizeof *rays);
+    if (!rays) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
+    const double near = tolerance*cpsi_set_size(set);
+    size_t count = 0;
+    for (int k = 0; k < hull->rows; k++) {
+        const double *row = &hull->row[(size_t)k*n];
+        if (hull->offset[k] - cpsi_dot(set->n, row, p) <= near)
+            memcpy(&rays[count++*n], row, n*sizeof *rays);
+    }
+    for (size_t l = 0; l < 2*lines; l++, count++)
+        for (size_t i = 0; i < n; i++) rays[count*n + i] = (l % 2 ? -1 : 1)*hull->normal[l/2*n + i];
+    const CpsStatus status = cps_set_cone_of_rays(set->n, (int)count, rays, out, err);
+    free(rays);
+    return status;
+}
+
 static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
                          CpsError *err) {
+    if (set->hull) return cone_of_hull(set, p, tolerance, out, err);
     switch (set->kind) {
     case CPSI_SET_PRODUCT: return cone_of_product(set, p, tolerance, out, answer, err);
     case CPSI_SET_TRANSLATE:

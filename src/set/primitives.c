@@ -6,6 +6,9 @@
 #include "linsys/small.h"
 #include "set/node.h"
 
+/* Segments and triangles are written by their points, as what lies in spaces that are larger. */
+enum { LEAST_POINTS = 4, MOST_COMPONENTS = 64 };
+
 static CpsStatus check_space(const char *call, int n, CpsSet **out, CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: out is NULL, expected a place for the set", call);
     if (n < 1 || n > CPS_SET_MAX_SPACE)
@@ -30,8 +33,15 @@ CpsStatus cps_set_hull_of_points(int n, int count, const double *points, CpsSet 
     if (status) return status;
     const size_t size = (size_t)n*(size_t)count;
     status = cpsi_set_new(CPSI_SET_POINTS, n, count, NULL, size, out, err);
-    if (!status) memcpy((*out)->a, points, size*sizeof *points);
-    return status;
+    if (status) return status;
+    memcpy((*out)->a, points, size*sizeof *points);
+    if (count < LEAST_POINTS || n > MOST_COMPONENTS) return CPS_OK;
+    bool known;
+    (*out)->hull = cpsi_hull_new(n, count, points, &known);
+    if ((*out)->hull || !known) return CPS_OK;
+    cps_set_release(*out);
+    *out = NULL;
+    return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the hull of points");
 }
 
 CpsStatus cps_set_point(int n, const double *point, CpsSet **out, CpsError *err) {

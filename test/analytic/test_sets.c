@@ -305,7 +305,7 @@ static void margins_inside(void **state) {
     DO(cps_set_preimage(2, turn, NULL, image, &preimage, &err));
     margin(preimage, 1, 0, sqrt(1 - 1.0 / 8), true);
     DO(cps_set_hull_of_points(2, 4, (const double[]){1, 0, -1, 0, 0, 1, 0, -1}, &cross, &err));
-    margin(cross, 0.25, 0, 0.75 / sqrt(2), false);
+    margin(cross, 0.25, 0, 0.75 / sqrt(2), true);
     DO(cps_set_polar(cross, &polar, &err)); /* the square */
     margin(polar, 0.25, 0.5, 0.5, true);
     DO(cps_set_box(2, low, high, &box, &err));

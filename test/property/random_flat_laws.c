@@ -12,38 +12,19 @@
  * The motion must be solved with bounds that hold gamma, and the reduced law must dissipate gamma too. */
 #include <math.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "capstan/drive.h"
+#include "random_case.h"
 
 enum { MOST_N = 4, SPACE = 3, MOST_ROWS = 3 };
 
 /* Of the size of W and the set: the library promises 1e-8 of it for motions, and 1e-9 with the map's condition for sets. */
 static const double VALUE = 1e-7;
 
-static uint64_t state, seed;
 static int failures;
-
-static double uniform(double low, double high) {
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30))*0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27))*0x94d049bb133111ebu;
-    return low + (high - low)*(double)((z ^ (z >> 31)) >> 11)*0x1p-53;
-}
-
-static int below(int bound) { return (int)uniform(0, bound); }
-static int digit(int most) { return below(2*most + 1) - most; }
-
-static CpsError err;
-
-static void need(CpsStatus status, const char *call) {
-    if (status == CPS_OK) return;
-    fprintf(stderr, "seed %llu: %s: %s\n", (unsigned long long)seed, call, err.message);
-    exit(1);
-}
 
 /* ---- exact elimination in integers ---- */
 

@@ -13,12 +13,12 @@
  *   - an admissible velocity that dissipates no more than V lies in the set of all V
  *   - a disc that touches the balancing forces with its boundary is found out       Proposition 1's condition */
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "capstan/drive.h"
+#include "random_case.h"
 
 enum { MOST_N = 10, MOST_LAWS = 6, MOST_DIM = 3, MOST_POINTS = 6, MOST_COMPONENTS = MOST_LAWS*MOST_DIM, MOST_ROWS = 4 };
 
@@ -33,33 +33,13 @@ static const double LINEAR = 1e-11;
  * factor 10 for how steeply phi rises beside them. */
 static const double PUSH = 1e-5;
 
-/* ---- random numbers: splitmix64 ---- */
-
-static uint64_t state, seed;
 static int failures;
-
-static double uniform(double low, double high) {
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30))*0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27))*0x94d049bb133111ebu;
-    return low + (high - low)*(double)((z ^ (z >> 31)) >> 11)*0x1p-53;
-}
-
-static int below(int bound) { return (int)uniform(0, bound); }
 
 /* written so that NaN is a fault */
 static void check(const char *what, double got, double bound) {
     if (got <= bound) return;
     fprintf(stderr, "seed %llu: %s: %.3g, allowed %.3g\n", (unsigned long long)seed, what, got, bound);
     failures++;
-}
-
-static CpsError err;
-
-static void need(CpsStatus status, const char *call) {
-    if (status == CPS_OK) return;
-    fprintf(stderr, "seed %llu: %s: %s\n", (unsigned long long)seed, call, err.message);
-    exit(1);
 }
 
 static double dot(int n, const double *a, const double *b) {

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Random numbers of a case (splitmix64), and calls that must work, for the property tests of laws and systems. */
+#ifndef CAPSTAN_TEST_RANDOM_CASE_H
+#define CAPSTAN_TEST_RANDOM_CASE_H
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "capstan/base.h"
+
+/* The stream, and the number of the case that messages give. */
+static uint64_t state, seed;
+
+static inline double uniform(double low, double high) {
+    uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30))*0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27))*0x94d049bb133111ebu;
+    return low + (high - low)*(double)((z ^ (z >> 31)) >> 11)*0x1p-53;
+}
+
+static inline int below(int bound) { return (int)uniform(0, bound); }
+
+/* from -most to most */
+static inline int digit(int most) { return below(2*most + 1) - most; }
+
+static CpsError err;
+
+static inline void need(CpsStatus status, const char *call) {
+    if (status == CPS_OK) return;
+    fprintf(stderr, "seed %llu: %s: %s\n", (unsigned long long)seed, call, err.message);
+    exit(1);
+}
+
+#endif
