@@ -18,7 +18,7 @@
  * obstacle, a >= 0 its compliance, c = r + what friction follows that reaction); k_i >= 0; a_i > 0, or a_i < 0 as long as k_i I + m_i m_i^T/a_i >= 0 (an element softer along itself than across). Without skew, eliminating the
  * tensions would leave a positive definite matrix, so no pivot vanishes in the orders used. Keeping the tension t_i as an
  * unknown keeps stiff elements exact: a_i may be as small as 0+ beside k_i of order one, where the condensed stiffness
- * m m^T/a would drown everything else. D of a point, whose xz and yz are 0 but for skew, may be as stiff in whatever direction: what it
+ * m m^T/a would drown everything else. D of a point, whose skew is 0 unless its xz and yz are, may be as stiff in whatever direction: what it
  * does is an unknown of its own. */
 #ifndef CAPSTAN_SRC_LINSYS_LINSYS_H
 #define CAPSTAN_SRC_LINSYS_LINSYS_H

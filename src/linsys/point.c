@@ -2,26 +2,47 @@
 /* Points of elements (point.h). */
 #include "linsys/point.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "linsys/frame.h"
 
+/* Of Jacobi's method; three matrix entries are done after four or five. */
+enum { SWEEPS = 10 };
+
+/* What is left of the symmetric m (3, 3) beside its diagonal in p and q: below rounding of these? */
+static bool is_diagonal(const double m[9], int p, int q) { return fabs(m[3*p + q]) <= DBL_EPSILON*sqrt(fabs(m[4*p]*m[4*q])); }
+
+/* One turn of Jacobi's in the plane of p and q: m becomes J m J^T with no m_pq, and turn J turn. */
+static void turn_plane(double m[9], double turn[9], int p, int q) {
+    const double zeta = m[3*p + q] == 0 ? INFINITY : (m[4*q] - m[4*p])/(2*m[3*p + q]);
+    const double t = (zeta < 0 ? -1 : 1)/(fabs(zeta) + hypot(1, zeta)), c = 1/hypot(1, t), s = c*t;
+    const int r = 3 - p - q;
+    const double pq = m[3*p + q], pr = m[3*p + r], qr = m[3*q + r];
+    m[4*p] -= t*pq, m[4*q] += t*pq;
+    m[3*p + q] = m[3*q + p] = 0;
+    m[3*p + r] = m[3*r + p] = c*pr - s*qr;
+    m[3*q + r] = m[3*r + q] = s*pr + c*qr;
+    for (int i = 0; i < 3; i++) {
+        const double a = turn[3*p + i], b = turn[3*q + i];
+        turn[3*p + i] = c*a - s*b, turn[3*q + i] = s*a + c*b;
+    }
+}
+
 CpsiPointLaw cpsi_point_law(const CpsiMatrix *a, int j) {
     const double *d = &a->diagonal[6*(a->n + j)], *skew = &a->skew[2*(a->n + j)], *q = &a->frame[9*(a->n + j)];
-    /* one turn of Jacobi's */
-    const double zeta = d[1] == 0 ? INFINITY : (d[2] - d[0])/(2*d[1]);
-    const double tangent = (zeta < 0 ? -1 : 1)/(fabs(zeta) + hypot(1, zeta));
-    const double cosine = 1/hypot(1, tangent), sine = cosine*tangent;
-    CpsiPointLaw law = {.e = {fmax(0, d[0] - tangent*d[1]), fmax(0, d[2] + tangent*d[1]), d[5]}, .cosine = cosine, .sine = sine};
+    double m[9] = {d[0], d[1], d[3], d[1], d[2], d[4], d[3], d[4], d[5]};
+    CpsiPointLaw law = {.turn = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    turn_plane(m, law.turn, 0, 1);
+    for (int i = 0; i < SWEEPS && !(is_diagonal(m, 0, 1) && is_diagonal(m, 0, 2) && is_diagonal(m, 1, 2)); i++)
+        turn_plane(m, law.turn, 0, 2), turn_plane(m, law.turn, 1, 2), turn_plane(m, law.turn, 0, 1);
     for (int i = 0; i < 3; i++) {
-        law.axes[i] = cosine*q[i] - sine*q[3 + i];
-        law.axes[3 + i] = sine*q[i] + cosine*q[3 + i];
-        law.axes[6 + i] = q[6 + i];
+        law.e[i] = i < 2 || d[3] != 0 || d[4] != 0 ? fmax(0, m[4*i]) : m[8];
+        for (int k = 0; k < 3; k++)
+            law.axes[3*i + k] = law.turn[3*i]*q[k] + law.turn[3*i + 1]*q[3 + k] + law.turn[3*i + 2]*q[6 + k];
         law.size[i] = fmax(1, fabs(law.e[i]));
     }
-    if (!(d[5] > 0)) return law;
-    law.c[0] = (cosine*skew[0] - sine*skew[1])/d[5];
-    law.c[1] = (sine*skew[0] + cosine*skew[1])/d[5];
+    for (int i = 0; i < 2 && d[5] > 0; i++) law.c[i] = (law.turn[3*i]*skew[0] + law.turn[3*i + 1]*skew[1])/d[5];
     return law;
 }
 
@@ -63,9 +84,7 @@ void cpsi_points_place(const CpsiMatrix *a, const double *t, double *x) {
             const double force = phi[i] - (i < 2 ? law.c[i]*phi[2] : 0);
             place[i] = (force + weight*((1 - b)*near[i] + b*far[i]))/(law.e[i] + weight);
         }
-        phi[0] = law.cosine*place[0] + law.sine*place[1];
-        phi[1] = law.cosine*place[1] - law.sine*place[0];
-        phi[2] = place[2];
+        cpsi_frame_from(phi, law.turn, place);
     }
     for (int i = 0; i < 3; i++) x[3*a->n + i] = 0; /* element 0 is none */
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Points of elements (linsys.h): what both back ends do with them.
  *
- * With the point's force phi = D x_p as an unknown, in axes Q_p whose tangents are turned to where D is diagonal,
+ * With the point's force phi = D x_p as an unknown, in axes Q_p turned to where D is diagonal,
  *
  *     E x_p - (phi - c phi_z) = 0,     E the diagonal of D, c = skew/zz,
  *
@@ -15,7 +15,7 @@ typedef struct CpsiPointLaw {
     double e[3], c[2];   /* E; c */
     double size[3];      /* what the equations are divided by */
     double axes[9];      /* Q_p */
-    double cosine, sine; /* of the turn of the tangents */
+    double turn[9];      /* takes the point's own axes to them */
 } CpsiPointLaw;
 
 /* That of element j's point. */

@@ -82,6 +82,20 @@ static Case random_case(uint64_t *state, double least) {
     return c;
 }
 
+/* D turned into other axes than the point's; no friction that follows then. */
+static void tilt(uint64_t *state, double d[6], double skew[2]) {
+    static const int ROW[6] = {0, 0, 1, 0, 1, 2}, COLUMN[6] = {0, 1, 1, 2, 2, 2};
+    const double m[3][3] = {{d[0], d[1], 0}, {d[1], d[2], 0}, {0, 0, d[5]}};
+    double q[9];
+    random_frame(state, q);
+    for (int k = 0; k < 6; k++) {
+        d[k] = 0;
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++) d[k] += q[3*ROW[k] + a]*m[a][b]*q[3*COLUMN[k] + b];
+    }
+    skew[0] = skew[1] = 0;
+}
+
 /* The same with points at every second element on the average: their stiffness along the normal, in one tangent or in both from nothing
  * up to 1e12, and friction that follows the normal one. */
 static Case random_points(uint64_t *state, double least) {
@@ -100,6 +114,7 @@ static Case random_points(uint64_t *state, double least) {
         d[0] = along*x*x + across*y*y, d[1] = (along - across)*x*y, d[2] = along*y*y + across*x*x, d[5] = normal;
         if (uniform(state) < 0.2) d[0] = d[1] = d[2] = 0;
         for (int a = 0; a < 2; a++) c.skew[2*(c.n + i) + a] = 0.1*normal*sign(state);
+        if (i%4 == 3) tilt(state, d, &c.skew[2*(c.n + i)]);
         for (int a = 0; a < 3; a++) c.f[3*(c.n + i) + a] = sign(state);
     }
     return c;
