@@ -225,7 +225,7 @@ typedef struct CpsLineView {
                                          near the lines where these lie more than 512 lengths away; same for all lines */
     /* Contact of an element with a round obstacle, at the point (1 - beta) x_e + beta x_{e+1} that was nearest to its axis or centre; its forces
      * act on the element's nodes by these shares. As above for that point, whose way is that of the point with this beta since the reference.
-     * All NULL where no obstacle is round, contact is strict or friction frozen; obstacle -1 and numbers without meaning where an element has none. */
+     * All NULL where no obstacle is round or contact is strict; obstacle -1 and numbers without meaning where an element has none. */
     const int *element_obstacle;          /* (elements) */
     const double *element_share;          /* (elements) [-] beta */
     const double *element_normal;         /* (elements, 3) [-] */

@@ -138,12 +138,14 @@ static bool clearance(const CpsiLine *line, const double *x, int e, int k, doubl
     return true;
 }
 
-/* The contact of element e at its base: with the obstacle that it has gone into, else with the one it has had, as long as that is near. */
+/* The contact of element e at its base: with the obstacle that it has gone into, else with the one it has had, as long as that is near. Frozen
+ * friction that acts stays, if it has to at the point where the element last faced the obstacle. */
 static void meet_element(CpsiLine *line, int e) {
     const int c = cpsi_line_contacts(line) + e;
     Kept now = {.on = -1, .gap = INFINITY, .state = CPS_NODE_FREE};
     const Kept before = keep(line, c);
     double least = INFINITY;
+    if (is_kept(line, c)) return;
     for (int k = 0; k < line->obstacle_count; k++) {
         double share, gap;
         if (!clearance(line, line->base, e, k, &share, &gap)) continue;
@@ -178,14 +180,19 @@ static void see(CpsiLine *line, int c) {
     for (int a = 0; a < 3; a++) line->curvature[3*c + a] = line->normal[3*c + a] = 0;
 }
 
-/* The axes of frozen friction: those at the reference, whatever obstacle the contact has come to. */
+/* The axes of frozen friction: those at the reference, whatever obstacle the contact has come to; of an element at the point that was nearest
+ * then. */
 static void freeze(CpsiLine *line, int c) {
-    const int j = cpsi_line_node(line, c);
-    double curvature[3], *axes = &line->first_axes[9*c];
+    const int e = cpsi_line_element(line, c);
+    double curvature[3], share, gap, *axes = &line->first_axes[9*c];
     memcpy(axes, line->common, sizeof line->common);
     if (line->on[c] < 0) return;
-    cpsi_obstacle_axes(&line->obstacle[line->on[c]], vec3_load(&line->reference[3*j]), direction(line, line->reference, j), axes,
-                       curvature);
+    Vec3 x = cpsi_line_place(line, line->reference, c);
+    if (e >= 0 && clearance(line, line->reference, e, line->on[c], &share, &gap)) {
+        const Vec3 a = vec3_load(&line->reference[3*e]), b = vec3_load(&line->reference[3*(e + 1)]);
+        x = vec3_axpy(share, vec3_sub(b, a), a);
+    }
+    cpsi_obstacle_axes(&line->obstacle[line->on[c]], x, direction_at(line, line->reference, c), axes, curvature);
 }
 
 /* The reference of the node on the obstacle of contact c, carried along as it turns. */
@@ -413,7 +420,7 @@ static double turn_of_element(const CpsiLine *line, int e) {
     const Vec3 a = vec3_load(&line->position[3*e]), along = direction_at(line, line->position, c);
     cpsi_obstacle_axes(&line->obstacle[k], vec3_axpy(share, along, a), along, now, curvature);
     double turned = fabs(share - line->beta[e]);
-    for (int row = 0; row < 3; row += 2)
+    for (int row = line->frozen ? 2 : 0; row < 3; row += 2)
         turned = fmax(turned, vec3_norm(vec3_sub(vec3_load(&now[3*row]), vec3_load(&line->axes[9*c + 3*row]))));
     return turned;
 }

@@ -2,7 +2,7 @@
 /* One line and its last step: the data that a step reads and the fields that it leaves. World axes, SI units.
  *
  * A node touches up to `contacts` obstacles at once. What belongs to a contact stands in arrays (contacts, n): contact c is the
- * first of node c, or the second of node c - n. Where there are round obstacles and friction is consistent elements touch as well: contact contacts n + e is that of
+ * first of node c, or the second of node c - n. Where there are round obstacles, and contact is not strict, elements touch as well: contact contacts n + e is that of
  * element e, at the point of it that was nearest to the axis or centre. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H

@@ -97,7 +97,7 @@ static void contact_axes(const CpsiLine *line, const CpsiChainProgram *program, 
 /* The tangents of contact c's friction, and their normal, in the axes of its node: frozen friction keeps its own. */
 static void friction_axes(const CpsiLine *line, const CpsiChainProgram *program, int c, double axes[9]) {
     if (!line->frozen) contact_axes(line, program, c, axes);
-    else cpsi_frame_relative(axes, cpsi_line_axes(line, c), &program->frame[9*cpsi_line_node(line, c)]);
+    else cpsi_frame_relative(axes, cpsi_line_axes(line, c), &program->frame[9*node_of(line, c)]);
 }
 
 static double tried_or(const CpsiStepScale *scale, double bound) {

@@ -41,12 +41,11 @@ static bool scene_follows(const CpsScene *scene) {
     return cpsi_obstacle_follows(&only);
 }
 
-/* Are elements kept out of obstacles, beside the nodes?  Of round ones, with consistent friction: strict contact and frozen friction are those
- * of S90, which know nodes alone. */
+/* Are elements kept out of obstacles, beside the nodes?  Of round ones; strict contact is that of S90, which knows nodes alone. */
 static bool scene_keeps_elements_out(const CpsScene *scene) {
     bool round = false;
     for (int k = 0; k < scene->obstacle_count; k++) round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
-    return round && scene->contact == CPS_CONTACT_GAINED && scene->friction == CPS_FRICTION_CONSISTENT;
+    return round && scene->contact == CPS_CONTACT_GAINED;
 }
 
 static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {

@@ -4,7 +4,7 @@
  *
  * At the place reached: no node is below an obstacle; what pushes a node touches it, and along its own normal there. At the reference: friction
  * lies in the tangent plane, its bound is mu times the reaction of the step before, and it dissipates all that it can. A held end on an obstacle is
- * carried by the part of its support along the normal. */
+ * carried by the part of its support along the normal. Elements obey the same at one point each, no deeper than min(l^2/(4 R), R/4). */
 #include <stdio.h>
 #include <string.h>
 
@@ -68,7 +68,7 @@ static void build(Rig *rig, uint64_t seed) {
     const int round = chance(0, 1) < 0.5 ? 1 : 2;
     for (int i = 0; i < round; i++) {
         CpsObstacle *o = rig_obstacle(rig, chance(0, 1) < 0.5 ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE, chance(0, 0.8));
-        o->radius = chance(0.06, 0.4);
+        o->radius = seed % 3 ? chance(0.06, 0.4) : chance(0.01, 0.05); /* thin beside elements of 1/24 */
         o->point[0] = chance(-0.5, 0.5), o->point[1] = chance(-0.1, 0.1), o->point[2] = chance(0, 0.3);
         o->axis[0] = chance(-0.3, 0.3), o->axis[1] = 1, o->axis[2] = 0;
     }
@@ -91,39 +91,87 @@ static bool is_held(const CpsLineView *v, int j) {
 
 /* What the steps before leave: reactions by node and obstacle. */
 typedef struct Before {
-    double reaction[RIG_OBSTACLES][ELEMENTS + 1];
+    double reaction[RIG_OBSTACLES][ELEMENTS + 1], element[RIG_OBSTACLES][ELEMENTS];
     bool known;
 } Before;
 
 typedef struct Worst {
     double open, depth, normal, across, bound, beyond, balance, support;
+    int elements; /* contacts of elements with a reaction */
 } Worst;
 
 static int obstacle_of(const CpsLineView *v, int c) { return v->obstacle ? v->obstacle[c] : 0; }
 
-/* A contact of a free node; adds its forces to `sum`. */
-static void look_at(const Rig *rig, const CpsLineView *v, const Before *before, int c, double largest, double *sum, Worst *w, double *law) {
-    const int j = c % (v->elements + 1), k = obstacle_of(v, c);
-    const double *x = &v->position[3 * j], *from = &v->reference[3 * j], *f = &v->friction[3 * c], reaction = v->reaction[c];
-    double n[3], first[3], slide = 0, along = 0;
-    const double open = distance(&rig->obstacle[k], x, n);
-    distance(&rig->obstacle[k], from, first);
-    double u[3] = {x[0] - from[0], x[1] - from[1], x[2] - from[2]};
-    const double rise = dot(u, first);
+/* What touches an obstacle: a node, or a point of an element. */
+typedef struct Touch {
+    int obstacle;
+    double x[3], from[3], normal[3], friction[3]; /* its place, that at the reference, and what the view says */
+    double first[3];                              /* normal of the plane of friction */
+    double depth, reaction, bound, due;           /* how deep it may lie; due: mu times the reaction of the step before */
+} Touch;
+
+static void look_at(const Rig *rig, const Touch *t, bool known, double largest, double *sum, Worst *w, double *law) {
+    double n[3], u[3];
+    const double open = distance(&rig->obstacle[t->obstacle], t->x, n) + t->depth;
+    for (int a = 0; a < 3; a++) u[a] = t->x[a] - t->from[a];
+    const double rise = dot(u, t->first);
     for (int a = 0; a < 3; a++) {
-        sum[a] += f[a] + reaction * v->normal[3 * c + a];
-        u[a] -= rise * first[a];
-        if (reaction > 0) w->normal = fmax(w->normal, fabs(v->normal[3 * c + a] - n[a]));
+        sum[a] += t->friction[a] + t->reaction * t->normal[a];
+        u[a] -= rise * t->first[a];
+        if (t->reaction > 0) w->normal = fmax(w->normal, fabs(t->normal[a] - n[a]));
     }
-    slide = size(u), along = dot(f, u);
-    if (reaction > 1e-6 * largest) w->open = fmax(w->open, fabs(open));
-    w->across = fmax(w->across, fabs(dot(f, first)) / largest);
-    w->beyond = fmax(w->beyond, (size(f) - v->friction_bound[c]) / largest);
-    *law += v->friction_bound[c] * slide + along;
-    if (before->known) {
-        const double due = rig->obstacle[k].friction * before->reaction[k][j];
-        /* a node that the step before left apart has none */
-        if (v->friction_bound[c] > 0) w->bound = fmax(w->bound, fabs(v->friction_bound[c] - due) / largest);
+    if (t->reaction > 1e-6 * largest) w->open = fmax(w->open, fabs(open));
+    w->across = fmax(w->across, fabs(dot(t->friction, t->first)) / largest);
+    w->beyond = fmax(w->beyond, (size(t->friction) - t->bound) / largest);
+    *law += t->bound * size(u) + dot(t->friction, u);
+    /* what the step before left apart has none */
+    if (known && t->bound > 0) w->bound = fmax(w->bound, fabs(t->bound - t->due) / largest);
+}
+
+/* A contact of a free node; adds its forces to `sum`. */
+static void look_at_node(const Rig *rig, const CpsLineView *v, const Before *before, int c, double largest, double *sum, Worst *w, double *law) {
+    const int j = c % (v->elements + 1), k = obstacle_of(v, c);
+    Touch t = {.obstacle = k, .reaction = v->reaction[c], .bound = v->friction_bound[c], .due = rig->obstacle[k].friction * before->reaction[k][j]};
+    memcpy(t.x, &v->position[3 * j], sizeof t.x), memcpy(t.from, &v->reference[3 * j], sizeof t.from);
+    memcpy(t.normal, &v->normal[3 * c], sizeof t.normal), memcpy(t.friction, &v->friction[3 * c], sizeof t.friction);
+    distance(&rig->obstacle[k], t.from, t.first);
+    look_at(rig, &t, before->known, largest, sum, w, law);
+}
+
+/* The share of the way from a to b at which the straight piece is nearest to an obstacle; below 0 or above 1 where that is an end. */
+static double nearest(const CpsObstacle *o, const double *a, const double *b) {
+    double d0[3], d1[3];
+    for (int k = 0; k < 3; k++) d0[k] = a[k] - o->point[k], d1[k] = b[k] - a[k];
+    const double axis = size(o->axis), rise = dot(d0, o->axis) / axis, lift = dot(d1, o->axis) / axis;
+    for (int k = 0; k < 3 && o->kind == CPS_OBSTACLE_CYLINDER; k++) d0[k] -= rise * o->axis[k] / axis, d1[k] -= lift * o->axis[k] / axis;
+    return -dot(d0, d1) / dot(d1, d1);
+}
+
+static void look_at_element(const Rig *rig, const CpsLineView *v, const Before *before, int e, double largest, double *sum, Worst *w, double *law) {
+    const int k = v->element_obstacle[e];
+    const double b = v->element_share[e], l = v->element_length[e], radius = rig->obstacle[k].radius;
+    const double *x = &v->position[3 * e], *from = &v->reference[3 * e];
+    Touch t = {.obstacle = k, .reaction = v->element_reaction[e], .bound = v->element_friction_bound[e], .depth = fmin(l * l / radius, radius) / 4,
+               .due = rig->obstacle[k].friction * before->element[k][e]};
+    double facing = nearest(&rig->obstacle[k], from, from + 3), touched[3];
+    if (!(facing > 0 && facing < 1)) facing = b;
+    for (int a = 0; a < 3; a++) {
+        t.x[a] = (1 - b) * x[a] + b * x[3 + a], t.from[a] = (1 - b) * from[a] + b * from[3 + a];
+        touched[a] = (1 - facing) * from[a] + facing * from[3 + a];
+    }
+    distance(&rig->obstacle[k], touched, t.first);
+    memcpy(t.normal, &v->element_normal[3 * e], sizeof t.normal), memcpy(t.friction, &v->element_friction[3 * e], sizeof t.friction);
+    w->elements += t.reaction > 0;
+    look_at(rig, &t, before->known, largest, sum, w, law);
+}
+
+/* What the contacts of the elements beside node j do on it. */
+static void add_elements(const CpsLineView *v, int j, double *sum) {
+    for (int e = j - 1; v->element_obstacle && e <= j; e++) {
+        if (e < 0 || e >= v->elements || v->element_obstacle[e] < 0) continue;
+        const double part = e == j ? 1 - v->element_share[e] : v->element_share[e];
+        for (int a = 0; a < 3; a++)
+            sum[a] += part * (v->element_friction[3 * e + a] + v->element_reaction[e] * v->element_normal[3 * e + a]);
     }
 }
 
@@ -139,6 +187,7 @@ static void audit(const Rig *rig, const CpsLineView *v, const CpsLineReport *rep
             if (j < v->elements) sum[a] += v->segment_force[3 * j + a];
             if (j > 0) sum[a] -= v->segment_force[3 * (j - 1) + a];
         }
+        add_elements(v, j, sum);
         if (is_held(v, j)) {
             if (!(v->reaction[j] > 0)) continue;
             w->open = fmax(w->open, fabs(distance(&rig->obstacle[obstacle_of(v, j)], &v->position[3 * j], normal)));
@@ -146,8 +195,12 @@ static void audit(const Rig *rig, const CpsLineView *v, const CpsLineReport *rep
             w->support = fmax(w->support, fabs(v->reaction[j] + dot(sum, normal)) / largest);
             continue;
         }
-        for (int c = j; c < v->contacts * n; c += n) look_at(rig, v, before, c, largest, sum, w, &law);
+        for (int c = j; c < v->contacts * n; c += n) look_at_node(rig, v, before, c, largest, sum, w, &law);
         w->balance = fmax(w->balance, size(sum) / largest);
+    }
+    for (int e = 0; v->element_obstacle && e < v->elements; e++) {
+        double unused[3] = {0};
+        if (v->element_obstacle[e] >= 0) look_at_element(rig, v, before, e, largest, unused, w, &law);
     }
     CHECK_LESS(law, 1e-8 * report->certificate.scale + 1e-300); /* what the certificate promises */
 }
@@ -157,13 +210,15 @@ static void remember(const CpsLineView *v, Before *before) {
     memset(before, 0, sizeof *before);
     before->known = true;
     for (int c = 0; c < v->contacts * n; c++) before->reaction[obstacle_of(v, c)][c % n] = v->reaction[c];
+    for (int e = 0; v->element_obstacle && e < v->elements; e++)
+        if (v->element_obstacle[e] >= 0) before->element[v->element_obstacle[e]][e] = v->element_reaction[e];
 }
 
 static void check_worst(const Worst *w, uint64_t seed) {
     if (!(w->open < 1e-8 && w->depth < 1e-9)) print_error("seed %d\n", (int)seed);
     CHECK_LESS(w->depth, 1e-9);    /* the touch of a line of length 1 */
     CHECK_LESS(w->open, 1e-8);     /* of reactions above 1e-6 of the largest force: gap/R, and rounding */
-    CHECK_LESS(w->normal, 1e-12);  /* rounding, over radii above 0.06 */
+    CHECK_LESS(w->normal, 1e-12);  /* rounding, over radii above 0.01 */
     CHECK_LESS(w->across, 1e-12);
     CHECK_LESS(w->beyond, 1e-12);
     CHECK_LESS(w->bound, 1e-12);
@@ -173,7 +228,7 @@ static void check_worst(const Worst *w, uint64_t seed) {
 
 static void random_scenes(void **state) {
     (void)state;
-    int steps = 0, solved = 0, pressed = 0;
+    int steps = 0, solved = 0, pressed = 0, elements = 0;
     for (uint64_t seed = 1; seed <= SCENES; seed++) {
         Rig rig;
         build(&rig, seed);
@@ -196,9 +251,11 @@ static void random_scenes(void **state) {
             remember(&view, &before);
         }
         check_worst(&worst, seed);
+        elements += worst.elements;
         cps_evolution_destroy(evolution);
     }
-    printf("%d steps, %d solved after the first, %d contacts with a reaction\n", steps, solved, pressed);
+    printf("%d steps, %d solved after the first, %d contacts with a reaction, and %d of elements\n", steps, solved, pressed, elements);
+    CHECK_GREATER(elements, 10);
     CHECK_GREATER(solved, 2 * SCENES); /* three to nine steps a scene */
     CHECK_GREATER(pressed, 10 * SCENES);
 }

@@ -378,11 +378,13 @@ static double reaction_on(const Record *r, size_t j, double obstacle) {
 static void judge_element_bound(const Record *r, const Record *before, size_t c, double largest, double shared, bool all,
                                 Judge *judge) {
     const double w = r->friction_bound[c], R = before->obstacle[c] == r->obstacle[c] ? before->reaction[c] : 0;
-    const double expected = r->mu[c] * R;
+    const double expected = before->mu[c] * R; // with the zone's factor at the point where that reaction was
     if (r->obstacle[c] < 0 || (w == 0 && !all && R <= 1e-3 * largest + NOTHING)) return;
     // the mean of two factors, and as of a node
     const size_t i = c - r->contacts * r->nodes;
     double noise = r->factor_noise ? fmax(r->factor_noise[i], r->factor_noise[i + 1]) * R * fmax(1, r->mu[c]) : 0;
+    // rounds leave the point where they found it to 1e-10 of the element, the factor changes along that
+    if (r != before && r->factor) noise += 1e-9 * fabs(r->factor[i + 1] - r->factor[i]) * R * fmax(1, r->mu[c]);
     if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared))
         find(judge, "friction bound %.9g on element %zu, expected %.9g times the reaction %.9g", w,
              i, r->mu[c], R);

@@ -362,23 +362,41 @@ static void point_of(Vector *place, size_t i, Real t, Triple out) {
     for (int k = 0; k < 3; k++) out[k] = (1 - t) * place[i][k] + t * place[i + 1][k];
 }
 
-/* What the point x of an element, with its reference, sees of surface `on` where it is; `along` is the element's direction and `depth` how
- * deep it may lie. */
-static Seat element_seat(const Where *where, const Record *r, const Surface *on, const Real *x, const Real *reference,
-                         const Real *along, Real depth) {
+/* The plane of friction of element i on surface `on`, and its direction there: those of its point that is nearest to the obstacle. Frozen
+ * friction has them from the reference, at the share t where none was nearest between the nodes. */
+static void element_plane(const Record *r, const Surface *on, size_t i, bool frozen, Real t, const Real *x, Triple plane, Triple along) {
+    Vector *nodes = frozen ? r->reference : r->position;
+    Triple a, b, from;
+    subtract(nodes[i + 1], nodes[i], along);
+    widen(nodes[i], a), widen(nodes[i + 1], b);
+    const Real facing = surface_facing(on, a, b);
+    point_of(nodes, i, facing > 0 && facing < 1 ? facing : t, from);
+    surface_normal(on, frozen ? from : x, plane);
+}
+
+/* What the point x of element i at the share t, with its reference, sees of surface `on`, in which it may lie by `depth`. */
+static Seat element_seat(const Where *where, const Record *r, const Surface *on, size_t i, Real t, const Real *x, const Real *reference,
+                         Real depth) {
     Seat seat = {.surface = on};
-    Triple carried, u;
+    Triple carried, u, along;
     const Real turn = (Real)r->share * r->turn[on - where->source->surface];
     for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];
-    surface_normal(on, x, seat.normal), surface_normal(on, x, seat.plane);
+    surface_normal(on, x, seat.normal);
+    element_plane(r, on, i, where->frozen, t, x, seat.plane, along);
     surface_carry(on, reference, turn, carried);
     // the point goes round at its own depth: what friction works on is shorter than the way of its foot
     Surface within = *on;
     within.radius -= depth;
     surface_way(&within, carried, x, seat.slide);
+    if (where->frozen) { // straight, in the plane of the reference
+        for (int k = 0; k < 3; k++) seat.slide[k] = x[k] - carried[k];
+        const Real rise = dot(seat.slide, seat.plane);
+        for (int k = 0; k < 3; k++) seat.slide[k] -= rise * seat.plane[k];
+    }
     surface_way(&within, reference, x, seat.own);
+    for (int k = 0; k < 3 && turn == 0; k++) seat.own[k] = seat.slide[k];
     seat.gap = surface_distance(on, x) + depth - dot(seat.normal, u);
-    seat.has_axes = surface_axes(on, seat.normal, along, seat.axes);
+    seat.has_axes = surface_axes(on, seat.plane, along, seat.axes);
     return seat;
 }
 
@@ -399,16 +417,19 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     point_of(r->position, i, t, x), point_of(r->reference, i, t, reference);
     widen(r->position[i], a), widen(r->position[i + 1], b), subtract(r->position[i + 1], r->position[i], along);
     widen(r->normal[c], n), widen(r->friction[c], F), widen(r->slide[c], slide);
-    const Seat seat = element_seat(where, r, on, x, reference, along, surface_allowance(on, r->element_length[i]));
+    const Seat seat = element_seat(where, r, on, i, t, x, reference, surface_allowance(on, r->element_length[i]));
     const Real factor = r->factor ? (1 - t) * r->factor[i] + t * r->factor[i + 1] : 1;
     r->mu[c] = (double)(factor * surface_friction(on));
     // where it is, against what it says
     if (on->kind == SURFACE_PLANE) m->misplaced++;
-    raise_to(&m->share_error, fabsl(surface_facing(on, a, b) - t) * size(along));
+    // frozen friction acts on what has left the surface as well, where it last was
+    const Real facing = surface_facing(on, a, b);
+    const bool left = where->frozen && R == 0;
+    if (!left || (facing > 0 && facing < 1)) raise_to(&m->share_error, fabsl(facing - t) * size(along));
     for (int k = 0; k < 3; k++) n[k] -= seat.normal[k], slide[k] -= seat.slide[k], start[k] = x[k] - seat.slide[k];
     raise_to(&m->normal_error, size(n) / (1 + where->reach / on->radius));
     raise_to(&m->slide_error, size(slide));
-    if (r->friction_bound[c] > 0) raise_to(&m->gone_quarters, surface_angle(on, reference, x) / QUARTER);
+    if (r->friction_bound[c] > 0 && !left) raise_to(&m->gone_quarters, surface_angle(on, reference, x) / QUARTER);
     if (isfinite(r->gap[c])) raise_to(&m->gap_error, fabsl(gap - seat.gap));
     // what it does
     widen(r->normal[c], n);

@@ -455,7 +455,7 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
                      record->friction_bound + from, record->reaction + from, record->obstacle + from, record->share_of};
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
-        record->has_elements |= source->surface[k].kind != SURFACE_PLANE && source->consistent && !source->strict;
+        record->has_elements |= source->surface[k].kind != SURFACE_PLANE && !source->strict;
     for (size_t k = 0; k < 8 && record->has_elements; k++)
         bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);
     for (size_t i = from; i < from + n && !bad; i++) {
