@@ -56,6 +56,7 @@ typedef struct All {
 /* All there is of one motion. */
 typedef struct Solutions {
     All velocities, forces, resistances;
+    bool asked, known, continuous; /* Proposition 2, second half: of small systems */
 } Solutions;
 
 static int force_components(const CpsSystem *system) {
@@ -211,6 +212,8 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
     if (s->loaded && isfinite(r->load_factor)) printf("up to %.6g times as much can be balanced\n", r->load_factor);
     if (s->loaded && isinf(r->load_factor)) puts("any multiple of it can be balanced");
     printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition), cps_composition_sentence(r->composition));
+    if (all->asked && all->known && !all->continuous)
+        puts("  Proposition 2: phi is continuous at no velocity that agrees with W, and a minimum of it need not be a motion");
     printf("  residuals: drive %.1e, constraints %.1e, equilibrium %.1e, laws %.1e; power gap %.1e of %.3g W\n",
            r->drive, r->constraint, r->equilibrium, r->outside, fmax(r->law, 0), r->scale);
 }
@@ -263,6 +266,7 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions 
     json_all("forces", &all->forces);
     json_all("resistances", &all->resistances);
     drive_json_word("composition", cps_composition_name(r->composition));
+    if (all->asked && all->known) printf(", \"continuous\": %s", all->continuous ? "true" : "false");
     drive_json("load_power_W", r->load_power);
     drive_json("load_factor", r->load_factor);
     printf(", \"residuals\": {\"drive\": ");
@@ -282,6 +286,8 @@ static bool tell_motion(DriveRun *run, const double *velocity, int i) {
     bool good = cps_system_solve(s->system, velocity, NULL, &motion, &run->err) == CPS_OK &&
                 ask_all(run, motion, VELOCITIES, &all.velocities) && ask_all(run, motion, FORCES, &all.forces) &&
                 ask_all(run, motion, RESISTANCES, &all.resistances);
+    all.asked = s->parameters + force_components(s->system) <= MOST_DENSE;
+    if (good && all.asked) good = cps_motion_continuous(motion, &all.known, &all.continuous, &run->err) == CPS_OK;
     if (good && run->json) {
         printf("%s{\"velocity\": ", i ? ",\n    " : "\n    ");
         law_json_vector(s->driven, velocity, stdout);

@@ -197,6 +197,10 @@ CPS_API const double *cps_motion_law_velocity(const CpsMotion *motion, int k); /
 CPS_API const double *cps_motion_law_force(const CpsMotion *motion, int k);    /* F_k */
 CPS_API const CpsMotionShare *cps_motion_law_share(const CpsMotion *motion, int k);
 
+/* Is phi finite and continuous at a velocity that agrees with W?  Then its minima are the motions, also where there is none
+ * (Proposition 2, second half). It is wherever the laws' sets are bounded. Dense; *known false: rounding kept the answer. */
+CPS_API CpsStatus cps_motion_continuous(const CpsMotion *motion, bool *known, bool *holds, CpsError *err);
+
 /* ---- paths W(t) ---- */
 
 /* One interval of a path, with its ledger [J]: driven + load = dissipated + imbalance. */

@@ -152,7 +152,7 @@ CPS_API CpsStatus cps_resistance_dry(const CpsLaw *law, CpsResistance **out, Cps
 
 /* Linear viscosity: F = -D V, phi = <V, D V>/2 (Rayleigh), power 2 phi; D (n x n) in N s/m. Refused: a matrix that is
  * not symmetric (to 1e-12 of its largest entry), because its force is no subdifferential (M70 section 7), or not
- * positive definite. */
+ * positive semidefinite. A singular one is kept as the power of degree 2 of the flat ellipsoid {L y : |y| <= 1}, D = L L'. */
 CPS_API CpsStatus cps_resistance_viscous(int n, const double *matrix, CpsResistance **out, CpsError *err);
 
 /* h(g) = factor g^degree / degree: power = degree x phi. degree > 1, factor >= 0. Refused: a degree below 1, for which

@@ -88,6 +88,8 @@ CPS_API CpsStatus cps_set_inequalities(int n, int count, const double *rows, con
 CPS_API CpsStatus cps_set_subspace(int n, int count, const double *spanning, CpsSet **out, CpsError *err);
 /* The convex cone of `count` >= 0 rays (count x n): all their sums with factors >= 0. */
 CPS_API CpsStatus cps_set_cone_of_rays(int n, int count, const double *rays, CpsSet **out, CpsError *err);
+/* The second-order cone {(F, N) : |F| <= friction N}, F of n - 1 components, N the last; n >= 2, friction >= 0. */
+CPS_API CpsStatus cps_set_friction_cone(int n, double friction, CpsSet **out, CpsError *err);
 CPS_API CpsStatus cps_set_segment(int n, const double *from, const double *to, CpsSet **out, CpsError *err);
 
 /* A set known by its support function: write max over x of <direction, x> to *value and a point that attains it to

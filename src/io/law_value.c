@@ -127,19 +127,29 @@ static CpsStatus take_pairs(const CpsiLawFile *f, const CpsiYaml *node, const Cp
     return status;
 }
 
+/* An end of a side: without end on its own side only. */
+static CpsStatus end_of_side(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what, double side,
+                             double *out) {
+    double x = NAN;
+    const bool plain = node->kind == CPSI_YAML_SCALAR && node->plain && cpsi_yaml_number(node->text, &x);
+    if (!plain || x != side) return number(f, node, key, what, out);
+    *out = side;
+    return CPS_OK;
+}
+
 /* b for [-b, b], or [low, high] */
 static CpsStatus take_side(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
                            double *low, double *high) {
     static const CpsiLawKey HALF = {.low = 0};
     if (node->kind == CPSI_YAML_SCALAR) {
-        const CpsStatus status = number(f, node, &HALF, what, high);
+        const CpsStatus status = end_of_side(f, node, &HALF, what, INFINITY, high);
         *low = -*high;
         return status;
     }
     if (node->kind != CPSI_YAML_SEQUENCE || node->count != 2)
         return cpsi_law_wrong(f, node, what, "a number b for -b .. b, or two, as in [-1, 2]");
-    const CpsStatus status = number(f, node->child, key, what, low);
-    return status ? status : number(f, node->child->next, key, what, high);
+    const CpsStatus status = end_of_side(f, node->child, key, what, -INFINITY, low);
+    return status ? status : end_of_side(f, node->child->next, key, what, INFINITY, high);
 }
 
 static CpsStatus take_sides(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,

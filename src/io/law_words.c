@@ -82,6 +82,14 @@ static CpsStatus make_subspace(Values v, CpsiLawMade *made, CpsError *err) {
     return cps_set_subspace(v[0].columns, v[0].rows, v[0].x, &made->set, err);
 }
 
+static CpsStatus make_rays(Values v, CpsiLawMade *made, CpsError *err) {
+    return cps_set_cone_of_rays(v[0].columns, v[0].rows, v[0].x, &made->set, err);
+}
+
+static CpsStatus make_friction_cone(Values v, CpsiLawMade *made, CpsError *err) {
+    return cps_set_friction_cone((int)v[1].x[0], v[0].x[0], &made->set, err);
+}
+
 /* ---- operations ---- */
 
 static const CpsSet *const *sets(Values v) { return (const CpsSet *const *)v->set; }
@@ -189,14 +197,14 @@ static CpsStatus term_table(Values v, CpsiLawMade *made, CpsError *err) {
 
 static const CpsiLawWord SET_WORDS[] = {
     {"point", {{NULL, VECTOR, ""}}, make_point, false, "a point"},
-    {"interval", {{NULL, PLAIN(SIDE), ""}}, make_interval, false, "b for -b .. b, or [low, high]"},
+    {"interval", {{NULL, PLAIN(SIDE), ""}}, make_interval, false, "b for -b .. b, or [low, high]; ends may be .inf"},
     {"disc", {{NULL, AT_LEAST_0, ""}}, make_disc, false, "disc in the plane around 0: its radius"},
     {"ball", {{"radius", AT_LEAST_0, "radius"}, {"dimension", DIMENSION, "number of components"}}, make_ball, false,
      "ball around 0"},
     {"ellipse", {{NULL, LENGTHS, ""}}, make_ellipse, false, "semi-axes along the components"},
     {"ellipsoid", {{NULL, PLAIN(SQUARE), ""}}, make_ellipsoid, false,
      "{x : x' S^-1 x <= 1}: the matrix S, symmetric positive definite"},
-    {"box", {{NULL, PLAIN(SIDES), ""}}, make_box, false, "per component a half width or [low, high]"},
+    {"box", {{NULL, PLAIN(SIDES), ""}}, make_box, false, "per component a half width or [low, high]; ends may be .inf"},
     {"segment", {{NULL, PLAIN(ENDS), ""}}, make_segment, false, "between two points"},
     {"polytope", {{NULL, PLAIN(MATRIX), ""}}, make_polytope, false, "convex hull of points"},
     {"strip", {{"normal", VECTOR, "direction across"}, {"width", AT_LEAST_0, "width, in units of 1/|normal|"}}, make_strip,
@@ -206,6 +214,9 @@ static const CpsiLawWord SET_WORDS[] = {
     {"inequalities", {{"rows", PLAIN(MATRIX), "one normal per row"}, {"offsets", OFFSETS, "one per row"}}, make_inequalities,
      true, "<row, x> <= offset for each row"},
     {"subspace", {{NULL, PLAIN(MATRIX), ""}}, make_subspace, false, "spanned by the rows"},
+    {"rays", {{NULL, PLAIN(MATRIX), ""}}, make_rays, false, "all sums of these rays with factors of at least 0"},
+    {"friction_cone", {{"friction", AT_LEAST_0, "coefficient f"}, {"dimension", DIMENSION, "number of components, N the last"}},
+     make_friction_cone, false, "{(F, N) : |F| <= f N}"},
     {"product", {{NULL, PLAIN(SETS), ""}}, make_product, false, "components one after the other"},
     {"intersection", {{NULL, PLAIN(SETS), ""}}, make_intersection, true, "common points"},
     {"sum", {{NULL, PLAIN(SETS), ""}}, make_sum, true, "Minkowski sum"},
@@ -230,7 +241,7 @@ static const CpsiLawWord LAW_WORDS[] = {
 
 static const CpsiLawWord TERM_WORDS[] = {
     {"dry", {{NULL, PLAIN(LAW), ""}}, term_dry, false, "dissipation function of a set"},
-    {"viscous", {{NULL, PLAIN(SQUARE), ""}}, term_viscous, false, "<V, D V>/2: the matrix D, N s/m"},
+    {"viscous", {{NULL, PLAIN(SQUARE), ""}}, term_viscous, false, "<V, D V>/2: the matrix D, positive semidefinite, N s/m"},
     {"power", {{"degree", NUMBER, "above 1"}, {"factor", NUMBER, "not negative"}, {"of", PLAIN(LAW), "set"}}, term_power,
      false, "factor g^degree/degree"},
     {"table", {{"points", PLAIN(PAIRS), "[speed, factor], speeds from 0, factors not falling"}, {"of", PLAIN(LAW), "set"}},

@@ -19,6 +19,19 @@ typedef struct Maps {
 
 static double grid(const CpsDriveSystem *s, int i) { return s->map_radius * (2.0 * i / (GRID - 1) - 1); }
 
+/* Velocities below this share of the largest of all maps are rounding: the root of what the bounds leave open. */
+static const double ROUNDING = 1e-7;
+
+/* A parameter that rests everywhere has a plain map. */
+static void clear_rounding(Maps *m) {
+    const size_t count = (size_t)GRID * GRID * (size_t)m->parameters;
+    double most = m->file->system.map_radius;
+    for (size_t i = 0; i < count; i++)
+        if (isfinite(m->velocity[i])) most = fmax(most, fabs(m->velocity[i]));
+    for (size_t i = 0; i < count; i++)
+        if (fabs(m->velocity[i]) <= ROUNDING * most) m->velocity[i] = 0;
+}
+
 static CpsStatus solve_grid(Maps *m, CpsError *err) {
     const CpsDriveSystem *s = &m->file->system;
     CpsMotionOptions options = cps_motion_options_default();
@@ -38,6 +51,7 @@ static CpsStatus solve_grid(Maps *m, CpsError *err) {
         cps_motion_destroy(motion);
         if (m->progress && (at + 1) % GRID == 0) m->progress(m->user, (at + 1) / GRID, GRID);
     }
+    clear_rounding(m);
     return CPS_OK;
 }
 

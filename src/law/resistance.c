@@ -84,23 +84,79 @@ static CpsStatus check_symmetric(int n, const double *matrix, CpsError *err) {
     return CPS_OK;
 }
 
+/* D = L L' with the largest pivot first, L (n, rank) in the first columns of rows of n; false where D has a negative value. What is
+ * left below SYMMETRY of D is rounding. */
+static bool factor_semidefinite(int n, const double *matrix, double *l, int *rank) {
+    const size_t w = (size_t)n;
+    double largest = 0;
+    for (size_t i = 0; i < w; i++) largest = fmax(largest, fabs(matrix[i * w + i]));
+    if (cpsi_cholesky(n, matrix, l)) {
+        double least = INFINITY;
+        for (size_t i = 0; i < w; i++) least = fmin(least, l[i * w + i]);
+        if (least * least > SYMMETRY * largest) return *rank = n, true;
+    }
+    memset(l, 0, w * w * sizeof *l);
+    for (*rank = 0; *rank < n; ++*rank) {
+        const size_t k = (size_t)*rank;
+        double most = SYMMETRY * largest, left = 0;
+        int pivot = -1;
+        for (size_t i = 0; i < w; i++)
+            for (size_t j = 0; j < w; j++) {
+                const double rest = matrix[i * w + j] - cpsi_dot(*rank, &l[i * w], &l[j * w]);
+                left = fmax(left, fabs(rest));
+                if (i == j && rest > most) most = rest, pivot = (int)i;
+            }
+        if (pivot < 0) return left <= 10 * SYMMETRY * largest;
+        for (size_t i = 0; i < w; i++)
+            l[i * w + k] = (matrix[i * w + (size_t)pivot] - cpsi_dot(*rank, &l[i * w], &l[(size_t)pivot * w])) / sqrt(most);
+    }
+    return true;
+}
+
+/* g(V) = |L'V| of the flat ellipsoid L B, phi = g^2/2; without rank nothing resists. */
+static CpsStatus make_flat(int n, int rank, const double *l, CpsResistance **out, CpsError *err) {
+    CpsSet *ball = NULL, *flat = NULL;
+    const size_t w = (size_t)n, r = (size_t)rank;
+    double *map = malloc((w * r + 1) * sizeof *map);
+    if (!map) return out_of_memory(err);
+    for (size_t i = 0; i < w; i++)
+        for (size_t k = 0; k < r; k++) map[i * r + k] = l[i * w + k];
+    CpsStatus status = CPS_OK;
+    if (rank == 0) status = cps_set_ball(n, NULL, 1, &flat, err);
+    else {
+        status = cps_set_ball(rank, NULL, 1, &ball, err);
+        if (status == CPS_OK) status = cps_set_image(n, map, ball, &flat, err);
+    }
+    const CpsiTerm term = {.kind = CPSI_POWER, .set = flat, .degree = 2, .factor = rank > 0 ? 1 : 0};
+    if (status == CPS_OK) status = make_one(n, &term, out, err);
+    cps_set_release(ball);
+    cps_set_release(flat);
+    free(map);
+    return status;
+}
+
 CpsStatus cps_resistance_viscous(int n, const double *matrix, CpsResistance **out, CpsError *err) {
     if (!matrix || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "matrix or out is NULL");
     if (n < 1 || n > CPS_SET_MAX_SPACE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "n is %d, expected from 1 to %d", n, CPS_SET_MAX_SPACE);
-    const CpsStatus status = check_symmetric(n, matrix, err);
+    CpsStatus status = check_symmetric(n, matrix, err);
     if (status != CPS_OK) return status;
     double *factor = calloc((size_t)n * (size_t)n, sizeof *factor);
     if (!factor) return out_of_memory(err);
-    const bool definite = cpsi_cholesky(n, matrix, factor);
+    int rank = 0;
+    const bool semidefinite = factor_semidefinite(n, matrix, factor, &rank);
+    if (!semidefinite)
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "the viscous matrix is not positive definite, nor semidefinite: for some velocity its force gives "
+                           "power to the motion (phi < phi(0))");
+    else if (rank < n) status = make_flat(n, rank, factor, out, err);
+    else {
+        /* make_one only copies it */
+        const CpsiTerm term = {.kind = CPSI_VISCOUS, .data = (double *)matrix};
+        status = make_one(n, &term, out, err);
+    }
     free(factor);
-    if (!definite)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "the viscous matrix is not positive definite: for some velocity its force dissipates nothing, "
-                         "or gives power to the motion (phi < phi(0))");
-    /* make_one only copies it */
-    const CpsiTerm term = {.kind = CPSI_VISCOUS, .data = (double *)matrix};
-    return make_one(n, &term, out, err);
+    return status;
 }
 
 CpsStatus cps_resistance_power(const CpsLaw *law, double degree, double factor, CpsResistance **out, CpsError *err) {

@@ -104,6 +104,8 @@ void cpsi_pull_back(const CpsSet *image, const double *w, double *back);
 /* The largest t with p + t d in the set (INFINITY if all are), for p in the set. */
 CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSetAnswer *answer, CpsError *err);
 CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, CpsError *err);
+/* The recession cone of a set without users' parts. */
+CpsStatus cpsi_set_recession(const CpsSet *set, CpsSet **out, CpsError *err);
 /* The form of a set: its own, or one made for the caller, who frees *made. */
 CpsStatus cpsi_set_form(const CpsSet *set, const CpsiForm **form, CpsiForm **made, CpsError *err);
 

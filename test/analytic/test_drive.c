@@ -323,6 +323,36 @@ static void infimum_not_attained(void **state) {
     cps_motion_destroy(motion), cps_system_destroy(still);
 }
 
+/* phi of a half-line of forces F <= 0 is 0 for u <= 0 and infinite beyond: continuous at x = W only for W < 0; a line of forces has it
+ * nowhere, bounded laws everywhere. */
+static void continuity_of_phi(void **state) {
+    (void)state;
+    static const struct {
+        double low, high, w;
+        bool holds;
+    } CASE[] = {{-INFINITY, 0, -1, true}, {-INFINITY, 0, 0, false}, {-INFINITY, INFINITY, 0, false}, {-1, 2, 5, true}, {-1, INFINITY, 2, true},
+                {-1, INFINITY, 0, false}};
+    for (size_t k = 0; k < sizeof CASE/sizeof *CASE; k++) {
+        CpsSystem *system = NULL;
+        bool known, holds;
+        ok(cps_system_create(2, &system, &err));
+        add(system, "side", interval(CASE[k].low, CASE[k].high), 1, (const CpsEntry[]){{0, 0, 1}});
+        add(system, "table", interval(-1, 1), 1, (const CpsEntry[]){{0, 1, 1}});
+        ok(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err));
+        CpsMotion *motion = solve(system, &CASE[k].w);
+        ok(cps_motion_continuous(motion, &known, &holds, &err));
+        assert_true(known);
+        CHECK_INT(holds, CASE[k].holds);
+        cps_motion_destroy(motion);
+        /* free to move, x finds its own place inside: continuous, but for the line */
+        ok(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 1, 1}}, &err));
+        motion = solve(system, (const double[]){1});
+        ok(cps_motion_continuous(motion, &known, &holds, &err));
+        CHECK_INT(known && holds, k != 2);
+        cps_motion_destroy(motion), cps_system_destroy(system);
+    }
+}
+
 /* A load above the limit by one part in 1e7 to 1e12 has no balance, and the proof says so; below it it has. */
 static void loads_beside_the_limit(void **state) {
     (void)state;
@@ -544,6 +574,7 @@ int main(void) {
         cmocka_unit_test(bipod_about_one_support),
         cmocka_unit_test(loads),
         cmocka_unit_test(infimum_not_attained),
+        cmocka_unit_test(continuity_of_phi),
         cmocka_unit_test(loads_beside_the_limit),
         cmocka_unit_test(weak_beside_strong),
         cmocka_unit_test(resistances_that_are_open),

@@ -544,6 +544,63 @@ static void velocities_of_resistances(void **state) {
     cps_law_destroy(unit), cps_law_destroy(three), cps_law_destroy(flat);
 }
 
+/* D = a a' with a = (1, 2): phi = <a, V>^2/2; a force along a has a line of velocities, any other none. A matrix with a negative value is
+ * refused, one of zeros resists nothing. */
+static void semidefinite_viscosity(void **state) {
+    (void)state;
+    CpsResistance *law = NULL, *none = NULL;
+    CpsResistanceValue value;
+    CpsSet *velocities = NULL;
+    CpsSetAnswer answer;
+    CpsSetExtent extent;
+    assert_int_equal(cps_resistance_viscous(2, (double[]){1, 2, 2, 4}, &law, NULL), CPS_OK);
+    assert_int_equal(cps_resistance_value(law, (double[]){3, -1}, &value, NULL, NULL), CPS_OK);
+    CHECK_NEAR(value.potential, 0.5, EXACT), CHECK_NEAR(value.power, 1, EXACT);
+    assert_int_equal(cps_resistance_value(law, (double[]){2, -1}, &value, NULL, NULL), CPS_OK);
+    CHECK_NEAR(value.potential, 0, EXACT);
+    assert_int_equal(cps_resistance_velocities(law, (double[]){-2, -4}, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_extent(velocities, (double[]){1, 2}, &extent, NULL), CPS_OK);
+    CHECK_NEAR(extent.low, 2, 1e-8), CHECK_NEAR(extent.high, 2, 1e-8);
+    assert_int_equal(cps_set_extent(velocities, (double[]){2, -1}, &extent, NULL), CPS_OK);
+    assert_true(isinf(extent.low) && isinf(extent.high));
+    cps_set_release(velocities);
+    assert_int_equal(cps_resistance_velocities(law, (double[]){1, 0}, &velocities, &answer, NULL), CPS_OK);
+    CHECK_INT(answer.outcome, CPS_SET_OUTSIDE);
+    assert_int_equal(cps_resistance_viscous(2, (double[]){1, 2, 2, 3.9}, &none, NULL), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_resistance_viscous(2, (double[]){0, 0, 0, 0}, &none, NULL), CPS_OK);
+    assert_int_equal(cps_resistance_value(none, (double[]){3, -1}, &value, NULL, NULL), CPS_OK);
+    CHECK_NEAR(value.potential, 0, 0);
+    cps_resistance_destroy(law), cps_resistance_destroy(none);
+}
+
+/* {|F| <= f N}: finite phi, which is 0, for N's velocity v >= f |V| only; on the boundary one ray of velocities, at the tip those of the
+ * polar cone. */
+static void friction_cone(void **state) {
+    (void)state;
+    const double f = 0.5;
+    CpsSet *cone = NULL, *velocities = NULL;
+    CpsSetAnswer answer;
+    assert_int_equal(cps_set_friction_cone(3, f, &cone, NULL), CPS_OK);
+    for (int k = 0; k < 24; k++) {
+        const double a = 0.3*k, v[3] = {cos(a), sin(a), f*(k % 2 ? 1.001 : 0.999)}, tip[3] = {0, 0, 0};
+        assert_int_equal(cps_law_dissipation(cone, v, NULL, &answer, NULL), CPS_OK);
+        CHECK_INT(answer.outcome, k % 2 ? CPS_SET_ANSWERED : CPS_SET_UNBOUNDED);
+        const double force[3] = {2*f*cos(a), 2*f*sin(a), 2}, along[3] = {-cos(a), -sin(a), f};
+        assert_int_equal(cps_law_velocities(cone, force, 0, &velocities, &answer, NULL), CPS_OK);
+        CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+        double nearest[3];
+        assert_int_equal(cps_set_project(velocities, along, NULL, nearest, &answer, NULL), CPS_OK);
+        CHECK_NEAR(answer.value, 0, 1e-8);
+        cps_set_release(velocities);
+        assert_int_equal(cps_law_velocities(cone, tip, 0, &velocities, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_set_project(velocities, v, NULL, nearest, &answer, NULL), CPS_OK);
+        if (k % 2) CHECK_NEAR(answer.value, 0, 1e-8);
+        else CHECK_GREATER(answer.value, 1e-4);
+        cps_set_release(velocities);
+    }
+    cps_set_release(cone);
+}
+
 static void cones_with_lines(void **state) {
     (void)state;
     for (int k = 0; k < 24; k++) {
@@ -583,6 +640,8 @@ int main(void) {
         cmocka_unit_test(bipod),
         cmocka_unit_test(polygon_corners),
         cmocka_unit_test(velocities_of_resistances),
+        cmocka_unit_test(semidefinite_viscosity),
+        cmocka_unit_test(friction_cone),
         cmocka_unit_test(cones_with_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
