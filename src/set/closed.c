@@ -211,13 +211,35 @@ bool cpsi_closed_project(const CpsSet *set, const double *p, double *nearest) {
 
 /* ---- gauge ---- */
 
-/* Root for a ball of square radius `square` about c, given the products. */
+/* 0 lies on the boundary of a ball to this share of its square radius; further inside the root has its digits. */
+static const double THROUGH_ZERO = 1e-14, INSIDE = 1e-6;
+
+/* Has the root its digits?  Towards the centre it has them always. */
+static bool gauge_is_known(double square, double cc, double cx) {
+    return cx > 0 || fabs(square - cc) <= THROUGH_ZERO*square || cc < square*(1 - INSIDE);
+}
+
+/* Root for a ball of square radius `square` about c, given the products. With 0 on the boundary the ball's multiples fill the open
+ * half-space of its centre: |x|^2/2<c, x> there, else infinite. */
 static double gauge_ball(double square, double cc, double cx, double xx) {
     const double lead = square - cc;
     if (xx == 0) return 0;
+    if (fabs(lead) <= THROUGH_ZERO*square) return cx > 1e-15*sqrt(cc)*sqrt(xx) ? xx/(2*cx) : INFINITY;
     /* the form without cancellation */
     const double root = sqrt(cx*cx + lead*xx);
     return cx > 0 ? xx/(cx + root) : (root - cx)/lead;
+}
+
+/* shift NULL: none */
+static bool moved_ball_gauge(const CpsSet *ball, const double *shift, const double *p, double *value) {
+    double cc = 0, cx = 0;
+    for (int i = 0; i < ball->n; i++) {
+        const double c = ball->a[i] + (shift ? shift[i] : 0);
+        cc += c*c, cx += c*p[i];
+    }
+    const double square = ball->scalar*ball->scalar;
+    *value = gauge_ball(square, cc, cx, cpsi_dot(ball->n, p, p));
+    return gauge_is_known(square, cc, cx);
 }
 
 static bool gauge_ellipsoid(const CpsSet *set, const double *p, double *value) {
@@ -229,7 +251,7 @@ static bool gauge_ellipsoid(const CpsSet *set, const double *p, double *value) {
         cc += c*c, cx += c*x, xx += x*x;
     }
     *value = gauge_ball(1, cc, cx, xx);
-    return cc < 1 - 1e-6; /* with 0 on the boundary the root loses its digits */
+    return gauge_is_known(1, cc, cx);
 }
 
 bool cpsi_closed_gauge(const CpsSet *set, const double *p, double *value) {
@@ -237,11 +259,9 @@ bool cpsi_closed_gauge(const CpsSet *set, const double *p, double *value) {
     double part = 0;
     *value = 0;
     switch (set->kind) {
-    case CPSI_SET_BALL: {
-        const double square = set->scalar*set->scalar, cc = cpsi_dot(n, set->a, set->a);
-        *value = gauge_ball(square, cc, cpsi_dot(n, set->a, p), cpsi_dot(n, p, p));
-        return cc < square*(1 - 1e-6);
-    }
+    case CPSI_SET_BALL: return moved_ball_gauge(set, NULL, p, value);
+    case CPSI_SET_TRANSLATE:
+        return set->part[0]->kind == CPSI_SET_BALL && moved_ball_gauge(set->part[0], set->a, p, value);
     case CPSI_SET_ELLIPSOID: return gauge_ellipsoid(set, p, value);
     case CPSI_SET_POINTS:
         if (set->hull) *value = cpsi_hull_gauge(set->hull, p);

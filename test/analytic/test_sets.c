@@ -459,6 +459,23 @@ static void touching_sets(void **state) {
     cps_set_release(touch), cps_set_release(half), cps_set_release(ball);
 }
 
+/* The gauge of a ball with 0 on its boundary, in directions of which some have no multiple of it: |x|^2/2<c, x>. */
+static void gauge_through_zero(void **state) {
+    (void)state;
+    for (int k = 0; k < 48; k++) {
+        const double a = 0.13*k, r = 1 + 0.25*k, c[2] = {r*cos(1.7*k), r*sin(1.7*k)}, x[2] = {3*cos(a), 3*sin(a)};
+        const double along = c[0]*x[0] + c[1]*x[1];
+        CpsSet *ball = NULL;
+        CpsSetAnswer answer;
+        assert_int_equal(cps_set_ball(2, c, r, &ball, NULL), CPS_OK);
+        assert_int_equal(cps_set_gauge(ball, x, &answer, NULL), CPS_OK);
+        CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+        if (along > 0) CHECK_RELATIVE(answer.value, 9/(2*along), 1e-12);
+        else assert_true(isinf(answer.value));
+        cps_set_release(ball);
+    }
+}
+
 /* The hull of a disc and a half-plane below it is, closed, the half-plane up to the disc's top: its face there is the whole line. */
 static void face_of_an_unbounded_hull(void **state) {
     (void)state;
@@ -500,6 +517,7 @@ int main(void) {
         cmocka_unit_test(wheel_faces),        cmocka_unit_test(corners_between_arcs),
         cmocka_unit_test(ring_limit_surface), cmocka_unit_test(disc_limit_surface),
         cmocka_unit_test(rod_limit_surface),  cmocka_unit_test(bipod_face),
+        cmocka_unit_test(gauge_through_zero),
         cmocka_unit_test(touching_sets),
         cmocka_unit_test(face_of_an_unbounded_hull),
         cmocka_unit_test(thin_ellipses),      cmocka_unit_test(polygons_and_cut_discs),
