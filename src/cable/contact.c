@@ -392,6 +392,17 @@ double cpsi_contact_depth(const CpsiLine *line) {
     return depth;
 }
 
+/* How far the axes of contact c turn from what they were to `now`: its normal, and where friction is not frozen its tangent. An ellipse and
+ * a box are the same along a tangent and against it, as where a slack line turns back. */
+static double turn_of_axes(const CpsiLine *line, int c, const double now[9]) {
+    const double *before = &line->axes[9*c];
+    const Vec3 tangent = vec3_load(&now[0]), from = vec3_load(&before[0]);
+    const double normal = vec3_norm(vec3_sub(vec3_load(&now[6]), vec3_load(&before[6])));
+    if (line->frozen) return normal;
+    const double along = vec3_norm(vec3_sub(tangent, from)), against = vec3_norm(vec3_axpy(1, tangent, from));
+    return fmax(normal, cpsi_rub_set(line, c).given ? along : fmin(along, against));
+}
+
 /* How far the axes of node j turn from its base to its position, the tangent's turn counting where it matters: not where friction is
  * frozen. INFINITY where it has gone through an obstacle: of three that are equally near it rests on those that press. */
 static double turn_of(const CpsiLine *line, int j) {
@@ -403,10 +414,7 @@ static double turn_of(const CpsiLine *line, int j) {
         if (!line->pressed[c]) continue;
         double now[9], curvature[3];
         cpsi_obstacle_axes(&line->obstacle[line->on[c]], to, direction(line, line->position, j), now, curvature);
-        for (int row = line->frozen ? 2 : 0; row < 3; row += 2) {
-            const Vec3 change = vec3_sub(vec3_load(&now[3*row]), vec3_load(&line->axes[9*c + 3*row]));
-            turned = fmax(turned, vec3_norm(change));
-        }
+        turned = fmax(turned, turn_of_axes(line, c, now));
     }
     return turned;
 }
@@ -420,9 +428,7 @@ static double turn_of_element(const CpsiLine *line, int e) {
     const Vec3 a = vec3_load(&line->position[3*e]), along = direction_at(line, line->position, c);
     cpsi_obstacle_axes(&line->obstacle[k], vec3_axpy(share, along, a), along, now, curvature);
     double turned = fabs(share - line->beta[e]);
-    for (int row = line->frozen ? 2 : 0; row < 3; row += 2)
-        turned = fmax(turned, vec3_norm(vec3_sub(vec3_load(&now[3*row]), vec3_load(&line->axes[9*c + 3*row]))));
-    return turned;
+    return fmax(turned, turn_of_axes(line, c, now));
 }
 
 /* Is an element deeper in an obstacle than it may be?  Rounds do not end so. INFINITY where the next round has to meet an obstacle first, else

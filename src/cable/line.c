@@ -29,6 +29,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->pressed = line->follows ? CPSI_TAKE(arena, contacts, bool) : NULL;
     line->beta = line->element_contacts > 0 ? CPSI_TAKE(arena, n, double) : NULL;
     line->carries = line->follows ? CPSI_TAKE(arena, n, double) : NULL;
+    line->trail = line->follows ? CPSI_TAKE(arena, 6*(size_t)n, double) : NULL;
     if (line->follows) cpsi_ahead_layout(&line->ahead, arena, line->n);
     const bool inextensible = line->compliance == 0;
     line->tension_before = inextensible ? CPSI_TAKE(arena, n, double) : NULL;

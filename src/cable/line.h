@@ -59,6 +59,7 @@ typedef struct CpsiLine {
     bool *pressed;          /* (contacts, n) in the last solution: of reaction and distance, it is the reaction that is not 0 */
     bool gains;             /* contact is looked for everywhere */
     bool frozen;            /* friction keeps the bounds and axes of the reference while contact is looked for where the nodes are */
+    double *trail;          /* (n, 3) [m] where rounds with drag began to be watched */
     CpsiAhead ahead;        /* of the rounds of a step */
     /* where it is inextensible, else NULL: what its tensions and reactions were before the step, and room to choose among those after */
     double *tension_before;  /* (n - 1) [N] T_R */

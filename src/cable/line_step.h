@@ -18,6 +18,8 @@ typedef struct CpsiStepOptions {
     bool slow;    /* many rounds, that do not look ahead */
     bool turning; /* reactions turn with their normals within a round */
     bool trying;  /* bounds that are tried, not bounds that follow */
+    bool dragged; /* rounds that a drag may hold back */
+    double drag;  /* what it is in a round (step_program.h) */
 } CpsiStepOptions;
 
 /* From the line's position (and its reaction and state there) to the next equilibrium under line->end.

@@ -235,6 +235,7 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program, const
 
 void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale) {
     cpsi_chain_program_resize(program, line->n, line->follows);
+    program->drag = scale->drag;
     for (int j = 0; line->follows && j < line->n; j++) fill_axes(line, program, j);
     guess(line, program);
     fill_nodes(line, program, scale);

@@ -46,6 +46,10 @@ static const double PLACES = CPSI_TOUCH;
  * what is left is reported. */
 static const int JUMPS = 8;
 
+/* So many iterations times nodes spent on parts that do not converge end the cutting of a step: about a second of one processor. Each
+ * iteration costs as much as that of some nodes more. */
+static const double IN_VAIN = 2e6, NODES_BESIDE = 30;
+
 /* An angle that is a whole number of quarters but for rounding is that number. */
 static const double ROUNDING = 1e-9;
 
@@ -95,6 +99,7 @@ typedef struct Advance {
     CpsiAdvance *room;
     bool known;      /* the forces at the ends are those of an equilibrium */
     int iterations;  /* of everything that was solved, kept or not */
+    double in_vain;  /* iterations times nodes, of what was not kept */
     int jumps;       /* parts as small as may be whose energy is open */
     CpsLineReport whole;
     CpsLedger ledger;
@@ -322,12 +327,14 @@ static void advance_stretch(Advance *advance, Stretch stretch, int halvings) {
     for (double at = 0, part = 1; at < 1;) {
         const double end = at + part < 1 ? at + part : 1, middle = within(&stretch, at + 0.5*(end - at));
         const double from = within(&stretch, at), to = within(&stretch, end);
+        const int before = advance->iterations;
         const Trial trial = try_part(advance, from, middle, to, part > least);
         if (cps_outcome_is_final(trial.first.report.outcome)) {
             add(advance, &trial.first);
             return;
         }
-        if (!(trial.good && trial.agrees) && part > least) {
+        if (!trial.good) advance->in_vain += (double)(advance->iterations - before)*(advance->line->n + NODES_BESIDE);
+        if (!(trial.good && trial.agrees) && part > least && advance->in_vain < IN_VAIN) {
             restore(advance->line, advance->room);
             if (!trial.good && part == 1 && add_slide(advance, from, stretch.to, SLIDES_CLEARLY)) return;
             restore(advance->line, advance->room);

@@ -177,7 +177,7 @@ void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes) 
 
 void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts, bool points,
                                const CpsiShapeForm *largest, const CpsiLinsysOps *ops) {
-    static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_stop, &cpsi_rub, &cpsi_shape};
+    static const CpsiKind *const kinds[] = {&cpsi_stretch, &cpsi_drag, &cpsi_stop, &cpsi_rub, &cpsi_shape};
     const int all = sizeof kinds/sizeof *kinds;
     const size_t places = (size_t)n*(points ? 2 : 1), size = 3*places;
     const int stops = (contacts > 1 ? contacts*n : n) + (points ? n : 0);
@@ -194,6 +194,7 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
         .imbalance = imbalance,
     };
     layout_stretch(&program->stretch, arena, n);
+    program->drag = 0;
     layout_rub(&program->rub, arena, contacts > 0 ? 2*stops : n);
     layout_stop(&program->stop, arena, stops);
     program->shape = (CpsiShape){0};

@@ -122,6 +122,7 @@ typedef struct CpsiChainProgram {
         bool two;        /* there is room for second stops */
     } own;               /* room for what only nodes with axes of their own have */
     CpsiStretch stretch;
+    double drag;         /* d >= 0: a force -d w_j u_j on node j, w_j its share of the line */
     CpsiRub rub;
     CpsiStop stop;
     CpsiShape shape;     /* laid out only where asked for */
@@ -203,6 +204,6 @@ static inline void cpsi_stop_follow(CpsiChainProgram *program, int k, double wei
 }
 
 /* In this order: a rub and a shape read the pass of their stop. */
-extern const CpsiKind cpsi_stretch, cpsi_stop, cpsi_rub, cpsi_shape;
+extern const CpsiKind cpsi_stretch, cpsi_drag, cpsi_stop, cpsi_rub, cpsi_shape;
 
 #endif

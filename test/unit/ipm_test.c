@@ -66,6 +66,25 @@ static void compliance_makes_it_feasible(void **ops) {
     cpsi_arena_free(&fixture.arena);
 }
 
+/* Ends that nearly meet, so that the links are slack: drag alone bears the load on the middle node, which stands for half of the line. A small
+ * one lets them go taut, at the sag v = (0.5^2 - 0.1^2)^(1/2): 2 T v/0.5 = 1 - d v/2. */
+static void drag_holds_back(void **ops) {
+    Fixture fixture;
+    make(&fixture, *ops, 0, 0.2, true);
+    fixture.program.drag = 100;
+    assert_int_equal(run(&fixture).outcome, CPSI_IPM_SOLVED);
+    CHECK_NEAR(fixture.program.base.u[3 + 2], -1/(100*0.5), 1e-6);
+    CHECK_NEAR(fixture.program.stretch.z[1][0], 0, 1e-6);
+    cpsi_arena_free(&fixture.arena);
+    make(&fixture, *ops, 0, 0.2, true);
+    fixture.program.drag = 0.5;
+    const double sag = sqrt(0.5*0.5 - 0.1*0.1);
+    assert_int_equal(run(&fixture).outcome, CPSI_IPM_SOLVED);
+    CHECK_NEAR(fixture.program.base.u[3 + 2], -sag, 1e-6);
+    CHECK_NEAR(fixture.program.stretch.z[1][0], (1 - 0.5*0.5*sag)*0.5/(2*sag), 1e-6);
+    cpsi_arena_free(&fixture.arena);
+}
+
 /* Nothing holds the links: they fall for ever. */
 static void free_fall_is_unbounded(void **ops) {
     Fixture fixture;
@@ -123,7 +142,9 @@ int main(void) {
         cmocka_unit_test_prestate(ends_too_far_apart_are_infeasible, dense),
         cmocka_unit_test_prestate(compliance_makes_it_feasible, chain),
         cmocka_unit_test_prestate(compliance_makes_it_feasible, dense),
+        cmocka_unit_test_prestate(drag_holds_back, chain),
         cmocka_unit_test_prestate(free_fall_is_unbounded, chain),
+        cmocka_unit_test_prestate(drag_holds_back, dense),
         cmocka_unit_test_prestate(free_fall_is_unbounded, dense),
         cmocka_unit_test_prestate(nan_does_not_leave, chain),
         cmocka_unit_test_prestate(nan_does_not_leave, dense),
