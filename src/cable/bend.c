@@ -58,29 +58,50 @@ static double friction_along(const CpsiLine *line, int c, Vec3 along) {
     return fmax(cpsi_rub_dissipation(&set, set.friction, forth), cpsi_rub_dissipation(&set, set.friction, back));
 }
 
+/* The forces of the line before and after contact c, false where there is none on one side. What an element's contact does acts on both of its
+ * nodes, which turn the line in its place. */
+static bool forces(const CpsiLine *line, int c, Vec3 *before, Vec3 *after) {
+    const int e = cpsi_line_element(line, c);
+    if (e < 0) {
+        const int j = cpsi_line_node(line, c);
+        if (j == 0 || j == line->n - 1) return false;
+        *before = vec3_load(&line->segment_force[3*(j - 1)]), *after = vec3_load(&line->segment_force[3*j]);
+        return true;
+    }
+    const Vec3 within = vec3_load(&line->segment_force[3*e]), f = vec3_load(&line->friction_force[3*c]);
+    const Vec3 action = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3*c]), f);
+    *before = vec3_axpy(1 - line->beta[e], action, within), *after = vec3_axpy(-line->beta[e], action, within);
+    return true;
+}
+
+/* [m] Natural arc length at contact c. */
+static double arc_of(const CpsiLine *line, int c) {
+    const int e = cpsi_line_element(line, c);
+    return e < 0 ? line->arc_length[cpsi_line_node(line, c)] : line->arc_length[e] + line->beta[e]*line->element_length[e];
+}
+
 /* The bend at contact c; turn 0 where the reaction does not come from a turn of the line round a curved obstacle. */
 static CpsBend bend_of(const CpsiLine *line, int c) {
-    const int j = cpsi_line_node(line, c);
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     CpsBend bend = {0};
-    if (j == 0 || j == line->n - 1 || !obstacle || obstacle->kind == CPS_OBSTACLE_PLANE ||
-        !(line->reaction[c] > 0 && line->friction_bound[c] > 0))
+    Vec3 before, after;
+    if (!obstacle || obstacle->kind == CPS_OBSTACLE_PLANE || !(line->reaction[c] > 0 && line->friction_bound[c] > 0) ||
+        !forces(line, c, &before, &after))
         return bend;
-    const Vec3 before = vec3_load(&line->segment_force[3*(j - 1)]), after = vec3_load(&line->segment_force[3*j]);
     const double least = LEAST_FORCE*line->report.certificate.largest_force, p = vec3_norm(before), q = vec3_norm(after);
     if (!(p > least && q > least)) return bend;
     const Vec3 n = vec3_load(&line->normal[3*c]), e = vec3_scale(1/p, before), f = vec3_scale(1/q, after);
     const double rise = fmax(-1, fmin(1, vec3_dot(e, n))), fall = fmax(-1, fmin(1, vec3_dot(f, n)));
     bend.turn = fmax(0, asin(rise) - asin(fall));
     if (bend.turn > 0) bend.friction = friction_along(line, c, vec3_add(e, f));
-    bend.arc_length = line->arc_length[j];
+    bend.arc_length = arc_of(line, c);
     bend.obstacle = (int)(obstacle - line->obstacle);
     return bend;
 }
 
 CpsBend cpsi_line_bend(const CpsiLine *line) {
     CpsBend worst = {0};
-    for (int c = 0; line->follows && c < cpsi_line_contacts(line); c++) {
+    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) {
         const CpsBend bend = bend_of(line, c);
         if (cpsi_bend_is_sharper(&bend, &worst)) worst = bend;
     }

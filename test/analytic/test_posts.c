@@ -146,7 +146,45 @@ static void work(void **state) {
     }
 }
 
+/* A line without weight, drawn up over a thin post, turns at both nodes of the element that lies on it, by d in all. With the two forces beside it the
+ * contact's makes the same triangle as at a node: tensions are held up to k = cos(d/2 - phi)/cos(d/2 + phi), mu = tan(phi), and from
+ * mu tan(d/2) = 0.9 on the mesh is too coarse. */
+static void bends(void **state) {
+    (void)state;
+    static Rig rig;
+    int told = 0, coarse = 0;
+    for (int i = 0; i < 12; i++) {
+        const double mu = 0.1 + 0.1 * i, phi = atan(mu), off = 0.03 + 0.01 * (i % 3);
+        RigRun run = pose(&rig, i % 2 ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER, 0.01, mu, 10, off, -0.05, 1, 20);
+        cps_evolution_destroy(run.evolution);
+        rig.line.stiffness = 100;
+        run = rig_open(&rig);
+        for (int k = 0; k < 20; k++) {
+            const CpsOutcome outcome = rig_try(&run);
+            const CpsLineView v = cps_evolution_line_view(run.evolution, 0);
+            const CpsLineReport r = cps_evolution_line_report(run.evolution, 0);
+            const int e = across(&v);
+            if (e < 1 || e + 1 >= v.elements || !(v.element_friction_bound[e] > 0)) continue;
+            const double *x = &v.position[3 * e];
+            const double d = acos(((x[0] - x[-3]) * (x[6] - x[3]) + (x[1] - x[-2]) * (x[7] - x[4]) + (x[2] - x[-1]) * (x[8] - x[5])) /
+                                  (hypot(hypot(x[0] - x[-3], x[1] - x[-2]), x[2] - x[-1]) * hypot(hypot(x[6] - x[3], x[7] - x[4]), x[8] - x[5])));
+            if (d < 0.05) continue; /* an angle by its cosine: to 1e-15/d, and forces are along elements to the root of the gap */
+            const double low = cos(d / 2 + phi);
+            CHECK_NEAR(r.bend.turn, d, 1e-6);
+            CHECK_RELATIVE(r.bend.friction, mu, 1e-12);
+            if (low > 0.02) CHECK_RELATIVE(r.bend.ratio, cos(d / 2 - phi) / low, 1e-4); /* 1e-6 over low */
+            if (fabs(mu * tan(d / 2) - 0.9) < 1e-4) continue;
+            CHECK_INT(outcome, mu * tan(d / 2) >= 0.9 ? CPS_MESH_TOO_COARSE : CPS_SOLVED);
+            told++, coarse += outcome == CPS_MESH_TOO_COARSE;
+        }
+        rig_close(&run);
+    }
+    printf("%d bends of elements, %d too coarse\n", told, coarse);
+    CHECK_GREATER(told - coarse, 40);
+    CHECK_GREATER(coarse, 10);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(thin_posts), cmocka_unit_test(order), cmocka_unit_test(work)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(thin_posts), cmocka_unit_test(order), cmocka_unit_test(work), cmocka_unit_test(bends)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

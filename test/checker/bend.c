@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#include "measure.h"
+
 static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* unit vector of a force; false where it is too small to have a direction */
@@ -68,6 +70,42 @@ static void bend_at(const Source *source, const Record *r, bool reached, size_t 
     if (*turn > 0) *friction = friction_along(surface, plane, line, chord, r->factor ? r->factor[j] : 1);
 }
 
+/* The same of the contact of element i. Its action is shared by the element's nodes, where the line turns: with the force of the element and
+ * the two parts of the action the triangle is the one of a node. */
+static void bend_on(const Source *source, const Record *r, bool reached, size_t i, Real least, Real *turn, Real *friction) {
+    const size_t c = r->contacts * r->nodes + i;
+    *turn = *friction = 0;
+    if (!(r->obstacle[c] >= 0) || !(r->reaction[c] > 0) || !(r->friction_bound[c] > 0)) return;
+    const Surface *surface = &source->surface[(size_t)r->obstacle[c]];
+    const Real t = r->share_of[i];
+    Real before[3], after[3], n[3], line[3], chord[3], plane[3], place[3];
+    double first[3], last[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = r->normal[c][k];
+        const double action = r->reaction[c] * r->normal[c][k] + r->friction[c][k];
+        first[k] = r->segment_force[i][k] + (1 - (double)t) * action;
+        last[k] = r->segment_force[i][k] - (double)t * action;
+        place[k] = (1 - t) * r->position[i][k] + t * r->position[i + 1][k];
+    }
+    if (!unit(first, least, before) || !unit(last, least, after)) return;
+    for (int k = 0; k < 3; k++) line[k] = before[k] + after[k];
+    measure_element_plane(r, surface, i, !reached, t, place, plane, chord);
+    *turn = fmaxl(0, above(before, n) - above(after, n));
+    const double factor = r->factor ? (1 - (double)t) * r->factor[i] + (double)t * r->factor[i + 1] : 1;
+    if (*turn > 0) *friction = friction_along(surface, plane, line, chord, factor);
+}
+
+/* Is this bend, at `arc` of the line, the worst so far? */
+static void take_bend(const Record *r, Real turn, Real friction, Real arc, Real length, Real *worst, Bend *bend) {
+    if (fabsl(arc - r->bend_at) <= 1e-12L * length) bend->there = fmax(bend->there, (double)turn);
+    Real ratio = ratio_of(turn, friction), off = logl(ratio) - friction * turn;
+    // what locks counts before what is only far off
+    if (isfinite(off) && ratio >= 19) off += 1e6L;
+    if (!(off > *worst)) return;
+    *worst = off;
+    bend->turn = (double)turn, bend->friction = (double)friction, bend->ratio = (double)ratio;
+}
+
 Bend bend_of_record(const Source *source, const Record *r, bool reached, double largest_force) {
     Bend bend = {.ratio = 1};
     Real worst = 0, arc = 0, length = 0;
@@ -76,14 +114,12 @@ Bend bend_of_record(const Source *source, const Record *r, bool reached, double 
         for (size_t c = j; source->surfaces > 0 && c < r->contacts * r->nodes; c += r->nodes) {
             Real turn, friction;
             bend_at(source, r, reached, j, c, 1e-9L * largest_force, &turn, &friction);
-            if (fabsl(arc - r->bend_at) <= 1e-12L * length) bend.there = fmax(bend.there, (double)turn);
-            Real ratio = ratio_of(turn, friction), off = logl(ratio) - friction * turn;
-            // what locks counts before what is only far off
-            if (isfinite(off) && ratio >= 19) off += 1e6L;
-            if (!(off > worst)) continue;
-            worst = off;
-            bend.turn = (double)turn, bend.friction = (double)friction, bend.ratio = (double)ratio;
+            take_bend(r, turn, friction, arc, length, &worst, &bend);
         }
+        if (!r->has_elements || j >= r->elements) continue;
+        Real turn, friction;
+        bend_on(source, r, reached, j, 1e-9L * largest_force, &turn, &friction);
+        take_bend(r, turn, friction, arc + (Real)r->share_of[j] * r->element_length[j], length, &worst, &bend);
     }
     return bend;
 }

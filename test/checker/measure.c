@@ -362,9 +362,7 @@ static void point_of(Vector *place, size_t i, Real t, Triple out) {
     for (int k = 0; k < 3; k++) out[k] = (1 - t) * place[i][k] + t * place[i + 1][k];
 }
 
-/* The plane of friction of element i on surface `on`, and its direction there: those of its point that is nearest to the obstacle. Frozen
- * friction has them from the reference, at the share t where none was nearest between the nodes. */
-static void element_plane(const Record *r, const Surface *on, size_t i, bool frozen, Real t, const Real *x, Triple plane, Triple along) {
+void measure_element_plane(const Record *r, const Surface *on, size_t i, bool frozen, Real t, const Real *x, Real *plane, Real *along) {
     Vector *nodes = frozen ? r->reference : r->position;
     Triple a, b, from;
     subtract(nodes[i + 1], nodes[i], along);
@@ -382,7 +380,7 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     const Real turn = (Real)r->share * r->turn[on - where->source->surface];
     for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];
     surface_normal(on, x, seat.normal);
-    element_plane(r, on, i, where->frozen, t, x, seat.plane, along);
+    measure_element_plane(r, on, i, where->frozen, t, x, seat.plane, along);
     surface_carry(on, reference, turn, carried);
     // the point goes round at its own depth: what friction works on is shorter than the way of its foot
     Surface within = *on;

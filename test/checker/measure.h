@@ -65,4 +65,8 @@ typedef enum Sight { SIGHT_REACHED, SIGHT_REFERENCE, SIGHT_FROZEN } Sight;
 /* Sets record->mu. */
 Measures measure(const Source *source, const Record *record, Sight sight);
 
+/* The plane of friction of element i on surface `on`, and its direction there: those of its point that is nearest to the obstacle. Frozen
+ * friction has them from the reference, at the share t where none was nearest between the nodes. */
+void measure_element_plane(const Record *r, const Surface *on, size_t i, bool frozen, Real t, const Real *x, Real *plane, Real *along);
+
 #endif
