@@ -392,8 +392,8 @@ static void judge_element_bound(const Record *r, const Record *before, size_t c,
 
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step before (frozen
  * friction) or of the step itself (consistent friction), which is `before`. Frozen friction takes nodes that carry less
- * than 1e-3 of the largest load or reaction for free, if it likes; a held node has no friction, nor one that no contact
- * is looked for. */
+ * than 1e-3 of the largest load or reaction, or 1e-7 of the largest tension, for free, if it likes; a held node has no
+ * friction, nor one that no contact is looked for. */
 static void judge_bounds(const Source *source, const Record *r, const Record *before, Judge *judge) {
     double largest = 0;
     const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
@@ -401,6 +401,8 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
         const double *b = before->load[c % r->nodes];
         largest = fmax(largest, fmax(before->reaction[c], hypot(hypot(b[0], b[1]), b[2])));
     }
+    // where nothing has weight: a node that only just touches has a reaction and a distance of about the root of the loop's 1e-13 each
+    for (size_t i = 0; i < r->elements && !source->consistent; i++) largest = fmax(largest, 1e-4 * before->tension[i]);
     // what is not certified claims nothing; where nothing is found, the reactions are still those of the step before
     if (!claims_something(r) && r->outcome != OUTCOME_COARSE) return;
     bool solved = r->outcome <= OUTCOME_TAUT || r->outcome == OUTCOME_COARSE;

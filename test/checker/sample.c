@@ -517,7 +517,8 @@ static size_t describe_post(Field *field) {
         "dissipated", "proof_value",      "ledger_ends",     "ledger_elastic",    "ledger_gravity",   "ledger_imbalance",
         "gap",        "tension_bound",    "force_residual",  "law_residual",      "contact_residual", "ledger_obstacles",
         "penetration", "stretch_residual", "friction_residual", "tension_estimate", "element_penetration",
-        "unaccounted", "element_push",     "elongation_residual", "bend_turn",        "bend_friction",    "bend_at"};
+        "unaccounted", "element_push",     "elongation_residual"};
+    field[n++] = scalar("bend_turn", 2 * asin(0.6)), field[n++] = scalar("bend_friction", MU), field[n++] = scalar("bend_at", 2 + 0.6 * 2);
     for (size_t k = 0; k < sizeof NONE / sizeof *NONE; k++) field[n++] = scalar(NONE[k], 0);
     field[n++] = scalar("primal", primal), field[n++] = scalar("dual", primal);
     field[n++] = scalar("scale", 2 * (4 + 3.84 + 6 + 6) + least_scale(6, 8)), field[n++] = scalar("largest_force", 6);

@@ -8,14 +8,19 @@
  *   - no element is deeper in an obstacle than min(l^2/(4 R), R/4), no node deeper than 0, but for 1e-10 of the length;
  *   - the angle by which the line winds about a cylinder changes by what the ways of its ends go round it and by nothing else (over a ball it may
  *     slip);
- *   - with consistent friction forces balance and obey the law (rig.h).
+ *   - forces balance and obey the law: with consistent friction and coefficients by rig.h, and always by the checker, which reads the file of results.
+ * Friction has one coefficient, two, or is a planar set of forces; bounds follow the reactions or are those of the step before.
  * No scene takes more than 10 s of processor time. With consistent friction at least 99.5 % of the steps are certified, or proved to have
  * no equilibrium. What is not is printed; --scene K runs a scene alone. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
+#include "capstan/io.h"
+#include "checker.h"
+#include "given.h"
 #include "rig.h"
 
 enum { SCENES = 200 };
@@ -23,7 +28,7 @@ enum { SCENES = 200 };
 static const double DEEP = 1.01e-10;
 /* [rad] Windings are whole turns apart where an axis was passed: rounding is far below this. */
 static const double SAME = 1e-6;
-/* Share of the steps with consistent friction that are certified or proved to have no equilibrium, at least. */
+/* Share of the steps that are certified or proved to have no equilibrium, at least. */
 static const double CERTIFIED = 0.995;
 /* [s] of processor time, of a scene */
 static const double LATE = 10;
@@ -50,10 +55,40 @@ typedef struct Scene {
     Rig rig;
     double thickest; /* h/R of the thinnest obstacle */
     bool flat;       /* all stays in the plane z = 0 */
+    bool sets;       /* friction by sets of forces */
+    CpsSet *set[RIG_OBSTACLES]; /* the friction of an obstacle; NULL: coefficients */
 } Scene;
 
-static void rubbing(CpsObstacle *o) {
+/* A set of friction forces with 0 in it: a polygon about a point beside it, a segment, or a disc beside it. */
+static CpsSet *friction_set(void) {
+    const double size = uniform(0.1, 0.5), angle = uniform(0, 2 * PI), x = size * cos(angle), y = size * sin(angle), aside = uniform(-0.5, 0.5);
+    const double what = uniform(0, 1);
+    CpsSet *set = NULL;
+    CpsError err;
+    CpsStatus status;
+    if (what < 0.2) {
+        status = cps_set_segment(2, (double[]){-x, -y}, (double[]){aside * x + x, aside * y + y}, &set, &err);
+    } else if (what < 0.4) {
+        status = cps_set_ball(2, (double[]){aside * x, aside * y}, size, &set, &err);
+    } else {
+        double points[12];
+        const int count = 3 + (int)uniform(0, 4);
+        for (int k = 0; k < count; k++) { /* 0 is inside: no two neighbours are half a turn apart */
+            const double at = angle + 2 * PI * (k + uniform(-0.2, 0.2)) / count, far = size * uniform(0.6, 1.4);
+            points[2 * k] = far * cos(at), points[2 * k + 1] = far * sin(at);
+        }
+        status = cps_set_hull_of_points(2, count, points, &set, &err);
+    }
+    if (status != CPS_OK) print_error("%s\n", err.message), abort();
+    return set;
+}
+
+static void rubbing(Scene *s, CpsObstacle *o) {
     if (chance(0.15)) return;
+    if (s->sets) {
+        o->friction_set = s->set[s->rig.scene.obstacle_count - 1] = friction_set();
+        return;
+    }
     o->friction = uniform(0.05, 0.6);
     if (chance(0.2)) o->friction_lateral = uniform(0.05, 0.6);
     if (chance(0.1)) o->friction_shape = CPS_FRICTION_BOX;
@@ -79,7 +114,7 @@ static void stand(Scene *s, double length, double radius) {
     }
     const bool post = chance(0.6);
     CpsObstacle *o = rig_obstacle(&s->rig, post ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE, 0);
-    rubbing(o);
+    rubbing(s, o);
     o->radius = radius, o->point[0] = x, o->point[1] = y, o->axis[1] = 0, o->axis[2] = 1;
     if (s->flat) return;
     if (post && chance(0.4)) o->axis[0] = uniform(-0.3, 0.3), o->axis[1] = uniform(-0.3, 0.3);
@@ -96,7 +131,8 @@ static void make(Scene *s, int number) {
     Rig *rig = &s->rig;
     rig_begin(rig, elements, heavy ? decades(-3, -1) : 0, rigid ? INFINITY : stiffness);
     rig_length(rig, length);
-    s->flat = !heavy && chance(0.3);
+    s->flat = !heavy && chance(0.3), s->sets = number % 5 == 4;
+    memset(s->set, 0, sizeof s->set);
     s->thickest = 0;
     double low = INFINITY, high = -INFINITY;
     const int wanted = 1 + (int)uniform(0, 3);
@@ -229,7 +265,7 @@ static void judge(const Scene *s, const char *name, const CpsEvolution *evolutio
     const double deep = depth(s, &view), turns = passed(s, before, view.position);
     bool wrong = !(deep <= DEEP) || !(turns * 2 * PI <= SAME);
     if (wrong) printf("%s, %s: WRONG: certified, %.3g of the length too deep, %.6f turns round an obstacle\n", name, step, fmax(0, deep), turns);
-    if (s->rig.scene.friction == CPS_FRICTION_CONSISTENT) {
+    if (s->rig.scene.friction == CPS_FRICTION_CONSISTENT && !s->sets) {
         const Audit audit = rig_audit(&s->rig.scene, still, &view);
         if (!right(&audit, &report.certificate)) {
             wrong = true;
@@ -240,33 +276,66 @@ static void judge(const Scene *s, const char *name, const CpsEvolution *evolutio
     tally->wrong += wrong;
 }
 
-static void run(int number, Tally tallies[2]) {
+/* The file of results by the checker. */
+static void check_file(const Scene *s, const char *name, const char *directory, Tally *tally) {
+    char path[512];
+    CheckerReport report;
+    snprintf(path, sizeof path, "%s/result.nc", directory);
+    FILE *log = tmpfile();
+    if (!log) abort();
+    checker_file(path, &report, log);
+    const int other = given_file(path, &s->rig.scene, log);
+    if (report.refuted > 0 || other != 0) {
+        tally->wrong++;
+        printf("%s: WRONG: refuted by the checker\n", name);
+        rewind(log);
+        for (int c = fgetc(log); c != EOF; c = fgetc(log)) putchar(c);
+    }
+    fclose(log);
+}
+
+/* All steps of an evolution, or as many as there is time for; [s] of processor time that they took. */
+static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsResults *results, Tally *tally) {
+    const size_t size = 3 * (size_t)(s->rig.line.elements + 1) * sizeof(double);
+    double *before = malloc(size), spent = 0;
+    CpsError err;
+    if (!before) abort();
+    while (cps_evolution_remaining(evolution) > 0 && spent <= LATE) {
+        memcpy(before, cps_evolution_line_view(evolution, 0).position, size);
+        const clock_t begun = clock();
+        if (cps_evolution_step(evolution, &err)) break; /* an end's way leads through an obstacle */
+        spent += (double)(clock() - begun) / CLOCKS_PER_SEC;
+        tally->iterations += cps_evolution_report(evolution).iterations;
+        judge(s, name, evolution, before, tally);
+        if (cps_results_append(results, evolution, &err)) print_error("%s: %s\n", name, err.message), abort();
+    }
+    free(before);
+    return spent;
+}
+
+static void run(int number, const char *directory, Tally tallies[2]) {
     static Scene s;
+    static const CpsResultsOptions terse = {.no_paraview = true, .sync_at_end = true};
     CpsEvolution *evolution;
+    CpsResults *results;
     CpsError err;
     char name[160];
     make(&s, number);
     Tally *tally = &tallies[s.rig.scene.friction];
-    const int nodes = s.rig.line.elements + 1;
-    snprintf(name, sizeof name, "scene %d, %d obstacles, %d elements, h/R %.2f, %s%s", number, s.rig.scene.obstacle_count, nodes - 1, s.thickest,
+    snprintf(name, sizeof name, "scene %d, %d obstacles%s, %d elements, h/R %.2f, %s%s", number, s.rig.scene.obstacle_count,
+             s.sets ? " with friction sets" : "", s.rig.line.elements, s.thickest,
              s.rig.scene.friction == CPS_FRICTION_FROZEN ? "frozen" : "consistent", s.rig.line.end[1].kind == CPS_END_FREE ? ", pulled" : "");
-    const clock_t begun = clock();
-    if (cps_evolution_create(&s.rig.scene, &evolution, &err)) {
+    if (cps_evolution_create(&s.rig.scene, &evolution, &err) || cps_results_open_with(directory, &s.rig.scene, evolution, &terse, &results, &err)) {
         printf("%s: %s\n", name, err.message);
         tally->wrong++;
         return;
     }
-    double *before = malloc(3 * (size_t)nodes * sizeof *before), spent = 0;
-    if (!before) abort();
-    while (cps_evolution_remaining(evolution) > 0 && spent <= LATE) {
-        memcpy(before, cps_evolution_line_view(evolution, 0).position, 3 * (size_t)nodes * sizeof *before);
-        if (cps_evolution_step(evolution, &err)) break; /* an end's way leads through an obstacle */
-        tally->iterations += cps_evolution_report(evolution).iterations;
-        judge(&s, name, evolution, before, tally);
-        spent = (double)(clock() - begun) / CLOCKS_PER_SEC;
-    }
-    free(before);
+    const double spent = go(&s, name, evolution, results, tally);
+    if (cps_results_finish(results, 0, &err)) print_error("%s: %s\n", name, err.message), abort();
+    cps_results_destroy(results);
     cps_evolution_destroy(evolution);
+    check_file(&s, name, directory, tally);
+    for (int k = 0; k < RIG_OBSTACLES; k++) cps_set_release(s.set[k]);
     tally->scenes++;
     tally->slowest = fmax(tally->slowest, spent);
     if (spent <= LATE) return;
@@ -275,11 +344,11 @@ static void run(int number, Tally tallies[2]) {
 }
 
 /* Says what was found; is the share of the steps that are certified, or proved to have no equilibrium, as large as asked for? */
-static bool tell(const char *friction, const Tally *t, double asked) {
+static bool tell(const char *friction, const Tally *t) {
     printf("%s: %d scenes, %d steps: %d certified, %d proved to have no equilibrium, %d with a mesh too coarse, %d not certified, %d WRONG; %ld "
            "iterations, the slowest scene took %.1f s, %d more than %g s\n",
            friction, t->scenes, t->steps, t->certified, t->proved, t->coarse, t->refused, t->wrong, t->iterations, t->slowest, t->late, LATE);
-    return t->certified + t->proved >= asked * t->steps;
+    return t->certified + t->proved >= CERTIFIED * t->steps;
 }
 
 int main(int argc, char **argv) {
@@ -291,10 +360,15 @@ int main(int argc, char **argv) {
         else return fprintf(stderr, "usage: random_posts [--share S] [--scene K]\n"), 2;
     }
     Tally tally[2] = {{0}};
+    const char *base = getenv("TMPDIR");
+    char directory[256], command[300];
+    snprintf(directory, sizeof directory, "%.200s/capstan-posts-XXXXXX", base ? base : "/tmp");
+    if (!mkdtemp(directory)) return perror(directory), 2;
+    snprintf(command, sizeof command, "rm -rf '%s'", directory);
     setvbuf(stdout, NULL, _IOLBF, 0); /* what a time limit ends has told so far */
-    for (int k = 0; only < 0 && k < SCENES * share; k++) run(k, tally);
-    if (only >= 0) run(only, tally);
-    const bool enough = tell("consistent friction", &tally[CPS_FRICTION_CONSISTENT], CERTIFIED);
-    tell("frozen friction", &tally[CPS_FRICTION_FROZEN], 0);
+    for (int k = 0; only < 0 && k < SCENES * share; k++) run(k, directory, tally);
+    if (only >= 0) run(only, directory, tally);
+    if (system(command) != 0) printf("%s is left behind\n", directory);
+    const bool enough = tell("consistent friction", &tally[CPS_FRICTION_CONSISTENT]) & tell("frozen friction", &tally[CPS_FRICTION_FROZEN]);
     return tally[0].wrong + tally[1].wrong > 0 || tally[0].late + tally[1].late > 0 || !enough;
 }
