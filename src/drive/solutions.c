@@ -20,6 +20,8 @@
 
 /* How near to rest or to a boundary counts as there, where the caller does not say. */
 static const double TOLERANCE = 1e-6;
+/* A neighbour of V, relative to its size. */
+static const double NEIGHBOUR = 1e-2;
 /* A set moved by more than this many tolerances does not belong to the solution. */
 static const double MOST_MOVED = 1000;
 
@@ -191,6 +193,49 @@ static CpsStatus velocities_of_piece(Gather *g, int k, CpsError *err) {
     return status;
 }
 
+/* phi less the load's power at V + step d, INFINITY where it has no value; work (n + largest law). */
+static CpsStatus value_beside(const CpsMotion *motion, const double *d, double step, double *work, double *value,
+                              CpsError *err) {
+    const CpsSystem *system = motion->system;
+    double *v = work, *u = work + system->n;
+    CpsStatus status = CPS_OK;
+    for (int i = 0; i < system->n; i++) v[i] = motion->velocity[i] + step*d[i];
+    *value = system->load ? -cpsi_dot(system->n, system->load, v) : 0;
+    for (int l = 0; status == CPS_OK && l < system->laws; l++) {
+        const CpsiSystemLaw *law = &system->law[l];
+        for (int i = 0; i < law->space; i++) u[i] = cpsi_rows_times(&system->map, law->first + i, v);
+        if (law->resistance) {
+            CpsResistanceValue of = {0};
+            status = cps_resistance_value(law->resistance, u, &of, NULL, err);
+            *value += of.outcome == CPS_SET_ANSWERED ? of.potential : INFINITY;
+        } else {
+            CpsSetAnswer phi = {0};
+            status = cps_law_dissipation(cps_law_set(law->friction), u, NULL, &phi, err);
+            *value += phi.outcome == CPS_SET_ANSWERED ? phi.value : INFINITY;
+        }
+    }
+    return status;
+}
+
+/* Do the bounds tell V from its neighbours?  Not where a step of a hundredth along what is free raises phi by less than they are
+ * apart: then the motion found is one of several as far as they go, and `no other` would be said of too little. */
+static CpsStatus check_told_apart(Gather *g, CpsError *err) {
+    const CpsMotion *motion = g->motion;
+    const size_t n = (size_t)motion->system->n;
+    double *work = malloc((n + (size_t)motion->system->components + 1)*sizeof *work), beside;
+    CpsStatus status = work ? CPS_OK : out_of_memory(err);
+    for (int k = 0; status == CPS_OK && k < 2*g->space; k++) {
+        const double *d = &g->basis[(size_t)(k/2)*n];
+        const double step = (k % 2 ? -1 : 1)*NEIGHBOUR*motion->speed/fmax(scale_of((int)n, d), 1e-300);
+        status = value_beside(motion, d, step, work, &beside, err);
+        if (status == CPS_OK && beside - motion->report.upper < motion->report.minimum)
+            g->found.outcome = CPS_SET_INACCURATE;
+    }
+    if (g->found.outcome != CPS_SET_ANSWERED) cps_set_release(g->found.set), g->found.set = NULL;
+    free(work);
+    return status;
+}
+
 CpsStatus cps_motion_velocities(const CpsMotion *motion, double tolerance, CpsSolutionSet *all, double *low,
                                 double *high, CpsError *err) {
     if (!motion || !all) return cpsi_fail(err, CPS_ERR_ARGUMENT, "motion or all is NULL");
@@ -201,6 +246,8 @@ CpsStatus cps_motion_velocities(const CpsMotion *motion, double tolerance, CpsSo
     for (int k = 0; status == CPS_OK && k < motion->system->pieces && g.found.outcome == CPS_SET_ANSWERED; k++)
         status = velocities_of_piece(&g, k, err);
     if (status == CPS_OK) status = finish(&g, motion->system->n, motion->velocity, motion->speed, low, high, err);
+    if (status == CPS_OK && g.found.unique && motion->speed > 0 && motion->report.minimum > 0)
+        status = check_told_apart(&g, err);
     if (status == CPS_OK) *all = g.found;
     else cps_set_release(g.found.set);
     clear(&g);

@@ -353,6 +353,29 @@ static void continuity_of_phi(void **state) {
     }
 }
 
+/* b = a f N exactly and W = (1e-6, 1): rolling, 500 + 2.5e-10 W, is told from slipping, up to 4e-10 W more, by no bounds that are 4e-10
+ * apart. `No other` may then be said of omega = 0 alone. */
+static void told_apart(void **state) {
+    (void)state;
+    CpsSystem *system = NULL;
+    CpsSolutionSet all;
+    double low[3], high[3];
+    ok(cps_system_create(3, &system, &err));
+    add(system, "brake", interval(-150, 150), 1, (const CpsEntry[]){{0, 0, 1}});
+    add(system, "ground", disc(500), 2, (const CpsEntry[]){{0, 1, 1}, {1, 2, 1}});
+    ok(cps_system_set_drive(system, 2, 3, (const CpsEntry[]){{0, 1, 1}, {1, 2, 1}, {1, 0, -0.3}}, &err));
+    CpsMotion *motion = solve(system, (const double[]){1e-6, 1});
+    ok(cps_motion_velocities(motion, 0, &all, low, high, &err));
+    assert_true(all.outcome != CPS_SET_ANSWERED || !all.unique || fabs(cps_motion_velocity(motion)[0]) < 1e-6);
+    cps_solution_set_clear(&all), cps_motion_destroy(motion);
+    /* aside by a hundredth they are told apart */
+    motion = solve(system, (const double[]){1e-2, 1});
+    ok(cps_motion_velocities(motion, 0, &all, low, high, &err));
+    CHECK_INT(all.outcome, CPS_SET_ANSWERED);
+    assert_true(all.unique);
+    cps_solution_set_clear(&all), cps_motion_destroy(motion), cps_system_destroy(system);
+}
+
 /* A load above the limit by one part in 1e7 to 1e12 has no balance, and the proof says so; below it it has. */
 static void loads_beside_the_limit(void **state) {
     (void)state;
@@ -574,6 +597,7 @@ int main(void) {
         cmocka_unit_test(bipod_about_one_support),
         cmocka_unit_test(loads),
         cmocka_unit_test(infimum_not_attained),
+        cmocka_unit_test(told_apart),
         cmocka_unit_test(continuity_of_phi),
         cmocka_unit_test(loads_beside_the_limit),
         cmocka_unit_test(weak_beside_strong),
