@@ -88,7 +88,7 @@ static bool compare(const char *name, const Rig *rig, const CpsLineView *view, c
     for (int end = 0; end < 2; end++) {
         const CpsTensionRange *range = &report->end[end].range;
         const size_t e = end == CPS_END_A ? 0 : (size_t)view->elements - 1;
-        const double least = rest_tension(&like.line, e, -1).value, greatest = rest_tension(&like.line, e, 1).value;
+        const double least = rest_tension(&like.line, e, -1), greatest = rest_tension(&like.line, e, 1);
         const double close = 1e-7 * force; /* to which the program's values and bounds agree */
         printf("%s %c: tension %.9g in [%.9g, %.9g], by the checker [%.9g, %.9g]\n", name, "AB"[end], view->tension[e], range->least,
                range->greatest, least, greatest);

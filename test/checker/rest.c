@@ -7,9 +7,9 @@
 
 /* Elements shorter than their length by less are taut, as docs/theory.md has it. */
 static const double TAUT = 1e-9;
-/* Room across a ray or a point that a force must lie on, in units of the force: places are known to about the first, and where no forces
- * are found the next are tried. */
-static const double ROOMS[] = {1e-9, 1e-8, 1e-7};
+/* Room across a ray or a point that a force must lie on, in units of the force: where no forces are found the next is tried. Places are known
+ * to about KNOWN. */
+static const double ROOMS[] = {1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7}, KNOWN = 1e-9;
 
 static size_t nodes_of(const RestLine *line) { return line->elements + 1; }
 
@@ -145,14 +145,20 @@ static double extreme(const RestLine *line, size_t element, int sign, double roo
     return (double)(sign * value * line->force);
 }
 
-/* The room widens a range: a node that turns the line by a shallow angle holds it back by its tension times that angle, so room over angle is
- * added to the tension. The greatest value is a concave function v of the room, as that of any convex program is of what bounds it, so that
- * 2 v(r) - v(2 r) lies between v(0) and v(r): what the room adds in proportion is gone. So with the least one. */
-RestTension rest_tension(const RestLine *line, size_t element, int sign) {
-    RestTension out = {NAN, NAN};
-    double room = 0;
-    for (size_t k = 0; k < sizeof ROOMS / sizeof *ROOMS && isnan(out.wide); k++)
-        out.wide = extreme(line, element, sign, room = ROOMS[k]);
-    out.value = isfinite(out.wide) ? 2 * out.wide - extreme(line, element, sign, 2 * room) : out.wide;
-    return out;
+/* By the smallest room from `least` on with which there are forces; `taken_off`: less what it adds in proportion. */
+static double with_room(const RestLine *line, size_t element, int sign, double least, bool taken_off) {
+    for (size_t k = 0; k < sizeof ROOMS / sizeof *ROOMS; k++) {
+        const double value = ROOMS[k] >= least ? extreme(line, element, sign, ROOMS[k]) : NAN;
+        if (isnan(value)) continue;
+        return isinf(value) || !taken_off ? value : 2 * value - extreme(line, element, sign, 2 * ROOMS[k]);
+    }
+    return NAN;
 }
+
+/* The room widens a range: a node that turns the line by a shallow angle holds it back by its tension times that angle, so room over angle is
+ * added to the tension; where friction stands at its limit all along, the root of the room. The greatest value is a concave function v of the
+ * room, as that of any convex program is of what bounds it, so that 2 v(r) - v(2 r) lies between v(0) and v(r): what the room adds in
+ * proportion is gone. So with the least one. */
+double rest_tension(const RestLine *line, size_t element, int sign) { return with_room(line, element, sign, 0, true); }
+
+double rest_tension_about(const RestLine *line, size_t element, int sign) { return with_room(line, element, sign, KNOWN, false); }

@@ -31,13 +31,10 @@ typedef struct RestLine {
 /* Tensions above so many times the force are not looked at: "unbounded". */
 #define REST_MOST 1e2
 
-/* The least or greatest tension of an element [N]; NAN: not found, INFINITY: unbounded. */
-typedef struct RestTension {
-    double wide;  /* with forces that need to balance no better than places are known: no range of the line is wider */
-    double value; /* without what that room adds in proportion: the line's range is no wider than from value to value, where the places are exact */
-} RestTension;
+/* The least (sign -1) or greatest (1) tension of an element [N]; NAN: not found, INFINITY: unbounded. */
+double rest_tension(const RestLine *line, size_t element, int sign);
 
-/* By sign, -1 the least, 1 the greatest. */
-RestTension rest_tension(const RestLine *line, size_t element, int sign);
+/* The same with forces that need to balance no better than places are known: no range of the line is wider. */
+double rest_tension_about(const RestLine *line, size_t element, int sign);
 
 #endif
