@@ -395,14 +395,16 @@ static void judge_element_bound(const Record *r, const Record *before, size_t c,
  * than 1e-3 of the largest load or reaction, or 1e-7 of the largest tension, for free, if it likes; a held node has no
  * friction, nor one that no contact is looked for. */
 static void judge_bounds(const Source *source, const Record *r, const Record *before, Judge *judge) {
-    double largest = 0;
     const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
+    double largest = 0;
     for (size_t c = 0; c < contacts; c++) {
         const double *b = before->load[c % r->nodes];
         largest = fmax(largest, fmax(before->reaction[c], hypot(hypot(b[0], b[1]), b[2])));
     }
     // where nothing has weight: a node that only just touches has a reaction and a distance of about the root of the loop's 1e-13 each
     for (size_t i = 0; i < r->elements && !source->consistent; i++) largest = fmax(largest, 1e-4 * before->tension[i]);
+    // which nodes a step that is not certified left free is no claim of it either
+    const bool known = claims_something(before) || before->outcome == OUTCOME_COARSE;
     // what is not certified claims nothing; where nothing is found, the reactions are still those of the step before
     if (!claims_something(r) && r->outcome != OUTCOME_COARSE) return;
     bool solved = r->outcome <= OUTCOME_TAUT || r->outcome == OUTCOME_COARSE;
@@ -419,7 +421,7 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
         bool was_held =
             (j == 0 && before->end_kind[0] == END_HELD) || (j == r->elements && before->end_kind[1] == END_HELD);
         double w = r->friction_bound[c], R = reaction_on(before, j, r->obstacle[c]), expected = r->mu[c] * R;
-        bool free = was_held || R <= 1e-3 * largest + NOTHING;
+        bool free = was_held || !known || R <= 1e-3 * largest + NOTHING;
         if (held || (w == 0 && isinf(r->gap[c]))) continue;
         if (w == 0 && free && !(source->consistent && solved)) continue;
         // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes with both

@@ -13,7 +13,8 @@ SAME = 1e-6
 MADE, FREED = 0.05, 0.5
 # what may be no number: what is told only of some lines, ends and outcomes
 MAY_BE_NONE = ("proof", "proof_value", "motion", "end_tension_least", "end_tension_least_bound", "end_tension_greatest",
-               "end_tension_greatest_bound", "tension_bound", "tension_mesh", "contact_gap", "contact_gap_second", "element_contact_gap", "normal", "normal_second", "element_normal")
+               "end_tension_greatest_bound", "tension_bound", "tension_mesh", "contact_gap", "contact_gap_second", "element_contact_gap",
+               "normal", "normal_second", "element_normal")
 # no place may be farther from where the step begins, and no force larger, than this times what the scene is made of: an answer that is not
 # certified ends within 1e4 lengths along each axis (docs/theory.md, 5)
 SANE = 2e4
@@ -284,8 +285,8 @@ def parted(pair, tally):
         for step in range(min(one.results.steps, other.results.steps)):
             if one.final(step) or other.final(step):
                 break
-            # strain that the certificates leave open
-            left += sum(line.compliance*b for line in (one, other) for b in line.get("tension_bound", step) if math.isfinite(b))
+            # strain that the certificates leave open: the file has that of the step's last part
+            left += sum(line.compliance*b*line.one("parts", step) for line in (one, other) for b in line.get("tension_bound", step) if math.isfinite(b))
             here, there = one.get("position", step), other.get("position", step)
             apart = max(size(minus(point(here, j), point(there, one.elements - j))) for j in range(one.elements + 1))/one.length
             tally["compared"] += 1
