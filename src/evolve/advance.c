@@ -16,6 +16,7 @@
  * which is taken as above. A part in which a node with friction goes farther has not converged. */
 #include "evolve/advance.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -42,6 +43,8 @@ static const double SLIDES_CLEARLY = 0.01;
 static const double MUCH = 0.05;
 /* [-] Places are known to this much of the length: a node so near to an obstacle touches it. */
 static const double PLACES = CPSI_TOUCH;
+/* ... and strains to this, beside what their coordinates' last digits make. */
+static const double ROUNDED_STRAIN = 1e-12;
 /* After so many parts as small as may be that cannot either, no more of a step are cut for their energy: it would take all of them, and
  * what is left is reported. */
 static const int JUMPS = 8;
@@ -201,13 +204,25 @@ typedef struct Open {
     double noise;          /* [J] */
 } Open;
 
+/* [J] What rounding of coordinates makes of the elongation of a line on which no force acts. */
+static double rounding_energy(const CpsiLine *line) {
+    if (!(line->compliance > 0)) return 0;
+    double reach = 0, shortest = line->length;
+    for (int j = 0; j < line->n; j++) reach = cpsi_larger(reach, vec3_norm(vec3_load(&line->position[3*j])));
+    for (int e = 0; e + 1 < line->n; e++)
+        if (line->element_length[e] < shortest) shortest = line->element_length[e];
+    const double strain = ROUNDED_STRAIN + 8*DBL_EPSILON*reach/shortest;
+    return 0.5*line->length*strain*(strain/line->compliance);
+}
+
 static Open open_energy(const Advance *advance, const Part *first, const Part *second) {
     Open open = {0};
     for (int k = 0; k < (second ? 2 : 1); k++) {
         const Part *part = k ? second : first;
         open.energy -= part->ledger.imbalance;
         open.beside += cpsi_ledger_exchanged(&part->ledger);
-        open.noise += part->report.certificate.gap + PLACES*part->report.certificate.largest_force*advance->line->length;
+        const CpsCertificate *found = &part->report.certificate;
+        open.noise += found->gap + (found->largest_force > 0 ? PLACES*found->largest_force*advance->line->length : rounding_energy(advance->line));
     }
     if (advance->options->solver.path_tolerance > 0) open.energy = fabs(open.energy);
     return open;

@@ -352,7 +352,7 @@ static void judge_record(const Source *source, const Record *r, const char *line
         if (log) fprintf(log, "step %zu line %s: not certified, as the file says\n", step, line);
     }
     if (r->outcome != OUTCOME_SOLVED || m.missing) return;
-    report->gap = fmax(report->gap, m.gap > NOTHING ? m.gap / m.scale : 0);
+    report->gap = fmax(report->gap, m.gap > NOTHING && m.scale > 0 ? m.gap / m.scale : 0);
     report->force = fmax(report->force, m.force > NOTHING ? m.force / m.largest_force : 0);
     report->stretch = fmax(report->stretch, m.stretch);
     report->penetration = fmax(report->penetration, m.penetration / m.length);
