@@ -33,10 +33,10 @@ SEEDS = 10
 OPEN = {"balls": 1, "drum": 24, "two_coefficients": 1, "sets": 4, "other_gravity": 1, "massless": 4, "path_tolerance": 1, "several": 6, "limits": 10,
         "coarse": 12, "rough": 9}
 # pairs that part and do not say why
-SILENT = {"frozen": 1}
+SILENT = {"fine": 1, "frozen": 1}
 # scenes that are stopped after so long [s] of processor time, many times what the others take, for slow machines and instrumented builds
 SLOWEST = 60
-LATE = {"massless": 1}
+LATE = {"fine": 1, "massless": 1}
 NO_SOLUTION, NOT_CERTIFIED, BAD_SCENE = 5, 1, 3
 HELD = "hold"
 
