@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Run a program and let one of its system calls fail: the K-th after it has begun of those that write, or that one and all behind it.
+ *
+ *     refuse_calls K once|on ERRNO COUNT_FILE PROGRAM ARGUMENTS..
+ *
+ * Calls are counted from the program's first fcntl, with which capstan begins, so that those of the dynamic linker are not among them. The
+ * number of calls counted goes to COUNT_FILE; the exit code is the program's, 128 + the signal that ended it, or 77 where programs cannot be
+ * traced. Unlike functions of a library, what libc itself calls is reached, too. */
+#define _GNU_SOURCE
+#include <errno.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
+#include <sys/user.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#ifdef __x86_64__
+
+static bool is_counted(long call) {
+    static const long COUNTED[] = {SYS_open,   SYS_openat,   SYS_write,  SYS_pwrite64, SYS_writev, SYS_fsync, SYS_fdatasync, SYS_rename,
+                                   SYS_renameat, SYS_renameat2, SYS_unlink, SYS_unlinkat, SYS_mkdir,  SYS_mkdirat, SYS_close,  SYS_ftruncate, SYS_lseek};
+    for (size_t i = 0; i < sizeof COUNTED / sizeof *COUNTED; i++)
+        if (COUNTED[i] == call) return true;
+    return false;
+}
+
+/* The traced program from its start to its end; the exit code. */
+static int trace(pid_t child, long k, bool on, long code, long *count) {
+    int status;
+    bool inside = false, refused = false, begun = false;
+    if (waitpid(child, &status, 0) != child || !WIFSTOPPED(status)) return 77;
+    ptrace(PTRACE_SETOPTIONS, child, 0, PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL);
+    for (int pass = 0;;) {
+        if (ptrace(PTRACE_SYSCALL, child, 0, pass) != 0 || waitpid(child, &status, 0) != child) return 77;
+        pass = 0;
+        if (WIFEXITED(status)) return WEXITSTATUS(status);
+        if (WIFSIGNALED(status)) return 128 + WTERMSIG(status);
+        if (WSTOPSIG(status) != (SIGTRAP | 0x80)) {
+            pass = WSTOPSIG(status) == SIGTRAP ? 0 : WSTOPSIG(status);
+            continue;
+        }
+        struct user_regs_struct regs;
+        ptrace(PTRACE_GETREGS, child, 0, &regs);
+        inside = !inside;
+        if (inside) {
+            const long call = (long)regs.orig_rax;
+            begun = begun || call == SYS_fcntl;
+            refused = false;
+            const bool told = call == SYS_write && regs.rdi == STDERR_FILENO; /* what went wrong shall be read */
+            if (begun && !told && is_counted(call)) {
+                ++*count;
+                refused = *count == k || (on && *count > k && k > 0);
+            }
+            if (refused) regs.orig_rax = (unsigned long long)-1, ptrace(PTRACE_SETREGS, child, 0, &regs);
+        } else if (refused) {
+            regs.rax = (unsigned long long)-code, ptrace(PTRACE_SETREGS, child, 0, &regs);
+        }
+    }
+}
+
+int main(int argc, char **argv) {
+    if (argc < 6) return 2;
+    const pid_t child = fork();
+    if (child < 0) return 77;
+    if (child == 0) {
+        if (ptrace(PTRACE_TRACEME, 0, 0, 0) != 0) _exit(77);
+        execv(argv[5], argv + 5);
+        _exit(77);
+    }
+    long count = 0;
+    const int code = trace(child, strtol(argv[1], NULL, 10), strcmp(argv[2], "on") == 0, strtol(argv[3], NULL, 10), &count);
+    FILE *out = fopen(argv[4], "w");
+    if (!out || fprintf(out, "%ld\n", count) < 0 || fclose(out) != 0) return 2;
+    return code;
+}
+
+#else
+
+int main(void) { return 77; }
+
+#endif
