@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Fuzzing a reader: any bytes give what the reader promises, or an error with a sentence. READER, set when this is compiled, is one of
+ *
+ *     scene law drive     a file of that kind
+ *     curve               the file that a planimeter names
+ *     judge rows          a table to judge; rows that are asked of a law on standard input
+ *     state journal       edits (place, 4 bytes) of a saved state and of a journal, whose checksums are mended: what a checksum finds is no test
+ *
+ * Files are in memory, or in a directory in memory. scripts/fuzz runs it with libFuzzer or with mutate.c. libfyaml leaks on some broken keys. */
+#define _GNU_SOURCE /* memfd_create */
+#include <fcntl.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "capstan/drive_io.h"
+#include "capstan/io.h"
+#include "capstan/law_io.h"
+#include "commands.h"
+#include "study_solutions.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+typedef enum Reader { scene, law, drive, curve, judge, rows, state, journal } Reader;
+
+static void must(bool holds) {
+    if (!holds) abort();
+}
+
+/* as main.c, without a word */
+int cli_report(const CpsError *err) { return err->status == CPS_OK ? EXIT_OK : EXIT_INPUT; }
+
+static void write_all(int file, const void *data, size_t size) {
+    must(ftruncate(file, 0) == 0 && pwrite(file, data, size, 0) == (ssize_t)size && lseek(file, 0, SEEK_SET) == 0);
+}
+
+/* The bytes as a file without a name; the path to it. */
+static const char *file_of(const uint8_t *data, size_t size) {
+    static int file = -1;
+    static char path[64];
+    if (file < 0) file = memfd_create("input", MFD_CLOEXEC);
+    must(file >= 0);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    write_all(file, data, size);
+    return path;
+}
+
+/* A directory of this process, made once, and removed at its end. */
+static char own_folder[64];
+
+static void clear(void) {
+    static const char *const NAME[] = {"drive.yaml", "curve.csv", "law.yaml", ".journal"};
+    char path[128];
+    for (size_t i = 0; i < sizeof NAME / sizeof *NAME; ++i) snprintf(path, sizeof path, "%s/%s", own_folder, NAME[i]), unlink(path);
+    rmdir(own_folder);
+}
+
+static const char *folder(void) {
+    char *const path = own_folder;
+    if (*path) return path;
+    struct stat found;
+    atexit(clear);
+    snprintf(path, sizeof own_folder, "%s/capstan-fuzz-XXXXXX", stat("/dev/shm", &found) == 0 ? "/dev/shm" : "/tmp");
+    must(mkdtemp(path) != NULL);
+    return path;
+}
+
+static void put_file(const char *name, const void *data, size_t size) {
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder(), name);
+    const int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    must(file >= 0);
+    write_all(file, data, size);
+    close(file);
+}
+
+static void expect(CpsStatus status, const void *made, const CpsError *err) {
+    must((status == CPS_OK) == (made != NULL));
+    must(status == CPS_OK || (err->status == status && err->message[0]));
+}
+
+/* files of YAML -------------------------------------------------------------------------------------------------- */
+
+static void read_scene(const uint8_t *data, size_t size) {
+    CpsSceneFile *file = NULL;
+    CpsError err;
+    const CpsStatus status = cps_scene_read(file_of(data, size), NULL, &file, &err);
+    expect(status, file, &err);
+    if (file) must(cps_scene_check(cps_scene_file_scene(file), NULL) == CPS_OK);
+    cps_scene_file_destroy(file);
+}
+
+static void read_law(const uint8_t *data, size_t size) {
+    CpsLawFile *file = NULL;
+    CpsError err;
+    const CpsStatus status = cps_law_read(file_of(data, size), NULL, &file, &err);
+    expect(status, file, &err);
+    cps_law_file_destroy(file);
+}
+
+static void read_drive(const char *path) {
+    CpsDriveFile *file = NULL;
+    CpsError err;
+    const CpsStatus status = cps_drive_read(path, NULL, &file, &err);
+    expect(status, file, &err);
+    cps_drive_file_destroy(file);
+}
+
+static void read_curve(const uint8_t *data, size_t size) {
+    static const char PLANIMETER[] = "capstan: 1\nplanimeter: {pole: [0, 0], pole_arm: 1, tracer_arm: 1.3, wheel: 0.4, friction: 0.2, load: 1, "
+                                     "curve: {file: curve.csv}}\n";
+    char path[128];
+    snprintf(path, sizeof path, "%s/drive.yaml", folder());
+    put_file("drive.yaml", PLANIMETER, sizeof PLANIMETER - 1);
+    put_file("curve.csv", data, size);
+    read_drive(path);
+}
+
+/* tables --------------------------------------------------------------------------------------------------------- */
+
+/* A run of two steps that the tables and states are about. */
+static const CpsScene *small_scene(void) {
+    static const char TEXT[] =
+        "capstan: 1\nobstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}, post: {cylinder: {point: [1, 1, 0], axis: [0, 0, 1], radius: 0.5}, "
+        "friction: 0.1}}\nlines:\n  rope: {length: 2, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [2, 0, 0]}}, ends: {A: "
+        "fixed, B: free}}\n  wire: {length: 1, elements: 2, weight: 1, stiffness: .inf, start: {straight: {from: [0, -1, 0], to: [1, -1, 0]}}, ends: {A: "
+        "fixed, B: fixed}}\nhistory: [{name: a, steps: 2, rope.B: {force: [1, 0.5, 0]}}, {name: b, wire.B: {position: [0.9, -1, 0]}}]\n";
+    static CpsSceneFile *file;
+    if (!file) must(cps_scene_read(file_of((const uint8_t *)TEXT, sizeof TEXT - 1), NULL, &file, NULL) == CPS_OK);
+    return cps_scene_file_scene(file);
+}
+
+static CpsEvolution *evolution_at(int steps) {
+    CpsEvolution *evolution = NULL;
+    must(cps_evolution_create(small_scene(), &evolution, NULL) == CPS_OK);
+    while (steps-- > 0) must(cps_evolution_step(evolution, NULL) == CPS_OK);
+    return evolution;
+}
+
+/* What is printed goes nowhere. */
+static void hush(void) {
+    static bool hushed;
+    if (!hushed) must(freopen("/dev/null", "w", stdout) && freopen("/dev/null", "w", stderr));
+    hushed = true;
+}
+
+static void read_judge(const uint8_t *data, size_t size) {
+    static CpsEvolution *evolution;
+    if (!evolution) evolution = evolution_at(1);
+    hush();
+    const CpsLineView view = cps_evolution_line_view(evolution, 0);
+    study_judge(&view, file_of(data, size), 1e-8, true);
+}
+
+static void read_rows(const uint8_t *data, size_t size) {
+    static const char LAW[] = "capstan: 1\nlaw: {disc: 1}\n";
+    char path[128], *words[] = {"law", path, "-f", "-", NULL};
+    hush();
+    snprintf(path, sizeof path, "%s/law.yaml", folder());
+    put_file("law.yaml", LAW, sizeof LAW - 1);
+    must(freopen(file_of(data, size), "r", stdin) != NULL);
+    cmd_law(4, words);
+}
+
+/* states --------------------------------------------------------------------------------------------------------- */
+
+/* Places and values, six bytes each, counted from `first`. */
+static void edit(unsigned char *bytes, size_t room, size_t first, const uint8_t *data, size_t size) {
+    for (; size >= 6; data += 6, size -= 6) {
+        const size_t at = first + ((size_t)data[0] | (size_t)data[1] << 8);
+        if (at + 4 <= room) memcpy(bytes + at, data + 2, 4);
+    }
+}
+
+/* Everything that a step or a writer would look at; then a step from there. */
+static void go_on(CpsEvolution *evolution) {
+    const CpsScene *of = small_scene();
+    double sum = 0;
+    for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
+        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        const CpsLineReport report = cps_evolution_line_report(evolution, i);
+        must(cps_outcome_key(report.outcome)[0] && report.bend.obstacle < of->obstacle_count && report.pierced < of->obstacle_count);
+        for (int j = 0; j < 3 * (view.elements + 1); ++j) sum += view.position[j];
+        for (int c = 0; view.obstacle && c < view.contacts * (view.elements + 1); ++c) must(view.obstacle[c] < of->obstacle_count && view.state[c] <= 2);
+    }
+    must(isfinite(sum) || isinf(sum));
+    if (cps_evolution_remaining(evolution) > 0) (void)cps_evolution_step(evolution, NULL);
+}
+
+enum { STATE_HEAD = 24 }; /* magic, size and fingerprint, which are compared */
+
+static void read_state(const uint8_t *data, size_t size) {
+    static CpsEvolution *saved, *loaded;
+    static unsigned char *good, *bytes;
+    static size_t room;
+    if (!saved) {
+        saved = evolution_at(2), loaded = evolution_at(0);
+        room = cps_evolution_state_size(saved);
+        good = malloc(room), bytes = malloc(room);
+        must(good && bytes);
+        cps_evolution_save(saved, good);
+    }
+    memcpy(bytes, good, room);
+    edit(bytes, room, STATE_HEAD, data, size);
+    CpsError err;
+    const CpsStatus status = cps_evolution_load(loaded, bytes, room, &err);
+    must(status == CPS_OK || err.message[0]);
+    if (status == CPS_OK) go_on(loaded);
+}
+
+/* as in journal.c: FNV-1a over 64-bit words */
+static uint64_t checksum(uint64_t hash, const unsigned char *byte, size_t size) {
+    for (size_t i = 0; i < size; i += 8) {
+        uint64_t word = 0;
+        memcpy(&word, byte + i, size - i < 8 ? size - i : 8);
+        hash = (hash ^ word) * 1099511628211u;
+    }
+    return hash;
+}
+
+enum { JOURNAL_HEAD = 104, RECORD_HEAD = 16, RECORDS = 3 };
+
+/* An odd first byte: the checksums of head and records fit what has been edited. */
+static void read_journal(const uint8_t *data, size_t size) {
+    static unsigned char *good, *bytes;
+    static size_t room, record;
+    CpsEvolution *evolution = evolution_at(0);
+    CpsJournal *read = NULL;
+    CpsError err;
+    char path[128];
+    snprintf(path, sizeof path, "%s/.journal", folder());
+    if (!good) {
+        record = RECORD_HEAD + cps_evolution_state_size(evolution), room = JOURNAL_HEAD + RECORDS * record;
+        good = malloc(room), bytes = malloc(room);
+        must(good && bytes && cps_journal_open(folder(), evolution, CPS_JOURNAL_NEW, &read, NULL) == CPS_OK);
+        for (int i = 0; i < RECORDS; ++i)
+            must(cps_evolution_step(evolution, NULL) == CPS_OK && cps_journal_append(read, evolution, NULL) == CPS_OK);
+        const int file = open(path, O_RDONLY | O_CLOEXEC);
+        must(file >= 0 && pread(file, good, room, 0) == (ssize_t)room);
+        close(file);
+        cps_journal_destroy(read);
+        cps_evolution_destroy(evolution);
+        evolution = evolution_at(0);
+    }
+    memcpy(bytes, good, room);
+    if (size > 0) edit(bytes, room, 0, data + 1, size - 1);
+    const uint64_t begin = 14695981039346656037u;
+    if (size > 0 && data[0] % 2 == 1) {
+        const uint64_t head = checksum(begin, bytes, JOURNAL_HEAD - 8);
+        memcpy(bytes + JOURNAL_HEAD - 8, &head, sizeof head);
+        for (int i = 0; i < RECORDS; ++i) {
+            unsigned char *at = bytes + JOURNAL_HEAD + (size_t)i * record;
+            const uint64_t sum = checksum(checksum(begin, at, 8), at + RECORD_HEAD, record - RECORD_HEAD);
+            memcpy(at + 8, &sum, sizeof sum);
+        }
+    }
+    put_file(".journal", bytes, size > 0 && data[0] % 4 == 2 ? room / 2 + data[0] : room);
+    CpsStatus status = cps_journal_open(folder(), evolution, CPS_JOURNAL_RESUME, &read, &err);
+    expect(status, read, &err);
+    bool found = status == CPS_OK;
+    while (found && (status = cps_journal_next(read, evolution, &found, &err)) == CPS_OK)
+        if (found) go_on(evolution), found = false;
+    must(status == CPS_OK || err.message[0]);
+    cps_journal_destroy(read);
+    cps_evolution_destroy(evolution);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static const Reader reader = READER;
+    switch (reader) {
+    case scene: read_scene(data, size); break;
+    case law: read_law(data, size); break;
+    case drive: read_drive(file_of(data, size)); break;
+    case curve: read_curve(data, size); break;
+    case judge: read_judge(data, size); break;
+    case rows: read_rows(data, size); break;
+    case state: read_state(data, size); break;
+    case journal: read_journal(data, size); break;
+    }
+    return 0;
+}
