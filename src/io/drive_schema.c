@@ -8,7 +8,7 @@
 #include "io/result_text.h"
 #include "io/scene_schema.h"
 
-static const char *alias_of(int mapping) { return cpsi_drive_word((CpsiDriveMapping)mapping)->alias; }
+static const char *alias_of(CpsiDriveMapping mapping) { return cpsi_drive_word(mapping)->alias; }
 
 static void put_range(FILE *out, const CpsiField *f) {
     if (!(f->low > -INFINITY)) return;
@@ -35,9 +35,10 @@ static void put_patches(FILE *out) {
           "\"maxProperties\": 1, "
           "\"additionalProperties\": false, \"properties\": {",
           out);
-    for (int k = CPS_PATCH_POINT; k <= CPS_PATCH_POLYGON; k++)
-        fprintf(out, "%s\"%s\": {\"$ref\": \"#/$defs/%s\"}", k ? ", " : "", alias_of(CPSI_DRIVE_PATCH + k),
-                alias_of(CPSI_DRIVE_PATCH + k));
+    for (int k = CPS_PATCH_POINT; k <= CPS_PATCH_POLYGON; k++) {
+        const char *alias = alias_of((CpsiDriveMapping)((int)CPSI_DRIVE_PATCH + k));
+        fprintf(out, "%s\"%s\": {\"$ref\": \"#/$defs/%s\"}", k ? ", " : "", alias, alias);
+    }
     fputs("}}", out);
 }
 
@@ -123,7 +124,7 @@ static void put_schema(FILE *out) {
     put_word(out, cpsi_drive_word(CPSI_DRIVE_FILE));
     fputs(",\n  \"$defs\": {\n", out);
     for (int k = CPSI_DRIVE_FILE + 1; k < CPSI_DRIVE_MAPPINGS; k++) {
-        fprintf(out, "    \"%s\": {\n      ", alias_of(k));
+        fprintf(out, "    \"%s\": {\n      ", alias_of((CpsiDriveMapping)k));
         put_word(out, cpsi_drive_word((CpsiDriveMapping)k));
         fputs("\n    },\n", out);
     }
