@@ -50,7 +50,8 @@ def history(out):
 
 
 def run(out, *more, code=0, scene="scene.yaml"):
-    done = subprocess.run([CAPSTAN, "run", scene, "-q", "--sync", "end", "--no-paraview", "--fields", "none", "-o", out, *more], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([CAPSTAN, "run", scene, "-q", "--sync", "end", "--no-paraview", "--fields", "none", "-o", out, *more], capture_output=True, text=True,
+                          timeout=600)  # from a crafted place a step may take its thousand parts, some 10 s
     if code is not None:
         expect(f"run {out} {more}: exit code {done.returncode}, expected {code}", done.returncode == code, done.stderr[-300:])
     return done
