@@ -3,7 +3,8 @@
 #ifndef CAPSTAN_SRC_CABLE_CONTACT_H
 #define CAPSTAN_SRC_CABLE_CONTACT_H
 
-#include "cable/line_step.h"
+#include "cable/line.h"
+#include "cable/step_options.h"
 
 /* A node this near to the obstacle, per length of the line, touches it. */
 #define CPSI_TOUCH 1e-9

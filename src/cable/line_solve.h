@@ -3,7 +3,8 @@
 #ifndef CAPSTAN_SRC_CABLE_LINE_SOLVE_H
 #define CAPSTAN_SRC_CABLE_LINE_SOLVE_H
 
-#include "cable/line_step.h"
+#include "cable/line.h"
+#include "cable/step_options.h"
 #include "cable/step_program.h"
 #include "ipm/ipm.h"
 

@@ -3,24 +3,9 @@
 #ifndef CAPSTAN_SRC_CABLE_LINE_STEP_H
 #define CAPSTAN_SRC_CABLE_LINE_STEP_H
 
-#include "cable/least_motion.h"
 #include "cable/line.h"
+#include "cable/step_options.h"
 #include "ipm/chain_program.h"
-
-typedef struct CpsiStepOptions {
-    CpsSolverOptions solver;
-    CpsFriction friction;
-    CpsContact contact;
-    bool frictionless; /* a start laid by statics */
-    CpsiLeastMotion *least; /* scratch of the rule of least motion; NULL: places are as they are found */
-    /* set by the step itself */
-    int centrings;
-    bool slow;    /* many rounds, that do not look ahead */
-    bool turning; /* reactions turn with their normals within a round */
-    bool trying;  /* bounds that are tried, not bounds that follow */
-    bool dragged; /* rounds that a drag may hold back */
-    double drag;  /* what it is in a round (step_program.h) */
-} CpsiStepOptions;
 
 /* From the line's position (and its reaction and state there) to the next equilibrium under line->end.
  *

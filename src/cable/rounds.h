@@ -4,7 +4,8 @@
 #ifndef CAPSTAN_SRC_CABLE_ROUNDS_H
 #define CAPSTAN_SRC_CABLE_ROUNDS_H
 
-#include "cable/line_step.h"
+#include "cable/line.h"
+#include "cable/step_options.h"
 #include "cable/step_program.h"
 
 /* Rounds from the reference, looking ahead or slowly. The bounds follow the reactions within each round; once the loop cannot make them,

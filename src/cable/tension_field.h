@@ -4,7 +4,8 @@
 #define CAPSTAN_SRC_CABLE_TENSION_FIELD_H
 
 #include "cable/force_set.h"
-#include "cable/line_step.h"
+#include "cable/line.h"
+#include "cable/step_options.h"
 
 /* The law that the forces of a step obey. */
 CpsiForceLaw cpsi_force_law(const CpsiStepOptions *options, bool tight);
