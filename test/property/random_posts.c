@@ -243,8 +243,9 @@ typedef struct Tally {
     double slowest;
 } Tally;
 
-/* What a certified step promises of its forces. */
+/* What a certified step promises of its forces; of a line without any there is nothing to ask. */
 static bool right(const Audit *a, const CpsCertificate *c) {
+    if (a->scale == 0) return c->gap == 0;
     return a->balance <= 1e-9 && a->open <= 1e-8 && a->bound <= 1e-8 && a->outside <= 1e-8 && a->law <= c->gap + 1e-12 * a->scale &&
            c->gap <= 1e-8 * c->scale;
 }
