@@ -64,7 +64,29 @@ static void put_range(FILE *table, char end, const CpsTensionRange *range, doubl
                 range->greatest);
 }
 
-static void put_rows(FILE *table, const CpsEvolution *evolution) {
+/* [m] natural length of elements with |x'| < 1, by more than the strain that a judgement lets pass (solutions.h, 1e-8) */
+static double outside_kin(const CpsLineView *view) {
+    double length = 0;
+    for (int i = 0; i < view->elements; ++i) {
+        const double *a = view->position + 3 * (size_t)i, l = view->element_length[i];
+        const double chord = sqrt((a[3] - a[0]) * (a[3] - a[0]) + (a[4] - a[1]) * (a[4] - a[1]) + (a[5] - a[2]) * (a[5] - a[2]));
+        if (chord < (1 - 1e-4) * l) length += l;
+    }
+    return length;
+}
+
+/* With the friction of the reference a step is P4.2 of S90: does its solution lie in Kin, that is, solve P3.1, and is it the only one? */
+static void put_verdict(FILE *table, const CpsLineReport *line, const CpsLineView *view) {
+    const double length = outside_kin(view);
+    fprintf(table, "%*s ", NAME_WIDTH + 1 + LINE_WIDTH, "");
+    if (length > 0)
+        fprintf(table, "a solution of P4.2 outside Kin: |x'| < 1 on %.4g m", length);
+    else
+        fputs("a solution of P3.1", table);
+    fprintf(table, ", %s\n", line->places == CPS_PLACES_UNIQUE ? "the only one" : "one of many places");
+}
+
+static void put_rows(FILE *table, const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
@@ -80,6 +102,8 @@ static void put_rows(FILE *table, const CpsEvolution *evolution) {
         put_error(table, solved ? line.tension_mesh : NAN);
         fprintf(table, " %10.4g %10.4g %10.4g\n", line.grounded, line.slipping, line.slack);
         for (int e = 0; e < 2; ++e) put_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
+        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        if (solved && scene->friction == CPS_FRICTION_FROZEN && !view.slide) put_verdict(table, &line, &view);
     }
 }
 
@@ -159,7 +183,7 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     cautions_step(&run->cautions, run->scene, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED || cli_stopped())
-        put_rows(run->table, run->evolution);
+        put_rows(run->table, run->scene, run->evolution);
     if (report.outcome != CPS_SOLVED) {
         progress_end(&run->progress);
         report_outcomes(run->scene, run->evolution);
