@@ -113,10 +113,11 @@ static Laying begin(const CpsLineView *step, const CpsiPiece *piece, CpsCompleti
     return lay;
 }
 
+/* sides differ by no more than the chord, and reach across it: after an element laid across they need not */
 static bool two_close(Laying *lay) {
     lay->third = false;
     measure_sides(lay);
-    return fabs(lay->side[0] - lay->side[1]) <= lay->chord*(1 + CPSI_FULL);
+    return lay->length >= lay->chord*(1 - CPSI_FULL) && fabs(lay->side[0] - lay->side[1]) <= lay->chord*(1 + CPSI_FULL);
 }
 
 static bool three_close(Laying *lay) {
