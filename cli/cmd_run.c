@@ -76,17 +76,20 @@ static double outside_kin(const CpsLineView *view) {
 }
 
 /* With the friction of the reference a step is P4.2 of S90: does its solution lie in Kin, that is, solve P3.1, and is it the only one? */
-static void put_verdict(FILE *table, const CpsLineReport *line, const CpsLineView *view) {
+static void put_verdict(FILE *verdicts, const char *step, const CpsLineReport *line, const CpsLineView *view) {
     const double length = outside_kin(view);
-    fprintf(table, "%*s ", NAME_WIDTH + 1 + LINE_WIDTH, "");
+    cli_put_text(verdicts, step, NAME_WIDTH, true);
+    fputc(' ', verdicts);
+    cli_put_text(verdicts, view->name, LINE_WIDTH, true);
+    fputc(' ', verdicts);
     if (length > 0)
-        fprintf(table, "a solution of P4.2 outside Kin: |x'| < 1 on %.4g m", length);
+        fprintf(verdicts, "a solution of P4.2 outside Kin: |x'| < 1 on %.4g m", length);
     else
-        fputs("a solution of P3.1", table);
-    fprintf(table, ", %s\n", line->places == CPS_PLACES_UNIQUE ? "the only one" : "one of many places");
+        fputs("a solution of P3.1", verdicts);
+    fprintf(verdicts, ", %s\n", line->places == CPS_PLACES_UNIQUE ? "the only one" : "one of many places");
 }
 
-static void put_rows(FILE *table, const CpsScene *scene, const CpsEvolution *evolution) {
+static void put_rows(FILE *table, FILE *verdicts, const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
@@ -103,7 +106,7 @@ static void put_rows(FILE *table, const CpsScene *scene, const CpsEvolution *evo
         fprintf(table, " %10.4g %10.4g %10.4g\n", line.grounded, line.slipping, line.slack);
         for (int e = 0; e < 2; ++e) put_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
-        if (solved && scene->friction == CPS_FRICTION_FROZEN && !view.slide) put_verdict(table, &line, &view);
+        if (solved && scene->friction == CPS_FRICTION_FROZEN && !view.slide) put_verdict(verdicts, step.name, &line, &view);
     }
 }
 
@@ -169,7 +172,7 @@ typedef struct Run {
     CpsJournal *journal;
     Progress progress;
     Cautions cautions;
-    FILE *table;
+    FILE *table, *verdicts;
     CpsOutcome worst;
     bool refused; /* a step could not begin; those before it are kept */
 } Run;
@@ -183,7 +186,7 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     cautions_step(&run->cautions, run->scene, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED || cli_stopped())
-        put_rows(run->table, run->scene, run->evolution);
+        put_rows(run->table, run->verdicts, run->scene, run->evolution);
     if (report.outcome != CPS_SOLVED) {
         progress_end(&run->progress);
         report_outcomes(run->scene, run->evolution);
@@ -265,21 +268,28 @@ static void say_where(const char *directory, const CpsEvolution *evolution, bool
 
 static int run(const CpsScene *scene, const char *directory, const CliOptions *options) {
     CpsError err;
-    char *text = NULL;
-    size_t size = 0;
-    Run run = {.scene = scene, .table = open_memstream(&text, &size)};
-    if (!run.table) {
+    char *text = NULL, *said = NULL;
+    size_t size = 0, length = 0;
+    Run run = {.scene = scene, .table = open_memstream(&text, &size), .verdicts = open_memstream(&said, &length)};
+    if (!run.table || !run.verdicts) {
+        if (run.table) fclose(run.table);
+        if (run.verdicts) fclose(run.verdicts);
+        free(text);
+        free(said);
         fprintf(stderr, "capstan: out of memory\n");
         return EXIT_LIMIT;
     }
     put_head(run.table);
     const CpsStatus status = carry_out(&run, directory, options, &err);
-    if (fclose(run.table) == 0 && !status && !options->json && !options->quiet) {
+    const bool whole = (fclose(run.table) == 0) & (fclose(run.verdicts) == 0);
+    if (whole && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
+        if (length > 0) printf("\n%s", said);
         say_where(directory, run.evolution, !options->no_paraview);
     }
     const int code = status ? cli_report(&err) : cli_stopped() ? 128 + cli_stopped() : exit_code(run.worst);
     free(text);
+    free(said);
     cps_journal_destroy(run.journal);
     cps_results_destroy(run.results);
     cps_evolution_destroy(run.evolution);
