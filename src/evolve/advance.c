@@ -49,9 +49,9 @@ static const double ROUNDED_STRAIN = 1e-12;
  * what is left is reported. */
 static const int JUMPS = 8;
 
-/* So many iterations times nodes spent on parts that do not converge end the cutting of a step: about a second of one processor. Each
- * iteration costs as much as that of some nodes more. */
-static const double IN_VAIN = 2e6, NODES_BESIDE = 30;
+/* So many iterations times nodes spent on parts that are not kept end the cutting of a step, unless its path is asked for: about a second of
+ * one processor. Each iteration costs as much as that of some nodes more; a given set of friction forces makes a node dearer. */
+static const double IN_VAIN = 2e6, NODES_BESIDE = 30, SET_COST = 30;
 
 /* An angle that is a whole number of quarters but for rounding is that number. */
 static const double ROUNDING = 1e-9;
@@ -102,7 +102,7 @@ typedef struct Advance {
     CpsiAdvance *room;
     bool known;      /* the forces at the ends are those of an equilibrium */
     int iterations;  /* of everything that was solved, kept or not */
-    double in_vain;  /* iterations times nodes, of what was not kept */
+    double in_vain;  /* iterations times nodes, of what was not kept, path tolerance apart */
     int jumps;       /* parts as small as may be whose energy is open */
     CpsLineReport whole;
     CpsLedger ledger;
@@ -336,6 +336,16 @@ static bool add_slide(Advance *advance, double from, double to, double margin) {
     return true;
 }
 
+/* What has been solved since there were so many iterations: these times the nodes. What converged is cut alike whatever its friction is
+ * given as. */
+static double cost_of(const Advance *advance, int before, bool good) {
+    const CpsiLine *line = advance->line;
+    double nodes = line->n + NODES_BESIDE;
+    for (int k = 0; k < line->obstacle_count && !good; k++)
+        if (line->obstacle[k].has_set) nodes = fmax(nodes, SET_COST*line->n);
+    return (double)(advance->iterations - before)*nodes;
+}
+
 /* Take a stretch in parts, each halved up to `halvings` times. */
 static void advance_stretch(Advance *advance, Stretch stretch, int halvings) {
     const double tolerance = advance->options->solver.path_tolerance, least = ldexp(1, -halvings);
@@ -348,8 +358,9 @@ static void advance_stretch(Advance *advance, Stretch stretch, int halvings) {
             add(advance, &trial.first);
             return;
         }
-        if (!trial.good) advance->in_vain += (double)(advance->iterations - before)*(advance->line->n + NODES_BESIDE);
-        if (!(trial.good && trial.agrees) && part > least && advance->in_vain < IN_VAIN) {
+        const bool kept = trial.good && trial.agrees;
+        if (!trial.good || (!kept && tolerance == 0)) advance->in_vain += cost_of(advance, before, trial.good);
+        if (!kept && part > least && advance->in_vain < IN_VAIN) {
             restore(advance->line, advance->room);
             if (!trial.good && part == 1 && add_slide(advance, from, stretch.to, SLIDES_CLEARLY)) return;
             restore(advance->line, advance->room);
