@@ -6,20 +6,13 @@
 #include <stdlib.h>
 
 #include "rig.h"
+#include "splitmix.h"
 
 enum { CASES = 40 };
 /* Angles are whole turns apart where an axis was passed: rounding is far below this. */
 static const double SAME = 1e-6;
 
 static const double PI = 3.14159265358979323846;
-
-static double uniform(uint64_t *state, double low, double high) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
-}
 
 /* [rad] by which the straight way from a to b goes round the z axis, between -pi and pi */
 static double angle(const double *a, const double *b) { return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]); }
@@ -40,7 +33,7 @@ static bool lifts(const Rig *rig, const CpsLineView *view) {
 /* A post about the z axis, or every fourth time a ball; then the line is without weight, and flat. */
 static CpsObstacle *stand(Rig *rig, uint64_t *seed, int i, double radius) {
     const bool ball = i % 4 == 1;
-    CpsObstacle *post = rig_obstacle(rig, ball ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER, uniform(seed, ball ? 0.2 : 0, 0.4));
+    CpsObstacle *post = rig_obstacle(rig, ball ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER, splitmix(seed, ball ? 0.2 : 0, 0.4));
     post->radius = radius, post->axis[1] = 0, post->axis[2] = 1;
     return post;
 }
@@ -81,20 +74,20 @@ static void run(const Rig *rig, const char *name, Tally *tally) {
 static void across(uint64_t *seed, int i, Tally *tally) {
     Rig *rig = calloc(1, sizeof *rig);
     assert_non_null(rig);
-    const int elements = 8 + (int)uniform(seed, 0, 24);
-    const double radius = 4.0 / elements * pow(10, uniform(seed, -1, 0.6));
-    rig_begin(rig, elements, uniform(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, uniform(seed, 2, 4)));
+    const int elements = 8 + (int)splitmix(seed, 0, 24);
+    const double radius = 4.0 / elements * pow(10, splitmix(seed, -1, 0.6));
+    rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, splitmix(seed, 2, 4)));
     rig->scene.friction = i % 3 == 0 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
     rig->scene.solver.halvings = 6;
     rig_length(rig, 4);
     const bool ball = stand(rig, seed, i, radius)->kind == CPS_OBSTACLE_SPHERE;
-    const double y = 1 + 1.5 * radius, lean = ball ? 0 : uniform(seed, -0.3, 0.3), rise = ball ? 0 : 0.1;
+    const double y = 1 + 1.5 * radius, lean = ball ? 0 : splitmix(seed, -0.3, 0.3), rise = ball ? 0 : 0.1;
     if (ball) rig->line.weight = 0;
     rig_point(rig, -2, -y, -lean), rig_point(rig, 2, -y, lean + rise);
     rig_end(rig, CPS_END_A, CPS_END_HELD, -2, -y, -lean), rig_end(rig, CPS_END_B, CPS_END_HELD, 2, -y, lean + rise);
     static const int STEPS[] = {1, 4, 25};
     rig_stage(rig, STEPS[i % 3]);
-    const double to = uniform(seed, -0.2, 1.5);
+    const double to = splitmix(seed, -0.2, 1.5);
     rig_change(rig, CPS_END_A, CPS_END_HELD, -2, to, -lean), rig_change(rig, CPS_END_B, CPS_END_HELD, 2, to, lean + rise);
     char name[128];
     snprintf(name, sizeof name, "across %d, %s, R/h %.3g, %d steps, %s", i, ball ? "ball" : "post", radius * elements / 4, STEPS[i % 3],
@@ -107,15 +100,15 @@ static void across(uint64_t *seed, int i, Tally *tally) {
 static void around(uint64_t *seed, int i, Tally *tally) {
     Rig *rig = calloc(1, sizeof *rig);
     assert_non_null(rig);
-    const int elements = 10 + (int)uniform(seed, 0, 30);
-    const double length = 3, radius = fmin(0.25, length / elements * pow(10, uniform(seed, -1, 1)));
-    rig_begin(rig, elements, uniform(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, uniform(seed, 2, 4)));
+    const int elements = 10 + (int)splitmix(seed, 0, 30);
+    const double length = 3, radius = fmin(0.25, length / elements * pow(10, splitmix(seed, -1, 1)));
+    rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, splitmix(seed, 2, 4)));
     rig->scene.friction = i % 3 == 0 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
     rig->scene.solver.halvings = 6;
     rig_length(rig, length);
     const bool ball = stand(rig, seed, i, radius)->kind == CPS_OBSTACLE_SPHERE;
     if (ball) rig->line.weight = 0;
-    const double reach = radius + uniform(seed, 0.3, 0.6), way = i % 2 ? 1 : -1;
+    const double reach = radius + splitmix(seed, 0.3, 0.6), way = i % 2 ? 1 : -1;
     rig_point(rig, -length + 0.2, -reach, 0), rig_point(rig, 0.2, -reach, 0);
     rig_end(rig, CPS_END_A, CPS_END_HELD, -length + 0.2, -reach, 0), rig_end(rig, CPS_END_B, CPS_END_HELD, 0.2, -reach, 0);
     static const int STEPS[] = {1, 3};

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "rig.h"
+#include "splitmix.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -81,25 +82,17 @@ static CpsOutcome outcome(const Case *c, double ratio, double *power) {
     return found;
 }
 
-/* splitmix64 */
-static double uniform(uint64_t *seed, double low, double high) {
-    uint64_t z = *seed += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return low + (high - low) * (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-}
-
 static void beyond_the_limit(void **state) {
     (void)state;
     enum { CASES = 24 };
     double worst = 0;
     for (int i = 0; i < CASES; i++) {
         uint64_t seed = 1000 + (uint64_t)i;
-        Case c = {.mu = uniform(&seed, 0.03, 0.8), .theta = uniform(&seed, 0.4, 1.8 * PI)};
-        c.nodes = 8 + (int)(40 * uniform(&seed, 0, 1));
-        c.radius = pow(10, uniform(&seed, -2, 2)), c.force = pow(10, uniform(&seed, -2, 4));
+        Case c = {.mu = splitmix(&seed, 0.03, 0.8), .theta = splitmix(&seed, 0.4, 1.8 * PI)};
+        c.nodes = 8 + (int)(40 * splitmix(&seed, 0, 1));
+        c.radius = pow(10, splitmix(&seed, -2, 2)), c.force = pow(10, splitmix(&seed, -2, 4));
         const double k = limit_of(&c), d = c.theta / c.nodes, fastest = sqrt(1 + c.mu * c.mu) / (cos(d / 2) - c.mu * sin(d / 2));
-        const double over = 1 + pow(10, uniform(&seed, -2, 0));
+        const double over = 1 + pow(10, splitmix(&seed, -2, 0));
         double power;
         printf("seed %d: mu %.3g, theta %.3g, %d nodes, limit %.4g, beyond by %.3g\n", 1000 + i, c.mu, c.theta, c.nodes, k, over);
         CHECK_INT(outcome(&c, over * k, &power), CPS_SLIDES);

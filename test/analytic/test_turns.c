@@ -9,19 +9,14 @@
 #include <stdlib.h>
 
 #include "rig.h"
+#include "splitmix.h"
 
 static const double PI = 3.14159265358979323846;
 
-/* random numbers: splitmix64 */
+/* random numbers */
 static uint64_t seed = 20;
 
-static double uniform(double low, double high) {
-    uint64_t z = seed += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
-}
+static double uniform(double low, double high) { return splitmix(&seed, low, high); }
 
 static double per_node(double mu, double d) { return (1 + mu * tan(d / 2)) / (1 - mu * tan(d / 2)); }
 

@@ -12,6 +12,8 @@ import tempfile
 import time
 import zlib
 
+from checks import expect, faults, read, write
+
 CAPSTAN, CHECKER = (os.path.abspath(path) for path in sys.argv[1:3])
 SCENE = """capstan: 1
 obstacles:
@@ -22,22 +24,6 @@ history:
   - {name: out, rope.B: {position: [1.1, 0, 0]}, steps: STEPS}
   - {name: back, rope.B: {position: [1, 0, 0]}, steps: STEPS}
 """
-faults = []
-
-
-def expect(what, holds, found=""):
-    if not holds:
-        faults.append(f"{what}: {found!r}")
-
-
-def write(name, text):
-    with open(name, "w", encoding="utf-8") as file:
-        file.write(text)
-
-
-def read(name):
-    with open(name, "rb") as file:
-        return file.read()
 
 
 def files(folder):

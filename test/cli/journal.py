@@ -13,6 +13,8 @@ import sys
 import tempfile
 import time
 
+from checks import expect, faults, read, write
+
 CAPSTAN = os.path.abspath(sys.argv[1])
 HEAD, RECORD = 104, 16  # bytes before the first record, and before its state
 SCENE = """capstan: 1
@@ -26,22 +28,6 @@ history:
   - {name: move, steps: 25, rope.B: {position: [7.5, 2.5, 0]}}
   - {name: pull, steps: 5, tail.B: {force: [1, 0.5, 0]}}
 """
-faults = []
-
-
-def expect(what, holds, found=""):
-    if not holds:
-        faults.append(f"{what}: {found!r}")
-
-
-def write(name, data):
-    with open(name, "wb") as file:
-        file.write(data if isinstance(data, bytes) else data.encode())
-
-
-def read(name):
-    with open(name, "rb") as file:
-        return file.read()
 
 
 def history(out):

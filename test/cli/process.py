@@ -11,6 +11,8 @@ import sys
 import tempfile
 import time
 
+from checks import expect, faults, write
+
 CAPSTAN = sys.argv[1]
 SCENE = """capstan: 1
 title: a rope
@@ -21,17 +23,6 @@ lines:
 history:
   - {name: pull, rope.B: {force: [0.1, 0.1, 0]}, steps: 12}
 """
-faults = []
-
-
-def expect(what, holds, found=""):
-    if not holds:
-        faults.append(f"{what}: {found!r}")
-
-
-def write(name, text):
-    with open(name, "w", encoding="utf-8") as file:
-        file.write(text)
 
 
 def read_all(folder):

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random numbers of a case (splitmix64), and calls that must work, for the property tests of laws and systems. */
+/* Random numbers of a case (splitmix.h), and calls that must work, for the property tests of laws and systems. */
 #ifndef CAPSTAN_TEST_RANDOM_CASE_H
 #define CAPSTAN_TEST_RANDOM_CASE_H
 
@@ -8,16 +8,12 @@
 #include <stdlib.h>
 
 #include "capstan/base.h"
+#include "splitmix.h"
 
 /* The stream, and the number of the case that messages give. */
 static uint64_t state, seed;
 
-static inline double uniform(double low, double high) {
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30))*0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27))*0x94d049bb133111ebu;
-    return low + (high - low)*(double)((z ^ (z >> 31)) >> 11)*0x1p-53;
-}
+static inline double uniform(double low, double high) { return splitmix(&state, low, high); }
 
 static inline int below(int bound) { return (int)uniform(0, bound); }
 

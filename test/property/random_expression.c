@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random set expressions with a known point (random_expression.h). */
 #include "random_expression.h"
+#include "splitmix.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,13 +14,7 @@ static uint64_t state;
 
 void random_seed(uint64_t number) { state = number * 0x2545f4914f6cdd1du + 1; }
 
-double uniform(double low, double high) {
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
-}
+double uniform(double low, double high) { return splitmix(&state, low, high); }
 
 int below(int bound) { return (int)uniform(0, bound); }
 

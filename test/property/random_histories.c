@@ -14,20 +14,15 @@
 #include <string.h>
 
 #include "rig.h"
+#include "splitmix.h"
 
 enum { HISTORIES = 500 };
 static const double CONVERGED = 0.995;
 
-/* random numbers: splitmix64 */
+/* random numbers */
 static uint64_t state;
 
-static double uniform(double low, double high) {
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
-}
+static double uniform(double low, double high) { return splitmix(&state, low, high); }
 
 static double decades(double low, double high) { return pow(10, uniform(low, high)); }
 static bool chance(double probability) { return uniform(0, 1) < probability; }

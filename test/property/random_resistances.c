@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "capstan/law.h"
+#include "splitmix.h"
 
 enum { MOST_SPACE = 6, MOST_TERMS = 4, MOST_POINTS = 5 };
 
@@ -45,12 +46,7 @@ static const double MOST_OPEN = 2;
 static uint64_t state, seed;
 static int failures, questions, open;
 
-static double uniform(double low, double high) {
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return low + (high - low) * (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
+static double uniform(double low, double high) { return splitmix(&state, low, high); }
 
 static int below(int bound) { return (int)uniform(0, bound); }
 

@@ -3,20 +3,15 @@
  * from a hundredth of the line's weight to five times it. Everything is laid out in the frame of the plane (two
  * tangents and the normal), so that a class only says what is special about it. */
 #include "random_scene_maker.h"
+#include "splitmix.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* ---- random numbers: splitmix64 ---- */
+/* ---- random numbers ---- */
 
-double random_uniform(Random *random, double low, double high) {
-    uint64_t z = random->state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
-}
+double random_uniform(Random *random, double low, double high) { return splitmix(&random->state, low, high); }
 
 double random_decades(Random *random, double low, double high) { return pow(10, random_uniform(random, low, high)); }
 int random_below(Random *random, int bound) { return (int)random_uniform(random, 0, bound); }

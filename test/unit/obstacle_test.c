@@ -5,20 +5,12 @@
 #include <stdint.h>
 
 #include "check.h"
+#include "splitmix.h"
 
 enum { POINTS = 200 };
 
-/* a few numbers without pattern: splitmix64 */
-static double uniform(uint64_t *state, double low, double high) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
-}
-
 static Vec3 random_vector(uint64_t *state, double size) {
-    return vec3(uniform(state, -size, size), uniform(state, -size, size), uniform(state, -size, size));
+    return vec3(splitmix(state, -size, size), splitmix(state, -size, size), splitmix(state, -size, size));
 }
 
 static CpsiObstacle make(CpsObstacleKind kind) {
@@ -109,7 +101,7 @@ static void curvature_is_second_derivative(void **state) {
  * a surface of radius r the way is that at the surface, while x moves at its own distance. */
 static void there_and_back(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
     const double distance = o->kind == CPS_OBSTACLE_PLANE ? 1 : (o->radius + cpsi_obstacle_gap(o, x)) / o->radius;
-    const double rise = uniform(state, -0.2, 0.5);
+    const double rise = splitmix(state, -0.2, 0.5);
     const Vec3 n = cpsi_obstacle_normal(o, x), any = random_vector(state, 1);
     const Vec3 u = vec3_axpy(rise - vec3_dot(any, n), n, any);
     const double tolerance = 1e-14 * (1 + vec3_norm(x)) / (distance < 1 ? distance : 1);
@@ -162,7 +154,7 @@ static void no_way(void **state) {
  * axis. */
 static void turns(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
     if (o->kind == CPS_OBSTACLE_PLANE) return;
-    const double angle = uniform(state, -3, 3), rounding = 2e-14 * (1 + vec3_norm(x));
+    const double angle = splitmix(state, -3, 3), rounding = 2e-14 * (1 + vec3_norm(x));
     const Vec3 axis = o->frame.axis[2], to = cpsi_obstacle_turn(o, x, angle);
     CHECK_NEAR(cpsi_obstacle_gap(o, to), cpsi_obstacle_gap(o, x), rounding);
     CHECK_NEAR(vec3_dot(vec3_sub(to, x), axis), 0, rounding);
@@ -190,7 +182,7 @@ static void turn(void **state) {
 /* The angle between two normals has the sign of the turn on a cylinder and none on a ball; half round a way has the length of half a
  * turn, whatever its direction. */
 static void angles(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
-    const double angle = uniform(state, -3, 3), rounding = 2e-14 * (1 + vec3_norm(x));
+    const double angle = splitmix(state, -3, 3), rounding = 2e-14 * (1 + vec3_norm(x));
     const Vec3 n = cpsi_obstacle_normal(o, x);
     if (o->kind == CPS_OBSTACLE_PLANE) {
         CHECK_NEAR(cpsi_obstacle_angle(o, n, vec3(1, 0, 0)), 0, 0);
@@ -270,7 +262,7 @@ static void faces(void **state_) {
     int inside = 0;
     for (int i = 0; i < 40*POINTS; i++) {
         const CpsiObstacle o = make(i%2 ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE);
-        const Vec3 a = random_vector(&state, 2), b = vec3_add(a, random_vector(&state, pow(10, uniform(&state, -2, 1))));
+        const Vec3 a = random_vector(&state, 2), b = vec3_add(a, random_vector(&state, pow(10, splitmix(&state, -2, 1))));
         double low = 0, high = 1, share;
         for (int k = 0; k < 80; k++) {
             const double left = high - golden*(high - low), right = low + golden*(high - low);

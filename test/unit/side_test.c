@@ -5,16 +5,9 @@
 #include <stdio.h>
 
 #include "check.h"
+#include "splitmix.h"
 
 enum { MOVES = 4000, SAMPLES = 400 };
-
-static double uniform(uint64_t *state, double low, double high) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
-}
 
 /* Distance of the piece from a to b from the axis or centre: the least of |a + t (b - a)| without its part along the axis, by golden
  * section, as it has one valley. */
@@ -62,11 +55,11 @@ static void moves_end_in_time(void **state) {
     for (int i = 0; i < MOVES; i++) {
         CpsObstacle def = cps_obstacle_default();
         def.kind = i % 2 ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER;
-        def.radius = pow(10, uniform(&seed, -3, 1));
-        for (int k = 0; k < 3; k++) def.point[k] = uniform(&seed, -1, 1), def.axis[k] = uniform(&seed, -1, 1);
+        def.radius = pow(10, splitmix(&seed, -3, 1));
+        for (int k = 0; k < 3; k++) def.point[k] = splitmix(&seed, -1, 1), def.axis[k] = splitmix(&seed, -1, 1);
         double from[6], to[6];
-        const double reach = pow(10, uniform(&seed, -2, 1)); /* of the move */
-        for (int k = 0; k < 6; k++) from[k] = uniform(&seed, -2, 2), to[k] = from[k] + reach * uniform(&seed, -1, 1);
+        const double reach = pow(10, splitmix(&seed, -2, 1)); /* of the move */
+        for (int k = 0; k < 6; k++) from[k] = splitmix(&seed, -2, 2), to[k] = from[k] + reach * splitmix(&seed, -1, 1);
         const CpsiObstacle obstacle = cpsi_obstacle(&def);
         const CpsiLine line = {.n = 2, .obstacle_count = 1, .obstacle = &obstacle};
         const double share = cpsi_side_share(&line, from, to, 1);
