@@ -19,6 +19,10 @@ static const double CONTRADICTION = 1e-9;
 /* [m/s] What nothing drives is at rest below this; without W there is no speed to compare with. */
 static const double REST = 1e-12;
 
+/* Bounds that are nearer than this share of the power scale, and as much for each component of the laws, are as near as rounding
+ * lets them be. Velocities are then known to its root. */
+static const double FEW = 1e-12, EACH = 1e-15;
+
 static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion"); }
 
 const char *cps_motion_outcome_name(CpsMotionOutcome outcome) {
@@ -203,24 +207,51 @@ static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double s
     return status;
 }
 
-/* A motion. The size of velocities is a guess, and only resistances are about it: another one where it was wrong. Equations
- * divided each by its own forces tell strong laws from weak ones best; where a weak law's equation decides velocities that a
- * strong one resists, one divisor for all does. */
+/* An attempt as it was begun, and how good it was: bounds within the tolerance, the distance between them. */
+typedef struct Trial {
+    CpsMotion *motion;
+    CpsiKinematics *kinematics;
+    double first;             /* the speed that it is compared with before a motion is known */
+    CpsMotionOutcome so_far;
+    double tolerance, least;  /* of close_enough */
+    bool still;
+} Trial;
+
+static CpsStatus try_once(const Trial *trial, double speed, bool even, bool *near, CpsError *err) {
+    trial->motion->speed = trial->first;
+    trial->motion->report.outcome = trial->so_far;
+    const CpsStatus status = attempt(trial->motion, trial->kinematics, speed, even, trial->still, err);
+    *near = status == CPS_OK && close_enough(&trial->motion->report, trial->tolerance, trial->least);
+    return status;
+}
+
+/* Equations divided each by its own forces tell strong laws from weak ones best; where a weak law's equation decides velocities
+ * that a strong one resists, one divisor for all does. So where the first leaves bounds farther apart than rounding does, the
+ * second is tried as well, and the one with the nearer bounds is taken. */
+static CpsStatus try_both(const Trial *trial, double speed, bool *near, CpsError *err) {
+    const CpsMotionReport *report = &trial->motion->report;
+    CpsStatus status = try_once(trial, speed, false, near, err);
+    if (status != CPS_OK || report->outcome == CPS_MOTION_BLOCKED) return status;
+    if (*near && report->minimum <= (FEW + EACH*trial->motion->system->components)*report->scale) return CPS_OK;
+    const double apart = *near ? report->minimum : INFINITY;
+    status = try_once(trial, speed, true, near, err);
+    if (status != CPS_OK || report->outcome == CPS_MOTION_BLOCKED || (*near && report->minimum < apart)) return status;
+    return isfinite(apart) ? try_once(trial, speed, false, near, err) : CPS_OK;
+}
+
+/* A motion. The size of velocities is a guess, and only resistances are about it: another one where it was wrong. */
 static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics, const CpsMotionOptions *options, CpsError *err) {
     static const double GUESS[] = {1, 100, 0.01, 1e4};
-    const CpsSystem *system = motion->system;
     const double speed = motion->speed > 0 ? motion->speed : 1;
-    const bool resistance = has_resistance(system);
+    const bool resistance = has_resistance(motion->system);
     /* nothing drives, and no load gives power at a rate that a resistance would have to match: rest is a solution */
-    const bool still = motion->speed == 0 && !(resistance && cpsi_system_loaded(system));
-    const double least = motion->force*REST, first = motion->speed;
-    const CpsMotionOutcome so_far = motion->report.outcome;
-    for (size_t k = 0; k < 2*(resistance ? sizeof GUESS/sizeof *GUESS : 1); k++) {
-        motion->speed = first;
-        motion->report.outcome = so_far;
-        const CpsStatus status = attempt(motion, kinematics, speed*GUESS[k/2], k % 2 == 1, still, err);
-        if (status != CPS_OK || motion->report.outcome == CPS_MOTION_BLOCKED) return status;
-        if (close_enough(&motion->report, options->tolerance, least)) return CPS_OK;
+    const bool still = motion->speed == 0 && !(resistance && cpsi_system_loaded(motion->system));
+    const Trial trial = {.motion = motion, .kinematics = kinematics, .first = motion->speed, .so_far = motion->report.outcome,
+                         .tolerance = options->tolerance, .least = motion->force*REST, .still = still};
+    for (size_t k = 0; k < (resistance ? sizeof GUESS/sizeof *GUESS : 1); k++) {
+        bool near = false;
+        const CpsStatus status = try_both(&trial, speed*GUESS[k], &near, err);
+        if (status != CPS_OK || motion->report.outcome == CPS_MOTION_BLOCKED || near) return status;
         motion->report.outcome = CPS_MOTION_INACCURATE;
     }
     return CPS_OK;

@@ -15,7 +15,11 @@
  *     [ E  0   0  ] [-dy] = - values,     H = sum over rays of (l/|s1|) A1'(1 - n n')A1
  *     [ G  0   0  ] [-dm]
  *
- * regular where x, y and z are unique; EASE on the diagonals leaves the rest where it is. */
+ * regular where x, y and z are unique; EASE on the diagonals leaves the rest where it is.
+ *
+ * Of a cone that is hardly active, or whose force is far smaller than the others, the loop may end with the wrong kind. Steps
+ * then leave it, and the side on which they do tells the other kind, with which they begin anew; or they do not settle, and the
+ * cone whose force they take away most is tried without. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +30,8 @@
 
 static const double EASE = 1e-10;
 enum { STEPS = 4, ROUNDS = 6 };
+/* How often cones may turn out to be taken for the wrong kind. */
+enum { TRIALS = 4 };
 /* Residuals of this many roundings of the largest unknown are no worse than any. */
 static const double ROUNDING = 1e-15;
 /* Entries of the factor, as for the program itself. */
@@ -36,6 +42,9 @@ typedef enum Active { FREE, TIP, RAY } Active;
 typedef struct Polish {
     CpsiSparseProgram *program;
     unsigned char *active;      /* (cones) Active */
+    unsigned char *other;       /* (cones) Active, of those that steps have left the kind that the side tells */
+    bool left_some;             /* is there one? */
+    double enough, best;        /* the residual that counts, and the least so far that did */
     int multipliers, size;      /* m; all unknowns (x, -y, -m) */
     size_t *start;              /* pattern */
     int *index;
@@ -70,20 +79,20 @@ static bool next(const CpsiSparseData *d, Walk *w) {
 
 static void release(Polish *p) {
     cpsi_ldl_free(p->ldl);
-    free(p->active), free(p->start), free(p->index), free(p->value), free(p->sign), free(p->at);
+    free(p->start), free(p->index), free(p->value), free(p->sign), free(p->at);
+    p->ldl = NULL, p->start = NULL, p->index = NULL, p->value = NULL, p->sign = NULL, p->at = NULL;
 }
 
-/* Kinds of activity, and room. */
+/* Room for these kinds of activity, and where to begin. */
 static bool begin(Polish *p) {
     const CpsiSparseProgram *program = p->program;
     const CpsiSparseData *d = &program->data;
     const CpsiCones *cones = &program->cones;
-    p->active = malloc((size_t)cones->count + 1);
-    if (!p->active) return false;
     p->entries = program->free_place + (size_t)(d->unknowns + d->equations) + d->start[d->equations];
+    p->multipliers = 0, p->left_some = false;
+    memcpy(p->other, p->active, (size_t)cones->count);
     Walk w = {0};
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
-        p->active[k] = (unsigned char)active(&cones->s[i], &cones->z[i], cones->dim[k]);
+    for (int k = 0; k < cones->count; k++) {
         const int rows = p->active[k] == FREE ? 0 : p->active[k] == TIP ? cones->dim[k] : 1;
         p->multipliers += rows;
         p->entries += (size_t)rows*((size_t)d->block[w.block].unknowns + 1);
@@ -108,34 +117,46 @@ static bool begin(Polish *p) {
     return true;
 }
 
-/* s and z at `at`; false where one of them has left its cone. */
+/* What a cone is that steps have left. */
+static Active corrected(Active kind, const double *z, int d) {
+    const bool curved = d > 1, pressed = z[0] + cpsi_norm(d - 1, z + 1) > 0;
+    if (kind == FREE) return curved ? RAY : TIP;
+    return !curved || !pressed ? FREE : kind == TIP ? RAY : TIP;
+}
+
+/* s and z at `at`; false where one of them has left its cone. The first time, these cones are noted. */
 static bool place(Polish *p) {
     const CpsiSparseData *d = &p->program->data;
     const double *m = p->at + d->unknowns + d->equations;
-    bool in = true;
+    bool all_in = true;
     Walk w = {0};
     do {
         const CpsiBlock *block = &d->block[w.block];
+        const Active kind = (Active)p->active[w.all];
         const int dim = block->dim[w.cone];
+        bool in = true;
         double *s = &p->s[w.row], *z = &p->z[w.row];
         for (int r = 0; r < dim; r++)
             s[r] = block->b[w.inside + r] +
                    cpsi_dot(block->unknowns, &block->a[(size_t)(w.inside + r) * (size_t)block->unknowns], &p->at[w.x]);
         const double size = cpsi_norm(dim - 1, s + 1);
         memset(z, 0, (size_t)dim*sizeof *z);
-        switch (p->active[w.all]) {
-        case FREE: in = in && s[0] >= size; break;
+        switch (kind) {
+        case FREE: in = s[0] >= size; break;
         case TIP:
             for (int r = 0; r < dim; r++) z[r] = *m++;
-            in = in && z[0] >= cpsi_norm(dim - 1, z + 1);
+            in = z[0] >= cpsi_norm(dim - 1, z + 1);
             break;
         default:
             z[0] = *m++;
-            in = in && size > 0 && z[0] >= 0;
+            in = size > 0 && z[0] >= 0;
             for (int r = 1; size > 0 && r < dim; r++) z[r] = -z[0]*s[r]/size;
         }
+        if (!in && !p->left_some) p->other[w.all] = (unsigned char)corrected(kind, z, dim);
+        all_in = all_in && in;
     } while (next(d, &w));
-    return in;
+    p->left_some = p->left_some || !all_in;
+    return all_in;
 }
 
 /* left = - values of the equations; the largest. */
@@ -258,28 +279,60 @@ static bool solve(Polish *p) {
     return true;
 }
 
-void cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
-    Polish p = {.program = program};
+/* Newton's steps with these kinds: what is admissible, and no worse than before and than the loop's, is taken. False without
+ * memory. */
+static bool take_steps(Polish *p) {
+    CpsiSparseProgram *program = p->program;
     const CpsiSparseData *d = &program->data;
-    if (program->cones.count == 0 || !begin(&p)) {
-        release(&p);
-        return;
-    }
-    double largest = 0, best = INFINITY;
-    for (int j = 0; j < d->unknowns; j++) largest = fmax(largest, fabs(p.at[j]));
-    const double enough = fmax(residual, ROUNDING*(1 + largest));
+    double so_far = INFINITY;
+    if (!begin(p)) return false;
     for (int k = 0; k <= STEPS; k++) {
-        const bool in = place(&p);
-        const double now = values(&p);
-        /* admissible, no worse than before and than the loop's: take it */
-        if (in && now <= enough && now < best) {
-            best = now;
-            memcpy(program->base.u, p.at, (size_t)(d->unknowns + d->equations)*sizeof *p.at);
-            memcpy(program->cones.s, p.s, (size_t)program->cones.rows*sizeof *p.s);
-            memcpy(program->cones.z, p.z, (size_t)program->cones.rows*sizeof *p.z);
+        const bool in = place(p);
+        const double now = values(p);
+        if (in && now <= p->enough && now < p->best) {
+            p->best = now;
+            memcpy(program->base.u, p->at, (size_t)(d->unknowns + d->equations)*sizeof *p->at);
+            memcpy(program->cones.s, p->s, (size_t)program->cones.rows*sizeof *p->s);
+            memcpy(program->cones.z, p->z, (size_t)program->cones.rows*sizeof *p->z);
         }
-        if (k == STEPS || !isfinite(now) || (k > 1 && now >= best) || !solve(&p)) break;
-        for (int i = 0; i < p.size; i++) p.at[i] += i < d->unknowns ? p.step[i] : -p.step[i];
+        if (in && now <= p->enough) so_far = fmin(so_far, now);
+        if (k == STEPS || !isfinite(now) || (k > 1 && now > so_far) || !solve(p)) break;
+        for (int i = 0; i < p->size; i++) p->at[i] += i < d->unknowns ? p->step[i] : -p->step[i];
     }
-    release(&p);
+    return true;
+}
+
+/* Steps that do not settle: the cone whose multiplier has lost the largest share, if one has, is tried without force. The
+ * program's own z are those that steps began with, or better. */
+static void doubt(Polish *p) {
+    const CpsiCones *cones = &p->program->cones;
+    double least = 1;
+    int which = -1;
+    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
+        if (p->active[k] == FREE || !(p->z[i] < least*cones->z[i])) continue;
+        least = p->z[i]/cones->z[i];
+        which = k;
+    }
+    if (which >= 0) p->other[which] = FREE, p->left_some = true;
+}
+
+void cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
+    const CpsiCones *cones = &program->cones;
+    Polish p = {.program = program, .best = INFINITY};
+    double largest = 0;
+    for (int j = 0; j < program->data.unknowns; j++) largest = fmax(largest, fabs(program->base.u[j]));
+    p.enough = fmax(residual, ROUNDING*(1 + largest));
+    p.active = cones->count > 0 ? malloc(2*(size_t)cones->count) : NULL;
+    if (!p.active) return;
+    p.other = p.active + cones->count;
+    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++])
+        p.active[k] = (unsigned char)active(&cones->s[i], &cones->z[i], cones->dim[k]);
+    for (int trial = 0; trial < TRIALS; trial++) {
+        const bool done = take_steps(&p), settled = p.best <= ROUNDING*(1 + largest);
+        if (done && !settled && !p.left_some) doubt(&p);
+        release(&p);
+        if (!done || settled || !p.left_some) break;
+        memcpy(p.active, p.other, (size_t)cones->count);
+    }
+    free(p.active);
 }

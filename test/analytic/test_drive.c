@@ -353,8 +353,8 @@ static void continuity_of_phi(void **state) {
     }
 }
 
-/* b = a f N exactly and W = (1e-6, 1): rolling, 500 + 2.5e-10 W, is told from slipping, up to 4e-10 W more, by no bounds that are 4e-10
- * apart. `No other` may then be said of omega = 0 alone. */
+/* b = a f N exactly and W = (1e-6, 1): sliding locked, 500 + 2.5e-10 W, is the only motion. Rolling dissipates up to 4e-10 W more, which
+ * the forces of the solution tell and its first digits do not. */
 static void told_apart(void **state) {
     (void)state;
     CpsSystem *system = NULL;
@@ -366,7 +366,9 @@ static void told_apart(void **state) {
     ok(cps_system_set_drive(system, 2, 3, (const CpsEntry[]){{0, 1, 1}, {1, 2, 1}, {1, 0, -0.3}}, &err));
     CpsMotion *motion = solve(system, (const double[]){1e-6, 1});
     ok(cps_motion_velocities(motion, 0, &all, low, high, &err));
-    assert_true(all.outcome != CPS_SET_ANSWERED || !all.unique || fabs(cps_motion_velocity(motion)[0]) < 1e-6);
+    CHECK_NEAR(cps_motion_velocity(motion)[0], 0, ROOT/0.3);
+    CHECK_NEAR(cps_motion_resistance(motion)[0], -500*1e-6, 500*ROOT); /* the force is against W */
+    assert_true(all.outcome != CPS_SET_ANSWERED || (all.unique && fabs(low[0]) < 1e-6 && fabs(high[0]) < 1e-6));
     cps_solution_set_clear(&all), cps_motion_destroy(motion);
     /* aside by a hundredth they are told apart */
     motion = solve(system, (const double[]){1e-2, 1});
@@ -406,7 +408,9 @@ static void weak_beside_strong(void **state) {
         certified(motion);
         /* the solver's own bound, and its root: phi is curved in the velocity that nothing but the ground resists */
         CHECK_RELATIVE(cps_motion_report(motion)->value, 500*fabs(W[k][0]) + 1e-9*fabs(W[k][1])/0.3, 1e-8);
-        CHECK_NEAR(cps_motion_velocity(motion)[0], -W[k][1]/0.3, 1e-4);
+        CHECK_NEAR(cps_motion_velocity(motion)[0], -W[k][1]/0.3, ROOT/0.3);
+        /* it slips in its brake, which then bears all it can; the last slips at a power of 3e-12 W beside 500 W, too little to decide */
+        if (k < 3) CHECK_RELATIVE(cps_motion_law_force(motion, 0)[0], copysign(1e-9, W[k][1]), 1e-9);
         cps_motion_destroy(motion);
     }
     cps_system_destroy(system);
