@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The marker of a directory of results (see directory_marker.h). */
+#define _POSIX_C_SOURCE 200809L
+#include "io/base/directory_marker.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/status.h"
+
+static const char MARKER[] = ".capstan", MARKER_PART[] = ".capstan.part", NOTES[] = ".capstan.run";
+static const char FIRST_LINE[] = "capstan directory 1\n";
+
+/* far more than the files of the longest history take */
+enum { MARKER_MOST = 256 << 20 };
+
+static CpsStatus no_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while listing results"); }
+
+static CpsStatus fail_name(const char *path, const char *name, CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_IO, "cannot write %s/%s: %s; earlier results are kept", path, name, strerror(errno));
+}
+
+/* names --------------------------------------------------------------------------------------------------------- */
+
+static bool ends_with(const char *name, const char *end) {
+    const size_t length = strlen(name), more = strlen(end);
+    return length > more && strcmp(name + length - more, end) == 0;
+}
+
+bool cpsi_marker_knows(const char *name) {
+    static const char *const PLAIN[] = {"summary.json", "history.csv",   "result.nc",     "result.pvd",      "obstacles.vtp",
+                                        "plan.svg",     "elevation.svg", "tension.svg",   "study.csv",       "study.svg",
+                                        "relaxed.svg",  "methods.csv",   "methods.svg",   "first-order.csv", "first-order.svg",
+                                        "completed.csv", "completed.svg"};
+    for (size_t i = 0; i < sizeof PLAIN / sizeof *PLAIN; ++i)
+        if (strcmp(name, PLAIN[i]) == 0) return true;
+    if (strlen(name) + sizeof "..part" > CPSI_NAME_SIZE || strchr(name, '/')) return false;
+    if (strncmp(name, "loop-", 5) == 0) return ends_with(name, ".svg");
+    if (strncmp(name, "line-", 5) == 0) return strspn(name + 5, "0123456789") + 9 == strlen(name) && ends_with(name, ".svg");
+    if (strncmp(name, "step-", 5) != 0 || strspn(name + 5, "0123456789") < 5) return false;
+    return ends_with(name, ".svg") || ends_with(name, ".vtp");
+}
+
+/* where `name` is, or would be */
+static size_t place_of(const CpsiMarker *marker, const char *name) {
+    size_t low = 0, high = marker->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (strcmp(marker->name[middle], name) < 0) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}
+
+bool cpsi_marker_lists(const CpsiMarker *marker, const char *name) {
+    const size_t at = place_of(marker, name);
+    return at < marker->count && strcmp(marker->name[at], name) == 0;
+}
+
+CpsStatus cpsi_marker_add(CpsiMarker *marker, const char *name, CpsError *err) {
+    const size_t at = place_of(marker, name);
+    if (at < marker->count && strcmp(marker->name[at], name) == 0) return CPS_OK;
+    if (marker->count == marker->capacity) {
+        const size_t capacity = marker->capacity ? 2 * marker->capacity : 64;
+        char **grown = realloc(marker->name, capacity * sizeof *grown);
+        if (!grown) return no_memory(err);
+        marker->name = grown, marker->capacity = capacity;
+    }
+    char *copy = strdup(name);
+    if (!copy) return no_memory(err);
+    memmove(marker->name + at + 1, marker->name + at, (marker->count - at) * sizeof *marker->name);
+    marker->name[at] = copy;
+    marker->count++;
+    return CPS_OK;
+}
+
+void cpsi_marker_drop(CpsiMarker *marker, size_t i) {
+    free(marker->name[i]);
+    memmove(marker->name + i, marker->name + i + 1, (--marker->count - i) * sizeof *marker->name);
+}
+
+void cpsi_marker_free(CpsiMarker *marker) {
+    for (size_t i = 0; i < marker->count; ++i) free(marker->name[i]);
+    free(marker->name);
+    *marker = (CpsiMarker){0};
+}
+
+/* what is there ------------------------------------------------------------------------------------------------- */
+
+/* A listing of the directory by a descriptor of its own; NULL after a failure. */
+static DIR *list_folder(int folder) {
+    const int fd = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *listing = fd >= 0 ? fdopendir(fd) : NULL;
+    if (!listing && fd >= 0) close(fd);
+    return listing;
+}
+
+bool cpsi_marker_is_alone(int folder) {
+    static const char *const OWN[] = {".", "..", MARKER, MARKER_PART, NOTES};
+    DIR *listing = list_folder(folder);
+    bool alone = listing != NULL;
+    for (struct dirent *entry; alone && (entry = readdir(listing)) != NULL;) {
+        bool own = false;
+        for (size_t i = 0; i < sizeof OWN / sizeof *OWN; ++i) own = own || strcmp(entry->d_name, OWN[i]) == 0;
+        alone = own;
+    }
+    if (listing) closedir(listing);
+    return alone;
+}
+
+CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, CpsError *err) {
+    CpsStatus status = CPS_OK;
+    DIR *listing = list_folder(folder);
+    if (!listing) return cpsi_fail(err, CPS_ERR_IO, "cannot list the directory of results: %s", strerror(errno));
+    for (struct dirent *entry; status == CPS_OK && (entry = readdir(listing)) != NULL;)
+        if (cpsi_marker_knows(entry->d_name)) status = cpsi_marker_add(marker, entry->d_name, err);
+    closedir(listing);
+    return status;
+}
+
+/* A regular file of the directory itself that begins with the first line; NULL where there is none, or *status says why. */
+static FILE *open_list(int folder, const char *path, const char *name, CpsStatus *status, CpsError *err) {
+    char line[sizeof FIRST_LINE];
+    struct stat about;
+    *status = CPS_OK;
+    const int fd = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (fd < 0 && errno == ENOENT) return NULL;
+    const bool regular = fd >= 0 && fstat(fd, &about) == 0 && S_ISREG(about.st_mode) && about.st_size <= MARKER_MOST;
+    FILE *list = regular ? fdopen(fd, "r") : NULL;
+    if (!list && fd >= 0) close(fd);
+    if (regular && !list) *status = no_memory(err);
+    if (list && fgets(line, sizeof line, list) && strcmp(line, FIRST_LINE) == 0) return list;
+    if (list) fclose(list);
+    if (*status == CPS_OK)
+        *status = cpsi_fail(err, CPS_ERR_IO, "%s/%s is no list of capstan's: move it away, or choose another directory", path, name);
+    return NULL;
+}
+
+/* The next letter and name; false at the end. A line of no use gives the letter 0. */
+static bool next_line(FILE *list, char *letter, char name[CPSI_NAME_SIZE]) {
+    char line[CPSI_NAME_SIZE + 8];
+    if (!fgets(line, sizeof line, list)) return false;
+    const size_t length = strcspn(line, "\n");
+    const bool whole = line[length] == '\n' && length > 2 && length < CPSI_NAME_SIZE + 2 && line[1] == ' ';
+    line[length] = '\0';
+    *letter = 0;
+    if (!whole || !cpsi_marker_knows(line + 2)) return true;
+    *letter = line[0];
+    memcpy(name, line + 2, length - 1);
+    return true;
+}
+
+CpsStatus cpsi_marker_read(int folder, const char *path, CpsiMarker *out, CpsError *err) {
+    *out = (CpsiMarker){0};
+    CpsStatus status;
+    FILE *list = open_list(folder, path, MARKER, &status, err);
+    if (!list) return status;
+    out->found = true;
+    char letter, name[CPSI_NAME_SIZE];
+    while (status == CPS_OK && next_line(list, &letter, name)) {
+        if (letter == 'w') status = cpsi_marker_add(out, name, err);
+        if (letter == 'x') out->replacing = true, memcpy(out->last, name, sizeof name);
+    }
+    fclose(list);
+    if (status != CPS_OK) cpsi_marker_free(out);
+    return status;
+}
+
+/* writing ------------------------------------------------------------------------------------------------------- */
+
+CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *path, bool sync, CpsError *err) {
+    unlinkat(folder, MARKER_PART, 0); /* of a killed run */
+    const int fd = openat(folder, MARKER_PART, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    FILE *list = fd >= 0 ? fdopen(fd, "w") : NULL;
+    if (!list) {
+        const CpsStatus status = fail_name(path, MARKER, err);
+        if (fd >= 0) close(fd);
+        return status;
+    }
+    fputs(FIRST_LINE, list);
+    if (marker->replacing) fprintf(list, "x %s\n", marker->last);
+    for (size_t i = 0; i < marker->count; ++i) fprintf(list, "w %s\n", marker->name[i]);
+    const bool failed = ferror(list) || fflush(list) != 0 || (sync && fsync(fd) != 0);
+    const int code = errno;
+    const bool closed = fclose(list) == 0;
+    if (failed) errno = code;
+    if (!failed && closed && renameat(folder, MARKER_PART, folder, MARKER) == 0) return CPS_OK;
+    const CpsStatus status = fail_name(path, MARKER, err);
+    unlinkat(folder, MARKER_PART, 0);
+    return status;
+}
+
+CpsStatus cpsi_marker_begin(int folder, const char *path, int *notes, CpsError *err) {
+    *notes = -1;
+    CpsStatus status;
+    FILE *list = open_list(folder, path, NOTES, &status, err);
+    char letter, name[CPSI_NAME_SIZE], part[CPSI_NAME_SIZE + 8];
+    while (list && next_line(list, &letter, name)) {
+        if (letter != 'p') continue;
+        snprintf(part, sizeof part, ".%s.part", name);
+        unlinkat(folder, part, 0);
+    }
+    if (list) fclose(list);
+    /* an empty one is of a run that was killed in its first moment */
+    struct stat about;
+    const bool empty = fstatat(folder, NOTES, &about, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(about.st_mode) && about.st_size == 0;
+    if (status != CPS_OK && !empty) return status;
+    unlinkat(folder, NOTES, 0);
+    *notes = openat(folder, NOTES, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (*notes < 0) return fail_name(path, NOTES, err);
+    if (write(*notes, FIRST_LINE, sizeof FIRST_LINE - 1) == (ssize_t)sizeof FIRST_LINE - 1) return CPS_OK;
+    return fail_name(path, NOTES, err);
+}
+
+CpsStatus cpsi_marker_note(int notes, const char *path, const char *name, CpsError *err) {
+    char line[CPSI_NAME_SIZE + 8];
+    const int length = snprintf(line, sizeof line, "p %s\n", name);
+    errno = 0;
+    if (write(notes, line, (size_t)length) == length) return CPS_OK;
+    if (errno == 0) errno = ENOSPC;
+    return fail_name(path, name, err);
+}
+
+void cpsi_marker_end(int folder, int notes) {
+    if (notes < 0) return;
+    close(notes);
+    unlinkat(folder, NOTES, 0);
+}
+
+void cpsi_marker_remove(int folder) { unlinkat(folder, MARKER, 0); }

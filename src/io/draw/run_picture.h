@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the pictures share: measures of the sheet, the direction of view, and one function per kind of picture. */
+#ifndef CAPSTAN_SRC_IO_DRAW_RUN_PICTURE_H
+#define CAPSTAN_SRC_IO_DRAW_RUN_PICTURE_H
+
+#include "base/vec3.h"
+#include "io/history.h"
+#include "io/draw/svg.h"
+
+/* In pixels. */
+enum { CPSI_SHEET_WIDTH = 960, CPSI_FRAME_LEFT = 84, CPSI_FRAME_WIDTH = 740, CPSI_FRAME_TOP = 72 };
+
+/* A parallel projection of the scene onto paper. */
+typedef struct CpsiView {
+    bool plan;
+    Vec3 right, up, toward; /* unit vectors: along the paper, and from it to the eye */
+    char x_label[80], y_label[80];
+    double x[2], y[2]; /* ranges of everything drawn */
+    double cut;        /* coordinate along toward at which an elevation cuts planes */
+    bool true_scale;   /* heights are not exaggerated: there is something round to be seen */
+} CpsiView;
+
+CpsiView cpsi_view_plan(const CpsResults *results);
+CpsiView cpsi_view_elevation(const CpsResults *results);
+
+/* What the lines lie on, under everything else; turned as after a step, or of all steps (-1). */
+void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame, int step,
+                            FILE *out);
+
+/* Is its silhouette a circle: a ball, or a cylinder seen from its end? */
+bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);
+
+/* Range of the tension over all snapshots [N]. */
+void cpsi_tension_range(const CpsResults *results, double range[2]);
+
+/* One step: lines coloured by tension, with what sticks and slips. All steps: curves coloured by step. */
+void cpsi_picture_step(const CpsResults *results, const CpsiView *view, const CpsiSnapshot *snapshot, FILE *out);
+void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *out);
+
+/* Tension along the lines, all steps. */
+void cpsi_picture_tension(const CpsResults *results, FILE *out);
+
+/* The list of steps right of a frame: names with colours, or a bar where they are many. */
+void cpsi_step_list(const CpsResults *results, const CpsiFrame *frame, FILE *out);
+CpsiColour cpsi_step_colour(const CpsResults *results, int snapshot);
+/* Of its curve: earlier ones are wider, so that they show under later ones. */
+double cpsi_step_width(const CpsResults *results, int snapshot);
+/* "81 steps", or "81 steps, 42 of them drawn" */
+void cpsi_step_note(const CpsResults *results, char *out, size_t size);
+
+/* Force against displacement of every held end that goes round a closed cycle: loop-NAME.svg. */
+CpsStatus cpsi_pictures_loops(CpsResults *results, CpsError *err);
+
+#endif

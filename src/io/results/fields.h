@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The fields of result.nc along a line, and the choice of those that a run writes. */
+#ifndef CAPSTAN_SRC_IO_RESULTS_FIELDS_H
+#define CAPSTAN_SRC_IO_RESULTS_FIELDS_H
+
+#include "capstan/evolve.h"
+
+typedef enum CpsiPlace { CPSI_PLACE_NODE, CPSI_PLACE_ELEMENT } CpsiPlace;
+
+/* An array of CpsLineView. */
+typedef struct CpsiField {
+    const char *name, *long_name, *units;
+    CpsiPlace place;
+    bool vector, fixed; /* fixed: does not change with the steps, and is always written */
+    bool contact;       /* belongs to a contact: where nodes have a second one, there is one more variable of it */
+    size_t offset;      /* of a const double * in CpsLineView */
+} CpsiField;
+
+enum { CPSI_FIELDS = 21 };
+extern const CpsiField cpsi_field[CPSI_FIELDS];
+
+/* Those that are wanted: a bit for each field, and these two for arrays that hold no doubles. */
+#define CPSI_WANTED_STATE    (1u << CPSI_FIELDS)
+#define CPSI_WANTED_OBSTACLE (2u << CPSI_FIELDS)
+
+/* A list of names separated by commas; NULL: all; "none": none. Returns CPS_OK or CPS_ERR_ARGUMENT. */
+CpsStatus cpsi_fields_choose(const char *list, unsigned *wanted, CpsError *err);
+
+#endif

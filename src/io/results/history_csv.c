@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The history as CSV (RFC 4180): a row of names, a row of units, a row per step. The columns are two tables, one
+ * of the step and one of each line; a value that says nothing is an empty cell. */
+#include <stddef.h>
+
+#include "io/history.h"
+#include "io/base/escape.h"
+
+typedef struct Column {
+    const char *name, *unit;
+    size_t offset; /* of a double in the struct that the table describes */
+} Column;
+
+#define STEP(member) offsetof(CpsStepReport, member)
+#define LINE(member) offsetof(CpsLineReport, member)
+
+static const Column STEP_COLUMN[] = {
+    {"primal", "J", STEP(certificate.primal)},
+    {"dual", "J", STEP(certificate.dual)},
+    {"gap", "J", STEP(certificate.gap)},
+    {"scale", "J", STEP(certificate.scale)},
+    {"force_residual", "N", STEP(certificate.force_residual)},
+    {"largest_force", "N", STEP(certificate.largest_force)},
+    {"dissipated", "J", STEP(dissipated)},
+    {"jump", "m", STEP(jump)},
+    {"ends", "J", STEP(ledger.ends)},
+    {"obstacles", "J", STEP(ledger.obstacles)},
+    {"elastic", "J", STEP(ledger.elastic)},
+    {"gravity", "J", STEP(ledger.gravity)},
+    {"imbalance", "J", STEP(ledger.imbalance)},
+    {"unaccounted", "J", STEP(unaccounted)},
+    {"wall", "s", STEP(wall)},
+};
+
+#define END_COLUMNS(letter, e)                                                                                         \
+    {letter ".x", "m", LINE(end[e].position[0])}, {letter ".y", "m", LINE(end[e].position[1])},                        \
+        {letter ".z", "m", LINE(end[e].position[2])}, {letter ".fx", "N", LINE(end[e].force[0])},                      \
+        {letter ".fy", "N", LINE(end[e].force[1])}, {letter ".fz", "N", LINE(end[e].force[2])}, {                      \
+        letter ".tension", "N", LINE(end[e].tension)                                                                   \
+    },                                                                                                                 \
+        {letter ".tension_least", "N", LINE(end[e].range.least)},                                                      \
+        {letter ".tension_least_bound", "N", LINE(end[e].range.least_bound)},                                          \
+        {letter ".tension_greatest", "N", LINE(end[e].range.greatest)}, {                                              \
+        letter ".tension_greatest_bound", "N", LINE(end[e].range.greatest_bound)                                       \
+    }
+
+static const Column LINE_COLUMN[] = {
+    END_COLUMNS("A", CPS_END_A),
+    END_COLUMNS("B", CPS_END_B),
+    {"grounded", "m", LINE(grounded)},
+    {"slipping", "m", LINE(slipping)},
+    {"slack", "m", LINE(slack)},
+    {"dissipated", "J", LINE(dissipated)},
+    {"bend", "rad", LINE(bend.turn)},
+    {"bend_ratio", "1", LINE(bend.ratio)},
+    {"bend_coulomb", "1", LINE(bend.coulomb)},
+    {"tension_bound_rms", "N", LINE(certificate.tension_bound)},
+    {"tension_mesh_estimate", "N", LINE(tension_mesh)},
+};
+
+enum {
+    STEP_COLUMNS = sizeof STEP_COLUMN / sizeof STEP_COLUMN[0],
+    LINE_COLUMNS = sizeof LINE_COLUMN / sizeof LINE_COLUMN[0]
+};
+
+static double member(const void *report, const Column *column) {
+    return *(const double *)(const void *)((const char *)report + column->offset);
+}
+
+static void put_heads(FILE *out, const CpsResults *results) {
+    fputs("step,name,outcome,iterations,parts,snaps,places_not_unique", out);
+    for (int i = 0; i < STEP_COLUMNS; ++i) fprintf(out, ",%s", STEP_COLUMN[i].name);
+    for (int l = 0; l < results->line_count; ++l) {
+        for (int i = 0; i < LINE_COLUMNS; ++i) {
+            char name[256];
+            snprintf(name, sizeof name, "%.200s.%s", results->line_name[l], LINE_COLUMN[i].name);
+            fputc(',', out);
+            cpsi_put_csv(out, name);
+        }
+    }
+    fputs("\n1,,,1,1,1,1", out);
+    for (int i = 0; i < STEP_COLUMNS; ++i) fprintf(out, ",%s", STEP_COLUMN[i].unit);
+    for (int l = 0; l < results->line_count; ++l)
+        for (int i = 0; i < LINE_COLUMNS; ++i) fprintf(out, ",%s", LINE_COLUMN[i].unit);
+    fputs("\n", out);
+}
+
+void cpsi_history_write(const CpsResults *results, FILE *out) {
+    put_heads(out, results);
+    for (int r = 0; r < results->row_count; ++r) {
+        const CpsiRow *row = &results->row[r];
+        fprintf(out, "%d,", row->report.index);
+        cpsi_put_csv(out, row->name);
+        fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_key(row->report.outcome), row->report.iterations, row->report.parts,
+                row->report.snaps, (int)row->report.places);
+        for (int i = 0; i < STEP_COLUMNS; ++i) {
+            fputc(',', out);
+            cpsi_put_csv_number(out, member(&row->report, &STEP_COLUMN[i]));
+        }
+        for (int l = 0; l < results->line_count; ++l) {
+            for (int i = 0; i < LINE_COLUMNS; ++i) {
+                fputc(',', out);
+                cpsi_put_csv_number(out, member(&row->line[l].report, &LINE_COLUMN[i]));
+            }
+        }
+        fputs("\n", out);
+    }
+}

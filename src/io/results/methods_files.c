@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Tables and pictures of configurations side by side: a history by several methods; slack laid out in several ways. */
+#include <math.h>
+
+#include "base/status.h"
+#include "base/vec3.h"
+#include "io/base/file_set.h"
+#include "io/draw/methods_picture.h"
+#include "io/base/escape.h"
+
+enum { MAX_METHODS = 4 };
+
+static void put_number(FILE *out, double x) {
+    fputc(',', out);
+    cpsi_put_csv_number(out, x);
+}
+
+/* ---- a history by several methods ---- */
+
+static const double *place(const CpsiMethods *m, int method, int step, int point) {
+    return m->method[method].position + 3 * ((size_t)step * (size_t)m->points + (size_t)point);
+}
+
+static double farthest(const CpsiMethods *m, int method, int step) {
+    double most = 0;
+    for (int p = 0; p < m->points; ++p) {
+        const Vec3 way = vec3_sub(vec3_load(place(m, method, step, p)), vec3_load(place(m, 0, step, p)));
+        most = fmax(most, vec3_norm(way));
+    }
+    return most;
+}
+
+static void methods_table(const void *what, FILE *out) {
+    const CpsiMethods *m = what;
+    fputs("step,method,B.x,B.y,B.z,farthest_from_first\n,,m,m,m,m\n", out);
+    for (int s = 0; s < m->steps; ++s)
+        for (int k = 0; k < m->methods; ++k) {
+            cpsi_put_csv(out, m->step_name[s]);
+            fputc(',', out);
+            cpsi_put_csv(out, m->method[k].name);
+            for (int x = 0; x < 3; ++x) put_number(out, place(m, k, s, m->points - 1)[x]);
+            put_number(out, farthest(m, k, s));
+            fputc('\n', out);
+        }
+}
+
+static void methods_picture(const void *what, FILE *out) { cpsi_picture_methods(what, out); }
+
+CpsStatus cps_methods_write(const char *directory, const char *title, int methods, const CpsMethodHistory *method,
+                            int steps, int points, const char *const *step_name, CpsError *err) {
+    if (!directory || !title || !method || !step_name)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory, title, method or step_name is NULL");
+    if (methods < 1 || methods > MAX_METHODS || steps < 1 || points < 2)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "found %d methods, %d steps, %d points; expected 1 to %d, and at least 1 and 2", methods,
+                         steps, points, (int)MAX_METHODS);
+    const CpsiMethods m = {.title = title,
+                           .note = "Plan and elevation (heights stretched), step by step",
+                           .methods = methods,
+                           .steps = steps,
+                           .points = points,
+                           .method = method,
+                           .step_name = step_name};
+    const CpsiFile set[] = {{"methods.csv", methods_table, &m}, {"methods.svg", methods_picture, &m}};
+    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, err);
+}
+
+/* ---- slack laid out ---- */
+
+/* nodes of the longest loose part, or all where none is */
+static void find_loose(const CpsLineView *view, int *first, int *last) {
+    enum { PARTS = 64 };
+    CpsSlackPart part[PARTS];
+    const int parts = cps_solution_slack(view, PARTS, part);
+    double longest = 0;
+    *first = 0, *last = view->elements;
+    for (int i = 0; i < parts && i < PARTS; ++i) {
+        if (!part[i].loose || !(part[i].to - part[i].from > longest)) continue;
+        longest = part[i].to - part[i].from;
+        for (int j = 0; j <= view->elements; ++j) {
+            if (view->arc_length[j] <= part[i].from) *first = j;
+            if (view->arc_length[j] < part[i].to) *last = j + 1;
+        }
+    }
+}
+
+static void completed_table(const void *what, FILE *out) {
+    const CpsCompletedLine *c = what;
+    fputs("arc_length,x,y,z\nm,m,m,m\n", out);
+    for (int j = 0; j <= c->view->elements; ++j) {
+        cpsi_put_csv_number(out, c->view->arc_length[j]);
+        for (int x = 0; x < 3; ++x) put_number(out, c->position[c->chosen][3 * (size_t)j + (size_t)x]);
+        fputc('\n', out);
+    }
+}
+
+/* as found, and each completion; near the longest loose part */
+static void completed_picture(const void *what, FILE *out) {
+    const CpsCompletedLine *c = what;
+    int first, last;
+    find_loose(c->view, &first, &last);
+    CpsMethodHistory shape[1 + CPS_COMPLETIONS] = {{"as found", c->view->position + 3 * (size_t)first}};
+    for (int k = 0; k < CPS_COMPLETIONS; ++k)
+        shape[1 + k] = (CpsMethodHistory){cps_completion_key((CpsCompletion)k), c->position[k] + 3 * (size_t)first};
+    char note[160];
+    snprintf(note, sizeof note, "Slack from %.6g to %.6g m in plan: all have the same tensions and the same energy",
+             c->view->arc_length[first], c->view->arc_length[last]);
+    const char *const step = "";
+    const CpsiMethods m = {.title = c->title,
+                           .note = note,
+                           .methods = 1 + CPS_COMPLETIONS,
+                           .steps = 1,
+                           .points = last - first + 1,
+                           .method = shape,
+                           .step_name = &step,
+                           .plan_only = true};
+    cpsi_picture_methods(&m, out);
+}
+
+CpsStatus cps_completed_write(const char *directory, const CpsCompletedLine *line, CpsError *err) {
+    if (!directory || !line || !line->title || !line->view || (unsigned)line->chosen >= CPS_COMPLETIONS)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory, line, its title or view is NULL, or none is chosen");
+    for (int k = 0; k < CPS_COMPLETIONS; ++k)
+        if (!line->position[k]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "position %d is NULL", k);
+    const CpsiFile set[] = {{"completed.csv", completed_table, line}, {"completed.svg", completed_picture, line}};
+    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, err);
+}

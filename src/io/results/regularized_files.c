@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A history of the regularised method by itself as files: table, summary, a picture per line. */
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "io/base/file_set.h"
+#include "io/draw/methods_picture.h"
+#include "io/base/escape.h"
+
+/* what replaces a certificate */
+static const char *const WARRANT =
+    "none: a regularised solution is no equilibrium under dry friction; 'left' says by how much, against the certified "
+    "step with frozen friction";
+
+typedef struct Column {
+    const char *name, *unit;
+    size_t offset; /* of a double in CpsClassicReport */
+    bool left;     /* one of the residuals of the summary */
+} Column;
+
+#define REPORT(member) offsetof(CpsClassicReport, member)
+
+static const Column COLUMN[] = {
+    {"gradient", "N", REPORT(gradient), false},
+    {"total", "J", REPORT(total), false},
+    {"elastic", "J", REPORT(elastic), false},
+    {"potential", "J", REPORT(potential), false},
+    {"friction", "J", REPORT(friction), false},
+    {"bending", "J", REPORT(bending), false},
+    {"contact", "J", REPORT(contact), false},
+    {"compression", "N", REPORT(compression), true},
+    {"shortening", "-", REPORT(shortening), true},
+    {"penetration", "m", REPORT(penetration), true},
+    {"creep", "m", REPORT(creep), true},
+    {"friction_excess", "N", REPORT(friction_excess), true},
+    {"energy_error", "J", REPORT(energy_error), true},
+    {"tension_rms_error", "N", REPORT(tension_rms), true},
+    {"tension_max_error", "N", REPORT(tension_max), true},
+    {"position_max_error", "m", REPORT(position_max), true},
+};
+enum { COLUMNS = sizeof COLUMN / sizeof COLUMN[0] };
+
+static double value_of(const CpsClassicReport *report, int column) {
+    return *(const double *)(const void *)((const char *)report + COLUMN[column].offset);
+}
+
+static const double *tip(const CpsRegularizedLine *line, int step) {
+    return line->position + 3 * ((size_t)(step + 1) * (size_t)line->points - 1);
+}
+
+/* ---- history.csv ---- */
+
+static void put_number(FILE *out, double x) {
+    fputc(',', out);
+    cpsi_put_csv_number(out, x);
+}
+
+static void put_row(const CpsRegularizedRun *run, int s, const CpsRegularizedLine *line, FILE *out) {
+    const CpsClassicParameters *p = &line->parameters[s];
+    const CpsClassicReport *r = &line->report[s];
+    cpsi_put_csv(out, run->step_name[s]);
+    fputc(',', out);
+    cpsi_put_csv(out, line->name);
+    fprintf(out, ",%d,%d", r->converged, r->iterations);
+    put_number(out, p->penalty);
+    put_number(out, p->stiffness);
+    put_number(out, p->delta);
+    for (int k = 0; k < 2; ++k) put_number(out, line->tension[2 * s + k]);
+    for (int x = 0; x < 3; ++x) put_number(out, tip(line, s)[x]);
+    for (int i = 0; i < COLUMNS; ++i) put_number(out, value_of(r, i));
+    fputc('\n', out);
+}
+
+static void history(const void *what, FILE *out) {
+    const CpsRegularizedRun *run = what;
+    fputs("step,line,converged,iterations,lambda,1/n,delta,tension_A,tension_B,B.x,B.y,B.z", out);
+    for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].name);
+    fputs("\n,,,,N/m2,N m2,m,N,N,m,m,m", out);
+    for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].unit);
+    fputc('\n', out);
+    for (int s = 1; s < run->steps; ++s)
+        for (int i = 0; i < run->lines; ++i) put_row(run, s, &run->line[i], out);
+}
+
+/* ---- summary.json ---- */
+
+static void put_key(FILE *out, const char *key, const char *unit) {
+    char text[64];
+    const bool bare = unit[0] == '-' || unit[0] == '\0';
+    snprintf(text, sizeof text, "%s%s%s", key, bare ? "" : "_", bare ? "" : unit);
+    cpsi_put_json_string(out, text);
+    fputs(": ", out);
+}
+
+static void put_line(const CpsRegularizedLine *line, int s, FILE *out) {
+    const CpsClassicParameters *p = &line->parameters[s];
+    const CpsClassicReport *r = &line->report[s];
+    fputs("        ", out);
+    cpsi_put_json_string(out, line->name);
+    fprintf(out, ": {\"converged\": %s, \"iterations\": %d,\n          \"parameters\": {\"lambda_N/m2\": ",
+            r->converged ? "true" : "false", r->iterations);
+    cpsi_put_json_number(out, p->penalty);
+    fputs(", \"1/n_Nm2\": ", out);
+    cpsi_put_json_number(out, p->stiffness);
+    fputs(", \"delta_m\": ", out);
+    cpsi_put_json_number(out, p->delta);
+    fputs("},\n          \"B_m\": ", out);
+    for (int x = 0; x < 3; ++x) {
+        fputs(x ? ", " : "[", out);
+        cpsi_put_json_number(out, tip(line, s)[x]);
+    }
+    fputs("],\n          \"left\": {", out);
+    const char *between = "";
+    for (int i = 0; i < COLUMNS; ++i) {
+        if (!COLUMN[i].left) continue;
+        fputs(between, out);
+        put_key(out, COLUMN[i].name, COLUMN[i].unit);
+        cpsi_put_json_number(out, value_of(r, i));
+        between = ", ";
+    }
+    fputs("}}", out);
+}
+
+static void summary(const void *what, FILE *out) {
+    const CpsRegularizedRun *run = what;
+    bool converged = true;
+    for (int i = 0; i < run->lines; ++i)
+        for (int s = 1; s < run->steps; ++s) converged = converged && run->line[i].report[s].converged;
+    fputs("{\n  \"capstan\": ", out);
+    cpsi_put_json_string(out, cps_version());
+    fputs(",\n  \"title\": ", out);
+    cpsi_put_json_string(out, run->title);
+    fputs(",\n  \"method\": \"regularized\",\n  \"certificate\": ", out);
+    cpsi_put_json_string(out, WARRANT);
+    fprintf(out, ",\n  \"converged\": %s,\n  \"complete\": %s,\n  \"wall_s\": ", converged ? "true" : "false",
+            run->complete ? "true" : "false");
+    cpsi_put_json_number(out, run->wall);
+    fputs(",\n  \"steps\": [", out);
+    for (int s = 1; s < run->steps; ++s) {
+        fputs(s > 1 ? ",\n    {\"name\": " : "\n    {\"name\": ", out);
+        cpsi_put_json_string(out, run->step_name[s]);
+        fputs(",\n      \"lines\": {\n", out);
+        for (int i = 0; i < run->lines; ++i) {
+            if (i) fputs(",\n", out);
+            put_line(&run->line[i], s, out);
+        }
+        fputs("}}", out);
+    }
+    fputs("]\n}\n", out);
+}
+
+/* ---- pictures ---- */
+
+typedef struct Portrait {
+    const CpsRegularizedRun *run;
+    int line;
+    char name[32];
+} Portrait;
+
+static void portrait(const void *what, FILE *out) {
+    const Portrait *p = what;
+    const CpsRegularizedLine *line = &p->run->line[p->line];
+    const CpsMethodHistory history = {line->name, line->position};
+    const CpsiMethods m = {.title = p->run->title,
+                           .note = "Regularised, 1990: plan and elevation (heights stretched), step by step",
+                           .methods = 1,
+                           .steps = p->run->steps,
+                           .points = line->points,
+                           .method = &history,
+                           .step_name = p->run->step_name};
+    cpsi_picture_methods(&m, out);
+}
+
+/* ---- together ---- */
+
+static CpsStatus check(const CpsRegularizedRun *run, CpsError *err) {
+    if (!run || !run->title || !run->step_name || !run->line)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "run, its title, step_name or line is NULL");
+    if (run->steps < 1 || run->lines < 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "found %d steps and %d lines, expected at least 1 and 1", run->steps,
+                         run->lines);
+    return CPS_OK;
+}
+
+CpsStatus cps_regularized_summary(const CpsRegularizedRun *run, FILE *out, CpsError *err) {
+    const CpsStatus status = check(run, err);
+    if (status != CPS_OK) return status;
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL");
+    const CpsiFile file = {"summary.json", summary, run};
+    return cpsi_file_set_put(&file, out, err);
+}
+
+CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *run, CpsError *err) {
+    CpsStatus status = check(run, err);
+    if (status != CPS_OK) return status;
+    if (!directory) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL");
+    CpsiFile *set = calloc((size_t)run->lines + 2, sizeof *set);
+    Portrait *portraits = calloc((size_t)run->lines, sizeof *portraits);
+    if (set && portraits) {
+        set[0] = (CpsiFile){"history.csv", history, run};
+        for (int i = 0; i < run->lines; ++i) {
+            portraits[i] = (Portrait){.run = run, .line = i};
+            snprintf(portraits[i].name, sizeof portraits[i].name, "line-%d.svg", i + 1);
+            set[1 + i] = (CpsiFile){portraits[i].name, portrait, &portraits[i]};
+        }
+        set[1 + run->lines] = (CpsiFile){"summary.json", summary, run}; /* last: where it is, all is */
+        status = cpsi_file_set_write(directory, set, run->lines + 2, err);
+    } else {
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    }
+    free(set);
+    free(portraits);
+    return status;
+}

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Thinned copies of the lines for the pictures.
+ *
+ * Kept are the steps that get pictures of their own, an even selection for the overviews, and always the last one:
+ * while it is only the last so far, the next step overwrites it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/history.h"
+
+enum {
+    MAX_OVERVIEW = 48,      /* curves that an overview can still show */
+    MAX_LINE_POINTS = 2000, /* per line: more than a picture has pixels */
+    MAX_POINTS = 20000      /* of all lines together */
+};
+
+static bool is_kept(const CpsResults *results, int step) {
+    const int stride = (results->planned_steps + MAX_OVERVIEW - 1) / MAX_OVERVIEW;
+    return stride < 2 || step % stride == 0 || cpsi_results_pictured(results, step);
+}
+
+void cpsi_snapshot_free(CpsiSnapshot *snapshot) {
+    if (snapshot->shape) free(snapshot->shape[0].position);
+    free(snapshot->shape);
+    *snapshot = (CpsiSnapshot){0};
+}
+
+static int point_count(const CpsResults *results, int elements) {
+    int most = MAX_POINTS / results->line_count;
+    if (most > MAX_LINE_POINTS) most = MAX_LINE_POINTS;
+    if (most < 2) most = 2;
+    return elements < most ? elements + 1 : most;
+}
+
+/* node of the line that point i of the shape shows; the first and the last node are always among them */
+static size_t node_of(int i, int points, int elements) { return (size_t)((int64_t)i * elements / (points - 1)); }
+
+static void sample(CpsiShape *shape, const CpsLineView *view) {
+    for (int i = 0; i < shape->points; ++i) {
+        const size_t j = node_of(i, shape->points, view->elements);
+        shape->abscissa[i] = view->arc_length[j];
+        shape->state[i] = cpsi_node_state(view, (int)j);
+        memcpy(shape->position + 3 * (size_t)i, view->position + 3 * j, 3 * sizeof(double));
+        memcpy(shape->reference + 3 * (size_t)i, view->reference + 3 * j, 3 * sizeof(double));
+        if (i == 0) continue;
+        const size_t start = node_of(i - 1, shape->points, view->elements);
+        double sum = 0;
+        for (size_t k = start; k < j; ++k) sum += view->tension[k] * view->element_length[k];
+        shape->tension[i - 1] = sum / (view->arc_length[j] - view->arc_length[start]);
+    }
+}
+
+static bool take(CpsResults *results, const CpsEvolution *evolution, CpsiSnapshot *out) {
+    const size_t lines = (size_t)results->line_count;
+    *out = (CpsiSnapshot){.step = results->row_count - 1, .shape = calloc(lines, sizeof *out->shape)};
+    if (!out->shape) return false;
+
+    /* one block for all lines: 8 doubles and a state per point */
+    size_t total = 0;
+    for (size_t i = 0; i < lines; ++i) {
+        out->shape[i].points = point_count(results, cps_evolution_line_view(evolution, (int)i).elements);
+        total += (size_t)out->shape[i].points;
+    }
+    double *block = malloc(total * (8 * sizeof(double) + 1));
+    if (!block) {
+        free(out->shape);
+        return false;
+    }
+    unsigned char *state = (unsigned char *)(block + 8 * total);
+    for (size_t i = 0; i < lines; ++i) {
+        CpsiShape *shape = &out->shape[i];
+        const size_t points = (size_t)shape->points;
+        shape->position = block;
+        shape->reference = block + 3 * points;
+        shape->abscissa = block + 6 * points;
+        shape->tension = block + 7 * points;
+        shape->state = state;
+        block += 8 * points;
+        state += points;
+        const CpsLineView view = cps_evolution_line_view(evolution, (int)i);
+        sample(shape, &view);
+    }
+    return true;
+}
+
+bool cpsi_snapshot_append(CpsResults *results, const CpsEvolution *evolution) {
+    CpsiSnapshot snapshot;
+    if (!take(results, evolution, &snapshot)) return false;
+
+    /* the last one so far gives way unless it was to be kept */
+    if (results->snapshot_count > 0) {
+        CpsiSnapshot *last = &results->snapshot[results->snapshot_count - 1];
+        if (!is_kept(results, last->step)) {
+            cpsi_snapshot_free(last);
+            *last = snapshot;
+            return true;
+        }
+    }
+    if (results->snapshot_count == results->snapshot_capacity) {
+        const size_t capacity = results->snapshot_capacity ? 2 * (size_t)results->snapshot_capacity : 16;
+        CpsiSnapshot *grown = realloc(results->snapshot, capacity * sizeof *grown);
+        if (!grown) {
+            cpsi_snapshot_free(&snapshot);
+            return false;
+        }
+        results->snapshot = grown;
+        results->snapshot_capacity = (int)capacity;
+    }
+    results->snapshot[results->snapshot_count++] = snapshot;
+    return true;
+}
