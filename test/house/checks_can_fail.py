@@ -18,6 +18,12 @@ CLEAN = {
     "src/base/one.c": '#include "capstan/base.h"\n#include "base/one.h"\n'
                       'int cps_one(void) { return cpsi_two; }\n',
     "src/base/one.h": 'static const int cpsi_two = 2;\n',
+    "src/base/three.c": '#include "base/three.h"\nconst int cpsi_three = 3;\nint cpsi_second(void) { return cpsi_first(); }\n',
+    "src/base/three.h": 'extern const int cpsi_three;\n',
+    "src/io/history.h": '#include "io/base/pool.h"\n',
+    "src/io/base/pool.h": '#include "base/one.h"\n',
+    "src/io/results/writers.h": '#include "io/draw/svg.h"\n',
+    "src/io/draw/svg.h": '#include "io/history.h"\n',
     "src/ipm/loop.c": '#include <math.h>\n#include "base/one.h"\n#include "cone/soc.h"\n',
     "src/cone/soc.h": '#include "base/one.h"\n',
     "cli/main.c": '#include "capstan/scene.h"\n',
@@ -33,6 +39,9 @@ FAULTS = [
     ("cli/deep.c", '#include "../src/base/one.h"\n', "check-layers", "public headers and its own folder"),
     ("include/capstan/base.h", '#include "capstan/scene.h"\n', "check-layers", "only lower ones"),
     ("src/base/one.h", '#include "base/other.h"\n', "check-layers", "include cycle"),
+    ("src/io/draw/up.c", '#include "io/results/writers.h"\n', "check-layers", "may use base, io, io/base, io/draw"),
+    ("src/io/read/side.c", '#include "io/history.h"\n', "check-layers", "may use base, io/base, io/read, io/schema"),
+    ("src/base/one.c", "int cpsi_first(void) { return cpsi_three; }\n", "check-loops", "in a loop: src/base/one src/base/three"),
     ("src/base/bare.c", "int x;\n", "check-files", "first line should be"),
     ("src/base/long.c", LICENCE + "\n" * 801, "check-files", "at most 800"),
     ("src/base/deep.c", LICENCE + "int f(void) {\n" + "\n" * 100 + "return 0; }\n", "check-files", "at most 100"),
@@ -87,7 +96,7 @@ def expect(what, code, words, wanted):
 
 def main():
     wrong = 0
-    passes = [(None, None, script, None) for script in ("check-layers", "check-files", "check-links")]
+    passes = [(None, None, script, None) for script in ("check-layers", "check-loops", "check-files", "check-links")]
     for path, text, script, wanted in passes + FAULTS:
         with tempfile.TemporaryDirectory() as root:
             clean_tree(root)

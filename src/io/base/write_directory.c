@@ -132,7 +132,7 @@ bool cpsi_directory_has(const CpsiDirectory *directory, const char *name) {
 /* remember a name, so that its temporary file is removed or renamed later */
 static CpsStatus remember(CpsiDirectory *directory, const char *name, CpsError *err) {
     if (!cpsi_marker_knows(name))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "'%s' is no name of a file of results: add it to those in result_marker.c", name);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "'%s' is no name of a file of results: add it to those in directory_marker.c", name);
     if (directory->count == directory->capacity) {
         const size_t capacity = directory->capacity ? 2 * directory->capacity : 64;
         char **grown = realloc(directory->name, capacity * sizeof *grown);

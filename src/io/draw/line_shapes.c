@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io/draw/run_picture.h"
+#include "io/draw/steps.h"
 
 enum { MAX_FRAME_HEIGHT = 520, MIN_PLAN_HEIGHT = 220, LOW_HEIGHT = 210, COLOUR_LEVELS = 48, NAMED_LINES = 6 };
 

@@ -30,9 +30,6 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
 /* Is its silhouette a circle: a ball, or a cylinder seen from its end? */
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);
 
-/* Range of the tension over all snapshots [N]. */
-void cpsi_tension_range(const CpsResults *results, double range[2]);
-
 /* One step: lines coloured by tension, with what sticks and slips. All steps: curves coloured by step. */
 void cpsi_picture_step(const CpsResults *results, const CpsiView *view, const CpsiSnapshot *snapshot, FILE *out);
 void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *out);
@@ -40,13 +37,8 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
 /* Tension along the lines, all steps. */
 void cpsi_picture_tension(const CpsResults *results, FILE *out);
 
-/* The list of steps right of a frame: names with colours, or a bar where they are many. */
-void cpsi_step_list(const CpsResults *results, const CpsiFrame *frame, FILE *out);
-CpsiColour cpsi_step_colour(const CpsResults *results, int snapshot);
-/* Of its curve: earlier ones are wider, so that they show under later ones. */
-double cpsi_step_width(const CpsResults *results, int snapshot);
-/* "81 steps", or "81 steps, 42 of them drawn" */
-void cpsi_step_note(const CpsResults *results, char *out, size_t size);
+/* All pictures of a run, as files of its directory. */
+CpsStatus cpsi_pictures_write(CpsResults *results, CpsError *err);
 
 /* Force against displacement of every held end that goes round a closed cycle: loop-NAME.svg. */
 CpsStatus cpsi_pictures_loops(CpsResults *results, CpsError *err);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tension along the lines: a frame per line, a curve per step, the same scale in all frames. */
 #include "io/draw/run_picture.h"
+#include "io/draw/steps.h"
 
 enum { MAX_PANELS = 6 };
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "io/read/drive_file.h"
+#include "io/read/path_points.h"
 
 /* ---- patches ---- */
 

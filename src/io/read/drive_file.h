@@ -14,9 +14,4 @@ CpsStatus cpsi_drive_read_planimeter(CpsiDriveRead *r, const CpsiYaml *node, Cps
 CpsStatus cpsi_drive_read_rope(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveRope *out);
 CpsStatus cpsi_drive_read_sweep(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSweep *out);
 
-/* A path from `start` on: a list of points, or (in the plane) {arc: {center: .., turn: ..}}, which `steps` equal steps
- * then follow on the arc itself. */
-CpsStatus cpsi_drive_read_path(CpsiDriveRead *r, const CpsiYaml *node, int space, const double *start, int steps,
-                               int *points, const double **path);
-
 #endif

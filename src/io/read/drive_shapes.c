@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "io/read/drive_file.h"
+#include "io/read/path_points.h"
 #include "io/base/read_file.h"
 
 static const double PI = 3.14159265358979323846;

@@ -3,7 +3,7 @@
  * of the step and one of each line; a value that says nothing is an empty cell. */
 #include <stddef.h>
 
-#include "io/history.h"
+#include "io/results/writers.h"
 #include "io/base/escape.h"
 
 typedef struct Column {

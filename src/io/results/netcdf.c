@@ -16,7 +16,7 @@
 #include "base/vec3.h"
 #include "capstan/set.h"
 #include "io/results/netcdf_library.h"
-#include "io/history.h"
+#include "io/results/writers.h"
 #include "io/results/fields.h"
 #include "io/base/escape.h"
 

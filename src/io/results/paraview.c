@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "io/history.h"
+#include "io/results/writers.h"
 #include "io/base/escape.h"
 
 /* In the order of the file. */

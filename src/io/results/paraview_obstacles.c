@@ -8,7 +8,7 @@
 
 #include "base/status.h"
 #include "base/vec3.h"
-#include "io/history.h"
+#include "io/results/writers.h"
 
 enum { AROUND = 96, ALONG = 48 }; /* quadrilaterals round a circle, and from pole to pole */
 enum { SECTORS = 8 };

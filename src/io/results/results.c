@@ -1,23 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A directory of results: open, append each step, finish. The writers are in result_*.c and picture_*.c; this
- * file owns the memory, the order of the files and what happens when one of them fails. */
+/* A directory of results: open, append each step, finish. The writers are beside this file, the pictures in
+ * ../draw; this file owns the memory, the order of the files and what happens when one of them fails. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "base/vec3.h"
-#include "io/history.h"
+#include "io/draw/run_picture.h"
 #include "io/results/fields.h"
+#include "io/results/writers.h"
 
 /* A node touches when it is closer to the obstacle than this part of its line's length: far above the rounding
  * of positions, far below anything drawn. */
 static const double TOUCH_TOLERANCE = 1e-9;
-
-enum {
-    SHORT_HISTORY = 14, /* up to here every step is pictured */
-    EVEN_SELECTION = 12
-};
 
 static CpsStatus fail_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while keeping the history of the results");
@@ -135,38 +131,6 @@ CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene, co
     }
     *out = results;
     return CPS_OK;
-}
-
-bool cpsi_results_pictured(const CpsResults *results, int step) {
-    const int steps = results->planned_steps;
-    if (steps <= SHORT_HISTORY || step == 0 || step == steps - 1) return true;
-    if (results->stage_count < 4 || results->stage_count > SHORT_HISTORY)
-        return step % ((steps + EVEN_SELECTION - 1) / EVEN_SELECTION) == 0;
-    for (int i = 0; i < results->stage_count; ++i)
-        if (results->stage[i].last == step) return true;
-    return false;
-}
-
-double cpsi_results_turn(const CpsResults *results, int step, int obstacle) {
-    for (int i = 0; i < results->stage_count; ++i)
-        if (step >= results->stage[i].first && step <= results->stage[i].last) return results->stage[i].turn[obstacle];
-    return 0;
-}
-
-double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
-    double sum = 0;
-    for (int i = 0; i < results->stage_count && results->stage[i].first <= step; ++i) {
-        const CpsiStage *stage = &results->stage[i];
-        sum += ((step < stage->last ? step : stage->last) - stage->first + 1) * stage->turn[obstacle];
-    }
-    return sum;
-}
-
-CpsOutcome cpsi_results_outcome(const CpsResults *results) {
-    CpsOutcome worst = CPS_SOLVED;
-    for (int i = 0; i < results->row_count; ++i)
-        worst = cps_outcome_worse(worst, results->row[i].report.outcome);
-    return worst;
 }
 
 /* Largest reaction of an obstacle on a node that does not touch it: what complementarity forbids, in newtons. A held

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/history.h"
+#include "io/results/writers.h"
 
 enum {
     MAX_OVERVIEW = 48,      /* curves that an overview can still show */

@@ -6,7 +6,8 @@
 #include "capstan/drive_io.h"
 #include "io/schema/drive_keys.h"
 #include "io/base/escape.h"
-#include "io/schema/scene_json.h"
+#include "io/schema/json_schema.h"
+#include "io/schema/set_json.h"
 
 static const char *alias_of(CpsiDriveMapping mapping) { return cpsi_drive_word(mapping)->alias; }
 

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The JSON schema (draft 2020-12) of scene files, from the table of keys: one definition per kind of mapping, and those
  * of sets. */
-#include <locale.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/status.h"
 #include "capstan/io.h"
-#include "io/schema/scene_keys.h"
 #include "io/base/escape.h"
-#include "io/schema/scene_json.h"
+#include "io/schema/json_schema.h"
+#include "io/schema/scene_keys.h"
+#include "io/schema/set_json.h"
 
 static void put_number(FILE *out, const char *key, double x) {
     fprintf(out, ", \"%s\": ", key);
@@ -158,18 +157,6 @@ static void put_schema(FILE *out) {
     }
     cpsi_put_set_definitions(out);
     fprintf(out, "  }\n}\n");
-}
-
-CpsStatus cpsi_write_schema(FILE *out, void (*put)(FILE *out), CpsError *err) {
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected an open file");
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const locale_t before = uselocale(numbers);
-    put(out);
-    uselocale(before);
-    freelocale(numbers);
-    if (fflush(out) != 0 || ferror(out)) return cpsi_fail(err, CPS_ERR_IO, "the schema could not be written");
-    return CPS_OK;
 }
 
 CpsStatus cps_scene_write_schema(FILE *out, CpsError *err) { return cpsi_write_schema(out, put_schema, err); }

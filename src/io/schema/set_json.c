@@ -6,7 +6,8 @@
 #include "capstan/law_io.h"
 #include "io/schema/set_words.h"
 #include "io/base/escape.h"
-#include "io/schema/scene_json.h"
+#include "io/schema/json_schema.h"
+#include "io/schema/set_json.h"
 
 static void put_range(FILE *out, const CpsiLawKey *key) {
     if (!(key->low > -INFINITY)) return;

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is asked of the history of a run (see history.h). */
+#include "io/history.h"
+
+enum {
+    SHORT_HISTORY = 14, /* up to here every step is pictured */
+    EVEN_SELECTION = 12
+};
+
+bool cpsi_results_pictured(const CpsResults *results, int step) {
+    const int steps = results->planned_steps;
+    if (steps <= SHORT_HISTORY || step == 0 || step == steps - 1) return true;
+    if (results->stage_count < 4 || results->stage_count > SHORT_HISTORY)
+        return step % ((steps + EVEN_SELECTION - 1) / EVEN_SELECTION) == 0;
+    for (int i = 0; i < results->stage_count; ++i)
+        if (results->stage[i].last == step) return true;
+    return false;
+}
+
+double cpsi_results_turn(const CpsResults *results, int step, int obstacle) {
+    for (int i = 0; i < results->stage_count; ++i)
+        if (step >= results->stage[i].first && step <= results->stage[i].last) return results->stage[i].turn[obstacle];
+    return 0;
+}
+
+double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
+    double sum = 0;
+    for (int i = 0; i < results->stage_count && results->stage[i].first <= step; ++i) {
+        const CpsiStage *stage = &results->stage[i];
+        sum += ((step < stage->last ? step : stage->last) - stage->first + 1) * stage->turn[obstacle];
+    }
+    return sum;
+}
+
+CpsOutcome cpsi_results_outcome(const CpsResults *results) {
+    CpsOutcome worst = CPS_SOLVED;
+    for (int i = 0; i < results->row_count; ++i)
+        worst = cps_outcome_worse(worst, results->row[i].report.outcome);
+    return worst;
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Paths of driven systems as points. */
+#ifndef CAPSTAN_SRC_IO_READ_PATH_POINTS_H
+#define CAPSTAN_SRC_IO_READ_PATH_POINTS_H
+
+#include "io/read/drive_fields.h"
+
+/* A path from `start` on: a list of points, or (in the plane) {arc: {center: .., turn: ..}}, which `steps` equal steps
+ * then follow on the arc itself. */
+CpsStatus cpsi_drive_read_path(CpsiDriveRead *r, const CpsiYaml *node, int space, const double *start, int steps,
+                               int *points, const double **path);
+
+#endif
