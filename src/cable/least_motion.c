@@ -339,11 +339,15 @@ static bool is_slack_somewhere(const CpsiChainProgram *program) {
     return false;
 }
 
+void cpsi_places_as_found(CpsiLine *line, const CpsiChainProgram *program) {
+    line->report.places = is_slack_somewhere(program) ? CPS_PLACES_ANY : CPS_PLACES_UNIQUE;
+}
+
 int cpsi_least_motion(CpsiLine *line, CpsiLeastMotion *least, const CpsiChainProgram *program, CpsiBounds bounds,
                       int max_iterations) {
     int iterations = 0;
     if (ties_nodes(line, program)) {
-        line->report.places = is_slack_somewhere(program) ? CPS_PLACES_ANY : CPS_PLACES_UNIQUE;
+        cpsi_places_as_found(line, program);
         return 0;
     }
     read_round(line, least, program);

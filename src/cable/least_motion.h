@@ -30,6 +30,9 @@ void cpsi_least_motion_layout(CpsiLeastMotion *least, CpsiArena *arena, int n, i
 int cpsi_least_motion(CpsiLine *line, CpsiLeastMotion *least, const CpsiChainProgram *program, CpsiBounds bounds,
                       int max_iterations);
 
+/* Places that are taken as they were found: with tension in every element there are no others. Sets report.places. */
+void cpsi_places_as_found(CpsiLine *line, const CpsiChainProgram *program);
+
 /* The slips of the place reached into the pairs of the round's solution, from which nodes are told to stick or to slip. */
 void cpsi_least_motion_restate(const CpsiLine *line, CpsiChainProgram *program);
 

@@ -25,6 +25,15 @@ static const double TAUT_SLACK = 1e-9;
 /* A reaction below this share of the unit of force is rounding where the node is apart. */
 static const double LEAST_REACTION = 1e-12;
 
+void cpsi_line_pose(CpsiLine *line, const CpsiStepOptions *options) {
+    cpsi_contact_pose(line, options);
+    for (int j = 0; j < line->n; j++)
+        for (int a = 0; a < 3; a++) line->load[3*j + a] = cpsi_line_share(line, j)*line->weight[a];
+    for (int end = 0; end < 2; end++)
+        if (line->end[end].kind == CPS_END_FREE)
+            for (int a = 0; a < 3; a++) line->load[3*(end == CPS_END_A ? 0 : line->n - 1) + a] += line->end[end].value[a];
+}
+
 bool cpsi_line_both_ends(const CpsiLine *line, CpsEndKind kind) {
     return line->end[CPS_END_A].kind == kind && line->end[CPS_END_B].kind == kind;
 }

@@ -15,6 +15,10 @@
 /* The interior point is driven to this relative gap: what the arithmetic allows, well below any tolerance asked. */
 #define CPSI_TARGET 1e-13
 
+/* What a step starts from: contact at the reference, and the loads: weight, half of each element to each of its nodes, and the forces at free
+ * ends. */
+void cpsi_line_pose(CpsiLine *line, const CpsiStepOptions *options);
+
 bool cpsi_line_both_ends(const CpsiLine *line, CpsEndKind kind);
 /* [m] */
 double cpsi_line_end_distance(const CpsiLine *line);

@@ -36,18 +36,6 @@
 /* Steps to the centre once there: what is left of a force's angle to its element is squared by each. */
 static const int CENTRINGS = 2;
 
-/* pose ---------------------------------------------------------------------------------------------------------- */
-
-/* Contact, and the loads: weight, half of each element to each of its nodes, and the forces at free ends. */
-static void pose(CpsiLine *line, const CpsiStepOptions *options) {
-    cpsi_contact_pose(line, options);
-    for (int j = 0; j < line->n; j++)
-        for (int a = 0; a < 3; a++) line->load[3*j + a] = cpsi_line_share(line, j)*line->weight[a];
-    for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_FREE)
-            for (int a = 0; a < 3; a++) line->load[3*(end == CPS_END_A ? 0 : line->n - 1) + a] += line->end[end].value[a];
-}
-
 /* decide -------------------------------------------------------------------------------------------------------- */
 
 /* Ends farther apart than an inextensible line is long: a constant force along the ends is a proof. */
@@ -173,6 +161,7 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line)*sizeof *line->reaction);
         if (line->follows) cpsi_contact_return(line);
         solve_step(line, program, &with);
+        if (options->least && (way == AS_FOUND || way == DRAGGED)) cpsi_places_as_found(line, program);
         if (cps_outcome_is_certified(line->report.outcome)) return;
     }
 }
@@ -272,7 +261,7 @@ bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, doubl
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (options->friction != CPS_FRICTION_CONSISTENT || options->frictionless) return false;
     keep_ends(line);
-    pose(line, options);
+    cpsi_line_pose(line, options);
     if (!cpsi_line_slides(line, margin)) return false;
     line->report.outcome = CPS_SLIDES;
     memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
@@ -292,7 +281,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     const CpsLineReport before = line->report;
     keep_ends(line);
     remember(line);
-    pose(line, options);
+    cpsi_line_pose(line, options);
     if (stays(line, options, &before)) {
         cpsi_line_pierces(line, &line->report.pierced);
         cpsi_line_report_ends(line);

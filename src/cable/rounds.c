@@ -32,8 +32,7 @@ static const int DRAG_ROUNDS = 200, DRAG_PATIENCE = 10;
  * hardly moves in all these rounds. */
 static const double LEAST_DRAG = 0.25, MOST_DRAG = 1e4;
 
-/* The bounds mu R, and no friction beyond them. */
-static void take_bounds(CpsiLine *line) {
+void cpsi_rounds_take_bounds(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double *axes = cpsi_line_axes(line, c);
         const CpsiRubSet set = cpsi_rub_set(line, c);
@@ -69,9 +68,7 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
     }
 }
 
-/* Forces of touching nodes kept in their axes while these turn: from the axes of the solve to those at the place reached. False where the
- * line has not gone all its way. */
-static bool look_again(CpsiLine *line, bool sides, double *turned) {
+bool cpsi_rounds_look(CpsiLine *line, bool sides, double *turned) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
@@ -112,7 +109,7 @@ static void look_ahead(CpsiLine *line, bool sides, double turned) {
 /* The last round as an answer: is it one? */
 static bool conclude(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds,
                      const CpsiIpmReport *ipm) {
-    if (bounds != CPSI_BOUNDS_GIVEN) take_bounds(line);
+    if (bounds != CPSI_BOUNDS_GIVEN) cpsi_rounds_take_bounds(line);
     if (bounds != CPSI_BOUNDS_GIVEN || line->frozen) cpsi_line_let_go(line, program);
     cpsi_line_certify(line, options, ipm);
     return cps_outcome_is_certified(line->report.outcome);
@@ -137,7 +134,7 @@ void cpsi_rounds_settle(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
             off = mismatch(line);
             next_bounds(line, program, cpsi_line_unit_force(line, bounds));
         }
-        if (line->follows) arrived = look_again(line, sides, &turned);
+        if (line->follows) arrived = cpsi_rounds_look(line, sides, &turned);
         if (turned <= SETTLED && off <= MATCHED && cpsi_line_is_clean(&ipm)) break;
         if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
         if (turned < 0.5*best) best = turned, since = round;
@@ -194,7 +191,7 @@ void cpsi_rounds_drag(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
         memcpy(watch.before, line->base, 3*(size_t)line->n*sizeof *watch.before);
         cpsi_contact_meet(line, false), cpsi_contact_look(line);
         ipm = cpsi_line_solve(line, program, &with, bounds, false);
-        arrived = look_again(line, sides, &turned);
+        arrived = cpsi_rounds_look(line, sides, &turned);
         if (turned <= SETTLED && cpsi_line_is_clean(&ipm)) break;
         watch.path += way_between(line->n, watch.before, line->base);
         if (turned < 0.5*watch.best) watch.best = turned, watch.waited = 0;

@@ -15,4 +15,11 @@ void cpsi_rounds_settle(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
 /* Rounds that a drag holds back where they turn to and fro, from the reference, however far they go. */
 void cpsi_rounds_drag(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds);
 
+/* The line laid onto the surfaces from its base, and seen anew there; forces of touching nodes are kept in their axes while these turn, by at
+ * most `turned` [rad]. False where an obstacle lets the line go only a part of its way. `sides`: it is to pass none. */
+bool cpsi_rounds_look(CpsiLine *line, bool sides, double *turned);
+
+/* The bounds mu R, and no friction beyond them. */
+void cpsi_rounds_take_bounds(CpsiLine *line);
+
 #endif

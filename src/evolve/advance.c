@@ -9,7 +9,8 @@
  *     differ by more than was put in. Then the halves are kept.
  * Otherwise it is halved, at most `halvings` times. A part that small is accepted; if it still is not what its halves are it is a
  * snap, and reported: the line jumps by a way that does not get smaller with the load. A part that small which does not converge is
- * not cut further: the rest of the step slides without end, which is proved, or is taken in one go and reported as it is.
+ * not cut further: the rest of the step slides without end, which is proved; or the line goes on as overdamped motion (relaxation.h), a snap
+ * as well, and from where it comes to rest as before; or the rest is taken in one go and reported as it is.
  *
  * A way round an obstacle is known only where neither the obstacle turns nor a node goes round it by more than a quarter of a turn
  * (cable/contact.h). A step in which an obstacle turns farther is cut beforehand into equal stretches of a quarter at most, each of
@@ -24,6 +25,7 @@
 #include "cable/bend.h"
 #include "cable/contact.h"
 #include "evolve/ledger.h"
+#include "evolve/relaxation.h"
 
 /* A part whose halves agree this much better than asked is followed by one twice as long. */
 static const double EASY = 0.25;
@@ -48,6 +50,11 @@ static const double ROUNDED_STRAIN = 1e-12;
 /* After so many parts as small as may be that cannot either, no more of a step are cut for their energy: it would take all of them, and
  * what is left is reported. */
 static const int JUMPS = 8;
+
+/* So many parts of a step may be gone as overdamped motion. */
+static const int RELAXATIONS = 8;
+/* This share of what is left of a step is not: its end is an equilibrium. */
+static const double LAST = 0.0625;
 
 /* So many iterations times nodes spent on parts that are not kept end the cutting of a step, unless its path is asked for: about a second of
  * one processor. Each iteration costs as much as that of some nodes more; a given set of friction forces makes a node dearer. */
@@ -103,6 +110,7 @@ typedef struct Advance {
     bool known;      /* the forces at the ends are those of an equilibrium */
     int iterations;  /* of everything that was solved, kept or not */
     double in_vain;  /* iterations times nodes, of what was not kept, path tolerance apart */
+    int relaxed;     /* parts that were tried as overdamped motion */
     int jumps;       /* parts as small as may be whose energy is open */
     CpsLineReport whole;
     CpsLedger ledger;
@@ -189,13 +197,16 @@ static Apart apart(const CpsiLine *line, const double *trial) {
     return (Apart){way/line->length, force > 0 ? tension/force : 0};
 }
 
-/* [m] The longest way of a node since the reference. */
-static double way_of(const CpsiLine *line) {
+/* [m] The longest way of a node from place `from` (n, 3). */
+static double way_since(const CpsiLine *line, const double *from) {
     double way = 0;
     for (int j = 0; j < line->n; j++)
-        way = cpsi_larger(way, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&line->reference[3*j]))));
+        way = cpsi_larger(way, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&from[3*j]))));
     return way;
 }
+
+/* ... and since the reference. */
+static double way_of(const CpsiLine *line) { return way_since(line, line->reference); }
 
 /* The energy that a part, or two of them, cannot account for: what it made, and where the path counts what it lost as well; but for
  * what the certificate and the accuracy of places leave open of an energy. */
@@ -288,6 +299,13 @@ static bool may_branch(const Advance *advance) {
     return advance->options->friction == CPS_FRICTION_CONSISTENT && advance->jumps < JUMPS;
 }
 
+/* May the line jump?  Strict contact beside frozen friction has one convex problem for a step, and no path. */
+static bool may_relax(const Advance *advance) {
+    const CpsiStepOptions *options = advance->options;
+    const bool strict = options->friction == CPS_FRICTION_FROZEN && options->contact == CPS_CONTACT_STRICT;
+    return !strict && advance->relaxed < RELAXATIONS;
+}
+
 /* A part of the step; `cut`: it may be made smaller. */
 static Trial try_part(Advance *advance, double from, double middle, double to, bool cut) {
     save(advance->line, advance->room);
@@ -336,6 +354,34 @@ static bool add_slide(Advance *advance, double from, double to, double margin) {
     return true;
 }
 
+/* From share `from` to share `to` as overdamped motion: from there on the line may have an equilibrium again. False where it may not go so, or
+ * does not come to rest; then it is where it was. */
+static bool relax(Advance *advance, double from, double to) {
+    CpsiLine *line = advance->line;
+    CpsLineReport *whole = &advance->whole;
+    CpsiRelaxation done;
+    CpsEnd before[2];
+    if (!may_relax(advance)) return false;
+    advance->relaxed++;
+    for (int end = 0; end < 2; end++) before[end] = end_at(advance->move, end, from);
+    impose(advance, from, to);
+    const bool rests = cpsi_line_relax(line, advance->program, advance->options, before, advance->room->turn, advance->known, &done);
+    advance->iterations += done.iterations;
+    if (!rests) {
+        restore(line, advance->room);
+        return false;
+    }
+    whole->parts++;
+    whole->snaps++;
+    whole->jump = cpsi_larger(whole->jump, way_since(line, advance->room->position));
+    whole->dissipated += done.dissipated;
+    for (int end = 0; end < 2; end++) whole->end[end].work += done.work[end];
+    cpsi_ledger_add(&advance->ledger, &done.ledger);
+    whole->ledger = advance->ledger;
+    advance->known = true;
+    return true;
+}
+
 /* What has been solved since there were so many iterations: these times the nodes. What converged is cut alike whatever its friction is
  * given as. */
 static double cost_of(const Advance *advance, int before, bool good) {
@@ -344,6 +390,21 @@ static double cost_of(const Advance *advance, int before, bool good) {
     for (int k = 0; k < line->obstacle_count && !good; k++)
         if (line->obstacle[k].has_set) nodes = fmax(nodes, SET_COST*line->n);
     return (double)(advance->iterations - before)*nodes;
+}
+
+/* As add_slide, from the start of the part, to which the line returns if it does not slide. */
+static bool end_in_slide(Advance *advance, double from, double to) {
+    restore(advance->line, advance->room);
+    if (add_slide(advance, from, to, SLIDES_LEAST)) return true;
+    restore(advance->line, advance->room);
+    return false;
+}
+
+/* The rest of a stretch in one go, as it is. */
+static void take_rest(Advance *advance, double from, double to) {
+    Trial rest = {.first = take(advance, from, to, advance->known)};
+    if (converged(&rest.first)) rest.open = open_energy(advance, &rest.first, NULL);
+    keep(advance, &rest);
 }
 
 /* Take a stretch in parts, each halved up to `halvings` times. */
@@ -367,13 +428,14 @@ static void advance_stretch(Advance *advance, Stretch stretch, int halvings) {
             part *= 0.5;
             continue;
         }
-        if (!trial.good) { /* no smaller: the rest in one go, or a slide without end */
-            restore(advance->line, advance->room);
-            if (add_slide(advance, from, stretch.to, SLIDES_LEAST)) return;
-            restore(advance->line, advance->room);
-            Trial rest = {.first = take(advance, from, stretch.to, advance->known)};
-            if (converged(&rest.first)) rest.open = open_energy(advance, &rest.first, NULL);
-            keep(advance, &rest);
+        if (!trial.good) { /* no smaller */
+            if (end_in_slide(advance, from, stretch.to)) return;
+            const double jump = fmin(ldexp(part, advance->relaxed), (1 - LAST)*(1 - at));
+            if (relax(advance, from, within(&stretch, at + jump))) {
+                at += jump;
+                continue;
+            }
+            take_rest(advance, from, stretch.to);
             return;
         }
         keep(advance, &trial);
@@ -400,4 +462,21 @@ void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
         advance_stretch(&advance, (Stretch){(double)k/count, (double)(k + 1)/count}, halvings);
     }
     line->report = advance.whole;
+}
+
+void cpsi_line_lay(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiAdvance *room) {
+    CpsiRelaxation done;
+    save(line, room);
+    for (int k = 0; k < line->obstacle_count; k++) room->turn[k] = 0;
+    cpsi_line_step(line, program, options);
+    int iterations = line->report.iterations;
+    if (line->report.outcome == CPS_STALLED) {
+        restore(line, room);
+        if (!cpsi_line_relax(line, program, options, line->end, room->turn, false, &done)) restore(line, room);
+        cpsi_line_step(line, program, options);
+        iterations += done.iterations + line->report.iterations;
+    }
+    line->report.iterations = iterations;
+    line->report.parts = 1;
+    line->report.share = 1;
 }

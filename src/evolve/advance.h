@@ -32,4 +32,8 @@ void cpsi_advance_layout(CpsiAdvance *room, CpsiArena *arena, int n, int contact
 void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
                        CpsiAdvance *room, bool known);
 
+/* Statics: the first equilibrium of a line that is laid, without friction, from the shape that it is given. Where that is far from any, the line
+ * goes there as overdamped motion first. */
+void cpsi_line_lay(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiAdvance *room);
+
 #endif

@@ -358,9 +358,7 @@ static void lay(CpsEvolution *evolution) {
             continue;
         }
         options.frictionless = true, options.contact = CPS_CONTACT_GAINED;
-        cpsi_line_step(line, &evolution->program, &options);
-        line->report.parts = 1;
-        line->report.share = 1;
+        cpsi_line_lay(line, &evolution->program, &options, &evolution->room);
     }
 }
 
