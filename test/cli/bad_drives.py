@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """capstan drive: bad files and bad questions are refused with their place and message.             usage: bad_drives.py CAPSTAN EXAMPLES
+                                                                      or: bad_drives.py --write FOLDER   (to begin fuzzing with)
 
 Every case is the contents of a file; expected is what follows the file name in the one line on standard error.
 """
@@ -117,7 +118,15 @@ QUESTIONS = [
 ]
 
 
+def write(folder):
+    for i, (_, text, _, _) in enumerate(FILES):
+        with open(os.path.join(folder, f"bad-{i}.yaml"), "w") as file:
+            file.write(text)
+
+
 def main():
+    if sys.argv[1] == "--write":
+        return write(sys.argv[2])
     capstan, examples = sys.argv[1:]
     failed = 0
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bad scenes: each must be refused with its exit code, its place (file:line:column) and its message.
 
-usage: bad_scenes.py CAPSTAN
+usage: bad_scenes.py CAPSTAN           or: bad_scenes.py --write FOLDER   (to begin fuzzing with)
 
 Every case is one change to a good scene, or whole file contents. Expected is the exit code and what follows the file
 name in the message; the whole of standard error must be one line, and standard output empty.
@@ -283,7 +283,17 @@ class Suite:
             print(f"FAILED the good scene: exit {code}: {err}")
 
 
+def write(folder):
+    cases = [GOOD.replace(old, new).encode() for _, old, new, _, _ in CHANGES] + [contents for _, contents, _, _ in FILES if contents]
+    for i, contents in enumerate(cases):
+        if len(contents) < 1 << 16:
+            with open(os.path.join(folder, f"bad-{i}.yaml"), "wb") as file:
+                file.write(contents)
+
+
 def main():
+    if sys.argv[1] == "--write":
+        return write(sys.argv[2])
     with tempfile.TemporaryDirectory() as folder:
         suite = Suite(sys.argv[1], folder)
         suite.good()

@@ -3,7 +3,7 @@
  *
  *     mutate SECONDS SEED FINDING [FILE..]
  *
- * It knows nothing of coverage; its inputs are cuts, copies, splices, flips and words of YAML and CSV in what is there. An input that crashes
+ * It knows nothing of coverage; its inputs are cuts, copies, splices, flips, words of YAML and CSV in what is there, and words repeated up to 1 MiB. An input that crashes
  * the reader, or takes more than 2 s of processor time, is written to FINDING, and the exit code is not 0. */
 #define _POSIX_C_SOURCE 200809L
 #include <fcntl.h>
@@ -18,7 +18,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { ROOM = 1 << 16, FILES = 256, SLOW_SECONDS = 2 };
+enum { ROOM = (1 << 20) - 1, MOST_OF_A_FILE = 1 << 15, FILES = 512, SLOW_SECONDS = 2 };
 
 static uint8_t input[ROOM];
 static size_t length;
@@ -46,10 +46,20 @@ static void put(size_t at, const void *bytes, size_t count) {
     length += count;
 }
 
+static const char *const WORD[] = {":", "- ", "[", "]", "{", "}", ",", "\n", "\n  ", " ", "'", "\"", "#", "%", "|\n", ">\n", "&a", "*a", "!", "?", "\t", "\r",
+                                   "---\n", "...\n", ".inf", "-.inf", ".nan", "1e308", "-1", "0", "1e-320", "99999999999", "0x7fffffff", "null", "true", "~",
+                                   "\\", "\\x1b", "\xef\xbb\xbf", "\xc2\x85", "\xff", "\x01", "fixed", "free", "../", "/", "-"};
+
+/* One to three words over and over, behind some of what is there: what takes more than linear time shows. */
+static void repeat(void) {
+    const char *word[3];
+    const size_t words = 1 + below(3), room = below(ROOM - 100);
+    for (size_t i = 0; i < words; ++i) word[i] = WORD[below(sizeof WORD / sizeof *WORD)];
+    length = below(length + 1);
+    for (size_t i = 0; length < room; ++i) put(length, word[i % words], strlen(word[i % words]));
+}
+
 static void mutate(uint8_t *const *file, const size_t *size, int files) {
-    static const char *const WORD[] = {":", "- ", "[", "]", "{", "}", ",", "\n", "\n  ", " ", "'", "\"", "#", "%", "|\n", ">\n", "&a", "*a", "!", "?", "\t", "\r",
-                                       "---\n", "...\n", ".inf", "-.inf", ".nan", "1e308", "-1", "0", "1e-320", "99999999999", "0x7fffffff", "null", "true", "~",
-                                       "\\", "\\x1b", "\xef\xbb\xbf", "\xc2\x85", "\xff", "\x01", "fixed", "free", "../", "/", "-"};
     const size_t at = below(length + 1), more = below(16) ? below(8) : below(400);
     uint8_t byte = (uint8_t)next();
     switch (below(8)) {
@@ -73,8 +83,8 @@ int main(int argc, char **argv) {
     chance = strtoull(argv[2], NULL, 10) * 2654435761u + 88172645463325252u;
     for (int i = 4; i < argc && files < FILES; ++i) {
         FILE *in = fopen(argv[i], "rb");
-        if (!in || !(file[files] = malloc(ROOM))) return 2;
-        size[files] = fread(file[files], 1, ROOM / 2, in);
+        if (!in || !(file[files] = malloc(MOST_OF_A_FILE))) return 2;
+        size[files] = fread(file[files], 1, MOST_OF_A_FILE, in);
         files += size[files] > 0;
         fclose(in);
     }
@@ -87,6 +97,7 @@ int main(int argc, char **argv) {
         length = 0;
         if (files > 0) { const int which = (int)below((size_t)files); memcpy(input, file[which], length = size[which]); }
         for (size_t n = 1 + below(6); n > 0; --n) mutate(file, size, files);
+        if (below(300) == 0) repeat();
         const struct itimerval slow = {.it_value = {SLOW_SECONDS, 0}}, never = {0};
         setitimer(ITIMER_VIRTUAL, &slow, NULL);
         LLVMFuzzerTestOneInput(input, length);
