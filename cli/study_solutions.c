@@ -90,29 +90,37 @@ static int bad_file(const char *path, int line, const char *found, const char *e
     return EXIT_INPUT;
 }
 
-/* numbers of a row, at most 4, into value; -1 where there is anything else */
-static int read_row(const char *text, double value[4]) {
+/* How many columns of a table with names are read: up to z. 0: this is no such line. */
+static int named_columns(const char *text) {
+    static const char WITH[] = "arc_length,x,y,z", WITHOUT[] = "x,y,z";
+    return strncmp(text, WITH, sizeof WITH - 1) == 0 ? 4 : strncmp(text, WITHOUT, sizeof WITHOUT - 1) == 0 ? 3 : 0;
+}
+
+/* Numbers of a row into value: `named` of them, whatever follows, or where that is 0 all that there are, at most 4; -1 where there is
+ * anything else. */
+static int read_row(const char *text, int named, double value[4]) {
     for (int n = 0; n < 4;) {
         char *end;
         value[n] = strtod(text, &end);
         if (end == text || !isfinite(value[n])) return -1;
         ++n;
         end += strspn(end, " \t\r\n");
-        if (!*end) return n;
+        if (!*end || (n == named && *end == ',')) return n;
         if (*end != ',') return -1;
         text = end + 1;
     }
     return -1;
 }
 
+/* Places about the origin of the step's coordinates. */
 static int read_nodes(const CpsLineView *view, const char *path, FILE *file, double *position) {
     static const char EXPECTED[] = "x,y,z or arc_length,x,y,z, finite numbers, one row per node";
     char text[512], found[64];
     double value[4];
-    int line = 0, node = 0, columns = 0;
+    int line = 0, node = 0, columns = 0, named = 0;
     while (fgets(text, sizeof text, file)) {
-        ++line;
-        const int n = read_row(text, value);
+        if (++line == 1) named = named_columns(text);
+        const int n = read_row(text, named, value);
         if (n < 0 && node == 0 && line <= 2) continue; /* names, units */
         if (n < 3 || (columns > 0 && n != columns)) return bad_file(path, line, "another row", EXPECTED);
         if (node > view->elements) break;
@@ -121,7 +129,8 @@ static int read_nodes(const CpsLineView *view, const char *path, FILE *file, dou
             return bad_file(path, line, found, "that of the line's nodes, in order");
         }
         columns = n;
-        memcpy(position + 3 * (size_t)node++, value + n - 3, 3 * sizeof *position);
+        for (int x = 0; x < 3; ++x) position[3 * (size_t)node + (size_t)x] = value[n - 3 + x] - view->origin[x];
+        ++node;
     }
     if (ferror(file)) {
         cli_printf(stderr, "capstan: %s: %s\n", path, strerror(errno));

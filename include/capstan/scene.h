@@ -59,16 +59,25 @@ typedef enum CpsStartKind {
     CPS_START_STRAIGHT, /* from point[0] to point[1] */
     CPS_START_POLYLINE, /* along point[0..point_count-1] */
     CPS_START_ARC,      /* from point[0], around centre point[1], turning about axis */
-    CPS_START_LAID      /* by statics: the frictionless equilibrium under the ends given */
+    CPS_START_LAID,     /* by statics: the frictionless equilibrium under the ends given */
+    CPS_START_NODES     /* any configuration: node i at point[i], with the forces of the reference if they are known */
 } CpsStartKind;
 
 /* The first reference configuration. Nodes follow the shape by natural length, an elastic line being
- * stretched evenly over a shape longer than itself; a shape shorter than the line is refused (use laid). */
+ * stretched evenly over a shape longer than itself; a shape shorter than the line is refused (use laid).
+ *
+ * Given nodes are any x_R of S90, also one that is slack: no element at more than twice its length, or beyond it where the line is
+ * inextensible. With them go T_R and either R_R or A_R; of the arrays that are NULL the first step knows what the places tell. */
 typedef struct CpsStart {
     CpsStartKind kind;
-    int point_count;      /* straight, arc: 2; polyline: >= 2; laid: 0 */
+    int point_count;      /* straight, arc: 2; polyline: >= 2; laid: 0; nodes: elements + 1 */
     const double *point;  /* (point_count, 3) [m] */
     double axis[3];       /* [-] arc: axis of the turn, right-hand rule, default 0 0 1 */
+    const double *tension;  /* nodes: (elements) [N] T_R >= 0; NULL: K (|x'| - 1)^+, and 0 of an inextensible line */
+    const double *reaction; /* nodes: (elements + 1) [N] R_R >= 0 of the obstacle that the node touches; NULL: S90 section 2 d 2,
+                               -((T_R t)' + w).n where that is positive, with the force on a free end */
+    const double *friction_bound; /* nodes: (elements + 1) [N] A_R >= 0 in place of `reaction`, R_R = A_R/mu with the node's own
+                                     coefficient; with frozen friction it is the bound of the first step */
 } CpsStart;
 
 /* A stretch of a line that rubs otherwise: chain and wire in one line, say. */

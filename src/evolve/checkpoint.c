@@ -165,6 +165,8 @@ static void mix_line(uint64_t *hash, const CpsiLine *line) {
     mix_numbers(hash, 3, line->weight);
     mix_numbers(hash, (size_t)line->n - 1, line->element_length);
     mix_numbers(hash, 3*(size_t)line->n, line->position);
+    mix_numbers(hash, (size_t)line->n - 1, line->tension);
+    mix_numbers(hash, (size_t)line->n, line->reaction);
     if (line->friction_factor) mix_numbers(hash, (size_t)line->n, line->friction_factor);
     for (int end = 0; end < 2; end++) {
         mix(hash, &line->end[end].kind, sizeof line->end[end].kind);

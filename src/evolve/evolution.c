@@ -17,7 +17,9 @@
 #include "cable/tension_field.h"
 #include "evolve/checkpoint.h"
 #include "evolve/evolution.h"
+#include "evolve/friction_zone.h"
 #include "evolve/ledger.h"
+#include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/path_check.h"
 #include "evolve/start.h"
@@ -144,17 +146,10 @@ static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
 /* The mean factor of the zones over the length that each node stands for. */
 static void fill_friction_factor(CpsiLine *line, const CpsLine *def) {
     if (!line->has_zones) return;
-    int first = 0; /* zones before it end before this node begins */
+    int first = 0;
     for (int j = 0; j < line->n; j++) {
-        const double share = cpsi_line_share(line, j), at = line->arc_length[j];
-        const double low = j > 0 ? at - 0.5*line->element_length[j - 1] : at, high = low + share;
-        while (first < def->zone_count && def->zone[first].to <= low) first++;
-        double factor = 1;
-        for (int k = first; k < def->zone_count && def->zone[k].from < high; k++) {
-            const CpsFrictionZone *zone = &def->zone[k];
-            factor += (zone->factor - 1)*(fmin(high, zone->to) - fmax(low, zone->from))/share;
-        }
-        line->friction_factor[j] = fmax(0, factor);
+        const double low = j > 0 ? line->arc_length[j] - 0.5*line->element_length[j - 1] : line->arc_length[j];
+        line->friction_factor[j] = cpsi_zone_factor(def, &first, low, cpsi_line_share(line, j));
     }
 }
 
@@ -184,9 +179,14 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         line->end[end] = def->end[end];
         if (line->end[end].kind == CPS_END_HELD) cpsi_start_end(def, end, line->end[end].value);
     }
-    if (def->start.kind == CPS_START_LAID) {
+    switch (def->start.kind) {
+    case CPS_START_LAID:
         lift(line);
-    } else {
+        break;
+    case CPS_START_NODES:
+        cpsi_node_start(line, def);
+        break;
+    default:
         cpsi_line_start_reaction(line, START_TOUCH*line->length);
     }
     memcpy(line->reference, line->position, 3*(size_t)line->n*sizeof *line->reference);

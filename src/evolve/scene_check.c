@@ -8,6 +8,7 @@
 #include "base/vec3.h"
 #include "cable/friction_set.h"
 #include "capstan/scene.h"
+#include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/path_check.h"
 #include "evolve/start.h"
@@ -233,10 +234,10 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
 /* What the start is made of, and for an arc that it can carry the elements. */
 static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
     const CpsStart *start = &line->start;
-    if (start->kind < CPS_START_STRAIGHT || start->kind > CPS_START_LAID)
+    if (start->kind < CPS_START_STRAIGHT || start->kind > CPS_START_NODES)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start has the unknown kind %d", line->name,
                          (int)start->kind);
-    if (start->kind == CPS_START_LAID) return CPS_OK;
+    if (start->kind == CPS_START_LAID || start->kind == CPS_START_NODES) return CPS_OK;
     const bool polyline = start->kind == CPS_START_POLYLINE;
     if (!start->point || (polyline ? start->point_count < 2 : start->point_count != 2))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start has %d points, expected %s", line->name,
@@ -266,6 +267,7 @@ static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
 }
 
 static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
+    if (line->start.kind == CPS_START_NODES) return CPS_OK; /* may be slack */
     const double shape = cpsi_start_length(line), length = line->length;
     const bool elastic = isfinite(line->stiffness);
     const Vec3 first = line->start.point_count > 0 ? vec3_load(line->start.point) : vec3(0, 0, 0);
@@ -288,9 +290,11 @@ static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
     return CPS_OK;
 }
 
-/* No node of the start shape below the obstacle; statics keeps a laid line above by itself. */
+/* No node of the start shape below the obstacle; statics keeps a laid line above by itself. With strict contact given nodes may have gone
+ * through it. */
 static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, CpsError *err) {
-    if (scene->obstacle_count == 0 || line->start.kind == CPS_START_LAID) return CPS_OK;
+    const bool through = line->start.kind == CPS_START_NODES && scene->contact == CPS_CONTACT_STRICT;
+    if (scene->obstacle_count == 0 || line->start.kind == CPS_START_LAID || through) return CPS_OK;
     CpsiStartWalk walk = cpsi_start_walk(line);
     for (int i = 0; i <= line->elements; i++) {
         const char *name = "";
@@ -361,6 +365,7 @@ static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
                                i + 1, index + 1);
     if (status == CPS_OK) status = check_numbers(scene, line, err);
     if (status == CPS_OK) status = check_start_data(line, err);
+    if (status == CPS_OK && line->start.kind == CPS_START_NODES) status = cpsi_node_start_check(scene, line, err);
     if (status == CPS_OK) status = check_start_length(line, err);
     if (status == CPS_OK) status = check_start_height(scene, line, err);
     for (int end = 0; end < 2 && status == CPS_OK; end++) status = check_end(scene, line, end, err);

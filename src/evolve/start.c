@@ -83,6 +83,9 @@ Vec3 cpsi_start_next(CpsiStartWalk *walk) {
     case CPS_START_ARC:
         x = arc_point(&walk->arc, walk->angle);
         break;
+    case CPS_START_NODES:
+        x = shape_point(line, walk->node);
+        break;
     case CPS_START_LAID:
         x = vec3_axpy(walk->natural / line->length, vec3_sub(walk->to, walk->from), walk->from);
         if (walk->node == line->elements) x = walk->to;

@@ -264,6 +264,37 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
     }
 }
 
+/* The larger coefficient of whatever the node touches, by its obstacle in the file; of a given set 1. */
+static double coefficient(const Compare *compare, const Record *r, size_t j) {
+    const int k = r->obstacle[j] >= 0 && r->obstacle[j] < compare->scene->obstacle_count ? (int)r->obstacle[j] : 0;
+    const CpsObstacle *o = &compare->scene->obstacle[k];
+    return (r->factor ? r->factor[j] : 1) * (o->friction_set ? 1 : fmax(o->friction, o->friction_lateral));
+}
+
+/* A start from nodes: the first step begins there, and frozen friction has the bounds that are given, A = mu R, but where they are small
+ * beside the largest and count for none. A step in several parts has the reference of the last of them. */
+static void compare_nodes(Compare *compare, const CpsLine *line, const Record *r) {
+    const CpsStart *start = &line->start;
+    if (start->kind != CPS_START_NODES || r->parts != 1) return;
+    for (size_t j = 0; j < r->nodes; j++) {
+        double place[3];
+        for (int k = 0; k < 3; k++) place[k] = start->point[3 * j + (size_t)k] - compare->source.origin[k];
+        same(compare, "first reference", line->name, r->reference[j], place, 3, COPIED);
+    }
+    const double *force = start->friction_bound ? start->friction_bound : start->reaction;
+    if (!force || compare->source.consistent || compare->scene->obstacle_count == 0) return;
+    double largest = 0;
+    for (size_t j = 0; j < r->nodes; j++) largest = fmax(largest, force[j] * (start->friction_bound ? 1 : coefficient(compare, r, j)));
+    for (size_t j = 0; j < r->nodes; j++) {
+        const bool held = (j == 0 && r->end_kind[0] == END_HELD) || (j == r->elements && r->end_kind[1] == END_HELD);
+        const double given = force[j] * (start->friction_bound ? 1 : coefficient(compare, r, j)), found = r->friction_bound[j];
+        if (held || (found == 0 && given <= 1e-3 * largest)) continue;
+        if (fabs(found - given) <= COMPUTED * given + 1e-12 * largest) continue; /* a factor is a mean of sums of abscissae */
+        find(compare, "friction bound of %s at node %zu in the first step is %.17g, in the scene %.17g", line->name, j, found, given);
+        return;
+    }
+}
+
 static void compare_turns(Compare *compare, size_t step, const Record *r) {
     int stage = 0, part = 0;
     const bool staged = stage_of(compare, step, &stage, &part);
@@ -301,6 +332,7 @@ static int compare_steps(Compare *compare, int index) {
                 impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e, step > 0 ? &before : NULL, start);
             compare_end(compare, line, e, &end[e], &was, step, &now);
         }
+        if (!bad && step == 0) compare_nodes(compare, line, &now);
         if (!bad) compare_loads(compare, line, step, &now);
         if (!bad && index == 0) compare_turns(compare, step, &now);
         const Record swap = before;

@@ -222,12 +222,43 @@ static void first_step_in_parts(void **state) {
     }
 }
 
+/* The first step of a start from nodes begins at them, with their bounds. */
+static void first_step_of_nodes(void **state) {
+    (void)state;
+    static const char text[] =
+        "capstan: 1\ngravity: [0, 0, -10]\nfriction: frozen\n"
+        "obstacles:\n  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
+        "lines:\n  rope:\n    length: 4\n    weight: 8\n    stiffness: 1000\n"
+        "    start: {nodes: nodes.csv}\n    ends: {A: fixed, B: free}\n"
+        "history:\n  - {name: pull, rope.B: {force: [5, 5, 0]}}\n";
+    char where[] = "capstan-nodes-XXXXXX", path[64];
+    assert_non_null(mkdtemp(where));
+    snprintf(path, sizeof path, "%s/nodes.csv", where);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs("x,y,z,reaction\n0,0,0,4\n1,0,0,8\n1.5,0.5,0,6\n2,1,0,8\n3,1,0,4\n", out);
+    assert_int_equal(fclose(out), 0);
+    CpsSceneFile *file = NULL;
+    CHECK_INT(run(text, where, &file, NULL), CPS_OK);
+    snprintf(path, sizeof path, "%s/result.nc", where);
+    CHECK_INT(given_file(path, cps_scene_file_scene(file), stdout), 0);
+    CHECK_INT(sample_poke(path, "rope_friction_bound", 2, 2.9), 0); /* mu R = 3 */
+    CHECK_INT(given_file(path, cps_scene_file_scene(file), NULL), 1);
+    CHECK_INT(sample_poke(path, "rope_friction_bound", 2, 3), 0);
+    CHECK_INT(sample_poke(path, "rope_reference", 4, 0.01), 0); /* y of node 1 */
+    CHECK_INT(given_file(path, cps_scene_file_scene(file), NULL), 1);
+    cps_scene_file_destroy(file);
+    snprintf(path, sizeof path, "rm -r '%s'", where);
+    CHECK_INT(system(path), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sound_file_is_the_scenes),
         cmocka_unit_test(falsified_copies_are_refused),
         cmocka_unit_test(other_scenes_are_refused),
         cmocka_unit_test(first_step_in_parts),
+        cmocka_unit_test(first_step_of_nodes),
     };
     return cmocka_run_group_tests(tests, solve, clean);
 }

@@ -62,7 +62,7 @@ CHANGES = [
     ("number in quotes", "length: 10", "length: '10'", INPUT, "5:5: 'length': found the text \"10\" in quotes, expected a number"),
     ("nothing for a number", "length: 10", "length:", INPUT, "5:5: 'length': found nothing, expected a number in m"),
     ("list for a number", "length: 10", "length: [10]", INPUT, "5:5: 'length': found a list of 1, expected a number"),
-    ("number for a mapping", "start: " + START, "start: 3", INPUT, "9:5: 'start': found '3', expected laid, or a mapping with straight, polyline, arc"),
+    ("number for a mapping", "start: " + START, "start: 3", INPUT, "9:5: 'start': found '3', expected laid, or a mapping with straight, polyline, arc, nodes"),
     ("mapping for a list", "  - {name: pull,", "  {name: pull,", INPUT, "11:1: 'history': found a mapping, expected a list"),
     ("list for a mapping", "obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}", "obstacles: []", INPUT, "2:1: 'obstacles': found a list of 0, expected a mapping"),
     ("two components", "to: [10, 0, 0]", "to: [10, 0]", INPUT, "9:41: 'to': found a list of 2, expected three numbers in m, as in [x, y, z]"),

@@ -304,6 +304,38 @@ static void places_many(void **state) {
     CHECK_LESS(worst, 4e-15); /* two ulps of 10 m */
 }
 
+/* A start from nodes: lengths, forces, and what they may be of. */
+static void checks_given_nodes(void **state) {
+    (void)state;
+    double x[15] = {0, 0, 0, 2.5, 0, 0, 4, 2, 0, 5, 2, 0, 7.5, 2, 0}, tension[4] = {3, 3, 0, 0}, force[5] = {1, 2, 2, 2, 1};
+    const CpsFrictionZone zone = {.from = 3, .to = 6.5, .factor = 0};
+    Parts p;
+    for (int k = 0; k < 13; k++) {
+        make(&p);
+        p.obstacle.friction = 0.5;
+        p.line.start = (CpsStart){.kind = CPS_START_NODES, .point_count = 5, .point = x, .tension = tension, .friction_bound = force};
+        double *const spoilt[] = {NULL, &x[7], &x[7], &x[8], &tension[2], &force[3], &force[3]};
+        static const double BY[] = {0, NAN, 20, -1, -1, -2, INFINITY};
+        static const char *const SAID[] = {NULL, "a coordinate of node 2 is nan m", "nodes 1 and 2 are", "node 2 lies 1 m below obstacle 'bed'",
+                                           "the tension of element 2 is -1 N", "the friction bound at node 3 is -2 N", "the friction bound at node 3 is inf N"};
+        const double before = k < 7 && spoilt[k] ? *spoilt[k] : 0;
+        if (k < 7 && spoilt[k]) *spoilt[k] = BY[k];
+        if (k == 7) p.line.start.point_count = 4;
+        if (k == 8) p.line.start.reaction = force;
+        if (k == 9) p.line.stiffness = INFINITY, x[13] = 2.1;
+        if (k == 10) p.line.zone_count = 1, p.line.zone = &zone;
+        if (k == 11) x[8] = 0.1, p.line.start.friction_bound = NULL, p.line.start.reaction = force;
+        if (k == 12) x[8] = 1e-8;
+        static const char *const MORE[] = {"start has 4 nodes, expected 5", "found reactions and friction bounds", "m long and inextensible",
+                                           "obstacle 'bed' has no friction there", "the reaction of node 2 is 2 N, but it touches no obstacle"};
+        const char *said = k < 7 ? SAID[k] : k < 12 ? MORE[k - 7] : NULL;
+        if (said) refused(&p, said);
+        else assert_int_equal(cps_scene_check(&p.scene, NULL), CPS_OK);
+        if (k < 7 && spoilt[k]) *spoilt[k] = before;
+        x[13] = 2, x[8] = 0;
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(accepts_the_good_scene),
@@ -317,6 +349,7 @@ int main(void) {
         cmocka_unit_test(places_arc),
         cmocka_unit_test(guesses_laid),
         cmocka_unit_test(places_many),
+        cmocka_unit_test(checks_given_nodes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -79,3 +79,17 @@ CpsStatus cpsi_read_file_itself(const char *path, size_t max_bytes, char **bytes
     close(fd);
     return status;
 }
+
+bool cpsi_is_beside(const char *name) {
+    return *name && !strchr(name, '/') && strcmp(name, "-") != 0 && strcmp(name, ".") != 0 && strcmp(name, "..") != 0;
+}
+
+char *cpsi_path_beside(CpsiPool *pool, const char *file, const char *name) {
+    const char *slash = strrchr(file, '/');
+    const size_t folder = slash ? (size_t)(slash + 1 - file) : 0, length = strlen(name);
+    char *path = CPSI_POOL_TAKE(pool, folder + length + 1, char);
+    if (!path) return NULL;
+    memcpy(path, file, folder);
+    memcpy(path + folder, name, length + 1);
+    return path;
+}

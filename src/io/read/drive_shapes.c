@@ -71,17 +71,11 @@ static CpsStatus parse_rows(CpsiDriveRead *r, const char *name, char *bytes, Cps
 static CpsStatus read_curve_file(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePlanimeter *out) {
     if (node->kind != CPSI_YAML_SCALAR || !*node->text)
         return cpsi_drive_wrong(r, node, "'file'", "the name of a file");
-    /* a file from somebody else must not read what lies elsewhere on the machine */
-    if (strchr(node->text, '/'))
+    if (!cpsi_is_beside(node->text))
         return cpsi_drive_wrong(r, node, "'file'", "the name of a file beside this one, without '/'");
-    const char *slash = strrchr(r->path, '/');
-    const int folder = slash ? (int)(slash + 1 - r->path) : 0;
-    const size_t room = strlen(r->path) + strlen(node->text) + 1;
-    char *name = CPSI_POOL_TAKE(r->build.file.pool, room, char), *bytes = NULL;
+    char *name = cpsi_path_beside(r->build.file.pool, r->path, node->text), *bytes = NULL;
     size_t size = 0;
     if (!name) return cpsi_drive_no_memory(r);
-    snprintf(name, room, "%.*s%s", folder, r->path, node->text);
-    if (strcmp(name, "-") == 0) return cpsi_drive_wrong(r, node, "'file'", "a file, not standard input");
     CpsStatus status = cpsi_read_file_itself(name, r->max_bytes, &bytes, &size, r->build.file.err);
     if (status == CPS_OK && strlen(bytes) != size)
         status = cpsi_fail_at(r->build.file.err, CPS_ERR_INPUT, name, 0, 0, "found a zero byte: is this text?");

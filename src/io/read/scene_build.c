@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "io/base/read_file.h"
+#include "io/read/node_file.h"
 #include "io/schema/scene_keys.h"
 #include "io/read/set_build.h"
 
@@ -90,6 +92,57 @@ static CpsStatus build_elements(Build *b, const CpsiYaml *line_node, CpsLine *li
     return CPS_OK;
 }
 
+/* ---- a start from nodes ---- */
+
+static CpsStatus read_nodes(const Build *b, const CpsiYaml *node, CpsiNodeFile *file) {
+    if (!cpsi_is_beside(node->text))
+        return cpsi_fail_at(b->err, CPS_ERR_INPUT, b->file, node->line, node->column,
+                            "'nodes': found '%.64s', expected the name of a file beside this one, without '/'", node->text);
+    const char *path = cpsi_path_beside(b->pool, b->file, node->text);
+    return path ? cpsi_node_file_read(path, b->limits->max_bytes, b->pool, file, b->err) : out_of_memory(b);
+}
+
+/* The elements of the file where the scene gives none; else both have the same. */
+static CpsStatus take_elements(Build *b, const CpsiYaml *line_node, const CpsiNodeFile *file, CpsLine *line) {
+    const CpsiYaml *given = cpsi_yaml_child(line_node, "elements");
+    const double *arc = file->arc_length;
+    if (!given) {
+        b->elements += file->nodes - 1 - line->elements;
+        line->elements = file->nodes - 1;
+    }
+    if (!(b->elements <= (double)b->limits->max_elements))
+        return cpsi_fail_at(b->err, CPS_ERR_LIMIT, b->file, line_node->line, line_node->column,
+                            "elements: %.15g elements in all lines so far, the limit is %lld", b->elements, (long long)b->limits->max_elements);
+    if (given && line->elements != file->nodes - 1)
+        return cpsi_fail_at(b->err, CPS_ERR_INPUT, b->file, given->line, given->column,
+                            "'elements': found %d, expected %d, one less than nodes are given, or none", line->elements, file->nodes - 1);
+    if (!arc) return CPS_OK;
+    double *length = CPSI_POOL_TAKE(b->pool, line->elements, double), worst = 0;
+    if (!length) return out_of_memory(b);
+    for (int e = 0; e < line->elements; e++) {
+        const double here = line->element_length ? line->element_length[e] : line->length / line->elements;
+        length[e] = arc[e + 1] - arc[e];
+        worst = fmax(worst, fabs(length[e] - here));
+    }
+    if (!given) line->element_length = length;
+    if (!given || worst <= 1e-9 * line->length) return CPS_OK; /* written with 9 digits */
+    return cpsi_fail_at(b->err, CPS_ERR_INPUT, b->file, given->line, given->column,
+                        "'elements': natural lengths differ by %g m from those of arc_length in the file of nodes: leave one of the two out", worst);
+}
+
+static CpsStatus build_nodes(Build *b, const CpsiYaml *line_node, const CpsiYaml *node, CpsLine *line) {
+    CpsiNodeFile file = {0};
+    CpsStatus status = read_nodes(b, node, &file);
+    if (status == CPS_OK) status = take_elements(b, line_node, &file, line);
+    line->start = (CpsStart){.kind = CPS_START_NODES,
+                             .point_count = file.nodes,
+                             .point = file.position,
+                             .tension = file.tension,
+                             .reaction = file.reaction,
+                             .friction_bound = file.friction_bound};
+    return status;
+}
+
 static CpsStatus build_start(const Build *b, const CpsiYaml *node, CpsStart *start) {
     const CpsiYaml *straight = cpsi_yaml_child(node, "straight"), *polyline = cpsi_yaml_child(node, "polyline"),
                    *arc = cpsi_yaml_child(node, "arc");
@@ -163,7 +216,8 @@ static CpsStatus build_line(Build *b, const CpsiYaml *node, CpsLine *line, doubl
 
     CpsStatus status = build_elements(b, node, line);
     if (status == CPS_OK) status = build_zones(b, cpsi_yaml_child(node, "friction_zones"), line);
-    if (status == CPS_OK) status = build_start(b, cpsi_yaml_child(node, "start"), &line->start);
+    const CpsiYaml *start = cpsi_yaml_child(node, "start"), *nodes = cpsi_yaml_child(start, "nodes");
+    if (status == CPS_OK) status = nodes ? build_nodes(b, node, nodes, line) : build_start(b, start, &line->start);
     const CpsiYaml *ends = cpsi_yaml_child(node, "ends");
     line->end[CPS_END_A] = build_end(cpsi_yaml_child(ends, "A"));
     line->end[CPS_END_B] = build_end(cpsi_yaml_child(ends, "B"));

@@ -84,12 +84,17 @@ static void find_loose(const CpsLineView *view, int *first, int *last) {
     }
 }
 
+/* a file of nodes to go on from (docs/formats.md), in the coordinates of the scene: what belongs to an element stands beside the node it
+ * ends at */
 static void completed_table(const void *what, FILE *out) {
     const CpsCompletedLine *c = what;
-    fputs("arc_length,x,y,z\nm,m,m,m\n", out);
-    for (int j = 0; j <= c->view->elements; ++j) {
-        cpsi_put_csv_number(out, c->view->arc_length[j]);
-        for (int x = 0; x < 3; ++x) put_number(out, c->position[c->chosen][3 * (size_t)j + (size_t)x]);
+    const CpsLineView *view = c->view;
+    fputs("arc_length,x,y,z,tension,reaction\nm,m,m,m,N,N\n", out);
+    for (int j = 0; j <= view->elements; ++j) {
+        cpsi_put_csv_number(out, view->arc_length[j]);
+        for (int x = 0; x < 3; ++x) put_number(out, view->origin[x] + c->position[c->chosen][3 * (size_t)j + (size_t)x]);
+        put_number(out, j > 0 ? view->tension[j - 1] : NAN);
+        put_number(out, view->reaction[j]);
         fputc('\n', out);
     }
 }

@@ -100,6 +100,8 @@ static const CpsiKey KEYS[] = {
     {CPSI_START, "polyline", CPSI_POINTS, CPSI_ONE_OF, "m", ANY, 0, NULL, NULL, "straight pieces between these points"},
     {CPSI_START, "arc", CPSI_MAPPING, CPSI_ONE_OF, "", MAP(CPSI_ARC), NULL,
      "as much of a circle as the line is long, at most one turn; free of stress"},
+    {CPSI_START, "nodes", CPSI_TEXT, CPSI_ONE_OF, "", NO_RANGE, 0, NULL, NULL,
+     "any configuration: a CSV file beside this one with the nodes' places and, where they are known, natural lengths and forces"},
     {CPSI_STRAIGHT, "from", CPSI_VECTOR, CPSI_REQUIRED, "m", ANY, 0, NULL, NULL, "where end A starts"},
     {CPSI_STRAIGHT, "to", CPSI_VECTOR, CPSI_REQUIRED, "m", ANY, 0, NULL, NULL, "where end B starts"},
     {CPSI_ARC, "from", CPSI_VECTOR, CPSI_REQUIRED, "m", ANY, 0, NULL, NULL, "where end A starts"},
