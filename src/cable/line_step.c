@@ -2,8 +2,7 @@
 /* One step of one line (S90 problem P4.2, with A frozen from the reference or following the reaction), in four moves:
  *
  *   pose      reference x_R, friction bounds w = mu R_R where the reference touches, gaps, loads
- *   decide    is there an equilibrium at all?  An inextensible line shorter than the distance of its ends has none; a line
- *             with no end held needs friction and reactions that can carry its loads
+ *   decide    is there an equilibrium at all?  (existence.h)
  *   solve     write the step as a program (step_program.c), run ipm/
  *   conclude  back to world axes; balance the forces; classify nodes; certificate; report
  *
@@ -23,6 +22,7 @@
 #include "cable/bend.h"
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/existence.h"
 #include "cable/line_report.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
@@ -35,55 +35,6 @@
 
 /* Steps to the centre once there: what is left of a force's angle to its element is squared by each. */
 static const int CENTRINGS = 2;
-
-/* decide -------------------------------------------------------------------------------------------------------- */
-
-/* Ends farther apart than an inextensible line is long: a constant force along the ends is a proof. */
-static bool too_short(CpsiLine *line) {
-    if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_HELD)) return false;
-    const Vec3 span = vec3_sub(vec3_load(line->end[CPS_END_B].value), vec3_load(line->end[CPS_END_A].value));
-    const double distance = vec3_norm(span);
-    if (!(distance > line->length*(1 + CPSI_TAUT))) return false;
-    line->report.outcome = CPS_INFEASIBLE;
-    vec3_store(line->report.proof, vec3_scale(1/distance, span));
-    line->report.proof_value = distance - line->length;
-    return true;
-}
-
-/* No end held: a rigid translation v with B.v > sum w |v_T| lowers the energy for ever, B the sum of loads. The best v has
- * the part of B that friction cannot carry, and its normal part where the obstacle does not stop it. On one plane with isotropic
- * friction, or none; elsewhere the loop has to find out. */
-static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
-    if (!cpsi_line_both_ends(line, CPS_END_FREE) || line->follows) return false;
-    Vec3 sum = vec3(0, 0, 0);
-    double friction = 0, steepest = 0, least = INFINITY, loads = 0;
-    bool stopped = false;
-    for (int j = 0; j < line->n; j++) {
-        const Vec3 b = vec3_load(&line->load[3*j]);
-        sum = vec3_add(sum, b);
-        loads += vec3_norm(b);
-        friction += line->friction_bound[j];
-        const double coefficient = cpsi_rub_set(line, j).friction;
-        steepest = fmax(steepest, coefficient), least = fmin(least, coefficient);
-        stopped = stopped || isfinite(line->gap[j]);
-    }
-    const Vec3 n = vec3_load(&line->common[6]);
-    const double normal = vec3_dot(sum, n), along = stopped && normal < 0 ? 0 : normal;
-    const Vec3 tangent = vec3_axpy(-normal, n, sum);
-    /* all reactions together balance B.n; at best they rest where friction is largest */
-    if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) friction = steepest*fmax(0, -normal);
-    const double pull = vec3_norm(tangent), beyond = pull > friction ? pull - friction : 0;
-    const double fall = sqrt(beyond*beyond + along*along);
-    if (!(fall > CPSI_TAUT*loads)) return false;
-    const Vec3 slide = pull > 0 ? vec3_scale(beyond/(pull*fall), tangent) : vec3(0, 0, 0);
-    line->report.outcome = CPS_UNBOUNDED;
-    vec3_store(line->report.proof, vec3_axpy(along/fall, n, slide));
-    line->report.proof_value = fall;
-    /* with bounds that follow the reactions these, which add up to what presses, would hold it wherever they are */
-    const bool frozen = options->friction == CPS_FRICTION_FROZEN && !options->frictionless;
-    if (frozen && along == 0 && pull <= least*-normal) line->report.coulomb = least*-normal;
-    return true;
-}
 
 /* solve --------------------------------------------------------------------------------------------------------- */
 
@@ -292,7 +243,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     }
     line->report.certificate = (CpsCertificate){0};
     line->report.outcome = CPS_SOLVED;
-    if (too_short(line) || runs_away(line, options)) return;
+    if (cpsi_line_has_no_equilibrium(line, options)) return;
     try_ways(line, program, options);
     if (!is_finite(line) || !cpsi_line_is_near(line)) forget(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Overdamped motion to rest (relaxation.h): time steps with a drag (cable/damped_step.h), each from where the last one ended, with friction as
  * it is. The drag is the inverse of the length of a time step. It falls where steps are easy, so that the last of them are long, and grows
- * where normals turn far or an obstacle is in the way. */
+ * where a step cannot be solved or an obstacle is in the way. */
 #include "evolve/relaxation.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "cable/existence.h"
 #include "evolve/ledger.h"
 
 /* Time steps at most. */
@@ -52,6 +53,8 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         memcpy(from, line->end, sizeof from);
         for (int i = 0; i < line->obstacle_count; i++) turn[i] = 0;
         known = true;
+        double direction[3], load;
+        if (cpsi_line_falls_away(line, direction, &load)) return true;
         const double left = step.distance/line->length;
         if (!step.shortened && left <= REST_WAY && drag*left <= REST_FORCE) return true;
     }

@@ -273,6 +273,7 @@ static void judge_unbounded(Judge *judge, const Record *r, const Measures *m) {
     double size = hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]);
     at_most(judge, "length of the rigid motion - 1", fabs(size - 1), PLACE_TOLERANCE);
     if (!(m->rigid_fall > 0)) find(judge, "unbounded, but the energy falls by %.3g N along the proof", m->rigid_fall);
+    if (m->meets) find(judge, "unbounded, but the line meets an obstacle on its way");
     at_most(judge, "rigid motion into the obstacle", -m->rigid_rise_least, COPY_TOLERANCE);
     same(judge, "proof_value", r->proof_value, m->rigid_fall, FORCE_FLOOR * m->largest_force);
 }

@@ -14,6 +14,8 @@
  * force slightly outside its set makes the gap larger and never smaller. */
 #include "measure.h"
 
+#include "fall.h"
+
 #include <math.h>
 
 typedef Real Triple[3];
@@ -504,13 +506,13 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
         subtract(r->end_value[1], r->end_value[0], apart);
         m->ends_distance = (double)size(apart);
     }
-    Triple v;
+    Triple v, b;
     widen(r->proof, v);
     if (size(v) == 0) return;
     Sum fall = {0, 0}, press = {0, 0};
     Real across = 0, steepest = 0;
     for (size_t j = 0; j < r->nodes; j++) {
-        Triple b, n, tangential;
+        Triple n, tangential;
         widen(r->load[j], b);
         add(&fall, dot(b, v));
         for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) {
@@ -525,6 +527,15 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
         }
     }
     if (source->consistent) add(&fall, -steepest * fmaxl(0, total(&press)) * across);
+    if (source->follows) { // round obstacles: nothing may be touched for ever
+        m->meets = !falls_clear(source, r, v);
+        m->rigid_rise_least = INFINITY;
+        fall = (Sum){0, 0};
+        for (size_t j = 0; j < r->nodes; j++) {
+            widen(r->load[j], b);
+            add(&fall, dot(b, v));
+        }
+    }
     m->rigid_fall = (double)total(&fall);
 }
 

@@ -54,6 +54,7 @@ typedef struct Measures {
     double held_error;       /* [m] how far a held end is from where it is imposed */
     double ends_distance;    /* [m] of two imposed ends, NaN otherwise */
     double rigid_fall;       /* [N] fall of the energy per metre along `proof`, NaN without a proof vector */
+    bool meets;              /* does the line meet an obstacle on that way? (where obstacles are round) */
     double rigid_rise_least; /* [-] min n.proof over nodes that may touch */
     Bend bend;
 } Measures;

@@ -596,6 +596,40 @@ int sample_write_spill(const char *path) {
     return status ? status : closed;
 }
 
+/* ---- the fall ---- */
+
+/* Straight and level below a drum of radius 1, half of that away from it, under 1 N down at each node. */
+static size_t describe_fall(Field *field) {
+    static const double ALONG[NODES] = {-2, -1, 0, 1, 2};
+    const SampleLine line = {.name = "fall", .outcome = 4, .end_kind = {1, 1}};
+    size_t n = describe(&line, 1, field);
+    n += no_elements(&field[n]);
+    for (size_t k = 0; k < n; k++) {
+        Field *f = &field[k];
+        const bool places = strcmp(f->name, "reference") == 0 || strcmp(f->name, "position") == 0;
+        for (int j = 0; j < NODES && places; j++) f->value[3 * j] = ALONG[j], f->value[3 * j + 2] = -1.5;
+        for (int j = 0; j < NODES && strcmp(f->name, "load") == 0; j++)
+            f->value[3 * j] = f->value[3 * j + 1] = 0, f->value[3 * j + 2] = -1;
+        for (int j = 0; j < NODES && strcmp(f->name, "contact_gap") == 0; j++) f->value[j] = INFINITY;
+        if (strcmp(f->name, "proof") == 0) f->value[0] = f->value[1] = 0, f->value[2] = -1;
+        if (strcmp(f->name, "proof_value") == 0) f->value[0] = 5;
+    }
+    return n;
+}
+
+int sample_write_fall(const char *path) {
+    static const Bed DRUM = {.kind = 1, .axis = {0, 1, 0}, .radius = 1, .axial = 0.5, .lateral = 0.5};
+    Field field[MAX_FIELDS];
+    const size_t count = describe_fall(field);
+    int nc, dims[3], status = begin_file(path, "fall", "consistent", &nc, dims);
+    if (status) return status;
+    status = write_beds(nc, dims, &DRUM, 1);
+    static const double ONES[ELEMENTS] = {1, 1, 1, 1};
+    if (!status) status = write_line(nc, dims, "fall", ONES, C, field, field, count);
+    int closed = nc_close(nc);
+    return status ? status : closed;
+}
+
 int sample_poke(const char *path, const char *variable, size_t index, double value) {
     int nc, id, rank = 0, dimension[3], status = nc_open(path, NC_WRITE, &nc);
     if (status) return status;

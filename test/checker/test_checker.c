@@ -283,6 +283,21 @@ static const Tamper SPILL_TAMPER[] = {
     {"obstacle_kind", 0, 0, "a node would press on an obstacle"},
 };
 
+/* a fall: the loads, the way, and what might be in it */
+static const Tamper FALL_TAMPER[] = {
+    {"fall_proof", 2, 1, "unbounded, but the energy falls"},
+    {"fall_proof", 0, 0.1, "length of the rigid motion"},
+    {"fall_proof_value", 0, 4.9, "proof_value"},
+    {"fall_load", 8, 1, "proof_value"},
+    {"fall_end_kind", 0, 0, "unbounded, but an end is held"},
+    {"fall_reference", 8, -1, "unbounded, but the line meets an obstacle"},  // it touches
+    {"fall_reference", 8, 1.5, "unbounded, but the line meets an obstacle"}, // an element goes through the drum
+    {"fall_reference", 5, 50, "unbounded, but the line meets an obstacle"},  // ... will go
+    {"obstacle_point", 2, -3, "unbounded, but the line meets an obstacle"},  // the drum is in the way
+    {"obstacle_point", 2, -3e3, "unbounded, but the line meets an obstacle"},
+    {"obstacle_radius", 0, 1.6, "unbounded, but the line meets an obstacle"},
+};
+
 static void refuse_each(int (*write)(const char *), const Tamper *tamper, size_t count) {
     for (size_t i = 0; i < count; i++) {
         CHECK_INT(write(path), 0);
@@ -310,6 +325,7 @@ static void every_change_is_refuted(void **state) {
     refuse_each(sample_write_corner, CORNER_TAMPER, sizeof CORNER_TAMPER / sizeof *CORNER_TAMPER);
     refuse_each(sample_write_post, POST_TAMPER, sizeof POST_TAMPER / sizeof *POST_TAMPER);
     refuse_each(sample_write_spill, SPILL_TAMPER, sizeof SPILL_TAMPER / sizeof *SPILL_TAMPER);
+    refuse_each(sample_write_fall, FALL_TAMPER, sizeof FALL_TAMPER / sizeof *FALL_TAMPER);
 }
 
 static void drum_is_certified(void **state) {
