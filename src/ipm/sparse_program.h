@@ -80,7 +80,7 @@ const double *cpsi_sparse_program_z(const CpsiSparseProgram *program);
 
 /* ---- for the files of the program ---- */
 
-/* out = E x */
+/* Products (sparse_blocks.c): out = E x */
 void cpsi_sparse_multiply(const CpsiSparseData *d, const double *x, double *out);
 /* out += factor E'y */
 void cpsi_sparse_add_transposed(const CpsiSparseData *d, double factor, const double *y, double *out);

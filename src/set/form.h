@@ -66,7 +66,7 @@ bool cpsi_raw_emit(CpsiRaw *raw, const CpsSet *set, const double *x, const doubl
  * lines. */
 CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines, const double *q, double tolerance,
                            CpsiForm **out, CpsError *err);
-/* The reduced form of a set; the caller frees it. */
+/* The reduced form of a set; the caller frees it (form_make.c). */
 CpsStatus cpsi_form_make(const CpsSet *set, CpsiForm **out, CpsError *err);
 /* A form of zeros with room for so many unknowns, lines, rows and cones; NULL: no memory. */
 CpsiForm *cpsi_form_new(int n, int unknowns, int lines, int rows, int cones);

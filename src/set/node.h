@@ -76,7 +76,7 @@ typedef struct CpsiScratch {
 double *cpsi_scratch_take(CpsiScratch *scratch, size_t count); /* NULL: no memory */
 void cpsi_scratch_give(CpsiScratch *scratch);
 
-/* ---- closed forms (closed.c, margin.c, ellipsoid.c): false where there is none for this expression ---- */
+/* ---- closed forms (closed.c, closed_margin.c, ellipsoid.c): false where there is none for this expression ---- */
 
 /* Of primitives. point may be NULL; a value INFINITY puts a ray there. */
 bool cpsi_closed_support(const CpsSet *set, const double *w, double *point, double *value);
@@ -95,7 +95,7 @@ bool cpsi_closed_gauge(const CpsSet *set, const double *p, double *value);
 /* The arguments of a question: a set, finite numbers, a place for the answer. */
 CpsStatus cpsi_set_check(const char *call, const CpsSet *set, const char *name, const double *numbers,
                          const void *answer, CpsError *err);
-/* Where 0 is, as far as the way a set is written tells (facts.c). */
+/* Where 0 is, as far as the way a set is written tells (zero.c). */
 typedef enum CpsiZero { CPSI_ZERO_UNKNOWN, CPSI_ZERO_INSIDE, CPSI_ZERO_RELATIVE } CpsiZero;
 CpsStatus cpsi_known_zero(const CpsSet *set, CpsiZero *known, CpsError *err);
 CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer, CpsError *err);
