@@ -232,9 +232,6 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
     const CpsJournalMode journal = options->resume ? CPS_JOURNAL_RESUME : options->overwrite ? CPS_JOURNAL_REPLACE : CPS_JOURNAL_NEW;
     if (!status) status = cps_journal_open(directory, run->evolution, journal, &run->journal, err);
     if (status) return status;
-    if (cps_results_found_mixed(run->results))
-        cli_printf(stderr, "capstan: the files in %s are not all of one run: putting them in place was interrupted; this run replaces them\n",
-                   directory);
     if (wanted.sync_at_end) cps_journal_sync_late(run->journal);
     run->progress = progress_begin(cps_evolution_step_count(run->evolution), options->quiet);
     if (options->resume) status = take_back(run, err);

@@ -9,6 +9,7 @@
 
 #include "capstan/io.h"
 #include "commands.h"
+#include "printable.h"
 
 /* A name made of dots alone would be results itself, or what it lies in. */
 static char *default_directory(const char *scene, const char *more) {
@@ -23,6 +24,16 @@ static char *default_directory(const char *scene, const char *more) {
     return path;
 }
 
+/* Say whether files are of two runs; they stay until what wrote them is run again. False after an error. */
+static bool tell_mixed(const char *directory, CpsError *err) {
+    char missing[CPS_RESULT_NAME];
+    if (cps_results_missing(directory, missing, err) != CPS_OK) return false;
+    if (*missing)
+        cli_printf(stderr, "capstan: the files in %s are not all of one run: putting them in place was interrupted, and %s is missing; the same "
+                           "command once more replaces them\n", directory, missing);
+    return true;
+}
+
 char *cli_destination(const CliOptions *options, const char *more, int *code) {
     char *directory = options->output ? strdup(options->output) : default_directory(options->operand, more);
     CpsError err;
@@ -35,7 +46,7 @@ char *cli_destination(const CliOptions *options, const char *more, int *code) {
     if (!options->output && mkdir("results", 0777) != 0 && errno != EEXIST) {
         fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n", strerror(errno));
         *code = EXIT_IO;
-    } else if (cps_results_prepare(directory, options->overwrite, &err) != CPS_OK) {
+    } else if (cps_results_prepare(directory, options->overwrite, &err) != CPS_OK || !tell_mixed(directory, &err)) {
         *code = cli_report(&err);
     } else {
         return directory;

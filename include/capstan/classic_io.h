@@ -22,8 +22,9 @@ typedef struct CpsStudyFiles {
 } CpsStudyFiles;
 
 /* Write study.csv, study.svg (tensions and errors on the way to the limits), first-order.csv and first-order.svg (P10.1
- * beside P2.1) and relaxed.svg (J and J** of S90 remark 4.6.1) into `directory`, made if missing (one level). All
- * appear whole and together, or not at all.
+ * beside P2.1), relaxed.svg (J and J** of S90 remark 4.6.1), and study.json, the title and the list of the others with
+ * sizes and checksums, into `directory`, made if missing (one level). All appear whole and together, or not at all; where
+ * they replace others study.json is removed first and comes last (cps_results_missing).
  *
  * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_IO or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_study_write(const char *directory, const CpsStudyFiles *files, CpsError *err);
@@ -34,8 +35,8 @@ typedef struct CpsMethodHistory {
     const double *position; /* (steps, points, 3) [m] */
 } CpsMethodHistory;
 
-/* Write methods.csv (where end B is after each step, and how far each method is from the first one) and methods.svg
- * (plan and elevation of all steps, a column per method) into `directory`, as cps_study_write.
+/* Write methods.csv (where end B is after each step, and how far each method is from the first one), methods.svg
+ * (plan and elevation of all steps, a column per method) and methods.json (the list) into `directory`, as cps_study_write.
  *
  *   methods    1..4 of them; steps >= 1, points >= 2 are the same for all
  *   step_name  (steps) */
@@ -51,8 +52,8 @@ typedef struct CpsCompletedLine {
     CpsCompletion chosen;
 } CpsCompletedLine;
 
-/* Write completed.csv (the chosen one, a row per node) and completed.svg (the longest loose part in plan: as found, and
- * laid out in each way) into `directory`, as cps_study_write. */
+/* Write completed.csv (the chosen one, a row per node), completed.svg (the longest loose part in plan: as found, and
+ * laid out in each way) and completed.json (the list) into `directory`, as cps_study_write. */
 CPS_API CpsStatus cps_completed_write(const char *directory, const CpsCompletedLine *line, CpsError *err);
 
 /* A history of the regularised method by itself. */

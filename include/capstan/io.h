@@ -70,8 +70,11 @@ CPS_API CpsStatus cps_results_open_with(const char *directory, const CpsScene *s
  * is missing will be made. Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_IO or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_results_prepare(const char *directory, bool force, CpsError *err);
 
-/* Were the files in the directory, when it was opened, of two runs, because replacing them had been interrupted?  Finishing replaces them. */
-CPS_API bool cps_results_found_mixed(const CpsResults *results);
+/* Are files in `directory` of two runs, because replacing them was interrupted?  Then the one that is put in place last is missing, the summary
+ * of its set: `missing` is its name, else "". Writing that set again replaces them all.
+ * Returns CPS_OK, also where there is no such directory, CPS_ERR_ARGUMENT for NULL or an empty name, CPS_ERR_IO or CPS_ERR_MEMORY. */
+enum { CPS_RESULT_NAME = 256 };
+CPS_API CpsStatus cps_results_missing(const char *directory, char missing[CPS_RESULT_NAME], CpsError *err);
 
 /* Append the step just taken (all lines). result.nc is synced. */
 CPS_API CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution, CpsError *err);
@@ -79,7 +82,7 @@ CPS_API CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *ev
 /* Write what needs the whole history (summary, pictures), close and rename everything into place.
  *   wall   [s] time of the whole run, for the summary
  * On failure the temporary files are removed and what was there before stays; or, where a file could not be renamed after others were, the
- * message says that the files are of two runs, summary.json is missing, and the next run recognises it (cps_results_found_mixed). */
+ * message says that the files are of two runs, summary.json is missing, and the next run recognises it (cps_results_missing). */
 CPS_API CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError *err);
 
 /* Close without keeping unfinished files; accepts NULL; needed after cps_results_finish too. */

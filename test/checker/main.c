@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan-checker FILE.nc [SCENE.yaml] [-v]: recompute every residual of a result file and say whether its claims hold; with the
- * scene also whether what the file takes from it is the scene's. */
+ * scene also whether what the file takes from it is the scene's. capstan-checker SUMMARY.json: are the files beside it those that it lists? */
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -26,8 +26,10 @@ static int against_scene(const char *file, const char *path) {
 int main(int argc, char **argv) {
     const bool verbose = argc > 2 && strcmp(argv[argc - 1], "-v") == 0;
     const int operands = argc - 1 - verbose;
+    const char *dot = operands == 1 ? strrchr(argv[1], '.') : NULL;
+    if (dot && strcmp(dot, ".json") == 0) return whole_set(argv[1], stderr) != 0;
     if (operands < 1 || operands > 2 || argv[1][0] == '-') {
-        fprintf(stderr, "usage: capstan-checker FILE.nc [SCENE.yaml] [-v]\n");
+        fprintf(stderr, "usage: capstan-checker FILE.nc [SCENE.yaml] [-v], or SUMMARY.json\n");
         return 2;
     }
     CheckerReport report;

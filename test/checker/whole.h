@@ -9,4 +9,7 @@
 /* Findings about the file beside its .capstan and summary.json, told to `out`; 0 where neither is there. */
 int whole_file(const char *path, FILE *out);
 
+/* Findings about all the files that the summary `path` lists. */
+int whole_set(const char *path, FILE *out);
+
 #endif

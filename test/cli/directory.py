@@ -119,6 +119,39 @@ def listed():
     expect("run: whole again", done.stderr == "" and check().returncode == 0, done.stderr)
 
 
+def studies():
+    """Each kind of study, and a regularised run, is a set with a list of its own: put in place last, missed where it is missing."""
+    check = lambda name: subprocess.run([CHECKER, f"studies/{name}"], capture_output=True, text=True, timeout=60)
+    kinds = (([], "study", "study.json", 5), (["--history"], "study", "methods.json", 2),
+             (["--complete", "straight"], "study", "completed.json", 2), (["--method", "regularized"], "run", "summary.json", 2))
+    for more, verb, summary, count in kinds:
+        run(*more, "-o", "studies", verb=verb, scene="frozen.yaml")
+        made = json.loads(read(f"studies/{summary}"))
+        found = {entry["name"]: (entry["bytes"], entry["crc32"]) for entry in made["files"]}
+        data = {name: read(f"studies/{name}") for name in found}
+        expect(f"{summary}: files", len(found) == count and found == {name: (len(d), f"{zlib.crc32(d):08x}") for name, d in data.items()}, found)
+        expect(f"{summary}: title", made["title"], made)
+        expect(f"{summary}: checker", check(summary).returncode == 0, check(summary))
+    shown = subprocess.run([CAPSTAN, "run", "frozen.yaml", "-q", "--method", "regularized", "--json", "-o", "studies"], capture_output=True, text=True, timeout=60)
+    expect("--json of a regularised run", "files" not in json.loads(shown.stdout) and json.loads(shown.stdout)["steps"], shown.stdout[-80:])
+    name = next(iter(json.loads(read("studies/study.json"))["files"]))["name"]
+    kept = read(f"studies/{name}")
+    write(f"studies/{name}", kept[:-1] + b"?")
+    expect("checker: a file of another study", check("study.json").returncode == 1 and "not of its run" in check("study.json").stderr, check("study.json"))
+    os.unlink(f"studies/{name}")
+    expect("checker: a file is missing", check("study.json").returncode == 1 and "cannot be read" in check("study.json").stderr, check("study.json"))
+    write("studies/study.csv", kept)
+    expect("checker: no list", check("study.csv").returncode != 0)
+    # as renames that failed leave two of the sets: each is told until what wrote it has run again
+    write("studies/.capstan", read("studies/.capstan").decode() + "x methods.json\nx study.json\n")
+    os.unlink("studies/methods.json")
+    os.unlink("studies/study.json")
+    expect("checker: a mixture", check("study.json").returncode == 1 and "two runs" in check("study.json").stderr, check("study.json"))
+    for left, (more, verb, summary, _) in zip(("methods.json", "methods.json", "study.json", "study.json", ""), (kinds[2], kinds[1], kinds[2], kinds[0], kinds[2])):
+        said = run(*more, "-o", "studies", verb=verb, scene="frozen.yaml").stderr
+        expect(f"a mixture without {left}, {summary}", (f"and {left} is missing" in said) if left else said == "", said)
+
+
 def killed():
     """What a killed run has begun is cleared by the next one."""
     process = subprocess.Popen([CAPSTAN, "run", "long.yaml", "-q", "-o", "killed"])
@@ -156,7 +189,7 @@ with tempfile.TemporaryDirectory() as folder:
     write("grab.yaml", SCENE.replace("STEPS", "1").replace("A: fixed, B: fixed", "A: fixed, B: free").replace("rope.B: {position: [1.1, 0, 0]}",
           "rope.B: {force: [0.1, 0, 0]}").replace("bed:", "post: {cylinder: {point: [1.5, 0, 0], axis: [0, 0, 1], radius: 0.2}, friction: 0.1}\n  bed:")
           .replace("[1, 0, 0]}, steps", "[2, 0, 0]}, steps"))
-    for part in (foreign, again, listed, killed, names):
+    for part in (foreign, again, listed, studies, killed, names):
         part()
     os.chdir("/")
 

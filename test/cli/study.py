@@ -37,7 +37,7 @@ with tempfile.TemporaryDirectory() as folder:
     check(done.returncode == 0, f"Y3: exit code {done.returncode}\n{done.stderr}")
     place = os.path.join(folder, "results", "souza-de-cursi-1990-study")
     names = sorted(os.listdir(place))
-    check(names == [".capstan", "first-order.csv", "first-order.svg", "relaxed.svg", "study.csv", "study.svg"], f"files: {names}")
+    check(names == [".capstan", "first-order.csv", "first-order.svg", "relaxed.svg", "study.csv", "study.json", "study.svg"], f"files: {names}")
     for name in names:
         if name.endswith(".svg"):
             root = xml.parse(os.path.join(place, name)).getroot()

@@ -412,7 +412,13 @@ static void what_is_not_there_is_refused(void **state) {
     must(cps_results_open("results-misuse", &f.scene, evolution, &results, &err), &err);
     must(cps_evolution_step(other, &err), &err);
     assert_int_equal(cps_results_append(results, other, &err), CPS_ERR_ARGUMENT);
-    assert_false(cps_results_found_mixed(NULL));
+    char missing[CPS_RESULT_NAME] = "before";
+    assert_int_equal(cps_results_missing(NULL, missing, &err), CPS_ERR_ARGUMENT);
+    assert_string_equal(missing, "");
+    assert_int_equal(cps_results_missing("", missing, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_results_missing("results-misuse", NULL, &err), CPS_ERR_ARGUMENT);
+    must(cps_results_missing("results-nowhere", missing, &err), &err);
+    assert_string_equal(missing, "");
     assert_int_equal(cps_results_prepare("", false, &err), CPS_ERR_ARGUMENT);
 
     CpsJournal *journal = NULL;

@@ -34,10 +34,10 @@ static bool ends_with(const char *name, const char *end) {
 }
 
 bool cpsi_marker_knows(const char *name) {
-    static const char *const PLAIN[] = {"summary.json", "history.csv",   "result.nc",     "result.pvd",      "obstacles.vtp",
-                                        "plan.svg",     "elevation.svg", "tension.svg",   "study.csv",       "study.svg",
-                                        "relaxed.svg",  "methods.csv",   "methods.svg",   "first-order.csv", "first-order.svg",
-                                        "completed.csv", "completed.svg"};
+    static const char *const PLAIN[] = {"summary.json",    "history.csv", "result.nc",   "result.pvd",  "obstacles.vtp", "plan.svg",
+                                        "elevation.svg",   "tension.svg", "study.csv",   "study.svg",   "study.json",    "first-order.csv",
+                                        "first-order.svg", "relaxed.svg", "methods.csv", "methods.svg", "methods.json",  "completed.csv",
+                                        "completed.svg",   "completed.json"};
     for (size_t i = 0; i < sizeof PLAIN / sizeof *PLAIN; ++i)
         if (strcmp(name, PLAIN[i]) == 0) return true;
     if (strlen(name) + sizeof "..part" > CPSI_NAME_SIZE || strchr(name, '/')) return false;
@@ -48,47 +48,56 @@ bool cpsi_marker_knows(const char *name) {
 }
 
 /* where `name` is, or would be */
-static size_t place_of(const CpsiMarker *marker, const char *name) {
-    size_t low = 0, high = marker->count;
+static size_t place_of(const CpsiNames *names, const char *name) {
+    size_t low = 0, high = names->count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (strcmp(marker->name[middle], name) < 0) low = middle + 1;
+        if (strcmp(names->name[middle], name) < 0) low = middle + 1;
         else high = middle;
     }
     return low;
 }
 
-bool cpsi_marker_lists(const CpsiMarker *marker, const char *name) {
-    const size_t at = place_of(marker, name);
-    return at < marker->count && strcmp(marker->name[at], name) == 0;
+bool cpsi_names_have(const CpsiNames *names, const char *name) {
+    const size_t at = place_of(names, name);
+    return at < names->count && strcmp(names->name[at], name) == 0;
 }
 
-CpsStatus cpsi_marker_add(CpsiMarker *marker, const char *name, CpsError *err) {
-    const size_t at = place_of(marker, name);
-    if (at < marker->count && strcmp(marker->name[at], name) == 0) return CPS_OK;
-    if (marker->count == marker->capacity) {
-        const size_t capacity = marker->capacity ? 2 * marker->capacity : 64;
-        char **grown = realloc(marker->name, capacity * sizeof *grown);
+CpsStatus cpsi_names_add(CpsiNames *names, const char *name, CpsError *err) {
+    const size_t at = place_of(names, name);
+    if (at < names->count && strcmp(names->name[at], name) == 0) return CPS_OK;
+    if (names->count == names->capacity) {
+        const size_t capacity = names->capacity ? 2 * names->capacity : 64;
+        char **grown = realloc(names->name, capacity * sizeof *grown);
         if (!grown) return no_memory(err);
-        marker->name = grown, marker->capacity = capacity;
+        names->name = grown, names->capacity = capacity;
     }
     char *copy = strdup(name);
     if (!copy) return no_memory(err);
-    memmove(marker->name + at + 1, marker->name + at, (marker->count - at) * sizeof *marker->name);
-    marker->name[at] = copy;
-    marker->count++;
+    memmove(names->name + at + 1, names->name + at, (names->count - at) * sizeof *names->name);
+    names->name[at] = copy;
+    names->count++;
     return CPS_OK;
 }
 
-void cpsi_marker_drop(CpsiMarker *marker, size_t i) {
-    free(marker->name[i]);
-    memmove(marker->name + i, marker->name + i + 1, (--marker->count - i) * sizeof *marker->name);
+void cpsi_names_drop_at(CpsiNames *names, size_t i) {
+    free(names->name[i]);
+    memmove(names->name + i, names->name + i + 1, (--names->count - i) * sizeof *names->name);
+}
+
+void cpsi_names_drop(CpsiNames *names, const char *name) {
+    if (cpsi_names_have(names, name)) cpsi_names_drop_at(names, place_of(names, name));
+}
+
+void cpsi_names_free(CpsiNames *names) {
+    for (size_t i = 0; i < names->count; ++i) free(names->name[i]);
+    free(names->name);
+    *names = (CpsiNames){0};
 }
 
 void cpsi_marker_free(CpsiMarker *marker) {
-    for (size_t i = 0; i < marker->count; ++i) free(marker->name[i]);
-    free(marker->name);
-    *marker = (CpsiMarker){0};
+    cpsi_names_free(&marker->written);
+    cpsi_names_free(&marker->awaited);
 }
 
 /* what is there ------------------------------------------------------------------------------------------------- */
@@ -119,9 +128,16 @@ CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, CpsError *err) {
     DIR *listing = list_folder(folder);
     if (!listing) return cpsi_fail(err, CPS_ERR_IO, "cannot list the directory of results: %s", strerror(errno));
     for (struct dirent *entry; status == CPS_OK && (entry = readdir(listing)) != NULL;)
-        if (cpsi_marker_knows(entry->d_name)) status = cpsi_marker_add(marker, entry->d_name, err);
+        if (cpsi_marker_knows(entry->d_name)) status = cpsi_names_add(&marker->written, entry->d_name, err);
     closedir(listing);
     return status;
+}
+
+const char *cpsi_marker_missing(const CpsiMarker *marker, int folder) {
+    struct stat found;
+    for (size_t i = 0; i < marker->awaited.count; ++i)
+        if (fstatat(folder, marker->awaited.name[i], &found, AT_SYMLINK_NOFOLLOW) != 0) return marker->awaited.name[i];
+    return NULL;
 }
 
 /* A regular file of the directory itself that begins with the first line; NULL where there is none, or *status says why. */
@@ -164,8 +180,8 @@ CpsStatus cpsi_marker_read(int folder, const char *path, CpsiMarker *out, CpsErr
     out->found = true;
     char letter, name[CPSI_NAME_SIZE];
     while (status == CPS_OK && next_line(list, &letter, name)) {
-        if (letter == 'w') status = cpsi_marker_add(out, name, err);
-        if (letter == 'x') out->replacing = true, memcpy(out->last, name, sizeof name);
+        if (letter == 'w') status = cpsi_names_add(&out->written, name, err);
+        if (letter == 'x') status = cpsi_names_add(&out->awaited, name, err);
     }
     fclose(list);
     if (status != CPS_OK) cpsi_marker_free(out);
@@ -184,8 +200,8 @@ CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *pa
         return status;
     }
     fputs(FIRST_LINE, list);
-    if (marker->replacing) fprintf(list, "x %s\n", marker->last);
-    for (size_t i = 0; i < marker->count; ++i) fprintf(list, "w %s\n", marker->name[i]);
+    for (size_t i = 0; i < marker->awaited.count; ++i) fprintf(list, "x %s\n", marker->awaited.name[i]);
+    for (size_t i = 0; i < marker->written.count; ++i) fprintf(list, "w %s\n", marker->written.name[i]);
     const bool failed = ferror(list) || fflush(list) != 0 || (sync && fsync(fd) != 0);
     const int code = errno;
     const bool closed = fclose(list) == 0;

@@ -5,43 +5,59 @@
 #include <locale.h>
 
 #include "base/status.h"
-#include "io/base/write_directory.h"
+#include "io/base/file_list.h"
+#include "io/base/escape.h"
 
 static bool nothing_stale(const char *name) {
     (void)name;
     return false;
 }
 
-static CpsStatus write_all(CpsiDirectory *directory, const CpsiFile *file, int count, CpsError *err) {
-    for (int i = 0; i < count; ++i) {
-        FILE *out = NULL;
-        CpsStatus status = cpsi_directory_create(directory, file[i].name, &out, err);
-        if (status != CPS_OK) return status;
-        file[i].put(file[i].what, out);
-        status = cpsi_directory_close_file(directory, out, err);
-        if (status != CPS_OK) return status;
-    }
-    return cpsi_directory_commit(directory, nothing_stale, err);
+void cpsi_file_set_title(const void *title, FILE *out) {
+    fprintf(out, "{\n  \"capstan\": \"%s\",\n  \"title\": ", cps_version());
+    cpsi_put_json_string(out, title);
 }
 
-CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count, CpsError *err) {
+static CpsStatus write_file(CpsiDirectory *directory, const CpsiFile *file, bool listed, CpsError *err) {
+    FILE *out = NULL;
+    CpsStatus status = cpsi_directory_create(directory, file->name, &out, err);
+    if (status != CPS_OK) return status;
+    file->put(file->what, out);
+    if (listed) {
+        fputs(",\n", out);
+        status = cpsi_result_list_put(directory, out, err);
+        fputs("}\n", out);
+    }
+    const CpsStatus closed = cpsi_directory_close_file(directory, out, status == CPS_OK ? err : NULL);
+    return status != CPS_OK ? status : closed;
+}
+
+static CpsStatus write_all(CpsiDirectory *directory, const CpsiFile *file, int count, const CpsiFile *summary, CpsError *err) {
+    CpsStatus status = CPS_OK;
+    for (int i = 0; i < count && status == CPS_OK; ++i) status = write_file(directory, &file[i], false, err);
+    if (status == CPS_OK) status = write_file(directory, summary, true, err);
+    return status == CPS_OK ? cpsi_directory_commit(directory, nothing_stale, err) : status;
+}
+
+CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count, const CpsiFile *summary, CpsError *err) {
     const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     const locale_t before = uselocale(numbers);
     CpsiDirectory *open = NULL;
     CpsStatus status = cpsi_directory_open(directory, &open, err);
-    if (status == CPS_OK) status = write_all(open, file, count, err);
+    if (status == CPS_OK) status = write_all(open, file, count, summary, err);
     cpsi_directory_destroy(open);
     uselocale(before);
     freelocale(numbers);
     return status;
 }
 
-CpsStatus cpsi_file_set_put(const CpsiFile *file, FILE *out, CpsError *err) {
+CpsStatus cpsi_file_set_put(const CpsiFile *summary, FILE *out, CpsError *err) {
     const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     const locale_t before = uselocale(numbers);
-    file->put(file->what, out);
+    summary->put(summary->what, out);
+    fputs("\n}\n", out);
     uselocale(before);
     freelocale(numbers);
     return CPS_OK;

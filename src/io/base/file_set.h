@@ -13,10 +13,14 @@ typedef struct CpsiFile {
     const void *what;
 } CpsiFile;
 
-/* Write `count` files. Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
-CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count, CpsError *err);
+/* Write `count` files and then their summary: an object of JSON that is put without its last brace, and gets the list of the others.
+ * Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
+CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count, const CpsiFile *summary, CpsError *err);
 
-/* One of them into a stream that is open. */
-CpsStatus cpsi_file_set_put(const CpsiFile *file, FILE *out, CpsError *err);
+/* What to put of a summary that says no more than its title. */
+void cpsi_file_set_title(const void *title, FILE *out);
+
+/* The summary by itself, without a list, into a stream that is open. */
+CpsStatus cpsi_file_set_put(const CpsiFile *summary, FILE *out, CpsError *err);
 
 #endif

@@ -112,13 +112,17 @@ CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsError *err) {
     return status;
 }
 
-static bool is_there(const CpsiDirectory *directory, const char *name) {
-    struct stat found;
-    return fstatat(directory->fd, name, &found, AT_SYMLINK_NOFOLLOW) == 0;
-}
-
-bool cpsi_directory_is_mixed(const CpsiDirectory *directory) {
-    return directory->marker.replacing && !is_there(directory, directory->marker.last);
+CpsStatus cpsi_directory_missing(const char *path, char missing[CPSI_NAME_SIZE], CpsError *err) {
+    missing[0] = '\0';
+    const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return CPS_OK;
+    CpsiMarker marker;
+    const CpsStatus status = cpsi_marker_read(folder, path, &marker, err);
+    const char *name = status == CPS_OK ? cpsi_marker_missing(&marker, folder) : NULL;
+    if (name) snprintf(missing, CPSI_NAME_SIZE, "%s", name);
+    cpsi_marker_free(&marker);
+    close(folder);
+    return status;
 }
 
 void cpsi_directory_sync_late(CpsiDirectory *directory) { directory->late = true; }
@@ -215,7 +219,7 @@ static CpsStatus fail_mixed(const CpsiDirectory *directory, const char *name, Cp
     return cpsi_fail(err, CPS_ERR_IO,
                      "cannot put %s/%s in its place: %s; the files there are now of two runs, and %s is missing: run again into this "
                      "directory (--resume goes on from the journal) to replace them all",
-                     directory->path, name, strerror(errno), directory->marker.last);
+                     directory->path, name, strerror(errno), directory->name[directory->count - 1]);
 }
 
 static CpsStatus fail_late(const CpsiDirectory *directory, CpsError *err) {
@@ -233,7 +237,7 @@ static CpsStatus look_ahead(const CpsiDirectory *directory, bool *replaces, CpsE
         struct stat found;
         if (fstatat(directory->fd, name, &found, AT_SYMLINK_NOFOLLOW) != 0) continue;
         if (S_ISDIR(found.st_mode)) return fail_path(directory, name, EISDIR, err);
-        if (!cpsi_marker_lists(&directory->marker, name))
+        if (!cpsi_names_have(&directory->marker.written, name))
             return cpsi_fail(err, CPS_ERR_IO,
                              "%s/%s was not written by capstan: move it away, or add --force to replace it (and --resume to go on from the "
                              "journal); earlier results are kept",
@@ -244,38 +248,36 @@ static CpsStatus look_ahead(const CpsiDirectory *directory, bool *replaces, CpsE
 }
 
 /* The names of this run in order, and those of the marker with them: all memory that a commit takes. */
-static CpsStatus list_names(CpsiDirectory *directory, CpsiMarker *own, CpsError *err) {
+static CpsStatus list_names(CpsiDirectory *directory, CpsiNames *own, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (size_t i = 0; i < directory->count && status == CPS_OK; ++i) {
-        status = cpsi_marker_add(own, directory->name[i], err);
-        if (status == CPS_OK) status = cpsi_marker_add(&directory->marker, directory->name[i], err);
+        status = cpsi_names_add(own, directory->name[i], err);
+        if (status == CPS_OK) status = cpsi_names_add(&directory->marker.written, directory->name[i], err);
     }
-    return status;
+    return status == CPS_OK ? cpsi_names_add(&directory->marker.awaited, directory->name[directory->count - 1], err) : status;
 }
 
 /* All names but the last, and what earlier runs have left beyond them. */
-static CpsStatus put_in_place(CpsiDirectory *directory, const CpsiMarker *own, bool (*stale)(const char *name), CpsError *err) {
+static CpsStatus put_in_place(CpsiDirectory *directory, const CpsiNames *own, bool (*stale)(const char *name), CpsError *err) {
     char temporary[TEMPORARY_SIZE];
     for (size_t i = 0; i + 1 < directory->count; ++i) {
         temporary_name(temporary, directory->name[i]);
         if (renameat(directory->fd, temporary, directory->fd, directory->name[i]) != 0) return fail_mixed(directory, directory->name[i], err);
     }
     /* pictures and steps of an earlier, longer run would be taken for this run's; one that cannot be removed stays in the list, for the next */
-    CpsiMarker *marker = &directory->marker;
-    for (size_t i = marker->count; i-- > 0;) {
-        const char *name = marker->name[i];
-        if (!stale(name) || cpsi_marker_lists(own, name)) continue;
-        if (unlinkat(directory->fd, name, 0) == 0 || errno == ENOENT) cpsi_marker_drop(marker, i);
+    CpsiNames *written = &directory->marker.written;
+    for (size_t i = written->count; i-- > 0;) {
+        const char *name = written->name[i];
+        if (!stale(name) || cpsi_names_have(own, name)) continue;
+        if (unlinkat(directory->fd, name, 0) == 0 || errno == ENOENT) cpsi_names_drop_at(written, i);
     }
     return CPS_OK;
 }
 
 /* From here on the list names old files and new ones, and the one whose absence tells. */
-static CpsStatus replace(CpsiDirectory *directory, const CpsiMarker *own, bool (*stale)(const char *name), bool replaces, CpsError *err) {
+static CpsStatus replace(CpsiDirectory *directory, const CpsiNames *own, bool (*stale)(const char *name), bool replaces, CpsError *err) {
     CpsiMarker *marker = &directory->marker;
     const char *last = directory->name[directory->count - 1];
-    marker->replacing = true;
-    snprintf(marker->last, sizeof marker->last, "%s", last);
     CpsStatus status = cpsi_marker_write(marker, directory->fd, directory->path, replaces, err);
     if (status != CPS_OK) return status;
     directory->committed = true;
@@ -288,7 +290,7 @@ static CpsStatus replace(CpsiDirectory *directory, const CpsiMarker *own, bool (
     char temporary[TEMPORARY_SIZE];
     temporary_name(temporary, last);
     if (!sync_folder(directory) || renameat(directory->fd, temporary, directory->fd, last) != 0) return fail_mixed(directory, last, err);
-    marker->replacing = false;
+    cpsi_names_drop(&marker->awaited, last);
     if (cpsi_marker_write(marker, directory->fd, directory->path, replaces, NULL) != CPS_OK || !sync_folder(directory)) return fail_late(directory, err);
     return CPS_OK;
 }
@@ -296,13 +298,13 @@ static CpsStatus replace(CpsiDirectory *directory, const CpsiMarker *own, bool (
 CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const char *name), CpsError *err) {
     if (directory->count == 0) return CPS_OK;
     bool replaces;
-    CpsiMarker own = {0};
+    CpsiNames own = {0};
     CpsStatus status = look_ahead(directory, &replaces, err);
     for (size_t i = 0; i < directory->count && directory->late && status == CPS_OK; ++i)
         status = cpsi_directory_sync(directory, directory->name[i], err);
     if (status == CPS_OK) status = list_names(directory, &own, err);
     if (status == CPS_OK) status = replace(directory, &own, stale, replaces, err);
-    cpsi_marker_free(&own);
+    cpsi_names_free(&own);
     return status;
 }
 

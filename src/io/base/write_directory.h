@@ -13,6 +13,8 @@
 
 #include "capstan/base.h"
 
+enum { CPSI_NAME_SIZE = 256 }; /* of a file with what is added to it while it is temporary */
+
 typedef struct CpsiDirectory CpsiDirectory;
 
 /* Open `path`, made if missing. One that is not empty and has no marker (directory_marker.h) is refused.
@@ -23,8 +25,9 @@ CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *e
  * is missing is left so. */
 CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsError *err);
 
-/* Are the files there of two runs, because replacing them was interrupted? */
-bool cpsi_directory_is_mixed(const CpsiDirectory *directory);
+/* The file of a directory without which the others of its set are of two runs, because replacing them was interrupted; "" where none is
+ * missing, or the directory is. Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
+CpsStatus cpsi_directory_missing(const char *path, char missing[CPSI_NAME_SIZE], CpsError *err);
 
 /* From now on files are synced at the commit, one after the other, and not each as it is closed. */
 void cpsi_directory_sync_late(CpsiDirectory *directory);

@@ -62,7 +62,8 @@ CpsStatus cps_methods_write(const char *directory, const char *title, int method
                            .method = method,
                            .step_name = step_name};
     const CpsiFile set[] = {{"methods.csv", methods_table, &m}, {"methods.svg", methods_picture, &m}};
-    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, err);
+    const CpsiFile summary = {"methods.json", cpsi_file_set_title, title};
+    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, err);
 }
 
 /* ---- slack laid out ---- */
@@ -128,5 +129,6 @@ CpsStatus cps_completed_write(const char *directory, const CpsCompletedLine *lin
     for (int k = 0; k < CPS_COMPLETIONS; ++k)
         if (!line->position[k]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "position %d is NULL", k);
     const CpsiFile set[] = {{"completed.csv", completed_table, line}, {"completed.svg", completed_picture, line}};
-    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, err);
+    const CpsiFile summary = {"completed.json", cpsi_file_set_title, line->title};
+    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, err);
 }

@@ -147,7 +147,7 @@ static void summary(const void *what, FILE *out) {
         }
         fputs("}}", out);
     }
-    fputs("]\n}\n", out);
+    fputs("]", out);
 }
 
 /* ---- pictures ---- */
@@ -195,7 +195,7 @@ CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *
     CpsStatus status = check(run, err);
     if (status != CPS_OK) return status;
     if (!directory) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL");
-    CpsiFile *set = calloc((size_t)run->lines + 2, sizeof *set);
+    CpsiFile *set = calloc((size_t)run->lines + 1, sizeof *set);
     Portrait *portraits = calloc((size_t)run->lines, sizeof *portraits);
     if (set && portraits) {
         set[0] = (CpsiFile){"history.csv", history, run};
@@ -204,8 +204,8 @@ CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *
             snprintf(portraits[i].name, sizeof portraits[i].name, "line-%d.svg", i + 1);
             set[1 + i] = (CpsiFile){portraits[i].name, portrait, &portraits[i]};
         }
-        set[1 + run->lines] = (CpsiFile){"summary.json", summary, run}; /* last: where it is, all is */
-        status = cpsi_file_set_write(directory, set, run->lines + 2, err);
+        const CpsiFile last = {"summary.json", summary, run};
+        status = cpsi_file_set_write(directory, set, run->lines + 1, &last, err);
     } else {
         status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     }

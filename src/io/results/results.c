@@ -95,8 +95,10 @@ CpsStatus cps_results_prepare(const char *directory, bool force, CpsError *err) 
     return cpsi_directory_prepare(directory, force, err);
 }
 
-bool cps_results_found_mixed(const CpsResults *results) {
-    return results && results->directory && cpsi_directory_is_mixed(results->directory);
+CpsStatus cps_results_missing(const char *directory, char missing[CPS_RESULT_NAME], CpsError *err) {
+    if (missing) missing[0] = '\0';
+    if (!directory || !*directory || !missing) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory and missing are both needed");
+    return cpsi_directory_missing(directory, missing, err);
 }
 
 CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *err) {

@@ -2,7 +2,7 @@
 /* The summary as one JSON object (RFC 8259): what `capstan run --json` prints and summary.json holds.
  * Keys are stable and carry their units; a number that says nothing is null. docs/results.md lists them. */
 #include "io/results/writers.h"
-#include "io/results/file_list.h"
+#include "io/base/file_list.h"
 #include "io/base/escape.h"
 
 static void put_key(FILE *out, const char *key) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The files of a run with their sizes and checksums, for its summary (see file_list.h). */
-#include "io/results/file_list.h"
+#include "io/base/file_list.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The list of a run's files in its summary: a file whose size or checksum is another is not of this run. */
-#ifndef CAPSTAN_SRC_IO_RESULTS_FILE_LIST_H
-#define CAPSTAN_SRC_IO_RESULTS_FILE_LIST_H
+#ifndef CAPSTAN_SRC_IO_BASE_FILE_LIST_H
+#define CAPSTAN_SRC_IO_BASE_FILE_LIST_H
 
 #include "io/base/write_directory.h"
 
