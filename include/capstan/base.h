@@ -46,11 +46,13 @@ typedef enum CpsStatus {
 } CpsStatus;
 
 /* Where and why a call failed. `file` is empty and line, column are 0 when no input file is concerned;
- * otherwise lines and columns count from 1. */
+ * otherwise lines and columns count from 1. `where` is the place in what was given, by the names that a scene file
+ * uses: "lines.cable.length", "history[2].cable.B", entries counted from 1; empty when no part of it is meant. */
 typedef struct CpsError {
     CpsStatus status;
     int line, column;
     char file[512];
+    char where[160];
     char message[1024]; /* what was found, what was expected, what to do */
 } CpsError;
 

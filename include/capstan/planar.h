@@ -57,6 +57,9 @@ typedef struct CpsPlanar CpsPlanar;
 #define CPS_PLANAR_MAX_PATCHES 65536
 #define CPS_PLANAR_MAX_CELLS   16777216
 
+/* Would this patch be accepted?  Messages call it "this patch". */
+CPS_API CpsStatus cps_patch_check(const CpsPatch *patch, CpsError *err);
+
 /* A body on `count` >= 1 patches, which are checked and copied. It may be shared between threads. */
 CPS_API CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out, CpsError *err);
 CPS_API void cps_planar_destroy(CpsPlanar *body); /* NULL is accepted */

@@ -27,6 +27,9 @@ typedef struct CpsRope {
 
 #define CPS_ROPE_MAX_NODES 1000000
 
+/* Would this rope be accepted? */
+CPS_API CpsStatus cps_rope_check(const CpsRope *rope, CpsError *err);
+
 /* The rope as a system. Parameters are vx, vy of node 0, 1, ..; laws 0 .. nodes - 1 the friction of the nodes ("node
  * k"), laws nodes .. 2 nodes - 2 the elements ("element k"); the drive has vx, vy of the driven ends, first end first.
  */

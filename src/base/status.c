@@ -41,3 +41,16 @@ CpsStatus cpsi_fail(CpsError *err, CpsStatus status, const char *format, ...) {
     }
     return status;
 }
+
+CpsStatus cpsi_fail_inside(CpsError *err, CpsStatus status, const char *format, ...) {
+    char rest[sizeof err->where];
+    if (!err || status == CPS_OK) return status;
+    memcpy(rest, err->where, sizeof rest);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(err->where, sizeof err->where, format, args);
+    va_end(args);
+    const size_t used = strlen(err->where);
+    snprintf(err->where + used, sizeof err->where - used, "%s%s", rest[0] && rest[0] != '[' ? "." : "", rest);
+    return status;
+}

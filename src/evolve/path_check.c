@@ -26,12 +26,13 @@ static CpsStatus check_way(const CpsScene *scene, int stage, const CpsChange *ch
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
         const double touch = CPSI_PATH_TOUCH*line->length + cpsi_place_rounding(line->length, vec3_load(to));
         const double depth = cpsi_path_depth(&obstacle, vec3_load(from), vec3_load(to), touch);
-        if (depth > 0)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "stage %d: %s.%s goes straight from (%g, %g, %g) m to (%g, %g, %g) m, through obstacle '%s', up to %g m deep: "
-                             "add way points around it",
-                             stage + 1, line->name, change->end == CPS_END_A ? "A" : "B", from[0], from[1], from[2], to[0], to[1], to[2],
-                             scene->obstacle[k].name, depth);
+        if (!(depth > 0)) continue;
+        const char *end = change->end == CPS_END_A ? "A" : "B";
+        cpsi_fail(err, CPS_ERR_ARGUMENT,
+                  "stage %d: %s.%s goes straight from (%g, %g, %g) m to (%g, %g, %g) m, through obstacle '%s', up to %g m deep: "
+                  "add way points around it",
+                  stage + 1, line->name, end, from[0], from[1], from[2], to[0], to[1], to[2], scene->obstacle[k].name, depth);
+        return cpsi_fail_inside(err, CPS_ERR_ARGUMENT, "history[%d].%s.%s", stage + 1, line->name, end);
     }
     return CPS_OK;
 }

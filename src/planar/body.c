@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies: checking and copying patches, and the sum of what they dissipate. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/status.h"
@@ -20,70 +21,70 @@ CpsStatus cpsi_planar_finite(const char *what, int n, const double *a, CpsError 
     return CPS_OK;
 }
 
-/* ---- checks of one patch; k counts from 0 ---- */
+/* ---- checks of one patch, under its name: "patch 2" ---- */
 
 /* Of a polygon at its corners, later. */
-static CpsStatus check_tilt(int k, const CpsPatch *patch, CpsError *err) {
+static CpsStatus check_tilt(const char *name, const CpsPatch *patch, CpsError *err) {
     const bool area = patch->kind != CPS_PATCH_POINT && patch->kind != CPS_PATCH_WHEEL;
     const double tilt = hypot(patch->tilt[0], patch->tilt[1]);
     if (tilt != 0 && !area)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: the pressure of a point or wheel cannot be tilted", k);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the pressure of a point or wheel cannot be tilted", name);
     if (patch->tilt[1] != 0 && patch->kind == CPS_PATCH_ROD)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: the pressure of a rod cannot be tilted across it", k);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the pressure of a rod cannot be tilted across it", name);
     if (area && patch->kind != CPS_PATCH_POLYGON && !(tilt * patch->size <= 1))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: with tilt %g 1/m the pressure is negative at an end", k,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: with tilt %g 1/m the pressure is negative at an end", name,
                          tilt);
     return CPS_OK;
 }
 
-static CpsStatus check_numbers(int k, const CpsPatch *patch, CpsError *err) {
+static CpsStatus check_numbers(const char *name, const CpsPatch *patch, CpsError *err) {
     if ((unsigned)patch->kind > CPS_PATCH_POLYGON)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d has kind %d, which is none of CpsPatchKind", k,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has kind %d, which is none of CpsPatchKind", name,
                          (int)patch->kind);
     const double number[5] = {patch->position[0], patch->position[1], patch->angle, patch->tilt[0], patch->tilt[1]};
     for (int i = 0; i < 5; i++)
         if (!isfinite(number[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: position, angle or tilt is %g, expected a finite number",
-                             k, number[i]);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: position, angle or tilt is %g, expected a finite number",
+                             name, number[i]);
     if (!(patch->friction >= 0) || !isfinite(patch->friction))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: the friction coefficient is %g, expected at least 0", k,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the friction coefficient is %g, expected at least 0", name,
                          patch->friction);
     if (!(patch->load >= 0) || !isfinite(patch->load))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: the load is %g N, expected at least 0 (pressing)", k,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the load is %g N, expected at least 0 (pressing)", name,
                          patch->load);
     const bool sized = patch->kind != CPS_PATCH_POINT && patch->kind != CPS_PATCH_POLYGON;
     if (sized && (!(patch->size > 0) || !isfinite(patch->size)))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: the size is %g m, expected more than 0", k, patch->size);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the size is %g m, expected more than 0", name, patch->size);
     if (patch->kind == CPS_PATCH_WHEEL && !(patch->brake >= 0))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: the brake holds %g N m, expected at least 0", k,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the brake holds %g N m, expected at least 0", name,
                          patch->brake);
-    return check_tilt(k, patch, err);
+    return check_tilt(name, patch, err);
 }
 
-static CpsStatus check_law(int k, const CpsPatch *patch, CpsError *err) {
+static CpsStatus check_law(const char *name, const CpsPatch *patch, CpsError *err) {
     if (!patch->law) return CPS_OK;
     if (patch->kind != CPS_PATCH_POINT)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d has a law of its own, which only a point may have", k);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has a law of its own, which only a point may have", name);
     if (patch->friction != 0 || patch->load != 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d has a law, and friction and load too: give one or the other",
-                         k);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has a law, and friction and load too: give one or the other",
+                         name);
     if (cps_law_space(patch->law) != 2)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d has a law in %d components, expected 2", k,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has a law in %d components, expected 2", name,
                          cps_law_space(patch->law));
     CpsSetFacts facts;
     const CpsStatus status = cps_set_facts(cps_law_set(patch->law), 0, &facts, NULL, NULL, err);
     if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED && !facts.bounded)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d has a law with forces without bound", k);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has a law with forces without bound", name);
     return status;
 }
 
 static double cross(const double a[2], const double b[2]) { return a[0] * b[1] - a[1] * b[0]; }
 
 /* Convex and counterclockwise: every turn is to the left, and they make one full turn. */
-static CpsStatus check_convex(int k, const CpsPatch *patch, CpsError *err) {
+static CpsStatus check_convex(const char *name, const CpsPatch *patch, CpsError *err) {
     const int n = patch->corner_count;
     if (n < 3 || n > CPS_PLANAR_MAX_CELLS || !patch->corner)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: a polygon of %d corners, expected from 3 to %d", k, n,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: a polygon of %d corners, expected from 3 to %d", name, n,
                          CPS_PLANAR_MAX_CELLS);
     double turned = 0;
     for (int i = 0; i < n; i++) {
@@ -92,24 +93,24 @@ static CpsStatus check_convex(int k, const CpsPatch *patch, CpsError *err) {
         const double a[2] = {q[0] - p[0], q[1] - p[1]}, b[2] = {r[0] - q[0], r[1] - q[1]};
         const double left = cross(a, b), sides = hypot(a[0], a[1]) * hypot(b[0], b[1]);
         if (!isfinite(sides) || !(sides > 0))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: corner %d is not finite, or equal to its neighbour", k,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: corner %d is not finite, or equal to its neighbour", name,
                              i);
         if (!(left >= -STRAIGHT * sides))
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "patch %d: the polygon turns right at corner %d, expected a convex one, counterclockwise; "
+                             "%s: the polygon turns right at corner %d, expected a convex one, counterclockwise; "
                              "cut others into convex patches",
-                             k, (i + 1) % n);
+                             name, (i + 1) % n);
         turned += atan2(left, a[0] * b[0] + a[1] * b[1]);
     }
     if (!(fabs(turned - TWO_PI) < 1))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: the polygon goes round more than once", k);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the polygon goes round more than once", name);
     return CPS_OK;
 }
 
-static CpsStatus check_patch(int k, const CpsPatch *patch, CpsError *err) {
-    CpsStatus status = check_numbers(k, patch, err);
-    if (status == CPS_OK) status = check_law(k, patch, err);
-    if (status == CPS_OK && patch->kind == CPS_PATCH_POLYGON) status = check_convex(k, patch, err);
+static CpsStatus check_patch(const char *name, const CpsPatch *patch, CpsError *err) {
+    CpsStatus status = check_numbers(name, patch, err);
+    if (status == CPS_OK) status = check_law(name, patch, err);
+    if (status == CPS_OK && patch->kind == CPS_PATCH_POLYGON) status = check_convex(name, patch, err);
     return status;
 }
 
@@ -122,7 +123,7 @@ static void turn(const double axis[2], const double v[2], double out[2]) {
 }
 
 /* Corners into body axes, about the centroid, which becomes the patch's position. */
-static CpsStatus place_polygon(int k, const CpsPatch *patch, double *corner, CpsiPatch *out, CpsError *err) {
+static CpsStatus place_polygon(const char *name, const CpsPatch *patch, double *corner, CpsiPatch *out, CpsError *err) {
     const int n = patch->corner_count;
     double twice = 0, moment[2] = {0, 0};
     for (int i = 0; i < n; i++) turn(out->axis, patch->corner + 2 * i, corner + 2 * i);
@@ -133,7 +134,7 @@ static CpsStatus place_polygon(int k, const CpsPatch *patch, double *corner, Cps
         twice += part;
         for (int x = 0; x < 2; x++) moment[x] += part * (a[x] + b[x]) / 3;
     }
-    if (!(twice > 0)) return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: the polygon has no area", k);
+    if (!(twice > 0)) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the polygon has no area", name);
     const double centroid[2] = {corner[0] + moment[0] / twice, corner[1] + moment[1] / twice};
     out->size = 0;
     turn(out->axis, patch->tilt, out->tilt);
@@ -142,7 +143,7 @@ static CpsStatus place_polygon(int k, const CpsPatch *patch, double *corner, Cps
         out->size = fmax(out->size, hypot(corner[2 * i], corner[2 * i + 1]));
         const double pressure = 1 + out->tilt[0] * corner[2 * i] + out->tilt[1] * corner[2 * i + 1];
         if (!(pressure >= -STRAIGHT))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d: the tilt makes the pressure negative at corner %d", k,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the tilt makes the pressure negative at corner %d", name,
                              i);
     }
     for (int x = 0; x < 2; x++) out->position[x] += centroid[x];
@@ -152,13 +153,13 @@ static CpsStatus place_polygon(int k, const CpsPatch *patch, double *corner, Cps
     return CPS_OK;
 }
 
-static CpsStatus place_patch(int k, const CpsPatch *patch, double *corner, CpsiPatch *out, CpsError *err) {
+static CpsStatus place_patch(const char *name, const CpsPatch *patch, double *corner, CpsiPatch *out, CpsError *err) {
     *out = (CpsiPatch){.kind = patch->kind,
                        .position = {patch->position[0], patch->position[1]},
                        .axis = {cos(patch->angle), sin(patch->angle)},
                        .strength = patch->friction * patch->load,
                        .tilt = {patch->tilt[0], patch->tilt[1]}};
-    if (patch->kind == CPS_PATCH_POLYGON) return place_polygon(k, patch, corner, out, err);
+    if (patch->kind == CPS_PATCH_POLYGON) return place_polygon(name, patch, corner, out, err);
     if (patch->kind != CPS_PATCH_POINT) out->size = patch->size;
     if (patch->kind == CPS_PATCH_WHEEL) out->strip = patch->brake / patch->size;
     if (patch->kind == CPS_PATCH_RING || patch->kind == CPS_PATCH_DISC) turn(out->axis, patch->tilt, out->tilt);
@@ -166,15 +167,23 @@ static CpsStatus place_patch(int k, const CpsPatch *patch, double *corner, CpsiP
     return CPS_OK;
 }
 
-CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out, CpsError *err) {
+/* What messages call a patch: `alone`, or its number from 0 where that is NULL. */
+static const char *patch_name(const char *alone, int k, char number[32]) {
+    snprintf(number, 32, "patch %d", k);
+    return alone ? alone : number;
+}
+
+static CpsStatus create(int count, const CpsPatch *patch, const char *alone, CpsPlanar **out, CpsError *err) {
     if (!patch || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch or out is NULL");
     if (count < 1 || count > CPS_PLANAR_MAX_PATCHES)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d patches given, expected from 1 to %d", count,
                          CPS_PLANAR_MAX_PATCHES);
     CpsStatus status = CPS_OK;
     size_t corners = 0;
+    char name[32];
     for (int k = 0; k < count && status == CPS_OK; k++) {
-        status = check_patch(k, &patch[k], err);
+        status = check_patch(patch_name(alone, k, name), &patch[k], err);
+        if (status != CPS_OK && !alone) cpsi_fail_inside(err, status, "patch[%d]", k + 1);
         if (status == CPS_OK && patch[k].kind == CPS_PATCH_POLYGON) corners += (size_t)patch[k].corner_count;
     }
     if (status != CPS_OK) return status;
@@ -190,7 +199,8 @@ CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out, C
     body->corner = corner;
     for (int k = 0; k < count && status == CPS_OK; k++) {
         CpsiPatch *to = &body->patch[k];
-        status = place_patch(k, &patch[k], corner, to, err);
+        status = place_patch(patch_name(alone, k, name), &patch[k], corner, to, err);
+        if (status != CPS_OK && !alone) cpsi_fail_inside(err, status, "patch[%d]", k + 1);
         corner += 2 * to->corner_count;
         const double extent = patch[k].kind == CPS_PATCH_WHEEL ? 0 : to->size;
         body->reach = fmax(body->reach, hypot(to->position[0], to->position[1]) + extent);
@@ -200,6 +210,17 @@ CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out, C
         *out = body;
     else
         cps_planar_destroy(body);
+    return status;
+}
+
+CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out, CpsError *err) {
+    return create(count, patch, NULL, out, err);
+}
+
+CpsStatus cps_patch_check(const CpsPatch *patch, CpsError *err) {
+    CpsPlanar *body = NULL;
+    const CpsStatus status = create(1, patch, "this patch", &body, err);
+    cps_planar_destroy(body);
     return status;
 }
 

@@ -10,22 +10,22 @@
 
 #include "base/status.h"
 
-static CpsStatus check(const CpsRope *rope, CpsError *err) {
-    if (!rope || !rope->node) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_rope_system: rope or its nodes are NULL");
+CpsStatus cps_rope_check(const CpsRope *rope, CpsError *err) {
+    if (!rope || !rope->node) return cpsi_fail(err, CPS_ERR_ARGUMENT, "rope or its nodes are NULL");
     if (rope->nodes < 2)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_rope_system: found %d nodes, expected at least 2", rope->nodes);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "found %d nodes, expected at least 2", rope->nodes);
     if (rope->nodes > CPS_ROPE_MAX_NODES)
-        return cpsi_fail(err, CPS_ERR_LIMIT, "cps_rope_system: found %d nodes, at most %d", rope->nodes,
-                         CPS_ROPE_MAX_NODES);
+        return cpsi_fail(err, CPS_ERR_LIMIT, "found %d nodes, at most %d", rope->nodes, CPS_ROPE_MAX_NODES);
     if (!(rope->resistance >= 0) || !isfinite(rope->resistance))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_rope_system: found resistance %g N/m, expected at least 0",
-                         rope->resistance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "found resistance %g N/m, expected at least 0", rope->resistance);
     for (int i = 0; i + 1 < rope->nodes; i++) {
         const double *x = rope->node + 2 * (size_t)i, length = hypot(x[2] - x[0], x[3] - x[1]);
         if (!(length > 0) || !isfinite(length))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "cps_rope_system: nodes %d and %d are %g m apart, expected a finite length above 0", i,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "nodes %d and %d are %g m apart, expected a finite length above 0", i,
                              i + 1, length);
+        if (!isfinite(rope->resistance * length))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%g N/m on the %g m between nodes %d and %d are no finite force",
+                             rope->resistance, length, i, i + 1);
     }
     return CPS_OK;
 }
@@ -88,10 +88,10 @@ static CpsStatus set_drive(CpsSystem *system, const CpsRope *rope, CpsError *err
 }
 
 CpsStatus cps_rope_system(const CpsRope *rope, CpsSystem **out, CpsError *err) {
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_rope_system: out is NULL");
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL");
     *out = NULL;
     CpsSystem *system = NULL;
-    CpsStatus status = check(rope, err);
+    CpsStatus status = cps_rope_check(rope, err);
     if (status == CPS_OK) status = cps_system_create(2 * rope->nodes, &system, err);
     if (status == CPS_OK) status = add_nodes(system, rope, err);
     if (status == CPS_OK) status = add_elements(system, rope, err);

@@ -5,7 +5,7 @@
 #include "set/node.h"
 
 CpsStatus cps_set_conic(const CpsSet *set, CpsSetConic *conic, CpsError *err) {
-    if (!set || !conic) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_conic: set and conic are both needed");
+    if (!set || !conic) return cpsi_fail(err, CPS_ERR_ARGUMENT, "set and conic are both needed");
     if (cpsi_set_has_user(set)) {
         *conic = (CpsSetConic){.outcome = CPS_SET_NOT_AVAILABLE};
         return CPS_OK;
@@ -25,12 +25,11 @@ CpsStatus cps_set_conic(const CpsSet *set, CpsSetConic *conic, CpsError *err) {
 }
 
 CpsStatus cps_set_friction_cone(int n, double friction, CpsSet **out, CpsError *err) {
-    static const char *const CALL = "cps_set_friction_cone";
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: out is NULL, expected a place for the set", CALL);
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the set");
     if (n < 2 || n > CPS_SET_MAX_SPACE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: n is %d, expected 2 to %d", CALL, n, CPS_SET_MAX_SPACE);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "n is %d, expected 2 to %d", n, CPS_SET_MAX_SPACE);
     if (!(friction >= 0) || !isfinite(friction))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: friction is %g, expected a finite number >= 0", CALL, friction);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "friction is %g, expected a finite number >= 0", friction);
     CpsiForm *form = cpsi_form_new(n, n, 0, n, 1);
     if (!form) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a cone");
     /* x = (friction v, N), |v| <= N */

@@ -342,14 +342,13 @@ static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSe
 
 CpsStatus cps_set_face(const CpsSet *set, const double *direction, double tolerance, CpsSet **face,
                        CpsSetAnswer *answer, CpsError *err) {
-    static const char *const CALL = "cps_set_face";
     if (!set || !direction || !face || !answer)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", CALL,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL",
                          !set ? "set" : !direction ? "direction" : "an answer");
-    CpsStatus status = cpsi_set_finite(CALL, "direction", (size_t)set->n, direction, err);
+    CpsStatus status = cpsi_set_finite("direction", (size_t)set->n, direction, err);
     if (status) return status;
     if (!(tolerance >= 0) || tolerance > 0.1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected an angle from 0 to 0.1", CALL,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected an angle from 0 to 0.1",
                          tolerance);
     CpsSet *found = NULL;
     const double slack = (tolerance > 0 ? tolerance : 1e-9)*cpsi_norm(set->n, direction);

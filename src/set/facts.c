@@ -172,9 +172,9 @@ static CpsStatus place_zero(const CpsSet *set, const double *center, const doubl
 
 CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts, double *center, double *basis,
                         CpsError *err) {
-    if (!set || !facts) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_facts: %s is NULL", set ? "facts" : "set");
+    if (!set || !facts) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", set ? "facts" : "set");
     if (!(tolerance >= 0) || tolerance > 0.1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_facts: tolerance is %g, expected a share from 0 to 0.1",
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected a share from 0 to 0.1",
                          tolerance);
     const size_t n = (size_t)set->n;
     double *room = calloc(n*n + 6*n, sizeof *room);

@@ -118,7 +118,7 @@ static CpsStatus inscribed(const CpsSet *set, const double *p, CpsSetAnswer *ans
 
 CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separating, CpsSetAnswer *answer,
                            CpsError *err) {
-    CpsStatus status = cpsi_set_check("cps_set_contains", set, "point", point, answer, err);
+    CpsStatus status = cpsi_set_check(set, "point", point, answer, err);
     if (status) return status;
     const int n = set->n;
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true, .closure = set->closure};

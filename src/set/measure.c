@@ -312,7 +312,7 @@ static void flat(CpsiWalk *walk, CpsSetMeasure *measure) {
 
 CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *err) {
     if (!set || !measure)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_measure: %s is NULL", set ? "measure" : "set");
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", set ? "measure" : "set");
     *measure = (CpsSetMeasure){.outcome = CPS_SET_NOT_PLANAR};
     if (set->n != 2) return CPS_OK;
     const double factor = likeness(set);

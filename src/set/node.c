@@ -78,10 +78,10 @@ void cps_set_release(CpsSet *set) {
 
 int cps_set_space(const CpsSet *set) { return set ? set->n : 0; }
 
-CpsStatus cpsi_set_finite(const char *call, const char *name, size_t count, const double *numbers, CpsError *err) {
+CpsStatus cpsi_set_finite(const char *name, size_t count, const double *numbers, CpsError *err) {
     for (size_t i = 0; i < count; i++)
         if (!isfinite(numbers[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s[%zu] is %g, expected a finite number", call, name, i,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s[%zu] is %g, expected a finite number", name, i,
                              numbers[i]);
     return CPS_OK;
 }

@@ -57,7 +57,7 @@ CpsStatus cpsi_set_new(CpsiSetKind kind, int n, int count, const CpsSet *const *
 CpsStatus cpsi_set_from_form(CpsiForm *form, CpsSet **out, CpsError *err);
 
 /* Are all `count` numbers finite?  Otherwise CPS_ERR_ARGUMENT with the name of the argument and the place. */
-CpsStatus cpsi_set_finite(const char *call, const char *name, size_t count, const double *numbers, CpsError *err);
+CpsStatus cpsi_set_finite(const char *name, size_t count, const double *numbers, CpsError *err);
 
 /* Does the expression hold a user's set? */
 bool cpsi_set_has_user(const CpsSet *set);
@@ -93,7 +93,7 @@ bool cpsi_closed_gauge(const CpsSet *set, const double *p, double *value);
 /* ---- questions without the checks of the public calls ---- */
 
 /* The arguments of a question: a set, finite numbers, a place for the answer. */
-CpsStatus cpsi_set_check(const char *call, const CpsSet *set, const char *name, const double *numbers,
+CpsStatus cpsi_set_check(const CpsSet *set, const char *name, const double *numbers,
                          const void *answer, CpsError *err);
 /* Where 0 is, as far as the way a set is written tells (zero.c). */
 typedef enum CpsiZero { CPSI_ZERO_UNKNOWN, CPSI_ZERO_INSIDE, CPSI_ZERO_RELATIVE } CpsiZero;

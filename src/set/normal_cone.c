@@ -272,13 +272,12 @@ static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, C
 
 CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tolerance, CpsSet **cone,
                               CpsSetAnswer *answer, CpsError *err) {
-    static const char *const CALL = "cps_set_normal_cone";
     if (!set || !point || !cone || !answer)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", CALL, !set ? "set" : !point ? "point" : "an answer");
-    CpsStatus status = cpsi_set_finite(CALL, "point", (size_t)set->n, point, err);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", !set ? "set" : !point ? "point" : "an answer");
+    CpsStatus status = cpsi_set_finite("point", (size_t)set->n, point, err);
     if (status) return status;
     if (!(tolerance >= 0) || tolerance > 0.1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected a share from 0 to 0.1", CALL, tolerance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected a share from 0 to 0.1", tolerance);
     const double share = tolerance > 0 ? tolerance : 1e-9;
     *cone = NULL;
     *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE, .tolerance = share};

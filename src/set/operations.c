@@ -7,20 +7,19 @@
 #include "set/node.h"
 
 /* Parts there, as many as allowed; all of the same space unless it is a product. */
-static CpsStatus check_parts(const char *call, bool product, int count, const CpsSet *const *parts, int *n,
+static CpsStatus check_parts(bool product, int count, const CpsSet *const *parts, int *n,
                              CpsSet **out, CpsError *err) {
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: out is NULL, expected a place for the set", call);
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the set");
     if (count < 1 || count > CPS_SET_MAX_ITEMS || !parts)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %d parts, expected 1 to %d", call, count, CPS_SET_MAX_ITEMS);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d parts, expected 1 to %d", count, CPS_SET_MAX_ITEMS);
     *n = 0;
     for (int k = 0; k < count; k++) {
-        if (!parts[k]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: part %d is NULL, expected a set", call, k);
+        if (!parts[k]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "part %d is NULL, expected a set", k);
         if (!product && parts[k]->n != parts[0]->n)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: part %d lies in R^%d and part 0 in R^%d, expected one space",
-                             call, k, parts[k]->n, parts[0]->n);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "part %d lies in R^%d and part 0 in R^%d, expected one space", k, parts[k]->n, parts[0]->n);
         *n = product ? *n + parts[k]->n : parts[k]->n;
         if (*n > CPS_SET_MAX_SPACE)
-            return cpsi_fail(err, CPS_ERR_LIMIT, "%s: the product has more than %d components", call,
+            return cpsi_fail(err, CPS_ERR_LIMIT, "the product has more than %d components",
                              CPS_SET_MAX_SPACE);
     }
     return CPS_OK;
@@ -99,21 +98,21 @@ static bool need_not_be_closed(const CpsSet *set) {
 
 CpsStatus cps_set_product(int count, const CpsSet *const *parts, CpsSet **out, CpsError *err) {
     int n;
-    const CpsStatus status = check_parts("cps_set_product", true, count, parts, &n, out, err);
+    const CpsStatus status = check_parts(true, count, parts, &n, out, err);
     return status ? status : cpsi_set_new(CPSI_SET_PRODUCT, n, count, parts, 0, out, err);
 }
 
 CpsStatus cps_set_intersection(int count, const CpsSet *const *parts, CpsSet **out, CpsError *err) {
     int n;
     CpsSet *set = NULL;
-    CpsStatus status = check_parts("cps_set_intersection", false, count, parts, &n, out, err);
+    CpsStatus status = check_parts(false, count, parts, &n, out, err);
     if (!status) status = cpsi_set_new(CPSI_SET_INTERSECTION, n, count, parts, 0, &set, err);
     return status ? status : finish(set, out, err);
 }
 
 CpsStatus cps_set_sum(int count, const CpsSet *const *parts, CpsSet **out, CpsError *err) {
     int n;
-    CpsStatus status = check_parts("cps_set_sum", false, count, parts, &n, out, err);
+    CpsStatus status = check_parts(false, count, parts, &n, out, err);
     if (!status) status = cpsi_set_new(CPSI_SET_SUM, n, count, parts, 0, out, err);
     if (!status) (*out)->closure = (*out)->closure || need_not_be_closed(*out);
     return status;
@@ -121,34 +120,33 @@ CpsStatus cps_set_sum(int count, const CpsSet *const *parts, CpsSet **out, CpsEr
 
 CpsStatus cps_set_hull(int count, const CpsSet *const *parts, CpsSet **out, CpsError *err) {
     int n;
-    CpsStatus status = check_parts("cps_set_hull", false, count, parts, &n, out, err);
+    CpsStatus status = check_parts(false, count, parts, &n, out, err);
     if (!status) status = cpsi_set_new(CPSI_SET_HULL, n, count, parts, 0, out, err);
     if (!status) (*out)->closure = (*out)->closure || need_not_be_closed(*out);
     return status;
 }
 
 /* One part and a finite array of `count` numbers. */
-static CpsStatus check_one(const char *call, const char *name, const CpsSet *set, size_t count, const double *numbers,
+static CpsStatus check_one(const char *name, const CpsSet *set, size_t count, const double *numbers,
                            CpsSet **out, CpsError *err) {
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: out is NULL, expected a place for the set", call);
-    if (!set) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set is NULL, expected a set", call);
-    if (!numbers) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", call, name);
-    return cpsi_set_finite(call, name, count, numbers, err);
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the set");
+    if (!set) return cpsi_fail(err, CPS_ERR_ARGUMENT, "set is NULL, expected a set");
+    if (!numbers) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", name);
+    return cpsi_set_finite(name, count, numbers, err);
 }
 
-static CpsStatus check_map(const char *call, int rows, const double *map, const CpsSet *set, CpsSet **out,
+static CpsStatus check_map(int rows, const double *map, const CpsSet *set, CpsSet **out,
                            CpsError *err) {
     if (rows < 1 || rows > CPS_SET_MAX_SPACE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the space's dimension is %d, expected 1 to %d", call, rows,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the space's dimension is %d, expected 1 to %d", rows,
                          CPS_SET_MAX_SPACE);
-    return check_one(call, "map", set, set ? (size_t)rows*(size_t)set->n : 0, map, out, err);
+    return check_one("map", set, set ? (size_t)rows*(size_t)set->n : 0, map, out, err);
 }
 
 CpsStatus cps_set_preimage(int n, const double *map, const double *shift, const CpsSet *part, CpsSet **out,
                            CpsError *err) {
-    static const char *const CALL = "cps_set_preimage";
-    CpsStatus status = check_map(CALL, n, map, part, out, err);
-    if (!status && shift) status = cpsi_set_finite(CALL, "shift", (size_t)part->n, shift, err);
+    CpsStatus status = check_map(n, map, part, out, err);
+    if (!status && shift) status = cpsi_set_finite("shift", (size_t)part->n, shift, err);
     if (status) return status;
     const size_t size = (size_t)n*(size_t)part->n;
     CpsSet *set = NULL;
@@ -161,7 +159,7 @@ CpsStatus cps_set_preimage(int n, const double *map, const double *shift, const 
 }
 
 CpsStatus cps_set_image(int m, const double *map, const CpsSet *part, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_map("cps_set_image", m, map, part, out, err);
+    CpsStatus status = check_map(m, map, part, out, err);
     if (status) return status;
     const size_t size = (size_t)m*(size_t)part->n;
     status = cpsi_set_new(CPSI_SET_IMAGE, m, 1, &part, size, out, err);
@@ -171,14 +169,14 @@ CpsStatus cps_set_image(int m, const double *map, const CpsSet *part, CpsSet **o
 }
 
 CpsStatus cps_set_translate(const double *shift, const CpsSet *part, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_one("cps_set_translate", "shift", part, part ? (size_t)part->n : 0, shift, out, err);
+    CpsStatus status = check_one("shift", part, part ? (size_t)part->n : 0, shift, out, err);
     if (!status) status = cpsi_set_new(CPSI_SET_TRANSLATE, part->n, 1, &part, (size_t)part->n, out, err);
     if (!status) memcpy((*out)->a, shift, (size_t)part->n*sizeof *shift);
     return status;
 }
 
 CpsStatus cps_set_scale(double factor, const CpsSet *part, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_one("cps_set_scale", "factor", part, 1, &factor, out, err);
+    CpsStatus status = check_one("factor", part, 1, &factor, out, err);
     if (status) return status;
     if (factor == 0) { /* a point, whatever the set */
         status = cpsi_set_new(CPSI_SET_POINTS, part->n, 1, NULL, (size_t)part->n, out, err);
@@ -192,7 +190,7 @@ CpsStatus cps_set_scale(double factor, const CpsSet *part, CpsSet **out, CpsErro
 CpsStatus cps_set_polar(const CpsSet *part, CpsSet **out, CpsError *err) {
     const double none = 0;
     CpsSet *set = NULL;
-    CpsStatus status = check_one("cps_set_polar", "set", part, 1, &none, out, err);
+    CpsStatus status = check_one("set", part, 1, &none, out, err);
     if (!status) status = cpsi_set_new(CPSI_SET_POLAR, part->n, 1, &part, 0, &set, err);
     return status ? status : finish(set, out, err);
 }

@@ -249,12 +249,10 @@ static bool put_known(const CpsSet *set, int capacity, double *points, int *coun
 
 CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, double *points, int *count,
                            CpsSetAnswer *answer, CpsError *err) {
-    static const char *const CALL = "cps_set_vertices";
     if (!set || !count || !answer || (!points && capacity > 0) || capacity < 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set, count, answer or points is NULL, or capacity is negative",
-                         CALL);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "set, count, answer or points is NULL, or capacity is negative");
     if (!(tolerance >= 0) || tolerance > 0.5)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected an angle from 0 to 0.5", CALL,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected an angle from 0 to 0.5",
                          tolerance);
     CpsiWalk walk;
     CpsSetFacts facts;
@@ -375,12 +373,10 @@ static CpsStatus line_rays(const PlanarCone *cone, int capacity, double *rays, i
 
 CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double *rays, int *count,
                        CpsSetAnswer *answer, CpsError *err) {
-    static const char *const CALL = "cps_set_rays";
     if (!set || !count || !answer || (!rays && capacity > 0) || capacity < 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set, count, answer or rays is NULL, or capacity is negative",
-                         CALL);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "set, count, answer or rays is NULL, or capacity is negative");
     if (!(tolerance >= 0))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: tolerance is %g, expected >= 0", CALL, tolerance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected >= 0", tolerance);
     const size_t n = (size_t)set->n;
     *count = 0;
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};

@@ -9,27 +9,27 @@
 /* Segments and triangles are written by their points, as what lies in spaces that are larger. */
 enum { LEAST_POINTS = 4, MOST_COMPONENTS = 64 };
 
-static CpsStatus check_space(const char *call, int n, CpsSet **out, CpsError *err) {
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: out is NULL, expected a place for the set", call);
+static CpsStatus check_space(int n, CpsSet **out, CpsError *err) {
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the set");
     if (n < 1 || n > CPS_SET_MAX_SPACE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: n is %d, expected 1 to %d", call, n, CPS_SET_MAX_SPACE);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "n is %d, expected 1 to %d", n, CPS_SET_MAX_SPACE);
     return CPS_OK;
 }
 
 /* n, count and an array of count x n finite numbers (rows may be NULL when there are none) */
-static CpsStatus check_rows(const char *call, const char *name, int n, int count, int least, const double *rows,
+static CpsStatus check_rows(const char *name, int n, int count, int least, const double *rows,
                             CpsSet **out, CpsError *err) {
-    CpsStatus status = check_space(call, n, out, err);
+    CpsStatus status = check_space(n, out, err);
     if (status) return status;
     if (count < least || count > CPS_SET_MAX_ITEMS || (size_t)count > ((size_t)32 << 20)/(size_t)n)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: count is %d, expected %d to %d and count x n at most 2^25", call,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "count is %d, expected %d to %d and count x n at most 2^25",
                          count, least, CPS_SET_MAX_ITEMS);
-    if (!rows && count > 0) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", call, name);
-    return rows ? cpsi_set_finite(call, name, (size_t)count*(size_t)n, rows, err) : CPS_OK;
+    if (!rows && count > 0) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", name);
+    return rows ? cpsi_set_finite(name, (size_t)count*(size_t)n, rows, err) : CPS_OK;
 }
 
 CpsStatus cps_set_hull_of_points(int n, int count, const double *points, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_rows("cps_set_hull_of_points", "points", n, count, 1, points, out, err);
+    CpsStatus status = check_rows("points", n, count, 1, points, out, err);
     if (status) return status;
     const size_t size = (size_t)n*(size_t)count;
     status = cpsi_set_new(CPSI_SET_POINTS, n, count, NULL, size, out, err);
@@ -45,13 +45,13 @@ CpsStatus cps_set_hull_of_points(int n, int count, const double *points, CpsSet 
 }
 
 CpsStatus cps_set_point(int n, const double *point, CpsSet **out, CpsError *err) {
-    const CpsStatus status = check_rows("cps_set_point", "point", n, 1, 1, point, out, err);
+    const CpsStatus status = check_rows("point", n, 1, 1, point, out, err);
     return status ? status : cps_set_hull_of_points(n, 1, point, out, err);
 }
 
 CpsStatus cps_set_segment(int n, const double *from, const double *to, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_rows("cps_set_segment", "from", n, 1, 1, from, out, err);
-    if (!status) status = check_rows("cps_set_segment", "to", n, 1, 1, to, out, err);
+    CpsStatus status = check_rows("from", n, 1, 1, from, out, err);
+    if (!status) status = check_rows("to", n, 1, 1, to, out, err);
     if (!status) status = cpsi_set_new(CPSI_SET_POINTS, n, 2, NULL, 2*(size_t)n, out, err);
     if (status) return status;
     memcpy((*out)->a, from, (size_t)n*sizeof *from);
@@ -60,10 +60,10 @@ CpsStatus cps_set_segment(int n, const double *from, const double *to, CpsSet **
 }
 
 CpsStatus cps_set_ball(int n, const double *center, double radius, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_rows("cps_set_ball", "center", n, center ? 1 : 0, 0, center, out, err);
+    CpsStatus status = check_rows("center", n, center ? 1 : 0, 0, center, out, err);
     if (status) return status;
     if (!(radius >= 0) || !isfinite(radius))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_ball: radius is %g, expected a finite number >= 0", radius);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "radius is %g, expected a finite number >= 0", radius);
     /* without radius a ball is a point */
     status = cpsi_set_new(radius > 0 ? CPSI_SET_BALL : CPSI_SET_POINTS, n, 1, NULL, (size_t)n, out, err);
     if (status) return status;
@@ -73,9 +73,8 @@ CpsStatus cps_set_ball(int n, const double *center, double radius, CpsSet **out,
 }
 
 CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, CpsSet **out, CpsError *err) {
-    static const char *const CALL = "cps_set_ellipsoid";
-    CpsStatus status = check_rows(CALL, "center", n, center ? 1 : 0, 0, center, out, err);
-    if (!status) status = check_rows(CALL, "shape", n, n, 1, shape, out, err);
+    CpsStatus status = check_rows("center", n, center ? 1 : 0, 0, center, out, err);
+    if (!status) status = check_rows("shape", n, n, 1, shape, out, err);
     if (status) return status;
     const size_t w = (size_t)n;
     double most = 0;
@@ -84,7 +83,7 @@ CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, Cp
         for (size_t j = 0; j < i; j++)
             if (fabs(shape[i*w + j] - shape[j*w + i]) > 1e-12*most)
                 return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                                 "%s: shape is not symmetric: entries %zu, %zu are %.17g and %.17g", CALL, i, j,
+                                 "shape is not symmetric: entries %zu, %zu are %.17g and %.17g", i, j,
                                  shape[i*w + j], shape[j*w + i]);
     CpsSet *set = NULL;
     status = cpsi_set_new(CPSI_SET_ELLIPSOID, n, 1, NULL, w + 3*w*w, &set, err);
@@ -97,7 +96,7 @@ CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, Cp
     if (!cpsi_cholesky(n, shape, lower)) {
         cps_set_release(set);
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "%s: shape is not positive definite; for a flat ellipsoid take the image of a ball", CALL);
+                         "shape is not positive definite; for a flat ellipsoid take the image of a ball");
     }
     cpsi_lower_inverse(n, lower, set->c);
     *out = set;
@@ -105,13 +104,13 @@ CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, Cp
 }
 
 CpsStatus cps_set_box(int n, const double *low, const double *high, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_space("cps_set_box", n, out, err);
+    CpsStatus status = check_space(n, out, err);
     if (status) return status;
-    if (!low || !high) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_box: %s is NULL", low ? "high" : "low");
+    if (!low || !high) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", low ? "high" : "low");
     for (int i = 0; i < n; i++)
         if (!(low[i] <= high[i]) || low[i] == INFINITY || high[i] == -INFINITY)
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "cps_set_box: component %d runs from %g to %g, expected low <= high", i, low[i], high[i]);
+                             "component %d runs from %g to %g, expected low <= high", i, low[i], high[i]);
     status = cpsi_set_new(CPSI_SET_BOX, n, 1, NULL, 2*(size_t)n, out, err);
     if (status) return status;
     (*out)->b = (*out)->a + n;
@@ -125,20 +124,19 @@ CpsStatus cps_set_interval(double low, double high, CpsSet **out, CpsError *err)
 }
 
 /* rows that are 0 would say something about no point; the user should know */
-static CpsStatus check_normals(const char *call, int n, int count, const double *rows, CpsError *err) {
+static CpsStatus check_normals(int n, int count, const double *rows, CpsError *err) {
     for (int k = 0; k < count; k++)
         if (cpsi_norm(n, &rows[(size_t)k*(size_t)n]) == 0)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: row %d is 0, expected a normal", call, k);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "row %d is 0, expected a normal", k);
     return CPS_OK;
 }
 
 CpsStatus cps_set_inequalities(int n, int count, const double *rows, const double *offsets, CpsSet **out,
                                CpsError *err) {
-    static const char *const CALL = "cps_set_inequalities";
-    CpsStatus status = check_rows(CALL, "rows", n, count, 0, rows, out, err);
-    if (!status && !offsets && count > 0) status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: offsets is NULL", CALL);
-    if (!status && count > 0) status = cpsi_set_finite(CALL, "offsets", (size_t)count, offsets, err);
-    if (!status) status = check_normals(CALL, n, count, rows, err);
+    CpsStatus status = check_rows("rows", n, count, 0, rows, out, err);
+    if (!status && !offsets && count > 0) status = cpsi_fail(err, CPS_ERR_ARGUMENT, "offsets is NULL");
+    if (!status && count > 0) status = cpsi_set_finite("offsets", (size_t)count, offsets, err);
+    if (!status) status = check_normals(n, count, rows, err);
     const size_t size = (size_t)n*(size_t)count;
     if (!status) status = cpsi_set_new(CPSI_SET_INEQUALITIES, n, count, NULL, size + (size_t)count, out, err);
     if (status) return status;
@@ -149,18 +147,17 @@ CpsStatus cps_set_inequalities(int n, int count, const double *rows, const doubl
 }
 
 CpsStatus cps_set_half_space(int n, const double *normal, double offset, CpsSet **out, CpsError *err) {
-    const CpsStatus status = check_rows("cps_set_half_space", "normal", n, 1, 1, normal, out, err);
+    const CpsStatus status = check_rows("normal", n, 1, 1, normal, out, err);
     return status ? status : cps_set_inequalities(n, 1, normal, &offset, out, err);
 }
 
 CpsStatus cps_set_strip(int n, const double *normal, double low, double high, CpsSet **out, CpsError *err) {
-    static const char *const CALL = "cps_set_strip";
-    CpsStatus status = check_rows(CALL, "normal", n, 1, 1, normal, out, err);
-    if (!status) status = check_normals(CALL, n, 1, normal, err);
+    CpsStatus status = check_rows("normal", n, 1, 1, normal, out, err);
+    if (!status) status = check_normals(n, 1, normal, err);
     if (status) return status;
     if (!(low <= high) || !isfinite(low) || !isfinite(high))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "%s: from %g to %g, expected finite low <= high (a half space has one bound)", CALL, low,
+                         "from %g to %g, expected finite low <= high (a half space has one bound)", low,
                          high);
     const size_t w = (size_t)n;
     status = cpsi_set_new(CPSI_SET_INEQUALITIES, n, 2, NULL, 2*w + 2, out, err);
@@ -174,7 +171,7 @@ CpsStatus cps_set_strip(int n, const double *normal, double low, double high, Cp
 }
 
 CpsStatus cps_set_subspace(int n, int count, const double *spanning, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_rows("cps_set_subspace", "spanning", n, count, 0, spanning, out, err);
+    CpsStatus status = check_rows("spanning", n, count, 0, spanning, out, err);
     if (status) return status;
     const size_t w = (size_t)n, rows = count > n ? (size_t)count : w;
     status = cpsi_set_new(CPSI_SET_SUBSPACE, n, 0, NULL, rows*w, out, err);
@@ -187,8 +184,8 @@ CpsStatus cps_set_subspace(int n, int count, const double *spanning, CpsSet **ou
 }
 
 CpsStatus cps_set_cone_of_rays(int n, int count, const double *rays, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_rows("cps_set_cone_of_rays", "rays", n, count, 0, rays, out, err);
-    if (!status) status = check_normals("cps_set_cone_of_rays", n, count, rays, err);
+    CpsStatus status = check_rows("rays", n, count, 0, rays, out, err);
+    if (!status) status = check_normals(n, count, rays, err);
     const size_t size = (size_t)n*(size_t)count;
     if (!status) status = cpsi_set_new(CPSI_SET_RAYS, n, count, NULL, size, out, err);
     if (!status && count > 0) memcpy((*out)->a, rays, size*sizeof *rays);
@@ -196,9 +193,9 @@ CpsStatus cps_set_cone_of_rays(int n, int count, const double *rays, CpsSet **ou
 }
 
 CpsStatus cps_set_user(int n, CpsSetSupport *support, void *user, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_space("cps_set_user", n, out, err);
+    CpsStatus status = check_space(n, out, err);
     if (status) return status;
-    if (!support) return cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_user: support is NULL, expected a function");
+    if (!support) return cpsi_fail(err, CPS_ERR_ARGUMENT, "support is NULL, expected a function");
     status = cpsi_set_new(CPSI_SET_USER, n, 0, NULL, 0, out, err);
     if (status) return status;
     (*out)->support = support;

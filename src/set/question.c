@@ -348,24 +348,24 @@ static CpsStatus conic_project(const CpsSet *set, const double *p, const double 
 
 /* ---- public ---- */
 
-CpsStatus cpsi_set_check(const char *call, const CpsSet *set, const char *name, const double *numbers,
+CpsStatus cpsi_set_check(const CpsSet *set, const char *name, const double *numbers,
                          const void *answer, CpsError *err) {
-    if (!set) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: set is NULL, expected a set", call);
+    if (!set) return cpsi_fail(err, CPS_ERR_ARGUMENT, "set is NULL, expected a set");
     if (!numbers || !answer)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %s is NULL", call, numbers ? "the answer" : name);
-    return cpsi_set_finite(call, name, (size_t)set->n, numbers, err);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", numbers ? "the answer" : name);
+    return cpsi_set_finite(name, (size_t)set->n, numbers, err);
 }
 
 CpsStatus cps_set_support(const CpsSet *set, const double *direction, double *point, CpsSetAnswer *answer,
                           CpsError *err) {
-    CpsStatus status = cpsi_set_check("cps_set_support", set, "direction", direction, answer, err);
+    CpsStatus status = cpsi_set_check(set, "direction", direction, answer, err);
     if (!status) status = cpsi_support(set, direction, point, answer, err);
     if (!status) answer->closure = set->closure;
     return status;
 }
 
 CpsStatus cps_set_extent(const CpsSet *set, const double *direction, CpsSetExtent *extent, CpsError *err) {
-    CpsStatus status = cpsi_set_check("cps_set_extent", set, "direction", direction, extent, err);
+    CpsStatus status = cpsi_set_check(set, "direction", direction, extent, err);
     if (status) return status;
     CpsiScratch scratch;
     double *turned = cpsi_scratch_take(&scratch, (size_t)set->n);
@@ -389,10 +389,10 @@ CpsStatus cps_set_extent(const CpsSet *set, const double *direction, CpsSetExten
 
 CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *metric, double *nearest,
                           CpsSetAnswer *answer, CpsError *err) {
-    CpsStatus status = cpsi_set_check("cps_set_project", set, "point", point, answer, err);
-    if (!status && !nearest) status = cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_project: nearest is NULL");
+    CpsStatus status = cpsi_set_check(set, "point", point, answer, err);
+    if (!status && !nearest) status = cpsi_fail(err, CPS_ERR_ARGUMENT, "nearest is NULL");
     const size_t n = set ? (size_t)set->n : 0;
-    if (!status && metric) status = cpsi_set_finite("cps_set_project", "metric", n*n, metric, err);
+    if (!status && metric) status = cpsi_set_finite("metric", n*n, metric, err);
     if (status) return status;
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true, .closure = set->closure};
     if (!metric && cpsi_closed_project(set, point, nearest)) {
@@ -410,7 +410,7 @@ CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *
                 good = good && off <= 1e-12*(metric[i*n + i] + metric[j*n + j]);
             }
         if (!good)
-            status = cpsi_fail(err, CPS_ERR_ARGUMENT, "cps_set_project: metric is not symmetric positive definite");
+            status = cpsi_fail(err, CPS_ERR_ARGUMENT, "metric is not symmetric positive definite");
     }
     if (!status && cpsi_set_has_user(set)) *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE};
     else if (!status) status = conic_project(set, point, lower, nearest, answer, err);
@@ -420,7 +420,7 @@ CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *
 }
 
 CpsStatus cps_set_gauge(const CpsSet *set, const double *point, CpsSetAnswer *answer, CpsError *err) {
-    CpsStatus status = cpsi_set_check("cps_set_gauge", set, "point", point, answer, err);
+    CpsStatus status = cpsi_set_check(set, "point", point, answer, err);
     if (status) return status;
     CpsiScratch scratch;
     double *zero = cpsi_scratch_take(&scratch, 2*(size_t)set->n), *nearest = zero ? zero + set->n : NULL;

@@ -52,6 +52,54 @@ static void refused(const Parts *p, const char *fragment) {
     assert_int_equal(cps_scene_check(&p->scene, NULL), status);
 }
 
+/* one number made bad, and where the error says that it is */
+static void says_the_place(void **state) {
+    (void)state;
+    CpsFrictionZone zone[2] = {{0, 1, 0.5}, {2, 3, 0.5}};
+    CpsTurn turn = {.obstacle = 1, .angle = 1};
+    CpsObstacle obstacle[2];
+    Parts p;
+    const struct {
+        double *number, bad;
+        const char *where;
+    } CASE[] = {
+        {&p.line.length, -1, "lines.cable.length"},
+        {&p.line.weight, -1, "lines.cable.weight"},
+        {&p.line.stiffness, 0, "lines.cable.stiffness"},
+        {&zone[1].factor, -1, "lines.cable.friction_zones[2]"},
+        {&p.point[4], NAN, "lines.cable.start"},
+        {&p.line.end[1].value[2], NAN, "lines.cable.ends.B"},
+        {&obstacle[0].point[1], NAN, "obstacles.bed.plane.point"},
+        {&obstacle[1].radius, -1, "obstacles.drum.cylinder.radius"},
+        {&obstacle[1].axis[0], NAN, "obstacles.drum.cylinder.axis"},
+        {&obstacle[1].friction, -1, "obstacles.drum.friction"},
+        {&obstacle[1].friction_lateral, -2, "obstacles.drum.friction.lateral"},
+        {&p.change.to.value[0], NAN, "history[1].cable.B"},
+        {&turn.angle, INFINITY, "history[1].drum.turn"},
+        {&p.scene.gravity[1], NAN, "gravity"},
+        {&p.scene.solver.tolerance, 1, "solver.tolerance"},
+        {&p.line.length, 10, ""},
+    };
+    for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++) {
+        make(&p);
+        obstacle[0] = obstacle[1] = p.obstacle;
+        obstacle[1].name = "drum", obstacle[1].kind = CPS_OBSTACLE_CYLINDER;
+        obstacle[1].radius = 1, obstacle[1].point[2] = -5;
+        p.scene.obstacle = obstacle, p.scene.obstacle_count = 2;
+        zone[1].factor = 0.5, turn.angle = 1;
+        p.line.zone = zone, p.line.zone_count = 2;
+        p.stage.turn = &turn, p.stage.turn_count = 1;
+        *CASE[i].number = CASE[i].bad;
+        CpsError err = {0};
+        cps_scene_check(&p.scene, &err);
+        assert_string_equal(err.where, CASE[i].where);
+    }
+    obstacle[1].name = "2nd";
+    CpsError err;
+    assert_int_equal(cps_scene_check(&p.scene, &err), CPS_ERR_ARGUMENT);
+    assert_string_equal(err.where, "obstacles[2]");
+}
+
 static void accepts_the_good_scene(void **state) {
     (void)state;
     Parts p;
@@ -338,6 +386,7 @@ static void checks_given_nodes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(says_the_place),
         cmocka_unit_test(accepts_the_good_scene),
         cmocka_unit_test(refuses_nan_and_infinity),
         cmocka_unit_test(refuses_wrong_values),

@@ -59,6 +59,35 @@ const CpsiYaml *cpsi_yaml_child(const CpsiYaml *node, const char *key) {
     return NULL;
 }
 
+/* The child that the first step of a place names, and how long that step is; a key may have dots itself. */
+static const CpsiYaml *first_step(const CpsiYaml *node, const char *place, size_t *length) {
+    const CpsiYaml *best = NULL;
+    *length = 0;
+    if (*place == '[') {
+        int number = atoi(place + 1);
+        *length = strcspn(place, "]") + 1;
+        for (best = node->child; best && --number > 0;) best = best->next;
+        return best;
+    }
+    for (const CpsiYaml *child = node->child; child && child->key; child = child->next) {
+        const size_t n = strlen(child->key);
+        if (n > *length && strncmp(place, child->key, n) == 0 && strchr(".[", place[n])) best = child, *length = n;
+    }
+    return best;
+}
+
+const CpsiYaml *cpsi_yaml_at(const CpsiYaml *root, const char *place) {
+    const CpsiYaml *node = root;
+    while (*place) {
+        size_t length;
+        const CpsiYaml *next = first_step(node, place, &length);
+        if (!next) break;
+        node = next, place += length;
+        place += *place == '.';
+    }
+    return node;
+}
+
 /* ---- numbers ---- */
 
 static const char *skip_digits(const char *s) { return s + strspn(s, "0123456789"); }

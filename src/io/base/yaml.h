@@ -35,6 +35,10 @@ CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes,
 /* The value of a key of a mapping; NULL if absent (or node is NULL or no mapping). */
 const CpsiYaml *cpsi_yaml_child(const CpsiYaml *node, const char *key);
 
+/* The node at a place written as in CpsError: "lines.cable.length", "history[2].cable.B"; where the file says nothing of
+ * it, the nearest around. */
+const CpsiYaml *cpsi_yaml_at(const CpsiYaml *root, const char *place);
+
 /* A number of the YAML 1.2 core schema: 12, 0x1f, 0o17, -1.5e3, .inf, .nan. False: the text is none.
  * The calling thread's locale must have a decimal point. */
 bool cpsi_yaml_number(const char *text, double *number);

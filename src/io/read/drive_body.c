@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* `body:` and `vehicle:` of a file of driven systems: patches or wheels, what is pushed, and a tow. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "io/read/drive_file.h"
@@ -62,16 +61,10 @@ static CpsStatus read_kind(CpsiDriveRead *r, const CpsiYaml *node, CpsPatch *pat
                             "{disc: {radius: 1, friction: 0.5, load: 10}}");
 }
 
-/* what the library refuses of a patch is said where the patch is */
+/* A patch that the library rejects is reported at its own line. */
 static CpsStatus check_patch(CpsiDriveRead *r, const CpsiYaml *node, const CpsPatch *patch) {
-    static const char FIRST[] = "patch 0";
-    CpsPlanar *alone = NULL;
-    CpsError found, named;
-    if (cps_planar_create(1, patch, &alone, &found) == CPS_OK) return cps_planar_destroy(alone), CPS_OK;
-    named = found;
-    if (strncmp(found.message, FIRST, sizeof FIRST - 1) == 0)
-        snprintf(named.message, sizeof named.message, "this patch%.900s", found.message + sizeof FIRST - 1);
-    return cpsi_drive_place(r, node, &named);
+    CpsError found;
+    return cps_patch_check(patch, &found) == CPS_OK ? CPS_OK : cpsi_drive_place(r, node, &found);
 }
 
 static CpsStatus read_patches(CpsiDriveRead *r, const CpsiYaml *node, bool wheels, CpsDriveBody *out) {

@@ -189,11 +189,8 @@ CpsStatus cpsi_drive_read_rope(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveR
                                       &out->path);
 
     /* a shape that the library refuses (nodes at one place) is refused here, with its place */
-    CpsSystem *system = NULL;
     CpsError found;
-    if (status == CPS_OK && cps_rope_system(&out->rope, &system, &found) != CPS_OK)
-        status = cpsi_drive_place(r, shape, &found);
-    cps_system_destroy(system);
+    if (status == CPS_OK && cps_rope_check(&out->rope, &found) != CPS_OK) status = cpsi_drive_place(r, shape, &found);
     return status;
 }
 

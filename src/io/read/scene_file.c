@@ -2,7 +2,6 @@
 /* Read a scene file: bytes -> tree (yaml.h) -> validated by the table of keys (validate.h) -> structs
  * (scene_build.h) -> cps_scene_check. */
 #include <locale.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,57 +32,15 @@ void cps_scene_file_destroy(CpsSceneFile *file) {
 
 const CpsScene *cps_scene_file_scene(const CpsSceneFile *file) { return &file->scene; }
 
-/* ---- the place of what cps_scene_check has found ---- */
-
-static const CpsiYaml *nth_child(const CpsiYaml *node, int n) {
-    const CpsiYaml *child = node ? node->child : NULL;
-    while (child && --n > 0) child = child->next;
-    return child;
-}
-
-/* Messages begin with the object and its key (scene_check.c): "line 'cable': length ...", "stage 2: cable.B ...". */
-static const CpsiYaml *place_of(const CpsiYaml *root, const char *message) {
-    char name[65] = "", word[160] = "";
-    int number = 0;
-    const CpsiYaml *object = NULL;
-    if (sscanf(message, "line '%64[^']': %159[A-Za-z0-9_.-]", name, word) >= 1)
-        object = cpsi_yaml_child(cpsi_yaml_child(root, "lines"), name);
-    else if (sscanf(message, "obstacle '%64[^']': %159[A-Za-z0-9_.-]", name, word) >= 1)
-        object = cpsi_yaml_child(cpsi_yaml_child(root, "obstacles"), name);
-    else if (sscanf(message, "line %d:", &number) == 1) /* it has no proper name */
-        object = nth_child(cpsi_yaml_child(root, "lines"), number);
-    else if (sscanf(message, "obstacle %d:", &number) == 1)
-        object = nth_child(cpsi_yaml_child(root, "obstacles"), number);
-    else if (sscanf(message, "stage %d: obstacle '%64[^']'", &number, name) == 2) {
-        object = nth_child(cpsi_yaml_child(root, "history"), number);
-        snprintf(word, sizeof word, "%s.turn", name);
-    } else if (sscanf(message, "stage %d: %159[A-Za-z0-9_.-]", &number, word) >= 1)
-        object = nth_child(cpsi_yaml_child(root, "history"), number);
-    else if (sscanf(message, "%64[a-z]: %159[a-z_]", name, word) >= 1)
-        object = cpsi_yaml_child(root, name);
-    if (!object) return root;
-    const char *zones = strstr(message, "': friction zones: number ");
-    if (zones && sscanf(zones, "': friction zones: number %d", &number) == 1)
-        return nth_child(cpsi_yaml_child(object, "friction_zones"), number);
-    /* the key itself, or within one of the object's mappings: radius of a cylinder */
-    const CpsiYaml *value = cpsi_yaml_child(object, word);
-    for (const CpsiYaml *child = object->child; child && !value; child = child->next)
-        value = cpsi_yaml_child(child, word);
-    if (!value) return object;
-    const CpsiYaml *set = strstr(message, "': friction set: ") ? cpsi_yaml_child(value, "set") : NULL;
-    return set ? set : value;
-}
-
 static CpsStatus check(const char *file, const CpsiYaml *root, const CpsScene *scene, CpsError *err) {
     CpsError found;
     const CpsStatus status = cps_scene_check(scene, &found);
     if (status == CPS_OK) return CPS_OK;
-    const CpsiYaml *place = place_of(root, found.message);
-    return cpsi_fail_at(err, status == CPS_ERR_ARGUMENT ? CPS_ERR_INPUT : status, file, place->line, place->column,
-                        "%s", found.message);
+    const CpsiYaml *node = cpsi_yaml_at(root, found.where);
+    const CpsStatus input = status == CPS_ERR_ARGUMENT ? CPS_ERR_INPUT : status;
+    cpsi_fail_at(err, input, file, node->line, node->column, "%s", found.message);
+    return cpsi_fail_inside(err, input, "%s", found.where);
 }
-
-/* ---- all together ---- */
 
 static CpsStatus read_scene(const char *path, const CpsReadLimits *limits, CpsSceneFile *scene, CpsError *err) {
     const char *file = strcmp(path, "-") == 0 ? "standard input" : path;

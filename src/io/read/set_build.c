@@ -10,15 +10,9 @@
 
 static CpsStatus build_law(CpsiLawBuild *b, const CpsiYaml *node, CpsLaw **out);
 
-/* a message without the name of the C function, which the file's user has not called */
-static const char *without_call(const char *message) {
-    const size_t name = strspn(message, "abcdefghijklmnopqrstuvwxyz_");
-    return strncmp(message, "cps_", 4) == 0 && strncmp(message + name, ": ", 2) == 0 ? message + name + 2 : message;
-}
-
 CpsStatus cpsi_law_place(const CpsiLawFile *f, const CpsiYaml *node, const CpsError *found) {
     const CpsStatus status = found->status == CPS_ERR_ARGUMENT ? CPS_ERR_INPUT : found->status;
-    const char *message = without_call(found->message);
+    const char *message = found->message;
     if (found->line > 0) return cpsi_fail_at(f->err, status, f->name, found->line, found->column, "%s", message);
     if (!node->key) return cpsi_fail_at(f->err, status, f->name, node->line, node->column, "%s", message);
     return cpsi_fail_at(f->err, status, f->name, node->line, node->column, "'%.64s': %s", node->key, message);
