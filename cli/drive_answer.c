@@ -265,7 +265,9 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions 
     json_all("velocities", &all->velocities);
     json_all("forces", &all->forces);
     json_all("resistances", &all->resistances);
-    drive_json_word("composition", cps_composition_name(r->composition));
+    /* where forces balance: else the condition is about none */
+    if (r->outcome != CPS_MOTION_NO_BALANCE && r->outcome != CPS_MOTION_BLOCKED)
+        drive_json_word("composition", cps_composition_name(r->composition));
     if (all->asked && all->known) printf(", \"continuous\": %s", all->continuous ? "true" : "false");
     drive_json("load_power_W", r->load_power);
     drive_json("load_factor", r->load_factor);
@@ -390,15 +392,32 @@ static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *veloc
     return EXIT_USAGE;
 }
 
+/* Does nothing balance the load?  Beside the limit its proof decides before the set is known to be empty. */
+static bool ask_balance(DriveRun *run, const CpsSet *set, bool *empty) {
+    const CpsDriveSystem *s = &run->file->system;
+    CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
+    CpsMotionOptions options = cps_motion_options_default();
+    CpsMotion *motion = NULL;
+    if (cps_set_facts(set, 0, &facts, NULL, NULL, &run->err) != CPS_OK) return false;
+    *empty = facts.outcome == CPS_SET_EMPTY;
+    if (!s->loaded || *empty) return true;
+    double *rest = calloc((size_t)s->driven, sizeof *rest);
+    options.composition = false;
+    const bool good = rest && cps_system_solve(s->system, rest, &options, &motion, &run->err) == CPS_OK;
+    if (!rest) fprintf(stderr, "capstan: out of memory\n");
+    *empty = good && cps_motion_report(motion)->outcome == CPS_MOTION_NO_BALANCE;
+    cps_motion_destroy(motion);
+    free(rest);
+    return good;
+}
+
 static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryList *force) {
     CpsSet *set = NULL;
     CpsComposition composition;
     const size_t n = (size_t)run->file->system.driven;
     if (cps_system_eliminate(run->file->system.system, NULL, &set, &composition, &run->err) != CPS_OK)
         return cli_report(&run->err);
-    CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
-    bool good = cps_set_facts(set, 0, &facts, NULL, NULL, &run->err) == CPS_OK;
-    const bool empty = good && facts.outcome == CPS_SET_EMPTY;
+    bool empty = false, good = ask_balance(run, set, &empty);
     good = good && (empty ? tell_empty(run) : tell_elimination(run, set, composition));
     if (run->json) fputs(",\n  \"answers\": [", stdout);
     for (int i = 0; i < velocity->count && good && !empty; i++)

@@ -8,7 +8,10 @@
 
 double cpsi_norm(int n, const double *a) {
     double largest = 0, sum = 0;
-    for (int i = 0; i < n; i++) largest = fmax(largest, fabs(a[i]));
+    for (int i = 0; i < n; i++) {
+        const double size = fabs(a[i]);
+        if (size > largest) largest = size;
+    }
     if (largest > 1e-100 && largest < 1e100) return sqrt(cpsi_dot(n, a, a));
     if (largest == 0 || !isfinite(largest)) return largest;
     for (int i = 0; i < n; i++) sum += a[i]/largest*(a[i]/largest);
@@ -23,21 +26,39 @@ static void swap_rows(int n, double *a, double *b) {
     }
 }
 
+/* Columns that are factorised together, and columns that their rows are taken from the rest of in one go: what is read again and
+ * again stays in the cache. Every entry sees the same operations in the same order as column by column. */
+enum { PANEL = 32, TILE = 256 };
+
+/* One row less what the pivots first..last take of its columns from..to. */
+static void take_pivots(size_t w, double *a, size_t first, size_t last, size_t row, size_t from, size_t to) {
+    for (size_t k = first; k < last && k < row; k++) {
+        const double l = a[row*w + k];
+        if (l == 0) continue;
+        for (size_t j = from; j < to; j++) a[row*w + j] -= l*a[k*w + j];
+    }
+}
+
 bool cpsi_lu_factor(int n, double *a, int *pivot) {
     const size_t w = (size_t)n;
-    for (size_t k = 0; k < w; k++) {
-        size_t best = k;
-        for (size_t i = k + 1; i < w; i++)
-            if (fabs(a[i*w + k]) > fabs(a[best*w + k])) best = i;
-        pivot[k] = (int)best;
-        if (best != k) swap_rows(n, &a[k*w], &a[best*w]);
-        const double d = a[k*w + k];
-        if (!isfinite(d) || d == 0) return false;
-        for (size_t i = k + 1; i < w; i++) {
-            const double l = a[i*w + k] /= d;
-            if (l == 0) continue;
-            for (size_t j = k + 1; j < w; j++) a[i*w + j] -= l*a[k*w + j];
+    for (size_t first = 0; first < w; first += PANEL) {
+        const size_t last = first + PANEL < w ? first + PANEL : w;
+        for (size_t k = first; k < last; k++) {
+            size_t best = k;
+            for (size_t i = k + 1; i < w; i++)
+                if (fabs(a[i*w + k]) > fabs(a[best*w + k])) best = i;
+            pivot[k] = (int)best;
+            if (best != k) swap_rows(n, &a[k*w], &a[best*w]);
+            const double d = a[k*w + k];
+            if (!isfinite(d) || d == 0) return false;
+            for (size_t i = k + 1; i < w; i++) {
+                const double l = a[i*w + k] /= d;
+                if (l == 0) continue;
+                for (size_t j = k + 1; j < last; j++) a[i*w + j] -= l*a[k*w + j];
+            }
         }
+        for (size_t from = last; from < w; from += TILE)
+            for (size_t i = first + 1; i < w; i++) take_pivots(w, a, first, last, i, from, from + TILE < w ? from + TILE : w);
     }
     return true;
 }
@@ -127,16 +148,15 @@ int cpsi_orthonormal_span(int count, int n, double *rows, double *rhs, double to
 }
 
 void cpsi_next_row(int rank, int n, double *q) {
-    /* the axis that lies furthest from the rows so far */
+    /* the axis that lies furthest from the rows so far: what they leave of each, squared, in the row's own place */
     const size_t w = (size_t)n;
-    int best = 0;
-    double most = -1;
-    for (int i = 0; i < n; i++) {
-        double left = 1;
-        for (int k = 0; k < rank; k++) left -= q[(size_t)k*w + (size_t)i]*q[(size_t)k*w + (size_t)i];
-        if (left > most) most = left, best = i;
-    }
     double *row = &q[(size_t)rank*w];
+    int best = 0;
+    for (int i = 0; i < n; i++) row[i] = 1;
+    for (int k = 0; k < rank; k++)
+        for (size_t i = 0; i < w; i++) row[i] -= q[(size_t)k*w + i]*q[(size_t)k*w + i];
+    for (int i = 1; i < n; i++)
+        if (row[i] > row[best]) best = i;
     memset(row, 0, w*sizeof *row);
     row[best] = 1;
     for (int twice = 0; twice < 2; twice++)

@@ -5,7 +5,7 @@
  *
  *     product, intersection, preimage, translate, scale     rows of the parts on parts of X
  *     image       X = L y, y in t C                          new unknowns y
- *     sum         X = X_1 + ... + X_k, X_i in t C_i          new unknowns X_2 .. X_k
+ *     sum         X = X_1 + ... + X_k, X_i in t C_i          new unknowns X_2 .. X_k; of an image y_i, X_i = L_i y_i
  *     hull        the same with X_i in t_i C_i, sum t_i = t, t_i >= 0
  *     polar       h_C(X) <= t by conic duality: with C = {origin + P v + Q'l : A v + b in K},
  *                 Q X = 0,  A'z + P'X = 0,  <origin, X> + b.z <= t,  z in K                                      */
@@ -17,6 +17,9 @@
 
 /* How a node is written: as it is made, or by its own form. */
 static CpsiSetKind kind_of(const CpsSet *set) { return set->touching ? CPSI_SET_CONIC : set->kind; }
+
+/* In a sum or hull: is X_k written as L y, so that only y is unknown?  The first is what the others leave. */
+static bool is_carried(const CpsSet *set, int k) { return k > 0 && kind_of(set->part[k]) == CPSI_SET_IMAGE; }
 
 static void count_own(const CpsSet *set, CpsiCount *count) {
     const size_t n = (size_t)set->n, items = (size_t)set->count;
@@ -61,7 +64,11 @@ static void count_own(const CpsSet *set, CpsiCount *count) {
 void cpsi_raw_count(const CpsSet *set, CpsiCount *count) {
     count_own(set, count);
     if (!set->part || set->kind == CPSI_SET_POLAR || set->touching) return;
-    for (int k = 0; k < set->count; k++) cpsi_raw_count(set->part[k], count);
+    const bool added = set->kind == CPSI_SET_SUM || set->kind == CPSI_SET_HULL;
+    for (int k = 0; k < set->count; k++) {
+        cpsi_raw_count(set->part[k], count);
+        if (added && is_carried(set, k)) count->unknowns -= (size_t)set->n, count->equations -= (size_t)set->n;
+    }
 }
 
 /* ---- rows of primitives ---- */
@@ -279,24 +286,33 @@ static bool emit_mapped(CpsiRaw *raw, const CpsSet *set, const double *x, const 
 static bool emit_sum(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
     const int n = set->n;
     const bool hull = set->kind == CPSI_SET_HULL;
-    const size_t w = (size_t)raw->width, each = ((size_t)n + 1)*w;
-    double *parts = calloc((size_t)set->count*each, sizeof *parts);
+    int most = n; /* components of a part */
+    for (int k = 1; k < set->count; k++)
+        if (is_carried(set, k) && set->part[k]->part[0]->n > most) most = set->part[k]->part[0]->n;
+    const size_t w = (size_t)raw->width, each = ((size_t)most + 1)*w;
+    double *parts = calloc((size_t)set->count*each, sizeof *parts), *last = parts ? parts + (size_t)most*w : NULL;
     if (!parts) return false;
-    /* X_k and t_k are new unknowns but for the first, which is what is left */
+    /* X_k or y_k, and t_k, are new unknowns but for the first, which is what is left */
     memcpy(parts, x, (size_t)n*w*sizeof *x);
-    memcpy(&parts[(size_t)n*w], t, w*sizeof *t);
+    memcpy(last, t, w*sizeof *t);
     for (int k = 1; k < set->count; k++) {
-        double *part = &parts[(size_t)k*each];
-        for (int i = 0; i < n; i++)
-            unknown(raw, &part[(size_t)i*w]), add(raw, -1, &part[(size_t)i*w], &parts[(size_t)i*w]);
-        if (hull) unknown(raw, &part[(size_t)n*w]), add(raw, -1, &part[(size_t)n*w], &parts[(size_t)n*w]);
-        else add(raw, 1, t, &part[(size_t)n*w]);
+        double *part = &parts[(size_t)k*each], *share = &last[(size_t)k*each];
+        const CpsSet *of = set->part[k];
+        const int m = is_carried(set, k) ? of->part[0]->n : n;
+        for (int i = 0; i < m; i++) unknown(raw, &part[(size_t)i*w]);
+        for (int i = 0; i < n; i++) {
+            double *rest = &parts[(size_t)i*w];
+            if (is_carried(set, k)) add_product(raw, m, -1, &of->a[(size_t)i*(size_t)m], part, rest);
+            else add(raw, -1, &part[(size_t)i*w], rest);
+        }
+        if (hull) unknown(raw, share), add(raw, -1, share, last);
+        else add(raw, 1, t, share);
     }
     bool done = true;
     for (int k = 0; done && k < set->count; k++) {
-        const double *part = &parts[(size_t)k*each];
-        if (hull) add(raw, 1, &part[(size_t)n*w], cpsi_raw_cone(raw, 1));
-        done = cpsi_raw_emit(raw, set->part[k], part, &part[(size_t)n*w]);
+        const double *share = &last[(size_t)k*each];
+        if (hull) add(raw, 1, share, cpsi_raw_cone(raw, 1));
+        done = cpsi_raw_emit(raw, is_carried(set, k) ? set->part[k]->part[0] : set->part[k], &parts[(size_t)k*each], share);
     }
     free(parts);
     return done;

@@ -170,6 +170,24 @@ static CpsStatus place_zero(const CpsSet *set, const double *center, const doubl
     return status;
 }
 
+/* Of the polar of a bounded set all is known: 0 lies inside, and it is bounded where 0 lies inside the set. No search along directions
+ * would tell: the polar of a ball through 0 is a paraboloid, which grows without a ray. */
+static CpsStatus facts_of_polar(const CpsSet *set, CpsSetFacts *facts, double *center, double *basis, bool *known, CpsError *err) {
+    const size_t n = (size_t)set->n;
+    CpsSetFacts part;
+    *known = false;
+    if (set->kind != CPSI_SET_POLAR) return CPS_OK;
+    const CpsStatus status = cps_set_facts(set->part[0], 0, &part, NULL, NULL, err);
+    if (status != CPS_OK || part.outcome != CPS_SET_ANSWERED || !part.bounded) return status;
+    facts->exact = *known = true;
+    facts->dimension = set->n;
+    facts->bounded = part.zero_interior;
+    facts->has_zero = facts->zero_relative = facts->zero_interior = true;
+    if (center) memset(center, 0, n*sizeof *center);
+    for (size_t i = 0; basis && i < n*n; i++) basis[i] = i % (n + 1) == 0;
+    return CPS_OK;
+}
+
 CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts, double *center, double *basis,
                         CpsError *err) {
     if (!set || !facts) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", set ? "facts" : "set");
@@ -177,6 +195,10 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected a share from 0 to 0.1",
                          tolerance);
     const size_t n = (size_t)set->n;
+    bool known = false;
+    *facts = (CpsSetFacts){.outcome = CPS_SET_ANSWERED, .tolerance = (tolerance > 0 ? tolerance : 1e-7)*cpsi_set_size(set)};
+    CpsStatus status = facts_of_polar(set, facts, center, basis, &known, err);
+    if (status != CPS_OK || known) return status;
     double *room = calloc(n*n + 6*n, sizeof *room);
     if (!room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the facts of a set");
     Search search = {.set = set, .width = (tolerance > 0 ? tolerance : 1e-7)*cpsi_set_size(set), .basis = room,
@@ -185,7 +207,7 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
     double *rays = room + n*n + 4*n, *work = room + n*n + 5*n;
     *facts = (CpsSetFacts){.outcome = CPS_SET_ANSWERED, .closure = set->closure, .dimension = -1,
                            .tolerance = search.width};
-    CpsStatus status = search_all(&search, rays, &facts->outcome, err);
+    status = search_all(&search, rays, &facts->outcome, err);
     if (!status && facts->outcome == CPS_SET_ANSWERED) {
         facts->exact = search.exact;
         facts->dimension = search.dimension;

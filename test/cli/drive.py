@@ -133,6 +133,14 @@ def hitch_and_slope(r):
     heavy = r.run(r.write(text.replace("down: 80", "down: 120")), "--json", "-v", "0,0")
     a = json.loads(heavy.stdout)["answers"][0]
     expect("too heavy: proof", heavy.returncode == 5 and a["outcome"] == "CPS_MOTION_NO_BALANCE" and a["V"][0] > 0, a)
+    # one part in 1e12 above the limit nothing balances, and no law is claimed of it
+    block = ("capstan: 1\nsystem:\n  parameters: [x, y]\n  laws: [{name: block, on: [x, y], law: {disc: 100}}]\n"
+             "  drive: [x]\n  load: {y: %s}\n")
+    for load, code in (("100.0000000001", 5), ("99.9999999999", 0), ("200", 5)):
+        done = r.run(r.write(block % load), "-e", "-v", "0")
+        expect(f"reduced law at the load {load}", done.returncode == code and ("Proposition" in done.stdout) == (code == 0), done.stdout)
+        a = json.loads(r.run(r.write(block % load), "--json", "-v", "0").stdout)["answers"][0]
+        expect("a condition only where forces balance", ("composition" in a) == (code == 0), a)
     limit = r.run(r.write(text.replace("down: 80", "down: 110")), "--json", "-v", "0,0")
     a = json.loads(limit.stdout)["answers"][0]
     expect("limit load", limit.returncode == 0 and a["outcome"] == "CPS_MOTION_LIMIT_LOAD" and a["velocities"]["high"][0] is None, a)

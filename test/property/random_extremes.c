@@ -15,6 +15,9 @@
  *   wheel      a braked wheel whose brake is 1e-15 to 1e6 times as strong as its ground, or just as strong, sizes from 1e-9 to 1e9,
  *              components of W down to 1e-12: gamma, the motion, the forces
  *
+ *   polar      the polar of a ball with 0 inside, on its boundary and outside, and the ball's own gauge: facts, supports, gauges
+ *   cone       friction cones and intervals with infinite ends, as laws and in systems: supports, cones of velocities, reactions
+ *
  * All data are small integers, Pythagorean directions and powers of ten; what is expected follows from formulas written here. */
 #include <math.h>
 #include <stdbool.h>
@@ -23,7 +26,7 @@
 #include "capstan/drive.h"
 #include "random_case.h"
 
-enum { CLASSES = 9, MOST_POINTS = 12, MOST = 4 };
+enum { CLASSES = 11, MOST_POINTS = 12, MOST = 4 };
 
 /* Directions and points of sizes of order one to ten: what the sets promise, 1e-9 of the size, with a factor for cones made of normals
  * that are known to 1e-7. */
@@ -545,10 +548,138 @@ static void try_wheel(void) {
     cps_motion_destroy(motion), cps_system_destroy(system), cps_law_destroy(brake), cps_law_destroy(ground);
 }
 
+/* ---- polars, gauges ---- */
+
+/* A ball of radius r round c = rho r u: 0 inside, on the boundary, outside. Gauge of the ball at x: least t >= 0 with |x - t c| <= t r. Its
+ * polar is {x : <x, c> + r |x| <= 1}; that of the ball without 0 has the hull of ball and 0 as its polar. */
+static void try_polar(void) {
+    static const double RHO[] = {0, 0.5, 1, 1, 2};
+    const int n = 2 + below(2);
+    const double rho = RHO[below(5)], r = pow(10, digit(6)), scale = pow(10, digit(2));
+    double u[3], c[3], x[3], w[3];
+    unit_vector(n, u);
+    unit_vector(n, w);
+    for (int i = 0; i < n; i++) c[i] = rho*r*u[i];
+    CpsSet *ball = NULL, *polar = NULL;
+    CpsSetFacts facts;
+    CpsSetAnswer answer;
+    need(cps_set_ball(n, c, r, &ball, &err), "ball");
+    need(cps_set_polar(ball, &polar, &err), "polar");
+    need(cps_set_facts(polar, 0, &facts, NULL, NULL, &err), "facts");
+    same("outcome of the facts", facts.outcome, CPS_SET_ANSWERED);
+    same("dimension", facts.dimension, n);
+    same("0 is inside", facts.zero_interior, true);
+    same("bounded", facts.bounded, rho < 1);
+    /* gauge of the ball, 0 not outside: |x - t c| = t r, with s = <x, u>: t = |x|^2/(2 r s) on the boundary */
+    for (int i = 0; i < n; i++) x[i] = scale*r*w[i];
+    const double s = dot(n, x, u), square = dot(n, x, x);
+    if (rho < 1) {
+        const double a = r*r*(1 - rho*rho), b = rho*r*s;
+        near("gauge", (need(cps_set_gauge(ball, x, &answer, &err), "gauge"), answer.value), (sqrt(b*b + a*square) - b)/a, 1e-9*scale);
+    } else if (rho == 1) {
+        need(cps_set_gauge(ball, x, &answer, &err), "gauge");
+        const bool some = s > 1e-9*scale*r;
+        if (some) near("gauge on the boundary", answer.value, square/(2*r*s), 1e-9*square/(2*r*s));
+        else same("no gauge", isinf(answer.value) || answer.outcome != CPS_SET_ANSWERED, 1);
+    }
+    /* the polar at 1/h along w, h = <w, c> + r |w|: its boundary, where there is one */
+    const double h = dot(n, w, c) + r;
+    CpsSetAnswer inside;
+    for (int i = 0; i < n; i++) x[i] = w[i]*(h > 1e-9*r ? 0.5/h : 1/r);
+    need(cps_set_contains(polar, x, NULL, &inside, &err), "contains");
+    same("outcome of the margin", inside.outcome, CPS_SET_ANSWERED);
+    if (!(inside.value >= -1e-9/r)) fail("a point of the polar", inside.value, 0);
+    if (h > 1e-9*r) {
+        for (int i = 0; i < n; i++) x[i] = w[i]*1.5/h;
+        need(cps_set_contains(polar, x, NULL, &inside, &err), "contains");
+        if (!(inside.value < 0)) fail("no point of the polar", inside.value, -1);
+    }
+    cps_set_release(polar), cps_set_release(ball);
+}
+
+/* ---- cones and infinite ends ---- */
+
+/* {(F, N) : |F| <= f N}, 1 to 3 components, times a size: support 0 or infinite; cone of velocities at 0, inside, on the mantle. */
+static void friction_cone(void) {
+    const int n = 2 + below(2);
+    const double f = 0.25*below(5), size = pow(10, digit(9)), N = size*(1 + below(3));
+    double e[3] = {1, 0, 0}, force[3] = {0}, normals[5*3] = {0}, w[3], outside[3] = {0};
+    if (n == 3) unit_vector(2, e);
+    CpsSet *cone = NULL;
+    CpsSetAnswer answer;
+    need(cps_set_friction_cone(n, f, &cone, &err), "friction cone");
+    /* <F, w> + N wn <= N (f |w| + wn) */
+    double length = 0;
+    for (int i = 0; i < n - 1; i++) w[i] = digit(3), length += w[i]*w[i];
+    length = sqrt(length);
+    w[n - 1] = -f*length + digit(1);
+    need(cps_set_support(cone, w, NULL, &answer, &err), "support");
+    same("outcome of the support", answer.outcome, f*length + w[n - 1] > 1e-9 ? CPS_SET_UNBOUNDED : CPS_SET_ANSWERED);
+    const int where = below(3); /* at the tip, inside, on the mantle */
+    if (where > 0) force[n - 1] = N;
+    for (int i = 0; i < n - 1; i++) force[i] = where == 2 ? f*N*e[i] : 0;
+    outside[n - 1] = -1; /* (0, -1) opens the contact's way: -V = (0, 1) is no normal */
+    int count = 0;
+    if (where == 0) {
+        for (int side = -1; side <= 1; side += 2, count++) {
+            for (int i = 0; i < n - 1; i++) normals[count*n + i] = side*e[i];
+            normals[count*n + n - 1] = -f;
+        }
+        compare_cone(cone, n, force, count, normals, n, outside);
+    } else if (where == 1 && f > 0) {
+        compare_cone(cone, n, force, 0, normals, 0, outside);
+    } else if (where == 2 && f > 0) {
+        for (int i = 0; i < n - 1; i++) normals[i] = e[i];
+        normals[n - 1] = -f;
+        compare_cone(cone, n, force, 1, normals, 1, outside);
+    } else { /* a ray: all that is across */
+        for (int side = -1; side <= 1; side += 2, count++)
+            for (int i = 0; i < n - 1; i++) normals[count*n + i] = side*e[i];
+        compare_cone(cone, n, force, count, normals, n - 1, outside);
+    }
+    cps_set_release(cone);
+}
+
+/* A stop [0, inf) on x beside friction b in x and y, driven with (w, v): w > 0 lifts off, w = 0 leaves the reaction open, w < 0 is blocked. With
+ * U = x and forces >= 0 of the stop, phi is 0 for x >= 0, else infinite. */
+static void one_sided(void) {
+    const double b = pow(10, digit(9)), w[2] = {digit(2), digit(2)};
+    CpsSet *stop = NULL, *friction = NULL;
+    CpsSystem *system = NULL;
+    CpsMotion *motion = NULL;
+    need(cps_set_interval(0, INFINITY, &stop, &err), "interval");
+    need(cps_set_box(2, (double[]){-b, -2*b}, (double[]){b, 2*b}, &friction, &err), "box");
+    CpsLaw *laws[2] = {law_of(stop), law_of(friction)};
+    need(cps_system_create(2, &system, &err), "system");
+    need(cps_system_add_friction(system, "stop", laws[0], 1, (const CpsEntry[]){{0, 0, 1}}, &err), "add");
+    need(cps_system_add_friction(system, "table", laws[1], 2, (const CpsEntry[]){{0, 0, 1}, {1, 1, 1}}, &err), "add");
+    need(cps_system_set_drive(system, 2, 2, (const CpsEntry[]){{0, 0, 1}, {1, 1, 1}}, &err), "drive");
+    need(cps_system_solve(system, w, NULL, &motion, &err), "solve");
+    const CpsMotionReport *report = cps_motion_report(motion);
+    same("outcome", report->outcome, w[0] < 0 ? CPS_MOTION_BLOCKED : CPS_MOTION_SOLVED);
+    if (w[0] >= 0) near("gamma", report->value, b*w[0] + 2*b*fabs(w[1]), 1e-8*b);
+    if (w[0] >= 0) same("Proposition 1", report->composition, CPS_COMPOSE_INTERIOR);
+    CpsSolutionSet all;
+    double low[2], high[2];
+    need(cps_motion_resistances(motion, 0, &all, low, high, &err), "resistances");
+    if (w[0] == 0) {
+        same("resistance is open above", isinf(high[0]) && high[0] > 0, 1);
+        near("resistance at least", low[0], -b, 1e-6*b);
+    } else if (w[0] > 0) near("resistance", low[0], -b, 1e-6*b), near("resistance", high[0], -b, 1e-6*b);
+    cps_solution_set_clear(&all);
+    cps_motion_destroy(motion), cps_system_destroy(system), cps_law_destroy(laws[0]), cps_law_destroy(laws[1]);
+}
+
+static void try_cone(void) {
+    if (below(2)) friction_cone();
+    else one_sided();
+}
+
 int main(int argc, char **argv) {
     static void (*const TRY[CLASSES])(void) = {try_polygon, try_solid, try_lines,  try_touching,
-                                               try_unbounded, try_flat, try_limit, try_table, try_wheel};
-    static const char *const NAME[CLASSES] = {"polygon", "solid", "lines", "touching", "unbounded", "flat", "limit", "table", "wheel"};
+                                               try_unbounded, try_flat, try_limit, try_table, try_wheel,
+                                               try_polar, try_cone};
+    static const char *const NAME[CLASSES] = {"polygon", "solid", "lines", "touching", "unbounded", "flat", "limit", "table", "wheel", "polar", "cone"};
     long cases = 200, first = 1;
     int wrong[CLASSES] = {0}, tried[CLASSES] = {0};
     for (int i = 1; i + 1 < argc; i += 2) {
