@@ -6,6 +6,10 @@
  *   - Every call that can fail returns a CpsStatus and takes an optional CpsError last (NULL is accepted).
  *     The status says whether the call worked. What the mathematics said is an outcome (evolve.h).
  *   - The library copies what it needs. Each create has one destroy, and destroy accepts NULL.
+ *   - A call with a status refuses, with CPS_ERR_ARGUMENT, a handle or array that is NULL where the call does not say that it
+ *     may be, a count or size below what it says, and a number outside an enumeration; CPS_ERR_LIMIT what is too large.
+ *     A call without a status gives nothing there, and for an index that there is not: 0, NULL, false, a struct of zeros, or
+ *     NaN where 0 would be an answer. No handle is changed by a call that is refused.
  *   - A returned `const double *` is a view owned by the handle, valid until the next non-const call on it.
  *   - The library never prints, exits or aborts, and has no mutable global state: different handles may be
  *     used from different threads at the same time. That is promised of capstan's own code: libfyaml, which reads

@@ -101,7 +101,7 @@ CPS_API CpsStatus cps_classic_solve(CpsClassic *classic, const CpsClassicParamet
                                     CpsClassicReport *report, CpsError *err);
 CPS_API CpsClassicView cps_classic_view(const CpsClassic *classic);
 
-/* [N] Tension of the last solve at an end, of the same meaning as that of CpsEndReport; NaN before the first solve. */
+/* [N] Tension of the last solve at an end, of the same meaning as that of CpsEndReport; NaN before the first solve, and at no end. */
 CPS_API double cps_classic_end_tension(const CpsClassic *classic, int end);
 
 /* Parameters at which what they leave is small: those with which a study ends. */

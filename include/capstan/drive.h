@@ -244,7 +244,7 @@ typedef struct CpsSolutionSet {
 /* All V that go with W: { V : D V = W, C V = 0, -B_k V in N_Ck(F_k) }, any F_k of a solution (Proposition 2); dense,
  * for n and force components up to a few hundred.
  *
- *   tolerance   relative: velocities and distances from a boundary below it are 0; 0 picks 1e-6
+ *   tolerance   relative, 0 <= tolerance < 1: velocities and distances from a boundary below it are 0; 0 picks 1e-6
  *   low, high   (n) extent of each component, infinite where there is none; NULL: not wanted
  *
  * Release with cps_solution_set_clear. */

@@ -110,7 +110,7 @@ CPS_API CpsStatus cps_drive_write_schema(FILE *out, CpsError *err);
 /* `count` points evenly spaced along a path, its ends included.
  *
  *   path   (points, space), points >= 2
- *   out    (count, space), written */
+ *   out    (count, space), written; nothing where a size is less than that, or a pointer NULL */
 CPS_API void cps_drive_walk(int space, int points, const double *path, int count, double *out);
 
 /* ---- pictures ---- */

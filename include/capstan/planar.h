@@ -91,7 +91,7 @@ CPS_API CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3]
  * Points and wheels are as they are, so for a body on these alone both sides are the exact law. Areas: the distance
  * falls as 1/cells.
  *
- *   cells  at most this many for each patch, >= 1 */
+ *   cells  at most this many for each patch, from 1 to CPS_PLANAR_MAX_CELLS */
 typedef enum CpsPlanarSide { CPS_PLANAR_INNER, CPS_PLANAR_OUTER } CpsPlanarSide;
 CPS_API CpsStatus cps_planar_law(const CpsPlanar *body, CpsPlanarSide side, int cells, CpsLaw **out, CpsError *err);
 
@@ -144,7 +144,7 @@ CPS_API CpsStatus cps_planar_motions(const CpsPlanar *body, int rows, const doub
                                      double tolerance, double low[3], double high[3], CpsError *err);
 
 /* Carry a pose (x, y, angle) along the screw motion of a constant twist increment [m, m, rad] in body axes, exactly:
- * with cps_planar_drive, the step of a body whose drive is fixed to it. */
+ * with cps_planar_drive, the step of a body whose drive is fixed to it. Nothing is done where one of them is NULL. */
 CPS_API void cps_planar_move(double pose[3], const double twist[3]);
 
 /* ---- towing: a body drawn along a path, quasi-static, finite rotations ---- */

@@ -77,7 +77,7 @@ typedef struct CpsSlackPart {
 } CpsSlackPart;
 
 /* List the slack of a step from end A to end B; returns how many parts there are, of which the first `room` are filled.
- * 0: the configuration is unique (result 4.4 (ii)); with held parts only, none of them sliding, it still is. */
+ * None of a step that is NULL or has no elements, nor into NULL. 0: the configuration is unique (result 4.4 (ii)); with held parts only, none of them sliding, it still is. */
 CPS_API int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part);
 
 /* How slack is laid out between two nodes that stay. All have |x'| = 1 and keep to the plane. */

@@ -37,6 +37,7 @@ void cps_classic_destroy(CpsClassic *classic) {
 }
 
 CpsClassicStep cps_classic_step(const CpsClassic *classic) {
+    if (!classic) return (CpsClassicStep){0};
     const CpsiStep *step = &classic->step;
     return (CpsClassicStep){.elements = step->own.cells,
                             .length = step->length,
@@ -50,6 +51,7 @@ CpsClassicStep cps_classic_step(const CpsClassic *classic) {
 }
 
 CpsClassicParameters cps_classic_coarse(const CpsClassic *classic) {
+    if (!classic) return (CpsClassicParameters){0};
     const CpsiStep *step = &classic->step;
     double load = 0;
     for (int k = 0; k < 3*(step->own.cells + 1); ++k) load += fabs(step->own.load[k]);
@@ -166,7 +168,7 @@ CpsStatus cps_classic_solve(CpsClassic *classic, const CpsClassicParameters *par
 }
 
 CpsClassicView cps_classic_view(const CpsClassic *classic) {
-    if (classic->asked < 0) return (CpsClassicView){0};
+    if (!classic || classic->asked < 0) return (CpsClassicView){0};
     return (CpsClassicView){.cells = classic->cells.cells,
                             .arc_length = classic->cells.arc,
                             .position = classic->f.place,

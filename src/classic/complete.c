@@ -200,7 +200,7 @@ static void take_piece(const CpsLineView *step, const CpsiPiece *piece, CpsCompl
 
 CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, double *position, CpsSlackReport *report,
                                 CpsError *err) {
-    if (!step || !position) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step or position is NULL");
+    if (!step || !position || step->elements < 1) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step or position is NULL, or the step has no elements");
     if ((unsigned)how >= CPS_COMPLETIONS)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "completion: found %d, expected shortest, straight or meander",
                          (int)how);

@@ -46,8 +46,8 @@ double cpsi_end_push(const CpsClassic *classic, int end) {
 }
 
 double cps_classic_end_tension(const CpsClassic *classic, int end) {
+    if (!classic || classic->asked < 0 || (end != CPS_END_A && end != CPS_END_B)) return NAN;
     const CpsiCells *c = &classic->cells;
-    if (classic->asked < 0) return NAN;
     if (end == CPS_END_B && !classic->step.held) return vec3_norm(vec3_load(classic->step.end_force));
     const int j = end == CPS_END_A ? 0 : c->cells, next = end == CPS_END_A ? 1 : j - 1;
     double up;

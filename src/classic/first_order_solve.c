@@ -232,6 +232,8 @@ CpsStatus cps_first_order_solve(const CpsClassic *classic, CpsFirstOrderContact 
                                 CpsError *err) {
     if (!classic || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic or out is NULL");
     *out = NULL;
+    if (contact != CPS_FIRST_ORDER_TOUCHING && contact != CPS_FIRST_ORDER_GAINED)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "contact: found %d, expected touching or gained", (int)contact);
     CpsFirstOrder *s = calloc(1, sizeof *s);
     if (!s) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     const CpsiStep *step = &classic->step;
@@ -260,9 +262,12 @@ void cps_first_order_destroy(CpsFirstOrder *solution) {
     free(solution);
 }
 
-CpsFirstOrderReport cps_first_order_report(const CpsFirstOrder *solution) { return solution->report; }
+CpsFirstOrderReport cps_first_order_report(const CpsFirstOrder *solution) {
+    return solution ? solution->report : (CpsFirstOrderReport){.verdict = CPS_FIRST_ORDER_UNDECIDED};
+}
 
 CpsFirstOrderView cps_first_order_view(const CpsFirstOrder *solution) {
+    if (!solution) return (CpsFirstOrderView){0};
     return (CpsFirstOrderView){.elements = solution->elements,
                                .arc_length = solution->arc,
                                .displacement = solution->f.u,

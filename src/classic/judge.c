@@ -123,7 +123,8 @@ static void look(const CpsLineView *step, const double *position, Case *c) {
 
 CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, double tolerance,
                              CpsJudgementReport *report, CpsError *err) {
-    if (!step || !position || !report) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step, position or report is NULL");
+    if (!step || !position || !report || step->elements < 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "step, position or report is NULL, or the step has no elements");
     if (!(tolerance > 0 && tolerance < 1))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance: found %g, expected a number between 0 and 1", tolerance);
     if (step->slide)

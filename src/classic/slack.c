@@ -168,6 +168,7 @@ static void note_node(const CpsLineView *step, int j, double force, CpsSlackPart
 }
 
 int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part) {
+    if (!step || step->elements < 1 || (room > 0 && !part)) return 0;
     const double force = cpsi_slack_force(step);
     int parts = 0;
     CpsSlackPart now = {.to = -1};

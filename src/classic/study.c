@@ -44,6 +44,7 @@ const char *cps_study_stage_key(CpsStudyStage stage) {
 }
 
 CpsStudyOptions cps_study_options(const CpsClassic *classic) {
+    if (!classic) return (CpsStudyOptions){0};
     CpsStudyOptions options = {.from = cps_classic_coarse(classic),
                                .values = {0, 7, 9, 7}, /* down to cps_classic_fine */
                                .factor = {2, 10, 10, 10},
@@ -238,12 +239,12 @@ void cps_study_destroy(CpsStudy *study) {
     free(study);
 }
 
-int cps_study_row_count(const CpsStudy *study) { return study->rows; }
+int cps_study_row_count(const CpsStudy *study) { return study ? study->rows : 0; }
 
 const CpsStudyRow *cps_study_row(const CpsStudy *study, int row) {
-    return row >= 0 && row < study->rows ? &study->row[row] : NULL;
+    return study && row >= 0 && row < study->rows ? &study->row[row] : NULL;
 }
 
 CpsClassicView cps_study_stage_end(const CpsStudy *study, CpsStudyStage stage) {
-    return stage >= 0 && stage < CPS_STUDY_STAGES ? study->end[stage].view : (CpsClassicView){0};
+    return study && stage >= 0 && stage < CPS_STUDY_STAGES ? study->end[stage].view : (CpsClassicView){0};
 }

@@ -371,25 +371,25 @@ CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsC
 
 /* ---- views ---- */
 
-const CpsMotionReport *cps_motion_report(const CpsMotion *motion) { return &motion->report; }
-const double *cps_motion_velocity(const CpsMotion *motion) { return motion->velocity; }
+const CpsMotionReport *cps_motion_report(const CpsMotion *motion) { return motion ? &motion->report : NULL; }
+const double *cps_motion_velocity(const CpsMotion *motion) { return motion ? motion->velocity : NULL; }
 const double *cps_motion_direction(const CpsMotion *motion) {
-    return motion->report.outcome == CPS_MOTION_NOT_ATTAINED ? motion->direction : NULL;
+    return motion && motion->report.outcome == CPS_MOTION_NOT_ATTAINED ? motion->direction : NULL;
 }
-const double *cps_motion_resistance(const CpsMotion *motion) { return motion->resistance; }
-const double *cps_motion_constraint_forces(const CpsMotion *motion) { return motion->constraint; }
-int cps_motion_constraints(const CpsMotion *motion) { return motion->system->constraint.rows; }
+const double *cps_motion_resistance(const CpsMotion *motion) { return motion ? motion->resistance : NULL; }
+const double *cps_motion_constraint_forces(const CpsMotion *motion) { return motion ? motion->constraint : NULL; }
+int cps_motion_constraints(const CpsMotion *motion) { return motion ? motion->system->constraint.rows : 0; }
+
+static bool has_law(const CpsMotion *motion, int k) { return motion && k >= 0 && k < motion->system->laws; }
 
 const double *cps_motion_law_velocity(const CpsMotion *motion, int k) {
-    const bool there = k >= 0 && k < motion->system->laws;
-    return there ? &motion->law_velocity[motion->system->law[k].first] : NULL;
+    return has_law(motion, k) ? &motion->law_velocity[motion->system->law[k].first] : NULL;
 }
 
 const double *cps_motion_law_force(const CpsMotion *motion, int k) {
-    const bool there = k >= 0 && k < motion->system->laws;
-    return there ? &motion->law_force[motion->system->law[k].first] : NULL;
+    return has_law(motion, k) ? &motion->law_force[motion->system->law[k].first] : NULL;
 }
 
 const CpsMotionShare *cps_motion_law_share(const CpsMotion *motion, int k) {
-    return k >= 0 && k < motion->system->laws ? &motion->share[k] : NULL;
+    return has_law(motion, k) ? &motion->share[k] : NULL;
 }

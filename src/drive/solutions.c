@@ -58,6 +58,8 @@ static void clear(Gather *g) {
 static CpsStatus begin(const CpsMotion *motion, double tolerance, bool forces, Gather *g, CpsError *err) {
     *g = (Gather){.motion = motion, .tolerance = tolerance > 0 ? tolerance : TOLERANCE};
     g->found.tolerance = g->tolerance;
+    if (!(tolerance >= 0) || !(tolerance < 1))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tolerance is %g, expected 0, or a number between 0 and 1", tolerance);
     CpsStatus status = cpsi_dense_new(motion->system, &g->dense, err);
     if (status != CPS_OK) return status;
     const CpsiDense *d = &g->dense;

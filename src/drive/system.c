@@ -49,11 +49,11 @@ void cps_system_destroy(CpsSystem *system) {
     free(system);
 }
 
-int cps_system_parameters(const CpsSystem *system) { return system->n; }
-int cps_system_laws(const CpsSystem *system) { return system->laws; }
-int cps_system_drive_space(const CpsSystem *system) { return system->drive.rows; }
+int cps_system_parameters(const CpsSystem *system) { return system ? system->n : 0; }
+int cps_system_laws(const CpsSystem *system) { return system ? system->laws : 0; }
+int cps_system_drive_space(const CpsSystem *system) { return system ? system->drive.rows : 0; }
 
-static bool has_law(const CpsSystem *system, int k) { return k >= 0 && k < system->laws; }
+static bool has_law(const CpsSystem *system, int k) { return system && k >= 0 && k < system->laws; }
 const char *cps_system_law_name(const CpsSystem *system, int k) {
     return has_law(system, k) ? system->law[k].name : NULL;
 }

@@ -46,9 +46,9 @@ void cps_law_destroy(CpsLaw *law) {
     free(law);
 }
 
-int cps_law_space(const CpsLaw *law) { return cps_set_space(law->set); }
+int cps_law_space(const CpsLaw *law) { return law ? cps_set_space(law->set) : 0; }
 
-const CpsSet *cps_law_set(const CpsLaw *law) { return law->set; }
+const CpsSet *cps_law_set(const CpsLaw *law) { return law ? law->set : NULL; }
 
 /* ---- sets as laws ---- */
 
@@ -274,8 +274,8 @@ void cps_loaded_law_destroy(CpsLoadedLaw *law) {
     free(law);
 }
 
-int cps_loaded_law_space(const CpsLoadedLaw *law) { return cps_set_space(law->set); }
+int cps_loaded_law_space(const CpsLoadedLaw *law) { return law ? cps_set_space(law->set) : 0; }
 
-const CpsSet *cps_loaded_law_set(const CpsLoadedLaw *law) { return law->set; }
+const CpsSet *cps_loaded_law_set(const CpsLoadedLaw *law) { return law ? law->set : NULL; }
 
-const double *cps_loaded_law_load(const CpsLoadedLaw *law) { return law->load; }
+const double *cps_loaded_law_load(const CpsLoadedLaw *law) { return law ? law->load : NULL; }

@@ -253,9 +253,9 @@ CpsStatus cps_resistance_sum(int count, const CpsResistance *const *parts, CpsRe
     return CPS_OK;
 }
 
-int cps_resistance_space(const CpsResistance *law) { return law->n; }
+int cps_resistance_space(const CpsResistance *law) { return law ? law->n : 0; }
 
-int cps_resistance_terms(const CpsResistance *law) { return law->count; }
+int cps_resistance_terms(const CpsResistance *law) { return law ? law->count : 0; }
 
 /* ---- potential, power, forces ---- */
 

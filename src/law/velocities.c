@@ -115,9 +115,9 @@ static CpsStatus simplest(CpsSet *set, int n, const double *velocity, CpsSet **o
 }
 
 bool cps_resistance_is_dry(const CpsResistance *law) {
-    for (int i = 0; i < law->count; i++)
+    for (int i = 0; law && i < law->count; i++)
         if (law->term[i].kind != CPSI_DRY) return false;
-    return true;
+    return law != NULL;
 }
 
 CpsStatus cps_resistance_velocities(const CpsResistance *law, const double *force, CpsSet **velocities,

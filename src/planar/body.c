@@ -231,7 +231,7 @@ void cps_planar_destroy(CpsPlanar *body) {
     free(body);
 }
 
-int cps_planar_patches(const CpsPlanar *body) { return body->count; }
+int cps_planar_patches(const CpsPlanar *body) { return body ? body->count : 0; }
 
 /* ---- the law ---- */
 

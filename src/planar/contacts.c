@@ -113,6 +113,8 @@ static CpsStatus visit_contacts(Contacts *self, CpsPlanarSide side, int cells) {
 static CpsStatus count_contacts(const CpsPlanar *body, CpsPlanarSide side, int cells, int *count, CpsError *err) {
     if (side != CPS_PLANAR_INNER && side != CPS_PLANAR_OUTER)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "side is %d, expected CPS_PLANAR_INNER or CPS_PLANAR_OUTER", (int)side);
+    if (cells > CPS_PLANAR_MAX_CELLS)
+        return cpsi_fail(err, CPS_ERR_LIMIT, "%d cells are given for each patch, at most %d", cells, CPS_PLANAR_MAX_CELLS);
     double total = 0;
     for (int k = 0; k < body->count; k++) {
         const CpsiPatch *patch = &body->patch[k];

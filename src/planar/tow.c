@@ -49,6 +49,7 @@ static void displacement(Middle middle, const double twist[3], const double r[2]
 }
 
 void cps_planar_move(double pose[3], const double twist[3]) {
+    if (!pose || !twist) return;
     double chord[2];
     displacement(middle_of(pose[2], twist[2]), twist, (double[2]){0, 0}, chord);
     for (int i = 0; i < 2; i++) pose[i] += chord[i];

@@ -2,6 +2,7 @@
 /* The 1990 method piece by piece: band factor, Newton, the functional of section 5 and P10.1 against differences, the
  * external approximation, and what is refused. A small made-up step: six uneven elements, a tilted obstacle, nothing at
  * rest. */
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -390,6 +391,21 @@ static void refusals(void **state) {
     assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_ERR_ARGUMENT);
     assert_null(study);
     assert_non_null(strstr(err.message, "stage n"));
+    options = cps_study_options(classic);
+    options.values[CPS_STUDY_H] = options.values[CPS_STUDY_LAMBDA] = options.values[CPS_STUDY_N] = options.values[CPS_STUDY_DELTA] = 1;
+    assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_OK);
+    assert_non_null(cps_study_row(study, cps_study_row_count(study) - 1));
+    assert_true(cps_classic_end_tension(classic, CPS_END_B) >= 0);
+    for (int k = 0; k < 4; ++k) {
+        const int absent = (int[]){-1, 64, INT_MAX, INT_MIN}[k];
+        assert_null(cps_study_row(study, absent));
+        assert_int_equal(cps_study_stage_end(study, (CpsStudyStage)absent).cells, 0);
+        assert_false(cps_classic_end_tension(classic, absent) == cps_classic_end_tension(classic, absent)); /* NaN */
+        CpsFirstOrder *none = NULL;
+        assert_int_equal(cps_first_order_solve(classic, (CpsFirstOrderContact)absent, &none, &err), CPS_ERR_ARGUMENT);
+        assert_null(none);
+    }
+    cps_study_destroy(study);
     cps_study_destroy(NULL);
     cps_first_order_destroy(NULL);
     cps_classic_destroy(NULL);

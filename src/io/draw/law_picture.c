@@ -406,6 +406,8 @@ static CpsStatus draw(Sheet *s) {
 
 CpsStatus cps_law_draw(const CpsSet *set, const CpsLawPicture *picture, FILE *out, CpsError *err) {
     if (!set || !picture || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "set, picture or out is NULL");
+    if ((picture->velocity_count > 0 && !picture->velocity) || (picture->force_count > 0 && !picture->force))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "velocities or forces are counted, and NULL");
     const int n = cps_set_space(set), *axis = picture->axis;
     if (axis[0] < 0 || axis[1] < 0 || axis[0] >= n || axis[1] >= n || axis[0] == axis[1])
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "axes %d and %d are not two different components from 0 to %d", axis[0],

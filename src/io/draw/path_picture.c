@@ -73,7 +73,7 @@ static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
 
 CpsStatus cps_drive_draw_planimeter(const CpsDriveFile *file, const CpsPlanimeterReading *reading, FILE *out,
                                     CpsError *err) {
-    if (!file || file->kind != CPS_DRIVE_PLANIMETER || !reading)
+    if (!file || file->kind != CPS_DRIVE_PLANIMETER || file->planimeter.points < 3 || !reading)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the file holds no planimeter, or there is no reading");
     TracePicture picture = {file, reading};
     return cpsi_draw_plain(draw_trace, &picture, out, err);
@@ -154,7 +154,7 @@ static CpsStatus draw_sweep(void *what, FILE *out, CpsError *err) {
 
 CpsStatus cps_drive_draw_sweep(const CpsDriveFile *file, int count, const double *end, const double *position,
                                const double *force, FILE *out, CpsError *err) {
-    if (!file || file->kind != CPS_DRIVE_SWEEP || count < 1 || !end || !position || !force)
+    if (!file || file->kind != CPS_DRIVE_SWEEP || !file->sweep.law || count < 1 || !end || !position || !force)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the file holds no sweep, or there are no steps");
     SweepPicture picture = {file, count, end, position, force};
     return cpsi_draw_plain(draw_sweep, &picture, out, err);

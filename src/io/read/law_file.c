@@ -29,22 +29,25 @@ void cps_law_file_destroy(CpsLawFile *file) {
     free(file);
 }
 
-const char *cps_law_file_title(const CpsLawFile *file) { return file->title; }
+const char *cps_law_file_title(const CpsLawFile *file) { return file ? file->title : ""; }
 
 int cps_law_file_space(const CpsLawFile *file) {
+    if (!file) return 0;
     return file->law ? cps_law_space(file->law) : cps_resistance_space(file->resistance);
 }
 
 const CpsSet *cps_law_file_set(const CpsLawFile *file) {
+    if (!file) return NULL;
     if (file->loaded) return cps_loaded_law_set(file->loaded);
     return file->law ? cps_law_set(file->law) : NULL;
 }
 
-const CpsLoadedLaw *cps_law_file_loaded(const CpsLawFile *file) { return file->loaded; }
+const CpsLoadedLaw *cps_law_file_loaded(const CpsLawFile *file) { return file ? file->loaded : NULL; }
 
-const CpsResistance *cps_law_file_resistance(const CpsLawFile *file) { return file->resistance; }
+const CpsResistance *cps_law_file_resistance(const CpsLawFile *file) { return file ? file->resistance : NULL; }
 
 bool cps_law_file_composition(const CpsLawFile *file, CpsComposition *composition, int *line) {
+    if (!file || !composition || !line) return false;
     *composition = file->composition;
     *line = file->composition_line;
     return file->has_preimage;

@@ -8,6 +8,7 @@
 #include "capstan/drive_io.h"
 
 void cps_drive_walk(int space, int points, const double *path, int count, double *out) {
+    if (space < 1 || points < 2 || count < 1 || !path || !out) return;
     const size_t n = (size_t)space;
     double whole = 0, before = 0, here = 0;
     for (int pass = 0, at = 0; pass < 2; pass++)

@@ -54,6 +54,10 @@ CpsStatus cps_methods_write(const char *directory, const char *title, int method
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "found %d methods, %d steps, %d points; expected 1 to %d, and at least 1 and 2", methods,
                          steps, points, (int)MAX_METHODS);
+    for (int i = 0; i < methods; ++i)
+        if (!method[i].name || !method[i].position) return cpsi_fail(err, CPS_ERR_ARGUMENT, "method %d has no name or no positions", i);
+    for (int s = 0; s < steps; ++s)
+        if (!step_name[s]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d has no name", s);
     const CpsiMethods m = {.title = title,
                            .note = "Plan and elevation (heights stretched), step by step",
                            .methods = methods,

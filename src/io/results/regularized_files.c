@@ -180,6 +180,13 @@ static CpsStatus check(const CpsRegularizedRun *run, CpsError *err) {
     if (run->steps < 1 || run->lines < 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "found %d steps and %d lines, expected at least 1 and 1", run->steps,
                          run->lines);
+    for (int i = 0; i < run->lines; ++i) {
+        const CpsRegularizedLine *line = &run->line[i];
+        if (!line->name || !line->position || !line->parameters || !line->report || !line->tension || line->points < 2)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "line %d has no name, points or results", i);
+    }
+    for (int s = 0; s < run->steps; ++s)
+        if (!run->step_name[s]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d has no name", s);
     return CPS_OK;
 }
 
