@@ -24,18 +24,49 @@
 
 /* ---- the step ---- */
 
-/* is `name` the step asked for, or the last one of the stage asked for ("pull 10/10" for "pull")? */
-static bool is_asked(const char *name, const char *asked) {
-    const size_t length = strlen(asked);
-    int k, n;
-    char end;
-    if (strcmp(name, asked) == 0) return true;
-    return strncmp(name, asked, length) == 0 && sscanf(name + length, " %9d/%9d%c", &k, &n, &end) == 2 && k == n;
+static bool is_laid(const CpsScene *scene) {
+    bool laid = false;
+    for (int i = 0; i < scene->line_count; ++i) laid = laid || scene->line[i].start.kind == CPS_START_LAID;
+    return laid;
 }
 
-/* Solve up to the step asked for, the first one that is not laid when `asked` is NULL. The exit code, EXIT_OK when
- * there. */
-static int reach_step(CpsEvolution *evolution, const char *asked) {
+/* Is `asked` the name of the stage, then its last step, or of one of its steps, "pull 3/10"?  The step within the stage from 1, or 0. */
+static int step_of_stage(const CpsStage *stage, const char *asked) {
+    const size_t length = strlen(stage->name);
+    int k, n;
+    char end;
+    if (strcmp(stage->name, asked) == 0) return stage->steps;
+    if (strncmp(asked, stage->name, length) != 0 || sscanf(asked + length, " %9d/%9d%c", &k, &n, &end) != 2) return 0;
+    return n == stage->steps && n > 1 && k >= 1 && k <= n ? k : 0;
+}
+
+/* The number of the step asked for, from 1 as a run counts them: by its name, which only one may have, or by that number; without one the
+ * first that is not laid. 0 after a message. */
+static int find_step(const CpsScene *scene, const char *asked) {
+    int before = is_laid(scene) ? 1 : 0, found = 0, number = 0;
+    char end;
+    if (!asked) return before + 1;
+    if (before && strcmp(asked, "laid") == 0) found = 1;
+    for (int s = 0; s < scene->stage_count; before += scene->stage[s++].steps) {
+        const int within = step_of_stage(&scene->stage[s], asked);
+        if (within > 0 && found > 0) {
+            cli_printf(stderr, "capstan study: --step: '%.80s' is the name of step %d and of step %d: give the number\n", asked, found,
+                       before + within);
+            return 0;
+        }
+        if (within > 0) found = before + within;
+    }
+    if (scene->stage_count == 0 && before == 0 && strcmp(asked, "equilibrium") == 0) found = 1;
+    const int steps = before > 0 ? before : 1;
+    if (found == 0 && sscanf(asked, "%9d%c", &number, &end) == 1 && number >= 1 && number <= steps) found = number;
+    if (found == 0)
+        cli_printf(stderr, "capstan study: --step: found '%.80s', expected the name of a step, 'capstan run' lists them, or a number from 1 to %d\n",
+                   asked, steps);
+    return found;
+}
+
+/* Solve up to a step, counted from 1. The exit code, EXIT_OK when there. */
+static int reach_step(CpsEvolution *evolution, int number) {
     CpsError err;
     while (cps_evolution_remaining(evolution) > 0 && !cli_stopped()) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) return cli_report(&err);
@@ -46,14 +77,10 @@ static int reach_step(CpsEvolution *evolution, const char *asked) {
             fprintf(stderr, ": %s; there is nothing to compare with\n", cps_outcome_sentence(step.outcome));
             return cps_outcome_is_final(step.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
         }
-        if (asked ? is_asked(step.name, asked) : strcmp(step.name, "laid") != 0) return EXIT_OK;
+        if (step.index + 1 == number) return EXIT_OK;
     }
     if (cli_stopped()) return 128 + cli_stopped();
-    if (asked)
-        cli_printf(stderr, "capstan study: --step: found '%.80s', expected the name of a step: 'capstan run' lists them\n",
-                asked);
-    else
-        fprintf(stderr, "capstan study: the scene has no step but a laid one: give it a history\n");
+    fprintf(stderr, "capstan study: the scene has no step but a laid one: give it a history\n");
     return EXIT_USAGE;
 }
 
@@ -210,9 +237,11 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
     CpsEvolution *evolution = NULL;
     const bool solutions = options->judge || options->complete;
     const CpsScene scene = solutions ? *given : regularized_scene(given);
+    const int number = find_step(given, options->step);
+    if (number == 0) return EXIT_USAGE;
     if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
     const int line = find_line(evolution, options->line);
-    int code = line < 0 ? EXIT_USAGE : reach_step(evolution, options->step);
+    int code = line < 0 ? EXIT_USAGE : reach_step(evolution, number);
     if (code == EXIT_OK) {
         char title[256];
         const CpsStepReport step = cps_evolution_report(evolution);

@@ -47,7 +47,7 @@ static const Option OPTIONS[] = {
      "is this configuration a solution of the step, and if not, why"},
     {"tolerance", 0, "TOL", FOR_STUDY, offsetof(CliOptions, tolerance), false,
      "with which configurations are judged: gaps up to TOL times their scale are none (default: 1e-8)"},
-    {"step", 's', "NAME", FOR_STUDY, offsetof(CliOptions, step), false, "the step to study (default: the first)"},
+    {"step", 's', "NAME", FOR_STUDY, offsetof(CliOptions, step), false, "the step to study, by its name or its number from 1 (default: the first)"},
     {"line", 'l', "NAME", FOR_STUDY, offsetof(CliOptions, line), false, "the line to study (default: the first)"},
     {"eliminate", 'e', NULL, FOR_DRIVE, offsetof(CliOptions, eliminate), false,
      "the law between driving velocity and resistance, all else eliminated"},

@@ -144,7 +144,7 @@ typedef enum CpsLinearSystem {
 
 typedef struct CpsSolverOptions {
     double tolerance;              /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8 */
-    int max_iterations;            /* per step and line, 1..1000, default 60 */
+    int max_iterations;            /* of one solve of a line, 1..1000, default 60; 20 more for each doubling of its elements beyond 12 800 */
     CpsLinearSystem linear_system; /* default chain */
     double path_tolerance; /* [-] a step is cut until going in halves changes ways per length and tensions per largest force by no
                               more, 1e-9..1; default 0: steps are as given */

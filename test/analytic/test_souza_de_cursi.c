@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* S90 example 5.7: 6.28 m of cable on a rough bed, pulled up, aside and let go; from three starts. */
 #include <stdio.h>
+#include <string.h>
 
 #include "cases.h"
 
@@ -96,7 +97,27 @@ static void strict_contact(void **state) {
     case_close(&run);
 }
 
-int main(void) {
+/* With the argument --fine alone: 100 000 elements, each step certified (case_step), where a vertical end of 0.5 N hangs: f/w of line,
+ * stretched by f^2/(2 w K), to an element. */
+static void fine_mesh(void **state) {
+    (void)state;
+    enum { N = 100000 };
+    Case c;
+    example(&c, N, 0.0255, STRAIGHT);
+    c.scene.friction = CPS_FRICTION_FROZEN;
+    Run run = case_open(&c);
+    CpsLineView view = {0};
+    for (int step = 0; cps_evolution_remaining(run.evolution) > 0; step++) {
+        view = case_step(&run);
+        const double height = 0.5/9.81 + 0.25/(2*9.81*10);
+        if (step == 2) CHECK_NEAR(show("example 5.7, Y4", "height of the tip [m]", height, view.position[3 * N + 2]), 0, 2 * 6.28 / N);
+    }
+    case_close(&run);
+}
+
+int main(int argc, char **argv) {
+    const struct CMUnitTest fine[] = {cmocka_unit_test(fine_mesh)};
+    if (argc == 2 && strcmp(argv[1], "--fine") == 0) return cmocka_run_group_tests(fine, NULL, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(first_step_from_the_straight_line),
         cmocka_unit_test(first_step_with_consistent_friction),

@@ -159,6 +159,19 @@ with tempfile.TemporaryDirectory() as folder:
     done = study(folder, ANNEX_5, "-q", "-o", "annex")
     check(done.returncode == 0 and not done.stdout and not done.stderr, "quiet: is not")
 
+    # names that repeat, load steps, and numbers: each of six steps is found, by the force that was on the end there
+    text = open(ANNEX_5, encoding="utf-8").read()
+    repeated = text[:text.index("history:")] + "history:\n" + "".join(
+        f"  - {{name: {name}, steps: {steps}, {line}.B: {{force: [{pull}, 0, 0]}}}}\n" for line in ["cable"] for name, steps, pull in
+        (("pull", 2, 0.2), ("turn", 1, 0.3), ("pull", 3, 0.6)))
+    with open(os.path.join(folder, "repeated.yaml"), "w", encoding="utf-8") as file:
+        file.write(repeated)
+    for asked, code, words in (("1", 0, "pull 1/2"), ("2", 0, "pull 2/2"), ("3", 0, "turn"), ("turn", 0, "turn"), ("pull 2/3", 0, "pull 2/3"), ("pull 1/2", 0, "pull 1/2"),
+                               ("6", 0, "pull 3/3"), ("7", 2, "a number from 1 to 6"), ("0", 2, "a number from 1 to 6"), ("pull 2/4", 2, "a number from 1 to 6"),
+                               ("pull", 2, "'pull' is the name of step 2 and of step 6: give the number")):
+        done = study(folder, "repeated.yaml", "--step", asked, "--complete", "straight", "-o", "repeated")
+        check(done.returncode == code and words in (done.stdout.split("\n")[0] if code == 0 else done.stderr), f"--step {asked}: {done.returncode} {done.stdout[:200]}{done.stderr}")
+
     # what is wrong, and what to do
     for arguments, code, words in (
             ([EXAMPLE, "--step", "Y9"], 2, ["--step", "Y9", "capstan run"]),

@@ -119,7 +119,7 @@ static const CpsiKey KEYS[] = {
     {CPSI_SOLVER, "tolerance", CPSI_NUMBER, CPSI_OPTIONAL, "", 1e-14, 1e-2, false, 0, NULL, "1e-8",
      "a step is certified when its duality gap is at most this times the scale of its energies"},
     {CPSI_SOLVER, "max_iterations", CPSI_INTEGER, CPSI_OPTIONAL, "", 1, 1000, false, 0, NULL, "60",
-     "per step and line"},
+     "of one solve of a line; 20 more for each doubling of its elements beyond 12 800"},
     {CPSI_SOLVER, "path_tolerance", CPSI_NUMBER, CPSI_OPTIONAL, "", 0, 1, false, 0, NULL, "0",
      "a step is cut until going in halves changes ways per length and tensions per largest force by no more; 0: "
      "steps as given"},
