@@ -76,7 +76,8 @@ static void sweep(void **state) {
     every_way(SWEEP);
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+    if (argc > 1) which = argv[1];
     const struct CMUnitTest tests[] = {cmocka_unit_test(system_maps), cmocka_unit_test(system_resistance),
                                        cmocka_unit_test(body),        cmocka_unit_test(rope),
                                        cmocka_unit_test(planimeter),  cmocka_unit_test(sweep)};

@@ -54,7 +54,8 @@ static void resistance_law(void **state) {
     remove(GREASE);
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+    if (argc > 1) which = argv[1];
     const struct CMUnitTest tests[] = {cmocka_unit_test(planar_law), cmocka_unit_test(law_in_space),
                                        cmocka_unit_test(resistance_law)};
     return cmocka_run_group_tests_name("laws without memory", tests, NULL, NULL);

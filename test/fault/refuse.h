@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Allocations that fail when a test says so, and a count of the blocks held; by the linker's --wrap of malloc, calloc,
- * realloc, aligned_alloc and free. For one file of a test program. */
+ * realloc, aligned_alloc and free, with REFUSE_TEXT of strdup and open_memstream as well. For one file of a test program. */
 #ifndef CAPSTAN_TEST_FAULT_REFUSE_H
 #define CAPSTAN_TEST_FAULT_REFUSE_H
 
@@ -35,5 +35,18 @@ void __wrap_free(void *block) {
     live -= block != NULL;
     __real_free(block);
 }
+
+#ifdef REFUSE_TEXT
+#include <stdio.h>
+
+char *__real_strdup(const char *text);
+FILE *__real_open_memstream(char **text, size_t *size);
+FILE *__wrap_open_memstream(char **text, size_t *size);
+char *__wrap_strdup(const char *text);
+
+char *__wrap_strdup(const char *text) { return refuse() ? NULL : counted(__real_strdup(text)); }
+/* the block is the text, which the caller frees */
+FILE *__wrap_open_memstream(char **text, size_t *size) { return refuse() ? NULL : counted(__real_open_memstream(text, size)); }
+#endif
 
 #endif

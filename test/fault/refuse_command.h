@@ -53,12 +53,21 @@ static int command(Command *run, long k, int argc, const char *const *argv, bool
     return code;
 }
 
-/* Refuse each allocation in turn: all of the first 300; of those behind, which repeat the same questions, ever fewer.
- */
+/* Which allocations are refused, by the word after the program's name: `all`; `many`: the first 3000, and one in 100 of those
+ * behind; without a word the first 300 and, of those behind, which repeat the same questions, ever fewer. */
+static const char *which = "";
+
+static long next_refused(long k) {
+    if (strcmp(which, "all") == 0) return k + 1;
+    if (strcmp(which, "many") == 0) return k < 3000 ? k + 1 : k + 100;
+    return k < 300 ? k + 1 : k + k / 10;
+}
+
+/* Refuse allocations in turn. `picture`: what the command writes where it ends well, if it draws. */
 static void refuse_each(Command *run, const char *picture, long least, int argc, const char *const *argv, bool draws) {
     bool reached = true;
     long k = 0, tried = 0;
-    for (; reached; k += k < 300 ? 1 : k / 10, tried++) {
+    for (; reached; k = next_refused(k), tried++) {
         const long before = live;
         remove(picture);
         const int code = command(run, k, argc, argv, &reached);
