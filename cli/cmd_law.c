@@ -225,16 +225,11 @@ static bool tell_all(LawRun *run, const QueryList *velocity, const QueryList *fo
 
 /* ---- the picture ---- */
 
-/* before the first answer: is there something to draw, and along which axes? */
+/* before the first answer: along which axes is it drawn? */
 static int check_picture(const LawRun *run, const CliOptions *options) {
     int axis[2];
     if (options->axes && !options->plot) {
         fprintf(stderr, "capstan law: --axes goes with --plot\n");
-        return EXIT_USAGE;
-    }
-    if (options->plot && (!run->set || run->n < 2)) {
-        fprintf(stderr, "capstan law: --plot draws friction laws of two components or more: this is a %s of %d\n",
-                run->set ? "law" : "resistance law", run->n);
         return EXIT_USAGE;
     }
     if (!options->plot || law_plot_axes(options->axes, run->n, axis)) return EXIT_OK;
@@ -250,7 +245,7 @@ static int draw(LawRun *run, const CliOptions *options, const QueryList *velocit
                              .force_count = force->count,
                              .force = force->row};
     law_plot_axes(options->axes, run->n, picture.axis);
-    return law_plot(run->set, &picture, options->plot);
+    return law_plot(run->set, run->resistance, &picture, options->plot);
 }
 
 /* ---- all together ---- */

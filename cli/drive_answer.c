@@ -387,7 +387,7 @@ static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *veloc
                              .force_count = force->count,
                              .force = force->row};
     const int n = run->file->system.driven;
-    if (n >= 2 && law_plot_axes(options->axes, n, picture.axis)) return law_plot(set, &picture, options->plot);
+    if (law_plot_axes(options->axes, n, picture.axis)) return law_plot(set, NULL, &picture, options->plot);
     fprintf(stderr, "capstan drive: --plot and --axes: expected two different components from 1 to %d\n", n);
     return EXIT_USAGE;
 }

@@ -14,6 +14,10 @@
 
 bool law_plot_axes(const char *text, int n, int axis[2]) {
     char end;
+    if (n == 1 && !text) { /* nothing to choose */
+        axis[0] = axis[1] = 0;
+        return true;
+    }
     axis[0] = 1, axis[1] = 2;
     if (text && sscanf(text, "%4d,%4d%c", &axis[0], &axis[1], &end) != 2) return false;
     axis[0]--, axis[1]--;
@@ -92,15 +96,17 @@ int cli_plot(PlotDraw *draw, void *user, const char *path) {
 
 typedef struct LawDrawing {
     const CpsSet *set;
+    const CpsResistance *resistance; /* where there is no set */
     const CpsLawPicture *picture;
 } LawDrawing;
 
 static CpsStatus draw_law(void *user, FILE *out, CpsError *err) {
     const LawDrawing *drawing = user;
+    if (!drawing->set) return cps_resistance_draw(drawing->resistance, drawing->picture, out, err);
     return cps_law_draw(drawing->set, drawing->picture, out, err);
 }
 
-int law_plot(const CpsSet *set, const CpsLawPicture *picture, const char *path) {
-    LawDrawing drawing = {set, picture};
+int law_plot(const CpsSet *set, const CpsResistance *resistance, const CpsLawPicture *picture, const char *path) {
+    LawDrawing drawing = {set, resistance, picture};
     return cli_plot(draw_law, &drawing, path);
 }

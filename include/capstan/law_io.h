@@ -49,10 +49,15 @@ typedef struct CpsLawPicture {
 
 /* Draw a set of forces as SVG: a planar one with the normal cones at its corners; of more dimensions the section
  * through 0 along two axes and, dashed, the shadow on them (alone where the plane misses a set that a load has moved);
- * with each velocity and its set of forces.
+ * with each velocity and its set of forces. A set without bounds goes on beyond the frame; of one component it is drawn as the graph
+ * of forces over velocity.
  *
- * Returns CPS_OK, CPS_ERR_ARGUMENT (also where the set is unbounded, empty, or has one dimension) or CPS_ERR_MEMORY. */
+ * Returns CPS_OK, CPS_ERR_ARGUMENT (also where the set is empty) or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_law_draw(const CpsSet *set, const CpsLawPicture *picture, FILE *out, CpsError *err);
+
+/* Draw a resistance law as SVG: of one component the graph of forces over velocity, of more the forces at five speeds, up to the
+ * largest of the velocities asked for, in all directions of the plane of two components. */
+CPS_API CpsStatus cps_resistance_draw(const CpsResistance *law, const CpsLawPicture *picture, FILE *out, CpsError *err);
 
 #ifdef __cplusplus
 }

@@ -14,12 +14,13 @@
 
 #include "base/status.h"
 #include "capstan/law_io.h"
+#include "io/draw/law_graph.h"
+#include "io/draw/planar_cone.h"
 #include "io/draw/svg.h"
 
 enum {
     DIRECTIONS = 720,
     MOST_CORNERS = 256,
-    MOST_RAYS = 4,
     MOST_LISTED = 14, /* asked velocities and forces told in words */
     SIDE = 520,       /* frame, pixels */
     LEFT = 84,
@@ -32,8 +33,14 @@ static const double PI = 3.14159265358979323846;
 /* Height of the frame by its width, at most. */
 static const double TALLEST = 1.15;
 
+/* Powers below this share of the set's size times the speed are rounding. */
+static const double NOTHING = 1e-12;
+
 /* Radius of normal sectors and length of -V, as parts of the set's larger width. */
 static const double SECTOR = 0.2, ARROW = 0.26;
+
+/* Of a set without bounds so many times its own size is seen; it is cut off so many times farther out, beyond the frame. */
+static const double SEEN = 2, BEYOND = 8;
 
 /* What is drawn, and how data come onto paper. */
 typedef struct Sheet {
@@ -46,6 +53,7 @@ typedef struct Sheet {
     CpsiFrame frame;
     CpsiUnit unit;
     double size;   /* of the set [N] */
+    double limit;  /* of what is seen of a set without bounds, in both components [N]; 0: all is */
     bool in_space; /* more than two components: section and shadow */
     int corners;   /* drawn */
 } Sheet;
@@ -101,10 +109,55 @@ static CpsStatus plane_set(const Sheet *s, const CpsSet *set, bool section, CpsS
     return status;
 }
 
+/* Of a set without bounds what lies within so many limits, in place of it. */
+static CpsStatus cut_off(const Sheet *s, double limits, CpsSet **set) {
+    if (s->limit == 0) return CPS_OK;
+    CpsSet *box = NULL, *seen = NULL;
+    const double most = limits * s->limit, low[2] = {-most, -most}, high[2] = {most, most};
+    CpsStatus status = cps_set_box(2, low, high, &box, s->err);
+    if (status == CPS_OK) status = cps_set_intersection(2, (const CpsSet *const[]){*set, box}, &seen, s->err);
+    cps_set_release(box);
+    if (status != CPS_OK) return status;
+    cps_set_release(*set);
+    *set = seen;
+    return CPS_OK;
+}
+
+/* How far a set without bounds is seen: some times the largest of its finite supports, its distance from or depth at 0, its
+ * corners and the forces asked for. */
+static CpsStatus choose_limit(Sheet *s, const CpsSet *shadow) {
+    CpsSetFacts facts;
+    CpsStatus status = cps_set_facts(shadow, 0, &facts, NULL, NULL, s->err);
+    if (status != CPS_OK || facts.outcome != CPS_SET_ANSWERED || facts.bounded) return status;
+    double most = 0, corner[2 * MOST_CORNERS];
+    int corners = 0;
+    CpsSetAnswer answer;
+    for (int i = 0; status == CPS_OK && i < DIRECTIONS / 20; i++) {
+        const double angle = 40 * PI * i / DIRECTIONS;
+        status = cps_set_support(shadow, (double[]){cos(angle), sin(angle)}, NULL, &answer, s->err);
+        if (answer.outcome == CPS_SET_ANSWERED) most = fmax(most, fabs(answer.value));
+    }
+    if (status == CPS_OK) status = cps_set_contains(shadow, (double[]){0, 0}, NULL, &answer, s->err);
+    if (status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && isfinite(answer.value)) most = fmax(most, fabs(answer.value));
+    if (status == CPS_OK) status = cps_set_vertices(shadow, 0, MOST_CORNERS, corner, &corners, &answer, s->err);
+    for (int i = 0; status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && i < 2 * corners && i < 2 * MOST_CORNERS; i++)
+        most = fmax(most, fabs(corner[i]));
+    for (int i = 0; i < s->picture->force_count; i++)
+        for (int k = 0; k < 2; k++)
+            most = fmax(most, fabs(s->picture->force[(size_t)i * (size_t)s->n + (size_t)s->picture->axis[k]]));
+    s->limit = most > 0 ? SEEN * most : 1;
+    return status;
+}
+
 /* ---- drawing ---- */
 
 static double px(const Sheet *s, double x) { return cpsi_frame_x(&s->frame, x * s->unit.factor); }
 static double py(const Sheet *s, double y) { return cpsi_frame_y(&s->frame, y * s->unit.factor); }
+
+/* is a point beyond what is seen of a set without bounds? */
+static bool is_beyond(const Sheet *s, const double x[2]) {
+    return s->limit > 0 && fmax(fabs(x[0]), fabs(x[1])) > s->limit * (1 + 1e-9);
+}
 
 static void put_curve(const Sheet *s, const Curve *curve, const char *style) {
     fprintf(s->out, "<polygon %s stroke-linejoin=\"round\" points=\"", style);
@@ -132,62 +185,47 @@ static void put_arrow(const Sheet *s, const double from[2], const double directi
             x1 - 10 * ux - 4 * uy, y1 - 10 * uy + 4 * ux, x1 - 10 * ux + 4 * uy, y1 - 10 * uy - 4 * ux);
 }
 
-/* where a cone with these rays begins and how far it turns: all but the widest gap between them */
-static double turn_of(const double *ray, int count, double *start) {
-    double widest = -1;
-    for (int i = 0; i < count; i++) {
-        /* the gap that ends at ray i */
-        double gap = 2 * PI;
-        for (int k = 0; k < count; k++) {
-            if (k == i) continue;
-            const double *u = ray + 2 * k, *v = ray + 2 * i;
-            const double angle = atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
-            gap = fmin(gap, angle < 0 ? angle + 2 * PI : angle);
-        }
-        if (gap > widest) widest = gap, *start = atan2(ray[2 * i + 1], ray[2 * i]);
-    }
-    return 2 * PI - widest;
-}
-
-/* a cone of R^2 with its apex at a point: a sector, or an arrow where it is a ray; *count: its rays */
+/* a cone of R^2 with its apex at a point: a sector up to the whole disc, an arrow, a line with two heads; *dimension: its own */
 static CpsStatus put_cone(const Sheet *s, const CpsSet *cone, const double apex[2], bool arrow, const char *style,
-                          int *count) {
-    double ray[2 * MOST_RAYS], start = 0;
-    CpsSetAnswer answer;
-    const CpsStatus status = cps_set_rays(cone, 0, MOST_RAYS, ray, count, &answer, s->err);
-    if (status != CPS_OK || answer.outcome != CPS_SET_ANSWERED || *count > MOST_RAYS) *count = 0;
-    if (*count == 1 && arrow) put_arrow(s, apex, ray, SECTOR * s->size, "#c98a1b");
-    if (*count < 2) return status;
-    const double r = SECTOR * s->size, turn = turn_of(ray, *count, &start);
-    fprintf(s->out, "<polygon %s points=\"%.2f,%.2f ", style, px(s, apex[0]), py(s, apex[1]));
-    for (int i = 0; i <= 24; i++) {
-        const double a = start + turn * i / 24;
+                          int *dimension) {
+    CpsiPlanarCone found;
+    const CpsStatus status = cpsi_planar_cone(cone, &found, s->err);
+    *dimension = found.dimension;
+    const double r = SECTOR * s->size;
+    for (int side = 1; found.dimension == 1 && arrow && side >= (found.line ? -1 : 1); side -= 2)
+        put_arrow(s, apex, (double[]){side * cos(found.start), side * sin(found.start)}, r, "#c98a1b");
+    if (status != CPS_OK || found.dimension < 2) return status;
+    fprintf(s->out, "<polygon %s points=\"", style);
+    if (found.turn < 2 * PI) fprintf(s->out, "%.2f,%.2f ", px(s, apex[0]), py(s, apex[1]));
+    for (int i = 0; i <= 48; i++) {
+        const double a = found.start + found.turn * i / 48;
         fprintf(s->out, "%.2f,%.2f ", px(s, apex[0] + r * cos(a)), py(s, apex[1] + r * sin(a)));
     }
     fputs("\"/>\n", s->out);
     return CPS_OK;
 }
 
-/* the corners of a set of R^2, each with its sector of normals */
-static CpsStatus put_corners(Sheet *s, const CpsSet *set) {
+/* the corners of what is seen of a set of R^2, each with the set's sector of normals */
+static CpsStatus put_corners(Sheet *s, const CpsSet *seen, const CpsSet *set) {
     double *corner = malloc(2 * MOST_CORNERS * sizeof *corner);
     if (!corner) return out_of_memory(s->err);
     int count = 0;
     CpsSetAnswer answer;
-    CpsStatus status = cps_set_vertices(set, 0, MOST_CORNERS, corner, &count, &answer, s->err);
+    CpsStatus status = cps_set_vertices(seen, 0, MOST_CORNERS, corner, &count, &answer, s->err);
     if (status == CPS_OK && (answer.outcome != CPS_SET_ANSWERED || count > MOST_CORNERS)) count = 0;
     for (int i = 0; i < count && status == CPS_OK; i++) {
         /* where an edge runs into an arc there is one normal: no corner */
         const double *at = corner + 2 * i;
-        int rays = 0;
+        int dimension = 0;
         CpsSet *cone = NULL;
+        if (is_beyond(s, at)) continue;
         status = cps_set_normal_cone(set, at, 0, &cone, &answer, s->err);
         if (status == CPS_OK && cone)
             status = put_cone(s, cone, at, false,
-                              "fill=\"#f6dca6\" fill-opacity=\"0.75\" stroke=\"#c98a1b\" stroke-width=\"0.8\"", &rays);
+                              "fill=\"#f6dca6\" fill-opacity=\"0.75\" stroke=\"#c98a1b\" stroke-width=\"0.8\"", &dimension);
         cps_set_release(cone);
-        s->corners += rays >= 2;
-        if (rays >= 2)
+        s->corners += dimension == 2;
+        if (dimension == 2)
             fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"#2b5fa8\"/>\n", px(s, at[0]), py(s, at[1]));
     }
     free(corner);
@@ -226,38 +264,59 @@ static void list_velocity(const Sheet *s, int i, const double *velocity, const C
     vector_text(s->n, velocity, vector, sizeof vector);
     snprintf(text, sizeof text, "V = %s m/s", vector);
     put_line(s, 3 * i, colour_of(s, i).hex, text);
+    double speed = 0; /* below the rounding of forces times speed phi is 0 */
+    for (int k = 0; k < s->n; k++) speed = fmax(speed, fabs(velocity[k]));
     if (phi->outcome == CPS_SET_ANSWERED)
-        snprintf(text, sizeof text, "   %.6g W, %s", phi->value + 0.0,
+        snprintf(text, sizeof text, "   %.6g W, %s", fabs(phi->value) > NOTHING * s->size * speed ? phi->value : 0,
                  dimension < 3 ? KIND[dimension] : "a body of forces");
+    else if (phi->outcome == CPS_SET_UNBOUNDED)
+        snprintf(text, sizeof text, "   no force: phi is infinite");
     else
         snprintf(text, sizeof text, "   no force: %s", cps_set_outcome_sentence(phi->outcome));
     put_line(s, 3 * i + 1, "#555", text);
 }
 
+/* the middle of what is seen of a planar set */
+static CpsStatus find_middle(const Sheet *s, const CpsSet *flat, Curve *curve, double center[2]) {
+    CpsSet *seen = cps_set_retain(flat);
+    CpsStatus status = cut_off(s, 1, &seen);
+    if (status == CPS_OK) status = trace(seen, curve, s->err);
+    if (status == CPS_OK && curve->count > 0) middle(curve, center);
+    cps_set_release(seen);
+    return status;
+}
+
+static CpsStatus put_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFacts *facts, const char *colour, double center[2]) {
+    char style[120];
+    if (facts->dimension == 0) {
+        fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"5.5\" fill=\"%s\" stroke=\"#fff\"/>\n", px(s, center[0]),
+                py(s, center[1]), colour);
+        return CPS_OK;
+    }
+    Curve *curve = malloc(sizeof *curve);
+    if (!curve) return out_of_memory(s->err);
+    CpsStatus status = find_middle(s, *flat, curve, center);
+    if (status == CPS_OK && !facts->bounded) status = cut_off(s, BEYOND, flat);
+    if (status == CPS_OK) status = trace(*flat, curve, s->err);
+    if (status == CPS_OK) {
+        snprintf(style, sizeof style, "fill=\"%s\" fill-opacity=\"0.35\" stroke=\"%s\" stroke-width=\"4\"", colour,
+                 colour);
+        fputs("<g clip-path=\"url(#frame1)\">\n", s->out); /* as of cpsi_frame_begin in put_axes */
+        put_curve(s, curve, style);
+        fputs("</g>\n", s->out);
+    }
+    free(curve);
+    return status;
+}
+
 /* a set of forces in the plane: a dot, a thick line, or an area; its middle goes to center */
 static CpsStatus put_forces(const Sheet *s, const CpsSet *forces, const char *colour, double center[2]) {
-    char style[120];
     CpsSet *flat = NULL;
     CpsSetFacts facts;
     CpsStatus status = plane_set(s, forces, false, &flat);
     if (status == CPS_OK) status = cps_set_facts(flat, 0, &facts, center, NULL, s->err);
-    if (status != CPS_OK || facts.outcome != CPS_SET_ANSWERED || !facts.bounded) {
-        cps_set_release(flat);
-        return status;
-    }
-    Curve *curve = malloc(sizeof *curve);
-    if (!curve) status = out_of_memory(s->err);
-    if (status == CPS_OK && facts.dimension > 0) status = trace(flat, curve, s->err);
-    if (status == CPS_OK && facts.dimension > 0) {
-        snprintf(style, sizeof style, "fill=\"%s\" fill-opacity=\"0.35\" stroke=\"%s\" stroke-width=\"4\"", colour,
-                 colour);
-        put_curve(s, curve, style);
-        middle(curve, center);
-    }
-    if (status == CPS_OK && facts.dimension == 0)
-        fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"5.5\" fill=\"%s\" stroke=\"#fff\"/>\n", px(s, center[0]),
-                py(s, center[1]), colour);
-    free(curve);
+    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED && (facts.bounded || s->limit > 0))
+        status = put_planar_forces(s, &flat, &facts, colour, center);
     cps_set_release(flat);
     return status;
 }
@@ -283,18 +342,20 @@ static CpsStatus put_velocity(const Sheet *s, int i) {
     return CPS_OK;
 }
 
-/* a force, and in two dimensions the sector of -V */
+/* a force, and the cone of -V, of more components its shadow */
 static CpsStatus put_force(const Sheet *s, int i) {
     const double *force = s->picture->force + (size_t)i * (size_t)s->n;
     const double at[2] = {force[s->picture->axis[0]], force[s->picture->axis[1]]};
-    int rays;
-    CpsSet *cone = NULL;
+    int dimension;
+    CpsSet *cone = NULL, *flat = NULL;
     CpsSetAnswer answer;
     CpsStatus status = cps_set_normal_cone(s->set, force, 0, &cone, &answer, s->err);
-    if (status == CPS_OK && cone && s->n == 2 && s->picture->axis[0] == 0)
-        status = put_cone(s, cone, at, true,
-                          "fill=\"#f0b429\" fill-opacity=\"0.6\" stroke=\"#8a5a00\" stroke-width=\"1.2\"", &rays);
+    if (status == CPS_OK && cone) status = plane_set(s, cone, false, &flat);
+    if (status == CPS_OK && flat)
+        status = put_cone(s, flat, at, true,
+                          "fill=\"#f0b429\" fill-opacity=\"0.6\" stroke=\"#8a5a00\" stroke-width=\"1.2\"", &dimension);
     cps_set_release(cone);
+    cps_set_release(flat);
     fprintf(s->out,
             "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"4.5\" fill=\"#fff\" stroke=\"#8a5a00\" stroke-width=\"1.6\"/>\n",
             px(s, at[0]), py(s, at[1]));
@@ -363,17 +424,29 @@ static void put_legend(const Sheet *s, bool some) {
                     "\xE2\x88\x92V, from its forces");
 }
 
-static CpsStatus put_all(Sheet *s, const CpsSet *section, const CpsSet *shadow, Curve *curve) {
-    CpsStatus status = trace(shadow, curve, s->err);
+/* the frame, from what is seen of the shadow */
+static CpsStatus frame_shadow(Sheet *s, const CpsSet *shadow, Curve *curve) {
+    CpsSet *seen = cps_set_retain(shadow);
+    CpsStatus status = cut_off(s, 1, &seen);
+    if (status == CPS_OK) status = trace(seen, curve, s->err);
+    cps_set_release(seen);
     if (status == CPS_OK && curve->count == 0)
         status = cpsi_fail(s->err, CPS_ERR_ARGUMENT, "cannot draw the set of forces: it is empty");
+    if (status == CPS_OK) fit_frame(s, curve);
+    return status;
+}
+
+/* `whole` is the section; it and the shadow cut off, where they have no bounds, beyond the frame */
+static CpsStatus put_all(Sheet *s, const CpsSet *whole, const CpsSet *section, const CpsSet *shadow, Curve *curve) {
+    CpsStatus status = trace(shadow, curve, s->err);
     if (status != CPS_OK) return status;
-    fit_frame(s, curve);
     const int asked = s->picture->velocity_count;
     const double list = TOP + 51.0 * (asked < MOST_LISTED ? asked : MOST_LISTED + 1);
     const char *title = s->picture->title && *s->picture->title ? s->picture->title : "friction law";
     cpsi_svg_begin(s->out, LEFT + SIDE + (asked ? LIST : 40), fmax(TOP + s->frame.height + 76, list), title,
-                   s->in_space ? "section through 0, and shadow, of the set of forces" : "set of forces");
+                   s->in_space      ? "section through 0, and shadow, of the set of forces"
+                   : s->limit > 0   ? "set of forces, which goes on beyond the frame"
+                                    : "set of forces");
     put_axes(s);
     if (s->in_space) {
         put_curve(s, curve, "fill=\"#f6f8fc\" stroke=\"#2b5fa8\" stroke-width=\"1\" stroke-dasharray=\"5 4\"");
@@ -382,7 +455,7 @@ static CpsStatus put_all(Sheet *s, const CpsSet *section, const CpsSet *shadow, 
     /* the plane through 0 may miss a set that a load has moved: its shadow is left */
     const bool some = curve->count > 0;
     if (status == CPS_OK && some) put_curve(s, curve, "fill=\"#dfe9f6\" stroke=\"#2b5fa8\" stroke-width=\"1.8\"");
-    if (status == CPS_OK && some) status = put_corners(s, section);
+    if (status == CPS_OK && some) status = put_corners(s, section, whole);
     for (int i = 0; i < s->picture->force_count && status == CPS_OK; i++) status = put_force(s, i);
     cpsi_frame_end(s->out);
     for (int i = 0; i < s->picture->velocity_count && status == CPS_OK; i++) status = put_velocity(s, i);
@@ -392,12 +465,18 @@ static CpsStatus put_all(Sheet *s, const CpsSet *section, const CpsSet *shadow, 
 }
 
 static CpsStatus draw(Sheet *s) {
-    CpsSet *section = NULL, *shadow = NULL;
+    CpsSet *whole = NULL, *section = NULL, *shadow = NULL;
     Curve *curve = malloc(sizeof *curve);
     if (!curve) return out_of_memory(s->err);
-    CpsStatus status = plane_set(s, s->set, true, &section);
+    CpsStatus status = plane_set(s, s->set, true, &whole);
+    if (status == CPS_OK) section = cps_set_retain(whole);
     if (status == CPS_OK) status = plane_set(s, s->set, false, &shadow);
-    if (status == CPS_OK) status = put_all(s, section, shadow, curve);
+    if (status == CPS_OK) status = choose_limit(s, shadow);
+    if (status == CPS_OK) status = frame_shadow(s, shadow, curve);
+    if (status == CPS_OK) status = cut_off(s, BEYOND, &section);
+    if (status == CPS_OK) status = cut_off(s, BEYOND, &shadow);
+    if (status == CPS_OK) status = put_all(s, whole, section, shadow, curve);
+    cps_set_release(whole);
     cps_set_release(section);
     cps_set_release(shadow);
     free(curve);
@@ -409,6 +488,7 @@ CpsStatus cps_law_draw(const CpsSet *set, const CpsLawPicture *picture, FILE *ou
     if ((picture->velocity_count > 0 && !picture->velocity) || (picture->force_count > 0 && !picture->force))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "velocities or forces are counted, and NULL");
     const int n = cps_set_space(set), *axis = picture->axis;
+    if (n == 1) return cpsi_law_graph(set, NULL, picture, out, err);
     if (axis[0] < 0 || axis[1] < 0 || axis[0] >= n || axis[1] >= n || axis[0] == axis[1])
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "axes %d and %d are not two different components from 0 to %d", axis[0],
                          axis[1], n - 1);
