@@ -13,6 +13,7 @@
 
 #include "capstan/io.h"
 #include "cautions.h"
+#include "classic_options.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
@@ -311,6 +312,8 @@ static bool is_sound(const CliOptions *options, bool *regularized) {
     *regularized = options->method && strcmp(options->method, "regularized") == 0;
     if (options->method && !*regularized && strcmp(options->method, "exact") != 0)
         cli_printf(stderr, "capstan run: --method: found '%.40s', expected exact or regularized\n", options->method);
+    else if (!*regularized && classic_options_given(options))
+        fputs("capstan run: --lambda, --n and --delta are those of --method regularized\n", stderr);
     else if (*regularized && (options->resume || options->tol || options->no_paraview || options->fields || options->sync))
         fputs("capstan run: --method regularized: takes the steps as given, without --tol and --resume, and writes no fields\n",
               stderr);

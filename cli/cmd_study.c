@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "capstan/classic_io.h"
+#include "classic_options.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
@@ -198,9 +199,12 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
     CpsStudy *study = NULL;
     CpsFirstOrder *first_order[2] = {NULL, NULL};
     Teller teller = {.converged = true};
+    ClassicOptions given;
+    if (!classic_options_read(options, "study", &given)) return EXIT_USAGE;
     CpsStatus status = cps_classic_create(view, &classic, &err);
     if (status == CPS_OK) {
-        const CpsStudyOptions how = cps_study_options(classic);
+        const CpsClassicParameters to = classic_options_apply(&given, classic);
+        const CpsStudyOptions how = cps_study_options_to(classic, &to);
         teller.step = cps_classic_step(classic);
         teller.progress = progress_begin(1, options->quiet);
         status = cps_study_run(classic, &how, on_row, &teller, &study, &err);
@@ -279,6 +283,10 @@ static bool is_sound(const CliOptions *options) {
         fputs("capstan study: found two of --history, --judge and --complete, expected one at most\n", stderr);
         return false;
     }
+    if (classic_options_given(options) && (options->judge || options->complete || (options->history && options->h))) {
+        fputs("capstan study: --lambda, --n and --delta are those of the method of 1990, in a step or with --history; --h is that of a step\n", stderr);
+        return false;
+    }
     if (!(study_find_tolerance(options->tolerance) > 0)) return false;
     return !options->complete || study_find_completion(options->complete) != CPS_COMPLETIONS;
 }
@@ -293,7 +301,7 @@ int cmd_study(int argc, char **argv) {
     int code;
     char *directory = cli_destination(&options, "-study", &code);
     if (directory && options.history)
-        code = study_methods(cps_scene_file_scene(file), options.line, directory, options.quiet);
+        code = study_methods(cps_scene_file_scene(file), &options, directory);
     else if (directory)
         code = study(cps_scene_file_scene(file), directory, &options);
     free(directory);

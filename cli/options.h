@@ -33,6 +33,7 @@ typedef struct CliOptions {
     const char *complete; /* study: how slack is laid out, NULL: not asked for */
     const char *judge;   /* study: file of a configuration, NULL: none */
     const char *tolerance; /* study: of judgements, NULL: 1e-8 */
+    const char *delta, *lambda, *n, *h; /* study, run: of the method of 1990, NULL: its own */
     const char *step;    /* study: name or number of a step, NULL: the first */
     bool eliminate;      /* drive: the reduced law */
     const char *line;    /* study: name of a line, NULL: the first */

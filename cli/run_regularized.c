@@ -50,7 +50,8 @@ CpsStatus regularized_step(Regularized *method, const CpsLineView *exact, CpsCla
     cps_classic_destroy(method->last);
     method->last = next;
     if (status != CPS_OK) return status;
-    *parameters = cps_classic_fine(next);
+    *parameters = classic_options_apply(&method->given, next);
+    parameters->cells = 0;
     return cps_classic_solve(next, parameters, NEWTON_LIMIT, report, err);
 }
 
@@ -84,7 +85,7 @@ static void free_history(History *h) {
     cps_evolution_destroy(h->exact);
 }
 
-static bool make_history(History *h, double friction) {
+static bool make_history(History *h, double friction, const ClassicOptions *given) {
     const size_t steps = (size_t)h->steps;
     h->name = calloc(steps, sizeof *h->name);
     h->track = calloc((size_t)h->lines, sizeof *h->track);
@@ -92,6 +93,7 @@ static bool make_history(History *h, double friction) {
     for (int i = 0; i < h->lines && whole; ++i) {
         Track *t = &h->track[i];
         t->method.friction = friction;
+        t->method.given = *given;
         t->points = cps_evolution_line_view(h->exact, i).elements + 1;
         t->position = calloc(steps * (size_t)t->points, 3 * sizeof(double));
         t->tension = calloc(steps, 2 * sizeof(double));
@@ -236,13 +238,15 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
     CpsError err;
     const double begun = cli_now(), friction = regularized_friction(scene, "run");
     if (friction < 0) return EXIT_INPUT;
+    ClassicOptions given;
+    if (!classic_options_read(options, "run", &given)) return EXIT_USAGE;
     const CpsScene frozen = regularized_scene(scene);
     History h = {.scene = scene, .done = 1};
     if (cps_evolution_create(&frozen, &h.exact, &err) != CPS_OK) return cli_report(&err);
     h.steps = 1 + cps_evolution_step_count(h.exact);
     h.lines = cps_evolution_line_count(h.exact);
     int code = EXIT_LIMIT;
-    if (make_history(&h, friction)) {
+    if (make_history(&h, friction, &given)) {
         snprintf(h.name[0], STEP_NAME, "start");
         for (int i = 0; i < h.lines; ++i) {
             const CpsLineView view = cps_evolution_line_view(h.exact, i);

@@ -6,11 +6,13 @@
 
 #include "capstan/classic.h"
 #include "capstan/io.h"
+#include "classic_options.h"
 #include "options.h"
 
-/* One line's history so far. Begin with friction, mu of its obstacle, alone. */
+/* One line's history so far. Begin with friction, mu of its obstacle, and the parameters given. */
 typedef struct Regularized {
     double friction;
+    ClassicOptions given;
     CpsClassic *last; /* the last step, NULL before the first; the caller's to destroy */
 } Regularized;
 
@@ -24,7 +26,7 @@ CpsScene regularized_scene(const CpsScene *scene);
 void regularized_tell_friction(const CpsScene *scene);
 void regularized_tell_steps(const CpsScene *scene);
 
-/* The step that the exact history has just taken, at the parameters with which a study ends. */
+/* The step that the exact history has just taken, at the parameters with which a study ends or those given, on the step's own elements. */
 CpsStatus regularized_step(Regularized *method, const CpsLineView *exact, CpsClassicParameters *parameters,
                            CpsClassicReport *report, CpsError *err);
 

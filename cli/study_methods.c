@@ -20,6 +20,7 @@ typedef struct Histories {
     const CpsScene *scene;
     const char *line;  /* as asked for */
     double friction;   /* mu of the obstacle */
+    ClassicOptions given;
     int steps, points; /* the start is step 0 */
     double *position[METHODS];
     char (*name)[NAME_SIZE]; /* (steps) */
@@ -65,7 +66,7 @@ static int run_evolution(Histories *h, int method, int line) {
     }
     CpsError err;
     CpsEvolution *evolution = NULL;
-    Regularized own = {.friction = h->friction};
+    Regularized own = {.friction = h->friction, .given = h->given};
     if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
     int code = EXIT_OK;
     const CpsLineView start = cps_evolution_line_view(evolution, line);
@@ -133,18 +134,19 @@ static int run_all(Histories *h, const char *directory, bool quiet) {
     return h->converged ? EXIT_OK : EXIT_NOT_CERTIFIED;
 }
 
-int study_methods(const CpsScene *scene, const char *line, const char *directory, bool quiet) {
+int study_methods(const CpsScene *scene, const CliOptions *options, const char *directory) {
     CpsEvolution *evolution = NULL;
     CpsError err;
     const double friction = regularized_friction(scene, "study");
     if (friction < 0) return EXIT_INPUT;
     if (cps_evolution_create(scene, &evolution, &err) != CPS_OK) return cli_report(&err);
     Histories h = {.scene = scene,
-                   .line = line,
+                     .line = options->line,
                    .friction = friction,
                    .steps = 1 + cps_evolution_step_count(evolution),
                    .converged = true};
     cps_evolution_destroy(evolution);
+    if (!classic_options_read(options, "study", &h.given)) return EXIT_USAGE;
     const int index = find_line(&h);
     if (index < 0) return EXIT_USAGE;
     h.points = scene->line[index].elements + 1;
@@ -156,7 +158,7 @@ int study_methods(const CpsScene *scene, const char *line, const char *directory
     h.name = calloc((size_t)h.steps, sizeof *h.name);
     whole = whole && h.name;
     if (whole) snprintf(h.name[0], NAME_SIZE, "start");
-    const int code = whole ? run_all(&h, directory, quiet) : out_of_memory();
+    const int code = whole ? run_all(&h, directory, options->quiet) : out_of_memory();
     for (int m = 0; m < METHODS; ++m) free(h.position[m]);
     free(h.name);
     return code;

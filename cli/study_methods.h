@@ -4,9 +4,9 @@
 #define CAPSTAN_CLI_STUDY_METHODS_H
 
 #include "capstan/io.h"
+#include "options.h"
 
-/* Run the scene three times, print where end B of the line goes, write methods.csv and methods.svg; returns the exit
- * code. line  name of the line, NULL: the first */
-int study_methods(const CpsScene *scene, const char *line, const char *directory, bool quiet);
+/* Run the scene three times, print where end B of the line goes, write methods.csv and methods.svg; returns the exit code. */
+int study_methods(const CpsScene *scene, const CliOptions *options, const char *directory);
 
 #endif

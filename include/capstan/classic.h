@@ -25,7 +25,7 @@ extern "C" {
 typedef struct CpsClassicParameters {
     int cells;        /* N of (47)-(48), h = length/N; 0: the step's own elements, each with one slope x' */
     double penalty;   /* [N/m2] lambda > 0: energy (lambda/2) (penetration)^2 per length */
-    double stiffness; /* [N m2] 1/n > 0 */
+    double stiffness; /* [N m2] 1/n >= 0; 0: P5.1, with the relaxed tension and the penalty, and no condition on x'(0) */
     double delta;     /* [m] > 0: friction energy A sqrt(delta^2 + |u_T|^2) per length */
 } CpsClassicParameters;
 
@@ -93,7 +93,7 @@ CPS_API CpsClassicParameters cps_classic_coarse(const CpsClassic *classic);
 /* Minimise by damped Newton steps, from the last solution on the same cells if there is one, else from the reference by
  * way of larger delta and stiffness and a smaller penalty.
  *
- *   parameters      all > 0, cells 0 or 2..1000000
+ *   parameters      lambda and delta > 0, 1/n >= 0, cells 0 or 2..1000000
  *   max_iterations  Newton steps in all, >= 1
  *
  * Returns CPS_OK also when not converged (the report says so), CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. */
@@ -152,7 +152,14 @@ typedef struct CpsStudyOptions {
 
 typedef struct CpsStudy CpsStudy;
 
+/* From coarse parameters down to cps_classic_fine. */
 CPS_API CpsStudyOptions cps_study_options(const CpsClassic *classic);
+
+/* Down to parameters of one's own, by factors of 10 at most.
+ *
+ *   to   as for cps_classic_solve. cells: with which stage h ends, or a few more; 0: four times the step's elements. A stiffness of 0 is
+ *        that of the whole study */
+CPS_API CpsStudyOptions cps_study_options_to(const CpsClassic *classic, const CpsClassicParameters *to);
 
 /* Called after each solve; false ends the study there. */
 typedef bool CpsStudyProgress(void *user, const CpsStudyRow *row, int done, int of);

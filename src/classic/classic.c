@@ -63,10 +63,17 @@ CpsClassicParameters cps_classic_coarse(const CpsClassic *classic) {
                                   .delta = 0.03*step->length};
 }
 
+/* A corner of the line, as at the clamped end, is bent within an element of length w by a force of (1/n)/w^2: with more than 800 elements 1/n has
+ * to shrink as w^2, or what it leaves grows with the mesh. */
 CpsClassicParameters cps_classic_fine(const CpsClassic *classic) {
+    const CpsiStep *step = &classic->step;
     CpsClassicParameters fine = cps_classic_coarse(classic);
+    double shortest = step->length;
+    for (int i = 0; i < step->own.cells; ++i) shortest = fmin(shortest, step->own.width[i]);
+    const double finer = 800*shortest/step->length;
     fine.cells = 0;
     fine.penalty *= 1e6, fine.stiffness *= 1e-9, fine.delta *= 1e-7;
+    if (finer < 1 - 1e-9) fine.stiffness *= finer*finer; /* 800 equal elements are not finer by rounding */
     return fine;
 }
 
@@ -105,12 +112,18 @@ static CpsStatus prepare(CpsClassic *c, int cells, CpsError *err) {
 
 static double between(double from, double to, double t) { return from*pow(to/from, t); }
 
+/* 1/n on the way: without stiffness at its end, P5.1, down to a thousandth of the fine one; without one at its beginning there is none. */
+static double stiffness_between(const CpsClassic *c, double from, double to, double t) {
+    if (!(from > 0)) return to;
+    return between(from, to > 0 ? to : 1e-3*fmin(from, cps_classic_fine(c).stiffness), t);
+}
+
 /* Minimise at parameters on the way, then at those asked for: a smaller smoothing or stiffness begins where the larger
  * one ended. */
 static void follow(CpsClassic *c, CpsClassicParameters from, const CpsClassicParameters *to, int max_iterations,
                    CpsClassicReport *report) {
-    const double farthest =
-        fmax(fmax(from.delta/to->delta, from.stiffness/to->stiffness), to->penalty/from.penalty);
+    const double bent = from.stiffness > 0 ? from.stiffness/stiffness_between(c, from.stiffness, to->stiffness, 1) : 1;
+    const double farthest = fmax(fmax(from.delta/to->delta, bent), to->penalty/from.penalty);
     const int steps = farthest > CONTINUATION_FACTOR ? (int)ceil(log(farthest)/log(CONTINUATION_FACTOR)) : 1;
     CpsiSmooth smooth = cpsi_regularized_smooth(&c->f);
     CpsiNewton newton = {0};
@@ -119,7 +132,7 @@ static void follow(CpsClassic *c, CpsClassicParameters from, const CpsClassicPar
         c->f.parameters = *to;
         if (k < steps) {
             c->f.parameters.delta = between(from.delta, to->delta, t);
-            c->f.parameters.stiffness = between(from.stiffness, to->stiffness, t);
+            c->f.parameters.stiffness = stiffness_between(c, from.stiffness, to->stiffness, t);
             c->f.parameters.penalty = between(from.penalty, to->penalty, t);
         }
         newton.tolerance = cpsi_regularized_limit(&c->f);
@@ -140,7 +153,9 @@ static CpsStatus check(const CpsClassicParameters *p, int max_iterations, CpsErr
     const struct {
         const char *name;
         double value;
-    } given[] = {{"penalty", p->penalty}, {"stiffness", p->stiffness}, {"delta", p->delta}};
+    } given[] = {{"penalty", p->penalty}, {"delta", p->delta}};
+    if (!(p->stiffness >= 0 && isfinite(p->stiffness)))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stiffness: found %g, expected a finite number >= 0", p->stiffness);
     for (size_t i = 0; i < sizeof given/sizeof *given; ++i)
         if (!(given[i].value > 0 && isfinite(given[i].value)))
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: found %g, expected a finite number > 0", given[i].name,

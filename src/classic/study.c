@@ -43,18 +43,44 @@ const char *cps_study_stage_key(CpsStudyStage stage) {
     return stage >= 0 && stage < CPS_STUDY_STAGES ? KEY[stage] : "unknown";
 }
 
+/* So many divisions by *factor, 10 at most, make `ratio`; 0 where that is 1 or less. */
+static int divisions(double ratio, double *factor) {
+    const double decades = log10(ratio);
+    const int count = (int)ceil(decades - 1e-9);
+    *factor = 10;
+    if (!(decades > 1e-9)) return 0;
+    if (fabs(decades - count) > 1e-9) *factor = pow(ratio, 1.0/count);
+    return count;
+}
+
+CpsStudyOptions cps_study_options_to(const CpsClassic *classic, const CpsClassicParameters *to) {
+    if (!classic || !to) return (CpsStudyOptions){0};
+    CpsStudyOptions options = {.from = cps_classic_coarse(classic), .factor = {2, 10, 10, 10}, .max_iterations = NEWTON_LIMIT};
+    CpsClassicParameters *from = &options.from;
+    const int last = to->cells > 0 ? to->cells : 4*cps_classic_step(classic).elements;
+    int cells = from->cells;
+    for (options.values[CPS_STUDY_H] = 1; cells < last && options.values[CPS_STUDY_H] < MAX_HALVINGS; cells *= 2)
+        ++options.values[CPS_STUDY_H];
+    if (to->cells > 0) { /* the first of them so that the last is the one asked for, or a few more */
+        const int halvings = 1 << (options.values[CPS_STUDY_H] - 1);
+        from->cells = (last + halvings - 1)/halvings;
+        if (from->cells < 2) from->cells = 2;
+    }
+    /* lambda begins with the first value, n and delta below it */
+    options.values[CPS_STUDY_LAMBDA] = 1 + divisions(to->penalty/from->penalty, &options.factor[CPS_STUDY_LAMBDA]);
+    options.values[CPS_STUDY_N] = to->stiffness > 0 ? divisions(from->stiffness/to->stiffness, &options.factor[CPS_STUDY_N]) : 1;
+    options.values[CPS_STUDY_DELTA] = divisions(from->delta/to->delta, &options.factor[CPS_STUDY_DELTA]);
+    if (options.values[CPS_STUDY_LAMBDA] == 1) from->penalty = to->penalty;
+    if (!(to->stiffness > 0)) from->stiffness = 0;
+    else if (options.values[CPS_STUDY_N] == 0) from->stiffness = 10*to->stiffness, options.values[CPS_STUDY_N] = 1;
+    if (options.values[CPS_STUDY_DELTA] == 0) from->delta = 10*to->delta, options.values[CPS_STUDY_DELTA] = 1;
+    return options;
+}
+
 CpsStudyOptions cps_study_options(const CpsClassic *classic) {
     if (!classic) return (CpsStudyOptions){0};
-    CpsStudyOptions options = {.from = cps_classic_coarse(classic),
-                               .values = {0, 7, 9, 7}, /* down to cps_classic_fine */
-                               .factor = {2, 10, 10, 10},
-                               .max_iterations = NEWTON_LIMIT};
-    const int elements = cps_classic_step(classic).elements;
-    int cells = options.from.cells;
-    for (options.values[CPS_STUDY_H] = 1; cells < 4*elements && options.values[CPS_STUDY_H] < MAX_HALVINGS;
-         cells *= 2)
-        ++options.values[CPS_STUDY_H];
-    return options;
+    const CpsClassicParameters fine = cps_classic_fine(classic);
+    return cps_study_options_to(classic, &fine);
 }
 
 /* ---- rates ---- */

@@ -114,7 +114,14 @@ with tempfile.TemporaryDirectory() as folder:
         # beside a held end, which does not sink, the line hangs by its tension, T w/(lambda l) = 2e-6 N of a bound in the next step
         check(apart < (2e-5 if row["step"] == "let go" else 1e-6), f"zones, {row['step']}: tensions at A {apart} N apart")
 
+    # parameters of one's own in every step: the bed sinks by w/lambda
+    done = run(folder, EXAMPLE, "--method", "regularized", "--lambda", "1e5", "--delta=1e-4", "--n", "inf", "-o", "own")
+    check(done.returncode == 0, f"own parameters: {done.stderr}")
+    for row in table(os.path.join(folder, "own", "history.csv")):
+        check(float(row["lambda"]) == 1e5 and float(row["delta"]) == 1e-4 and float(row["1/n"]) == 0, f"own parameters: {row}")
+        check(abs(float(row["penetration"]) / (9.81 / 1e5) - 1) < 0.05, f"own lambda: sunk by {row['penetration']}")
     # what is wrong
+    check(run(folder, EXAMPLE, "--delta", "1e-3").returncode == 2, "--delta of the exact method")
     for arguments, code, words in (
             ([EXAMPLE, "--method", "newton"], 2, ["newton", "regularized"]),
             ([EXAMPLE, "--method", "regularized", "--resume"], 2, ["--resume"]),

@@ -159,6 +159,41 @@ with tempfile.TemporaryDirectory() as folder:
     done = study(folder, ANNEX_5, "-q", "-o", "annex")
     check(done.returncode == 0 and not done.stdout and not done.stderr, "quiet: is not")
 
+    # the end of the study does not depend on the mesh: what the clamped corner's bending leaves, (1/n)/w^2, stays where it is at 800 elements
+    # (2.5e-5 N of 0.87 N), where a 1/n that the mesh does not change leaves 2.6e-3 N at 6400
+    text = open(EXAMPLE, encoding="utf-8").read()
+    with open(os.path.join(folder, "fine.yaml"), "w", encoding="utf-8") as file:
+        file.write(text.replace("elements: 800 ", "elements: 6400 "))
+    done = study(folder, "fine.yaml", "--step", "Y2", "-q", "-o", "fine")
+    last = table(os.path.join(folder, "fine", "study.csv"))[-1]
+    check(done.returncode == 0 and float(last["friction_excess"]) < 1e-4 and float(last["tension_rms_error"]) < 1e-5,
+          f"6400 elements: uncarried {last['friction_excess']} N, tensions {last['tension_rms_error']} N off")
+
+    # delta, n, lambda and h of one's own: the study ends there, in decades at most; n = inf is P5.1, without any bending
+    for given, ends in (({"delta": 1e-3}, {"delta": 1e-3}), ({"lambda": 3e4, "n": 2e6}, {"lambda": 3e4, "1/n": 5e-7}),
+                        ({"n": "inf", "delta": 1e-5, "h": 0.02}, {"1/n": 0.0, "delta": 1e-5})):
+        done = study(folder, EXAMPLE, "--step", "Y2", *(f"--{k}={v}" for k, v in given.items()), "-o", "own")
+        rows = table(os.path.join(folder, "own", "study.csv"))
+        check(done.returncode == 0, f"{given}: {done.returncode} {done.stderr}")
+        for column, value in ends.items():
+            check(abs(float(rows[-1][column]) - value) <= 1e-9 * value, f"{given}: {column} ends at {rows[-1][column]}")
+            steps = [float(r[column]) for r in rows if value > 0]
+            check(all(0.0999 < b / a < 10.001 for a, b in zip(steps, steps[1:])), f"{given}: {column} goes by {steps}")
+        if "h" in given:
+            finest = [float(r["h"]) for r in rows if r["stage"] == "h"][-1]
+            check(0.018 < finest <= 0.02, f"stage h ends at {finest}")
+            check(all(float(r["bending"]) == 0 and float(r["1/n"]) == 0 for r in rows), "P5.1 bends")
+            # what is left is the smoothing, delta A on the part that sticks, and the penalty's w/lambda: the energy tells it to first order
+            check(abs(float(rows[-1]["energy_error"])) < 1e-4, f"P5.1: {rows[-1]['energy_error']} J off")
+    done = study(folder, EXAMPLE, "--history", "--delta", "1e-3", "-o", "own-history")
+    check(done.returncode == 0, f"--history --delta: {done.returncode} {done.stderr}")
+    coarse = [float(r["farthest_from_first"]) for r in table(os.path.join(folder, "own-history", "methods.csv")) if r["method"] == "frozen friction"]
+    check(max(coarse) > 1e-3, f"--history --delta: {max(coarse)} m from the frozen one, as without")
+    for arguments, words in ((["--delta", "0"], "above 0"), (["--delta", "x"], "above 0"), (["--n", "-1"], "or inf"), (["--lambda", "inf"], "above 0"),
+                             (["--h", "0.1", "--history"], "--h is that of a step"), (["--delta", "1", "--complete", "meander"], "of the method of 1990")):
+        done = study(folder, EXAMPLE, *arguments, "-o", "own-bad")
+        check(done.returncode == 2 and words in done.stderr, f"{arguments}: {done.returncode} {done.stderr}")
+
     # names that repeat, load steps, and numbers: each of six steps is found, by the force that was on the end there
     text = open(ANNEX_5, encoding="utf-8").read()
     repeated = text[:text.index("history:")] + "history:\n" + "".join(
