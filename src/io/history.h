@@ -27,6 +27,9 @@ typedef struct CpsiRow {
     CpsiLineRow *line;
 } CpsiRow;
 
+/* Beside CpsNodeState: touches nothing, and has friction all the same. */
+enum { CPSI_SHAPE_IN_AIR = 3 };
+
 /* A line at one step, thinned to a number of points that a picture can show. */
 typedef struct CpsiShape {
     int points;
@@ -34,7 +37,7 @@ typedef struct CpsiShape {
     double *position;     /* (points, 3) [m] */
     double *reference;    /* (points, 3) [m] where the step started */
     double *tension;      /* (points - 1) [N] mean over the elements between two points */
-    unsigned char *state; /* (points) CpsNodeState */
+    unsigned char *state; /* (points) CpsNodeState, or CPSI_SHAPE_IN_AIR */
 } CpsiShape;
 
 typedef struct CpsiSnapshot {

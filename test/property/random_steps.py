@@ -4,7 +4,7 @@ energies (cable_minimum.py), which has no code in common with the library.    us
 
 A line starts straight on a plane, level or not, and one to three steps pull its end B aside, lift it, or hold it nearer or farther. The
 reference and the bounds A_R of the first step are known from its weight, (78); those of the next are the ones that the minimisation has
-found. All numbers are scaled at random; the comparison is in units of the line's length and weight.
+found. One scene in six starts from nodes instead: any x_R, slack, bent, stretched or partly in the air, with any R_R or A_R. All numbers are scaled at random; the comparison is in units of the line's length and weight.
 """
 import argparse
 import csv
@@ -21,6 +21,7 @@ from cable_minimum import Step, dot, least_energy, minimise, norm, sub  # noqa: 
 
 VERBS = ("study", "judge", "complete", "history")
 FEATURES = ("zones", "graded", "lifted", "slope", "inextensible", "ellipse", "strict", "smooth", "default_friction", "held")
+NODES = 10000  # scenes from this number on start from nodes
 
 
 class Wrong(Exception):
@@ -35,8 +36,8 @@ def need(condition, text):
 class Scene:
     """A scene in units of length L and weight w L, and its text in metres and newtons."""
 
-    def __init__(self, draw, verb):
-        self.verb, self.draw = verb, draw
+    def __init__(self, draw, verb, nodes=False):
+        self.verb, self.draw, self.nodes = verb, draw, None
         take = lambda p: draw.random() < p
         solutions = verb in ("judge", "complete")
         self.features = {f for f, p in zip(FEATURES, (0.4, 0.4, 0.45, 0.3, 0.3 if solutions else 0.05, 0.1, 0.25 if verb != "history" else 0.0,
@@ -64,9 +65,39 @@ class Scene:
         n, a = self.normal, self.along
         self.across = (n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0])
         self.origin = tuple(draw.uniform(-1, 1) for _ in range(3))
+        if nodes:
+            self.features |= {"nodes"}
+            self.draw_nodes()
         # units
         self.length, self.weight = 10 ** draw.uniform(-1, 2), 10 ** draw.uniform(-1, 2)
         self.steps = [self.draw_step(k) for k in range(draw.randint(2, 3) if verb == "history" else 1 + (draw.random() < 0.3 and not has("smooth")))]
+
+    def draw_nodes(self):
+        """x_R and the push on each node: a line that bends in the plane, its elements at their length, shorter or stretched, perhaps up in the
+        air at the end."""
+        u, take = self.draw.uniform, lambda p: self.draw.random() < p
+        angle, x = u(-0.5, 0.5), [(0.0, 0.0, 0.0)]
+        up = self.draw.randint(1, 3) if "lifted" in self.features and take(0.5) else 0
+        for e, l in enumerate(self.lengths):
+            angle += u(-0.6, 0.6)
+            size = l * (1.0 if take(0.4) else u(0.6, 1.0) if take(0.5) or "inextensible" in self.features else 1 + u(0, 0.5) / self.stiffness)
+            rise = size * u(0.1, 0.6) if e >= self.count - up else 0.0
+            flat = math.sqrt(size * size - rise * rise)
+            x.append((x[-1][0] + flat * math.cos(angle), x[-1][1] + flat * math.sin(angle), x[-1][2] + rise))
+        self.nodes = [self.place(*p) for p in x]
+        self.push = [0.0 if p[2] > 0 or take(0.2) else self.normal[2] * self.share(j) * u(0, 2) for j, p in enumerate(x)]
+        self.gives_bound, self.gives_arc = self.mu > 0 and "ellipse" not in self.features and take(0.5), take(0.3)
+
+    def table(self):
+        """The nodes as the file that the scene names. A tension of the reference is of no account beside R_R or A_R."""
+        L, force = self.length, self.length * self.weight
+        rows = []
+        for j, p in enumerate(self.nodes):
+            row = [repr(self.arc[j] * L)] if self.gives_arc else []
+            row += [repr(c * L) for c in p] + ["" if j == 0 else repr(self.draw.uniform(0, 3) * force)]
+            rows.append(row + [repr((self.mu * self.factor(j) if self.gives_bound else 1.0) * self.push[j] * force)])
+        names = (["arc_length"] if self.gives_arc else []) + ["x", "y", "z", "tension", "friction_bound" if self.gives_bound else "reaction"]
+        return "\n".join(",".join(row) for row in [names, *rows]) + "\n"
 
     def draw_zones(self):
         cuts = sorted(self.draw.uniform(0, 1) for _ in range(4))
@@ -110,7 +141,7 @@ class Scene:
     def text(self):
         L, w = self.length, self.weight
         vector = lambda v, unit: "[" + ", ".join(repr(c * unit) for c in v) + "]"
-        end = self.place(1, 0, 0)
+        end = self.nodes[-1] if self.nodes else self.place(1, 0, 0)
         rub = f"friction: {{axial: {self.mu!r}, lateral: {self.mu / 2!r}}}" if "ellipse" in self.features else f"friction: {self.mu!r}"
         lines = ["capstan: 1"]
         if "default_friction" not in self.features or self.verb in ("judge", "complete"):
@@ -122,12 +153,14 @@ class Scene:
         if self.verb in ("judge", "complete"):
             lines = [l for l in lines if not l.startswith("solver")]
         lines += [f"obstacles: {{bed: {{plane: {{point: {vector(self.origin, L)}, normal: {vector(self.normal, 1)}}}, {rub}}}}}",
-                  "lines:", "  rope:", f"    length: {L!r}", f"    elements: [{', '.join(repr(l * L) for l in self.lengths)}]",
+                  "lines:", "  rope:", f"    length: {L!r}",
+                  "" if self.nodes and self.gives_arc else f"    elements: [{', '.join(repr(l * L) for l in self.lengths)}]",
                   f"    weight: {w!r}", f"    stiffness: {'.inf' if 'inextensible' in self.features else repr(self.stiffness * w * L)}"]
         if self.zones:
             lines.append("    friction_zones: [" + ", ".join(f"{{from: {a * L!r}, to: {b * L!r}, factor: {f!r}}}" for a, b, f in self.zones) + "]")
         first = f"fixed: {vector(end, L)}" if self.steps[0][0] == "place" else "force: [0, 0, 0]"
-        lines += [f"    start: {{straight: {{from: {vector(self.origin, L)}, to: {vector(end, L)}}}}}",
+        shape = "nodes: nodes.csv" if self.nodes else f"straight: {{from: {vector(self.origin, L)}, to: {vector(end, L)}}}"
+        lines += [f"    start: {{{shape}}}",
                   f"    ends: {{A: {{fixed: {vector(self.origin, L)}}}, B: {{{first}}}}}", "history:"]
         for k, (kind, value) in enumerate(self.steps):
             lines.append(f"  - {{name: s{k}, rope.B: {{{'position' if kind == 'place' else 'force'}: {vector(value, L if kind == 'place' else w * L)}}}}}")
@@ -137,6 +170,8 @@ class Scene:
 
     def first(self):
         """x_R, the push on each node and its height, at the start."""
+        if self.nodes:
+            return self.nodes, self.push, self.heights(self.nodes)
         x = [tuple(o + a * s for o, a in zip(self.origin, self.along)) for s in self.arc]
         push = [self.normal[2] * self.share(j) for j in range(self.count + 1)]
         return x, push, [0.0] * (self.count + 1)
@@ -466,8 +501,11 @@ CHECK = {"study": check_study, "judge": check_judge, "complete": check_complete,
 
 def run_scene(capstan, seed, number):
     verb = VERBS[number % len(VERBS)]
-    scene = Scene(random.Random(seed * 1000003 + number), verb)
+    scene = Scene(random.Random(seed * 1000003 + number), verb, number >= NODES)
     with tempfile.TemporaryDirectory() as folder:
+        if scene.nodes:
+            with open(os.path.join(folder, "nodes.csv"), "w", encoding="utf-8") as file:
+                file.write(scene.table())
         with open(os.path.join(folder, "scene.yaml"), "w", encoding="utf-8") as file:
             file.write(scene.text())
         text = open(os.path.join(folder, "scene.yaml"), encoding="utf-8").read()
@@ -491,11 +529,11 @@ def run_scene(capstan, seed, number):
 def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("capstan")
-    arguments.add_argument("--scenes", type=int, default=600)
+    arguments.add_argument("--scenes", type=int, default=720)
     arguments.add_argument("--seed", type=int, default=1990)
     arguments.add_argument("--only", type=int)
     given = arguments.parse_args()
-    numbers = [given.only] if given.only is not None else range(given.scenes)
+    numbers = [given.only] if given.only is not None else [*range(given.scenes * 5 // 6), *range(NODES, NODES + given.scenes - given.scenes * 5 // 6)]
     faults, counted = [], {}
     for number in numbers:
         scene, fault = run_scene(os.path.abspath(given.capstan), given.seed, number)

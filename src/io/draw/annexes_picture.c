@@ -82,12 +82,56 @@ static void draw_pair(const CpsStudyFiles *files, int panel, Along *linear, Alon
     cpsi_frame_end(out);
 }
 
+/* Where a place is along the way from end A to end B of the reference: a line that turns over itself comes back there. */
+static double along_reference(const CpsClassicStep *step, Vec3 x) {
+    const Vec3 from = vec3_load(step->reference), way = vec3_sub(vec3_load(step->reference + 3 * (size_t)step->elements), from);
+    const double length = vec3_norm(way);
+    return length > 0 ? vec3_dot(vec3_sub(x, from), way) / length : 0;
+}
+
+/* x of P2.1, or x_R + u of P10.1, or x_R */
+typedef enum Configuration { EXACT, LINEAR, REFERENCE } Configuration;
+
+static double node_along(const CpsStudyFiles *files, Configuration of, int j) {
+    const CpsClassicStep step = cps_classic_step(files->classic);
+    const size_t k = 3 * (size_t)j;
+    Vec3 x = vec3_load((of == EXACT ? step.position : step.reference) + k);
+    if (of == LINEAR) x = vec3_add(x, vec3_load(cps_first_order_view(files->first_order).displacement + k));
+    return along_reference(&step, x);
+}
+
+static void draw_places(const CpsStudyFiles *files, int panel, bool linear, FILE *out) {
+    static const char REFERENCE_STYLE[] = "stroke=\"#bbb\" stroke-width=\"5\"";
+    const CpsClassicStep step = cps_classic_step(files->classic);
+    const Configuration shown[] = {REFERENCE, EXACT, LINEAR};
+    const char *const style[] = {REFERENCE_STYLE, STEP_STYLE, FIRST_ORDER_STYLE};
+    const int count = linear ? 3 : 2;
+    double range[2] = {0, 0};
+    for (int c = 0; c < count; ++c)
+        for (int j = 0; j <= step.elements; ++j) cpsi_range_include(range, node_along(files, shown[c], j));
+    CpsiFrame frame = {.left = LEFT, .top = TOP + PITCH * panel, .width = WIDTH, .height = HEIGHT, .x = {0, step.length}, .y = {range[0], range[1]}};
+    cpsi_range_pad(frame.y, 0.08);
+    cpsi_frame_axes(out, &frame, "natural length from A to B (m)", "place along the reference, A to B (m)");
+    cpsi_frame_begin(out, &frame, panel);
+    for (int c = 0; c < count; ++c) {
+        fprintf(out, "<polyline fill=\"none\" %s points=\"", style[c]);
+        for (int j = 0; j <= step.elements; ++j)
+            fprintf(out, "%.1f,%.1f ", cpsi_frame_x(&frame, step.arc_length[j]), cpsi_frame_y(&frame, node_along(files, shown[c], j)));
+        fputs("\"/>\n", out);
+    }
+    cpsi_frame_end(out);
+    double x = LEFT;
+    char mark[128];
+    snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" y1=\"0\" y2=\"0\" %s/>", REFERENCE_STYLE);
+    cpsi_legend(out, &x, frame.top - 12, mark, "reference x_R; where a curve falls the line has turned over");
+}
+
 void cpsi_picture_first_order(const CpsStudyFiles *files, FILE *out) {
     const CpsFirstOrderReport report = cps_first_order_report(files->first_order);
     const bool drawn = report.verdict == CPS_FIRST_ORDER_SOLVED || report.verdict == CPS_FIRST_ORDER_SHORTENS;
     char note[200];
     snprintf(note, sizeof note, "P10.1: %s", cps_first_order_sentence(report.verdict));
-    cpsi_svg_begin(out, SHEET_WIDTH, TOP + PITCH * (drawn ? 2 : 1) - 10, files->title, note);
+    cpsi_svg_begin(out, SHEET_WIDTH, TOP + PITCH * (drawn ? 3 : 2) - 10, files->title, note);
     if (drawn) {
         draw_pair(files, 0, linear_strain, step_strain, "", out);
         draw_pair(files, 1, linear_tension, step_tension, "N", out);
@@ -95,6 +139,7 @@ void cpsi_picture_first_order(const CpsStudyFiles *files, FILE *out) {
         /* displacements that run away are no curve to show */
         draw_pair(files, 0, step_tension, step_tension, "N", out);
     }
+    draw_places(files, drawn ? 2 : 1, drawn, out);
     double x = LEFT;
     char mark[128];
     snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" y1=\"0\" y2=\"0\" %s/>", STEP_STYLE);

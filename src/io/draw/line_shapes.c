@@ -12,7 +12,7 @@
 
 enum { MAX_FRAME_HEIGHT = 520, MIN_PLAN_HEIGHT = 220, LOW_HEIGHT = 210, COLOUR_LEVELS = 48, NAMED_LINES = 6 };
 
-static const char COLOUR_STICK[] = "#9ad9c8", COLOUR_SLIP[] = "#ffb59b", COLOUR_START[] = "#c4c4c4";
+static const char COLOUR_STICK[] = "#9ad9c8", COLOUR_SLIP[] = "#ffb59b", COLOUR_AIR[] = "#d3b8f0", COLOUR_START[] = "#c4c4c4";
 
 /* largest of 1, 2, 5, 10, ... that is not above x */
 static double round_down(double x) {
@@ -71,6 +71,16 @@ static void put_polyline(const Pen *pen, const double *position, int first, int 
     fputs("\"/>\n", pen->out);
 }
 
+static const char *band_colour(unsigned char state) {
+    return state == CPSI_SHAPE_IN_AIR ? COLOUR_AIR : state == CPS_NODE_SLIP ? COLOUR_SLIP : COLOUR_STICK;
+}
+
+static bool rubs_in_air(const CpsResults *results, const CpsiSnapshot *snapshot) {
+    for (int l = 0; l < results->line_count; ++l)
+        if (memchr(snapshot->shape[l].state, CPSI_SHAPE_IN_AIR, (size_t)snapshot->shape[l].points)) return true;
+    return false;
+}
+
 /* runs of equal state as pale bands */
 static void draw_states(const Pen *pen, const CpsiShape *shape) {
     for (int first = 0; first < shape->points;) {
@@ -80,7 +90,7 @@ static void draw_states(const Pen *pen, const CpsiShape *shape) {
         /* a band reaches half way to its neighbours; to the next point is near enough */
         const int to = last + 1 < shape->points ? last + 1 : last;
         if (state != CPS_NODE_FREE && to > first)
-            put_polyline(pen, shape->position, first, to, state == CPS_NODE_SLIP ? COLOUR_SLIP : COLOUR_STICK, 11, "");
+            put_polyline(pen, shape->position, first, to, band_colour(state), 11, "");
         first = last + 1;
     }
 }
@@ -130,7 +140,7 @@ static void draw_ends(const Pen *pen, const CpsResults *results, const CpsiSnaps
     }
 }
 
-static void draw_step_legend(const CpsResults *results, double y, FILE *out) {
+static void draw_step_legend(const CpsResults *results, bool air, double y, FILE *out) {
     char mark[160];
     double x = CPSI_FRAME_LEFT;
     snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"2\"/>", COLOUR_START);
@@ -140,6 +150,10 @@ static void draw_step_legend(const CpsResults *results, double y, FILE *out) {
         cpsi_legend(out, &x, y, mark, "sticks");
         snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_SLIP);
         cpsi_legend(out, &x, y, mark, "slips");
+        if (air) {
+            snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_AIR);
+            cpsi_legend(out, &x, y, mark, "friction in the air");
+        }
         snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"3.4\"/>",
                  cpsi_colour(CPSI_SCALE_TENSION, 0.5).hex);
         cpsi_legend(out, &x, y, mark, "off the obstacle");
@@ -195,7 +209,7 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view, const Cp
     const CpsiUnit unit = cpsi_unit("N", range[1]);
     snprintf(label, sizeof label, "tension (%s)", unit.name);
     cpsi_frame_bar(out, &frame, CPSI_SCALE_TENSION, range[0] * unit.factor, range[1] * unit.factor, label);
-    draw_step_legend(results, frame.top + frame.height + 68, out);
+    draw_step_legend(results, rubs_in_air(results, snapshot), frame.top + frame.height + 68, out);
     cpsi_svg_finish(out);
 }
 

@@ -17,7 +17,9 @@ enum {
     PLAN_HEIGHT = 300,
     SIDE_HEIGHT = 180,
     PITCH = 80,
-    CURVES = 60
+    CURVES = 60,
+    RINGED = 8,  /* steps that rings tell apart */
+    DOTTED = 120 /* nodes that are seen one by one */
 };
 
 /* what is drawn below each other */
@@ -83,6 +85,28 @@ static int first_inside(const CpsiMethods *m, const CpsiFrame *frame, int method
     return m->points - 1;
 }
 
+/* Steps that end in one place stay visible: each is drawn over the one before, and thinner. */
+static double width_of(const CpsiMethods *m, int step, bool near) {
+    if (m->steps < 2) return 1.6;
+    return 1.2 + (near ? 6 : 2.4) * (m->steps - 1 - step) / m->steps;
+}
+
+/* End B after a step, as a ring: rings of steps that end in one place lie in each other. */
+static void put_ring(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up, FILE *out) {
+    const double *x = place(m, method, step, m->points - 1);
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\"/>\n", cpsi_frame_x(frame, x[0]),
+            cpsi_frame_y(frame, x[up]), 3.0 + 2.6 * (m->steps - 1 - step), step_colour(m, step).hex);
+}
+
+/* The nodes of a short piece: as many elements as there are dots, however close. */
+static void put_dots(const CpsiMethods *m, const CpsiFrame *frame, int method, FILE *out) {
+    for (int p = 0; p < m->points && m->points <= DOTTED; ++p) {
+        const double *x = place(m, method, 0, p);
+        fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2\" fill=\"%s\"/>\n", cpsi_frame_x(frame, x[0]), cpsi_frame_y(frame, x[1]),
+                step_colour(m, 0).hex);
+    }
+}
+
 /* Some 150 points are enough for a whole line, and what is inside the frame for the rest; more only make files large.
  */
 static void put_curve(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up, bool near,
@@ -124,10 +148,12 @@ static void draw_frame(const Sheet *sheet, int method, int row, FILE *out) {
     for (int s = 0; s < m->steps; ++s) {
         if (!is_drawn(m, s)) continue;
         fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" points=\"", step_colour(m, s).hex,
-                m->steps > 1 ? 1.2 + 2.4 * (m->steps - 1 - s) / m->steps : 1.6);
+                width_of(m, s, is_near(row)));
         put_curve(m, &frame, method, s, up, is_near(row), out);
         fputs("\"/>\n", out);
     }
+    for (int s = 1; s < m->steps && is_near(row) && m->steps <= RINGED; ++s) put_ring(m, &frame, method, s, up, out);
+    if (m->plan_only) put_dots(m, &frame, method, out);
     cpsi_frame_end(out);
     if (!is_plan(row)) return;
     char name[96];

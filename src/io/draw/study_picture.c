@@ -163,17 +163,15 @@ static void draw_errors(const CpsStudyFiles *files, FILE *out) {
 void cpsi_picture_study(const CpsStudyFiles *files, FILE *out) {
     const int rows = cps_study_row_count(files->study);
     int iterations = 0, open = 0;
-    double wall = 0;
     for (int i = 0; i < rows; ++i) {
         const CpsStudyRow *row = cps_study_row(files->study, i);
         iterations += row->report.iterations;
         open += !row->report.converged;
-        wall += row->wall;
     }
     char note[160];
     snprintf(note, sizeof note,
-             "The method of section 5 on its way to P4.2  \xC2\xB7  %d solves, %d Newton steps, %.2g s%s", rows,
-             iterations, wall, open ? "  \xC2\xB7  \xC3\x97 did not converge" : "");
+             "The method of section 5 on its way to P4.2  \xC2\xB7  %d solves, %d Newton steps%s", rows,
+             iterations, open ? "  \xC2\xB7  \xC3\x97 did not converge" : "");
     cpsi_svg_begin(out, SHEET_WIDTH, SHEET_HEIGHT, files->title, note);
     draw_tensions(files, out);
     if (rows > 0) draw_errors(files, out);

@@ -35,11 +35,22 @@ static int point_count(const CpsResults *results, int elements) {
 /* node of the line that point i of the shape shows; the first and the last node are always among them */
 static size_t node_of(int i, int points, int elements) { return (size_t)((int64_t)i * elements / (points - 1)); }
 
+/* How the node rests; one that touches nothing and has friction all the same, frozen friction of the reference, is told apart. */
+static unsigned char shown_state(const CpsLineView *view, size_t j) {
+    const size_t n = (size_t)view->elements + 1;
+    const unsigned char state = cpsi_node_state(view, (int)j);
+    for (size_t c = j; state == CPS_NODE_FREE && c < (size_t)view->contacts * n; c += n) {
+        const double *f = view->friction + 3 * c;
+        if (f[0] != 0 || f[1] != 0 || f[2] != 0) return CPSI_SHAPE_IN_AIR;
+    }
+    return state;
+}
+
 static void sample(CpsiShape *shape, const CpsLineView *view) {
     for (int i = 0; i < shape->points; ++i) {
         const size_t j = node_of(i, shape->points, view->elements);
         shape->abscissa[i] = view->arc_length[j];
-        shape->state[i] = cpsi_node_state(view, (int)j);
+        shape->state[i] = shown_state(view, j);
         memcpy(shape->position + 3 * (size_t)i, view->position + 3 * j, 3 * sizeof(double));
         memcpy(shape->reference + 3 * (size_t)i, view->reference + 3 * j, 3 * sizeof(double));
         if (i == 0) continue;
