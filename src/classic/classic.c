@@ -66,6 +66,7 @@ CpsClassicParameters cps_classic_coarse(const CpsClassic *classic) {
 /* A corner of the line, as at the clamped end, is bent within an element of length w by a force of (1/n)/w^2: with more than 800 elements 1/n has
  * to shrink as w^2, or what it leaves grows with the mesh. */
 CpsClassicParameters cps_classic_fine(const CpsClassic *classic) {
+    if (!classic) return (CpsClassicParameters){0};
     const CpsiStep *step = &classic->step;
     CpsClassicParameters fine = cps_classic_coarse(classic);
     double shortest = step->length;

@@ -70,7 +70,10 @@ class Scene:
             self.draw_nodes()
         # units
         self.length, self.weight = 10 ** draw.uniform(-1, 2), 10 ** draw.uniform(-1, 2)
-        self.steps = [self.draw_step(k) for k in range(draw.randint(2, 3) if verb == "history" else 1 + (draw.random() < 0.3 and not has("smooth")))]
+        # of steps from a slack start that is nowhere held the places are not unique, and so the reference of the next: one step, but by the
+        # regularised method, whose places are
+        more = draw.random() < 0.3 and not has("smooth") and not nodes
+        self.steps = [self.draw_step(k) for k in range(draw.randint(2, 3) if verb == "history" else 1 + more)]
 
     def draw_nodes(self):
         """x_R and the push on each node: a line that bends in the plane, its elements at their length, shorter or stretched, perhaps up in the

@@ -500,6 +500,7 @@ static void studies(void **state) {
         GIVES(cps_study_stage_end(NULL, (CpsStudyStage)ABSENT[i]).cells == 0);
     }
     GIVES(cps_study_options(NULL).max_iterations == 0);
+    GIVES(cps_study_options_to(NULL, NULL).max_iterations == 0);
     REFUSED(cps_study_run(NULL, &options, NULL, NULL, &study, &err));
     RUNS(cps_study_destroy(NULL));
     GIVES(cps_study_row_count(NULL) == 0);
