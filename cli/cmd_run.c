@@ -135,6 +135,8 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
                         line.coulomb);
         } else if (line.outcome == CPS_MESH_TOO_COARSE)
             cautions_put_bend(&line.bend, scene->obstacle[line.bend.obstacle].name);
+        else if (line.outcome != CPS_TAUT && !(c->scale > 0 && c->largest_force > 0))
+            fprintf(stderr, " (gap %.2e J, without any force)", c->gap);
         else if (line.outcome != CPS_TAUT)
             fprintf(stderr, " (gap %.2e of the scale, force residual %.2e of the largest force)", c->gap / c->scale,
                     c->force_residual / c->largest_force);
