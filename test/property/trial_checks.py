@@ -276,8 +276,15 @@ def says_so(line, step):
         or line.one("ledger_imbalance", step) > FREED*exchanged(line, step)
 
 
+def reactions_part(one, other, step):
+    """do nodes press otherwise, though the places are the same?  The friction of the steps to come differs then."""
+    here, there = one.get("reaction", step)[:one.elements + 1], other.get("reaction", step)[:one.elements + 1]
+    return max(abs(a - b) for a, b in zip(here, reversed(there))) > SAME*max(map(abs, here))
+
+
 def parted(pair, tally):
-    """Two histories with exchanged ends, step by step up to where their places part: those that do and do not say why in that step."""
+    """Two histories with exchanged ends, step by step up to where their places part, or the reactions of a step that says why: those that do
+    part and do not say why in that step."""
     faults = []
     for name in pair[0]:
         one, other = (lines[name] for lines in pair)
@@ -290,9 +297,10 @@ def parted(pair, tally):
             here, there = one.get("position", step), other.get("position", step)
             apart = max(size(minus(point(here, j), point(there, one.elements - j))) for j in range(one.elements + 1))/one.length
             tally["compared"] += 1
-            if apart <= max(SAME, left):
+            told = says_so(one, step) or says_so(other, step)
+            if apart <= max(SAME, left) and not (told and reactions_part(one, other, step)):
                 continue
-            if says_so(one, step) or says_so(other, step):
+            if told:
                 tally["said"] += 1
             else:
                 faults.append(f"line {name}, step {step}: {apart:.1e} of the length apart with its ends exchanged, and nothing is said")
