@@ -301,8 +301,9 @@ static bool adjust(CpsScene *scene, const CliOptions *options) {
     if (!options->tol) return true;
     char *end = NULL;
     errno = 0;
-    scene->solver.path_tolerance = strtod(options->tol, &end);
-    if (end != options->tol && *end == '\0' && errno == 0) return true;
+    const double tolerance = scene->solver.path_tolerance = strtod(options->tol, &end);
+    const bool within = tolerance == 0 || (tolerance >= 1e-9 && tolerance <= 1);
+    if (end != options->tol && *end == '\0' && errno == 0 && within) return true;
     cli_printf(stderr, "capstan run: --tol '%s': expected a number, 0 or 1e-9 to 1\n", options->tol);
     return false;
 }

@@ -120,6 +120,7 @@ static int read_nodes(const CpsLineView *view, const char *path, FILE *file, dou
     int line = 0, node = 0, columns = 0, named = 0;
     while (fgets(text, sizeof text, file)) {
         if (++line == 1) named = named_columns(text);
+        if (!strchr(text, '\n') && !feof(file)) return bad_file(path, line, strlen(text) + 1 < sizeof text ? "a zero byte" : "a row of more than 510 bytes", EXPECTED);
         const int n = read_row(text, named, value);
         if (n < 0 && node == 0 && line <= 2) continue; /* names, units */
         if (n < 3 || (columns > 0 && n != columns)) return bad_file(path, line, "another row", EXPECTED);

@@ -28,6 +28,7 @@ typedef struct Parse {
     CpsError *err;
     Open *open; /* (max_depth) */
     int depth, max_depth, values, documents;
+    int line, column; /* of the last event that has a place */
     CpsiYaml *root;
 } Parse;
 
@@ -295,8 +296,10 @@ static CpsStatus take_value(Parse *p, struct fy_event *event, int line, int colu
 
 static CpsStatus take_event(Parse *p, struct fy_event *event) {
     const struct fy_mark *mark = fy_event_start_mark(event);
-    const int line = mark ? mark->line + 1 : 1;
-    int column = mark ? mark->column + 1 : 1;
+    /* what is not written has no place: that of what stands before it */
+    if (mark) p->line = mark->line + 1, p->column = mark->column + 1;
+    const int line = p->line;
+    int column = p->column;
     if (event->type == FYET_SCALAR) {
         /* libfyaml points behind an opening quote */
         const enum fy_scalar_style style = fy_token_scalar_style(event->scalar.value);
@@ -347,7 +350,7 @@ static CpsStatus take_all(Parse *p, struct fy_parser *parser, struct fy_diag *di
 
 CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes, size_t size, int max_depth,
                           CpsiPool *pool, CpsiYaml **root, CpsError *err) {
-    Parse p = {.file = file, .what = what, .pool = pool, .err = err, .max_depth = max_depth};
+    Parse p = {.file = file, .what = what, .pool = pool, .err = err, .max_depth = max_depth, .line = 1, .column = 1};
     *root = NULL;
     CpsStatus status = check_characters(&p, bytes, size);
     if (status != CPS_OK) return status;
