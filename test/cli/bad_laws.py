@@ -93,12 +93,14 @@ FILES = [
     ("two documents", "capstan: 1\nlaw: {disc: 1}\n---\n", "3:1: found a second document ('---'): a file holds one law"),
     ("unknown term", "capstan: 1\nresistance:\n- {viscuos: [[1]]}\n", "3:4: unknown term 'viscuos'; did you mean 'viscous'?"),
     ("terms of two spaces", "capstan: 1\nresistance:\n- {dry: {disc: 1}}\n- {viscous: [[1]]}\n", "2:1: 'resistance': part 2 has 1 components, the first 2"),
+    ("polytope of four components", "capstan: 1\nlaw: {polytope: [" + ", ".join(f"[{k % 7 - 3}, {k % 5 - 2}, {k % 3 - 1}, {k % 2}]" for k in range(300)) + "]}\n",
+     "2:7: 'polytope': the sets up to here that are not answered in closed form have 304 components, points and rows together, at most 300"),
     ("dry without 0", "capstan: 1\nresistance:\n- {dry: {interval: [1, 2]}}\n", "3:10: 'interval': the set of forces does not contain 0"),
 ]
 
 # names of the cases above that a JSON schema cannot tell: what ties two values together, the mathematics, YAML itself
 BEYOND_A_SCHEMA = {
-    "too many together", "too much to solve",
+    "too many together", "too much to solve", "polytope of four components",
     "duplicate key", "NaN radius", "infinite radius", "NaN in a matrix", "anchor", "deep nesting",
     "ragged matrix", "rows of a map", "columns of a map", "contacts of two bodies", "intersection of different spaces",
     "translate by too little", "shape not square", "offsets and rows", "load of another space", "terms of two spaces",

@@ -20,13 +20,20 @@ CpsStatus cpsi_law_place(const CpsiLawFile *f, const CpsiYaml *node, const CpsEr
 
 /* ---- sizes ---- */
 
-/* A set just made of a word with `items` points or rows: not too large to be asked questions. */
-static CpsStatus weigh(CpsiLawBuild *b, const CpsiYaml *node, int components, int items) {
+/* Polytopes of more components have no closed forms (docs/sets.md). */
+enum { MOST_CLOSED = 3 };
+
+static bool is_open_polytope(const CpsiLawWord *word, int components) {
+    return components > MOST_CLOSED && strcmp(word->name, "polytope") == 0;
+}
+
+/* A set just made of a word with `items` points or rows: not too large to be asked questions. solved: by a conic program. */
+static CpsStatus weigh(CpsiLawBuild *b, const CpsiYaml *node, int components, int items, bool solved) {
     if (components > CPSI_LAW_MOST_COMPONENTS)
         return cpsi_fail_at(b->file.err, CPS_ERR_LIMIT, b->file.name, node->line, node->column,
                             "'%.64s': a set of %d components, at most %d", node->key, components,
                             (int)CPSI_LAW_MOST_COMPONENTS);
-    if (b->solved_depth > 0 && (b->solved_size += components + items) > CPSI_LAW_MOST_SOLVED)
+    if (solved && (b->solved_size += components + items) > CPSI_LAW_MOST_SOLVED)
         return cpsi_fail_at(b->file.err, CPS_ERR_LIMIT, b->file.name, node->line, node->column,
                             "'%.64s': the sets up to here that are not answered in closed form have %d components, "
                             "points and rows together, at most %d",
@@ -67,8 +74,9 @@ static CpsStatus make_word(CpsiLawBuild *b, const CpsiYaml *node, const CpsiLawW
     CpsStatus status = cpsi_law_read_values(b, node, word, what, value);
     if (status == CPS_OK && word->make(value, made, &found) != CPS_OK) status = cpsi_law_place(&b->file, node, &found);
     cpsi_law_release(value);
-    if (status == CPS_OK && made->set) status = weigh(b, node, cps_set_space(made->set), value[0].rows);
-    if (status == CPS_OK && made->law) status = weigh(b, node, cps_law_space(made->law), 0);
+    const int components = made->set ? cps_set_space(made->set) : made->law ? cps_law_space(made->law) : 0;
+    const bool solved = b->solved_depth > 0 || is_open_polytope(word, components);
+    if (status == CPS_OK && components > 0) status = weigh(b, node, components, made->set ? value[0].rows : 0, solved);
     b->solved_depth -= word->solved;
     if (status == CPS_OK && made->composed && (!b->has_preimage || made->composition > b->composition)) {
         b->has_preimage = true;
