@@ -124,9 +124,14 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         fprintf(stderr, ": %s", cps_outcome_sentence(line.outcome));
         const double *d = line.proof;
         const CpsCertificate *c = &line.certificate;
-        if (line.outcome == CPS_INFEASIBLE)
-            fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1], d[2]);
-        else if (line.outcome == CPS_UNBOUNDED || line.outcome == CPS_SLIDES) {
+        if (line.outcome == CPS_INFEASIBLE) {
+            fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g)", line.proof_value, d[0], d[1], d[2]);
+            if (line.proof_obstacle >= 0) {
+                fputs(", the shortest way round obstacle ", stderr);
+                cli_put_text(stderr, scene->obstacle[line.proof_obstacle].name, 80, false);
+            }
+            fputc(')', stderr);
+        } else if (line.outcome == CPS_UNBOUNDED || line.outcome == CPS_SLIDES) {
             fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1], d[2]);
             if (line.coulomb > 0)
                 fprintf(stderr,

@@ -164,13 +164,15 @@ typedef struct CpsLineReport {
     double tension_mesh; /* [N] estimated error of the tension by the elements' lengths, to leading order; NaN where there is none */
     int pierced;     /* the obstacle of the certificate's element_penetration; -1 where that is 0 */
     CpsBend bend;    /* the sharpest of the parts */
-    double proof[3]; /* infeasible: unit vector from end A to end B, along which a constant force proves it;
+    double proof[3]; /* infeasible: unit vector in which the shortest way to end B leaves end A: straight, where a constant force along it
+                        proves it, or round an obstacle;
                         unbounded: the rigid direction in which the energy falls;
                         slides: the velocity of the end that leads, of the field `motion` of the view; else 0 0 0 */
-    double proof_value; /* infeasible: [m] distance of the ends - length > 0;
+    double proof_value; /* infeasible: [m] distance of the ends, or the least length of a line round the obstacle, - length > 0;
                            unbounded: [N] fall of the energy per metre > 0;
                            slides: [N] power of the loads per unit of speed, beyond all that friction can take, the least
                            along the way > 0; else 0 */
+    int proof_obstacle; /* infeasible: the obstacle that the line does not reach round, its index in the scene; -1: none, and else */
     double coulomb;     /* [N] unbounded with frozen friction: what friction bears by Coulomb's law under these loads, mu times what
                            presses on the plane, where that is enough to hold the line; else 0 */
 } CpsLineReport;

@@ -28,6 +28,7 @@
 #include "cable/mesh_error.h"
 #include "cable/rounds.h"
 #include "cable/rub_set.h"
+#include "cable/shortfall.h"
 #include "cable/slides.h"
 #include "cable/tension_field.h"
 #include "ipm/ipm.h"
@@ -209,7 +210,7 @@ static bool stays(CpsiLine *line, const CpsiStepOptions *options, const CpsLineR
 
 /* Where a line's ends are before a step: where they stay if there is no equilibrium. */
 static void keep_ends(CpsiLine *line) {
-    line->report = (CpsLineReport){.pierced = -1};
+    line->report = (CpsLineReport){.pierced = -1, .proof_obstacle = -1};
     for (int end = 0; end < 2; end++) {
         memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
         line->report.end[end].range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
@@ -226,6 +227,18 @@ bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, doubl
     memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
     memset(line->segment_force, 0, 3*n*sizeof *line->segment_force);
     memset(line->tension, 0, n*sizeof *line->tension);
+    return true;
+}
+
+bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) {
+    CpsiShortfall shortfall;
+    if (!cpsi_line_falls_short(line, options, &shortfall)) return false;
+    keep_ends(line);
+    cpsi_line_pose(line, options);
+    line->report.outcome = CPS_INFEASIBLE;
+    vec3_store(line->report.proof, shortfall.leaves);
+    line->report.proof_value = shortfall.missing;
+    line->report.proof_obstacle = shortfall.obstacle;
     return true;
 }
 

@@ -20,4 +20,8 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
  * reaction and state stay. Coulomb's friction alone; frozen friction has bounds that no tension raises. */
 bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, double margin);
 
+/* Before a step is tried: is the line too short to reach round an obstacle to where its ends are to be (shortfall.h)?  Then the report says so, and
+ * position, reaction and state stay. */
+bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options);
+
 #endif

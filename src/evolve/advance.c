@@ -382,6 +382,18 @@ static bool relax(Advance *advance, double from, double to) {
     return true;
 }
 
+/* Is the line too short for where its ends are to be at the end of the step?  Before anything is cut: ends that go straight meet this at the end,
+ * if at all, on the way round a cylinder (docs/theory.md 5). */
+static bool add_shortfall(Advance *advance) {
+    impose(advance, 0, 1);
+    if (!cpsi_line_step_falls_short(advance->line, advance->options)) return false;
+    Part part = {0};
+    part.report = advance->line->report;
+    part.report.share = 1;
+    add(advance, &part);
+    return true;
+}
+
 /* What has been solved since there were so many iterations: these times the nodes. What converged is cut alike whatever its friction is
  * given as. */
 static double cost_of(const Advance *advance, int before, bool good) {
@@ -455,7 +467,7 @@ static int stretches(const CpsiLine *line, const CpsiMove *move) {
 void cpsi_line_advance(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, const CpsiMove *move,
                        CpsiAdvance *room, bool known) {
     Advance advance = {line, program, options, move, room, .known = known};
-    const int count = stretches(line, move);
+    const int count = add_shortfall(&advance) ? 0 : stretches(line, move);
     for (int k = 0; k < count && !cps_outcome_is_final(advance.whole.outcome); k++) {
         /* once one part is not certified nothing is gained by cutting the rest */
         const int halvings = cps_outcome_is_certified(advance.whole.outcome) ? options->solver.halvings : 0;
@@ -468,7 +480,8 @@ void cpsi_line_lay(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpti
     CpsiRelaxation done;
     save(line, room);
     for (int k = 0; k < line->obstacle_count; k++) room->turn[k] = 0;
-    cpsi_line_step(line, program, options);
+    const bool short_of = cpsi_line_step_falls_short(line, options);
+    if (!short_of) cpsi_line_step(line, program, options);
     int iterations = line->report.iterations;
     if (line->report.outcome == CPS_STALLED) {
         restore(line, room);

@@ -39,7 +39,7 @@ static void pass(Tape *tape, void *data, size_t size) {
 #if UINTPTR_MAX == 0xffffffffffffffff
 _Static_assert(sizeof(CpsCertificate) == 16*8 && sizeof(CpsLedger) == 6*8 && sizeof(CpsTensionRange) == 5*8, "pass_certificate, ..");
 _Static_assert(sizeof(CpsEndReport) == 11*8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7*8, "pass_end_report, pass_bend");
-_Static_assert(sizeof(CpsLineReport) == 18*8 + sizeof(CpsCertificate) + sizeof(CpsLedger) + 2*sizeof(CpsEndReport) + sizeof(CpsBend),
+_Static_assert(sizeof(CpsLineReport) == 19*8 + sizeof(CpsCertificate) + sizeof(CpsLedger) + 2*sizeof(CpsEndReport) + sizeof(CpsBend),
                "pass_line_report");
 _Static_assert(sizeof(CpsStepReport) == 9*8 + sizeof(CpsCertificate) + sizeof(CpsLedger), "pass_step_report");
 _Static_assert(sizeof(CpsEnd) == 4*8, "pass_end");
@@ -100,6 +100,7 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
     pass_bend(tape, &report->bend);
     PASS(tape, report->proof);
     PASS(tape, report->proof_value);
+    PASS(tape, report->proof_obstacle);
     PASS(tape, report->coulomb);
 }
 

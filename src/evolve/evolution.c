@@ -446,7 +446,7 @@ int cps_evolution_line_count(const CpsEvolution *evolution) { return evolution ?
 static bool has_line(const CpsEvolution *evolution, int line) { return line >= 0 && line < cps_evolution_line_count(evolution); }
 
 CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) {
-    if (!has_line(evolution, line)) return (CpsLineReport){.outcome = CPS_STALLED, .pierced = -1};
+    if (!has_line(evolution, line)) return (CpsLineReport){.outcome = CPS_STALLED, .pierced = -1, .proof_obstacle = -1};
     CpsLineReport report = evolution->line[line].report;
     for (int end = 0; end < 2; end++)
         for (int a = 0; a < 3; a++)

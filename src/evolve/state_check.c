@@ -50,6 +50,7 @@ static bool is_line_report(const CpsLineReport *report, int obstacles) {
     const bool bends = report->bend.turn > 0 || report->outcome == CPS_MESH_TOO_COARSE;
     bool sound = is_outcome(report->outcome) && within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) && report->iterations >= 0 &&
                  report->parts >= 0 && report->snaps >= 0 && within(report->pierced, -1, obstacles - 1) &&
+                 within(report->proof_obstacle, -1, obstacles - 1) &&
                  within(report->bend.obstacle, 0, bends || obstacles > 0 ? obstacles - 1 : 0);
     for (int end = 0; end < 2; end++) sound = sound && within(report->end[end].range.kind, 0, RANGES - 1) && all_finite(report->end[end].force, 3);
     return sound;

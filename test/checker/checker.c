@@ -8,6 +8,7 @@
 
 #include "ends.h"
 #include "ranges.h"
+#include "reach.h"
 #include "measure.h"
 #include "motion.h"
 
@@ -254,6 +255,22 @@ static void judge_taut(Judge *judge, const Record *r, const Measures *m) {
     at_most(judge, "depth below the obstacle", m->penetration, PLACE_TOLERANCE * m->length);
 }
 
+/* the ends are near enough to each other, but an obstacle is between them */
+static void judge_reach(Judge *judge, const Source *source, const Record *r, const Measures *m, bool statics) {
+    double missing, off;
+    if (r->compliance != 0) find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
+    const char *what = reach_contradiction(source, r, statics, &missing, &off);
+    if (what) {
+        find(judge, "infeasible, but %s", what);
+        return;
+    }
+    // the coordinates are about the obstacle there, which may be far larger than the line
+    double size = m->length + m->extent + (double)source->surface[r->proof_obstacle].radius;
+    same(judge, "proof_value", r->proof_value, missing, COPY_TOLERANCE * size);
+    at_most(judge, "proof vector off the shortest way", off, CLAIM_TOLERANCE);
+    at_most(judge, "length of the proof vector - 1", fabs(hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1), COPY_TOLERANCE);
+}
+
 /* a constant force along the unit vector from A to B has the dual value t (distance - length), unbounded in t */
 static void judge_infeasible(Judge *judge, const Record *r, const Measures *m) {
     if (r->compliance != 0) find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
@@ -330,7 +347,8 @@ static void judge_record(const Source *source, const Record *r, const char *line
             judge_taut(&judge, r, &m);
             break;
         case OUTCOME_INFEASIBLE:
-            judge_infeasible(&judge, r, &m);
+            if (r->proof_obstacle >= 0) judge_reach(&judge, source, r, &m, source->laid && step == 0);
+            else judge_infeasible(&judge, r, &m);
             break;
         case OUTCOME_UNBOUNDED:
             judge_unbounded(&judge, r, &m);

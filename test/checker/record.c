@@ -468,6 +468,19 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
 }
 
 /* Files from before lines slid have none. */
+static int read_proof_obstacle(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    char name[512];
+    double value;
+    int id;
+    record->proof_obstacle = -1;
+    snprintf(name, sizeof name, "%s_proof_obstacle", line);
+    if (nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
+    if (read_step(source, line, "proof_obstacle", step, 0, 0, &value, log)) return -1;
+    if (!(value >= -1 && value < (double)source->surfaces)) return complain(log, "unknown obstacle of the proof in line", line, 0);
+    record->proof_obstacle = (int)value;
+    return 0;
+}
+
 static int read_motion(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
     char name[2 * MAX_NAME];
     int id;
@@ -488,5 +501,6 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_step(source, line, "segment_force", step, elements, 3, record->segment_force[0], log);
     bad |= read_step(source, line, "tension", step, elements, 0, record->tension, log);
     bad |= read_motion(source, line, step, record, log);
+    bad |= read_proof_obstacle(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }

@@ -69,6 +69,7 @@ typedef struct Record {
     Vector end_value[2], end_force[2], end_friction[2], proof;
     double end_tension[2], end_range[RANGES][2];
     double bend_turn, bend_friction, bend_at; /* [rad], [-], [m] of the sharpest bend round an obstacle */
+    int proof_obstacle; /* -1: none, or the file does not say */
     double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES], unaccounted;
 } Record;
 

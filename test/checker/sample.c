@@ -630,6 +630,42 @@ int sample_write_fall(const char *path) {
     return status ? status : closed;
 }
 
+/* ---- the reel ---- */
+
+/* Inextensible, half round a drum of radius 1 by its tangents; end B is drawn 1.5 m down from the drum's height and the line, 4 m long, does not reach
+ * there: its chords of 1 m are 3/pi of their arcs, so the way is a tangent to the radius q = 3/pi, less that from 1, and the rest at q. */
+static size_t describe_reel(Field *field) {
+    static const double PLACE[3 * NODES] = {-1, 0, 0, -1, 0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 0};
+    const SampleLine line = {.name = "reel", .outcome = 5};
+    const double pi = acos(-1), q = 3 / pi, far = hypot(1, 1.5), edge = sqrt(1 - q * q), lead = sqrt(far * far - q * q);
+    const double way = lead - edge + q * (pi + atan(1.5) - atan2(lead, q) + atan2(edge, q));
+    size_t n = describe(&line, 1, field);
+    n += no_elements(&field[n]);
+    field[n++] = scalar("proof_obstacle", 0);
+    for (size_t k = 0; k < n; k++) {
+        Field *f = &field[k];
+        const bool places = strcmp(f->name, "reference") == 0 || strcmp(f->name, "position") == 0;
+        if (places) memcpy(f->value, PLACE, sizeof PLACE);
+        if (strcmp(f->name, "end_value") == 0) f->value[0] = -1, f->value[3] = 1, f->value[5] = -1.5;
+        if (strcmp(f->name, "proof") == 0) f->value[0] = 0, f->value[2] = 1;
+        if (strcmp(f->name, "proof_value") == 0) f->value[0] = way - 4;
+    }
+    return n;
+}
+
+int sample_write_reel(const char *path) {
+    static const Bed DRUM = {.kind = 1, .axis = {0, 1, 0}, .radius = 1, .axial = 0.5, .lateral = 0.5};
+    static const double ONES[ELEMENTS] = {1, 1, 1, 1};
+    Field field[MAX_FIELDS];
+    const size_t count = describe_reel(field);
+    int nc, dims[3], status = begin_file(path, "reel", "consistent", &nc, dims);
+    if (status) return status;
+    status = write_beds(nc, dims, &DRUM, 1);
+    if (!status) status = write_line(nc, dims, "reel", ONES, 0, field, field, count);
+    int closed = nc_close(nc);
+    return status ? status : closed;
+}
+
 int sample_poke(const char *path, const char *variable, size_t index, double value) {
     int nc, id, rank = 0, dimension[3], status = nc_open(path, NC_WRITE, &nc);
     if (status) return status;

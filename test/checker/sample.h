@@ -34,6 +34,9 @@ int sample_write_spill(const char *path);
 /* Two equal steps of one line, "fall", that hangs in the air below a drum, both ends free: unbounded. */
 int sample_write_fall(const char *path);
 
+/* Two equal steps of one inextensible line, "reel", that is too short to reach round a drum to where end B shall be: infeasible. */
+int sample_write_reel(const char *path);
+
 /* Overwrite one number: component `index` (flat; beyond the first step's: in the second) of a variable. */
 int sample_poke(const char *path, const char *variable, size_t index, double value);
 

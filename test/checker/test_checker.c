@@ -298,6 +298,25 @@ static const Tamper FALL_TAMPER[] = {
     {"obstacle_radius", 0, 1.6, "unbounded, but the line meets an obstacle"},
 };
 
+/* too short to reach round a drum */
+static const Tamper REEL_TAMPER[] = {
+    {"reel_end_value", 5, -1, "the line is long enough"},
+    {"reel_end_value", 5, 2, "the line is long enough"},
+    {"reel_element_length", 0, 2, "the line is long enough"},
+    {"reel_compliance", 0, 1e-9, "the line is elastic"},
+    {"reel_end_kind", 1, 1, "an end is free"},
+    {"reel_parts", 0, 2, "it is of a part of a step"},
+    {"reel_proof_value", 0, 0.5, "proof_value"},
+    {"reel_proof", 0, 0.01, "proof vector"},
+    {"reel_proof", 2, -1, "proof vector off the shortest way"},
+    {"reel_proof_obstacle", 0, -1, "infeasible, but the ends are"},
+    {"reel_proof_obstacle", 0, 1, "unknown obstacle of the proof"},
+    {"reel_reference", 8, 0.1, "the line lies across the axis"},
+    {"obstacle_radius", 0, 0.5, "the line is long enough"},
+    {"obstacle_kind", 0, 0, "its obstacle is a plane"},
+    {"obstacle_point", 2, 2, "the obstacle is not in the way"},
+};
+
 static void refuse_each(int (*write)(const char *), const Tamper *tamper, size_t count) {
     for (size_t i = 0; i < count; i++) {
         CHECK_INT(write(path), 0);
@@ -324,6 +343,7 @@ static void every_change_is_refuted(void **state) {
     refuse_each(sample_write_set, SET_TAMPER, sizeof SET_TAMPER / sizeof *SET_TAMPER);
     refuse_each(sample_write_corner, CORNER_TAMPER, sizeof CORNER_TAMPER / sizeof *CORNER_TAMPER);
     refuse_each(sample_write_post, POST_TAMPER, sizeof POST_TAMPER / sizeof *POST_TAMPER);
+    refuse_each(sample_write_reel, REEL_TAMPER, sizeof REEL_TAMPER / sizeof *REEL_TAMPER);
     refuse_each(sample_write_spill, SPILL_TAMPER, sizeof SPILL_TAMPER / sizeof *SPILL_TAMPER);
     refuse_each(sample_write_fall, FALL_TAMPER, sizeof FALL_TAMPER / sizeof *FALL_TAMPER);
 }
@@ -357,6 +377,15 @@ static void spill_is_certified(void **state) {
     CHECK_INT(checker_file(path, &report, stdout), 0);
     CHECK_INT(report.certified, 2);
     CHECK_INT(report.outcome[7], 2);
+}
+
+static void reel_is_certified(void **state) {
+    (void)state;
+    CheckerReport report;
+    CHECK_INT(sample_write_reel(path), 0);
+    CHECK_INT(checker_file(path, &report, stdout), 0);
+    CHECK_INT(report.certified, 2);
+    CHECK_INT(report.outcome[5], 2);
 }
 
 static void corner_is_certified(void **state) {
@@ -453,7 +482,7 @@ static void what_is_no_result_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_solution_is_certified), cmocka_unit_test(drum_is_certified),
+        cmocka_unit_test(reel_is_certified), cmocka_unit_test(exact_solution_is_certified), cmocka_unit_test(drum_is_certified),
         cmocka_unit_test(spill_is_certified),          cmocka_unit_test(corner_is_certified),
         cmocka_unit_test(post_is_certified),           cmocka_unit_test(every_change_is_refuted),
         cmocka_unit_test(ways_are_geodesics),          cmocka_unit_test(sets_are_ellipse_and_box),

@@ -70,7 +70,7 @@ static const Number NUMBER[] = {
     {"ledger_obstacles", "work of the friction of obstacles that turn", "J", REPORT(ledger.obstacles)},
     {"ledger_imbalance", "what the ledger does not close by", "J", REPORT(ledger.imbalance)},
     {"unaccounted", "of that, more than 5 % of the energies of parts that could not be cut any more", "J", REPORT(unaccounted)},
-    {"proof_value", "infeasible: excess distance in m; unbounded: fall of energy per metre in N; slides: least power in N", "m or N",
+    {"proof_value", "infeasible: what is missing of the length in m; unbounded: fall of energy per metre in N; slides: least power in N", "m or N",
      REPORT(proof_value)},
 };
 
@@ -147,7 +147,7 @@ enum {
 typedef struct LineIds {
     int node, element; /* dimensions */
     int contacts;      /* of a node, as in the view */
-    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, places, proof;
+    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, places, proof, proof_obstacle;
     int field[FIELDS][CONTACTS]; /* unused where a view has no such array */
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
@@ -406,6 +406,8 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
                                "do the forces leave a choice of places; 0: no, 1: the nearest is taken, 2: one of them", "1");
     const int vectors[] = {nc->step, nc->xyz};
     ids->proof = add_variable(nc, view->name, "proof", NC_DOUBLE, 2, vectors, "direction that proves no solution", "1");
+    ids->proof_obstacle = add_variable(nc, view->name, "proof_obstacle", NC_INT, 1, &nc->step,
+                                       "infeasible: the obstacle that the line does not reach round; -1: none", "1");
     for (int i = 0; i < NUMBERS; ++i)
         ids->number[i] =
             add_variable(nc, view->name, NUMBER[i].name, NC_DOUBLE, 1, &nc->step, NUMBER[i].long_name, NUMBER[i].units);
@@ -490,6 +492,8 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, ids->snaps, start, &report->snaps));
     const int places = (int)report->places;
     if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, ids->places, start, &places));
+    const int *round = &report->proof_obstacle;
+    if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, ids->proof_obstacle, start, round));
     for (int i = 0; i < NUMBERS; ++i) {
         const double *number = (const double *)(const void *)((const char *)report + NUMBER[i].offset);
         if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_double(nc->file, ids->number[i], start, number));

@@ -58,6 +58,7 @@ static void put_proof(FILE *out, const CpsLineReport *report) {
     const char *value = report->outcome == CPS_INFEASIBLE ? "excess_m" : report->outcome == CPS_SLIDES ? "power_N" : "fall_N";
     fputs("          \"proof\": {", out);
     put_vector(out, "direction", report->proof, ", ");
+    if (report->outcome == CPS_INFEASIBLE && report->proof_obstacle >= 0) fprintf(out, "\"obstacle\": %d, ", report->proof_obstacle);
     if (report->coulomb > 0) put_number(out, "coulomb_N", report->coulomb, ", ");
     put_number(out, value, report->proof_value, "},\n");
 }
