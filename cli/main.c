@@ -134,7 +134,7 @@ int main(int argc, char **argv) {
     /* a full disk shows only now */
     if (fflush(stdout) != 0 || ferror(stdout)) {
         fprintf(stderr, "capstan: cannot write standard output\n");
-        if (code == EXIT_OK) code = EXIT_IO;
+        if (code == EXIT_OK || code == EXIT_NOT_CERTIFIED) code = EXIT_IO;
     }
     return code;
 }

@@ -97,7 +97,8 @@ def sweep(name, command, files=None):
     """One command with each of its calls refused, into copies of the directory of its Set."""
     global tried
     shutil.rmtree("out", ignore_errors=True)
-    said = None if files else capstan(*command).stdout
+    plain = None if files else capstan(*command)
+    usual = 0 if files else plain.returncode
     for mode, code in (("once", EIO), ("on", ENOSPC)):
         k = 1
         while True:
@@ -111,13 +112,13 @@ def sweep(name, command, files=None):
             if count < k:
                 break
             what = f"{name}: call {k} of {count}, {mode}"
-            if done.returncode not in (0, 4, 6) or (done.returncode != 0 and not done.stderr.strip()):
+            if done.returncode not in (usual, 4, 6) or (done.returncode in (4, 6) and not done.stderr.strip()):
                 faults.append(f"{what}: exit code {done.returncode}: {done.stderr[-200:]!r}")
             if files:
                 files.judge(what, done)
                 files.mend(what)
-            elif done.returncode == 0 and done.stdout != said:
-                faults.append(f"{what}: exit code 0, and not all has been said: {done.stdout[-80:]!r}")
+            elif done.returncode == usual and done.stdout != plain.stdout:
+                faults.append(f"{what}: exit code {usual}, and not all has been said: {done.stdout[-80:]!r}")
             if os.path.exists("out.svg") and not read("out.svg").rstrip().endswith(b"</svg>"):
                 faults.append(f"{what}: half a picture")
             tried += 1
