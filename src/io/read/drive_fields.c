@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/schema/scene_keys.h"
+#include "io/schema/keys.h"
 
 CpsStatus cpsi_drive_wrong(CpsiDriveRead *r, const CpsiYaml *node, const char *what, const char *expected) {
     return cpsi_law_wrong(&r->build.file, node, what, expected);

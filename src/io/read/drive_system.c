@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "io/read/drive_file.h"
-#include "io/schema/scene_keys.h"
+#include "io/schema/keys.h"
 
 /* The names known, and entries of the map being read. */
 typedef struct Names {

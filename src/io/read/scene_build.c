@@ -9,7 +9,7 @@
 
 #include "io/base/read_file.h"
 #include "io/read/node_file.h"
-#include "io/schema/scene_keys.h"
+#include "io/read/scene_store.h"
 #include "io/read/set_build.h"
 
 /* [rad] */
@@ -31,24 +31,14 @@ static CpsStatus out_of_memory(const Build *b) {
     return cpsi_fail_at(b->err, CPS_ERR_MEMORY, b->file, 0, 0, "out of memory while reading the scene");
 }
 
-/* ---- values: a missing key leaves *out as it is ---- */
-
-static void get_number(const CpsiYaml *mapping, const char *key, double *out) {
-    const CpsiYaml *node = cpsi_yaml_child(mapping, key);
-    if (node) *out = node->number;
-}
-
-static int get_int(const CpsiYaml *mapping, const char *key, int fallback) {
-    double x = fallback;
-    get_number(mapping, key, &x);
-    return (int)x;
-}
+/* ---- values ---- */
 
 static void copy_vector(const CpsiYaml *list, double out[3]) {
     const CpsiYaml *x = list->child;
     for (int i = 0; i < 3; i++, x = x->next) out[i] = x->number;
 }
 
+/* A missing key leaves out as it is. */
 static void get_vector(const CpsiYaml *mapping, const char *key, double out[3]) {
     const CpsiYaml *node = cpsi_yaml_child(mapping, key);
     if (node) copy_vector(node, out);
@@ -196,9 +186,7 @@ static CpsStatus build_zones(const Build *b, const CpsiYaml *zones, CpsLine *lin
     if (!zone) return out_of_memory(b);
     line->zone = zone, line->zone_count = zones->count;
     for (const CpsiYaml *node = zones->child; node; node = node->next, zone++) {
-        get_number(node, "from", &zone->from);
-        get_number(node, "to", &zone->to);
-        get_number(node, "factor", &zone->factor);
+        if (!cpsi_scene_store(CPSI_ZONE, node, b->pool, zone)) return out_of_memory(b);
     }
     return CPS_OK;
 }
@@ -206,10 +194,7 @@ static CpsStatus build_zones(const Build *b, const CpsiYaml *zones, CpsLine *lin
 static CpsStatus build_line(Build *b, const CpsiYaml *node, CpsLine *line, double held[2][3]) {
     *line = cps_line_default();
     line->name = copy_text(b, node->key);
-    if (!line->name) return out_of_memory(b);
-    get_number(node, "length", &line->length);
-    get_number(node, "weight", &line->weight);
-    get_number(node, "stiffness", &line->stiffness);
+    if (!line->name || !cpsi_scene_store(CPSI_LINE, node, b->pool, line)) return out_of_memory(b);
     const CpsiYaml *mass = cpsi_yaml_child(node, "mass");
     const double *g = b->scene->gravity;
     if (mass) line->weight = mass->number * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
@@ -250,34 +235,15 @@ static CpsStatus build_set(Build *b, const CpsiYaml *node, CpsObstacle *obstacle
     return status;
 }
 
-/* A number, or a mapping of two coefficients or a set. */
-static CpsStatus build_friction(Build *b, const CpsiYaml *node, CpsObstacle *obstacle) {
-    if (!node) return CPS_OK;
-    if (node->kind == CPSI_YAML_SCALAR) {
-        obstacle->friction = node->number;
-        return CPS_OK;
-    }
-    get_number(node, "axial", &obstacle->friction);
-    get_number(node, "lateral", &obstacle->friction_lateral);
-    obstacle->friction_shape = (CpsFrictionShape)get_int(node, "shape", (int)obstacle->friction_shape);
-    get_vector(node, "grain", obstacle->grain);
-    const CpsiYaml *set = cpsi_yaml_child(node, "set");
-    return set ? build_set(b, set, obstacle) : CPS_OK;
-}
-
 static CpsStatus build_obstacle(Build *b, const CpsiYaml *node, CpsObstacle *obstacle) {
     *obstacle = cps_obstacle_default();
     obstacle->name = copy_text(b, node->key);
-    if (!obstacle->name) return out_of_memory(b);
-    const CpsiYaml *plane = cpsi_yaml_child(node, "plane"), *cylinder = cpsi_yaml_child(node, "cylinder"),
-                   *sphere = cpsi_yaml_child(node, "sphere");
-    const CpsiYaml *surface = plane ? plane : cylinder ? cylinder : sphere;
-    obstacle->kind = plane ? CPS_OBSTACLE_PLANE : cylinder ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE;
-    get_vector(surface, sphere ? "center" : "point", obstacle->point);
-    get_vector(surface, "normal", obstacle->normal);
-    get_vector(surface, "axis", obstacle->axis);
-    get_number(surface, "radius", &obstacle->radius);
-    return build_friction(b, cpsi_yaml_child(node, "friction"), obstacle);
+    if (!obstacle->name || !cpsi_scene_store(CPSI_OBSTACLE, node, b->pool, obstacle)) return out_of_memory(b);
+    obstacle->kind = cpsi_yaml_child(node, "plane")      ? CPS_OBSTACLE_PLANE
+                     : cpsi_yaml_child(node, "cylinder") ? CPS_OBSTACLE_CYLINDER
+                                                         : CPS_OBSTACLE_SPHERE;
+    const CpsiYaml *set = cpsi_yaml_child(cpsi_yaml_child(node, "friction"), "set");
+    return set ? build_set(b, set, obstacle) : CPS_OK;
 }
 
 static CpsStatus build_obstacles(Build *b, const CpsiYaml *obstacles) {
@@ -334,11 +300,11 @@ static int find_obstacle(const Build *b, const char *turn) {
 }
 
 static CpsStatus build_stage(const Build *b, const CpsiYaml *node, int index, CpsStage *stage) {
-    const CpsiYaml *name = cpsi_yaml_child(node, "name");
+    *stage = (CpsStage){.steps = 1};
+    if (!cpsi_scene_store(CPSI_STAGE, node, b->pool, stage)) return out_of_memory(b);
     char number[32];
     snprintf(number, sizeof number, "entry %d", index + 1);
-    stage->name = copy_text(b, name ? name->text : number);
-    stage->steps = get_int(node, "steps", 1);
+    if (!stage->name) stage->name = copy_text(b, number);
 
     /* all other keys are ends of lines and turns of obstacles */
     CpsChange *change = CPSI_POOL_TAKE(b->pool, node->count, CpsChange);
@@ -381,21 +347,7 @@ CpsStatus cpsi_scene_build(const char *file, const CpsiYaml *root, const CpsRead
     Build b = {.file = file, .limits = limits, .pool = pool, .err = err, .scene = scene};
     b.law.file = (CpsiLawFile){.name = file, .pool = pool, .err = err};
     *scene = cps_scene_default();
-    const CpsiYaml *title = cpsi_yaml_child(root, "title");
-    if (title) {
-        scene->title = copy_text(&b, title->text);
-        if (!scene->title) return out_of_memory(&b);
-    }
-    get_vector(root, "gravity", scene->gravity);
-    scene->friction = (CpsFriction)get_int(root, "friction", (int)scene->friction);
-    scene->contact = (CpsContact)get_int(root, "contact", (int)scene->contact);
-    const CpsiYaml *solver = cpsi_yaml_child(root, "solver");
-    get_number(solver, "tolerance", &scene->solver.tolerance);
-    scene->solver.max_iterations = get_int(solver, "max_iterations", scene->solver.max_iterations);
-    get_number(solver, "path_tolerance", &scene->solver.path_tolerance);
-    scene->solver.halvings = get_int(solver, "halvings", scene->solver.halvings);
-    scene->solver.linear_system = (CpsLinearSystem)get_int(solver, "linear_system", (int)scene->solver.linear_system);
-
+    if (!cpsi_scene_store(CPSI_SCENE, root, pool, scene)) return out_of_memory(&b);
     CpsStatus status = build_obstacles(&b, cpsi_yaml_child(root, "obstacles"));
     if (status == CPS_OK) status = build_lines(&b, cpsi_yaml_child(root, "lines"));
     if (status == CPS_OK) status = build_history(&b, cpsi_yaml_child(root, "history"));

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "io/schema/scene_keys.h"
+#include "io/schema/keys.h"
 
 static CpsStatus build_law(CpsiLawBuild *b, const CpsiYaml *node, CpsLaw **out);
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/schema/scene_keys.h"
+#include "io/schema/keys.h"
 
 /* Beyond it squares would overflow, as in scenes. */
 static const double LARGEST = 1e100;

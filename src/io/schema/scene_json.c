@@ -50,7 +50,7 @@ static void put_type(FILE *out, const CpsiKey *key) {
     case CPSI_WORD:
         put_words(out, key->words);
         break;
-    case CPSI_VECTOR:
+    case CPSI_POINT:
         fprintf(out, "%s", VECTOR);
         break;
     case CPSI_POINTS:
@@ -66,20 +66,20 @@ static void put_type(FILE *out, const CpsiKey *key) {
         break;
     case CPSI_MAPPING:
         if (!key->words) {
-            put_reference(out, key->inside);
+            put_reference(out, (CpsiObject)key->inside);
             break;
         }
         fprintf(out, "\"oneOf\": [{");
         put_words(out, key->words);
         fprintf(out, "}, {");
-        put_reference(out, key->inside);
+        put_reference(out, (CpsiObject)key->inside);
         fprintf(out, "}]");
         break;
     case CPSI_NUMBER_OR_MAPPING:
         fprintf(out, "\"oneOf\": [{\"type\": \"number\"");
         put_range(out, key);
         fprintf(out, "}, {");
-        put_reference(out, key->inside);
+        put_reference(out, (CpsiObject)key->inside);
         fprintf(out, "}]");
         break;
     case CPSI_SET:
@@ -87,9 +87,11 @@ static void put_type(FILE *out, const CpsiKey *key) {
         break;
     case CPSI_LIST:
         fprintf(out, "\"type\": \"array\", \"items\": {");
-        put_reference(out, key->inside);
+        put_reference(out, (CpsiObject)key->inside);
         fprintf(out, "}");
         break;
+    default:
+        break; /* not of scenes */
     }
 }
 

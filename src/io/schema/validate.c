@@ -16,25 +16,10 @@ typedef struct Valid {
 
 static CpsStatus check_value(const Valid *v, CpsiYaml *node, const CpsiKey *key, const char *name);
 
-/* What was found, for messages. */
-static const char *found_text(const CpsiYaml *node, char *text, size_t size) {
-    if (node->kind == CPSI_YAML_MAPPING)
-        snprintf(text, size, "a mapping");
-    else if (node->kind == CPSI_YAML_SEQUENCE)
-        snprintf(text, size, "a list of %d", node->count);
-    else if (!node->plain)
-        snprintf(text, size, "the text \"%.60s\" in quotes", node->text);
-    else if (!node->text[0])
-        snprintf(text, size, "nothing");
-    else
-        snprintf(text, size, "'%.60s'", node->text);
-    return text;
-}
-
 static CpsStatus wrong(const Valid *v, const CpsiYaml *node, const CpsiKey *key, const char *name, const char *hint) {
-    char found[160], expected[400];
-    return cpsi_fail_at(v->err, CPS_ERR_INPUT, v->file, node->line, node->column, "%s: found %s, expected %s%s", name,
-                        found_text(node, found, sizeof found), cpsi_key_expected(key, expected, sizeof expected), hint);
+    char accepted[400], expected[460];
+    snprintf(expected, sizeof expected, "%s%s", cpsi_key_expected(key, accepted, sizeof accepted), hint);
+    return cpsi_key_wrong(v->file, node, name, expected, v->err);
 }
 
 /* ---- scalars ---- */
@@ -90,7 +75,7 @@ static CpsStatus check_points(const Valid *v, CpsiYaml *node, const CpsiKey *key
     if (node->kind != CPSI_YAML_SEQUENCE || node->count < 2) return wrong(v, node, key, name, "");
     CpsStatus status = CPS_OK;
     CpsiKey point = *key;
-    point.type = CPSI_VECTOR;
+    point.type = CPSI_POINT;
     for (CpsiYaml *x = node->child; x && status == CPS_OK; x = x->next) status = check_vector(v, x, &point, name);
     return status;
 }
@@ -122,21 +107,6 @@ static CpsStatus check_elements(const Valid *v, CpsiYaml *node, const CpsiKey *k
 
 /* ---- objects ---- */
 
-static CpsStatus unknown_key(const Valid *v, const CpsiYaml *node, CpsiObject object, const char *name) {
-    CpsiSuggestion suggestion = {.word = node->key};
-    CpsiKey all = {.type = CPSI_MAPPING, .inside = object, .unit = ""};
-    int count;
-    const CpsiKey *keys = cpsi_keys(object, &count);
-    for (int i = 0; i < count; i++) cpsi_suggest(&suggestion, keys[i].name);
-    if (suggestion.best)
-        return cpsi_fail_at(v->err, CPS_ERR_INPUT, v->file, node->line, node->column,
-                            "%s: unknown key '%.64s'; did you mean '%s'?", name, node->key, suggestion.best);
-    char expected[400];
-    return cpsi_fail_at(v->err, CPS_ERR_INPUT, v->file, node->line, node->column,
-                        "%s: unknown key '%.64s', expected %s", name, node->key,
-                        cpsi_key_expected(&all, expected, sizeof expected));
-}
-
 /* LINE.END and OBSTACLE.turn: what stands before the last dot must be one of those under `where`, "lines" or
  * "obstacles". */
 static CpsStatus check_owner(const Valid *v, const CpsiYaml *node, const char *where) {
@@ -165,9 +135,7 @@ static CpsStatus check_needs(const Valid *v, const CpsiYaml *node, CpsiObject ob
     for (int i = 0; i < count; i++) {
         const bool present = cpsi_yaml_child(node, keys[i].name) != NULL;
         if (keys[i].need == CPSI_REQUIRED && !present)
-            return cpsi_fail_at(v->err, CPS_ERR_INPUT, v->file, node->line, node->column,
-                                "%s: '%s' is missing: %s%s%s%s", name, keys[i].name, keys[i].unit[0] ? "[" : "",
-                                keys[i].unit, keys[i].unit[0] ? "] " : "", keys[i].help);
+            return cpsi_key_missing(v->file, node, name, &keys[i], v->err);
         if (keys[i].need != CPSI_ONE_OF) continue;
         const size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s'%s'", alternatives ? ", " : "", keys[i].name);
@@ -192,10 +160,14 @@ static CpsStatus check_object(const Valid *v, CpsiYaml *node, CpsiObject object,
     CpsStatus status = CPS_OK;
     for (CpsiYaml *child = node->child; child && status == CPS_OK; child = child->next) {
         const CpsiKey *key = cpsi_key_find(object, child->key);
-        if (!key) return unknown_key(v, child, object, name);
+        if (!key) {
+            int count;
+            const CpsiKey *keys = cpsi_keys(object, &count);
+            return cpsi_key_unknown(v->file, child, name, keys, count, v->err);
+        }
         char label[160];
         if (strcmp(key->name, "NAME") == 0) {
-            snprintf(label, sizeof label, "%s '%.64s'", cpsi_object_name(key->inside), child->key);
+            snprintf(label, sizeof label, "%s '%.64s'", cpsi_object_name((CpsiObject)key->inside), child->key);
         } else {
             if (strcmp(key->name, "LINE.END") == 0) status = check_owner(v, child, "lines");
             if (strcmp(key->name, "OBSTACLE.turn") == 0) status = check_owner(v, child, "obstacles");
@@ -212,7 +184,7 @@ static CpsStatus check_list(const Valid *v, CpsiYaml *node, const CpsiKey *key, 
     CpsiKey item_key = {.type = CPSI_MAPPING, .inside = key->inside, .unit = ""};
     CpsStatus status = CPS_OK;
     for (CpsiYaml *item = node->child; item && status == CPS_OK; item = item->next)
-        status = check_value(v, item, &item_key, cpsi_object_name(key->inside));
+        status = check_value(v, item, &item_key, cpsi_object_name((CpsiObject)key->inside));
     return status;
 }
 
@@ -226,7 +198,7 @@ static CpsStatus check_value(const Valid *v, CpsiYaml *node, const CpsiKey *key,
         return check_text(v, node, key, name);
     case CPSI_WORD:
         return take_word(node, key) ? CPS_OK : wrong(v, node, key, name, "");
-    case CPSI_VECTOR:
+    case CPSI_POINT:
         return check_vector(v, node, key, name);
     case CPSI_POINTS:
         return check_points(v, node, key, name);
@@ -235,15 +207,16 @@ static CpsStatus check_value(const Valid *v, CpsiYaml *node, const CpsiKey *key,
     case CPSI_LIST:
         return check_list(v, node, key, name);
     case CPSI_NUMBER_OR_MAPPING:
-        return node->kind == CPSI_YAML_MAPPING ? check_object(v, node, key->inside, name)
+        return node->kind == CPSI_YAML_MAPPING ? check_object(v, node, (CpsiObject)key->inside, name)
                                                : check_number(v, node, key, name);
     case CPSI_SET:
         return CPS_OK; /* set_build.c reads it */
     case CPSI_MAPPING:
-        if (node->kind == CPSI_YAML_MAPPING) return check_object(v, node, key->inside, name);
+        if (node->kind == CPSI_YAML_MAPPING) return check_object(v, node, (CpsiObject)key->inside, name);
         return take_word(node, key) ? CPS_OK : wrong(v, node, key, name, "");
+    default:
+        return CPS_OK; /* not of scenes */
     }
-    return CPS_OK;
 }
 
 CpsStatus cpsi_scene_validate(const char *file, CpsiYaml *root, CpsError *err) {
