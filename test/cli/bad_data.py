@@ -127,7 +127,7 @@ CURVE_NAMES = [
     ("up", "../c.csv", 3, "m.yaml:2:100: 'file': found '../c.csv', expected the name of a file beside this one, without '/'"),
     ("absolute", "/etc/passwd", 3, "m.yaml:2:100: 'file': found '/etc/passwd', expected the name of a file beside this one, without '/'"),
     ("an empty name", "''", 3, "m.yaml:2:100: 'file': found nothing, expected the name of a file"),
-    ("a dash in quotes", "'-'", 3, "m.yaml:2:100: 'file': found '-' in quotes, expected the name of a file beside this one, without '/'"),
+    ("a dash in quotes", "'-'", 3, "m.yaml:2:100: 'file': found the text \"-\" in quotes, expected the name of a file beside this one, without '/'"),
     ("a list", "[a]", 3, "m.yaml:2:100: 'file': found a list of 1, expected the name of a file"),
     ("a link", "link.csv", 4, "link.csv: is a symbolic link, expected a file of this name itself"),
     ("a FIFO", "fifo.csv", 4, "fifo.csv: is not a regular file; '-' reads standard input"),

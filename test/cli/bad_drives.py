@@ -32,7 +32,7 @@ FILES = [
     ("unknown kind", HEAD + "bodi: {}\n", "2:1: drive file: unknown key 'bodi'; did you mean 'body'?", INPUT),
     ("a scene", HEAD + "lines: {}\n", "2:1: found a scene ('lines'), which 'capstan run', 'check' and 'study' take; expected a driven system", INPUT),
     ("a law", HEAD + "law: {disc: 1}\n", "2:1: found a law ('law'), which 'capstan law' takes; expected a driven system", INPUT),
-    ("a number for a system", HEAD + "system: 5\n", "2:1: system: found '5', expected a mapping with keys of: parameters", INPUT),
+    ("a number for a system", HEAD + "system: 5\n", "2:1: system: found '5', expected a mapping with parameters", INPUT),
     ("not YAML", HEAD + "system: {", "3:1: not valid YAML: did not find expected node content", INPUT),
     # systems
     ("no parameters", HEAD + "system: {laws: []}\n", "2:1: system: 'parameters' is missing", INPUT),

@@ -33,7 +33,7 @@ LAWS = [
     ("NaN radius", "{disc: .nan}", "2:7: 'disc': found '.nan', expected a finite number"),
     ("infinite radius", "{disc: .inf}", "2:7: 'disc': found '.inf', expected a finite number"),
     ("unit in the value", "{disc: 5 N}", "2:7: 'disc': found '5 N', expected a finite number"),
-    ("text in quotes", "{disc: '5'}", "2:7: 'disc': found '5' in quotes, expected a finite number"),
+    ("text in quotes", "{disc: '5'}", "2:7: 'disc': found the text \"5\" in quotes, expected a finite number"),
     ("too large", "{disc: 1e101}", "2:7: 'disc': found '1e101'"),
     ("NaN in a matrix", "{ellipsoid: [[1, 0], [0, .nan]]}", "2:31: 'ellipsoid': found '.nan', expected a finite number"),
     ("negative friction", "{coulomb: {friction: -0.5, load: 10}}", "2:17: 'friction': found '-0.5'"),

@@ -17,37 +17,29 @@ static CpsStatus read_brake(CpsiDriveRead *r, const CpsiYaml *node, double *brak
 }
 
 /* the corners, law or brake of a patch whose numbers are read */
-static CpsStatus read_parts(CpsiDriveRead *r, const CpsiYaml *node, const CpsiYaml *brake, const CpsiYaml *corners,
-                            const CpsiYaml *law, CpsPatch *patch) {
+static CpsStatus read_parts(CpsiDriveRead *r, const CpsiYaml *node, const CpsiPatchKeys *keys, CpsPatch *patch) {
     static const char NEEDS[] = "'friction' and 'load', or 'law' without them";
     CpsStatus status = CPS_OK;
-    if (brake) status = read_brake(r, brake, &patch->brake);
-    if (status == CPS_OK && corners)
-        status = cpsi_drive_rows(r, corners, "'corners'", 2, 3, &patch->corner_count, &patch->corner);
+    if (keys->brake) status = read_brake(r, keys->brake, &patch->brake);
+    if (status == CPS_OK && keys->corners)
+        status = cpsi_drive_rows(r, keys->corners, "'corners'", 2, 3, &patch->corner_count, &patch->corner);
     CpsLaw *own = NULL;
-    if (status == CPS_OK && law) status = cpsi_drive_law(r, law, &own);
+    if (status == CPS_OK && keys->law) status = cpsi_drive_law(r, keys->law, &own);
     patch->law = own;
     const bool load = !isnan(patch->load), friction = !isnan(patch->friction);
-    if (status == CPS_OK && (law ? load || friction : !load || !friction))
+    if (status == CPS_OK && (keys->law ? load || friction : !load || !friction))
         return cpsi_drive_wrong(r, node, "'point'", NEEDS);
-    if (law) patch->load = patch->friction = 0;
+    if (keys->law) patch->load = patch->friction = 0;
     return status;
 }
 
-/* the fields of a kind: those of all patches, then its own */
 static CpsStatus read_patch(CpsiDriveRead *r, const CpsiYaml *node, CpsPatchKind kind, CpsPatch *patch) {
-    const CpsiYaml *brake = NULL, *corners = NULL, *law = NULL;
-    *patch = (CpsPatch){.kind = kind};
+    CpsiPatchKeys keys = {.patch = {.kind = kind}};
     /* not given, unless they are read; every other kind needs them */
-    if (kind == CPS_PATCH_POINT) patch->friction = patch->load = NAN;
-    /* the fifth and sixth key are its own */
-    void *const own = kind == CPS_PATCH_POINT     ? (void *)&law
-                      : kind == CPS_PATCH_POLYGON ? (void *)&corners
-                                                  : (void *)&patch->size;
-    void *const to[] = {patch->position, &patch->angle, &patch->friction,
-                        &patch->load,    own,           kind == CPS_PATCH_WHEEL ? (void *)&brake : (void *)patch->tilt};
-    const CpsStatus status = cpsi_drive_fields(r, node, (CpsiDriveMapping)(CPSI_DRIVE_PATCH + (int)kind), to);
-    return status ? status : read_parts(r, node, brake, corners, law, patch);
+    if (kind == CPS_PATCH_POINT) keys.patch.friction = keys.patch.load = NAN;
+    const CpsStatus status = cpsi_drive_fields(r, node, (CpsiDriveMapping)(CPSI_DRIVE_PATCH + (int)kind), &keys);
+    *patch = keys.patch;
+    return status ? status : read_parts(r, node, &keys, patch);
 }
 
 /* {KIND: {..}} */
@@ -101,17 +93,18 @@ static void point_rows(const double at[2], const double *normal, CpsDrivePush *p
 }
 
 static CpsStatus read_push(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePush *push) {
-    double at[2] = {NAN, 0}, velocity[2] = {NAN, 0}, twist[3] = {NAN, 0, 0}, normal[2] = {NAN, 0}, speed = NAN;
-    void *const to[] = {at, velocity, normal, &speed, twist};
-    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PUSH, to);
+    CpsiPushKeys keys = {.at = {NAN}, .velocity = {NAN}, .normal = {NAN}, .speed = NAN, .twist = {NAN}};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PUSH, &keys);
     if (status != CPS_OK) return status;
+    const double *at = keys.at, *velocity = keys.velocity, *twist = keys.twist, speed = keys.speed;
+    double *normal = keys.normal;
     const bool has_at = !isnan(at[0]), both = !isnan(velocity[0]), one = !isnan(normal[0]) && !isnan(speed);
     const bool partial = isnan(normal[0]) != isnan(speed);
     *push = (CpsDrivePush){.at_point = has_at, .point = {at[0], at[1]}};
     if (!isnan(twist[0]) && !has_at && !both && !one && !partial) {
         push->rows = 3;
         push->map[0] = push->map[4] = push->map[8] = 1;
-        memcpy(push->velocity, twist, sizeof twist);
+        memcpy(push->velocity, twist, sizeof keys.twist);
         return CPS_OK;
     }
     if (!isnan(twist[0]) || !has_at || both == one || partial)
@@ -141,12 +134,12 @@ static CpsStatus read_pushes(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBod
 /* ---- tow ---- */
 
 static CpsStatus read_tow(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveTow *out) {
-    const CpsiYaml *path = NULL;
-    CpsTow *tow = &out->start;
-    double end[2] = {NAN, 0};
-    void *const to[] = {tow->pose, tow->hitch, &tow->rope, end, &path, &out->steps};
-    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_TOW, to);
+    CpsiTowKeys keys = {.end = {NAN}};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_TOW, &keys);
     if (status != CPS_OK) return status;
+    out->start = keys.start, out->steps = keys.steps;
+    CpsTow *tow = &out->start;
+    const double *end = keys.end;
     const double c = cos(tow->pose[2]), s = sin(tow->pose[2]);
     const double hitch[2] = {tow->pose[0] + c * tow->hitch[0] - s * tow->hitch[1],
                              tow->pose[1] + s * tow->hitch[0] + c * tow->hitch[1]};
@@ -154,21 +147,20 @@ static CpsStatus read_tow(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveTow *o
         return cpsi_drive_wrong(r, node, "tow", "'rope' (its length) and 'end' (where its far end is) together or not");
     if (tow->rope > 0 && !(hypot(end[0] - hitch[0], end[1] - hitch[1]) <= tow->rope * (1 + 1e-9)))
         return cpsi_drive_wrong(r, node, "tow", "an 'end' no farther from the hitch than the rope is long");
-    memcpy(tow->end, tow->rope > 0 ? end : hitch, sizeof end);
-    status = cpsi_drive_read_path(r, path, 2, tow->end, out->steps, &out->points, &out->path);
+    memcpy(tow->end, tow->rope > 0 ? end : hitch, sizeof tow->end);
+    status = cpsi_drive_read_path(r, keys.path, 2, tow->end, out->steps, &out->points, &out->path);
     return status;
 }
 
 /* ---- together ---- */
 
 static CpsStatus read_whole(CpsiDriveRead *r, const CpsiYaml *node, bool vehicle, CpsDriveBody *out) {
-    const CpsiYaml *patches = NULL, *push = NULL, *tow = NULL;
-    void *const to[] = {&patches, &push, &tow};
+    CpsiBodyKeys keys = {.patches = NULL};
     out->vehicle = vehicle;
-    CpsStatus status = cpsi_drive_fields(r, node, vehicle ? CPSI_DRIVE_VEHICLE : CPSI_DRIVE_BODY, to);
-    if (status == CPS_OK) status = read_patches(r, patches, vehicle, out);
-    if (status == CPS_OK && push) status = read_pushes(r, push, out);
-    if (status == CPS_OK && tow) status = read_tow(r, tow, &out->tow);
+    CpsStatus status = cpsi_drive_fields(r, node, vehicle ? CPSI_DRIVE_VEHICLE : CPSI_DRIVE_BODY, &keys);
+    if (status == CPS_OK) status = read_patches(r, keys.patches, vehicle, out);
+    if (status == CPS_OK && keys.push) status = read_pushes(r, keys.push, out);
+    if (status == CPS_OK && keys.tow) status = read_tow(r, keys.tow, &out->tow);
     return status;
 }
 

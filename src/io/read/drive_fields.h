@@ -13,11 +13,10 @@ typedef struct CpsiDriveRead {
     size_t max_bytes;
 } CpsiDriveRead;
 
-/* Read a mapping: every key is a field, required ones are there, values are of their kind.
+/* Read a mapping: every key has a row, required ones are there, values are of their type.
  *
- *   out   (fields) where each value goes, of the type that its kind says; what is there stays where the key is not
- * given */
-CpsStatus cpsi_drive_fields(CpsiDriveRead *r, const CpsiYaml *node, CpsiDriveMapping mapping, void *const *out);
+ *   out   the struct of this kind of mapping (drive_keys.h); what is there stays where the key is not given */
+CpsStatus cpsi_drive_fields(CpsiDriveRead *r, const CpsiYaml *node, CpsiDriveMapping mapping, void *out);
 
 /* [[x, ..], ..]: `least` rows or more of `columns` numbers; *out is the pool's. */
 CpsStatus cpsi_drive_rows(CpsiDriveRead *r, const CpsiYaml *node, const char *what, int columns, int least, int *rows,

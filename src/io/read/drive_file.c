@@ -28,17 +28,15 @@ void cps_drive_file_destroy(CpsDriveFile *file) {
 }
 
 static CpsStatus read_kind(CpsiDriveRead *r, const CpsiYaml *root, CpsDriveFile *out) {
-    int version;
     enum { SYSTEM, BODY, VEHICLE, PLANIMETER, ROPE, SWEEP, KINDS };
-    const CpsiYaml *kind[KINDS] = {NULL};
-    out->title = "";
-    void *const to[] = {&version,       &out->title,       &kind[SYSTEM], &kind[BODY],
-                        &kind[VEHICLE], &kind[PLANIMETER], &kind[ROPE],   &kind[SWEEP]};
+    CpsiFileKeys keys = {.title = ""};
     static const CpsDriveKind KIND[KINDS] = {CPS_DRIVE_SYSTEM,     CPS_DRIVE_BODY, CPS_DRIVE_BODY,
                                              CPS_DRIVE_PLANIMETER, CPS_DRIVE_ROPE, CPS_DRIVE_SWEEP};
     const CpsiLawFile *f = &r->build.file;
-    const CpsStatus status = cpsi_drive_fields(r, root, CPSI_DRIVE_FILE, to);
+    const CpsStatus status = cpsi_drive_fields(r, root, CPSI_DRIVE_FILE, &keys);
     if (status != CPS_OK) return status;
+    out->title = keys.title;
+    const CpsiYaml *const kind[KINDS] = {keys.system, keys.body, keys.vehicle, keys.planimeter, keys.rope, keys.sweep};
     int given = 0, which = 0;
     for (int k = 0; k < KINDS; k++)
         if (kind[k]) given++, which = k;

@@ -20,17 +20,16 @@ static CpsStatus fail_node(CpsiDriveRead *r, const CpsiYaml *node, const char *m
 /* ---- planimeter ---- */
 
 static CpsStatus read_circle(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePlanimeter *out) {
-    double center[2] = {0, 0}, radius = 0;
-    int points = 0;
-    void *const to[] = {center, &radius, &points};
-    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_CIRCLE, to);
+    CpsiCircleKeys circle = {.points = 0};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_CIRCLE, &circle);
     if (status != CPS_OK) return status;
+    const int points = circle.points;
     if (points < 3) return cpsi_drive_wrong(r, node, "'circle'", "at least 3 points");
     double *x = CPSI_POOL_TAKE(r->build.file.pool, 2 * (size_t)points, double);
     if (!x) return cpsi_drive_no_memory(r);
     for (int i = 0; i < points; i++) {
-        x[2 * i] = center[0] + radius * cos(2 * PI * i / points);
-        x[2 * i + 1] = center[1] + radius * sin(2 * PI * i / points);
+        x[2 * i] = circle.center[0] + circle.radius * cos(2 * PI * i / points);
+        x[2 * i + 1] = circle.center[1] + circle.radius * sin(2 * PI * i / points);
     }
     out->points = points, out->point = x;
     return CPS_OK;
@@ -86,22 +85,19 @@ static CpsStatus read_curve_file(CpsiDriveRead *r, const CpsiYaml *node, CpsDriv
 
 static CpsStatus read_curve(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePlanimeter *out) {
     if (node->kind != CPSI_YAML_MAPPING) return cpsi_drive_rows(r, node, "'curve'", 2, 3, &out->points, &out->point);
-    const CpsiYaml *circle = NULL, *file = NULL;
-    void *const to[] = {&circle, &file};
-    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_CURVE, to);
+    CpsiCurveKeys keys = {.circle = NULL};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_CURVE, &keys);
     if (status != CPS_OK) return status;
-    if (!circle == !file) return cpsi_drive_wrong(r, node, "'curve'", "a list of points, {circle: ..} or {file: ..}");
-    return circle ? read_circle(r, circle, out) : read_curve_file(r, file, out);
+    if (!keys.circle == !keys.file) return cpsi_drive_wrong(r, node, "'curve'", "a list of points, {circle: ..} or {file: ..}");
+    return keys.circle ? read_circle(r, keys.circle, out) : read_curve_file(r, keys.file, out);
 }
 
 CpsStatus cpsi_drive_read_planimeter(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePlanimeter *out) {
-    const CpsiYaml *curve = NULL;
+    CpsiPlanimeterKeys keys = {.steps = 1};
     CpsPlanimeter *p = &out->planimeter;
-    out->steps = 1;
-    void *const to[] = {p->pole,  &p->pole_arm,   &p->tracer_arm, &p->wheel,  &p->friction,
-                        &p->load, &p->left_elbow, &curve,         &out->steps};
-    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PLANIMETER, to);
-    if (status == CPS_OK) status = read_curve(r, curve, out);
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PLANIMETER, &keys);
+    *p = keys.planimeter, out->steps = keys.steps;
+    if (status == CPS_OK) status = read_curve(r, keys.curve, out);
     if (status == CPS_OK && (double)out->points * out->steps > 1e8)
         return fail_node(r, node, "planimeter: more than 1e8 steps in all");
 
@@ -109,56 +105,54 @@ CpsStatus cpsi_drive_read_planimeter(CpsiDriveRead *r, const CpsiYaml *node, Cps
     CpsPlanimeterReading unused;
     CpsError found;
     if (status == CPS_OK && cps_planimeter_trace(p, out->points, out->point, 1, &unused, &found) != CPS_OK)
-        status = cpsi_drive_place(r, curve, &found);
+        status = cpsi_drive_place(r, keys.curve, &found);
     return status;
 }
 
 /* ---- rope ---- */
 
 static CpsStatus arc_shape(CpsiDriveRead *r, const CpsiYaml *node, int nodes, double *x) {
-    double center[2] = {0, 0}, radius = 0, from = 0, turn = 0;
-    void *const to[] = {center, &radius, &from, &turn};
-    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ARC, to);
+    CpsiArcKeys arc = {.radius = 0};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ARC, &arc);
     for (int i = 0; i < nodes; i++) {
-        const double a = from + turn * i / (nodes - 1);
-        x[2 * i] = center[0] + radius * cos(a), x[2 * i + 1] = center[1] + radius * sin(a);
+        const double a = arc.from + arc.turn * i / (nodes - 1);
+        x[2 * i] = arc.center[0] + arc.radius * cos(a), x[2 * i + 1] = arc.center[1] + arc.radius * sin(a);
     }
     return status;
 }
 
 static CpsStatus straight_shape(CpsiDriveRead *r, const CpsiYaml *node, int nodes, double *x) {
-    double end[4] = {0, 0, 0, 0};
-    void *const to[] = {end, end + 2};
-    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_STRAIGHT, to);
+    CpsiStraightKeys keys = {.from = {0}};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_STRAIGHT, &keys);
+    const double end[4] = {keys.from[0], keys.from[1], keys.to[0], keys.to[1]};
     if (status == CPS_OK) cps_drive_walk(2, 2, end, nodes, x);
     return status;
 }
 
 static CpsStatus read_shape(CpsiDriveRead *r, const CpsiYaml *node, int elements, CpsDriveRope *out) {
-    const CpsiYaml *straight = NULL, *arc = NULL, *points = NULL;
-    void *const to[] = {&straight, &arc, &points};
-    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_SHAPE, to);
+    CpsiShapeKeys keys = {.straight = NULL};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_SHAPE, &keys);
     if (status != CPS_OK) return status;
-    if ((straight != NULL) + (arc != NULL) + (points != NULL) != 1)
+    if ((keys.straight != NULL) + (keys.arc != NULL) + (keys.points != NULL) != 1)
         return cpsi_drive_wrong(r, node, "'shape'", "exactly one of 'straight', 'arc', 'points'");
     const int nodes = elements + 1;
     double *x = CPSI_POOL_TAKE(r->build.file.pool, 2 * (size_t)nodes, double);
     if (!x) return cpsi_drive_no_memory(r);
     out->rope.nodes = nodes, out->rope.node = x;
-    if (straight) return straight_shape(r, straight, nodes, x);
-    if (arc) return arc_shape(r, arc, nodes, x);
+    if (keys.straight) return straight_shape(r, keys.straight, nodes, x);
+    if (keys.arc) return arc_shape(r, keys.arc, nodes, x);
     int count = 0;
     const double *given = NULL;
-    status = cpsi_drive_rows(r, points, "'points'", 2, 2, &count, &given);
+    status = cpsi_drive_rows(r, keys.points, "'points'", 2, 2, &count, &given);
     if (status == CPS_OK) cps_drive_walk(2, count, given, nodes, x);
     return status;
 }
 
 /* {A: held, B: [vx, vy]} */
 static CpsStatus read_ends(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveRope *out) {
-    const CpsiYaml *end[2] = {NULL, NULL};
-    void *const to[] = {&end[0], &end[1]};
-    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ENDS, to);
+    CpsiEndsKeys keys = {.A = NULL};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ENDS, &keys);
+    const CpsiYaml *const end[2] = {keys.A, keys.B};
     int rows = 0;
     for (int k = 0; k < 2 && status == CPS_OK; k++) {
         const bool word = end[k] && end[k]->kind == CPSI_YAML_SCALAR;
@@ -174,44 +168,45 @@ static CpsStatus read_ends(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveRope 
 }
 
 CpsStatus cpsi_drive_read_rope(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveRope *out) {
-    const CpsiYaml *shape = NULL, *ends = NULL, *path = NULL;
-    int elements = 100;
-    out->steps = 40, out->shots = 6;
-    void *const to[] = {&shape, &elements, &out->friction, &out->weight, &ends, &out->rope.slack, &path, &out->steps, &out->shots};
-    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ROPE, to);
-    if (status == CPS_OK) status = read_shape(r, shape, elements, out);
+    CpsiRopeKeys keys = {.elements = 100, .steps = 40, .shots = 6};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_ROPE, &keys);
+    const CpsiYaml *path = keys.path;
+    out->friction = keys.friction, out->weight = keys.weight;
+    out->steps = keys.steps, out->shots = keys.shots;
+    out->rope.slack = keys.slack;
+    if (status == CPS_OK) status = read_shape(r, keys.shape, keys.elements, out);
     out->rope.resistance = out->friction * out->weight;
-    if (status == CPS_OK) status = read_ends(r, ends, out);
+    if (status == CPS_OK) status = read_ends(r, keys.ends, out);
     if (status == CPS_OK && path && !out->rope.driven[1])
         return fail_node(r, path, "'path': end B is free, expected it held or driven: the path is its path");
     if (status == CPS_OK && path)
-        status = cpsi_drive_read_path(r, path, 2, out->rope.node + 2 * (size_t)elements, out->steps, &out->points,
+        status = cpsi_drive_read_path(r, path, 2, out->rope.node + 2 * (size_t)keys.elements, out->steps, &out->points,
                                       &out->path);
 
     /* a shape that the library refuses (nodes at one place) is refused here, with its place */
     CpsError found;
-    if (status == CPS_OK && cps_rope_check(&out->rope, &found) != CPS_OK) status = cpsi_drive_place(r, shape, &found);
+    if (status == CPS_OK && cps_rope_check(&out->rope, &found) != CPS_OK) status = cpsi_drive_place(r, keys.shape, &found);
     return status;
 }
 
 /* ---- sweep ---- */
 
 CpsStatus cpsi_drive_read_sweep(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSweep *out) {
-    const CpsiYaml *law = NULL, *position = NULL, *end = NULL, *path = NULL;
-    void *const to[] = {&law, &out->start.stiffness, &position, &end, &path, &out->steps};
-    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_SWEEP, to);
+    CpsiSweepKeys keys = {.law = NULL};
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_SWEEP, &keys);
+    out->start.stiffness = keys.stiffness, out->steps = keys.steps;
     CpsLaw *own = NULL;
-    if (status == CPS_OK) status = cpsi_drive_law(r, law, &own);
+    if (status == CPS_OK) status = cpsi_drive_law(r, keys.law, &own);
     out->law = own;
     if (status != CPS_OK) return status;
     out->space = cps_law_space(own);
-    if (out->space > 2) return fail_node(r, law, "'law': found more than 2 components, expected 1 or 2");
-    const CpsiYaml *const given[2] = {position, end};
+    if (out->space > 2) return fail_node(r, keys.law, "'law': found more than 2 components, expected 1 or 2");
+    const CpsiYaml *const given[2] = {keys.position, keys.end};
     double *const start[2] = {out->start.position, out->start.end};
     for (int k = 0; k < 2 && status == CPS_OK; k++) {
         if (given[k]) status = cpsi_drive_point(r, given[k], k ? "'end'" : "'position'", out->space, start[k]);
     }
-    if (status == CPS_OK && !end) memcpy(out->start.end, out->start.position, sizeof out->start.end);
+    if (status == CPS_OK && !keys.end) memcpy(out->start.end, out->start.position, sizeof out->start.end);
     return status ? status
-                  : cpsi_drive_read_path(r, path, out->space, out->start.end, out->steps, &out->points, &out->path);
+                  : cpsi_drive_read_path(r, keys.path, out->space, out->start.end, out->steps, &out->points, &out->path);
 }

@@ -143,11 +143,11 @@ static CpsStatus add_law(const Names *names, const CpsiYaml *node, const char *n
 
 static CpsStatus read_law(const Names *names, const CpsiYaml *node, int number, CpsSystem *system) {
     char fallback[32];
-    const char *name = fallback;
-    const CpsiYaml *on = NULL, *law = NULL, *terms = NULL;
-    void *const to[] = {&name, &on, &law, &terms};
     snprintf(fallback, sizeof fallback, "law %d", number + 1);
-    CpsStatus status = cpsi_drive_fields(names->r, node, CPSI_DRIVE_LAW, to);
+    CpsiLawKeys keys = {.name = fallback};
+    CpsStatus status = cpsi_drive_fields(names->r, node, CPSI_DRIVE_LAW, &keys);
+    const CpsiYaml *law = keys.law, *terms = keys.resistance;
+    const char *name = keys.name;
     if (status == CPS_OK && !law == !terms)
         return cpsi_drive_wrong(names->r, node, "law", "exactly one of 'law' and 'resistance' in it");
     const CpsiLawFile *f = &names->r->build.file;
@@ -156,7 +156,7 @@ static CpsStatus read_law(const Names *names, const CpsiYaml *node, int number, 
             status = cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, node->line, node->column,
                                   "law '%.64s' is there already; names tell laws apart", name);
     Map map;
-    if (status == CPS_OK) status = read_map(names, on, "'on'", &map);
+    if (status == CPS_OK) status = read_map(names, keys.on, "'on'", &map);
     return status ? status : add_law(names, node, name, &map, law ? law : terms, terms != NULL, system);
 }
 
@@ -209,17 +209,17 @@ static CpsStatus read_load(const Names *names, const CpsiYaml *node, CpsSystem *
 }
 
 CpsStatus cpsi_drive_read_system(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSystem *out) {
-    const CpsiYaml *parameters = NULL, *laws = NULL, *constraints = NULL, *drive = NULL, *load = NULL, *asked = NULL;
-    out->map_radius = 1;
-    void *const to[] = {&parameters, &laws, &constraints, &drive, &load, &asked, &out->map_radius};
+    CpsiSystemKeys keys = {.map_radius = 1};
     Names names;
     CpsError found;
-    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_SYSTEM, to);
-    if (status == CPS_OK) status = read_names(r, parameters, &names);
+    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_SYSTEM, &keys);
+    out->map_radius = keys.map_radius;
+    const CpsiYaml *constraints = keys.constraints, *drive = keys.drive, *load = keys.load, *asked = keys.velocity;
+    if (status == CPS_OK) status = read_names(r, keys.parameters, &names);
     if (status == CPS_OK && cps_system_create(names.count, &out->system, &found) != CPS_OK)
         status = cpsi_drive_place(r, node, &found);
     if (status == CPS_OK) out->parameters = names.count, out->parameter = names.name;
-    if (status == CPS_OK) status = read_laws(&names, laws, out->system);
+    if (status == CPS_OK) status = read_laws(&names, keys.laws, out->system);
     if (status == CPS_OK && constraints) status = read_constraints(&names, constraints, out->system);
     if (status == CPS_OK && drive) status = read_drive(&names, drive, out);
     if (status == CPS_OK && load) status = read_load(&names, load, out->system);

@@ -40,20 +40,19 @@ void cps_drive_walk(int space, int points, const double *path, int count, double
 
 static CpsStatus read_arc(CpsiDriveRead *r, const CpsiYaml *node, const double *start, int steps, int *points,
                           const double **path) {
-    double center[2], turn = 0;
-    void *const to[] = {center, &turn};
-    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PATH_ARC, to);
+    CpsiPathArcKeys arc = {.turn = 0};
+    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PATH_ARC, &arc);
     if (status != CPS_OK) return status;
-    if (!(fabs(turn) <= 1000)) return cpsi_drive_wrong(r, node, "'arc'", "a turn of at most 1000 rad");
+    if (!(fabs(arc.turn) <= 1000)) return cpsi_drive_wrong(r, node, "'arc'", "a turn of at most 1000 rad");
     /* corners where the steps end */
     const int sides = steps * (steps < CPSI_DRIVE_ARC_SIDES ? 1 + CPSI_DRIVE_ARC_SIDES / steps : 1);
     double *x = CPSI_POOL_TAKE(r->build.file.pool, 2 * ((size_t)sides + 1), double);
     if (!x) return cpsi_drive_no_memory(r);
-    const double dx = start[0] - center[0], dy = start[1] - center[1];
+    const double dx = start[0] - arc.center[0], dy = start[1] - arc.center[1];
     for (int i = 0; i <= sides; i++) {
-        const double a = turn * i / sides;
-        x[2 * i] = center[0] + cos(a) * dx - sin(a) * dy;
-        x[2 * i + 1] = center[1] + sin(a) * dx + cos(a) * dy;
+        const double a = arc.turn * i / sides;
+        x[2 * i] = arc.center[0] + cos(a) * dx - sin(a) * dy;
+        x[2 * i + 1] = arc.center[1] + sin(a) * dx + cos(a) * dy;
     }
     *points = sides + 1, *path = x;
     return CPS_OK;
@@ -62,11 +61,10 @@ static CpsStatus read_arc(CpsiDriveRead *r, const CpsiYaml *node, const double *
 CpsStatus cpsi_drive_read_path(CpsiDriveRead *r, const CpsiYaml *node, int space, const double *start, int steps,
                                int *points, const double **path) {
     if (node->kind == CPSI_YAML_MAPPING) {
-        const CpsiYaml *arc = NULL;
-        void *const to[] = {&arc};
+        CpsiPathKeys keys = {.arc = NULL};
         if (space != 2) return cpsi_drive_wrong(r, node, "'path'", "a list of points, as in [[0], [1]]");
-        const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PATH, to);
-        return status ? status : read_arc(r, arc, start, steps, points, path);
+        const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PATH, &keys);
+        return status ? status : read_arc(r, keys.arc, start, steps, points, path);
     }
     int rows = 0;
     const double *given = NULL;

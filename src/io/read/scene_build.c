@@ -227,7 +227,7 @@ static CpsStatus build_lines(Build *b, const CpsiYaml *lines) {
 
 /* A set in the words of law files. */
 static CpsStatus build_set(Build *b, const CpsiYaml *node, CpsObstacle *obstacle) {
-    static const CpsiLawWord SET = {.name = "set", .key = {{.type = CPSI_LAW_SET}}};
+    static const CpsiLawWord SET = {.name = "set", .key = {{.type = CPSI_SET}}};
     CpsiLawValue value[CPSI_LAW_MOST_KEYS] = {{.node = NULL}};
     const CpsStatus status = cpsi_law_read_values(&b->law, node, &SET, "'set'", value);
     if (status == CPS_OK) obstacle->friction_set = value[0].set[0], value[0].set[0] = NULL;

@@ -162,17 +162,17 @@ static CpsStatus build_contact(CpsiLawBuild *b, const CpsiYaml *node, int i, Cps
 /* ---- values ---- */
 
 /* room for `count` sets, laws or terms, all NULL */
-static CpsStatus take_parts(const CpsiLawFile *f, CpsiLawType type, int count, CpsiLawValue *value) {
+static CpsStatus take_parts(const CpsiLawFile *f, CpsiValue type, int count, CpsiLawValue *value) {
     bool room;
     switch (type) {
-    case CPSI_LAW_SET:
-    case CPSI_LAW_SETS:
+    case CPSI_SET:
+    case CPSI_SETS:
         room = (value->set = CPSI_POOL_TAKE(f->pool, count, CpsSet *)) != NULL;
         break;
-    case CPSI_LAW_TERMS:
+    case CPSI_TERMS:
         room = (value->term = CPSI_POOL_TAKE(f->pool, count, CpsResistance *)) != NULL;
         break;
-    case CPSI_LAW_CONTACTS:
+    case CPSI_CONTACTS:
         value->map = CPSI_POOL_TAKE(f->pool, count, const double *);
         room = value->map && (value->law = CPSI_POOL_TAKE(f->pool, count, CpsLaw *));
         break;
@@ -183,35 +183,35 @@ static CpsStatus take_parts(const CpsiLawFile *f, CpsiLawType type, int count, C
     return room ? CPS_OK : cpsi_law_no_memory(f);
 }
 
-static CpsStatus build_part(CpsiLawBuild *b, const CpsiYaml *node, CpsiLawType type, int i, CpsiLawValue *value) {
+static CpsStatus build_part(CpsiLawBuild *b, const CpsiYaml *node, CpsiValue type, int i, CpsiLawValue *value) {
     switch (type) {
-    case CPSI_LAW_SET:
-    case CPSI_LAW_SETS:
+    case CPSI_SET:
+    case CPSI_SETS:
         return build_set(b, node, &value->set[i]);
-    case CPSI_LAW_TERMS:
+    case CPSI_TERMS:
         return build_term(b, node, &value->term[i]);
-    case CPSI_LAW_CONTACTS:
+    case CPSI_CONTACTS:
         return build_contact(b, node, i, value);
     default:
         return build_law(b, node, &value->law[i]);
     }
 }
 
-static CpsStatus read_value(CpsiLawBuild *b, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+static CpsStatus read_value(CpsiLawBuild *b, const CpsiYaml *node, const CpsiKey *key, const char *what,
                             CpsiLawValue *value) {
-    const CpsiLawType type = key->type;
+    const CpsiValue type = key->type;
     value->node = node;
-    if (type < CPSI_LAW_SET) return cpsi_law_value(&b->file, node, key, what, value);
-    if (type == CPSI_LAW_SET || type == CPSI_LAW_LAW) {
+    if (type < CPSI_SET) return cpsi_law_value(&b->file, node, key, what, value);
+    if (type == CPSI_SET || type == CPSI_LAW) {
         const CpsStatus status = take_parts(&b->file, type, 1, value);
         return status ? status : build_part(b, node, type, 0, value);
     }
     if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
         return cpsi_law_wrong(&b->file, node, what,
-                              type == CPSI_LAW_TERMS ? "a list of terms, as in [{dry: {disc: 500}}]"
-                              : type == CPSI_LAW_CONTACTS
+                              type == CPSI_TERMS ? "a list of terms, as in [{dry: {disc: 500}}]"
+                              : type == CPSI_CONTACTS
                                   ? "a list of contacts, as in [{map: [[1, 0]], of: {interval: 5}}]"
-                              : type == CPSI_LAW_LAWS ? "a list of laws, as in [{interval: 60}, {disc: 500}]"
+                              : type == CPSI_LAWS ? "a list of laws, as in [{interval: 60}, {disc: 500}]"
                                                       : "a list of sets, as in [{interval: 60}, {disc: 500}]");
     CpsStatus status = take_parts(&b->file, type, node->count, value);
     int i = 0;
@@ -222,10 +222,10 @@ static CpsStatus read_value(CpsiLawBuild *b, const CpsiYaml *node, const CpsiLaw
 
 CpsStatus cpsi_law_read_values(CpsiLawBuild *b, const CpsiYaml *node, const CpsiLawWord *word, const char *what,
                                CpsiLawValue value[CPSI_LAW_MOST_KEYS]) {
-    const CpsiLawKey *key = word->key;
+    const CpsiKey *key = word->key;
     if (!key[0].name) return read_value(b, node, &key[0], what, &value[0]);
     const CpsiYaml *child[CPSI_LAW_MOST_KEYS] = {NULL};
-    CpsStatus status = cpsi_law_keys(&b->file, node, what, key, child);
+    CpsStatus status = cpsi_law_keys(&b->file, node, what, key, cpsi_law_key_count(word), child);
     for (int i = 0; i < CPSI_LAW_MOST_KEYS && status == CPS_OK; i++) {
         char name[80];
         if (!child[i]) continue;

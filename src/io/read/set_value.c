@@ -8,21 +8,8 @@
 
 #include "io/schema/keys.h"
 
-/* Beyond it squares would overflow, as in scenes. */
-static const double LARGEST = 1e100;
-
 CpsStatus cpsi_law_wrong(const CpsiLawFile *f, const CpsiYaml *node, const char *what, const char *expected) {
-    char found[100];
-    if (node->kind == CPSI_YAML_MAPPING)
-        snprintf(found, sizeof found, "a mapping");
-    else if (node->kind == CPSI_YAML_SEQUENCE)
-        snprintf(found, sizeof found, "a list of %d", node->count);
-    else if (!node->text[0])
-        snprintf(found, sizeof found, "nothing");
-    else
-        snprintf(found, sizeof found, "'%.60s'%s", node->text, node->plain ? "" : " in quotes");
-    return cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, node->line, node->column, "%s: found %s, expected %s", what,
-                        found, expected);
+    return cpsi_key_wrong(f->name, node, what, expected, f->err);
 }
 
 CpsStatus cpsi_law_no_memory(const CpsiLawFile *f) {
@@ -37,39 +24,39 @@ static CpsStatus too_many(const CpsiLawFile *f, const CpsiYaml *node, const char
 /* ---- numbers ---- */
 
 /* of the key's range */
-static CpsStatus number(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+static CpsStatus number(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                         double *out) {
     char expected[80] = "a finite number, at most 1e100";
     double x = NAN;
     const bool plain = node->kind == CPSI_YAML_SCALAR && node->plain && cpsi_yaml_number(node->text, &x);
-    if (plain && fabs(x) <= LARGEST && (key->open ? x > key->low : x >= key->low)) {
+    if (plain && fabs(x) <= CPSI_LARGEST && (key->open ? x > key->low : x >= key->low)) {
         *out = x;
         return CPS_OK;
     }
-    if (key->low > -LARGEST)
+    if (key->low > -CPSI_LARGEST)
         snprintf(expected, sizeof expected, "a finite number %s %g", key->open ? "greater than" : "of at least",
                  key->low);
     return cpsi_law_wrong(f, node, what, expected);
 }
 
 /* a list, into out (node->count) */
-static CpsStatus numbers(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+static CpsStatus numbers(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                          double *out) {
     CpsStatus status = CPS_OK;
     for (const CpsiYaml *x = node->child; x && status == CPS_OK; x = x->next) status = number(f, x, key, what, out++);
     return status;
 }
 
-static CpsStatus take_count(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+static CpsStatus take_count(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                             double *out) {
     char expected[80];
     double x = NAN;
     const bool plain = node->kind == CPSI_YAML_SCALAR && node->plain && cpsi_yaml_number(node->text, &x);
-    if (plain && x >= 1 && x <= key->most && x == floor(x)) {
+    if (plain && x >= 1 && x <= key->high && x == floor(x)) {
         *out = x;
         return CPS_OK;
     }
-    snprintf(expected, sizeof expected, key->most > 1 ? "a whole number from 1 to %d" : "%d", key->most);
+    snprintf(expected, sizeof expected, key->high > 1 ? "a whole number from 1 to %.0f" : "%.0f", key->high);
     return cpsi_law_wrong(f, node, what, expected);
 }
 
@@ -82,7 +69,7 @@ static CpsStatus take_room(const CpsiLawFile *f, CpsiLawValue *value, int rows, 
 
 /* ---- lists of numbers ---- */
 
-static CpsStatus take_vector(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+static CpsStatus take_vector(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                              CpsiLawValue *value) {
     if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
         return cpsi_law_wrong(f, node, what, "a list of numbers, as in [1, 2]");
@@ -92,7 +79,7 @@ static CpsStatus take_vector(const CpsiLawFile *f, const CpsiYaml *node, const C
 }
 
 /* rows, equally long */
-static CpsStatus take_matrix(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+static CpsStatus take_matrix(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                              CpsiLawValue *value) {
     static const char EXPECTED[] = "rows of numbers, all equally long, as in [[1, 0], [0, 1]]";
     if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1 || node->child->kind != CPSI_YAML_SEQUENCE)
@@ -105,8 +92,8 @@ static CpsStatus take_matrix(const CpsiLawFile *f, const CpsiYaml *node, const C
     if (node->count > CPS_SET_MAX_ITEMS)
         return cpsi_fail_at(f->err, CPS_ERR_LIMIT, f->name, node->line, node->column, "%s: found %d rows, at most %d",
                             what, node->count, CPS_SET_MAX_ITEMS);
-    if (key->type == CPSI_LAW_SQUARE && columns != node->count) return cpsi_law_wrong(f, node, what, "a square matrix");
-    if (key->type == CPSI_LAW_ENDS && node->count != 2) return cpsi_law_wrong(f, node, what, "its two ends");
+    if (key->type == CPSI_SQUARE && columns != node->count) return cpsi_law_wrong(f, node, what, "a square matrix");
+    if (key->type == CPSI_ENDS_OF_SEGMENT && node->count != 2) return cpsi_law_wrong(f, node, what, "its two ends");
     CpsStatus status = take_room(f, value, node->count, columns);
     double *x = value->x;
     for (const CpsiYaml *row = node->child; row && status == CPS_OK; row = row->next, x += columns)
@@ -115,7 +102,7 @@ static CpsStatus take_matrix(const CpsiLawFile *f, const CpsiYaml *node, const C
 }
 
 /* [[x, y], ..] */
-static CpsStatus take_pairs(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+static CpsStatus take_pairs(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                             CpsiLawValue *value) {
     CpsiLawValue given = {.node = node};
     CpsStatus status = take_matrix(f, node, key, what, &given);
@@ -128,7 +115,7 @@ static CpsStatus take_pairs(const CpsiLawFile *f, const CpsiYaml *node, const Cp
 }
 
 /* An end of a side: without end on its own side only. */
-static CpsStatus end_of_side(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what, double side,
+static CpsStatus end_of_side(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what, double side,
                              double *out) {
     double x = NAN;
     const bool plain = node->kind == CPSI_YAML_SCALAR && node->plain && cpsi_yaml_number(node->text, &x);
@@ -138,9 +125,9 @@ static CpsStatus end_of_side(const CpsiLawFile *f, const CpsiYaml *node, const C
 }
 
 /* b for [-b, b], or [low, high] */
-static CpsStatus take_side(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+static CpsStatus take_side(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                            double *low, double *high) {
-    static const CpsiLawKey HALF = {.low = 0};
+    static const CpsiKey HALF = {.low = 0};
     if (node->kind == CPSI_YAML_SCALAR) {
         const CpsStatus status = end_of_side(f, node, &HALF, what, INFINITY, high);
         *low = -*high;
@@ -152,7 +139,7 @@ static CpsStatus take_side(const CpsiLawFile *f, const CpsiYaml *node, const Cps
     return status ? status : end_of_side(f, node->child->next, key, what, INFINITY, high);
 }
 
-static CpsStatus take_sides(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+static CpsStatus take_sides(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                             CpsiLawValue *value) {
     if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
         return cpsi_law_wrong(f, node, what, "half widths, as in [300, 100], or sides, as in [[-1, 2], [0, 5]]");
@@ -165,29 +152,29 @@ static CpsStatus take_sides(const CpsiLawFile *f, const CpsiYaml *node, const Cp
     return status;
 }
 
-CpsStatus cpsi_law_value(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+CpsStatus cpsi_law_value(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                          CpsiLawValue *value) {
     CpsStatus status = CPS_OK;
     switch (key->type) {
-    case CPSI_LAW_TEXT:
+    case CPSI_TEXT:
         if (node->kind != CPSI_YAML_SCALAR || strlen(node->text) > (size_t)key->most)
             return cpsi_law_wrong(f, node, what, "a text of at most 255 bytes");
         value->text = node->text;
         return CPS_OK;
-    case CPSI_LAW_COUNT:
+    case CPSI_INTEGER:
         status = take_room(f, value, 1, 1);
         return status ? status : take_count(f, node, key, what, value->x);
-    case CPSI_LAW_NUMBER:
+    case CPSI_NUMBER:
         status = take_room(f, value, 1, 1);
         return status ? status : number(f, node, key, what, value->x);
-    case CPSI_LAW_VECTOR:
+    case CPSI_VECTOR:
         return take_vector(f, node, key, what, value);
-    case CPSI_LAW_PAIRS:
+    case CPSI_PAIRS:
         return take_pairs(f, node, key, what, value);
-    case CPSI_LAW_SIDE:
+    case CPSI_SIDE:
         status = take_room(f, value, 2, 1);
         return status ? status : take_side(f, node, key, what, &value->x[0], &value->x[1]);
-    case CPSI_LAW_SIDES:
+    case CPSI_SIDES:
         return take_sides(f, node, key, what, value);
     default:
         return take_matrix(f, node, key, what, value);
@@ -196,43 +183,20 @@ CpsStatus cpsi_law_value(const CpsiLawFile *f, const CpsiYaml *node, const CpsiL
 
 /* ---- keys ---- */
 
-/* "a, b, c" */
-static const char *list_keys(const CpsiLawKey *key, char *text, size_t size) {
-    size_t used = 0;
-    text[0] = '\0';
-    for (int i = 0; i < CPSI_LAW_MOST_KEYS && key[i].type && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", key[i].name);
-    return text;
-}
-
-static CpsStatus unknown_key(const CpsiLawFile *f, const CpsiYaml *node, const char *what, const CpsiLawKey *key) {
-    CpsiSuggestion suggestion = {.word = node->key};
-    char list[200];
-    for (int i = 0; i < CPSI_LAW_MOST_KEYS && key[i].type; i++) cpsi_suggest(&suggestion, key[i].name);
-    if (suggestion.best)
-        return cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, node->line, node->column,
-                            "%s: unknown key '%.64s'; did you mean '%s'?", what, node->key, suggestion.best);
-    return cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, node->line, node->column,
-                        "%s: unknown key '%.64s', expected a mapping with %s", what, node->key,
-                        list_keys(key, list, sizeof list));
-}
-
-CpsStatus cpsi_law_keys(const CpsiLawFile *f, const CpsiYaml *node, const char *what, const CpsiLawKey *key,
+CpsStatus cpsi_law_keys(const CpsiLawFile *f, const CpsiYaml *node, const char *what, const CpsiKey *key, int count,
                         const CpsiYaml **child) {
-    char list[200], expected[240];
+    char list[300], expected[340];
     if (node->kind != CPSI_YAML_MAPPING) {
-        snprintf(expected, sizeof expected, "a mapping with %s", list_keys(key, list, sizeof list));
+        snprintf(expected, sizeof expected, "a mapping with %s", cpsi_key_list(key, count, list, sizeof list));
         return cpsi_law_wrong(f, node, what, expected);
     }
     for (const CpsiYaml *value = node->child; value; value = value->next) {
         int i = 0;
-        while (i < CPSI_LAW_MOST_KEYS && key[i].type && strcmp(value->key, key[i].name) != 0) i++;
-        if (i == CPSI_LAW_MOST_KEYS || !key[i].type) return unknown_key(f, value, what, key);
+        while (i < count && strcmp(value->key, key[i].name) != 0) i++;
+        if (i == count) return cpsi_key_unknown(f->name, value, what, key, count, f->err);
         child[i] = value;
     }
-    for (int i = 0; i < CPSI_LAW_MOST_KEYS && key[i].type; i++)
-        if (!child[i] && !key[i].optional)
-            return cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, node->line, node->column, "%s: '%s' is missing: %s",
-                                what, key[i].name, key[i].help);
+    for (int i = 0; i < count; i++)
+        if (!child[i] && key[i].need == CPSI_REQUIRED) return cpsi_key_missing(f->name, node, what, &key[i], f->err);
     return CPS_OK;
 }

@@ -17,14 +17,14 @@ typedef struct CpsiLawFile {
 /* "found a list of 2, expected ..." at a node; returns CPS_ERR_INPUT. `what` names the value: "'disc'". */
 CpsStatus cpsi_law_wrong(const CpsiLawFile *f, const CpsiYaml *node, const char *what, const char *expected);
 
-/* A value made of text or numbers (CPSI_LAW_TEXT .. CPSI_LAW_SIDES); numbers are at most 1e100. A size is checked
+/* A value made of text or numbers (CPSI_TEXT .. CPSI_SIDES); numbers are at most 1e100. A size is checked
  * before room is taken for it. */
-CpsStatus cpsi_law_value(const CpsiLawFile *f, const CpsiYaml *node, const CpsiLawKey *key, const char *what,
+CpsStatus cpsi_law_value(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                          CpsiLawValue *value);
 
-/* The node is a mapping that holds exactly the keys of the word; child[i] is the value of key i, NULL where it is
+/* The node is a mapping that holds exactly these keys; child[i] is the value of key i, NULL where it is
  * optional and absent. */
-CpsStatus cpsi_law_keys(const CpsiLawFile *f, const CpsiYaml *node, const char *what, const CpsiLawKey *key,
+CpsStatus cpsi_law_keys(const CpsiLawFile *f, const CpsiYaml *node, const char *what, const CpsiKey *key, int count,
                         const CpsiYaml **child);
 
 CpsStatus cpsi_law_no_memory(const CpsiLawFile *f);

@@ -1,45 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of keys of files of driven systems: one list of fields per kind of mapping. Reading, suggestions and the
- * JSON schema all come from it. To add a key: add a row to its mapping, and where that mapping is read a place for it
- * to go to, in the same order. */
+/* The table of keys of files of driven systems: one list of rows per kind of mapping, and one struct that the rows put their values into.
+ * Reading, suggestions and the JSON schema all come from it. To add a key: add its row, and the field of its struct. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_DRIVE_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_DRIVE_KEYS_H
 
-#include <stdbool.h>
+#include "capstan/planar.h"
+#include "io/schema/keys.h"
 
 /* Limits, so that no small file asks for very much work. */
 enum {
     CPSI_DRIVE_MOST_PARAMETERS = 10000,
     CPSI_DRIVE_MOST_STEPS = 1000000,
     CPSI_DRIVE_MOST_ELEMENTS = 100000,
-    CPSI_DRIVE_ARC_SIDES = 1000 /* of an arc as a path, about */
+    CPSI_DRIVE_ARC_SIDES = 1000, /* of an arc as a path, about */
+    CPSI_DRIVE_LONGEST_TEXT = 255
 };
-
-/* What stands under a key, and what reading makes of it; from CPSI_FIELD_MAPPING on that is the node itself, const
- * CpsiYaml *, and the caller reads it. */
-typedef enum CpsiFieldKind {
-    CPSI_FIELD_TEXT,   /* const char * */
-    CPSI_FIELD_COUNT,  /* int, 1 to `most` */
-    CPSI_FIELD_NUMBER, /* double */
-    CPSI_FIELD_POINT,  /* double[most]: exactly so many numbers */
-    CPSI_FIELD_FLAG,   /* bool */
-
-    CPSI_FIELD_MAPPING,  /* of the kind `inside` */
-    CPSI_FIELD_LIST,     /* of such mappings, at least one */
-    CPSI_FIELD_PATCHES,  /* list of {WORD: mapping}, one of the kinds of patch each */
-    CPSI_FIELD_VECTOR,   /* as many numbers as the law has components */
-    CPSI_FIELD_ROWS,     /* at least `low` rows of `most` numbers, of any one number where that is 0 */
-    CPSI_FIELD_PATH,     /* rows of numbers, or a mapping */
-    CPSI_FIELD_CURVE,    /* at least 3 rows of 2 numbers, or a mapping */
-    CPSI_FIELD_NAMES,    /* names of parameters, at most `most` */
-    CPSI_FIELD_MAP,      /* combinations of parameters */
-    CPSI_FIELD_BY_NAME,  /* numbers by parameter */
-    CPSI_FIELD_LAW,      /* a law, in the words of law files */
-    CPSI_FIELD_TERMS,    /* the terms of a resistance law */
-    CPSI_FIELD_BRAKE,    /* a torque of at least 0, or "locked" */
-    CPSI_FIELD_END,      /* "free", "held" or a velocity of 2 numbers */
-    CPSI_FIELD_FILE_NAME /* of a file */
-} CpsiFieldKind;
 
 typedef enum CpsiDriveMapping {
     CPSI_DRIVE_FILE,
@@ -64,29 +39,107 @@ typedef enum CpsiDriveMapping {
     CPSI_DRIVE_MAPPINGS
 } CpsiDriveMapping;
 
-typedef struct CpsiField {
-    const char *name;
-    CpsiFieldKind kind;
-    bool required;
-    double low; /* range of numbers: least, itself excluded if `open` */
-    bool open;
-    int most;
-    const char *help;
-    CpsiDriveMapping inside; /* of mappings and lists of them */
-} CpsiField;
+/* What each mapping is read into; keys that are not given leave their fields as they are. */
+typedef struct CpsiFileKeys {
+    int capstan;
+    const char *title;
+    const CpsiYaml *system, *body, *vehicle, *planimeter, *rope, *sweep;
+} CpsiFileKeys;
 
-enum { CPSI_DRIVE_MOST_FIELDS = 10 };
+typedef struct CpsiSystemKeys {
+    const CpsiYaml *parameters, *laws, *constraints, *drive, *load, *velocity;
+    double map_radius;
+} CpsiSystemKeys;
+
+typedef struct CpsiLawKeys {
+    const char *name;
+    const CpsiYaml *on, *law, *resistance;
+} CpsiLawKeys;
+
+typedef struct CpsiBodyKeys {
+    const CpsiYaml *patches, *push, *tow; /* the patches of a vehicle are its wheels */
+} CpsiBodyKeys;
+
+typedef struct CpsiPatchKeys {
+    CpsPatch patch; /* its numbers */
+    const CpsiYaml *law, *brake, *corners;
+} CpsiPatchKeys;
+
+typedef struct CpsiPushKeys {
+    double at[2], velocity[2], normal[2], speed, twist[3];
+} CpsiPushKeys;
+
+typedef struct CpsiTowKeys {
+    CpsTow start; /* without its end */
+    double end[2];
+    const CpsiYaml *path;
+    int steps;
+} CpsiTowKeys;
+
+typedef struct CpsiPlanimeterKeys {
+    CpsPlanimeter planimeter;
+    const CpsiYaml *curve;
+    int steps;
+} CpsiPlanimeterKeys;
+
+typedef struct CpsiCurveKeys {
+    const CpsiYaml *circle, *file;
+} CpsiCurveKeys;
+
+typedef struct CpsiCircleKeys {
+    double center[2], radius;
+    int points;
+} CpsiCircleKeys;
+
+typedef struct CpsiRopeKeys {
+    const CpsiYaml *shape, *ends, *path;
+    int elements, steps, shots;
+    double friction, weight;
+    bool slack;
+} CpsiRopeKeys;
+
+typedef struct CpsiShapeKeys {
+    const CpsiYaml *straight, *arc, *points;
+} CpsiShapeKeys;
+
+typedef struct CpsiStraightKeys {
+    double from[2], to[2];
+} CpsiStraightKeys;
+
+typedef struct CpsiArcKeys {
+    double center[2], radius, from, turn;
+} CpsiArcKeys;
+
+typedef struct CpsiEndsKeys {
+    const CpsiYaml *A, *B;
+} CpsiEndsKeys;
+
+typedef struct CpsiSweepKeys {
+    const CpsiYaml *law, *position, *end, *path;
+    double stiffness;
+    int steps;
+} CpsiSweepKeys;
+
+typedef struct CpsiPathKeys {
+    const CpsiYaml *arc;
+} CpsiPathKeys;
+
+typedef struct CpsiPathArcKeys {
+    double center[2], turn;
+} CpsiPathArcKeys;
+
+enum { CPSI_DRIVE_MOST_KEYS = 10 };
 
 typedef struct CpsiDriveWord {
     const char *name;  /* in messages: "'arc'" */
     const char *alias; /* in the schema: "path_arc" */
     const char *also;  /* JSON schema of what keys go together; NULL: nothing more than their rows say */
-    CpsiField field[CPSI_DRIVE_MOST_FIELDS]; /* up to the first one without a name */
+    CpsiKey key[CPSI_DRIVE_MOST_KEYS]; /* up to the first one without a name */
 } CpsiDriveWord;
 
 const CpsiDriveWord *cpsi_drive_word(CpsiDriveMapping mapping);
 
-/* How many fields it has. */
+/* How many keys it has. */
 int cpsi_drive_word_count(const CpsiDriveWord *word);
 
 #endif

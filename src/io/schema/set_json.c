@@ -1,73 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The JSON schema (draft 2020-12) of law files, from the table of words: what does not depend on two values together,
  * such as dimensions, is in it. */
-#include <math.h>
-
 #include "capstan/law_io.h"
 #include "io/schema/set_words.h"
 #include "io/base/escape.h"
 #include "io/schema/json_schema.h"
 #include "io/schema/set_json.h"
-
-static void put_range(FILE *out, const CpsiLawKey *key) {
-    if (!(key->low > -INFINITY)) return;
-    fprintf(out, ", \"%s\": ", key->open ? "exclusiveMinimum" : "minimum");
-    cpsi_put_json_number(out, key->low);
-}
-
-/* What a value looks like; definitions that others refer to are in put_schema. */
-static void put_type(FILE *out, const CpsiLawKey *key) {
-    switch (key->type) {
-    case CPSI_LAW_NOTHING:
-        break;
-    case CPSI_LAW_TEXT:
-        fprintf(out, "\"type\": [\"string\", \"number\", \"boolean\", \"null\"], \"maxLength\": %d", key->most);
-        break;
-    case CPSI_LAW_COUNT:
-        fprintf(out, "\"type\": \"integer\", \"minimum\": 1, \"maximum\": %d", key->most);
-        break;
-    case CPSI_LAW_NUMBER:
-        fputs("\"type\": \"number\"", out);
-        put_range(out, key);
-        break;
-    case CPSI_LAW_VECTOR:
-        fputs("\"type\": \"array\", \"items\": {\"type\": \"number\"", out);
-        put_range(out, key);
-        fprintf(out, "}, \"minItems\": 1, \"maxItems\": %d", key->most);
-        break;
-    case CPSI_LAW_MATRIX:
-    case CPSI_LAW_SQUARE:
-        fputs("\"$ref\": \"#/$defs/matrix\"", out);
-        break;
-    case CPSI_LAW_ENDS:
-        fputs("\"$ref\": \"#/$defs/matrix\", \"minItems\": 2, \"maxItems\": 2", out);
-        break;
-    case CPSI_LAW_PAIRS:
-        fputs("\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/pair\"}, \"minItems\": 1", out);
-        break;
-    case CPSI_LAW_SIDE:
-        fputs("\"$ref\": \"#/$defs/side\"", out);
-        break;
-    case CPSI_LAW_SIDES:
-        fprintf(out, "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/side\"}, \"minItems\": 1, \"maxItems\": %d",
-                CPSI_LAW_MOST_COMPONENTS);
-        break;
-    case CPSI_LAW_SET:
-    case CPSI_LAW_LAW:
-        fputs("\"$ref\": \"#/$defs/set\"", out);
-        break;
-    case CPSI_LAW_SETS:
-    case CPSI_LAW_LAWS:
-        fputs("\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/set\"}, \"minItems\": 1", out);
-        break;
-    case CPSI_LAW_CONTACTS:
-        fputs("\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/contact\"}, \"minItems\": 1", out);
-        break;
-    case CPSI_LAW_TERMS:
-        fputs("\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/term\"}, \"minItems\": 1", out);
-        break;
-    }
-}
 
 static void put_description(FILE *out, const char *help) {
     fputs(", \"description\": ", out);
@@ -75,17 +13,17 @@ static void put_description(FILE *out, const char *help) {
 }
 
 /* "type": "object" with the word's keys */
-static void put_keys(FILE *out, const CpsiLawKey *key) {
+static void put_keys(FILE *out, const CpsiLawWord *word) {
+    const CpsiKey *key = word->key;
+    const int count = cpsi_law_key_count(word);
     fputs("\"type\": \"object\", \"additionalProperties\": false, \"properties\": {", out);
-    for (int i = 0; i < CPSI_LAW_MOST_KEYS && key[i].type; i++) {
-        fprintf(out, "%s\"%s\": {", i ? ", " : "", key[i].name);
-        put_type(out, &key[i]);
-        put_description(out, key[i].help);
-        fputc('}', out);
+    for (int i = 0; i < count; i++) {
+        fprintf(out, "%s\"%s\": ", i ? ", " : "", key[i].name);
+        cpsi_put_key(out, &key[i], NULL);
     }
     fputs("}, \"required\": [", out);
-    for (int i = 0, written = 0; i < CPSI_LAW_MOST_KEYS && key[i].type; i++)
-        if (!key[i].optional) fprintf(out, "%s\"%s\"", written++ ? ", " : "", key[i].name);
+    for (int i = 0, written = 0; i < count; i++)
+        if (key[i].need == CPSI_REQUIRED) fprintf(out, "%s\"%s\"", written++ ? ", " : "", key[i].name);
     fputc(']', out);
 }
 
@@ -97,9 +35,9 @@ static void put_words(FILE *out, CpsiLawGroup group, CpsiLawGroup other, int *wr
         if (group != other && cpsi_law_word(other, word[i].name)) continue;
         fprintf(out, "%s\n        \"%s\": {", (*written)++ ? "," : "", word[i].name);
         if (word[i].key[0].name)
-            put_keys(out, word[i].key);
+            put_keys(out, &word[i]);
         else
-            put_type(out, word[i].key);
+            cpsi_put_value(out, word[i].key, NULL);
         put_description(out, word[i].help);
         fputc('}', out);
     }
@@ -116,7 +54,7 @@ void cpsi_put_set_definitions(FILE *out) {
     put_words(out, CPSI_LAW_SET_WORDS, CPSI_LAW_SET_WORDS, &written);
     put_words(out, CPSI_LAW_LAW_WORDS, CPSI_LAW_SET_WORDS, &written);
     fputs("\n      }\n    },\n    \"contact\": {", out);
-    put_keys(out, cpsi_law_contact_word.key);
+    put_keys(out, &cpsi_law_contact_word);
     fprintf(
         out,
         "},\n    \"matrix\": {\"type\": \"array\", \"minItems\": 1, \"maxItems\": %d, \"items\": {\"type\": \"array\", "
@@ -139,7 +77,7 @@ void cpsi_put_law_definitions(FILE *out) {
 static void put_schema(FILE *out) {
     fprintf(out, "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
                  "  \"title\": \"capstan law, format version 1\",\n  ");
-    put_keys(out, cpsi_law_file_word.key);
+    put_keys(out, &cpsi_law_file_word);
     fputs(",\n  \"oneOf\": [{\"required\": [\"law\"]}, {\"required\": [\"resistance\"], \"not\": {\"required\": "
           "[\"load\"]}}],\n"
           "  \"$defs\": {\n",

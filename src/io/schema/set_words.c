@@ -185,15 +185,17 @@ static CpsStatus term_table(Values v, CpsiLawMade *made, CpsError *err) {
 
 /* clang-format off */
 
-/* type, range, most, optional */
-#define NUMBER       CPSI_LAW_NUMBER, -INFINITY, false, 0, false
-#define AT_LEAST_0   CPSI_LAW_NUMBER, 0, false, 0, false
-#define VECTOR       CPSI_LAW_VECTOR, -INFINITY, false, CPSI_LAW_MOST_COMPONENTS, false
-#define LENGTHS      CPSI_LAW_VECTOR, 0, true, CPSI_LAW_MOST_COMPONENTS, false
-#define OFFSETS      CPSI_LAW_VECTOR, -INFINITY, false, CPS_SET_MAX_ITEMS, false
-#define DIMENSION    CPSI_LAW_COUNT, 1, false, CPSI_LAW_MOST_COMPONENTS, false
-#define PLAIN(type)  CPSI_LAW_##type, -INFINITY, false, 0, false
-#define OPTIONAL(type, most) CPSI_LAW_##type, -INFINITY, false, most, true
+/* type, need, place (none: values are taken by position), unit, range, most, inside, words, default; the help follows */
+#define ANY(type, need, most) CPSI_##type, CPSI_##need, CPSI_BY_HAND, "", -INFINITY, CPSI_LARGEST, false, most, 0, NULL, NULL
+#define NUMBER       ANY(NUMBER, REQUIRED, 0)
+#define AT_LEAST_0   CPSI_NUMBER, CPSI_REQUIRED, CPSI_BY_HAND, "", 0, CPSI_LARGEST, false, 0, 0, NULL, NULL
+#define VECTOR       ANY(VECTOR, REQUIRED, CPSI_LAW_MOST_COMPONENTS)
+#define LENGTHS      CPSI_VECTOR, CPSI_REQUIRED, CPSI_BY_HAND, "", 0, CPSI_LARGEST, true, CPSI_LAW_MOST_COMPONENTS, 0, NULL, NULL
+#define OFFSETS      ANY(VECTOR, REQUIRED, CPS_SET_MAX_ITEMS)
+#define UP_TO(count) CPSI_INTEGER, CPSI_REQUIRED, CPSI_BY_HAND, "", 1, count, false, 0, 0, NULL, NULL
+#define DIMENSION    UP_TO(CPSI_LAW_MOST_COMPONENTS)
+#define PLAIN(type)  ANY(type, REQUIRED, CPSI_LAW_MOST_COMPONENTS)
+#define GIVEN(type, most) CPSI_##type, CPSI_OPTIONAL, CPSI_BY_HAND, "", -INFINITY, CPSI_LARGEST, false, most, 0, NULL, NULL
 
 static const CpsiLawWord SET_WORDS[] = {
     {"point", {{NULL, VECTOR, ""}}, make_point, false, "a point"},
@@ -205,7 +207,7 @@ static const CpsiLawWord SET_WORDS[] = {
     {"ellipsoid", {{NULL, PLAIN(SQUARE), ""}}, make_ellipsoid, false,
      "{x : x' S^-1 x <= 1}: the matrix S, symmetric positive definite"},
     {"box", {{NULL, PLAIN(SIDES), ""}}, make_box, false, "per component a half width or [low, high]; ends may be .inf"},
-    {"segment", {{NULL, PLAIN(ENDS), ""}}, make_segment, false, "between two points"},
+    {"segment", {{NULL, PLAIN(ENDS_OF_SEGMENT), ""}}, make_segment, false, "between two points"},
     {"polytope", {{NULL, PLAIN(MATRIX), ""}}, make_polytope, false, "convex hull of points"},
     {"strip", {{"normal", VECTOR, "direction across"}, {"width", AT_LEAST_0, "width, in units of 1/|normal|"}}, make_strip,
      false, "|<normal, x>| <= width/2"},
@@ -249,11 +251,11 @@ static const CpsiLawWord TERM_WORDS[] = {
 };
 
 const CpsiLawWord cpsi_law_file_word = {"law file",
-    {{"capstan", CPSI_LAW_COUNT, 1, false, 1, false, "version of this file format"},
-     {"title", OPTIONAL(TEXT, CPSI_LAW_LONGEST_TITLE), "heading of answers and pictures"},
-     {"law", OPTIONAL(LAW, 0), "friction law: its set of forces, which must contain 0"},
-     {"load", OPTIONAL(VECTOR, CPSI_LAW_MOST_COMPONENTS), "constant force on the system, N"},
-     {"resistance", OPTIONAL(TERMS, 0), "resistance law: its terms"}}, NULL, false, "a law"};
+    {{"capstan", UP_TO(1), "version of this file format"},
+     {"title", GIVEN(TEXT, CPSI_LAW_LONGEST_TITLE), "heading of answers and pictures"},
+     {"law", GIVEN(LAW, 0), "friction law: its set of forces, which must contain 0"},
+     {"load", GIVEN(VECTOR, CPSI_LAW_MOST_COMPONENTS), "constant force on the system, N"},
+     {"resistance", GIVEN(TERMS, 0), "resistance law: its terms"}}, NULL, false, "a law"};
 
 const CpsiLawWord cpsi_law_contact_word = {"contact",
     {{"map", PLAIN(MATRIX), "B, takes the body's velocity to the contact's"}, {"of", PLAIN(LAW), "law of the contact"}},
@@ -269,6 +271,12 @@ const CpsiLawWord *cpsi_law_words(CpsiLawGroup group, int *count) {
     } GROUP[] = {TABLE(SET_WORDS), TABLE(LAW_WORDS), TABLE(TERM_WORDS)};
     *count = GROUP[group].count;
     return GROUP[group].word;
+}
+
+int cpsi_law_key_count(const CpsiLawWord *word) {
+    int n = 0;
+    while (n < CPSI_LAW_MOST_KEYS && word->key[n].type) n++;
+    return n;
 }
 
 const CpsiLawWord *cpsi_law_word(CpsiLawGroup group, const char *name) {

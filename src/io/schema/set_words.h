@@ -5,38 +5,7 @@
 #define CAPSTAN_SRC_IO_SCHEMA_SET_WORDS_H
 
 #include "capstan/law.h"
-#include "io/base/yaml.h"
-
-/* What a value looks like. */
-typedef enum CpsiLawType {
-    CPSI_LAW_NOTHING, /* behind the last key */
-    CPSI_LAW_TEXT,
-    CPSI_LAW_COUNT,    /* a whole number from 1 to `most` */
-    CPSI_LAW_NUMBER,   /* of the range */
-    CPSI_LAW_VECTOR,   /* [x, ..], at most `most` numbers of the range */
-    CPSI_LAW_MATRIX,   /* [[x, ..], ..]: rows of components, all equally long */
-    CPSI_LAW_SQUARE,   /* a matrix with as many rows as columns */
-    CPSI_LAW_ENDS,     /* [[x, ..], [x, ..]]: a matrix of two rows */
-    CPSI_LAW_PAIRS,    /* [[x, y], ..]; kept as all x, then all y */
-    CPSI_LAW_SIDE,     /* b for [-b, b], or [low, high] */
-    CPSI_LAW_SIDES,    /* [side, ..]; kept as all low ends, then all high ends */
-    CPSI_LAW_SET,      /* {WORD: value} */
-    CPSI_LAW_SETS,     /* [set, ..] */
-    CPSI_LAW_LAW,      /* a set that must contain 0 */
-    CPSI_LAW_LAWS,     /* [law, ..] */
-    CPSI_LAW_CONTACTS, /* [{map: B, of: law}, ..] */
-    CPSI_LAW_TERMS     /* [{TERM: value}, ..] */
-} CpsiLawType;
-
-typedef struct CpsiLawKey {
-    const char *name; /* NULL: what stands behind the word itself */
-    CpsiLawType type;
-    double low; /* range of a number: least, itself excluded if `open` */
-    bool open;
-    int most; /* of a count or vector */
-    bool optional;
-    const char *help;
-} CpsiLawKey;
+#include "io/schema/keys.h"
 
 /* A value read. Arrays are the pool's; sets, laws and terms are held until the word is made. */
 typedef struct CpsiLawValue {
@@ -64,7 +33,7 @@ enum { CPSI_LAW_MOST_KEYS = 5 };
 
 typedef struct CpsiLawWord {
     const char *name;
-    CpsiLawKey key[CPSI_LAW_MOST_KEYS];
+    CpsiKey key[CPSI_LAW_MOST_KEYS]; /* up to the first one of type CPSI_NOTHING; their values are CpsiLawValue, in this order */
     /* Make it of its values. An error that has a line belongs there, any other to the word. */
     CpsStatus (*make)(const CpsiLawValue *value, CpsiLawMade *made, CpsError *err);
     bool solved; /* questions about it solve a conic program over all its parts */
@@ -81,6 +50,9 @@ typedef enum CpsiLawGroup {
 const CpsiLawWord *cpsi_law_words(CpsiLawGroup group, int *count);
 /* The word of this name in a group; NULL: none. */
 const CpsiLawWord *cpsi_law_word(CpsiLawGroup group, const char *name);
+
+/* How many keys it has; 1 where its value stands behind the word itself. */
+int cpsi_law_key_count(const CpsiLawWord *word);
 
 /* The file itself, and one contact, as words that are not made. */
 enum { CPSI_LAW_VERSION, CPSI_LAW_TITLE, CPSI_LAW_OF_FRICTION, CPSI_LAW_LOAD, CPSI_LAW_OF_RESISTANCE };
