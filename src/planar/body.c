@@ -4,10 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/math.h"
 #include "base/status.h"
 #include "planar/planar.h"
 
-static const double TWO_PI = 6.28318530717958647693;
+static const double TWO_PI = 2*CPSI_PI;
 
 /* A convex polygon may have corners in line to this part of the product of two sides. */
 static const double STRAIGHT = 1e-12;

@@ -15,11 +15,11 @@
 
 #include <math.h>
 
-static const double PI = 3.14159265358979323846;
+#include "base/math.h"
 
 /* Sectors of ring number i of a disc: about as long as wide, and at least 4. */
 static int sectors(int i) {
-    const double around = 2 * PI * (i + 0.5);
+    const double around = 2 * CPSI_PI * (i + 0.5);
     return around < 4 ? 4 : (int)around;
 }
 
@@ -85,7 +85,7 @@ typedef struct Sector {
 } Sector;
 
 static Sector sector_of(double r1, double r2, int count) {
-    const double h = PI / count,
+    const double h = CPSI_PI / count,
                  mean = r2 > r1 ? (r1 + r2 * r2 / (r1 + r2)) * 2 / 3 : r1; /* 2/3 (r2^3 - r1^3)/(r2^2 - r1^2) */
     const double square = 0.5 * (r1 * r1 + r2 * r2), wobble = sin(2 * h) / (4 * h), x1 = r1 * cos(h);
     const double yy_x = mean * (asinh(tan(h)) - sin(h)) / h; /* mean of y^2/x */
@@ -109,7 +109,7 @@ static Sector sector_of(double r1, double r2, int count) {
 static bool sector_cells(const CpsiPatch *patch, double load, double r1, double r2, int count, CpsPlanarSide side,
                          CpsiCell *visit, void *user) {
     const Sector sector = sector_of(r1, r2, count);
-    const double share = load / count, h = PI / count;
+    const double share = load / count, h = CPSI_PI / count;
     double first[2] = {0, 0}, carried[2] = {0, 0};
     for (int i = 0; i < count; i++) {
         const double c = cos(h * (2 * i + 1)), s = sin(h * (2 * i + 1));

@@ -9,7 +9,9 @@
 
 #include <math.h>
 
-static const double HALF_PI = 1.57079632679489661923;
+#include "base/math.h"
+
+static const double HALF_PI = 0.5*CPSI_PI;
 
 CpsiElliptic cpsi_elliptic(double k, double kc) {
     const double m = k * k;

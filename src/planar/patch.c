@@ -8,10 +8,9 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/math.h"
 #include "planar/elliptic.h"
 #include "planar/planar.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Where the centre of rotation lies farther than this many sizes from the patch's middle, Gauss's rule with 8 points
  * leaves (4 + sqrt(15))^-16 = 4e-15 of the value (Bernstein's ellipse through the centre). */
@@ -195,7 +194,7 @@ static void set_round_force(const Round *round, double u1, double u2, double w, 
 static void rub_ring(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
     if (velocity[0] == 0 && velocity[1] == 0 && w == 0) return;
     const Round r = round_axes(patch, velocity, w);
-    const double sum = r.u + r.v, n = patch->strength * 2 / PI, m = n / sum;
+    const double sum = r.u + r.v, n = patch->strength * 2 / CPSI_PI, m = n / sum;
     const double one = r.q.b + r.q.d, cosine = r.k2 * r.q.c, square = one - 4 * r.i;
     rub->power = n * sum * (r.q.e - r.tilt[0] * r.k2 * r.i);
     set_round_force(&r, m * (r.u * cosine - r.v * one + r.tilt[0] * (r.u * square - r.v * cosine)),
@@ -208,7 +207,7 @@ static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
     enum { AROUND = 24 };
     for (int i = 0; i < AROUND; i++)
         for (int j = 0; j < GAUSS; j++) {
-            const double t = 0.5 * (1 + GAUSS_NODE[j]), x = 2 * PI * i / AROUND;
+            const double t = 0.5 * (1 + GAUSS_NODE[j]), x = 2 * CPSI_PI * i / AROUND;
             const double r[2] = {patch->size * t * cos(x), patch->size * t * sin(x)};
             const double pressure = 1 + patch->tilt[0] * r[0] + patch->tilt[1] * r[1];
             add_point(patch->strength * GAUSS_WEIGHT[j] * t / AROUND * pressure, r, velocity, w, rub);
@@ -223,7 +222,7 @@ static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
  * rho0, rho1, rho2: integrals of rho with 1, cos x, cos^2 x in units of a^2. (Uniform: Farkas et al. 2003.) */
 static void disc_near(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
     const Round r = round_axes(patch, velocity, w);
-    const double d = r.v / r.u, p = patch->strength / PI, four = 4 * (1 + d);
+    const double d = r.v / r.u, p = patch->strength / CPSI_PI, four = 4 * (1 + d);
     const double sine = four * 4 * (r.i + 0.5 * (r.q.e - r.k2 * r.i)) / 5;
     const double rho0 = four * r.q.e, rho1 = -four * r.k2 * r.i, rho2 = rho0 - sine, mean = (rho0 - d * rho1) / 3;
     const double whole = p * (mean * (1 + 0.25 * d * r.tilt[0]) + 0.25 * r.tilt[0] * (rho1 - d * rho2));

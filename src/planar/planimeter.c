@@ -12,10 +12,9 @@
  * gives spin -W_j/radius and slip W_i, the segment of forces being that of M77 figure 1 with b = 0. */
 #include <math.h>
 
+#include "base/math.h"
 #include "base/status.h"
 #include "planar/planar.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Nearness to stretched or folded arms that is refused, relative to the arms. */
 static const double MARGIN = 1e-6;
@@ -62,7 +61,7 @@ static bool place_arms(const CpsPlanimeter *p, const double tracer[2], Arms *arm
 /* Twice the area of the triangle (origin, a, b). */
 static double cross(const double a[2], const double b[2]) { return a[0] * b[1] - a[1] * b[0]; }
 
-static double half_turn(double angle) { return remainder(angle, 2 * PI); }
+static double half_turn(double angle) { return remainder(angle, 2 * CPSI_PI); }
 
 /* One step of the arms: roll and slip of the wheel, its axis along the mean heading of the tracer arm. */
 static void roll_wheel(const CpsPlanimeter *p, const Arms *from, const Arms *to, CpsPlanimeterReading *sum) {
@@ -110,9 +109,9 @@ CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count, const
 
     /* the angles close: whole turns */
     const double a = planimeter->pole_arm, l = planimeter->tracer_arm;
-    sum.pole_turns = round(sum.pole_turns / (2 * PI));
-    sum.arm_turns = round(sum.arm_turns / (2 * PI));
-    sum.area = l * sum.roll + 2 * PI * l * (0.5 * l - planimeter->wheel) * sum.arm_turns + PI * a * a * sum.pole_turns;
+    sum.pole_turns = round(sum.pole_turns / (2 * CPSI_PI));
+    sum.arm_turns = round(sum.arm_turns / (2 * CPSI_PI));
+    sum.area = l * sum.roll + 2 * CPSI_PI * l * (0.5 * l - planimeter->wheel) * sum.arm_turns + CPSI_PI * a * a * sum.pole_turns;
     *reading = sum;
     return CPS_OK;
 }

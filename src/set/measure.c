@@ -19,10 +19,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "linsys/small.h"
 #include "set/planar.h"
-
-static const double PI = 3.141592653589793238463;
 
 static bool going(const CpsiWalk *walk) { return walk->status == CPS_OK && walk->outcome == CPS_SET_ANSWERED; }
 
@@ -41,7 +40,7 @@ static bool ellipse(const CpsSet *set, CpsSetMeasure *measure) {
     const double *s = set->b, half = 0.5*s[0] + 0.5*s[3], off = hypot(0.5*s[0] - 0.5*s[3], s[1]);
     double a = sqrt(half + off), b = 1/set->c[0]/a/set->c[3];
     if (!(b > 0)) return false;
-    const double area = PI*a*b, unit = a;
+    const double area = CPSI_PI*a*b, unit = a;
     a = 1, b /= unit;
     double left = 0.5*(1 + b*b), weight = 0.5;
     while (a - b > 4e-16*a) { /* converges quadratically: ten steps at an eccentricity of 1e200 */
@@ -50,7 +49,7 @@ static bool ellipse(const CpsSet *set, CpsSetMeasure *measure) {
         weight *= 2;
         left -= weight*c*c;
     }
-    return exactly(measure, area, 2*PI*left/a*unit);
+    return exactly(measure, area, 2*CPSI_PI*left/a*unit);
 }
 
 /* A disc of radius r between the lines at low and high from its center. */
@@ -117,7 +116,7 @@ static CpsStatus polygon(const CpsSet *set, CpsSetMeasure *measure, CpsError *er
 
 static bool closed(const CpsSet *set, CpsSetMeasure *measure) {
     switch (set->kind) {
-    case CPSI_SET_BALL: return exactly(measure, PI*set->scalar*set->scalar, 2*PI*set->scalar);
+    case CPSI_SET_BALL: return exactly(measure, CPSI_PI*set->scalar*set->scalar, 2*CPSI_PI*set->scalar);
     case CPSI_SET_ELLIPSOID: return ellipse(set, measure);
     case CPSI_SET_BOX: {
         const double a = set->b[0] - set->a[0], b = set->b[1] - set->a[1];
@@ -157,15 +156,15 @@ static void make_round(CpsiWalk *walk) {
     for (int round = 0; round < ROUNDS && going(walk); round++) {
         double most = 0, least = INFINITY, chord[2] = {1, 0}, x[2], y[2], width[2];
         for (int k = 0; k < LOOKS; k++) {
-            const double theta = k*PI/LOOKS, across = cpsi_walk_look(walk, theta, x) +
-                                                      cpsi_walk_look(walk, theta + PI, y);
+            const double theta = k*CPSI_PI/LOOKS, across = cpsi_walk_look(walk, theta, x) +
+                                                      cpsi_walk_look(walk, theta + CPSI_PI, y);
             least = fmin(least, across);
             if (across > most) most = across, chord[0] = x[0] - y[0], chord[1] = x[1] - y[1];
         }
         if (!going(walk) || (round > 0 && most < 4*least)) break;
         const double theta = atan2(chord[1], chord[0]), c = cos(theta), s = sin(theta);
         for (int k = 0; k < 2; k++)
-            width[k] = cpsi_walk_look(walk, theta + 0.5*k*PI, x) + cpsi_walk_look(walk, theta + (0.5*k + 1)*PI, y);
+            width[k] = cpsi_walk_look(walk, theta + 0.5*k*CPSI_PI, x) + cpsi_walk_look(walk, theta + (0.5*k + 1)*CPSI_PI, y);
         if (!(width[0] > 0 && width[1] > 0)) break;
         const double turn[4] = {walk->turn[0], walk->turn[1], walk->turn[2], walk->turn[3]};
         for (int j = 0; j < 2; j++) {
@@ -244,7 +243,7 @@ static void along_arc(CpsiWalk *walk, const Seen *seen, const CpsiOutlinePiece *
         slope[end] = cross(w[end], p)/hypot(w[end][0], w[end][1]);
         measure->area += (end ? 0.5 : -0.5)*(c*x[0] + s*x[1])*(c*x[1] - s*x[0]);
     }
-    if (angle[1] < angle[0]) angle[1] += 2*PI;
+    if (angle[1] < angle[0]) angle[1] += 2*CPSI_PI;
     measure->area += integrate(walk, true, piece->from, piece->to, gauss(walk, true, piece->from, piece->to),
                                size*size, DEPTH, &measure->area_gap);
     memcpy(turn, t, sizeof turn);
@@ -295,7 +294,7 @@ static void along_outline(CpsiWalk *walk, CpsSetMeasure *measure) {
     measure->area_gap /= seen.determinant;
     measure->exact = walk->exact && polygonal;
     if (measure->exact) measure->area_gap = measure->perimeter_gap = 0;
-    measure->perimeter_gap += 2*PI*walk->gap;
+    measure->perimeter_gap += 2*CPSI_PI*walk->gap;
     measure->area_gap += walk->gap*measure->perimeter;
 }
 
@@ -303,7 +302,7 @@ static void along_outline(CpsiWalk *walk, CpsSetMeasure *measure) {
 static void flat(CpsiWalk *walk, CpsSetMeasure *measure) {
     double x[2], width[2];
     for (int k = 0; k < 2; k++)
-        width[k] = fmax(0, cpsi_walk_look(walk, 0.5*k*PI, x) + cpsi_walk_look(walk, (0.5*k + 1)*PI, x));
+        width[k] = fmax(0, cpsi_walk_look(walk, 0.5*k*CPSI_PI, x) + cpsi_walk_look(walk, (0.5*k + 1)*CPSI_PI, x));
     measure->perimeter = 2*width[0];
     measure->perimeter_gap = 2*width[1] + 8*walk->gap;
     measure->area_gap = (width[0] + 2*walk->gap)*(width[1] + 2*walk->gap);

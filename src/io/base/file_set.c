@@ -2,9 +2,8 @@
 /* Several files written together (see file_set.h). */
 #include "io/base/file_set.h"
 
-#include <locale.h>
-
 #include "base/status.h"
+#include "io/base/numbers.h"
 #include "io/base/file_list.h"
 #include "io/base/escape.h"
 
@@ -40,25 +39,21 @@ static CpsStatus write_all(CpsiDirectory *directory, const CpsiFile *file, int c
 }
 
 CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count, const CpsiFile *summary, CpsError *err) {
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const locale_t before = uselocale(numbers);
+    CpsiNumbers numbers;
+    if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     CpsiDirectory *open = NULL;
     CpsStatus status = cpsi_directory_open(directory, &open, err);
     if (status == CPS_OK) status = write_all(open, file, count, summary, err);
     cpsi_directory_destroy(open);
-    uselocale(before);
-    freelocale(numbers);
+    cpsi_numbers_end(&numbers);
     return status;
 }
 
 CpsStatus cpsi_file_set_put(const CpsiFile *summary, FILE *out, CpsError *err) {
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const locale_t before = uselocale(numbers);
+    CpsiNumbers numbers;
+    if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     summary->put(summary->what, out);
     fputs("\n}\n", out);
-    uselocale(before);
-    freelocale(numbers);
+    cpsi_numbers_end(&numbers);
     return CPS_OK;
 }

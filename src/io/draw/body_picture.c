@@ -4,12 +4,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/math.h"
 #include "base/status.h"
 #include "io/draw/diagram.h"
 
 enum { AROUND = 360, SIDE = 320, GAP = 120, LEFT = 84, TOP = 96, WAY = 420, POSES = 9 };
-
-static const double PI = 3.14159265358979323846;
 
 typedef struct BodyPicture {
     const CpsDriveFile *file;
@@ -33,7 +32,7 @@ static CpsStatus shadow(const CpsDriveBody *body, int i, int k, double axis[2], 
     }
     for (int a = 0; a < AROUND; a++) {
         /* half a step off: no direction is normal to an edge along an axis */
-        const double angle = 2 * PI * (a + 0.5) / AROUND;
+        const double angle = 2 * CPSI_PI * (a + 0.5) / AROUND;
         double twist[3] = {0, 0, 0};
         twist[i] = cos(angle) / axis[0], twist[k] = sin(angle) / axis[1];
         const CpsStatus status = cps_planar_dissipation(body->planar, twist, wrench, NULL, &answer, err);
@@ -52,8 +51,8 @@ static CpsStatus put_surface(FILE *out, const BodyPicture *p, int column, int k,
     CpsiFrame frame = {.left = LEFT + column * (SIDE + GAP), .top = TOP, .width = SIDE, .height = SIDE};
     for (int a = 0; a < AROUND; a++) {
         point[2 * a] *= ux.factor, point[2 * a + 1] *= uy.factor;
-        ellipse[2 * a] = axis[0] * ux.factor * cos(2 * PI * a / AROUND),
-                    ellipse[2 * a + 1] = axis[1] * uy.factor * sin(2 * PI * a / AROUND);
+        ellipse[2 * a] = axis[0] * ux.factor * cos(2 * CPSI_PI * a / AROUND),
+                    ellipse[2 * a + 1] = axis[1] * uy.factor * sin(2 * CPSI_PI * a / AROUND);
     }
     frame.x[0] = -1.15 * axis[0] * ux.factor, frame.x[1] = -frame.x[0];
     frame.y[0] = -1.15 * axis[1] * uy.factor, frame.y[1] = -frame.y[0];

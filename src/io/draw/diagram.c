@@ -2,12 +2,11 @@
 /* Parts of pictures of driven systems (see diagram.h). */
 #include "io/draw/diagram.h"
 
-#include <locale.h>
 #include <math.h>
 
+#include "base/math.h"
 #include "base/status.h"
-
-static const double PI = 3.14159265358979323846;
+#include "io/base/numbers.h"
 
 void cpsi_frame_equal(CpsiFrame *f) {
     const double sx = (f->x[1] - f->x[0]) / f->width, sy = (f->y[1] - f->y[0]) / f->height;
@@ -75,7 +74,7 @@ static int outline(const CpsPatch *p, double x[2 * ROUND]) {
         return 4;
     }
     for (int i = 0; i < ROUND; i++)
-        x[2 * i] = p->size * cos(2 * PI * i / ROUND), x[2 * i + 1] = p->size * sin(2 * PI * i / ROUND);
+        x[2 * i] = p->size * cos(2 * CPSI_PI * i / ROUND), x[2 * i + 1] = p->size * sin(2 * CPSI_PI * i / ROUND);
     return ROUND;
 }
 
@@ -122,11 +121,9 @@ void cpsi_put_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body, 
 CpsStatus cpsi_draw_plain(CpsStatus (*draw)(void *what, FILE *out, CpsError *err), void *what, FILE *out,
                           CpsError *err) {
     if (!what || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "file or out is NULL");
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const locale_t before = uselocale(numbers);
+    CpsiNumbers numbers;
+    if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     const CpsStatus status = draw(what, out, err);
-    uselocale(before);
-    freelocale(numbers);
+    cpsi_numbers_end(&numbers);
     return status;
 }

@@ -9,13 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "base/status.h"
 #include "io/draw/diagram.h"
 #include "io/draw/svg.h"
 
 enum { STEPS = 240, DIRECTIONS = 240, SPEEDS = 5, MOST_LISTED = 14, SIDE = 520, LEFT = 84, TOP = 76, LIST = 300 };
-
-static const double PI = 3.14159265358979323846;
 
 /* The widest velocity asked for, and some room; 1 m/s where none is. */
 static const double WIDER = 1.25;
@@ -158,7 +157,7 @@ static CpsStatus draw_graph(Graph *g) {
 /* A force at each direction of the plane at one speed, the middle of the set where there are several; NAN where there is none. */
 static CpsStatus sample_speed(Graph *g, double speed, double *curve) {
     for (int i = 0; i < DIRECTIONS; i++) {
-        const double angle = 2 * PI * (i + 0.5) / DIRECTIONS;
+        const double angle = 2 * CPSI_PI * (i + 0.5) / DIRECTIONS;
         CpsSet *forces = NULL;
         CpsSetAnswer answer;
         CpsSetFacts facts = {.outcome = CPS_SET_INACCURATE};

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "base/status.h"
 #include "capstan/law_io.h"
 #include "io/draw/law_graph.h"
@@ -27,8 +28,6 @@ enum {
     TOP = 76,
     LIST = 290 /* width of the list on the right */
 };
-
-static const double PI = 3.14159265358979323846;
 
 /* Height of the frame by its width, at most. */
 static const double TALLEST = 1.15;
@@ -72,7 +71,7 @@ static CpsStatus trace(const CpsSet *set, Curve *curve, CpsError *err) {
     curve->count = 0;
     for (int i = 0; i < DIRECTIONS; i++) {
         /* half a step off: no direction is normal to an edge along an axis */
-        const double angle = 2 * PI * (i + 0.5) / DIRECTIONS, w[2] = {cos(angle), sin(angle)};
+        const double angle = 2 * CPSI_PI * (i + 0.5) / DIRECTIONS, w[2] = {cos(angle), sin(angle)};
         double *point = curve->x[curve->count];
         CpsSetAnswer answer;
         const CpsStatus status = cps_set_support(set, w, point, &answer, err);
@@ -133,7 +132,7 @@ static CpsStatus choose_limit(Sheet *s, const CpsSet *shadow) {
     int corners = 0;
     CpsSetAnswer answer;
     for (int i = 0; status == CPS_OK && i < DIRECTIONS / 20; i++) {
-        const double angle = 40 * PI * i / DIRECTIONS;
+        const double angle = 40 * CPSI_PI * i / DIRECTIONS;
         status = cps_set_support(shadow, (double[]){cos(angle), sin(angle)}, NULL, &answer, s->err);
         if (answer.outcome == CPS_SET_ANSWERED) most = fmax(most, fabs(answer.value));
     }
@@ -196,7 +195,7 @@ static CpsStatus put_cone(const Sheet *s, const CpsSet *cone, const double apex[
         put_arrow(s, apex, (double[]){side * cos(found.start), side * sin(found.start)}, r, "#c98a1b");
     if (status != CPS_OK || found.dimension < 2) return status;
     fprintf(s->out, "<polygon %s points=\"", style);
-    if (found.turn < 2 * PI) fprintf(s->out, "%.2f,%.2f ", px(s, apex[0]), py(s, apex[1]));
+    if (found.turn < 2 * CPSI_PI) fprintf(s->out, "%.2f,%.2f ", px(s, apex[0]), py(s, apex[1]));
     for (int i = 0; i <= 48; i++) {
         const double a = found.start + found.turn * i / 48;
         fprintf(s->out, "%.2f,%.2f ", px(s, apex[0] + r * cos(a)), py(s, apex[1] + r * sin(a)));

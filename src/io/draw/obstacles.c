@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "io/draw/run_picture.h"
 
 static const char FILL[] = "#efe7d6", ROUND_FILL[] = "#e6dcc4", EDGE[] = "#b9a67c", SEEN_FROM_ABOVE[] = "#faf7f0",
@@ -17,7 +18,7 @@ static const double END_ON = 0.1;
 
 enum { CORNERS = 8 };
 
-static double degrees(double angle) { return angle * 180 / 3.14159265358979323846; }
+static double degrees(double angle) { return angle * 180 / CPSI_PI; }
 
 static Vec3 unit(const double given[3]) {
     const Vec3 a = vec3_load(given);

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static const double PI = 3.14159265358979323846;
+#include "base/math.h"
 
 /* Unit directions as near as this lie in the cone: far below a pixel, above what directions of normals are known to. */
 static const double NEAR = 1e-6;
@@ -22,7 +22,7 @@ static CpsStatus holds(const CpsSet *cone, double angle, bool *in, CpsError *err
 
 /* How far the cone goes on from `middle` inside it, to one side. */
 static CpsStatus reach(const CpsSet *cone, double middle, int side, double *angle, CpsError *err) {
-    double low = 0, high = PI;
+    double low = 0, high = CPSI_PI;
     CpsStatus status = CPS_OK;
     for (int k = 0; status == CPS_OK && k < HALVINGS; k++) {
         const double half = 0.5*(low + high);
@@ -46,15 +46,15 @@ CpsStatus cpsi_planar_cone(const CpsSet *cone, CpsiPlanarCone *out, CpsError *er
     const double middle = facts.dimension == 1 ? atan2(basis[1], basis[0]) : atan2(center[1], center[0]);
     bool ahead = false, back = false;
     status = holds(cone, middle, &ahead, err);
-    if (status == CPS_OK) status = holds(cone, middle + PI, &back, err);
+    if (status == CPS_OK) status = holds(cone, middle + CPSI_PI, &back, err);
     if (status != CPS_OK) return status;
-    out->start = ahead ? middle : middle + PI;
+    out->start = ahead ? middle : middle + CPSI_PI;
     if (facts.dimension == 1) {
         out->line = ahead && back;
         return CPS_OK;
     }
     if (back) { /* beside a direction inside, the opposite one leaves nothing out */
-        out->turn = 2*PI;
+        out->turn = 2*CPSI_PI;
         return CPS_OK;
     }
     double left = 0, right = 0;

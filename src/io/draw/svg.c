@@ -6,11 +6,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "io/base/escape.h"
 
 enum { MAX_TICKS = 30, BAR_STOPS = 16 };
-
-static const double PI = 3.14159265358979323846;
 
 static int channel(double linear) {
     const double x = linear <= 0 ? 0 : linear >= 1 ? 1 : linear;
@@ -20,7 +19,7 @@ static int channel(double linear) {
 
 /* OKLab lightness, chroma and hue (degrees) to sRGB */
 static CpsiColour from_oklch(double lightness, double chroma, double hue) {
-    const double a = chroma * cos(hue * PI / 180), b = chroma * sin(hue * PI / 180);
+    const double a = chroma * cos(hue * CPSI_PI / 180), b = chroma * sin(hue * CPSI_PI / 180);
     const double l = pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
     const double m = pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
     const double s = pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
@@ -35,7 +34,7 @@ static CpsiColour from_oklch(double lightness, double chroma, double hue) {
 CpsiColour cpsi_colour(CpsiScale scale, double t) {
     const double u = t >= 0 ? fmin(t, 1) : 0; /* NaN: the lower end */
     if (scale == CPSI_SCALE_STEP) return from_oklch(0.80 - 0.48 * u, 0.13, 155 + 120 * u);
-    return from_oklch(0.85 - 0.55 * u, 0.15 + 0.05 * sin(PI * u), 85 - 165 * u);
+    return from_oklch(0.85 - 0.55 * u, 0.15 + 0.05 * sin(CPSI_PI * u), 85 - 165 * u);
 }
 
 CpsiUnit cpsi_unit(const char *base, double largest) {

@@ -2,13 +2,10 @@
 /* Read a file of driven systems: bytes -> tree (yaml.h) -> the kind that its key names. */
 #include "io/read/drive_file.h"
 
-#include <locale.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/status.h"
-#include "io/base/read_file.h"
-#include "io/schema/file_kind.h"
+#include "io/read/document.h"
 
 /* The file and what its texts and arrays live in. */
 typedef struct Keep {
@@ -62,20 +59,11 @@ static CpsStatus read_kind(CpsiDriveRead *r, const CpsiYaml *root, CpsDriveFile 
     }
 }
 
-static CpsStatus read_drive(const char *path, const CpsReadLimits *limits, Keep *keep, CpsError *err) {
-    const char *name = strcmp(path, "-") == 0 ? "standard input" : path;
-    char *bytes = NULL;
-    size_t size = 0;
-    CpsiYaml *root = NULL;
-    CpsStatus status = cpsi_read_file(path, name, limits->max_bytes, &bytes, &size, err);
-    if (status == CPS_OK)
-        status = cpsi_yaml_parse(name, "driven system", bytes, size, limits->max_depth, &keep->pool, &root, err);
-    free(bytes);
-    if (status == CPS_OK) status = cpsi_file_expect(name, root, CPSI_FILE_DRIVE, err);
-    CpsiDriveRead r = {.build = {.file = {.name = name, .pool = &keep->pool, .err = err}},
-                       .path = path,
-                       .max_bytes = limits->max_bytes};
-    return status ? status : read_kind(&r, root, &keep->file);
+static CpsStatus build(const CpsiDocument *d, void *out) {
+    CpsiDriveRead r = {.build = {.file = {.name = d->name, .pool = d->pool, .err = d->err}},
+                       .path = d->path,
+                       .max_bytes = d->limits->max_bytes};
+    return read_kind(&r, d->root, out);
 }
 
 CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out, CpsError *err) {
@@ -83,23 +71,9 @@ CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDrive
     *out = NULL;
     CpsError unused;
     if (!err) err = &unused;
-    const CpsReadLimits defaults = cps_read_limits_default();
-    if (!limits) limits = &defaults;
-    if (limits->max_depth < 1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "limits are not positive: start from cps_read_limits_default()");
-
-    /* numbers have a decimal point whatever the program's locale */
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     Keep *keep = calloc(1, sizeof *keep);
-    if (!numbers || !keep) {
-        if (numbers) freelocale(numbers);
-        free(keep);
-        return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    }
-    const locale_t before = uselocale(numbers);
-    const CpsStatus status = read_drive(path, limits, keep, err);
-    uselocale(before);
-    freelocale(numbers);
+    if (!keep) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    const CpsStatus status = cpsi_document_read(path, limits, CPSI_FILE_DRIVE, &keep->pool, build, &keep->file, err);
     if (status == CPS_OK)
         *out = &keep->file;
     else

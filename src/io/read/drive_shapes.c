@@ -6,11 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "io/read/drive_file.h"
 #include "io/read/path_points.h"
 #include "io/base/read_file.h"
-
-static const double PI = 3.14159265358979323846;
 
 static CpsStatus fail_node(CpsiDriveRead *r, const CpsiYaml *node, const char *message) {
     const CpsiLawFile *f = &r->build.file;
@@ -28,8 +27,8 @@ static CpsStatus read_circle(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePla
     double *x = CPSI_POOL_TAKE(r->build.file.pool, 2 * (size_t)points, double);
     if (!x) return cpsi_drive_no_memory(r);
     for (int i = 0; i < points; i++) {
-        x[2 * i] = circle.center[0] + circle.radius * cos(2 * PI * i / points);
-        x[2 * i + 1] = circle.center[1] + circle.radius * sin(2 * PI * i / points);
+        x[2 * i] = circle.center[0] + circle.radius * cos(2 * CPSI_PI * i / points);
+        x[2 * i + 1] = circle.center[1] + circle.radius * sin(2 * CPSI_PI * i / points);
     }
     out->points = points, out->point = x;
     return CPS_OK;

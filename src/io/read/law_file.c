@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Read a law file: bytes -> tree (yaml.h) -> sets and laws (set_build.h). The file is read as one more word,
  * whose values are kept. */
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "capstan/law_io.h"
-#include "io/base/read_file.h"
-#include "io/schema/file_kind.h"
+#include "io/read/document.h"
 #include "io/read/set_build.h"
 
 struct CpsLawFile {
@@ -93,45 +91,24 @@ static CpsStatus build(CpsiLawBuild *b, const CpsiYaml *root, CpsLawFile *out) {
     return status;
 }
 
-static CpsStatus read_law(const char *path, const CpsReadLimits *limits, CpsLawFile *out, CpsError *err) {
-    const char *name = strcmp(path, "-") == 0 ? "standard input" : path;
-    char *bytes = NULL;
-    size_t size = 0;
-    CpsiPool tree = {0};
-    CpsiYaml *root = NULL;
-    CpsStatus status = cpsi_read_file(path, name, limits->max_bytes, &bytes, &size, err);
-    if (status == CPS_OK) status = cpsi_yaml_parse(name, "law", bytes, size, limits->max_depth, &tree, &root, err);
-    free(bytes);
-    if (status == CPS_OK) status = cpsi_file_expect(name, root, CPSI_FILE_LAW, err);
-    CpsiLawBuild b = {.file = {.name = name, .pool = &tree, .err = err}};
-    if (status == CPS_OK) status = build(&b, root, out);
-    out->has_preimage = b.has_preimage;
-    out->composition = b.composition;
-    out->composition_line = b.composition_line;
-    cpsi_pool_free(&tree);
+static CpsStatus build_file(const CpsiDocument *d, void *out) {
+    CpsLawFile *file = out;
+    CpsiLawBuild b = {.file = {.name = d->name, .pool = d->pool, .err = d->err}};
+    const CpsStatus status = build(&b, d->root, file);
+    file->has_preimage = b.has_preimage;
+    file->composition = b.composition;
+    file->composition_line = b.composition_line;
     return status;
 }
 
 CpsStatus cps_law_read(const char *path, const CpsReadLimits *limits, CpsLawFile **out, CpsError *err) {
     if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
     *out = NULL;
-    const CpsReadLimits defaults = cps_read_limits_default();
-    if (!limits) limits = &defaults;
-    if (limits->max_depth < 1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "limits are not positive: start from cps_read_limits_default()");
-
-    /* numbers have a decimal point whatever the program's locale */
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    CpsiPool tree = {0};
     CpsLawFile *file = calloc(1, sizeof *file);
-    if (!numbers || !file) {
-        if (numbers) freelocale(numbers);
-        free(file);
-        return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    }
-    const locale_t before = uselocale(numbers);
-    const CpsStatus status = read_law(path, limits, file, err);
-    uselocale(before);
-    freelocale(numbers);
+    if (!file) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    const CpsStatus status = cpsi_document_read(path, limits, CPSI_FILE_LAW, &tree, build_file, file, err);
+    cpsi_pool_free(&tree);
     if (status == CPS_OK)
         *out = file;
     else

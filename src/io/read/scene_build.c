@@ -7,13 +7,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "io/base/read_file.h"
 #include "io/read/node_file.h"
 #include "io/read/scene_store.h"
 #include "io/read/set_build.h"
 
 /* [rad] */
-static const double DEGREE = 3.14159265358979323846 / 180;
+static const double DEGREE = CPSI_PI / 180;
 
 typedef struct Build {
     const char *file;

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Read a scene file: bytes -> tree (yaml.h) -> validated by the table of keys (validate.h) -> structs
  * (scene_build.h) -> cps_scene_check. */
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "capstan/io.h"
-#include "io/base/read_file.h"
-#include "io/schema/file_kind.h"
+#include "io/read/document.h"
 #include "io/read/scene_build.h"
 #include "io/schema/validate.h"
 
@@ -16,11 +14,6 @@ struct CpsSceneFile {
     CpsScene scene;
     CpsiPool pool; /* all that the scene points to, but for the friction sets, which are held */
 };
-
-CpsReadLimits cps_read_limits_default(void) {
-    return (CpsReadLimits){
-        .max_bytes = (size_t)64 << 20, .max_depth = 64, .max_elements = 10000000, .max_steps = 1000000};
-}
 
 void cps_scene_file_destroy(CpsSceneFile *file) {
     if (!file) return;
@@ -42,46 +35,24 @@ static CpsStatus check(const char *file, const CpsiYaml *root, const CpsScene *s
     return cpsi_fail_inside(err, input, "%s", found.where);
 }
 
-static CpsStatus read_scene(const char *path, const CpsReadLimits *limits, CpsSceneFile *scene, CpsError *err) {
-    const char *file = strcmp(path, "-") == 0 ? "standard input" : path;
-    char *bytes = NULL;
-    size_t size = 0;
-    CpsiPool tree = {0};
-    CpsiYaml *root = NULL;
-    CpsStatus status = cpsi_read_file(path, file, limits->max_bytes, &bytes, &size, err);
-    if (status == CPS_OK) status = cpsi_yaml_parse(file, "scene", bytes, size, limits->max_depth, &tree, &root, err);
-    free(bytes);
-    if (status == CPS_OK) status = cpsi_file_expect(file, root, CPSI_FILE_SCENE, err);
-    if (status == CPS_OK) status = cpsi_scene_validate(file, root, err);
-    if (status == CPS_OK) status = cpsi_scene_build(file, root, limits, &scene->pool, &scene->scene, err);
-    if (status == CPS_OK) status = check(file, root, &scene->scene, err);
-    cpsi_pool_free(&tree);
-    return status;
+static CpsStatus build(const CpsiDocument *d, void *out) {
+    CpsSceneFile *file = out;
+    CpsStatus status = cpsi_scene_validate(d->name, (CpsiYaml *)d->root, d->err);
+    if (status == CPS_OK) status = cpsi_scene_build(d->name, d->root, d->limits, &file->pool, &file->scene, d->err);
+    return status ? status : check(d->name, d->root, &file->scene, d->err);
 }
 
 CpsStatus cps_scene_read(const char *path, const CpsReadLimits *limits, CpsSceneFile **out, CpsError *err) {
     if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
     *out = NULL;
-    const CpsReadLimits defaults = cps_read_limits_default();
-    if (!limits) limits = &defaults;
-    if (limits->max_depth < 1 || limits->max_elements < 1 || limits->max_steps < 1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "limits are not positive: start from cps_read_limits_default()");
-
-    /* numbers have a decimal point whatever the program's locale */
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    CpsSceneFile *scene = calloc(1, sizeof *scene);
-    if (!numbers || !scene) {
-        if (numbers) freelocale(numbers);
-        free(scene);
-        return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    }
-    const locale_t before = uselocale(numbers);
-    const CpsStatus status = read_scene(path, limits, scene, err);
-    uselocale(before);
-    freelocale(numbers);
+    CpsiPool tree = {0};
+    CpsSceneFile *file = calloc(1, sizeof *file);
+    if (!file) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    const CpsStatus status = cpsi_document_read(path, limits, CPSI_FILE_SCENE, &tree, build, file, err);
+    cpsi_pool_free(&tree);
     if (status == CPS_OK)
-        *out = scene;
+        *out = file;
     else
-        cps_scene_file_destroy(scene);
+        cps_scene_file_destroy(file);
     return status;
 }

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/math.h"
 #include "base/status.h"
 #include "base/vec3.h"
 #include "io/results/writers.h"
@@ -13,7 +14,6 @@
 enum { AROUND = 96, ALONG = 48 }; /* quadrilaterals round a circle, and from pole to pole */
 enum { SECTORS = 8 };
 
-static const double PI = 3.14159265358979323846;
 /* How much farther than the lines, of their extent. */
 static const double MARGIN = 0.15;
 
@@ -60,8 +60,8 @@ static Patch patch_of(const CpsResults *results, const CpsObstacle *obstacle) {
 }
 
 static Vec3 point_of(const Patch *patch, int row, int column) {
-    const double r = patch->obstacle->radius, angle = patch->turned + 2 * PI * column / AROUND,
-                 polar = PI * row / ALONG;
+    const double r = patch->obstacle->radius, angle = patch->turned + 2 * CPSI_PI * column / AROUND,
+                 polar = CPSI_PI * row / ALONG;
     double x[3];
     switch (patch->obstacle->kind) {
     case CPS_OBSTACLE_PLANE:

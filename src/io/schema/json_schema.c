@@ -2,11 +2,10 @@
 /* Writing a JSON schema (see json_schema.h). */
 #include "io/schema/json_schema.h"
 
-#include <locale.h>
-
 #include "base/status.h"
 #include "capstan/planar.h"
 #include "io/base/escape.h"
+#include "io/base/numbers.h"
 
 /* What values a row accepts. */
 static void put_range(FILE *out, const CpsiKey *key) {
@@ -166,12 +165,10 @@ void cpsi_put_key(FILE *out, const CpsiKey *key, CpsiName name) {
 
 CpsStatus cpsi_write_schema(FILE *out, void (*put)(FILE *out), CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected an open file");
-    const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!numbers) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const locale_t before = uselocale(numbers);
+    CpsiNumbers numbers;
+    if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     put(out);
-    uselocale(before);
-    freelocale(numbers);
+    cpsi_numbers_end(&numbers);
     if (fflush(out) != 0 || ferror(out)) return cpsi_fail(err, CPS_ERR_IO, "the schema could not be written");
     return CPS_OK;
 }

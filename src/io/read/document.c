@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bytes -> tree (yaml.h) -> what is built of it (see document.h). */
+#include "io/read/document.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "io/base/numbers.h"
+#include "io/base/read_file.h"
+
+CpsReadLimits cps_read_limits_default(void) {
+    return (CpsReadLimits){
+        .max_bytes = (size_t)64 << 20, .max_depth = 64, .max_elements = 10000000, .max_steps = 1000000};
+}
+
+static CpsStatus parse(CpsiDocument *d, CpsiFileKind kind) {
+    static const char *const WHAT[] = {
+        [CPSI_FILE_SCENE] = "scene", [CPSI_FILE_LAW] = "law", [CPSI_FILE_DRIVE] = "driven system"};
+    char *bytes = NULL;
+    size_t size = 0;
+    CpsiYaml *root = NULL;
+    CpsStatus status = cpsi_read_file(d->path, d->name, d->limits->max_bytes, &bytes, &size, d->err);
+    if (status == CPS_OK)
+        status = cpsi_yaml_parse(d->name, WHAT[kind], bytes, size, d->limits->max_depth, d->pool, &root, d->err);
+    free(bytes);
+    d->root = root;
+    return status ? status : cpsi_file_expect(d->name, root, kind, d->err);
+}
+
+CpsStatus cpsi_document_read(const char *path, const CpsReadLimits *limits, CpsiFileKind kind, CpsiPool *pool,
+                             CpsStatus (*build)(const CpsiDocument *document, void *out), void *out, CpsError *err) {
+    const CpsReadLimits defaults = cps_read_limits_default();
+    if (!limits) limits = &defaults;
+    if (limits->max_depth < 1 || limits->max_elements < 1 || limits->max_steps < 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "limits are not positive: start from cps_read_limits_default()");
+    CpsiNumbers numbers;
+    if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    CpsiDocument document = {.path = path,
+                             .name = strcmp(path, "-") == 0 ? "standard input" : path,
+                             .limits = limits,
+                             .pool = pool,
+                             .err = err};
+    CpsStatus status = parse(&document, kind);
+    if (status == CPS_OK) status = build(&document, out);
+    cpsi_numbers_end(&numbers);
+    return status;
+}
