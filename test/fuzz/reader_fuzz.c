@@ -25,8 +25,8 @@
 #include "capstan/io.h"
 #include "capstan/law_io.h"
 #include "commands.h"
-#include "law_query.h"
-#include "study_solutions.h"
+#include "law/law_query.h"
+#include "study/study_solutions.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* All solutions of a step on the command line (see study_solutions.h). */
-#include "study_solutions.h"
+#include "study/study_solutions.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sets as answers (see law_answer.h). */
-#include "law_answer.h"
+/* Sets as answers (see set_answer.h). */
+#include "law/set_answer.h"
 
 #include <math.h>
 #include <stdlib.h>

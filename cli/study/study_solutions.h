@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* All solutions of a step (S90 results 4.3, 4.4, theorem 6.3): its slack, configurations judged, slack laid out. */
-#ifndef CAPSTAN_CLI_STUDY_SOLUTIONS_H
-#define CAPSTAN_CLI_STUDY_SOLUTIONS_H
+#ifndef CAPSTAN_CLI_STUDY_STUDY_SOLUTIONS_H
+#define CAPSTAN_CLI_STUDY_STUDY_SOLUTIONS_H
 
 #include "capstan/solutions.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan drive: answers by kind of file, readable and as JSON. */
-#ifndef CAPSTAN_CLI_DRIVE_ANSWER_H
-#define CAPSTAN_CLI_DRIVE_ANSWER_H
+#ifndef CAPSTAN_CLI_DRIVE_SYSTEM_ANSWER_H
+#define CAPSTAN_CLI_DRIVE_SYSTEM_ANSWER_H
 
 #include "capstan/drive_io.h"
-#include "law_query.h"
+#include "law/law_query.h"
 
 /* One run of the command. */
 typedef struct DriveRun {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan law: velocities and forces from the command line, or as CSV from standard input. */
-#ifndef CAPSTAN_CLI_LAW_QUERY_H
-#define CAPSTAN_CLI_LAW_QUERY_H
+#ifndef CAPSTAN_CLI_LAW_LAW_QUERY_H
+#define CAPSTAN_CLI_LAW_LAW_QUERY_H
 
 #include "commands.h"
 #include "options.h"

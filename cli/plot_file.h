@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan law --plot: the picture of a law as a file that appears whole or not at all. */
-#ifndef CAPSTAN_CLI_LAW_PLOT_H
-#define CAPSTAN_CLI_LAW_PLOT_H
+#ifndef CAPSTAN_CLI_PLOT_FILE_H
+#define CAPSTAN_CLI_PLOT_FILE_H
 
 #include "capstan/law_io.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* --h, --lambda, --n and --delta (see classic_options.h). */
-#include "classic_options.h"
+#include "run/classic_options.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -12,15 +12,15 @@
 #include <unistd.h>
 
 #include "capstan/io.h"
-#include "cautions.h"
-#include "classic_options.h"
+#include "run/classic_options.h"
+#include "run/warnings.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
-#include "run_regularized.h"
-#include "stop.h"
+#include "run/regularized_run.h"
+#include "signals.h"
 
 enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
 

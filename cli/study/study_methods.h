@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A whole history by three methods: regularised, frozen, consistent. */
-#ifndef CAPSTAN_CLI_STUDY_METHODS_H
-#define CAPSTAN_CLI_STUDY_METHODS_H
+#ifndef CAPSTAN_CLI_STUDY_STUDY_METHODS_H
+#define CAPSTAN_CLI_STUDY_STUDY_METHODS_H
 
 #include "capstan/io.h"
 #include "options.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Signals (stop.h). */
-#include "stop.h"
+/* Signals (signals.h). */
+#include "signals.h"
 
 #include <signal.h>
 #include <string.h>

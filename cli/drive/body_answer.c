@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drive_answer.h"
-#include "law_answer.h"
-#include "law_plot.h"
+#include "drive/system_answer.h"
+#include "law/set_answer.h"
+#include "plot_file.h"
 #include "progress.h"
 
 /* A tow as it went: poses and driven ends, the first being the start. */

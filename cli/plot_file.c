@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pictures of laws as files (see law_plot.h): written under another name, synced, renamed. */
-#include "law_plot.h"
+/* Pictures of laws as files (see plot_file.h): written under another name, synced, renamed. */
+#include "plot_file.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan run --method regularized (see regularized.h). */
-#include "run_regularized.h"
+#include "run/regularized_run.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "commands.h"
 #include "printable.h"
 #include "progress.h"
-#include "stop.h"
+#include "signals.h"
 
 enum { NEWTON_LIMIT = 5000, STEP_NAME = 96, NAME_WIDTH = 18, LINE_WIDTH = 10 };
 

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "capstan/evolve.h"
-#include "drive_answer.h"
-#include "law_answer.h"
-#include "law_plot.h"
+#include "drive/system_answer.h"
+#include "law/set_answer.h"
+#include "plot_file.h"
 #include "progress.h"
 
 /* Nodes slower than this share of the fastest end rest. */

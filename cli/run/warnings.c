@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a user must know of a step though it is certified (see cautions.h).
+/* What a user must know of a step though it is certified (see warnings.h).
  *
  * Frozen friction (S90 section 2 d) takes its bound A from the reference. Where the reaction has changed much within
  * the step, A is not mu R any more (example 11.2); where the line has left the obstacle, friction still acts on it, and
@@ -15,7 +15,7 @@
  *
  * Where a line turns by d at one node round an obstacle, the polygon holds tensions up to a ratio k, and a smooth line
  * up to exp(mu d): a mesh that is too coarse for the bend is told by their difference. */
-#include "cautions.h"
+#include "run/warnings.h"
 
 #include <float.h>
 #include <math.h>

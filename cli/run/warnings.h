@@ -2,8 +2,8 @@
 /* What a user must know of a step though it is solved and certified: with frozen friction or strict contact what S90
  * annex 6 shows, where most of a line is slack, where its forces leave a choice of places, energy that comes from nowhere or is set free, coordinates with too few digits, and
  * where the mesh is coarse for the bends in it; and, whatever the outcome, where a line goes through an obstacle. */
-#ifndef CAPSTAN_CLI_CAUTIONS_H
-#define CAPSTAN_CLI_CAUTIONS_H
+#ifndef CAPSTAN_CLI_RUN_WARNINGS_H
+#define CAPSTAN_CLI_RUN_WARNINGS_H
 
 #include "capstan/evolve.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A whole history by three methods (see study_methods.h). The regularised one goes on from its own configurations and
  * reactions; loads and ends are those of the frozen history. */
-#include "study_methods.h"
+#include "study/study_methods.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "capstan/classic_io.h"
 #include "commands.h"
 #include "printable.h"
-#include "run_regularized.h"
+#include "run/regularized_run.h"
 
 enum { REGULARISED, FROZEN, CONSISTENT, METHODS, NAME_SIZE = 96 };
 

@@ -3,8 +3,8 @@
 #include <limits.h>
 #include <string.h>
 
-#include "drive_answer.h"
-#include "law_answer.h"
+#include "drive/system_answer.h"
+#include "law/set_answer.h"
 #include "printable.h"
 
 static const char *const KIND[] = {"system", "body", "planimeter", "rope", "sweep"};

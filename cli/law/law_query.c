@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Velocities and forces as text (see law_query.h). */
-#include "law_query.h"
+#include "law/law_query.h"
 #include "printable.h"
 
 #include <ctype.h>

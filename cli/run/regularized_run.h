@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A history of the regularised method of 1990, step by step: each step goes on from its own last configuration and
  * reactions. Loads, ends and normals are those of the exact history, which goes along. */
-#ifndef CAPSTAN_CLI_REGULARIZED_H
-#define CAPSTAN_CLI_REGULARIZED_H
+#ifndef CAPSTAN_CLI_RUN_REGULARIZED_RUN_H
+#define CAPSTAN_CLI_RUN_REGULARIZED_RUN_H
 
 #include "capstan/classic.h"
 #include "capstan/io.h"
-#include "classic_options.h"
+#include "run/classic_options.h"
 #include "options.h"
 
 /* One line's history so far. Begin with friction, mu of its obstacle, and the parameters given. */
@@ -30,7 +30,7 @@ void regularized_tell_steps(const CpsScene *scene);
 CpsStatus regularized_step(Regularized *method, const CpsLineView *exact, CpsClassicParameters *parameters,
                            CpsClassicReport *report, CpsError *err);
 
-/* capstan run --method regularized: all steps of all lines; prints a table, writes the results. A signal (stop.h)
+/* capstan run --method regularized: all steps of all lines; prints a table, writes the results. A signal (signals.h)
  * ends it after the current step. Returns the exit code. */
 int run_regularized(const CpsScene *scene, const char *directory, const CliOptions *options);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stopping at a good place: the first SIGINT or SIGTERM is remembered, the second ends the program at once. */
-#ifndef CAPSTAN_CLI_STOP_H
-#define CAPSTAN_CLI_STOP_H
+#ifndef CAPSTAN_CLI_SIGNALS_H
+#define CAPSTAN_CLI_SIGNALS_H
 
 /* From here on. A file over the size limit then shows as a write error, and is cleaned up like one. */
 void cli_catch_signals(void);

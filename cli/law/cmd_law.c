@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "capstan/law_io.h"
-#include "law_answer.h"
-#include "law_plot.h"
-#include "law_query.h"
+#include "law/set_answer.h"
+#include "plot_file.h"
+#include "law/law_query.h"
 #include "printable.h"
 
 typedef struct LawRun {

@@ -12,16 +12,16 @@
 #include <unistd.h>
 
 #include "capstan/classic_io.h"
-#include "classic_options.h"
+#include "run/classic_options.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
-#include "run_regularized.h"
-#include "stop.h"
-#include "study_methods.h"
-#include "study_solutions.h"
+#include "run/regularized_run.h"
+#include "signals.h"
+#include "study/study_methods.h"
+#include "study/study_solutions.h"
 
 /* ---- the step ---- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The four parameters of the method of 1990 on the command line: --h, --lambda, --n, --delta. */
-#ifndef CAPSTAN_CLI_CLASSIC_OPTIONS_H
-#define CAPSTAN_CLI_CLASSIC_OPTIONS_H
+#ifndef CAPSTAN_CLI_RUN_CLASSIC_OPTIONS_H
+#define CAPSTAN_CLI_RUN_CLASSIC_OPTIONS_H
 
 #include "capstan/classic.h"
 #include "options.h"

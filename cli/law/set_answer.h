@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan law: sets as answers, readable and as JSON. */
-#ifndef CAPSTAN_CLI_LAW_ANSWER_H
-#define CAPSTAN_CLI_LAW_ANSWER_H
+#ifndef CAPSTAN_CLI_LAW_SET_ANSWER_H
+#define CAPSTAN_CLI_LAW_SET_ANSWER_H
 
 #include <stdio.h>
 

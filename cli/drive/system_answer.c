@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan drive: systems; one motion per velocity with its proof, all motions and forces, or the reduced law. */
-#include "drive_answer.h"
+#include "drive/system_answer.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "law_answer.h"
-#include "law_plot.h"
+#include "law/set_answer.h"
+#include "plot_file.h"
 #include "progress.h"
 
 /* All solutions are looked for, and components printed, up to so many; JSON has all components. */
