@@ -37,7 +37,7 @@ static int answer(DriveRun *run) {
     const char *kind = file->kind == CPS_DRIVE_BODY && file->body.vehicle ? "vehicle" : KIND[file->kind];
     if (run->json) {
         fputs("{\"title\": ", stdout);
-        law_json_text(file->title, stdout);
+        cps_json_text(stdout, file->title);
         printf(", \"kind\": \"%s\"", kind);
     } else if (*file->title) {
         cli_put_text(stdout, file->title, INT_MAX, false);

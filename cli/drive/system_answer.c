@@ -17,7 +17,7 @@ enum { MOST_DENSE = 120, MOST_PRINTED = 24 };
 
 void drive_json_word(const char *key, const char *text) {
     printf(", \"%s\": ", key);
-    law_json_text(text, stdout);
+    cps_json_text(stdout, text);
 }
 
 void drive_json(const char *key, double x) {
@@ -237,7 +237,7 @@ static void json_laws(const CpsDriveSystem *s, const CpsMotion *motion) {
         const int n = cps_system_law_space(s->system, k);
         const CpsMotionShare *share = cps_motion_law_share(motion, k);
         fputs(k ? ", {\"name\": " : "{\"name\": ", stdout);
-        law_json_text(cps_system_law_name(s->system, k), stdout);
+        cps_json_text(stdout, cps_system_law_name(s->system, k));
         drive_json_list("velocity", n, cps_motion_law_velocity(motion, k));
         drive_json_list("force_N", n, cps_motion_law_force(motion, k));
         drive_json("dissipated_W", share->dissipated);
@@ -445,12 +445,12 @@ static void tell_system(const DriveRun *run) {
     fputs(", \"parameters\": [", stdout);
     for (int i = 0; i < s->parameters; i++) {
         if (i) fputs(", ", stdout);
-        law_json_text(s->parameter[i], stdout);
+        cps_json_text(stdout, s->parameter[i]);
     }
     fputs("], \"drive\": [", stdout);
     for (int i = 0; i < s->driven; i++) {
         if (i) fputs(", ", stdout);
-        law_json_text(s->drive[i], stdout);
+        cps_json_text(stdout, s->drive[i]);
     }
     putchar(']');
 }

@@ -70,11 +70,11 @@ static bool tell_law(LawRun *run) {
         return true;
     }
     fputs("{\"title\": ", stdout);
-    law_json_text(cps_law_file_title(run->file), stdout);
+    cps_json_text(stdout, cps_law_file_title(run->file));
     printf(", \"kind\": \"%s\", \"components\": %d", kind, run->n);
     if (run->set) {
         fputs(", \"set\": ", stdout);
-        law_json_text(text, stdout);
+        cps_json_text(stdout, text);
     }
     if (facts.outcome == CPS_SET_ANSWERED)
         printf(", \"dimension\": %d, \"bounded\": %s", facts.dimension, facts.bounded ? "true" : "false");

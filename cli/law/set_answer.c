@@ -19,18 +19,7 @@ void law_print_vector(int n, const double *x) {
     putchar(')');
 }
 
-void law_json_number(double x, FILE *out) {
-    char text[40];
-    if (!isfinite(x)) {
-        fputs("null", out);
-        return;
-    }
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, x + 0.0);
-        if (strtod(text, NULL) == x) break;
-    }
-    fputs(text, out);
-}
+void law_json_number(double x, FILE *out) { cps_json_number(out, x + 0.0); } /* no -0 */
 
 void law_json_vector(int n, const double *x, FILE *out) {
     fputc('[', out);
@@ -39,18 +28,6 @@ void law_json_vector(int n, const double *x, FILE *out) {
         law_json_number(x[i], out);
     }
     fputc(']', out);
-}
-
-void law_json_text(const char *text, FILE *out) {
-    fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\') fputc('\\', out);
-        if ((unsigned char)*text < 0x20)
-            fprintf(out, "\\u%04x", (unsigned)(unsigned char)*text);
-        else
-            fputc(*text, out);
-    }
-    fputc('"', out);
 }
 
 /* ---- asking ---- */

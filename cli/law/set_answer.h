@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 
+#include "capstan/io.h"
 #include "capstan/law.h"
 
 /* What is told of a set: facts, extent along an orthonormal basis of its directions, vertices or rays. */
@@ -36,6 +37,5 @@ void law_answer_json(const SetAnswer *answer, bool cone, FILE *out);
 void law_print_vector(int n, const double *x);           /* (1, 2) */
 void law_json_number(double x, FILE *out);               /* null when not finite */
 void law_json_vector(int n, const double *x, FILE *out); /* [1, 2] */
-void law_json_text(const char *text, FILE *out);         /* in quotes */
 
 #endif

@@ -67,7 +67,7 @@ static double lifted_friction(const CpsLineView *view, double *bounds) {
         for (size_t x = 0; x < 3; ++x)
             distance += view->normal[3 * c + x] * (view->position[k + x] - view->reference[k + x]);
         *bounds += view->friction_bound[c];
-        if (distance > 1e-9 * length) lifted += length3(view->friction + 3 * c);
+        if (distance > CPS_TOUCH * length) lifted += length3(view->friction + 3 * c);
     }
     return lifted;
 }

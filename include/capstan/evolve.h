@@ -195,6 +195,9 @@ typedef struct CpsStepReport {
     double wall;       /* [s] */
 } CpsStepReport;
 
+/* A node this near to an obstacle, per length of its line, touches it: far above the rounding of positions, far below anything drawn. */
+#define CPS_TOUCH 1e-9
+
 /* Everything about one line after a step. Views into the evolution; n = elements + 1 nodes.
  * Forces act on the line; arrays (n, 3) are stored node after node. A node touches up to `contacts` obstacles at once, and what
  * belongs to a contact has all nodes' nearest obstacles first: entry j is the first contact of node j, entry n + j its second. */

@@ -38,6 +38,11 @@ CPS_API const CpsScene *cps_scene_file_scene(const CpsSceneFile *file);
 /* Write the JSON schema (draft 2020-12) of scenes, from the same table of keys that the reader uses. */
 CPS_API CpsStatus cps_scene_write_schema(FILE *out, CpsError *err);
 
+/* Text and numbers of JSON: text in quotes and made safe, as in summary.json, a number with as many digits as bring it back, null where it is
+ * not finite. The calling thread's locale must have a decimal point. */
+CPS_API void cps_json_text(FILE *out, const char *text);
+CPS_API void cps_json_number(FILE *out, double x);
+
 /* A directory of results: summary.json, history.csv, result.nc, one .vtp per step with a .pvd, SVG pictures. */
 typedef struct CpsResults CpsResults;
 

@@ -6,8 +6,7 @@
 #include "cable/line.h"
 #include "cable/step_options.h"
 
-/* A node this near to the obstacle, per length of the line, touches it. */
-#define CPSI_TOUCH 1e-9
+#define CPSI_TOUCH CPS_TOUCH /* evolve.h */
 
 /* [rad] In one part of a step no obstacle turns by more, and no node with friction goes farther round one. */
 #define CPSI_QUARTER 1.57079632679489661923

@@ -24,9 +24,6 @@
 #include "evolve/path_check.h"
 #include "evolve/start.h"
 
-/* How near to the obstacle a node of a start shape counts as touching, per length of the line. */
-static const double START_TOUCH = 1e-9;
-
 /* create -------------------------------------------------------------------------------------------------------- */
 
 static char *take_name(CpsiArena *arena, const char *name) {
@@ -187,7 +184,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         cpsi_node_start(line, def);
         break;
     default:
-        cpsi_line_start_reaction(line, START_TOUCH*line->length);
+        cpsi_line_start_reaction(line, CPS_TOUCH*line->length);
     }
     memcpy(line->reference, line->position, 3*(size_t)line->n*sizeof *line->reference);
 }

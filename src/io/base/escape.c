@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "capstan/io.h"
+
 static const char REPLACEMENT[] = "\xEF\xBF\xBD"; /* U+FFFD */
 
 size_t cpsi_utf8_length(const char *text) {
@@ -122,4 +124,14 @@ void cpsi_put_csv(FILE *out, const char *text) {
 void cpsi_put_csv_number(FILE *out, double x) {
     char buffer[CPSI_NUMBER_SIZE];
     fputs(cpsi_number(buffer, x), out);
+}
+
+/* ---- for other programs ---- */
+
+void cps_json_text(FILE *out, const char *text) {
+    if (out) cpsi_put_json_string(out, text ? text : "");
+}
+
+void cps_json_number(FILE *out, double x) {
+    if (out) cpsi_put_json_number(out, x);
 }

@@ -11,10 +11,6 @@
 #include "io/results/fields.h"
 #include "io/results/writers.h"
 
-/* A node touches when it is closer to the obstacle than this part of its line's length: far above the rounding
- * of positions, far below anything drawn. */
-static const double TOUCH_TOLERANCE = 1e-9;
-
 static CpsStatus fail_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while keeping the history of the results");
 }
@@ -138,7 +134,7 @@ CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene, co
 /* Largest reaction of an obstacle on a node that does not touch it: what complementarity forbids, in newtons. A held
  * end is carried by what holds it; its reaction is only a share of that and says nothing. */
 static double open_reaction(const CpsLineView *view) {
-    const double touch = TOUCH_TOLERANCE * view->arc_length[view->elements];
+    const double touch = CPS_TOUCH * view->arc_length[view->elements];
     double worst = 0;
     const int first = view->end[CPS_END_A].kind == CPS_END_HELD;
     const int last = view->elements - (view->end[CPS_END_B].kind == CPS_END_HELD);
