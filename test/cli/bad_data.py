@@ -126,7 +126,7 @@ CURVE_NAMES = [
     ("not there", "none.csv", 4, "none.csv: cannot open: No such file or directory"),
     ("up", "../c.csv", 3, "m.yaml:2:100: 'file': found '../c.csv', expected the name of a file beside this one, without '/'"),
     ("absolute", "/etc/passwd", 3, "m.yaml:2:100: 'file': found '/etc/passwd', expected the name of a file beside this one, without '/'"),
-    ("an empty name", "''", 3, "m.yaml:2:100: 'file': found nothing, expected the name of a file"),
+    ("an empty name", "''", 3, "m.yaml:2:100: 'file': found the text \"\" in quotes, expected the name of a file"),
     ("a dash in quotes", "'-'", 3, "m.yaml:2:100: 'file': found the text \"-\" in quotes, expected the name of a file beside this one, without '/'"),
     ("a list", "[a]", 3, "m.yaml:2:100: 'file': found a list of 1, expected the name of a file"),
     ("a link", "link.csv", 4, "link.csv: is a symbolic link, expected a file of this name itself"),
