@@ -113,7 +113,7 @@ const char *reach_contradiction(const Source *source, const Record *r, bool stat
             if (loses_side(at, next, s->radius, &turns)) return "the line lies across the axis";
             at[0] = next[0], at[1] = next[1];
         }
-        turn = seen.angle + turns * 2 * acosl(-1);
+        turn = atan2l(next[1], next[0]) + turns * 2 * acosl(-1); // the coordinates whose signs were counted
     }
     const Real sense = turn < 0 ? -1 : 1, q = least_share(source, r, &seen), R = seen.radius;
     if (!(q > 0)) return "an element is long enough to lie across the obstacle";
