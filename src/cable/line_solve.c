@@ -22,6 +22,8 @@ static const double HELD = 100;
 static const double LEAST_STRAIN = 1e-12;
 /* A taut line's forces are those of a line longer by this share. */
 static const double TAUT_SLACK = 1e-9;
+/* Places are known to this share of the length, and no element of an inextensible line is longer by more. */
+static const double PLACES = CPSI_TOUCH;
 /* A reaction below this share of the unit of force is rounding where the node is apart. */
 static const double LEAST_REACTION = 1e-12;
 
@@ -105,7 +107,7 @@ CpsOutcome cpsi_line_judge(const CpsiLine *line, const CpsiStepOptions *options,
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
     const bool consistent = options->friction == CPS_FRICTION_FROZEN || c->friction_residual <= CPSI_CLEAN*c->largest_force;
     if (finite && consistent && ipm->residual <= fmax(0.01*tolerance, CPSI_CLEAN) && c->gap <= tolerance*c->scale &&
-        c->stretch_residual <= tolerance && is_a_line(c, tolerance) && c->force_residual <= CPSI_CLEAN*c->largest_force && is_in_place(line, options))
+        c->stretch_residual <= fmin(tolerance, PLACES) && is_a_line(c, tolerance) && c->force_residual <= CPSI_CLEAN*c->largest_force && is_in_place(line, options))
         return cpsi_line_is_taut(line) ? CPS_TAUT : CPS_SOLVED;
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }
