@@ -46,7 +46,7 @@ def run(out, *more, code=0, scene="scene.yaml"):
 def interrupted():
     """The journal of a run that was killed after a few steps."""
     process = subprocess.Popen([CAPSTAN, "run", "scene.yaml", "-q", "-o", "killed"], stderr=subprocess.DEVNULL)
-    while process.poll() is None and not (os.path.exists("killed/.journal") and os.path.getsize("killed/.journal") > 50000):
+    while process.poll() is None and not (os.path.exists("killed/.journal") and os.path.getsize("killed/.journal") > 100000):
         time.sleep(0.0005)
     process.send_signal(signal.SIGKILL)
     process.wait()
