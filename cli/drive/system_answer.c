@@ -392,20 +392,18 @@ static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *veloc
     return EXIT_USAGE;
 }
 
-/* Does nothing balance the load?  Beside the limit its proof decides before the set is known to be empty. */
-static bool ask_balance(DriveRun *run, const CpsSet *set, bool *empty) {
+/* Does nothing balance the load?  Beside the limit this proof decides before a set is known to be empty. */
+static bool ask_balance(DriveRun *run, bool *none) {
     const CpsDriveSystem *s = &run->file->system;
-    CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
     CpsMotionOptions options = cps_motion_options_default();
     CpsMotion *motion = NULL;
-    if (cps_set_facts(set, 0, &facts, NULL, NULL, &run->err) != CPS_OK) return false;
-    *empty = facts.outcome == CPS_SET_EMPTY;
-    if (!s->loaded || *empty) return true;
+    *none = false;
+    if (!s->loaded) return true;
     double *rest = calloc((size_t)s->driven, sizeof *rest);
     options.composition = false;
+    if (!rest) run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
     const bool good = rest && cps_system_solve(s->system, rest, &options, &motion, &run->err) == CPS_OK;
-    if (!rest) fprintf(stderr, "capstan: out of memory\n");
-    *empty = good && cps_motion_report(motion)->outcome == CPS_MOTION_NO_BALANCE;
+    *none = good && cps_motion_report(motion)->outcome == CPS_MOTION_NO_BALANCE;
     cps_motion_destroy(motion);
     free(rest);
     return good;
@@ -413,11 +411,14 @@ static bool ask_balance(DriveRun *run, const CpsSet *set, bool *empty) {
 
 static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryList *force) {
     CpsSet *set = NULL;
-    CpsComposition composition;
+    CpsComposition composition = CPS_COMPOSE_NOT_SATISFIED;
+    CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
     const size_t n = (size_t)run->file->system.driven;
-    if (cps_system_eliminate(run->file->system.system, NULL, &set, &composition, &run->err) != CPS_OK)
-        return cli_report(&run->err);
-    bool empty = false, good = ask_balance(run, set, &empty);
+    bool empty = false, good = ask_balance(run, &empty);
+    if (good && !empty) good = cps_system_eliminate(run->file->system.system, NULL, &set, &composition, &run->err) == CPS_OK;
+    if (!good) return cli_report(&run->err);
+    if (!empty) good = cps_set_facts(set, 0, &facts, NULL, NULL, &run->err) == CPS_OK;
+    empty = empty || facts.outcome == CPS_SET_EMPTY;
     good = good && (empty ? tell_empty(run) : tell_elimination(run, set, composition));
     if (run->json) fputs(",\n  \"answers\": [", stdout);
     for (int i = 0; i < velocity->count && good && !empty; i++)

@@ -123,7 +123,9 @@ static double reach(const CpsSet *set) {
         for (size_t k = 0; k < count; k++)
             if (isfinite(set->b[k])) most = fmax(most, fabs(set->b[k])/largest(n, &set->a[k*n]));
         return most;
-    case CPSI_SET_CONIC: return fmax(set->form->size, largest(n, set->form->origin));
+    case CPSI_SET_CONIC: /* without offsets it is a cone, of no size */
+        if (largest((size_t)set->form->rows, set->form->b) > 0) most = set->form->size;
+        return fmax(most, largest(n, set->form->origin));
     case CPSI_SET_SUBSPACE:
     case CPSI_SET_RAYS:
     case CPSI_SET_USER: return 0;
@@ -142,6 +144,8 @@ static double reach(const CpsSet *set) {
     default: return most;
     }
 }
+
+bool cpsi_set_is_cone(const CpsSet *set) { return reach(set) == 0; }
 
 double cpsi_set_size(const CpsSet *set) {
     const double size = reach(set);

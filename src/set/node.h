@@ -67,6 +67,8 @@ bool cpsi_set_has_user(const CpsSet *set);
 
 /* A length typical of the data, > 0: what a relative tolerance is relative to. */
 double cpsi_set_size(const CpsSet *set);
+/* A cone by the way it is written, as nothing in it has a length; then its size is 1 for want of one. */
+bool cpsi_set_is_cone(const CpsSet *set);
 
 /* Numbers of a node's size: on the stack while they are few. */
 typedef struct CpsiScratch {

@@ -283,19 +283,22 @@ CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tol
     *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE, .tolerance = share};
     if (cpsi_set_has_user(set)) return CPS_OK;
 
-    /* how far off is the point? */
-    double *nearest = malloc((size_t)set->n*sizeof *nearest);
+    /* how far off is the point?  Of a cone, which has no size, the point's own length is what lengths are
+     * compared with, unless the caller has chosen a tolerance */
+    double *nearest = malloc(2*(size_t)set->n*sizeof *nearest), *asked = nearest ? nearest + set->n : NULL;
     if (!nearest) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
+    const double far = tolerance == 0 && cpsi_set_is_cone(set) ? cpsi_norm(set->n, point) : 1, unit = far > 0 ? far : 1;
+    for (int i = 0; i < set->n; i++) asked[i] = point[i]/unit;
     CpsSet *found = NULL;
-    status = cps_set_project(set, point, NULL, nearest, answer, err);
+    status = cps_set_project(set, asked, NULL, nearest, answer, err);
     const double distance = answer->value, size = cpsi_set_size(set);
     answer->tolerance = share;
     if (!status && answer->outcome == CPS_SET_ANSWERED && distance > fmax(share, 1e-9)*size)
         answer->outcome = CPS_SET_OUTSIDE;
-    const double *at = distance > answer->gap ? nearest : point;
+    const double *at = distance > answer->gap ? nearest : asked;
     if (!status && answer->outcome == CPS_SET_ANSWERED) status = cone_at(set, at, share, &found, answer, err);
     free(nearest);
-    answer->value = distance;
+    answer->value = distance*unit;
     answer->exact = false;
     answer->closure = set->closure;
     if (!status && answer->outcome == CPS_SET_ANSWERED) *cone = found;

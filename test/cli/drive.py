@@ -141,6 +141,8 @@ def hitch_and_slope(r):
         expect(f"reduced law at the load {load}", done.returncode == code and ("Proposition" in done.stdout) == (code == 0), done.stdout)
         a = json.loads(r.run(r.write(block % load), "--json", "-v", "0").stdout)["answers"][0]
         expect("a condition only where forces balance", ("composition" in a) == (code == 0), a)
+    loose = "capstan: 1\nsystem:\n  parameters: [x, y]\n  laws: [{name: a, on: [x], law: {interval: 1}}]\n  drive: [x]\n  load: {y: 5}\n"
+    expect("a load that no law meets", r.run(r.write(loose), "-e", "-v", "1").returncode == 5, "")
     limit = r.run(r.write(text.replace("down: 80", "down: 110")), "--json", "-v", "0,0")
     a = json.loads(limit.stdout)["answers"][0]
     expect("limit load", limit.returncode == 0 and a["outcome"] == "CPS_MOTION_LIMIT_LOAD" and a["velocities"]["high"][0] is None, a)
