@@ -212,6 +212,7 @@ typedef struct CpsLineView {
     const double *reference;          /* (n, 3) [m] x_R of this step */
     const double *position;           /* (n, 3) [m] */
     const double *load;               /* (n, 3) [N] weight and free-end forces */
+    double weight_before[3];          /* [N/m] per natural length where the step, or its last part, began; another one than now where gravity changes */
     const int *obstacle;              /* (contacts, n) which: the nearest and the next, -1 without; NULL on one plane with isotropic
                                          friction: the first */
     const double *normal;             /* (contacts, n, 3) [-] that of the obstacle at the configuration reached; 0 0 0 without */

@@ -125,6 +125,8 @@ typedef struct CpsStage {
     const CpsChange *change;
     int turn_count;
     const CpsTurn *turn;
+    bool gravity_changes; /* default false: gravity stays as it is */
+    double gravity[3];    /* [m/s2] else what the scene's becomes in the stage's steps; a line's weight goes with it: w per |g| of the scene */
 } CpsStage;
 
 typedef enum CpsFriction {

@@ -20,6 +20,7 @@ typedef struct CpsiLine {
     double length;      /* [m] natural */
     double compliance;  /* [1/N] 1/EA, 0: inextensible */
     double weight[3];   /* [N/m] per natural length */
+    double weight_before[3]; /* [N/m] where the part of the step began */
     int obstacle_count;
     const CpsiObstacle *obstacle; /* (obstacle_count) */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this part of the step */

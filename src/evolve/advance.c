@@ -126,8 +126,18 @@ static CpsEnd end_at(const CpsiMove *move, int end, double share) {
     return at;
 }
 
+/* The weight at a share of the move. */
+static void weigh(const CpsiMove *move, double share, double weight[3]) {
+    for (int a = 0; a < 3; a++) {
+        const double from = move->weight_from[a], to = move->weight_to[a];
+        weight[a] = share < 1 ? from + share*(to - from) : to;
+    }
+}
+
 /* What the part of the move from share `from` to share `to` imposes. */
 static void impose(const Advance *advance, double from, double to) {
+    weigh(advance->move, from, advance->line->weight_before);
+    weigh(advance->move, to, advance->line->weight);
     for (int end = 0; end < 2; end++) advance->line->end[end] = end_at(advance->move, end, to);
     for (int k = 0; k < advance->line->obstacle_count; k++) advance->room->turn[k] = (to - from)*advance->move->angle[k];
 }

@@ -9,6 +9,7 @@
 typedef struct CpsiMove {
     CpsEnd from[2], to[2];
     const double *angle; /* (obstacles) [rad] */
+    double weight_from[3], weight_to[3]; /* [N/m] per natural length */
 } CpsiMove;
 
 /* Room for the start of a part, and for what one part reached in one go. */

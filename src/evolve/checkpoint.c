@@ -18,7 +18,7 @@ typedef struct Head {
     uint64_t size, fingerprint;
 } Head;
 
-static const char MAGIC[8] = "capstan3";
+static const char MAGIC[8] = "capstan4";
 
 /* Bytes on their way out, in, or only counted. */
 typedef struct Tape {
@@ -134,6 +134,8 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     if (line->on) pass(tape, line->on, contacts*sizeof *line->on);
     if (line->beta) pass(tape, line->beta, n*sizeof *line->beta);
     for (int end = 0; end < 2; end++) pass_end(tape, &line->end[end]);
+    PASS(tape, line->weight);
+    PASS(tape, line->weight_before);
     pass_line_report(tape, &line->report);
 }
 
@@ -178,6 +180,8 @@ static void mix_line(uint64_t *hash, const CpsiLine *line) {
 static void mix_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     mix(hash, stage->name, strlen(stage->name) + 1);
     mix(hash, &stage->steps, sizeof stage->steps);
+    mix_numbers(hash, 3, stage->from);
+    mix_numbers(hash, 3, stage->to);
     for (int i = 0; i < stage->change_count; i++) {
         const CpsiChange *change = &stage->change[i];
         const int what[3] = {change->line, change->end, (int)change->to.kind};

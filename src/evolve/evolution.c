@@ -89,6 +89,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     const bool real = placed != NULL;
     evolution->line = CPSI_TAKE(arena, scene->line_count, CpsiLine);
     evolution->is_laid = CPSI_TAKE(arena, scene->line_count, bool);
+    evolution->mass = CPSI_TAKE(arena, scene->line_count, double);
     evolution->stage = CPSI_TAKE(arena, scene->stage_count + 1, CpsiEvolutionStage);
     evolution->obstacle = CPSI_TAKE(arena, scene->obstacle_count + 1, CpsiObstacle);
     evolution->obstacle_name = CPSI_TAKE(arena, scene->obstacle_count + 1, const char *);
@@ -166,6 +167,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     const Vec3 gravity = vec3_load(scene->gravity);
     const double size = vec3_norm(gravity);
     vec3_store(line->weight, vec3_scale(size > 0 ? def->weight/size : 0, gravity));
+    memcpy(line->weight_before, line->weight, sizeof line->weight);
     for (int e = 0; e < def->elements; e++)
         line->element_length[e] = def->element_length ? def->element_length[e] : def->length/def->elements;
     cpsi_line_measure(line);
@@ -201,6 +203,8 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
         fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
+        const double pull = vec3_norm(vec3_load(scene->gravity));
+        evolution->mass[i] = pull > 0 ? scene->line[i].weight/pull : 0;
         if (evolution->line[i].compliance == 0) evolution->line[i].forces = &evolution->forces;
         evolution->move[i].angle = evolution->angle;
         evolution->is_laid[i] = scene->line[i].start.kind == CPS_START_LAID;
@@ -213,6 +217,8 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         stage->change_count = from->change_count;
         for (int k = 0; k < from->change_count; k++)
             stage->change[k] = (CpsiChange){.line = from->change[k].line, .end = from->change[k].end, .to = from->change[k].to};
+        memcpy(stage->from, i > 0 ? evolution->stage[i - 1].to : scene->gravity, sizeof stage->from);
+        memcpy(stage->to, from->gravity_changes ? from->gravity : stage->from, sizeof stage->to);
         stage->turn_count = from->turn_count;
         for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
         evolution->step_count += from->steps;
@@ -220,7 +226,8 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     if (evolution->laid) evolution->step_count++;
     if (evolution->step_count == 0) {
         /* no history: one step to the equilibrium under the ends as they are */
-        evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium", .steps = 1};
+        const double *g = scene->gravity;
+        evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium", .steps = 1, .from = {g[0], g[1], g[2]}, .to = {g[0], g[1], g[2]}};
         evolution->stage_count = evolution->step_count = 1;
     }
     evolution->report = (CpsStepReport){.name = evolution->step_name, .index = -1};
@@ -320,12 +327,25 @@ static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
     return CPS_OK;
 }
 
+/* [N/m] The weight of line i when `part` of the steps of a stage are through. */
+static void weight_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage, int i, int part, double weight[3]) {
+    const double share = (double)part/stage->steps;
+    for (int a = 0; a < 3; a++) {
+        const double gravity = part < stage->steps ? stage->from[a] + share*(stage->to[a] - stage->from[a]) : stage->to[a];
+        weight[a] = evolution->mass[i]*gravity;
+    }
+}
+
 /* What the next load step does to each line, and its name. */
 static void plan(CpsEvolution *evolution) {
     CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++)
             evolution->move[i].from[end] = evolution->move[i].to[end] = evolution->line[i].end[end];
+    for (int i = 0; i < evolution->line_count; i++) {
+        weight_at(evolution, stage, i, evolution->part, evolution->move[i].weight_from);
+        weight_at(evolution, stage, i, evolution->part + 1, evolution->move[i].weight_to);
+    }
     for (int k = 0; k < stage->change_count; k++) {
         CpsiChange *change = &stage->change[k];
         if (evolution->part == 0)
@@ -350,6 +370,7 @@ static void lay(CpsEvolution *evolution) {
         CpsiStepOptions options = evolution->options;
         CpsiMove *move = &evolution->move[i];
         for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
+        for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
         if (!evolution->is_laid[i]) {
             cpsi_line_advance(line, &evolution->program, &options, move, &evolution->room, false);
             continue;
@@ -465,6 +486,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .reference = from->reference,
         .position = from->position,
         .load = from->load,
+        .weight_before = {from->weight_before[0], from->weight_before[1], from->weight_before[2]},
         .normal = from->normal,
         .gap = from->gap,
         .friction_bound = from->friction_bound,

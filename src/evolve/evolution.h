@@ -21,6 +21,7 @@ typedef struct CpsiEvolutionStage {
     int steps, change_count, turn_count;
     CpsiChange *change;
     CpsTurn *turn;
+    double from[3], to[3]; /* [m/s2] gravity before the stage and after it */
 } CpsiEvolutionStage;
 
 struct CpsEvolution {
@@ -40,6 +41,7 @@ struct CpsEvolution {
     CpsiEvolutionStage *stage;     /* (stage_count) */
     bool laid;        /* the first step is the statics of lines laid */
     bool *is_laid;    /* (line_count) */
+    double *mass;     /* (line_count) [kg/m] weight per gravity; 0 where there is no gravity at the start */
     int done;         /* steps taken */
     int current, part; /* next stage, steps already taken of it */
     bool ended;       /* an infeasible or unbounded step ends the history */

@@ -3,7 +3,8 @@
  *
  *     ends + obstacles = elastic + gravity + dissipated + imbalance
  *
- * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched, gravity = - sum (weight of the node) . x.
+ * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched, gravity = - sum (weight of the node) . x, with
+ * the mean of the weights before and after where gravity changes.
  * Work of an end is the mean of its force before and after times its way, the trapezium rule; where no force was there before, the one
  * after. Friction works with the force at the end of the step, on the way slid (dissipated) and on the way of the obstacle that turns
  * under it (obstacles); the part of an end's force that is in balance with the friction of its half element does as that does. So the imbalance of a step is of second order in its size where nothing slides, and over a path it vanishes at
@@ -14,7 +15,8 @@
 #include "cable/line_report.h"
 
 static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
-    const Vec3 weight = vec3_load(line->weight), origin = vec3_load(line->position);
+    const Vec3 origin = vec3_load(line->position);
+    const Vec3 weight = vec3_scale(0.5, vec3_add(vec3_load(line->weight_before), vec3_load(line->weight)));
     *elastic = *gravity = 0;
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3*j]);

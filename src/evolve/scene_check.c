@@ -447,6 +447,9 @@ static CpsStatus check_stage(const CpsScene *scene, int k, int64_t *steps, CpsEr
     if (stage->change_count < 0 || (stage->change_count > 0 && !stage->change))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d changes, expected 0 or more", k + 1,
                          stage->change_count);
+    if (stage->gravity_changes && !usable3(stage->gravity))
+        return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT, "stage %d: gravity is (%g, %g, %g) m/s2, expected finite numbers", k + 1, stage->gravity[0],
+                       stage->gravity[1], stage->gravity[2]);
     CpsStatus status = check_turns(scene, k, err);
     for (int i = 0; i < stage->change_count && status == CPS_OK; i++) status = check_change(scene, k, i, err);
     return status;

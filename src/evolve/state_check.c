@@ -67,7 +67,7 @@ static bool are_contacts(const CpsiLine *line) {
 static bool are_fields(const CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     return all_finite(line->reference, 3*n) && all_finite(line->position, 3*n) && all_finite(line->load, 3*n) &&
-           all_finite(line->motion, 3*n) && all_finite(line->normal, 3*contacts) && all_finite(line->friction_force, 3*contacts) &&
+           all_finite(line->motion, 3*n) && all_finite(line->weight, 3) && all_finite(line->weight_before, 3) && all_finite(line->normal, 3*contacts) && all_finite(line->friction_force, 3*contacts) &&
            all_finite(line->slide, 3*contacts) && none_is_nan(line->gap, contacts) && all_finite(line->friction_bound, contacts) &&
            all_finite(line->reaction, contacts) && all_finite(line->segment_force, 3*(n - 1)) && all_finite(line->tension, n - 1) &&
            all_finite(line->beta, n);

@@ -386,6 +386,17 @@ static void judge_work(const Record *r, const Record *before, const Source *sour
          ENERGY_FLOOR * m.scale + 1e-13 * m.largest_force * m.reach);
 }
 
+/* The weight before a step in one part is that after the one before, by the load of any node that no end force acts on. */
+static void judge_weight(const Record *r, const Record *before, Judge *judge) {
+    if (!r->has_weight_before || r->parts != 1 || r->nodes < 3 || before->outcome > OUTCOME_TAUT) return;
+    const double share = (r->element_length[0] + r->element_length[1]) / 2;
+    for (int k = 0; k < 3; k++)
+        if (!(fabs(share * r->weight_before[k] - before->load[1][k]) <= 1e-14 * fabs(before->load[1][k]))) {
+            find(judge, "weight_before is not the weight of the step before");
+            return;
+        }
+}
+
 /* The reaction of an obstacle on node j: it may have been the node's other contact. */
 static double reaction_on(const Record *r, size_t j, double obstacle) {
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
@@ -464,6 +475,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
             memcmp(record.reference, previous.position, record.nodes * sizeof(Vector)) != 0)
             find(&judge, "the reference is not the position of the step before");
         if (step > 0) judge_work(&record, &previous, source, &judge);
+        if (step > 0) judge_weight(&record, &previous, &judge);
         // with frozen friction the reactions before a first step, or before the last part of one, are not known
         bool statics = step == 0 && source->laid && without_friction(&record);
         if (!statics && (source->consistent || (step > 0 && record.parts == 1)))

@@ -242,13 +242,32 @@ static void compare_end(Compare *compare, const CpsLine *line, int e, const Impo
             find(compare, "end_value of %s is %.17g, in the scene %.17g", of, r->end_value[e][k], end->now.value[k]);
 }
 
-/* Weight, half of each element to each of its nodes, and the forces at free ends. */
+/* Gravity of the scene after so many steps of a stage, or without one that of its beginning. */
+static void gravity_at(const Compare *compare, bool staged, int stage, int part, double g[3]) {
+    const CpsScene *scene = compare->scene;
+    memcpy(g, scene->gravity, 3 * sizeof *g);
+    for (int s = 0; staged && s <= stage; s++) {
+        const double share = s < stage ? 1 : (double)part / scene->stage[s].steps;
+        for (int k = 0; scene->stage[s].gravity_changes && k < 3; k++) g[k] += share * (scene->stage[s].gravity[k] - g[k]);
+    }
+}
+
+/* Weight, half of each element to each of its nodes, and the forces at free ends; and the weight before the step. What has no equilibrium
+ * may be on its way. */
 static void compare_loads(Compare *compare, const CpsLine *line, size_t step, const Record *r) {
-    const double *g = compare->scene->gravity, pull = size(g), weight = pull > 0 ? line->weight / pull : 0;
+    int stage = 0, part = 0;
+    double g[3], was[3];
+    const bool staged = stage_of(compare, step, &stage, &part);
+    gravity_at(compare, staged, stage, part, g), gravity_at(compare, staged, stage, part - 1, was);
+    if ((r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE || r->outcome == OUTCOME_SLIDES) && memcmp(g, was, sizeof g) != 0) return;
+    const double pull = size(compare->scene->gravity), weight = pull > 0 ? line->weight / pull : 0, most = weight * fmax(size(g), size(was));
+    for (int k = 0; k < 3 && r->has_weight_before && r->parts == 1; k++)
+        if (!(fabs(r->weight_before[k] - weight * was[k]) <= COPIED * most))
+            find(compare, "weight_before of %s, step %zu, is %.17g, in the scene %.17g", line->name, step, r->weight_before[k], weight * was[k]);
     for (size_t j = 0; j < r->nodes; j++) {
         const double share =
             ((j > 0 ? r->element_length[j - 1] : 0) + (j < r->elements ? r->element_length[j] : 0)) / 2;
-        double load[3], noise = share * line->weight;
+        double load[3], noise = share * most;
         for (int k = 0; k < 3; k++) load[k] = share * weight * g[k];
         for (int e = 0; e < 2; e++) {
             if (r->end_kind[e] == END_HELD || j != (e ? r->elements : 0)) continue;

@@ -459,6 +459,9 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
     for (int e = 0; e < 2; e++)
         for (int k = 0; k < 3 && j == (e ? r->elements : 0) && r->end_kind[e] == END_FREE; k++)
             weight[k] -= r->end_value[e][k];
+    // where gravity changes the weight works with the mean of what it was and what it is
+    const Real share = ((j > 0 ? (Real)r->element_length[j - 1] : 0) + (j < r->elements ? (Real)r->element_length[j] : 0)) / 2;
+    for (int k = 0; k < 3 && r->has_weight_before; k++) weight[k] = (weight[k] + share * r->weight_before[k]) / 2;
     add(&s->gravity, -dot(weight, u));
 }
 

@@ -489,6 +489,15 @@ static int read_motion(const Source *source, const char *line, size_t step, Reco
     return read_step(source, line, "motion", step, record->nodes, 3, record->motion[0], log);
 }
 
+/* Files from before gravity could change have none. */
+static int read_weight_before(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    char name[2 * MAX_NAME];
+    int id;
+    snprintf(name, sizeof name, "%s_weight_before", line);
+    record->has_weight_before = nc_inq_varid(source->nc, name, &id) == NC_NOERR;
+    return record->has_weight_before ? read_step(source, line, "weight_before", step, 3, 0, record->weight_before, log) : 0;
+}
+
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
     size_t n = record->nodes, elements = record->elements;
     int bad = read_step(source, line, "reference", step, n, 3, record->reference[0], log);
@@ -502,5 +511,6 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_step(source, line, "tension", step, elements, 0, record->tension, log);
     bad |= read_motion(source, line, step, record, log);
     bad |= read_proof_obstacle(source, line, step, record, log);
+    bad |= read_weight_before(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }

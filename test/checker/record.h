@@ -51,6 +51,8 @@ typedef struct Record {
     size_t nodes, elements, contacts; /* contacts: 1 or 2 for each node */
     double *element_length, compliance;
     Vector *reference, *position, *load, *segment_force;
+    bool has_weight_before; /* [N/m] per natural length, where the step began; else it is that of the loads */
+    Vector weight_before;
     Vector *motion;                          /* of a line that slides without end, else 0 */
     Vector *normal, *friction, *slide;       /* (contacts, nodes) */
     double *gap, *friction_bound, *reaction; /* the same */

@@ -45,6 +45,7 @@ static void begin(Fixture *f, double length, double stiffness, double weight, bo
     lay_out(f);
     line->length = length;
     line->weight[2] = -weight;
+    line->weight_before[2] = -weight;
     line->element_length[0] = length;
     cpsi_line_measure(line);
     cpsi_chain_program_resize(&f->program, 2, false);

@@ -306,6 +306,7 @@ static CpsStatus build_stage(const Build *b, const CpsiYaml *node, int index, Cp
     char number[32];
     snprintf(number, sizeof number, "entry %d", index + 1);
     if (!stage->name) stage->name = copy_text(b, number);
+    stage->gravity_changes = cpsi_yaml_child(node, "gravity") != NULL;
 
     /* all other keys are ends of lines and turns of obstacles */
     CpsChange *change = CPSI_POOL_TAKE(b->pool, node->count, CpsChange);

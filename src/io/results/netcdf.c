@@ -147,7 +147,7 @@ enum {
 typedef struct LineIds {
     int node, element; /* dimensions */
     int contacts;      /* of a node, as in the view */
-    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, places, proof, proof_obstacle;
+    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force, end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, places, proof, proof_obstacle, weight_before;
     int field[FIELDS][CONTACTS]; /* unused where a view has no such array */
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
@@ -408,6 +408,8 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     ids->proof = add_variable(nc, view->name, "proof", NC_DOUBLE, 2, vectors, "direction that proves no solution", "1");
     ids->proof_obstacle = add_variable(nc, view->name, "proof_obstacle", NC_INT, 1, &nc->step,
                                        "infeasible: the obstacle that the line does not reach round; -1: none", "1");
+    ids->weight_before = add_variable(nc, view->name, "weight_before", NC_DOUBLE, 2, vectors,
+                                      "weight per natural length where the step, or its last part, began", "N m-1");
     for (int i = 0; i < NUMBERS; ++i)
         ids->number[i] =
             add_variable(nc, view->name, NUMBER[i].name, NC_DOUBLE, 1, &nc->step, NUMBER[i].long_name, NUMBER[i].units);
@@ -484,6 +486,7 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
         write_doubles(nc, ids->end_range[i], start, ends, range);
     }
     write_doubles(nc, ids->proof, start, vector, report->proof);
+    write_doubles(nc, ids->weight_before, start, vector, view->weight_before);
 
     const int outcome = (int)report->outcome;
     if (nc->status == NC_NOERR) keep(nc, nc->library.put_var1_int(nc->file, ids->outcome, start, &outcome));

@@ -180,6 +180,8 @@ static const CpsiKey STAGE_KEYS[] = {
      "name of the entry in the results; by default its number"},
     {"steps", CPSI_INTEGER, CPSI_OPTIONAL, AT(CpsStage, steps), "", 1, 1e6, false, 0, 0, NULL, "1",
      "go there in so many equal load steps"},
+    {"gravity", CPSI_POINT, CPSI_OPTIONAL, AT(CpsStage, gravity), "m/s2", ANY, 3, 0, NULL, NULL,
+     "what gravity becomes in this entry, evenly over its steps; the weight of all lines goes with it"},
     {"LINE.END", CPSI_MAPPING, CPSI_OPTIONAL, BY_HAND, "", MAP(CPSI_CHANGE), NULL,
      "what happens to an end of a line, as in cable.B; all other ends stay as they are"},
     {"OBSTACLE.turn", CPSI_NUMBER, CPSI_OPTIONAL, BY_HAND, "degrees", ANY, 0, 0, NULL, NULL,
