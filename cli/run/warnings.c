@@ -110,6 +110,7 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
             note_pierced(cautions, pierced, length, step, view.name, scene->obstacle[line.pierced].name);
         if (line.outcome != CPS_SOLVED) continue;
         note_energy(cautions, &report, &line, view.name);
+        if (line.snaps > 0) note(cautions, CAUTION_JUMPED, line.jump, length, step, view.name);
         const double residual = line.certificate.friction_residual;
         double bounds;
         const double lifted = lifted_friction(&view, &bounds);
@@ -165,6 +166,11 @@ static void put_figures(int kind, double value, double of) {
     else if (kind == CAUTION_PLACES)
         fprintf(stderr, "its forces leave a choice of places: %s",
                 value > CPS_PLACES_NEAREST ? "one of them is taken, which says nothing of the others" : "the nearest to where the step began is taken");
+    else if (kind == CAUTION_JUMPED)
+        fprintf(stderr,
+                "the line jumps by %.4g m, of %.4g m of length, however small the load steps: it comes to rest at an equilibrium, which need "
+                "not be the only one",
+                value, of);
     else if (kind == CAUTION_MADE)
         fprintf(stderr,
                 "the energy does not close by %.4g J, beside %.4g J dissipated and worked: the line jumps, takes another "

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What capstan run says by itself of the examples of S90 annex 6.                usage: cautions.py CAPSTAN EXAMPLES"""
 import json
+import math
 import os
 import subprocess
 import sys
@@ -86,6 +87,23 @@ history: [{name: press, rope.B: {force: [%s, 0, -80]}}]
             proof = json.load(file)["steps"][0]["lines"]["rope"].get("proof", {})
         if proof.get("coulomb_N") != (120 if said else None):
             faults.append(f"{friction}, {force} N: proof {proof}")
+
+    # a weight drawn over the crest of a drum with mu = 1/2, as in test_crest: it leaves at atan(mu), and hangs below A then
+    theta = math.atan(0.5)
+    a = math.sin(theta) + math.sqrt(1 - (1.2 - math.cos(theta))**2)
+    jump = math.hypot(a - math.sin(theta), math.cos(theta) - 0.2)
+    scene = {"capstan": 1, "gravity": [0, 0, -9.81], "solver": {"path_tolerance": 1e-3},
+             "obstacles": {"drum": {"cylinder": {"point": [0, 0, 0], "axis": [0, 1, 0], "radius": 1}, "friction": 0.5}},
+             "lines": {"string": {"length": 1, "elements": 1, "weight": 2, "stiffness": ".inf",
+                                  "start": {"polyline": [[math.sqrt(0.96), 0, 1.2], [0, 0, 1]]}, "ends": {"A": "fixed", "B": "free"}}},
+             "history": [{"name": "draw", "steps": 10, "string.A": {"position": [2, 0, 1.2]}}]}
+    path = os.path.join(folder, "crest.yaml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(json.dumps(scene).replace('".inf"', ".inf"))
+    told = [line for line in run(folder, path) if "the line jumps by" in line]
+    # the limit lies within a part of 2^-10 of the step
+    if len(told) != 1 or abs(float(told[0].split("jumps by ")[1].split()[0]) - jump) > 1.1e-3:
+        faults.append(f"crest: {told}, expected a jump of {jump}")
 
 print("\n".join(faults) or "cautions: said with their figures, and only there")
 sys.exit(1 if faults else 0)
