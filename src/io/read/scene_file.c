@@ -23,7 +23,7 @@ void cps_scene_file_destroy(CpsSceneFile *file) {
     free(file);
 }
 
-const CpsScene *cps_scene_file_scene(const CpsSceneFile *file) { return &file->scene; }
+const CpsScene *cps_scene_file_scene(const CpsSceneFile *file) { return file ? &file->scene : NULL; }
 
 static CpsStatus check(const char *file, const CpsiYaml *root, const CpsScene *scene, CpsError *err) {
     CpsError found;
