@@ -149,7 +149,7 @@ double cpsi_line_unit_force(const CpsiLine *line, CpsiBounds bounds) {
 bool cpsi_line_is_clean(const CpsiIpmReport *ipm) { return ipm->gap + fmax(ipm->residual, ipm->imbalance) <= CPSI_CLEAN; }
 
 /* The limit of iterations is for lines of up to FINE elements. On finer meshes the loop needs more where a line rests slack by friction: on example
- * 5.7 of S90, let down, 34 with 800 elements, 47 with 6400, 66 with 50 000 and 73 with 100 000. */
+ * 5.7 of S90, let down, 34 with 800 elements, 47 with 6400, 66 with 50 000 and 81 with 100 000. */
 static int most_iterations(const CpsiLine *line, const CpsiStepOptions *options) {
     static const double FINE = 12800, PER_DOUBLING = 20;
     const double doublings = log2(line->n/FINE);
