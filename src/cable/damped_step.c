@@ -30,28 +30,22 @@ static bool solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptio
     return ipm.gap + ipm.residual <= options->solver.tolerance && is_finite(line);
 }
 
-static double longest_way(const CpsiLine *line) {
-    double longest = 0;
-    for (int j = 0; j < line->n; j++)
-        longest = fmax(longest, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&line->reference[3*j]))));
-    return longest;
-}
-
 CpsiDampedStep cpsi_line_damped_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     CpsiDampedStep step = {0};
+    double turned;
     cpsi_line_pose(line, options);
     step.solved = solve(line, program, options);
     if (!step.solved) {
         memcpy(line->position, line->reference, 3*(size_t)line->n*sizeof *line->position);
         return step;
     }
-    if (line->follows) step.shortened = !cpsi_rounds_look(line, !options->frictionless, &step.turned);
+    if (line->follows) step.shortened = !cpsi_rounds_look(line, !options->frictionless, &turned);
     else cpsi_contact_slide(line);
     if (line->follows && line->contacts > 1) cpsi_contact_meet(line, true), cpsi_contact_look(line);
     if (options->friction == CPS_FRICTION_CONSISTENT) cpsi_rounds_take_bounds(line);
     cpsi_line_let_go(line, program);
     cpsi_line_classify(line, program);
     cpsi_line_report_ends(line);
-    step.distance = longest_way(line);
+    step.distance = cpsi_line_longest_way(line, line->reference);
     return step;
 }

@@ -12,7 +12,6 @@ typedef struct CpsiDampedStep {
     bool solved;     /* else the line is where it was, and the forces mean nothing */
     bool shortened;  /* an obstacle was in the way: the line, its held ends too, went only a part of its way */
     double distance; /* [m] the longest that a node went */
-    double turned;   /* [rad] by which normals and axes of contacts turned at most */
 } CpsiDampedStep;
 
 /* Take line->position as the reference, and go from there under line->end with a drag of options->drag, in units of force and displacement

@@ -56,22 +56,22 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     return true;
 }
 
-/* Does the line, moving along the unit vector v, never come nearer to obstacle k, which it does not touch?  The distance of an element from a
+/* Does point x, moving along v, not come nearer to the obstacle, of which it is farther than `touch` [m]? */
+static bool moves_off(const CpsiObstacle *obstacle, Vec3 x, Vec3 v, double touch) {
+    return cpsi_obstacle_gap(obstacle, x) > touch && vec3_dot(cpsi_obstacle_normal(obstacle, x), v) >= 0;
+}
+
+/* Does the line, moving along the unit vector v, never come nearer to the obstacle, which it does not touch?  The distance of an element from a
  * convex obstacle is a convex function of the way along v: what does not fall at first never falls. */
-static bool leaves(const CpsiLine *line, int k, Vec3 v) {
-    const CpsiObstacle *obstacle = &line->obstacle[k];
-    for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3*j]);
-        if (!(cpsi_obstacle_gap(obstacle, x) > CPSI_TOUCH*line->length)) return false;
-        if (!(vec3_dot(cpsi_obstacle_normal(obstacle, x), v) >= 0)) return false;
-    }
+static bool leaves(const CpsiLine *line, const CpsiObstacle *obstacle, Vec3 v) {
+    const double touch = CPSI_TOUCH*line->length;
+    for (int j = 0; j < line->n; j++)
+        if (!moves_off(obstacle, vec3_load(&line->position[3*j]), v, touch)) return false;
     for (int e = 0; e + 1 < line->n; e++) {
         const Vec3 a = vec3_load(&line->position[3*e]), b = vec3_load(&line->position[3*(e + 1)]);
         double share;
         if (!cpsi_obstacle_faces(obstacle, a, b, &share)) continue;
-        const Vec3 x = vec3_axpy(share, vec3_sub(b, a), a);
-        if (!(cpsi_obstacle_gap(obstacle, x) > CPSI_TOUCH*line->length)) return false;
-        if (!(vec3_dot(cpsi_obstacle_normal(obstacle, x), v) >= 0)) return false;
+        if (!moves_off(obstacle, vec3_axpy(share, vec3_sub(b, a), a), v, touch)) return false;
     }
     return true;
 }
@@ -88,7 +88,7 @@ bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *loa
     if (!(size > CPSI_TAUT*loads)) return false;
     const Vec3 v = vec3_scale(1/size, sum);
     for (int k = 0; k < line->obstacle_count; k++)
-        if (!leaves(line, k, v)) return false;
+        if (!leaves(line, &line->obstacle[k], v)) return false;
     vec3_store(direction, v);
     *load = size;
     return true;

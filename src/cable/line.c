@@ -2,6 +2,8 @@
 /* A line's arrays, its mesh, and the reaction of the bed on the shape it starts from. */
 #include "cable/line.h"
 
+#include "base/larger.h"
+
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     line->arc_length = CPSI_TAKE(arena, n, double);
@@ -35,6 +37,13 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->tension_before = inextensible ? CPSI_TAKE(arena, n, double) : NULL;
     line->reaction_before = inextensible ? CPSI_TAKE(arena, contacts, double) : NULL;
     line->on_before = inextensible && line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
+}
+
+double cpsi_line_longest_way(const CpsiLine *line, const double *from) {
+    double longest = 0;
+    for (int j = 0; j < line->n; j++)
+        longest = cpsi_larger(longest, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&from[3*j]))));
+    return longest;
 }
 
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {

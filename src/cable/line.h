@@ -146,6 +146,9 @@ static inline Vec3 cpsi_line_slide(const CpsiLine *line, int c) {
     return vec3_axpy(-vec3_dot(u, n), n, u);
 }
 
+/* [m] The longest way of a node from place `from` (n, 3) to where it is. */
+double cpsi_line_longest_way(const CpsiLine *line, const double *from);
+
 /* The obstacle nearest to a point (-1: none) and the distance to it (INFINITY). */
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap);
 

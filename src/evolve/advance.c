@@ -207,17 +207,6 @@ static Apart apart(const CpsiLine *line, const double *trial) {
     return (Apart){way/line->length, force > 0 ? tension/force : 0};
 }
 
-/* [m] The longest way of a node from place `from` (n, 3). */
-static double way_since(const CpsiLine *line, const double *from) {
-    double way = 0;
-    for (int j = 0; j < line->n; j++)
-        way = cpsi_larger(way, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&from[3*j]))));
-    return way;
-}
-
-/* ... and since the reference. */
-static double way_of(const CpsiLine *line) { return way_since(line, line->reference); }
-
 /* The energy that a part, or two of them, cannot account for: what it made, and where the path counts what it lost as well; but for
  * what the certificate and the accuracy of places leave open of an energy. */
 typedef struct Open {
@@ -267,7 +256,7 @@ typedef struct Trial {
 static void halve(Advance *advance, double from, double middle, double to, Trial *trial) {
     restore(advance->line, advance->room);
     trial->first = take(advance, from, middle, advance->known);
-    trial->longest = way_of(advance->line);
+    trial->longest = cpsi_line_longest_way(advance->line, advance->line->reference);
     if (converged(&trial->first)) trial->second = take(advance, middle, to, true);
     trial->good = converged(&trial->first) && converged(&trial->second);
     trial->halved = true;
@@ -282,11 +271,11 @@ static bool closes(const Advance *advance, Trial *trial) {
 
 /* The path is asked for: the halves are kept, where they lead to the same place. */
 static void compare(Advance *advance, double from, double middle, double to, Trial *trial) {
-    const double tolerance = advance->options->solver.path_tolerance, whole_way = way_of(advance->line);
+    const double tolerance = advance->options->solver.path_tolerance, whole_way = cpsi_line_longest_way(advance->line, advance->line->reference);
     keep_trial(advance->line, advance->room->trial);
     halve(advance, from, middle, to, trial);
     if (trial->good) trial->error = apart(advance->line, advance->room->trial);
-    trial->longest = cpsi_larger(trial->longest, way_of(advance->line));
+    trial->longest = cpsi_larger(trial->longest, cpsi_line_longest_way(advance->line, advance->line->reference));
     trial->sudden = trial->longest > SUDDEN*whole_way && trial->longest > tolerance*advance->line->length;
     trial->agrees = !trial->sudden && trial->error.way <= tolerance && trial->error.tension <= tolerance;
     if (trial->good && !closes(advance, trial)) trial->agrees = false;
@@ -383,7 +372,7 @@ static bool relax(Advance *advance, double from, double to) {
     }
     whole->parts++;
     whole->snaps++;
-    whole->jump = cpsi_larger(whole->jump, way_since(line, advance->room->position));
+    whole->jump = cpsi_larger(whole->jump, cpsi_line_longest_way(line, advance->room->position));
     whole->dissipated += done.dissipated;
     for (int end = 0; end < 2; end++) whole->end[end].work += done.work[end];
     cpsi_ledger_add(&advance->ledger, &done.ledger);

@@ -16,7 +16,7 @@ static const int STEPS = 400;
 static const double FIRST_DRAG = 64;
 /* ... its range. With the least a step is as long as the line needs. */
 static const double LEAST_DRAG = 1e-6, MOST_DRAG = 1e8;
-/* A time step is easy where no normal turns by more than this [rad] and no node goes farther than this share of the length ... */
+/* A time step is easy where no node goes farther than this share of the length. */
 static const double EASY_WAY = 0.05;
 /* The line rests where drag times motion is this share of the forces, and the motion this share of the length. */
 static const double REST_FORCE = 1e-7, REST_WAY = 1e-6;

@@ -525,17 +525,23 @@ static size_t describe_post(Field *field) {
     return n;
 }
 
+/* Two equal steps of one line with consistent friction on one obstacle. */
+static int write_alone(const char *path, const char *name, const Bed *bed, const double *length, double compliance, const Field *field,
+                       size_t count) {
+    int nc, dims[3], status = begin_file(path, name, "consistent", &nc, dims);
+    if (status) return status;
+    status = write_beds(nc, dims, bed, 1);
+    if (!status) status = write_line(nc, dims, name, length, compliance, field, field, count);
+    int closed = nc_close(nc);
+    return status ? status : closed;
+}
+
 int sample_write_post(const char *path) {
     static const double TWOS[ELEMENTS] = {2, 2, 2, 2};
     static const Bed POST = {.kind = 1, .axis = {0, 0, 2}, .radius = 1, .axial = MU, .lateral = MU};
     Field field[MAX_FIELDS];
     const size_t count = describe_post(field);
-    int nc, dims[3], status = begin_file(path, "line", "consistent", &nc, dims);
-    if (status) return status;
-    status = write_beds(nc, dims, &POST, 1);
-    if (!status) status = write_line(nc, dims, "line", TWOS, 0, field, field, count);
-    int closed = nc_close(nc);
-    return status ? status : closed;
+    return write_alone(path, "line", &POST, TWOS, 0, field, count);
 }
 
 int sample_write_corner(const char *path) {
@@ -620,14 +626,9 @@ static size_t describe_fall(Field *field) {
 int sample_write_fall(const char *path) {
     static const Bed DRUM = {.kind = 1, .axis = {0, 1, 0}, .radius = 1, .axial = 0.5, .lateral = 0.5};
     Field field[MAX_FIELDS];
-    const size_t count = describe_fall(field);
-    int nc, dims[3], status = begin_file(path, "fall", "consistent", &nc, dims);
-    if (status) return status;
-    status = write_beds(nc, dims, &DRUM, 1);
     static const double ONES[ELEMENTS] = {1, 1, 1, 1};
-    if (!status) status = write_line(nc, dims, "fall", ONES, C, field, field, count);
-    int closed = nc_close(nc);
-    return status ? status : closed;
+    const size_t count = describe_fall(field);
+    return write_alone(path, "fall", &DRUM, ONES, C, field, count);
 }
 
 /* ---- the reel ---- */
@@ -658,12 +659,7 @@ int sample_write_reel(const char *path) {
     static const double ONES[ELEMENTS] = {1, 1, 1, 1};
     Field field[MAX_FIELDS];
     const size_t count = describe_reel(field);
-    int nc, dims[3], status = begin_file(path, "reel", "consistent", &nc, dims);
-    if (status) return status;
-    status = write_beds(nc, dims, &DRUM, 1);
-    if (!status) status = write_line(nc, dims, "reel", ONES, 0, field, field, count);
-    int closed = nc_close(nc);
-    return status ? status : closed;
+    return write_alone(path, "reel", &DRUM, ONES, 0, field, count);
 }
 
 int sample_poke(const char *path, const char *variable, size_t index, double value) {
