@@ -133,9 +133,9 @@ typedef struct CpsSetAnswer {
 } CpsSetAnswer;
 
 /* h(w) = sup over the set of <w, x>, and a point that attains it (n, or NULL). Empty: value -INFINITY. Unbounded: value
- * INFINITY and the point is a ray of the set with <w, ray> > 0. Not attained: the value holds to its gap, and no point
- * within a million times the size of the data reaches it (w along the normal of an asymptote); the point is one that
- * comes near. */
+ * INFINITY and the point is a ray of the set with <w, ray> > 0, or = 0 where no ray leads there (a paraboloid across
+ * its axis). Not attained: the value holds to its gap, and no point within a million times the size of the data
+ * reaches it (w along the normal of an asymptote); the point is one that comes near. */
 CPS_API CpsStatus cps_set_support(const CpsSet *set, const double *direction, double *point, CpsSetAnswer *answer,
                                   CpsError *err);
 

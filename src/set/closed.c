@@ -4,7 +4,8 @@
  *
  *     ball        h = <w, c> + r|w|                     ellipsoid   h = <w, c> + sqrt(w'Sw)
  *     box         h = sum max(w_i low_i, w_i high_i)     cone        h = 0 on its polar, else infinite
- *     gauge of a ball with 0 inside: the positive root of (r^2 - |c|^2) t^2 + 2 <c, x> t - |x|^2 = 0            */
+ *     gauge of a ball with 0 inside: the positive root of (r^2 - |c|^2) t^2 + 2 <c, x> t - |x|^2 = 0
+ *     polar of a ball with 0 in it: h is the ball's gauge t, attained at its gradient (w - t c)/(<c, w - t c> + t r^2) */
 #include <math.h>
 #include <string.h>
 
@@ -115,6 +116,53 @@ static double support_strip(const CpsSet *set, const double *w, double *point) {
     return factor*end;
 }
 
+/* ---- a ball seen from 0 ---- */
+
+/* 0 lies on the boundary of a ball to this share of its square radius; further inside the root has its digits. */
+static const double THROUGH_ZERO = 1e-14, INSIDE = 1e-6;
+
+/* Has the root its digits?  Towards the centre it has them always. */
+static bool gauge_is_known(double square, double cc, double cx) {
+    return cx > 0 || fabs(square - cc) <= THROUGH_ZERO*square || cc < square*(1 - INSIDE);
+}
+
+/* Root for a ball of square radius `square` about c, given the products. With 0 on the boundary the ball's multiples fill the open
+ * half-space of its centre: |x|^2/2<c, x> there, else infinite. */
+static double gauge_ball(double square, double cc, double cx, double xx) {
+    const double lead = square - cc;
+    if (xx == 0) return 0;
+    if (fabs(lead) <= THROUGH_ZERO*square) return cx > 1e-15*sqrt(cc)*sqrt(xx) ? xx/(2*cx) : INFINITY;
+    /* the form without cancellation */
+    const double root = sqrt(cx*cx + lead*xx);
+    return cx > 0 ? xx/(cx + root) : (root - cx)/lead;
+}
+
+/* Component i of the ball's centre; shift NULL: none. */
+static double center(const CpsSet *ball, const double *shift, int i) { return ball->a[i] + (shift ? shift[i] : 0); }
+
+/* Support of the polar of a ball that holds 0. With 0 on the boundary it is a paraboloid, which nothing bounds across
+ * its axis either, though its one ray, -c, does not lead there. False where 0 lies outside or the gauge has no digits. */
+static bool support_polar(const CpsSet *set, const double *w, double *point, double *value) {
+    const CpsSet *part = set->part[0], *ball = part->kind == CPSI_SET_TRANSLATE ? part->part[0] : part;
+    const double *shift = ball == part ? NULL : part->a;
+    if (ball->kind != CPSI_SET_BALL) return false;
+    const double square = ball->scalar * ball->scalar;
+    double cc = 0, cw = 0;
+    for (int i = 0; i < set->n; i++) {
+        const double c = center(ball, shift, i);
+        cc += c * c;
+        cw += c * w[i];
+    }
+    if (!(square > 0) || cc > square * (1 + THROUGH_ZERO) || !gauge_is_known(square, cc, cw)) return false;
+    const double t = gauge_ball(square, cc, cw, cpsi_dot(set->n, w, w)), slope = cw + t * (square - cc);
+    for (int i = 0; point && i < set->n; i++) {
+        const double c = center(ball, shift, i);
+        point[i] = isinf(t) ? -c : slope > 0 ? (w[i] - t * c) / slope : 0;
+    }
+    *value = t;
+    return true;
+}
+
 bool cpsi_closed_support(const CpsSet *set, const double *w, double *point, double *value) {
     switch (set->kind) {
     case CPSI_SET_POINTS: *value = support_points(set, w, point); return true;
@@ -124,6 +172,7 @@ bool cpsi_closed_support(const CpsSet *set, const double *w, double *point, doub
     case CPSI_SET_RAYS: *value = support_rays(set, w, point); return true;
     case CPSI_SET_SUBSPACE: *value = support_subspace(set, w, point); return true;
     case CPSI_SET_INEQUALITIES: return is_strip(set) && (*value = support_strip(set, w, point), true);
+    case CPSI_SET_POLAR: return support_polar(set, w, point, value);
     default: return false;
     }
 }
@@ -211,30 +260,10 @@ bool cpsi_closed_project(const CpsSet *set, const double *p, double *nearest) {
 
 /* ---- gauge ---- */
 
-/* 0 lies on the boundary of a ball to this share of its square radius; further inside the root has its digits. */
-static const double THROUGH_ZERO = 1e-14, INSIDE = 1e-6;
-
-/* Has the root its digits?  Towards the centre it has them always. */
-static bool gauge_is_known(double square, double cc, double cx) {
-    return cx > 0 || fabs(square - cc) <= THROUGH_ZERO*square || cc < square*(1 - INSIDE);
-}
-
-/* Root for a ball of square radius `square` about c, given the products. With 0 on the boundary the ball's multiples fill the open
- * half-space of its centre: |x|^2/2<c, x> there, else infinite. */
-static double gauge_ball(double square, double cc, double cx, double xx) {
-    const double lead = square - cc;
-    if (xx == 0) return 0;
-    if (fabs(lead) <= THROUGH_ZERO*square) return cx > 1e-15*sqrt(cc)*sqrt(xx) ? xx/(2*cx) : INFINITY;
-    /* the form without cancellation */
-    const double root = sqrt(cx*cx + lead*xx);
-    return cx > 0 ? xx/(cx + root) : (root - cx)/lead;
-}
-
-/* shift NULL: none */
 static bool moved_ball_gauge(const CpsSet *ball, const double *shift, const double *p, double *value) {
     double cc = 0, cx = 0;
     for (int i = 0; i < ball->n; i++) {
-        const double c = ball->a[i] + (shift ? shift[i] : 0);
+        const double c = center(ball, shift, i);
         cc += c*c, cx += c*p[i];
     }
     const double square = ball->scalar*ball->scalar;

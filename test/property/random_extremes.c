@@ -552,6 +552,23 @@ static void try_wheel(void) {
 
 /* A ball of radius r round c = rho r u: 0 inside, on the boundary, outside. Gauge of the ball at x: least t >= 0 with |x - t c| <= t r. Its
  * polar is {x : <x, c> + r |x| <= 1}; that of the ball without 0 has the hull of ball and 0 as its polar. */
+static void support_of_polar(const CpsSet *polar, int n, double rho, double r, const double *u, const double *w) {
+    /* least t with |w - t c| <= t r; of a ball without 0 only within the cone that touches it, which is left out here */
+    const double s = dot(n, w, u), size = dot(n, w, w), lead = r * r * (1 - rho * rho), root = rho * r * s;
+    if (rho > 1) return;
+    const bool none = rho == 1 && s <= 1e-9;
+    const double t = rho < 1 ? (sqrt(root * root + lead * size) - root) / lead : size / (2 * root);
+    double at[3];
+    CpsSetAnswer answer;
+    need(cps_set_support(polar, w, at, &answer, &err), "support of the polar");
+    same("outcome of the polar's support", answer.outcome, none ? CPS_SET_UNBOUNDED : CPS_SET_ANSWERED);
+    if (none) return;
+    near("support of the polar", answer.value, t, 1e-9 * t);
+    near("where it is attained", dot(n, at, w), t, 1e-9 * t);
+    near("that point on the polar's boundary", rho * r * dot(n, at, u) + r * sqrt(dot(n, at, at)), 1,
+         1e-9 * (1 + r * sqrt(dot(n, at, at))));
+}
+
 static void try_polar(void) {
     static const double RHO[] = {0, 0.5, 1, 1, 2};
     const int n = 2 + below(2);
@@ -593,6 +610,13 @@ static void try_polar(void) {
         for (int i = 0; i < n; i++) x[i] = w[i]*1.5/h;
         need(cps_set_contains(polar, x, NULL, &inside, &err), "contains");
         if (!(inside.value < 0)) fail("no point of the polar", inside.value, -1);
+    }
+    support_of_polar(polar, n, rho, r, u, w);
+    if (below(3) == 0) { /* across the axis */
+        w[0] = -u[1];
+        w[1] = u[0];
+        for (int i = 2; i < n; i++) w[i] = 0;
+        if (dot(n, w, w) > 0) support_of_polar(polar, n, rho, r, u, w);
     }
     cps_set_release(polar), cps_set_release(ball);
 }
