@@ -3,14 +3,7 @@
  *
  * Down the expression as far as it goes: the face of a product, sum, image, translate or scale is the same operation
  * on the parts' faces at w's image; of a hull the hull of the faces that reach the maximum, where they are bounded; of the primitives a point,
- * a smaller hull, a smaller box. On a conic form the interior-point solution (v, s, z) lies in the relative interior
- * of the optimal set, so z tells the face cone by cone:
- *
- *     z = 0                    the cone's rows stay as they are
- *     z on the boundary        s stays on the ray of Jz:  its other components are equations, s along it >= 0
- *     z inside (or z > 0)      s = 0
- *
- * written around the solution found, dv = v - v*, so that rounding cannot make the face empty. */
+ * a smaller hull, a smaller box. On a conic form the multipliers of the interior-point solution tell the face cone by cone (restrict.c). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,86 +11,13 @@
 #include "linsys/small.h"
 #include "set/node.h"
 
-/* The solver's z are this sure: sqrt of its complementarity. No smaller angle is told from 0 on a conic form. */
-static const double LEAST_ANGLE = 3e-8;
-/* Equations of a face that differ by less than this share are one: the directions of z are known that well. */
-static const double SAME_EQUATION = 1e-7;
-/* Coefficients of rows of size one below this are rounding. */
+/* Directions of a face below this share of the largest, and lengths below this share of the form's, are rounding. */
 static const double NOISE = 1e-9;
 
 static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSet **out, CpsSetAnswer *answer,
                          CpsError *err);
 
 /* ---- conic forms ---- */
-
-/* Affine row over dv: a'(A dv) + constant, a over d rows of the form from i on. */
-static void combine(const CpsiForm *form, int i, int d, const double *a, double constant, double *row) {
-    const int u = form->unknowns;
-    for (int r = 0; r < d; r++)
-        for (int j = 0; j < u; j++) row[j] += a[r]*form->a[(size_t)(i + r)*(size_t)u + (size_t)j];
-    row[u] += constant;
-}
-
-/* An equation; rows of nothing but rounding are left out. */
-static void equation(CpsiRaw *raw, const CpsiForm *form, int i, int d, const double *a) {
-    double *row = cpsi_raw_equation(raw);
-    combine(form, i, d, a, 0, row);
-    if (cpsi_norm(form->unknowns, row) > NOISE) return;
-    memset(row, 0, (size_t)raw->width*sizeof *row);
-    raw->equations--;
-}
-
-/* The rows of one cone on the face. a (d) is scratch. */
-static void cone_on_face(CpsiRaw *raw, const CpsiForm *form, const CpsiSolution *at, int i, int d, double angle,
-                         double *a) {
-    const double *s = &at->s[i], *z = &at->z[i];
-    double *rows, size = cpsi_norm(d - 1, z + 1);
-    if (z[0] <= angle) { /* not pressed */
-        rows = cpsi_raw_cone(raw, d);
-        for (int r = 0; r < d; r++)
-            combine(form, i + r, 1, (const double[]){1}, s[r], &rows[(size_t)r*(size_t)raw->width]);
-        return;
-    }
-    if (d == 1 || z[0] - size > angle) { /* at the tip */
-        for (int r = 0; r < d; r++) equation(raw, form, i + r, 1, (const double[]){1});
-        return;
-    }
-    /* on the ray (1, -z1/|z1|)/sqrt 2 */
-    for (int k = 0; k < d; k++) {
-        /* component k less its part along the ray */
-        const double along = k ? -z[k]/size : 1;
-        for (int r = 0; r < d; r++) a[r] = (r == k) - 0.5*along*(r ? -z[r]/size : 1);
-        equation(raw, form, i, d, a);
-    }
-    double pull = s[0];
-    for (int r = 0; r < d; r++) a[r] = r ? -z[r]/size : 1, pull += r ? a[r]*s[r] : 0;
-    combine(form, i, d, a, pull, cpsi_raw_cone(raw, 1));
-}
-
-/* The restricted form round the solution. */
-static CpsStatus restrict_form(const CpsiForm *form, const CpsiSolution *at, double angle, CpsiForm **out,
-                               CpsError *err) {
-    const int n = form->n, u = form->unknowns;
-    CpsiRaw *raw = NULL;
-    const CpsiCount count = {.unknowns = (size_t)u, .equations = (size_t)form->rows + 1, .rows = (size_t)form->rows,
-                             .cones = (size_t)form->cones};
-    CpsStatus status = cpsi_raw_new(count, u, &raw, err);
-    if (status) return status;
-    double *map = calloc((size_t)n*(size_t)raw->width + (size_t)form->largest_cone + 1, sizeof *map);
-    if (!map) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a face");
-    else {
-        for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
-            cone_on_face(raw, form, at, i, form->dim[k], angle, &map[(size_t)n*(size_t)raw->width]);
-        for (int i = 0; i < n; i++) {
-            memcpy(&map[(size_t)i*(size_t)raw->width], &form->p[(size_t)i*(size_t)u], (size_t)u*sizeof *map);
-            map[(size_t)i*(size_t)raw->width + (size_t)u] = at->x[i];
-        }
-        status = cpsi_form_reduce(raw, n, map, form->lines, form->q, SAME_EQUATION, out, err);
-    }
-    free(map);
-    cpsi_raw_free(raw);
-    return status;
-}
 
 /* Directions that x can take over the form: the rank of P beside the lines, and one direction. */
 static int directions(const CpsiForm *form, double *first, double *scratch) {
@@ -115,7 +35,7 @@ static int directions(const CpsiForm *form, double *first, double *scratch) {
             memmove(&scratch[kept++*n], &scratch[k*n], n*sizeof *scratch);
     memcpy(&scratch[kept*n], form->q, (size_t)form->lines*n*sizeof *scratch);
     kept += (size_t)form->lines;
-    const int rank = cpsi_orthonormal_rows((int)kept, form->n, scratch, NULL, SAME_EQUATION);
+    const int rank = cpsi_orthonormal_rows((int)kept, form->n, scratch, NULL, CPSI_SAME_EQUATION);
     if (rank > 0) memcpy(first, scratch, n*sizeof *first);
     return rank;
 }
@@ -153,10 +73,6 @@ static CpsStatus simplest(CpsiForm *form, const double *x, CpsSet **out, CpsErro
     return status;
 }
 
-CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, CpsiForm **out, CpsError *err) {
-    return restrict_form(form, at, LEAST_ANGLE, out, err);
-}
-
 static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, CpsSet **out, CpsSetAnswer *answer,
                             CpsError *err) {
     const int n = set->n;
@@ -170,12 +86,12 @@ static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, Cp
     if (!status) status = cpsi_form_minimise(form, c, &solution, err);
     if (!status) cpsi_judge_attained(form, c, &solution);
     if (!status && solution.outcome == CPS_SET_ANSWERED) {
-        const double angle = fmax(slack/cpsi_norm(n, w), LEAST_ANGLE);
+        const double angle = fmax(slack/cpsi_norm(n, w), CPSI_LEAST_ANGLE);
         *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .value = -solution.value, .gap = solution.gap,
                                  .tolerance = angle};
         /* a form without cones is an affine space, and all of it is the face */
         if (!solution.s) *out = cps_set_retain(set);
-        else status = restrict_form(form, &solution, angle, &face, err);
+        else status = cpsi_form_restrict(form, &solution, angle, &face, err);
         if (!status && face) status = simplest(face, solution.x, out, err);
     } else if (!status) *answer = (CpsSetAnswer){.outcome = solution.outcome};
     cpsi_solution_free(&solution);

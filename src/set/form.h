@@ -87,9 +87,14 @@ void cpsi_solution_free(CpsiSolution *solution);
 /* Make the outcome CPS_SET_NOT_ATTAINED where the point that attains the value is too far away to be one. */
 void cpsi_judge_attained(const CpsiForm *form, const double *c, CpsiSolution *solution);
 
-/* The part of the form on the face of its cones that the multipliers z of `at` select, written round the point with s and
- * x (face.c). */
-CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, CpsiForm **out, CpsError *err);
+/* The solver's z are this sure: sqrt of its complementarity. No smaller angle is told from 0 on a conic form. */
+#define CPSI_LEAST_ANGLE 3e-8
+/* Equations of a face that differ by less than this share are one: the directions of z are known that well. */
+#define CPSI_SAME_EQUATION 1e-7
+/* The part of the form on the face of its cones that the multipliers z of `at` select, each known to `angle`, written round the
+ * point with s and x (restrict.c). */
+CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, double angle, CpsiForm **out,
+                             CpsError *err);
 /* Replace a form without interior by one over the faces of its cones that it lies in; *touching becomes true then
  * (touching.c). */
 CpsStatus cpsi_form_deepen(CpsiForm **form, bool *touching, CpsError *err);

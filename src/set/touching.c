@@ -7,7 +7,7 @@
  *     max t,   A v + b - t e in K,   t <= 1           dual:  A'z = 0,  z in K,  <z, e> = 1,   min b.z
  *
  * Where it is 0, every v of the form has <z, A v + b> = 0: the form lies in the face of K that z selects, and is written
- * over that face (face.c). Each round lowers the dimension, so that there are no more of them than unknowns. Programs on
+ * over that face (restrict.c). Each round lowers the dimension, so that there are no more of them than unknowns. Programs on
  * the form that is left have multipliers again. */
 #include <math.h>
 #include <stdlib.h>
@@ -79,7 +79,7 @@ static CpsStatus reduce_once(const CpsiForm *form, CpsiForm **reduced, CpsError 
         for (int i = 0; i < form->n; i++)
             x[i] = form->origin[i] + cpsi_dot(form->unknowns, &form->p[(size_t)i*u], at.x);
         const CpsiSolution touching = {.s = at.s, .z = at.z, .x = x};
-        status = cpsi_form_restrict(form, &touching, reduced, err);
+        status = cpsi_form_restrict(form, &touching, CPSI_LEAST_ANGLE, reduced, err);
     }
     cpsi_solution_free(&at);
     cpsi_form_free(depth);
