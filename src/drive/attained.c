@@ -74,19 +74,20 @@ static CpsStatus with_friction(const CpsMotion *motion, double s, double *veloci
     CpsSet *interval = NULL;
     CpsLaw *law = NULL;
     CpsMotion *found = NULL;
-    CpsMotionOptions options = cps_motion_options_default();
-    options.composition = false;
+    CpsiKinematics *kinematics = NULL;
+    const CpsMotionOptions options = cps_motion_options_default();
     *size = 0;
     CpsStatus status = copy_system(motion->system, &system, err);
     if (status == CPS_OK) status = cps_set_interval(-s, s, &interval, err);
     if (status == CPS_OK) status = cps_law_friction(interval, &law, err);
     for (int j = 0; status == CPS_OK && j < motion->system->n; j++)
         status = cps_system_add_friction(system, "at rest", law, 1, &(CpsEntry){0, j, 1}, err);
-    if (status == CPS_OK) status = cps_system_solve(system, motion->driving, &options, &found, err);
+    if (status == CPS_OK) status = cpsi_motion_find(system, motion->driving, &options, &found, &kinematics, err);
     for (int j = 0; status == CPS_OK && j < motion->system->n; j++) {
-        velocity[j] = cps_motion_velocity(found)[j];
+        velocity[j] = found->velocity[j];
         *size = cpsi_larger(*size, fabs(velocity[j]));
     }
+    cpsi_kinematics_free(kinematics);
     cps_motion_destroy(found);
     cps_law_destroy(law);
     cps_set_release(interval);

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One motion for a driving velocity: kinematics, load factor, the program, its certificate, and where the forces
- * lie. */
+/* One motion for a driving velocity: kinematics, load factor, the program and its certificate. */
 #include "drive/motion.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +9,6 @@
 #include "base/larger.h"
 #include "base/status.h"
 #include "drive/kinematics.h"
-#include "linsys/small.h"
 
 /* Rows of drive and constraints contradict W beyond this share of it: rounding of W and refinement leave less. */
 static const double CONTRADICTION = 1e-9;
@@ -257,115 +254,28 @@ static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics, const CpsMo
     return CPS_OK;
 }
 
-/* Forces that touch a curved set at one point only are known to the root of their rounding along its boundary, and so is the
- * power that they bound. */
-static void widen(CpsMotionReport *report, double power) {
-    report->lower -= sqrt(16*DBL_EPSILON)*power;
-    report->minimum = report->upper - report->lower;
-}
-
-static CpsStatus check(const CpsSystem *system, const double *driving, const CpsMotionOptions *options, CpsMotion **out,
-                       CpsError *err) {
-    if (!system || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "system or out is NULL");
-    if (system->drive.rows > 0 && !driving)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the driving velocity is NULL, expected %d components",
-                         system->drive.rows);
-    for (int j = 0; j < system->drive.rows; j++)
-        if (!isfinite(driving[j]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "component %d of the driving velocity is %g, expected a number",
-                             j + 1, driving[j]);
-    if (!(options->tolerance > 0) || !(options->boundary > 0) || !(options->boundary < 1))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "tolerance %g or boundary %g of the options is not positive; start from the default",
-                         options->tolerance, options->boundary);
-    return CPS_OK;
-}
-
-CpsStatus cps_system_solve(const CpsSystem *system, const double *driving, const CpsMotionOptions *options,
-                           CpsMotion **out, CpsError *err) {
-    const CpsMotionOptions chosen = options ? *options : cps_motion_options_default();
+CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving, const CpsMotionOptions *options,
+                           CpsMotion **out, CpsiKinematics **kinematics, CpsError *err) {
     CpsMotion *motion = NULL;
-    CpsiKinematics *kinematics = NULL;
-    CpsStatus status = check(system, driving, &chosen, out, err);
-    if (status == CPS_OK) status = motion_new(system, driving, &motion, err);
-    if (status == CPS_OK) status = cpsi_kinematics_new(system, &kinematics, err);
-    if (status != CPS_OK) {
+    CpsiKinematics *made = NULL;
+    CpsStatus status = motion_new(system, driving, &motion, err);
+    if (status == CPS_OK) status = cpsi_kinematics_new(system, &made, err);
+    if (status == CPS_OK) {
+        motion->force = force_size(system);
+        start_velocity(motion, made);
+        /* can the load be balanced at all, and with which forces in hand? */
+        if (motion->report.outcome == CPS_MOTION_SOLVED && cpsi_system_loaded(system))
+            status = balance_load(motion, made, options->boundary, err);
+        motion->possible = motion->report.outcome == CPS_MOTION_SOLVED || motion->report.outcome == CPS_MOTION_LIMIT_LOAD;
+        if (status == CPS_OK && motion->possible) status = move(motion, made, options, err);
+    }
+    if (status == CPS_OK) {
+        *out = motion;
+        *kinematics = made;
+    } else {
         cps_motion_destroy(motion);
-        return status;
+        cpsi_kinematics_free(made);
     }
-    CpsMotionReport *report = &motion->report;
-    motion->force = force_size(system);
-    start_velocity(motion, kinematics);
-
-    /* can the load be balanced at all, and with which forces in hand? */
-    if (report->outcome == CPS_MOTION_SOLVED && cpsi_system_loaded(system))
-        status = balance_load(motion, kinematics, chosen.boundary, err);
-    const bool possible = report->outcome == CPS_MOTION_SOLVED || report->outcome == CPS_MOTION_LIMIT_LOAD;
-    if (status == CPS_OK && possible) status = move(motion, kinematics, &chosen, err);
-    if (status == CPS_OK && possible && chosen.composition) {
-        status = cpsi_motion_composition(system, chosen.boundary, &report->composition, &report->iterations, err);
-        if (status == CPS_OK && report->composition == CPS_COMPOSE_NOT_SATISFIED && report->outcome != CPS_MOTION_BLOCKED)
-            status = cpsi_motion_attained(motion, kinematics, err);
-        if (report->outcome == CPS_MOTION_NOT_ATTAINED) widen(report, motion->force*motion->driven);
-    }
-    cpsi_kinematics_free(kinematics);
-    if (status == CPS_OK) *out = motion;
-    else cps_motion_destroy(motion);
-    return status;
-}
-
-/* ---- Proposition 1's condition ---- */
-
-/* Do the forces of the form fill the space? */
-static CpsStatus full_dimension(const CpsiForm *form, int space, bool *full, CpsError *err) {
-    const size_t n = (size_t)space, count = (size_t)(form->unknowns + form->lines);
-    if (count < n) {
-        *full = false;
-        return CPS_OK;
-    }
-    double *rows = malloc((count*n + 1)*sizeof *rows);
-    if (!rows) return out_of_memory(err);
-    for (size_t j = 0; j < count; j++)
-        for (size_t i = 0; i < n; i++) {
-            const size_t u = (size_t)form->unknowns;
-            rows[j*n + i] = j < u ? form->p[i*u + j] : form->q[(j - u)*(size_t)form->n + i];
-        }
-    *full = cpsi_orthonormal_rows((int)count, space, rows, NULL, 1e-9) == space;
-    free(rows);
-    return CPS_OK;
-}
-
-/* The least margin of a piece's cones, which are of size one. */
-static double margin_of(const CpsiForm *form, const double *s) {
-    double least = INFINITY;
-    for (int c = 0; c < form->cones; s += form->dim[c++])
-        least = fmin(least, s[0] - cpsi_norm(form->dim[c] - 1, s + 1));
-    return least;
-}
-
-CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsComposition *composition,
-                                  int *iterations, CpsError *err) {
-    CpsiDriveProgram program;
-    CpsStatus status = cpsi_drive_program_new(system, CPSI_AIM_MIDDLE, NULL, 1, false, &program, err);
-    if (status != CPS_OK) return status;
-    cpsi_drive_program_solve(&program);
-    *iterations += program.result.iterations;
-    const bool known = program.result.outcome == CPSI_CONIC_SOLVED;
-    const double *s = cpsi_sparse_program_s(program.program);
-    *composition = known ? CPS_COMPOSE_INTERIOR : CPS_COMPOSE_NOT_SATISFIED;
-    bool full = true;
-    for (int k = 0; status == CPS_OK && known && k < system->pieces; k++) {
-        const CpsiForm *form = program.form[k];
-        const CpsiPiece *piece = &system->piece[k];
-        CpsComposition place = CPS_COMPOSE_INTERIOR;
-        /* neighbours of one set have one dimension */
-        if (k == 0 || form != program.form[k - 1]) status = full_dimension(form, piece->space, &full, err);
-        if (!full) place = CPS_COMPOSE_RELATIVE_INTERIOR;
-        if (margin_of(form, s + program.row[k]) < boundary)
-            place = piece->set && cpsi_law_polyhedral(piece->set) ? CPS_COMPOSE_POLYHEDRAL : CPS_COMPOSE_NOT_SATISFIED;
-        if (place > *composition) *composition = place;
-    }
-    cpsi_drive_program_clear(&program);
     return status;
 }
 

@@ -24,10 +24,15 @@ struct CpsMotion {
     size_t *piece_at;                    /* (pieces) where a piece's begins */
     CpsiSum *balance;                    /* (n) scratch */
     CpsMotionShare *share;               /* (laws) */
+    bool possible;                       /* a motion was asked of the program: not blocked, the load can be balanced */
     double speed, force;                 /* sizes of velocities and forces */
     double driven;                       /* size of the least velocity that agrees with W: what a power is measured by, as V may be
                                             far larger where nothing resists it */
 };
+
+/* A motion with its bounds, from checked arguments; not yet whether its infimum is attained. The caller frees both. */
+CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving, const CpsMotionOptions *options,
+                           CpsMotion **out, CpsiKinematics **kinematics, CpsError *err);
 
 /* U_k = B_k V of all laws. */
 void cpsi_motion_carry(CpsMotion *motion);
@@ -41,7 +46,7 @@ CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program
  * hold. */
 CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsiKinematics *kinematics, CpsError *err);
 
-/* Where the forces in the middle of all that balance lie in the laws' sets. */
+/* Where the forces in the middle of all that balance lie in the laws' sets (composition.c). */
 CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsComposition *composition,
                                   int *iterations, CpsError *err);
 

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Proposition 1's condition: do the forces in the middle of all that balance lie inside the laws' sets? */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "drive/motion.h"
+#include "linsys/small.h"
+
+static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion"); }
+
+/* Do the forces of the form fill the space? */
+static CpsStatus full_dimension(const CpsiForm *form, int space, bool *full, CpsError *err) {
+    const size_t n = (size_t)space, count = (size_t)(form->unknowns + form->lines);
+    if (count < n) {
+        *full = false;
+        return CPS_OK;
+    }
+    double *rows = malloc((count*n + 1)*sizeof *rows);
+    if (!rows) return out_of_memory(err);
+    for (size_t j = 0; j < count; j++)
+        for (size_t i = 0; i < n; i++) {
+            const size_t u = (size_t)form->unknowns;
+            rows[j*n + i] = j < u ? form->p[i*u + j] : form->q[(j - u)*(size_t)form->n + i];
+        }
+    *full = cpsi_orthonormal_rows((int)count, space, rows, NULL, 1e-9) == space;
+    free(rows);
+    return CPS_OK;
+}
+
+/* The least margin of a piece's cones, which are of size one. */
+static double margin_of(const CpsiForm *form, const double *s) {
+    double least = INFINITY;
+    for (int c = 0; c < form->cones; s += form->dim[c++])
+        least = fmin(least, s[0] - cpsi_norm(form->dim[c] - 1, s + 1));
+    return least;
+}
+
+CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsComposition *composition,
+                                  int *iterations, CpsError *err) {
+    CpsiDriveProgram program;
+    CpsStatus status = cpsi_drive_program_new(system, CPSI_AIM_MIDDLE, NULL, 1, false, &program, err);
+    if (status != CPS_OK) return status;
+    cpsi_drive_program_solve(&program);
+    *iterations += program.result.iterations;
+    const bool known = program.result.outcome == CPSI_CONIC_SOLVED;
+    const double *s = cpsi_sparse_program_s(program.program);
+    *composition = known ? CPS_COMPOSE_INTERIOR : CPS_COMPOSE_NOT_SATISFIED;
+    bool full = true;
+    for (int k = 0; status == CPS_OK && known && k < system->pieces; k++) {
+        const CpsiForm *form = program.form[k];
+        const CpsiPiece *piece = &system->piece[k];
+        CpsComposition place = CPS_COMPOSE_INTERIOR;
+        /* neighbours of one set have one dimension */
+        if (k == 0 || form != program.form[k - 1]) status = full_dimension(form, piece->space, &full, err);
+        if (!full) place = CPS_COMPOSE_RELATIVE_INTERIOR;
+        if (margin_of(form, s + program.row[k]) < boundary)
+            place = piece->set && cpsi_law_polyhedral(piece->set) ? CPS_COMPOSE_POLYHEDRAL : CPS_COMPOSE_NOT_SATISFIED;
+        if (place > *composition) *composition = place;
+    }
+    cpsi_drive_program_clear(&program);
+    return status;
+}
