@@ -5,7 +5,7 @@
 #define CAPSTAN_SRC_CABLE_FRICTION_SET_H
 
 #include "capstan/set.h"
-#include "ipm/chain_program.h"
+#include "ipm/elements.h"
 
 typedef struct CpsiFrictionSet CpsiFrictionSet;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Drag: a force -d w u on every node, w the share of the line that the node stands for. It is the proximal term (d/2) sum w |u|^2 in
  * front of the program, and needs no cone. */
-#include "ipm/chain_program.h"
+#include "ipm/elements.h"
 
 static double weight(const CpsiChainProgram *program, int j) {
     const double before = j > 0 ? program->stretch.length[j] : 0, after = j + 1 < program->n ? program->stretch.length[j + 1] : 0;

@@ -19,7 +19,7 @@
 
 #include "base/larger.h"
 #include "cone/soc.h"
-#include "ipm/chain_program.h"
+#include "ipm/elements.h"
 
 /* mu R of the stop beside rub k where the bound follows it: its direction less the part that goes with du_z, and the whole. */
 static inline double bound_load(const CpsiChainProgram *program, int k, double keep) {

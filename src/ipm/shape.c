@@ -26,8 +26,8 @@
 #include <string.h>
 
 #include "base/larger.h"
-#include "ipm/chain_program.h"
 #include "ipm/cone_step.h"
+#include "ipm/elements.h"
 #include "linsys/small.h"
 
 /* The arrays of one element inside its share of `data` and `index`. */

@@ -8,7 +8,7 @@
 #include <math.h>
 
 #include "base/larger.h"
-#include "ipm/chain_program.h"
+#include "ipm/elements.h"
 
 static void start(CpsiProgram *base, double mu, double margin) {
     CpsiChainProgram *program = cpsi_chain(base);

@@ -15,7 +15,7 @@
  * of order one, c g may pass 1 and a turn negative, which the linear system allows. */
 #include "base/larger.h"
 #include "cone/soc.h"
-#include "ipm/chain_program.h"
+#include "ipm/elements.h"
 #include "linsys/frame.h"
 
 /* 1 - c g is kept this far from 0, so that a stays finite: the step is inexact by as much. */
