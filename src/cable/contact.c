@@ -275,13 +275,13 @@ void cpsi_contact_look(CpsiLine *line) {
 }
 
 /* Contact c at the reference: its friction bound, and its gap if it is watched. */
-static void pose(CpsiLine *line, int c, const CpsiStepOptions *options) {
+static void pose(CpsiLine *line, int c, bool frictionless) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     const double gap = obstacle ? cpsi_obstacle_gap(obstacle, cpsi_line_place(line, line->reference, c)) + allowance(line, c) : INFINITY;
     const bool held = cpsi_line_is_contact_held(line, c);
     /* contact: everywhere, or only where the reference touches (S90 (35)): what is below it is free */
     const bool near = fabs(gap) <= CPSI_TOUCH*line->length, touches = line->gains ? obstacle && line->state[c] != CPS_NODE_FREE : near;
-    const bool rubs = touches && !held && !options->frictionless;
+    const bool rubs = touches && !held && !frictionless;
     line->friction_bound[c] = rubs ? cpsi_rub_set(line, c).friction*line->reaction[c] : 0;
     line->gap[c] = !held && near ? 0 : INFINITY;
     if (is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
@@ -295,10 +295,10 @@ void cpsi_contact_return(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) see(line, c), line->round[c] = 0;
 }
 
-void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
+void cpsi_contact_pose(CpsiLine *line, CpsContact contact, CpsFriction friction, bool frictionless) {
     const size_t n = (size_t)line->n;
-    line->gains = options->contact == CPS_CONTACT_GAINED;
-    line->frozen = line->follows && line->gains && options->friction == CPS_FRICTION_FROZEN && !options->frictionless;
+    line->gains = contact == CPS_CONTACT_GAINED;
+    line->frozen = line->follows && line->gains && friction == CPS_FRICTION_FROZEN && !frictionless;
     memcpy(line->reference, line->position, 3*n*sizeof *line->reference);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->friction_bound[c] = 0, line->gap[c] = INFINITY;
     for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
@@ -307,7 +307,7 @@ void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (line->frozen) freeze(line, c);
         if (!line->follows && line->obstacle_count > 0) vec3_store(&line->normal[3*c], line->obstacle->frame.axis[2]);
-        pose(line, c, options);
+        pose(line, c, frictionless);
     }
     cpsi_contact_slide(line);
 }

@@ -4,7 +4,6 @@
 #define CAPSTAN_SRC_CABLE_CONTACT_H
 
 #include "cable/line.h"
-#include "cable/step_options.h"
 
 #define CPSI_TOUCH CPS_TOUCH /* evolve.h */
 
@@ -12,8 +11,8 @@
 #define CPSI_QUARTER 1.57079632679489661923
 
 /* At the reference, where a step begins: base, axes, normals, gaps; friction bounds of the reference, a first guess
- * where friction is consistent. */
-void cpsi_contact_pose(CpsiLine *line, const CpsiStepOptions *options);
+ * where friction is consistent, none for a start laid by statics (`frictionless`). */
+void cpsi_contact_pose(CpsiLine *line, CpsContact contact, CpsFriction friction, bool frictionless);
 
 /* Back to the reference (a line that follows), from where the rounds begin. */
 void cpsi_contact_return(CpsiLine *line);

@@ -11,6 +11,7 @@
 
 #include "base/arena.h"
 #include "cable/ahead.h"
+#include "cable/friction_set.h"
 #include "capstan/evolve.h"
 #include "geometry/obstacle.h"
 
@@ -23,6 +24,7 @@ typedef struct CpsiLine {
     double weight_before[3]; /* [N/m] where the part of the step began */
     int obstacle_count;
     const CpsiObstacle *obstacle; /* (obstacle_count) */
+    const CpsiFrictionSet *const *friction_set; /* (obstacle_count) of those that have one, NULL: no friction; NULL: none has */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this part of the step */
     bool has_zones;     /* friction differs along the line */
     bool follows;       /* nodes have axes of their own, which follow them: more than one plane with isotropic friction */

@@ -28,7 +28,7 @@ static const double PLACES = CPSI_TOUCH;
 static const double LEAST_REACTION = 1e-12;
 
 void cpsi_line_pose(CpsiLine *line, const CpsiStepOptions *options) {
-    cpsi_contact_pose(line, options);
+    cpsi_contact_pose(line, options->contact, options->friction, options->frictionless);
     for (int j = 0; j < line->n; j++)
         for (int a = 0; a < 3; a++) line->load[3*j + a] = cpsi_line_share(line, j)*line->weight[a];
     for (int end = 0; end < 2; end++)

@@ -26,8 +26,9 @@ static inline double cpsi_line_factor(const CpsiLine *line, int c) {
 static inline CpsiRubSet cpsi_rub_set(const CpsiLine *line, int c) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     const double factor = cpsi_line_factor(line, c);
-    if (!obstacle || (obstacle->has_set && !obstacle->set)) return (CpsiRubSet){.ratio = {1, 1}};
-    if (obstacle->has_set) return (CpsiRubSet){.friction = factor, .given = obstacle->set};
+    const CpsiFrictionSet *given = obstacle && obstacle->has_set ? line->friction_set[obstacle - line->obstacle] : NULL;
+    if (!obstacle || (obstacle->has_set && !given)) return (CpsiRubSet){.ratio = {1, 1}};
+    if (obstacle->has_set) return (CpsiRubSet){.friction = factor, .given = given};
     const double *mu = obstacle->friction, friction = fmax(mu[0], mu[1]), by = friction > 0 ? 1/friction : 0;
     return (CpsiRubSet){.friction = factor*friction,
                         .ratio = {friction > 0 ? mu[0]*by : 1, friction > 0 ? mu[1]*by : 1},

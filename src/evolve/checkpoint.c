@@ -194,15 +194,15 @@ static void mix_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     }
 }
 
-static void mix_obstacle(uint64_t *hash, const CpsiObstacle *obstacle) {
+static void mix_obstacle(uint64_t *hash, const CpsiObstacle *obstacle, const CpsiFrictionSet *set) {
     const int what[4] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain, obstacle->has_set};
     mix(hash, what, sizeof what);
     mix_numbers(hash, 3, (const double[3]){obstacle->frame.point.x, obstacle->frame.point.y, obstacle->frame.point.z});
     const Vec3 axis = obstacle->frame.axis[2], grain = obstacle->grain;
     mix_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
     mix_numbers(hash, 3, (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
-    if (!obstacle->set) return;
-    const CpsiShapeForm *form = cpsi_friction_set_shape(obstacle->set);
+    if (!set) return;
+    const CpsiShapeForm *form = cpsi_friction_set_shape(set);
     mix(hash, form->dim, (size_t)form->cones*sizeof *form->dim);
     mix_numbers(hash, (size_t)(form->rows*form->unknowns), form->a);
     mix_numbers(hash, (size_t)form->rows, form->b);
@@ -220,7 +220,8 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     mix_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
     mix_numbers(&hash, 3, evolution->origin);
     for (int i = 0; i < evolution->line_count; i++) mix_line(&hash, &evolution->line[i]);
-    for (int k = 0; k < evolution->obstacle_count; k++) mix_obstacle(&hash, &evolution->obstacle[k]);
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        mix_obstacle(&hash, &evolution->obstacle[k], evolution->set ? evolution->set[k] : NULL);
     for (int k = 0; k < evolution->stage_count; k++) mix_stage(&hash, &evolution->stage[k]);
     return hash;
 }

@@ -135,6 +135,7 @@ static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     line->obstacle_count = evolution->obstacle_count;
     line->obstacle = evolution->obstacle;
+    line->friction_set = (const CpsiFrictionSet *const *)evolution->set;
     line->turn = evolution->room.turn;
     const bool own = line->follows || line->obstacle_count == 0;
     const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
@@ -195,10 +196,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->options = (CpsiStepOptions){
         .solver = scene->solver, .friction = scene->friction, .contact = scene->contact, .least = &evolution->least};
     evolution->obstacle_count = scene->obstacle_count;
-    for (int k = 0; k < scene->obstacle_count; k++) {
-        evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
-        evolution->obstacle[k].set = evolution->set ? evolution->set[k] : NULL;
-    }
+    for (int k = 0; k < scene->obstacle_count; k++) evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {

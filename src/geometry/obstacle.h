@@ -15,8 +15,7 @@ typedef struct CpsiObstacle {
     double radius;      /* [m] cylinder, sphere */
     double friction[2]; /* [-] along the first tangent of the contact and across it */
     CpsFrictionShape shape;
-    bool has_set;   /* the forces are those of `set` instead */
-    const struct CpsiFrictionSet *set; /* of cable/friction_set.h; NULL: no friction */
+    bool has_set;   /* the forces are those of a set instead, which the line knows (cable/line.h) */
     bool has_grain; /* the first tangent is that of `grain`, not of the line */
     Vec3 grain;
 } CpsiObstacle;
