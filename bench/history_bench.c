@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Time of a whole history, without files: history_bench SCENE.yaml [REPEAT]
  *
- * Prints the fastest of REPEAT runs (default 5) as CSV: steps, elements, iterations, seconds in all and per step, what the worst
- * certificate reached, steps not certified, the force across at end B when the history ends, and the energy dissipated. */
+ * Prints the fastest of REPEAT runs (default 5) as CSV: steps, elements, iterations, seconds in all
+ * and per step, what the worst certificate reached, steps not certified, the force across at end B
+ * when the history ends, and the energy dissipated. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,15 +24,17 @@ static Tally run(const CpsScene *scene) {
         fprintf(stderr, "history_bench: %s\n", err.message);
         exit(1);
     }
-    while (cps_evolution_remaining(evolution) > 0 && cps_evolution_step(evolution, &err) == CPS_OK) {
+    while (cps_evolution_remaining(evolution) > 0 &&
+           cps_evolution_step(evolution, &err) == CPS_OK) {
         const CpsStepReport report = cps_evolution_report(evolution);
         tally.steps++;
         tally.iterations += report.iterations;
         tally.seconds += report.wall;
         tally.dissipated += report.dissipated;
         tally.uncertified += !cps_outcome_is_certified(report.outcome);
-        tally.gap = fmax(tally.gap, report.certificate.gap/report.certificate.scale);
-        tally.friction = fmax(tally.friction, report.certificate.friction_residual/report.certificate.largest_force);
+        tally.gap = fmax(tally.gap, report.certificate.gap / report.certificate.scale);
+        tally.friction = fmax(tally.friction, report.certificate.friction_residual /
+                                                  report.certificate.largest_force);
     }
     const CpsLineReport line = cps_evolution_line_report(evolution, 0);
     for (int a = 0; a < 3; a++) tally.force[a] = line.end[CPS_END_B].force[a];
@@ -57,9 +60,11 @@ int main(int argc, char **argv) {
         const Tally next = run(scene);
         if (next.seconds < best.seconds) best = next;
     }
-    printf("steps,elements,iterations,seconds,ms_per_step,worst_gap,worst_friction_residual,uncertified,last_lateral_N,dissipated_J\n");
-    printf("%d,%d,%d,%.4f,%.4f,%.1e,%.1e,%d,%.1f,%.1f\n", best.steps, scene->line[0].elements, best.iterations, best.seconds,
-           1e3*best.seconds/best.steps, best.gap, best.friction, best.uncertified, best.force[1], best.dissipated);
+    printf("steps,elements,iterations,seconds,ms_per_step,worst_gap,worst_friction_residual,"
+           "uncertified,last_lateral_N,dissipated_J\n");
+    printf("%d,%d,%d,%.4f,%.4f,%.1e,%.1e,%d,%.1f,%.1f\n", best.steps, scene->line[0].elements,
+           best.iterations, best.seconds, 1e3 * best.seconds / best.steps, best.gap, best.friction,
+           best.uncertified, best.force[1], best.dissipated);
     cps_scene_file_destroy(file);
     return 0;
 }

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* How long one load step takes, over the number of elements, and what the machine allows.
  *
- *   souza   first step of S90 example 5.7: a rope of 6.28 m, EA = 10 N, 9.81 N/m, straight on a bed with mu = 0.0255,
- *           held at A, pulled at B by (0.5, 0.5, 0.5) N
- *   oc3     OC3-Hywind mooring line: 902.2 m, EA = 384.243 MN, 698.094 N/m, mu = 0.5, laid by statics with the fairlead
- *           848.67 m out and 250 m up, then pulled 1.5 m further out: the step timed
+ *   souza   first step of S90 example 5.7: a rope of 6.28 m, EA = 10 N, 9.81 N/m, straight on a bed
+ *           with mu = 0.0255, held at A, pulled at B by (0.5, 0.5, 0.5) N
+ *   oc3     OC3-Hywind mooring line: 902.2 m, EA = 384.243 MN, 698.094 N/m, mu = 0.5, laid by
+ *           statics with the fairlead 848.67 m out and 250 m up, then pulled 1.5 m further out: the
+ *           step timed
  *
- * Each size runs in a process of its own, so that its peak memory is its own; each repeat prepares the scene anew, and
- * only the step is timed. The machine's limit is the rate at which a plain loop a = b + s c streams (McCalpin's triad).
- * Uses the public interface only. CSV on standard output, or a table. */
+ * Each size runs in a process of its own, so that its peak memory is its own; each repeat prepares
+ * the scene anew, and only the step is timed. The machine's limit is the rate at which a plain loop
+ * a = b + s c streams (McCalpin's triad). Uses the public interface only. CSV on standard output,
+ * or a table. */
 #include <getopt.h>
 #include <math.h>
 #include <stdbool.h>
@@ -24,23 +26,29 @@
 
 enum { MOST_SIZES = 32, MOST_REPEATS = 101, FULL = 1000 };
 
-/* Unless told how often: repeat until this much time is spent on a size, but at least three times. */
+/* Unless told how often: repeat until this much time is spent on a size, but at least three
+ * times. */
 static const double REPEAT_SECONDS = 2;
-/* What --check asks. Smaller sizes drown in the cost of a call (time) and of whole pages (memory). */
+/* What --check asks. Smaller sizes drown in the cost of a call (time) and of whole pages
+ * (memory). */
 static const double MOST_GROWTH = 1.6, MOST_BYTES = 1000;
 enum { TIME_FROM = 1000, MEMORY_FROM = 10000 };
 
 static const char usage[] =
     "usage: step_bench [options]\n"
-    "  --case NAME       souza, oc3 or all                          (default all)\n"
-    "  --elements LIST   numbers of elements, with commas            (default 100,1000,10000,100000,1000000)\n"
-    "  --repeat R        repeats per size, 1..101                    (default: for about two seconds, at least 3)\n"
-    "  --stop TOL        stop at the first iteration that is certified at TOL, instead of the smallest gap reached\n"
+    "  --case NAME       souza, oc3 or all          (default all)\n"
+    "  --elements LIST   numbers of elements, with commas\n"
+    "                    (default 100,1000,10000,100000,1000000)\n"
+    "  --repeat R        repeats per size, 1..101   (default: for about two seconds, at least 3)\n"
+    "  --stop TOL        stop at the first iteration that is certified at TOL, instead of the\n"
+    "                    smallest gap reached\n"
     "  --table           a table for reading, instead of CSV\n"
-    "  --check           exit 1 unless all are solved, from 1000 elements on time per element stays within a factor\n"
-    "                    of 1.6, and from 10000 on memory within 1000 bytes per element\n"
+    "  --check           exit 1 unless all are solved, from 1000 elements on time per element\n"
+    "                    stays within a factor of 1.6, and from 10000 on memory within 1000 bytes\n"
+    "                    per element\n"
     "  --stream          measure memory bandwidth instead\n"
-    "  --dump FILE       solve once and write the step problem and its answer (README.md); one case, one size\n";
+    "  --dump FILE       solve once and write the step problem and its answer (README.md); one\n"
+    "                    case, one size\n";
 
 typedef struct Options {
     const char *name, *dump;
@@ -70,7 +78,7 @@ static double seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* the two cases ------------------------------------------------------------------------------------------------- */
+/* the two cases -------------------------------------------------------------------------------- */
 
 /* A scene and what it points to. */
 typedef struct Setup {
@@ -84,7 +92,9 @@ typedef struct Setup {
 
 static void setup_souza(Setup *setup) {
     CpsLine *line = &setup->line;
-    line->length = 6.28, line->weight = 9.81, line->stiffness = 10;
+    line->length = 6.28;
+    line->weight = 9.81;
+    line->stiffness = 10;
     setup->bed.friction = 0.0255;
     setup->point[3] = line->length;
     line->start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = setup->point};
@@ -93,8 +103,11 @@ static void setup_souza(Setup *setup) {
 
 static void setup_oc3(Setup *setup) {
     CpsLine *line = &setup->line;
-    line->length = 902.2, line->weight = 698.094, line->stiffness = 384.243e6;
-    setup->bed.friction = 0.5, setup->bed.point[2] = -320;
+    line->length = 902.2;
+    line->weight = 698.094;
+    line->stiffness = 384.243e6;
+    setup->bed.friction = 0.5;
+    setup->bed.point[2] = -320;
     line->start.kind = CPS_START_LAID;
     line->end[CPS_END_A] = (CpsEnd){CPS_END_HELD, {0, 0, -320}};
     line->end[CPS_END_B] = (CpsEnd){CPS_END_HELD, {848.67, 0, -70}};
@@ -110,17 +123,25 @@ static const Case cases[] = {{"souza", setup_souza}, {"oc3", setup_oc3}};
 enum { CASES = sizeof cases / sizeof *cases };
 
 static void setup_fill(Setup *setup, const Case *which, int elements) {
-    *setup = (Setup){.scene = cps_scene_default(), .line = cps_line_default(), .bed = cps_obstacle_default()};
-    setup->line.name = which->name, setup->line.elements = elements;
+    *setup = (Setup){.scene = cps_scene_default(),
+                     .line = cps_line_default(),
+                     .bed = cps_obstacle_default()};
+    setup->line.name = which->name;
+    setup->line.elements = elements;
     setup->bed.name = "bed";
     which->fill(setup);
-    setup->stage = (CpsStage){.name = "step", .steps = 1, .change_count = 1, .change = &setup->change};
-    setup->scene.obstacle = &setup->bed, setup->scene.obstacle_count = 1;
-    setup->scene.line = &setup->line, setup->scene.line_count = 1;
-    setup->scene.stage = &setup->stage, setup->scene.stage_count = 1;
+    setup->stage =
+        (CpsStage){.name = "step", .steps = 1, .change_count = 1, .change = &setup->change};
+    setup->scene.obstacle = &setup->bed;
+    setup->scene.obstacle_count = 1;
+    setup->scene.line = &setup->line;
+    setup->scene.line_count = 1;
+    setup->scene.stage = &setup->stage;
+    setup->scene.stage_count = 1;
 }
 
-/* Run the history to its last step, the one that counts. `good` is cleared when a step before it is not solved. */
+/* Run the history to its last step, the one that counts. `good` is cleared when a step before it is
+ * not solved. */
 static CpsEvolution *run(const Case *which, int elements, double tolerance, int limit, bool *good) {
     Setup setup;
     CpsError err;
@@ -128,12 +149,13 @@ static CpsEvolution *run(const Case *which, int elements, double tolerance, int 
     setup_fill(&setup, which, elements);
     if (tolerance > 0) setup.scene.solver.tolerance = tolerance;
     setup.scene.solver.max_iterations = limit;
-    if (cps_evolution_create(&setup.scene, &evolution, &err) != CPS_OK) die(which->name, err.message);
+    if (cps_evolution_create(&setup.scene, &evolution, &err) != CPS_OK)
+        die(which->name, err.message);
     *good = true;
     while (cps_evolution_remaining(evolution) > 0) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) die(which->name, err.message);
-        *good =
-            *good && (cps_evolution_remaining(evolution) == 0 || cps_evolution_report(evolution).outcome == CPS_SOLVED);
+        *good = *good && (cps_evolution_remaining(evolution) == 0 ||
+                          cps_evolution_report(evolution).outcome == CPS_SOLVED);
     }
     return evolution;
 }
@@ -150,7 +172,10 @@ static bool certified(const Case *which, int elements, double tolerance, int lim
 static int least_limit(const Case *which, int elements, double tolerance) {
     if (tolerance <= 0 || !certified(which, elements, tolerance, FULL)) return FULL;
     int fails = 0, works = 1;
-    while (works < FULL && !certified(which, elements, tolerance, works)) fails = works, works *= 2;
+    while (works < FULL && !certified(which, elements, tolerance, works)) {
+        fails = works;
+        works *= 2;
+    }
     while (works - fails > 1) {
         const int middle = (works + fails) / 2;
         if (certified(which, elements, tolerance, middle))
@@ -161,7 +186,7 @@ static int least_limit(const Case *which, int elements, double tolerance) {
     return works;
 }
 
-/* measure ------------------------------------------------------------------------------------------------------- */
+/* measure -------------------------------------------------------------------------------------- */
 
 static int ascending(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -198,7 +223,8 @@ static Row measure(const Case *which, int elements, const Options *options) {
         row.residual = report.certificate.force_residual / report.certificate.largest_force;
         cps_evolution_destroy(evolution);
     } while (options->repeat ? row.repeats < options->repeat
-                             : row.repeats < 3 || (row.repeats < MOST_REPEATS && seconds() - begin < REPEAT_SECONDS));
+                             : row.repeats < 3 || (row.repeats < MOST_REPEATS &&
+                                                   seconds() - begin < REPEAT_SECONDS));
     qsort(wall, (size_t)row.repeats, sizeof *wall, ascending);
     row.seconds = wall[row.repeats / 2];
     row.least = wall[0];
@@ -227,25 +253,28 @@ static Row measure_apart(const Case *which, int elements, const Options *options
 
 static void print_row(const Case *which, const Row *row, bool table) {
     const double per_element = 1e6 * row->seconds / row->elements;
-    const double per_node = 1e6 * row->seconds / ((row->elements + 1.0) * (row->iterations > 0 ? row->iterations : 1));
+    const double per_node =
+        1e6 * row->seconds / ((row->elements + 1.0) * (row->iterations > 0 ? row->iterations : 1));
     const double median = 1e3 * row->seconds, least = 1e3 * row->least;
     const char *outcome = cps_outcome_key(row->outcome);
     if (table)
-        printf("%-6s %9d %7d %10d %11.3f %11.3f %10.4f %10.3f %9.1e %9.1e %9.0f  %s\n", which->name, row->elements,
-               row->repeats, row->iterations, median, least, per_node, per_element, row->gap, row->residual, row->bytes,
-               outcome);
+        printf("%-6s %9d %7d %10d %11.3f %11.3f %10.4f %10.3f %9.1e %9.1e %9.0f  %s\n", which->name,
+               row->elements, row->repeats, row->iterations, median, least, per_node, per_element,
+               row->gap, row->residual, row->bytes, outcome);
     else
-        printf("%s,%d,%d,%d,%.6g,%.6g,%.6g,%.6g,%.3g,%.3g,%.6g,%s\n", which->name, row->elements, row->repeats,
-               row->iterations, median, least, per_node, per_element, row->gap, row->residual, row->bytes, outcome);
+        printf("%s,%d,%d,%d,%.6g,%.6g,%.6g,%.6g,%.3g,%.3g,%.6g,%s\n", which->name, row->elements,
+               row->repeats, row->iterations, median, least, per_node, per_element, row->gap,
+               row->residual, row->bytes, outcome);
 }
 
 static void print_head(bool table) {
     if (table)
-        printf("case    elements repeats iterations   median ms      min ms us/node/it us/element     gap/S  residual "
-               "B/element  outcome\n");
+        printf("case    elements repeats iterations   median ms      min ms us/node/it us/element  "
+               "   gap/S  residual B/element  outcome\n");
     else
-        printf("case,elements,repeats,iterations,wall_median_ms,wall_min_ms,us_per_node_iteration,us_per_element,"
-               "gap_over_scale,force_residual_relative,peak_bytes_per_element,outcome\n");
+        printf(
+            "case,elements,repeats,iterations,wall_median_ms,wall_min_ms,us_per_node_iteration,us_"
+            "per_element,gap_over_scale,force_residual_relative,peak_bytes_per_element,outcome\n");
 }
 
 /* Does what was measured hold what is promised for all sizes? */
@@ -255,25 +284,34 @@ static bool check_rows(const char *name, const Row *row, int count) {
     for (int i = 0; i < count; i++) {
         const double per_element = row[i].least / row[i].elements;
         solved = solved && row[i].outcome == CPS_SOLVED;
-        if (row[i].elements >= TIME_FROM) least = fmin(least, per_element), most = fmax(most, per_element);
+        if (row[i].elements >= TIME_FROM) {
+            least = fmin(least, per_element);
+            most = fmax(most, per_element);
+        }
         if (row[i].elements >= MEMORY_FROM) bytes = fmax(bytes, row[i].bytes);
     }
     const bool good = solved && most <= MOST_GROWTH * least && bytes <= MOST_BYTES;
-    printf("%s: %s, time per element within a factor of %.2f (at most %g), at most %.0f bytes per element (at most "
-           "%g): %s\n",
-           name, solved ? "all solved" : "NOT ALL SOLVED", most / least, MOST_GROWTH, bytes, MOST_BYTES,
-           good ? "good" : "NOT GOOD");
+    printf("%s: %s, time per element within a factor of %.2f (at most %g), at most %.0f bytes per "
+           "element (at most %g): %s\n",
+           name, solved ? "all solved" : "NOT ALL SOLVED", most / least, MOST_GROWTH, bytes,
+           MOST_BYTES, good ? "good" : "NOT GOOD");
     return good;
 }
 
-/* the machine --------------------------------------------------------------------------------------------------- */
+/* the machine ---------------------------------------------------------------------------------- */
 
-/* Bytes per second of the triad over `bytes` of memory in all: the best of several sweeps, as its author does. */
+/* Bytes per second of the triad over `bytes` of memory in all: the best of several sweeps, as its
+ * author does. */
 static double triad(size_t bytes) {
     const size_t n = bytes / (3 * sizeof(double));
-    double *a = malloc(n * sizeof *a), *b = malloc(n * sizeof *b), *c = malloc(n * sizeof *c), best = 0;
+    double *a = malloc(n * sizeof *a), *b = malloc(n * sizeof *b), *c = malloc(n * sizeof *c),
+           best = 0;
     if (!a || !b || !c) die("out of memory", NULL);
-    for (size_t i = 0; i < n; i++) a[i] = 0, b[i] = 1, c[i] = (double)i;
+    for (size_t i = 0; i < n; i++) {
+        a[i] = 0;
+        b[i] = 1;
+        c[i] = (double)i;
+    }
     /* enough sweeps at a time that the clock does not matter */
     const int sweeps = 1 + (int)(50000000 / bytes);
     for (int k = 0; k < 12; k++) {
@@ -287,7 +325,9 @@ static double triad(size_t bytes) {
         const double rate = sweeps * (3.0 * sizeof(double) * (double)n) / (seconds() - begin);
         if (rate > best) best = rate;
     }
-    free(a), free(b), free(c);
+    free(a);
+    free(b);
+    free(c);
     return best;
 }
 
@@ -305,24 +345,27 @@ static void print_stream(const Options *options) {
     }
 }
 
-/* hand the problem on ------------------------------------------------------------------------------------------- */
+/* hand the problem on -------------------------------------------------------------------------- */
 
-static void print_vector(FILE *out, const double *x) { fprintf(out, ",%.17g,%.17g,%.17g", x[0], x[1], x[2]); }
+static void print_vector(FILE *out, const double *x) {
+    fprintf(out, ",%.17g,%.17g,%.17g", x[0], x[1], x[2]);
+}
 
-/* The step problem and its answer as a line view shows them, one row per node; the element of a row ends at its node.
+/* The step problem and its answer as a line view shows them, one row per node; the element of a row
+ * ends at its node.
  */
 static void write_view(FILE *out, const CpsLineView *view, const Row *row) {
     static const double none[3] = {0, 0, 0};
-    fprintf(out, "# capstan step problem 1\n# compliance %.17g\n# iterations %d\n# seconds %.9g\n", view->compliance,
-            row->iterations, row->seconds);
+    fprintf(out, "# capstan step problem 1\n# compliance %.17g\n# iterations %d\n# seconds %.9g\n",
+            view->compliance, row->iterations, row->seconds);
     for (int end = 0; end < 2; end++)
-        fprintf(out, "# end %c %s %.17g %.17g %.17g\n", "AB"[end],
-                view -> end[end].kind == CPS_END_HELD ? "held" : "free", view->end[end].value[0],
+        fprintf(out, "# end %c %s %.17g %.17g %.17g\n", end == CPS_END_A ? 'A' : 'B',
+                view->end[end].kind == CPS_END_HELD ? "held" : "free", view->end[end].value[0],
                 view->end[end].value[1], view->end[end].value[2]);
     fprintf(out,
-            "element_length,reference_x,reference_y,reference_z,load_x,load_y,load_z,normal_x,normal_y,normal_z,gap,"
-            "friction_bound,position_x,position_y,position_z,friction_x,friction_y,friction_z,reaction,"
-            "segment_force_x,segment_force_y,segment_force_z\n");
+            "element_length,reference_x,reference_y,reference_z,load_x,load_y,load_z,normal_x,"
+            "normal_y,normal_z,gap,friction_bound,position_x,position_y,position_z,friction_x,"
+            "friction_y,friction_z,reaction,segment_force_x,segment_force_y,segment_force_z\n");
     for (int j = 0; j <= view->elements; j++) {
         fprintf(out, "%.17g", j > 0 ? view->element_length[j - 1] : 0);
         print_vector(out, &view->reference[3 * j]);
@@ -351,7 +394,7 @@ static void dump(const Case *which, int elements, const Options *options) {
     cps_evolution_destroy(evolution);
 }
 
-/* command line -------------------------------------------------------------------------------------------------- */
+/* command line --------------------------------------------------------------------------------- */
 
 static int whole_number(const char *text, long least, long most, const char *what) {
     char *end;
@@ -364,7 +407,8 @@ static void read_sizes(Options *options, char *list) {
     options->sizes = 0;
     for (char *item = strtok(list, ","); item; item = strtok(NULL, ",")) {
         if (options->sizes == MOST_SIZES) die("too many sizes", NULL);
-        options->elements[options->sizes++] = whole_number(item, 1, 10000000, "expected a number of elements, 1..1e7");
+        options->elements[options->sizes++] =
+            whole_number(item, 1, 10000000, "expected a number of elements, 1..1e7");
     }
 }
 
@@ -378,42 +422,30 @@ static Options read_options(int argc, char **argv) {
     Options options = {.name = "all", .sizes = 5, .elements = {100, 1000, 10000, 100000, 1000000}};
     for (int key; (key = getopt_long(argc, argv, "h", known, NULL)) != -1;) {
         switch (key) {
-        case 'c':
-            options.name = optarg;
-            break;
-        case 'n':
-            read_sizes(&options, optarg);
-            break;
+        case 'c': options.name = optarg; break;
+        case 'n': read_sizes(&options, optarg); break;
         case 'r':
             options.repeat = whole_number(optarg, 1, MOST_REPEATS, "expected 1..101 repeats");
             break;
-        case 's':
-            options.stop = strtod(optarg, NULL);
-            break;
-        case 't':
-            options.table = true;
-            break;
-        case 'k':
-            options.check = true;
-            break;
-        case 'm':
-            options.stream = true;
-            break;
-        case 'd':
-            options.dump = optarg;
-            break;
-        default:
-            fputs(usage, key == 'h' ? stdout : stderr);
-            exit(key == 'h' ? 0 : 2);
+        case 's': options.stop = strtod(optarg, NULL); break;
+        case 't': options.table = true; break;
+        case 'k': options.check = true; break;
+        case 'm': options.stream = true; break;
+        case 'd': options.dump = optarg; break;
+        default: fputs(usage, key == 'h' ? stdout : stderr); exit(key == 'h' ? 0 : 2);
         }
     }
-    if (options.stop != 0 && !(options.stop >= 1e-14 && options.stop <= 1e-2)) die("--stop takes 1e-14..1e-2", NULL);
+    if (options.stop != 0 && !(options.stop >= 1e-14 && options.stop <= 1e-2))
+        die("--stop takes 1e-14..1e-2", NULL);
     return options;
 }
 
 int main(int argc, char **argv) {
     const Options options = read_options(argc, argv);
-    if (options.stream) return print_stream(&options), 0;
+    if (options.stream) {
+        print_stream(&options);
+        return 0;
+    }
     if (options.dump && (options.sizes != 1 || strcmp(options.name, "all") == 0))
         die("--dump takes one --case and one of --elements", NULL);
     if (!options.dump) print_head(options.table);

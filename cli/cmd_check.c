@@ -32,17 +32,19 @@ static void print_friction(const CpsObstacle *o) {
     }
     printf(", friction %g along ", o->friction);
     print_direction(o->grain);
-    printf(" and %g across, %s\n", lateral, o->friction_shape == CPS_FRICTION_BOX ? "box" : "ellipse");
+    printf(" and %g across, %s\n", lateral,
+           o->friction_shape == CPS_FRICTION_BOX ? "box" : "ellipse");
 }
 
 static void print_obstacle(const CpsObstacle *o) {
     const double *p = o->point, *d = o->kind == CPS_OBSTACLE_PLANE ? o->normal : o->axis;
     printf("obstacle %s: ", o->name);
     if (o->kind == CPS_OBSTACLE_PLANE)
-        printf("plane through (%g, %g, %g) m, normal (%g, %g, %g)", p[0], p[1], p[2], d[0], d[1], d[2]);
+        printf("plane through (%g, %g, %g) m, normal (%g, %g, %g)", p[0], p[1], p[2], d[0], d[1],
+               d[2]);
     else if (o->kind == CPS_OBSTACLE_CYLINDER)
-        printf("cylinder of radius %g m through (%g, %g, %g) m, axis (%g, %g, %g)", o->radius, p[0], p[1], p[2], d[0],
-               d[1], d[2]);
+        printf("cylinder of radius %g m through (%g, %g, %g) m, axis (%g, %g, %g)", o->radius, p[0],
+               p[1], p[2], d[0], d[1], d[2]);
     else
         printf("ball of radius %g m around (%g, %g, %g) m", o->radius, p[0], p[1], p[2]);
     print_friction(o);
@@ -59,22 +61,28 @@ static void print_end(char letter, const CpsEnd *end) {
 }
 
 static void print_line(const CpsLine *line) {
-    static const char *const START[] = {"straight", "polyline", "arc", "laid by statics", "from given nodes"};
-    printf("line %s: %g m, %d %selement%s, weight %g N/m, ", line->name, line->length, line->elements,
-           line->element_length ? "graded " : "", line->elements == 1 ? "" : "s", line->weight);
+    static const char *const START[] = {"straight", "polyline", "arc", "laid by statics",
+                                        "from given nodes"};
+    printf("line %s: %g m, %d %selement%s, weight %g N/m, ", line->name, line->length,
+           line->elements, line->element_length ? "graded " : "", line->elements == 1 ? "" : "s",
+           line->weight);
     if (isinf(line->stiffness))
         printf("inextensible");
     else
         printf("stiffness %g N", line->stiffness);
     printf(", start %s\n", START[line->start.kind]);
     for (int k = 0; k < line->zone_count; k++)
-        printf("  friction from %g m to %g m: %g times\n", line->zone[k].from, line->zone[k].to, line->zone[k].factor);
+        printf("  friction from %g m to %g m: %g times\n", line->zone[k].from, line->zone[k].to,
+               line->zone[k].factor);
     print_end('A', &line->end[CPS_END_A]);
     print_end('B', &line->end[CPS_END_B]);
 }
 
 static void print_scene(const CpsScene *scene) {
-    if (scene->title) cli_put_text(stdout, scene->title, INT_MAX, false), putchar('\n');
+    if (scene->title) {
+        cli_put_text(stdout, scene->title, INT_MAX, false);
+        putchar('\n');
+    }
     printf("gravity (%g, %g, %g) m/s2\n", scene->gravity[0], scene->gravity[1], scene->gravity[2]);
     for (int i = 0; i < scene->obstacle_count; i++) print_obstacle(&scene->obstacle[i]);
     for (int i = 0; i < scene->line_count; i++) print_line(&scene->line[i]);

@@ -13,7 +13,9 @@ int cmd_schema(int argc, char **argv) {
     static const struct {
         const char *name;
         CpsStatus (*write)(FILE *out, CpsError *err);
-    } KIND[] = {{"scene", cps_scene_write_schema}, {"law", cps_law_write_schema}, {"drive", cps_drive_write_schema}};
+    } KIND[] = {{"scene", cps_scene_write_schema},
+                {"law", cps_law_write_schema},
+                {"drive", cps_drive_write_schema}};
     CliOptions options;
     if (!cli_parse(argc, argv, FOR_SCHEMA, "[scene|law|drive]", &options)) return EXIT_USAGE;
     for (size_t k = 0; k < sizeof KIND / sizeof KIND[0]; k++) {
@@ -21,6 +23,7 @@ int cmd_schema(int argc, char **argv) {
         if (options.operand && strcmp(options.operand, KIND[k].name) != 0) continue;
         return KIND[k].write(stdout, &err) == CPS_OK ? EXIT_OK : cli_report(&err);
     }
-    cli_printf(stderr, "capstan schema: found '%s', expected scene, law or drive\n", options.operand);
+    cli_printf(stderr, "capstan schema: found '%s', expected scene, law or drive\n",
+               options.operand);
     return EXIT_USAGE;
 }

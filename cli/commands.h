@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The commands of `capstan`: each takes its own argc, argv (argv[0] is the command's name) and returns the exit
- * code. To add one: write cli/cmd_NAME.c, declare it here, add a row to COMMANDS in main.c. */
+/* The commands of `capstan`: each takes its own argc, argv (argv[0] is the command's name) and
+ * returns the exit code. To add one: write cli/cmd_NAME.c, declare it here, add a row to COMMANDS
+ * in main.c. */
 #ifndef CAPSTAN_CLI_COMMANDS_H
 #define CAPSTAN_CLI_COMMANDS_H
 
@@ -24,7 +25,8 @@ int cmd_law(int argc, char **argv);
 int cmd_drive(int argc, char **argv);
 int cmd_study(int argc, char **argv);
 
-/* Print "capstan: FILE:LINE:COLUMN: message" on standard error; returns the exit code of the error's status. */
+/* Print "capstan: FILE:LINE:COLUMN: message" on standard error; returns the exit code of the
+ * error's status. */
 int cli_report(const CpsError *err);
 
 #endif

@@ -17,25 +17,32 @@ static char *default_directory(const char *scene, const char *more) {
     const char *stem = slash ? slash + 1 : scene;
     const char *dot = strrchr(stem, '.');
     size_t length = dot && dot != stem ? (size_t)(dot - stem) : strlen(stem);
-    if (strcmp(scene, "-") == 0 || strspn(stem, ".") >= length) stem = "scene", length = strlen(stem);
+    if (strcmp(scene, "-") == 0 || strspn(stem, ".") >= length) {
+        stem = "scene";
+        length = strlen(stem);
+    }
     const size_t size = sizeof "results/" + length + strlen(more);
     char *path = malloc(size);
     if (path) snprintf(path, size, "results/%.*s%s", (int)length, stem, more);
     return path;
 }
 
-/* Say whether files are of two runs; they stay until what wrote them is run again. False after an error. */
+/* Say whether files are of two runs; they stay until what wrote them is run again. False after an
+ * error. */
 static bool tell_mixed(const char *directory, CpsError *err) {
     char missing[CPS_RESULT_NAME];
     if (cps_results_missing(directory, missing, err) != CPS_OK) return false;
     if (*missing)
-        cli_printf(stderr, "capstan: the files in %s are not all of one run: putting them in place was interrupted, and %s is missing; the same "
-                           "command once more replaces them\n", directory, missing);
+        cli_printf(stderr,
+                   "capstan: the files in %s are not all of one run: putting them in place was "
+                   "interrupted, and %s is missing; the same command once more replaces them\n",
+                   directory, missing);
     return true;
 }
 
 char *cli_destination(const CliOptions *options, const char *more, int *code) {
-    char *directory = options->output ? strdup(options->output) : default_directory(options->operand, more);
+    char *directory =
+        options->output ? strdup(options->output) : default_directory(options->operand, more);
     CpsError err;
     *code = EXIT_LIMIT;
     if (!directory) {
@@ -44,9 +51,11 @@ char *cli_destination(const CliOptions *options, const char *more, int *code) {
     }
     /* the directory itself is made by the library; its parent only where it is ours */
     if (!options->output && mkdir("results", 0777) != 0 && errno != EEXIST) {
-        fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n", strerror(errno));
+        fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n",
+                strerror(errno));
         *code = EXIT_IO;
-    } else if (cps_results_prepare(directory, options->overwrite, &err) != CPS_OK || !tell_mixed(directory, &err)) {
+    } else if (cps_results_prepare(directory, options->overwrite, &err) != CPS_OK ||
+               !tell_mixed(directory, &err)) {
         *code = cli_report(&err);
     } else {
         return directory;

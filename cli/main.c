@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan: the command line. Finds the command, answers --help and --version, turns errors into exit codes. */
+/* capstan: the command line. Finds the command, answers --help and --version, turns errors into
+ * exit codes. */
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -22,30 +23,38 @@ typedef struct Command {
 
 static const Command COMMANDS[] = {
     {"run", cmd_run, FOR_RUN, "SCENE.yaml", "solve a scene and write its results and pictures"},
-    {"check", cmd_check, FOR_CHECK, "SCENE.yaml", "read a scene and say what is in it, or what is wrong with it"},
-    {"law", cmd_law, FOR_LAW, "LAW.yaml", "forces and velocities of a friction law, with a picture"},
-    {"drive", cmd_drive, FOR_DRIVE, "DRIVE.yaml", "driven systems: bodies, vehicles, ropes, planimeters; least dissipation"},
-    {"study", cmd_study, FOR_STUDY, "SCENE.yaml", "a step by the method of 1990: its four limits, and first order"},
-    {"schema", cmd_schema, FOR_SCHEMA, "[scene|law|drive]", "print the JSON schema of scenes, laws or driven systems (for editors)"},
+    {"check", cmd_check, FOR_CHECK, "SCENE.yaml",
+     "read a scene and say what is in it, or what is wrong with it"},
+    {"law", cmd_law, FOR_LAW, "LAW.yaml",
+     "forces and velocities of a friction law, with a picture"},
+    {"drive", cmd_drive, FOR_DRIVE, "DRIVE.yaml",
+     "driven systems: bodies, vehicles, ropes, planimeters; least dissipation"},
+    {"study", cmd_study, FOR_STUDY, "SCENE.yaml",
+     "a step by the method of 1990: its four limits, and first order"},
+    {"schema", cmd_schema, FOR_SCHEMA, "[scene|law|drive]",
+     "print the JSON schema of scenes, laws or driven systems (for editors)"},
 };
 enum { COMMAND_COUNT = sizeof COMMANDS / sizeof COMMANDS[0] };
 
 static void print_help(FILE *out, const Command *command) {
     if (command) {
-        fprintf(out, "usage: capstan %s [options] %s\n\n%s\n\noptions:\n", command->name, command->operand,
-                command->help);
+        fprintf(out, "usage: capstan %s [options] %s\n\n%s\n\noptions:\n", command->name,
+                command->operand, command->help);
         cli_print_options(out, command->options);
     } else {
         fprintf(out, "usage: capstan COMMAND [options] [FILE.yaml]\n\n"
-                     "Ropes, cables and mooring lines with exact dry friction, every answer certified.\n\ncommands:\n");
-        for (int i = 0; i < COMMAND_COUNT; i++) fprintf(out, "  %-8s %s\n", COMMANDS[i].name, COMMANDS[i].help);
+                     "Ropes, cables and mooring lines with exact dry friction, every answer "
+                     "certified.\n\ncommands:\n");
+        for (int i = 0; i < COMMAND_COUNT; i++)
+            fprintf(out, "  %-8s %s\n", COMMANDS[i].name, COMMANDS[i].help);
         fprintf(out, "\noptions:\n");
         cli_print_options(out, FOR_ALL);
     }
-    fprintf(out,
-            "\nA file named '-' is read from standard input.\n"
-            "Exit codes: 0 done and certified, 1 not certified, 2 usage, 3 bad file, 4 file cannot be read or\n"
-            "written, 5 no solution (with proof), 6 out of memory or over a limit, 130/143 stopped by a signal.\n");
+    fprintf(out, "\nA file named '-' is read from standard input.\n"
+                 "Exit codes: 0 done and certified, 1 not certified, 2 usage, 3 bad file, 4 file "
+                 "cannot be read or\n"
+                 "written, 5 no solution (with proof), 6 out of memory or over a limit, 130/143 "
+                 "stopped by a signal.\n");
 }
 
 static void print_version(void) {
@@ -61,16 +70,12 @@ int cli_report(const CpsError *err) {
     cli_put_text(stderr, err->message, INT_MAX, false);
     fputc('\n', stderr);
     switch (err->status) {
-    case CPS_OK:
-        return EXIT_OK;
+    case CPS_OK: return EXIT_OK;
     case CPS_ERR_ARGUMENT:
-    case CPS_ERR_INPUT:
-        return EXIT_INPUT;
-    case CPS_ERR_IO:
-        return EXIT_IO;
+    case CPS_ERR_INPUT: return EXIT_INPUT;
+    case CPS_ERR_IO: return EXIT_IO;
     case CPS_ERR_MEMORY:
-    case CPS_ERR_LIMIT:
-        return EXIT_LIMIT;
+    case CPS_ERR_LIMIT: return EXIT_LIMIT;
     }
     return EXIT_INPUT;
 }
@@ -83,7 +88,10 @@ static int unknown_command(const char *given) {
     int shared = 0;
     for (int i = 0; i < COMMAND_COUNT; i++) {
         int n = cli_common_prefix(given, COMMANDS[i].name);
-        if (n > shared) shared = n, best = &COMMANDS[i];
+        if (n > shared) {
+            shared = n;
+            best = &COMMANDS[i];
+        }
     }
     if (best) fprintf(stderr, "; did you mean '%s'?", best->name);
     fprintf(stderr, "\nTry 'capstan --help'.\n");
@@ -96,15 +104,21 @@ static int run_command(int argc, char **argv) {
         if (strcmp(argv[0], command->name) != 0) continue;
         CliOptions options;
         if (!cli_parse(argc, argv, command->options, command->operand, &options)) return EXIT_USAGE;
-        if (options.help) return print_help(stdout, command), EXIT_OK;
-        if (options.version) return print_version(), EXIT_OK;
+        if (options.help) {
+            print_help(stdout, command);
+            return EXIT_OK;
+        }
+        if (options.version) {
+            print_version();
+            return EXIT_OK;
+        }
         return command->call(argc, argv);
     }
     return unknown_command(argv[0]);
 }
 
-/* Standard input, output and errors are open: a file opened while one is closed would take its number, and what is printed would go
- * into it. */
+/* Standard input, output and errors are open: a file opened while one is closed would take its
+ * number, and what is printed would go into it. */
 static bool hold_standard_streams(void) {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
         if (fcntl(fd, F_GETFD) != -1 || errno != EBADF) continue;

@@ -11,7 +11,8 @@ typedef struct Option {
     char letter;          /* -l, 0: none */
     const char *argument; /* name of its argument in the help, NULL: none */
     unsigned commands;    /* FOR_ bits */
-    size_t field;         /* of CliOptions: bool without argument, const char * with one, CliList if repeated */
+    size_t field;         /* of CliOptions: bool without argument, const char * with one, CliList if
+                             repeated */
     bool repeated;
     const char *help;
 } Option;
@@ -19,18 +20,21 @@ typedef struct Option {
 static const Option OPTIONS[] = {
     {"output", 'o', "DIR", FOR_RUN | FOR_STUDY, offsetof(CliOptions, output), false,
      "directory of the results (default: results/SCENE, of a study SCENE-study)"},
-    {"json", 0, NULL, FOR_RUN | FOR_LAW | FOR_DRIVE, offsetof(CliOptions, json), false, "print one JSON object on standard output"},
+    {"json", 0, NULL, FOR_RUN | FOR_LAW | FOR_DRIVE, offsetof(CliOptions, json), false,
+     "print one JSON object on standard output"},
     {"tol", 't', "TOL", FOR_RUN, offsetof(CliOptions, tol), false,
      "path tolerance: cut steps until halves agree (0: steps as given)"},
     {"resume", 'r', NULL, FOR_RUN, offsetof(CliOptions, resume), false,
      "go on where a run into the same directory was stopped or killed"},
     {"force", 0, NULL, FOR_RUN | FOR_STUDY, offsetof(CliOptions, overwrite), false,
      "write into a directory that is not capstan's, or begin a run anew where one was interrupted"},
-    {"no-paraview", 0, NULL, FOR_RUN, offsetof(CliOptions, no_paraview), false, "write no .vtp and .pvd files"},
+    {"no-paraview", 0, NULL, FOR_RUN, offsetof(CliOptions, no_paraview), false,
+     "write no .vtp and .pvd files"},
     {"fields", 0, "NAME,..", FOR_RUN, offsetof(CliOptions, fields), false,
      "fields along the lines in result.nc, or none (default: all, which the checker needs)"},
     {"sync", 0, "WHEN", FOR_RUN, offsetof(CliOptions, sync), false,
-     "step (default): wait for the disk after each step; end: once, faster, and a power cut may take the run"},
+     "step (default): wait for the disk after each step; end: once, faster, and a power cut may "
+     "take the run"},
     {"method", 'm', "NAME", FOR_RUN, offsetof(CliOptions, method), false,
      "exact (default), or regularized: the method of 1990, without certificate"},
     {"velocity", 'v', "V,..", FOR_LAW | FOR_DRIVE, offsetof(CliOptions, velocity), true,
@@ -39,27 +43,36 @@ static const Option OPTIONS[] = {
      "velocities of the law (drive: the reduced one) at F; - reads CSV"},
     {"plot", 'p', "FILE.svg", FOR_LAW | FOR_DRIVE, offsetof(CliOptions, plot), false,
      "draw the law, or the driven system, with what was asked"},
-    {"axes", 0, "I,J", FOR_LAW | FOR_DRIVE, offsetof(CliOptions, axes), false, "components drawn by --plot (default: 1,2)"},
-    {"history", 0, NULL, FOR_STUDY, offsetof(CliOptions, history), false, "all steps by three methods side by side, instead of one"},
+    {"axes", 0, "I,J", FOR_LAW | FOR_DRIVE, offsetof(CliOptions, axes), false,
+     "components drawn by --plot (default: 1,2)"},
+    {"history", 0, NULL, FOR_STUDY, offsetof(CliOptions, history), false,
+     "all steps by three methods side by side, instead of one"},
     {"complete", 'c', "SHAPE", FOR_STUDY, offsetof(CliOptions, complete), false,
      "lay the slack of the step out, so that |x'| = 1: shortest, straight or meander"},
     {"judge", 'j', "FILE.csv", FOR_STUDY, offsetof(CliOptions, judge), false,
      "is this configuration a solution of the step, and if not, why"},
     {"tolerance", 0, "TOL", FOR_STUDY, offsetof(CliOptions, tolerance), false,
-     "with which configurations are judged: gaps up to TOL times their scale are none (default: 1e-8)"},
-    {"h", 0, "H", FOR_STUDY, offsetof(CliOptions, h), false, "length of the finest cells of the method of 1990, m (default: a quarter of an element)"},
+     "with which configurations are judged: gaps up to TOL times their scale are none (default: "
+     "1e-8)"},
+    {"h", 0, "H", FOR_STUDY, offsetof(CliOptions, h), false,
+     "length of the finest cells of the method of 1990, m (default: a quarter of an element)"},
     {"lambda", 0, "LAMBDA", FOR_RUN | FOR_STUDY, offsetof(CliOptions, lambda), false,
      "its penalty for contact, N/m2; the study ends there (default: sinks 1e-7 of the length)"},
     {"n", 0, "N", FOR_RUN | FOR_STUDY, offsetof(CliOptions, n), false,
      "its vanishing stiffness is 1/N, 1/(N m2); inf: none, P5.1 (default: 4e8 on example 5.7)"},
-    {"delta", 0, "DELTA", FOR_RUN | FOR_STUDY, offsetof(CliOptions, delta), false, "its smoothing of friction, m (default: 3e-9 of the length)"},
-    {"step", 's', "NAME", FOR_STUDY, offsetof(CliOptions, step), false, "the step to study, by its name or its number from 1 (default: the first)"},
-    {"line", 'l', "NAME", FOR_STUDY, offsetof(CliOptions, line), false, "the line to study (default: the first)"},
+    {"delta", 0, "DELTA", FOR_RUN | FOR_STUDY, offsetof(CliOptions, delta), false,
+     "its smoothing of friction, m (default: 3e-9 of the length)"},
+    {"step", 's', "NAME", FOR_STUDY, offsetof(CliOptions, step), false,
+     "the step to study, by its name or its number from 1 (default: the first)"},
+    {"line", 'l', "NAME", FOR_STUDY, offsetof(CliOptions, line), false,
+     "the line to study (default: the first)"},
     {"eliminate", 'e', NULL, FOR_DRIVE, offsetof(CliOptions, eliminate), false,
      "the law between driving velocity and resistance, all else eliminated"},
-    {"quiet", 'q', NULL, FOR_RUN | FOR_STUDY | FOR_DRIVE, offsetof(CliOptions, quiet), false, "no progress, no table; only errors"},
+    {"quiet", 'q', NULL, FOR_RUN | FOR_STUDY | FOR_DRIVE, offsetof(CliOptions, quiet), false,
+     "no progress, no table; only errors"},
     {"help", 'h', NULL, FOR_ALL, offsetof(CliOptions, help), false, "show this help"},
-    {"version", 'V', NULL, FOR_ALL, offsetof(CliOptions, version), false, "show version, commit and build flags"},
+    {"version", 'V', NULL, FOR_ALL, offsetof(CliOptions, version), false,
+     "show version, commit and build flags"},
 };
 enum { OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0] };
 
@@ -74,8 +87,9 @@ void cli_print_options(FILE *out, unsigned commands) {
         const Option *o = &OPTIONS[i];
         if (!(o->commands & commands)) continue;
         char left[64];
-        snprintf(left, sizeof left, "%c%c%s --%s%s%s", o->letter ? '-' : ' ', o->letter ? o->letter : ' ',
-                 o->letter ? "," : " ", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
+        snprintf(left, sizeof left, "%c%c%s --%s%s%s", o->letter ? '-' : ' ',
+                 o->letter ? o->letter : ' ', o->letter ? "," : " ", o->name,
+                 o->argument ? " " : "", o->argument ? o->argument : "");
         fprintf(out, "  %-20s %s\n", left, o->help);
     }
 }
@@ -84,14 +98,17 @@ void cli_print_options(FILE *out, unsigned commands) {
 static const Option *find_option(unsigned command, const char *name, size_t n, char letter) {
     for (int i = 0; i < OPTION_COUNT; i++) {
         const Option *o = &OPTIONS[i];
-        bool same = letter ? o->letter == letter : strlen(o->name) == n && memcmp(o->name, name, n) == 0;
+        bool same =
+            letter ? o->letter == letter : strlen(o->name) == n && memcmp(o->name, name, n) == 0;
         if ((o->commands & command) && same) return o;
     }
     return NULL;
 }
 
 /* "capstan check: ", or "capstan: " before any command (an empty name) */
-static void begin_message(const char *command) { fprintf(stderr, "capstan%s%s: ", *command ? " " : "", command); }
+static void begin_message(const char *command) {
+    fprintf(stderr, "capstan%s%s: ", *command ? " " : "", command);
+}
 
 static bool end_message(const char *command) {
     fprintf(stderr, "\nTry 'capstan%s%s --help'.\n", *command ? " " : "", command);
@@ -105,7 +122,10 @@ static bool unknown_option(const char *command_name, unsigned command, const cha
     int shared = 0;
     for (int i = 0; i < OPTION_COUNT && given[1] == '-'; i++) {
         int n = cli_common_prefix(given + 2, OPTIONS[i].name);
-        if ((OPTIONS[i].commands & command) && n > shared) shared = n, best = &OPTIONS[i];
+        if ((OPTIONS[i].commands & command) && n > shared) {
+            shared = n;
+            best = &OPTIONS[i];
+        }
     }
     if (best) fprintf(stderr, "; did you mean '--%s'?", best->name);
     return end_message(command_name);
@@ -145,7 +165,8 @@ static bool take_option(int argc, char **argv, int *i, unsigned command, CliOpti
     CliList *list = (CliList *)(void *)field;
     if (list->count == CLI_LIST_MOST) {
         begin_message(argv[0]);
-        fprintf(stderr, "'--%s' is given more than %d times: use CSV on standard input", o->name, (int)CLI_LIST_MOST);
+        fprintf(stderr, "'--%s' is given more than %d times: use CSV on standard input", o->name,
+                (int)CLI_LIST_MOST);
         return end_message(argv[0]);
     }
     list->item[list->count++] = value;
@@ -171,7 +192,8 @@ bool cli_parse(int argc, char **argv, unsigned command, const char *operand, Cli
     }
     if (operand && operand[0] != '[' && !out->operand && !out->help && !out->version) {
         begin_message(argv[0]);
-        fprintf(stderr, "no file given: capstan %s %s ('-' reads standard input)", argv[0], operand);
+        fprintf(stderr, "no file given: capstan %s %s ('-' reads standard input)", argv[0],
+                operand);
         return end_message(argv[0]);
     }
     return true;

@@ -18,19 +18,23 @@ bool law_plot_axes(const char *text, int n, int axis[2]) {
         axis[0] = axis[1] = 0;
         return true;
     }
-    axis[0] = 1, axis[1] = 2;
+    axis[0] = 1;
+    axis[1] = 2;
     if (text && sscanf(text, "%4d,%4d%c", &axis[0], &axis[1], &end) != 2) return false;
-    axis[0]--, axis[1]--;
+    axis[0]--;
+    axis[1]--;
     return axis[0] >= 0 && axis[0] < n && axis[1] >= 0 && axis[1] < n && axis[0] != axis[1];
 }
 
 static int cannot_write(const char *path, int code) {
-    cli_printf(stderr, "capstan: %s: cannot write: %s\n", path, code ? strerror(code) : "the write failed");
+    cli_printf(stderr, "capstan: %s: cannot write: %s\n", path,
+               code ? strerror(code) : "the write failed");
     return EXIT_IO;
 }
 
 /* Draw into an open file and close it; *code: why it could not be written, 0 if it could. */
-static CpsStatus draw_and_close(PlotDraw *draw, void *user, int fd, bool sync, int *code, CpsError *err) {
+static CpsStatus draw_and_close(PlotDraw *draw, void *user, int fd, bool sync, int *code,
+                                CpsError *err) {
     *code = 0;
     FILE *out = fdopen(fd, "w");
     if (!out) {
@@ -51,7 +55,8 @@ static char *name_beside(const char *path) {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const size_t room = strlen(path) + 40;
     char *beside = malloc(room);
-    if (beside) snprintf(beside, room, "%.*s.%s.%ld.part", (int)(name - path), path, name, (long)getpid());
+    if (beside)
+        snprintf(beside, room, "%.*s.%s.%ld.part", (int)(name - path), path, name, (long)getpid());
     return beside;
 }
 
@@ -106,7 +111,8 @@ static CpsStatus draw_law(void *user, FILE *out, CpsError *err) {
     return cps_law_draw(drawing->set, drawing->picture, out, err);
 }
 
-int law_plot(const CpsSet *set, const CpsResistance *resistance, const CpsLawPicture *picture, const char *path) {
+int law_plot(const CpsSet *set, const CpsResistance *resistance, const CpsLawPicture *picture,
+             const char *path) {
     LawDrawing drawing = {set, resistance, picture};
     return cli_plot(draw_law, &drawing, path);
 }

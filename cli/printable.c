@@ -34,6 +34,9 @@ void cli_printf(FILE *out, const char *format, ...) {
         const bool more = *end == '\n';
         *end = '\0';
         cli_put_text(out, line, INT_MAX, false);
-        if (more) fputc('\n', out), end++;
+        if (more) {
+            fputc('\n', out);
+            end++;
+        }
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Text that does not come from the program: names and titles of files, arguments. Control characters are replaced, so that none of it
- * can steer a terminal. */
+/* Text that does not come from the program: names and titles of files, arguments. Control
+ * characters are replaced, so that none of it can steer a terminal. */
 #ifndef CAPSTAN_CLI_PRINTABLE_H
 #define CAPSTAN_CLI_PRINTABLE_H
 

@@ -31,7 +31,10 @@ bool cli_is_shown(const CpsScene *scene, int steps, int index) {
 }
 
 Progress progress_begin(int steps, bool quiet) {
-    return (Progress){.quiet = quiet, .terminal = isatty(STDERR_FILENO) == 1, .steps = steps, .begun = cli_now()};
+    return (Progress){.quiet = quiet,
+                      .terminal = isatty(STDERR_FILENO) == 1,
+                      .steps = steps,
+                      .begun = cli_now()};
 }
 
 static void draw_bar(const Progress *progress, int done, const char *name, double elapsed) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far a run has come: a bar on a terminal, a line per tenth elsewhere, nothing when quiet. All on standard
- * error. */
+/* How far a run has come: a bar on a terminal, a line per tenth elsewhere, nothing when quiet. All
+ * on standard error. */
 #ifndef CAPSTAN_CLI_PROGRESS_H
 #define CAPSTAN_CLI_PROGRESS_H
 
@@ -19,8 +19,8 @@ typedef struct Progress {
 /* Monotonic time [s]. */
 double cli_now(void);
 
-/* Is step `index` of `steps` a row of the table? A long history is shown by its first step and the last ones of its
- * stages. */
+/* Is step `index` of `steps` a row of the table? A long history is shown by its first step and the
+ * last ones of its stages. */
 bool cli_is_shown(const CpsScene *scene, int steps, int index);
 
 Progress progress_begin(int steps, bool quiet);

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stopping at a good place: the first SIGINT or SIGTERM is remembered, the second ends the program at once. */
+/* Stopping at a good place: the first SIGINT or SIGTERM is remembered, the second ends the program
+ * at once. */
 #ifndef CAPSTAN_CLI_SIGNALS_H
 #define CAPSTAN_CLI_SIGNALS_H
 
-/* From here on. A file over the size limit then shows as a write error, and is cleaned up like one. */
+/* From here on. A file over the size limit then shows as a write error, and is cleaned up like
+ * one. */
 void cli_catch_signals(void);
 
 /* The signal that asked to stop, 0: none. 128 more is the exit code. */

@@ -21,10 +21,12 @@ typedef struct Trail {
 
 /* ---- the law ---- */
 
-/* What a body is like: forces at unit motions, and how far the exact limit surface lies inside the ellipsoid. */
+/* What a body is like: forces at unit motions, and how far the exact limit surface lies inside the
+ * ellipsoid. */
 typedef struct Facts {
     double load, fx, fy, torque, torque_lower, torque_upper, cells;
-    double ellipsoid, ratio; /* least length of the exact surface along a ray in (Fx, M), and vx/(w torque/fx) there */
+    double ellipsoid, ratio; /* least length of the exact surface along a ray in (Fx, M), and vx/(w
+                                torque/fx) there */
 } Facts;
 
 /* length of the exact surface's point at a motion (cos a, 0, sin a), as a share of the ellipsoid */
@@ -44,7 +46,10 @@ static void find_ellipsoid(const CpsPlanar *body, Facts *f) {
     double least = INFINITY;
     for (int i = 1; i < 200; i++) {
         const double share = share_of_ellipsoid(body, f, quarter * i / 200);
-        if (share < least) least = share, best = i;
+        if (share < least) {
+            least = share;
+            best = i;
+        }
     }
     double low = quarter * (best - 1) / 200, high = quarter * (best + 1) / 200;
     for (int i = 0; i < 60; i++) {
@@ -68,12 +73,15 @@ static bool ask_facts(DriveRun *run, Facts *f) {
     for (int i = 0; i < b->patches; i++) f->load += b->patch[i].load;
     for (int k = 0; k < 3; k++) {
         const double twist[3] = {k == 0, k == 1, k == 2};
-        if (cps_planar_dissipation(b->planar, twist, NULL, NULL, &answer, &run->err) != CPS_OK) return false;
+        if (cps_planar_dissipation(b->planar, twist, NULL, NULL, &answer, &run->err) != CPS_OK)
+            return false;
         *to[k] = answer.value;
     }
     const double turn[3] = {0, 0, 1};
     if (cps_planar_bounds(b->planar, turn, 1e-5, &bounds, &run->err) != CPS_OK) return false;
-    f->torque_lower = bounds.lower, f->torque_upper = bounds.upper, f->cells = bounds.cells;
+    f->torque_lower = bounds.lower;
+    f->torque_upper = bounds.upper;
+    f->cells = bounds.cells;
     if (f->fx > 0 && f->torque > 0) find_ellipsoid(b->planar, f);
     return true;
 }
@@ -85,9 +93,13 @@ static bool tell_body(DriveRun *run) {
     if (run->json) {
         printf(", \"patches\": %d", b->patches);
         drive_json("load_N", f.load);
-        drive_json("force_x_N", f.fx), drive_json("force_y_N", f.fy), drive_json("torque_Nm", f.torque);
-        drive_json("torque_lower_Nm", f.torque_lower), drive_json("torque_upper_Nm", f.torque_upper);
-        drive_json("ellipsoid_share", f.ellipsoid), drive_json("ellipsoid_at", f.ratio);
+        drive_json("force_x_N", f.fx);
+        drive_json("force_y_N", f.fy);
+        drive_json("torque_Nm", f.torque);
+        drive_json("torque_lower_Nm", f.torque_lower);
+        drive_json("torque_upper_Nm", f.torque_upper);
+        drive_json("ellipsoid_share", f.ellipsoid);
+        drive_json("ellipsoid_at", f.ratio);
         return true;
     }
     printf("%s on %d %s%s, %.6g N in all\n", b->vehicle ? "vehicle" : "body", b->patches,
@@ -96,34 +108,39 @@ static bool tell_body(DriveRun *run) {
            : b->vehicle    ? "s"
                            : "es",
            f.load);
-    printf("friction when it slides along x: %.10g N; along y: %.10g N; when it turns: %.10g N m\n", f.fx, f.fy,
-           f.torque);
-    printf("  the last, proved by sums over cells (%.3g): from %.10g to %.10g N m\n", f.cells, f.torque_lower,
-           f.torque_upper);
+    printf("friction when it slides along x: %.10g N; along y: %.10g N; when it turns: %.10g N m\n",
+           f.fx, f.fy, f.torque);
+    printf("  the last, proved by sums over cells (%.3g): from %.10g to %.10g N m\n", f.cells,
+           f.torque_lower, f.torque_upper);
     if (f.ellipsoid < 1 - 1e-9)
-        printf("limit surface in (Fx, M), seen along Fy: as little as %.8g of the ellipsoid through its axes\n"
+        printf("limit surface in (Fx, M), seen along Fy: as little as %.8g of the ellipsoid "
+               "through its axes\n"
                "  along one ray (%.3g %% off), where vx/w = %.4g m\n",
                f.ellipsoid, 100 * (1 - f.ellipsoid), f.ratio * f.torque / f.fx);
     else if (isfinite(f.ellipsoid))
-        puts("limit surface in (Fx, M), seen along Fy: nowhere inside the ellipsoid through its axes");
+        puts("limit surface in (Fx, M), seen along Fy: nowhere inside the ellipsoid through its "
+             "axes");
     return true;
 }
 
 /* ---- pushes ---- */
 
-static void print_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const double low[3], const double high[3]) {
+static void print_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const double low[3],
+                       const double high[3]) {
     static const char *const NAME[] = {"vx", "vy", "w"};
     if (m->outcome == CPS_SET_NOT_ATTAINED) {
         printf("  no motion: %s\n", cps_set_outcome_sentence(m->outcome));
         return;
     }
-    printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", m->upper + 0.0, m->upper - m->lower);
+    printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", m->upper + 0.0,
+           m->upper - m->lower);
     fputs("  twist (vx, vy, w) = ", stdout);
     law_print_vector(3, m->twist);
     if (hypot(m->center[0], m->center[1]) < 1e9) /* m; else it does not turn */
         printf(", turns about (%.10g, %.10g)", m->center[0] + 0.0, m->center[1] + 0.0);
     puts("");
-    /* motions that dissipate 1e-9 more than the least are as far apart as its root where they are unique */
+    /* motions that dissipate 1e-9 more than the least are as far apart as its root where they are
+     * unique */
     const double width = 1e-3 * (fabs(m->twist[0]) + fabs(m->twist[1]) + fabs(m->twist[2]));
     for (int k = 0; k < 3; k++)
         if (high[k] - low[k] > width)
@@ -135,13 +152,18 @@ static void print_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const
     puts("");
 }
 
-static void json_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const double low[3], const double high[3]) {
+static void json_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const double low[3],
+                      const double high[3]) {
     printf("{\"outcome\": \"%s\"", cps_set_outcome_name(m->outcome));
     drive_json_list("velocity", push->rows, push->velocity);
-    drive_json("lower_W", m->lower), drive_json("upper_W", m->upper);
-    drive_json_list("twist", 3, m->twist), drive_json_list("wrench", 3, m->wrench);
-    drive_json_list("drive", push->rows, m->drive), drive_json_list("center", 2, m->center);
-    drive_json_list("low", 3, low), drive_json_list("high", 3, high);
+    drive_json("lower_W", m->lower);
+    drive_json("upper_W", m->upper);
+    drive_json_list("twist", 3, m->twist);
+    drive_json_list("wrench", 3, m->wrench);
+    drive_json_list("drive", push->rows, m->drive);
+    drive_json_list("center", 2, m->center);
+    drive_json_list("low", 3, low);
+    drive_json_list("high", 3, high);
     putchar('}');
 }
 
@@ -150,8 +172,10 @@ static bool tell_push(DriveRun *run, int i) {
     const CpsDrivePush *push = &b->push[i];
     CpsPlanarMotion m;
     double low[3], high[3];
-    if (cps_planar_drive(b->planar, push->rows, push->map, push->velocity, &m, &run->err) != CPS_OK ||
-        cps_planar_motions(b->planar, push->rows, push->map, push->velocity, 0, low, high, &run->err) != CPS_OK)
+    if (cps_planar_drive(b->planar, push->rows, push->map, push->velocity, &m, &run->err) !=
+            CPS_OK ||
+        cps_planar_motions(b->planar, push->rows, push->map, push->velocity, 0, low, high,
+                           &run->err) != CPS_OK)
         return false;
     run->answered = run->answered && m.outcome == CPS_SET_ANSWERED;
     if (run->json) {
@@ -160,8 +184,14 @@ static bool tell_push(DriveRun *run, int i) {
         return true;
     }
     printf("push %d", i + 1);
-    if (push->at_point) fputs(" at ", stdout), law_print_vector(2, push->point);
-    fputs(push->rows == 1 ? " at normal speed " : push->rows == 2 ? " with velocity " : " with twist ", stdout);
+    if (push->at_point) {
+        fputs(" at ", stdout);
+        law_print_vector(2, push->point);
+    }
+    fputs(push->rows == 1   ? " at normal speed "
+          : push->rows == 2 ? " with velocity "
+                            : " with twist ",
+          stdout);
     law_print_vector(push->rows, push->velocity);
     puts("");
     print_push(push, &m, low, high);
@@ -191,11 +221,13 @@ static bool go(DriveRun *run, Trail *t) {
     memcpy(t->pose, t->tow.pose, sizeof t->tow.pose);
     bool good = true;
     for (int i = 1; i < t->count && good; i++) {
-        good = cps_planar_tow(run->file->body.planar, &t->tow, t->end + 2 * (size_t)i, &t->last, &run->err) == CPS_OK;
+        good = cps_planar_tow(run->file->body.planar, &t->tow, t->end + 2 * (size_t)i, &t->last,
+                              &run->err) == CPS_OK;
         if (good && t->last.outcome != CPS_SET_ANSWERED) t->inaccurate++;
         if (good && t->last.pulled) {
             t->unsettled += !t->last.settled;
-            t->lower += t->last.lower, t->upper += t->last.upper;
+            t->lower += t->last.lower;
+            t->upper += t->last.upper;
         }
         t->slack += good && !t->last.pulled;
         memcpy(t->pose + 3 * (size_t)i, t->tow.pose, sizeof t->tow.pose);
@@ -210,10 +242,13 @@ static void tell_tow(DriveRun *run, const Trail *t) {
     run->answered = run->answered && t->inaccurate == 0;
     if (run->json) {
         printf(", \"tow\": {\"steps\": %d", t->count - 1);
-        drive_json("work_J", t->tow.work), drive_json("dissipated_J", t->tow.dissipated);
-        drive_json("lower_J", t->lower), drive_json("upper_J", t->upper);
+        drive_json("work_J", t->tow.work);
+        drive_json("dissipated_J", t->tow.dissipated);
+        drive_json("lower_J", t->lower);
+        drive_json("upper_J", t->upper);
         drive_json("turning_radius_m", radius);
-        printf(", \"unsettled\": %d, \"slack\": %d, \"inaccurate\": %d", t->unsettled, t->slack, t->inaccurate);
+        printf(", \"unsettled\": %d, \"slack\": %d, \"inaccurate\": %d", t->unsettled, t->slack,
+               t->inaccurate);
         drive_json_rows("pose", 3, t->count, t->pose);
         drive_json_rows("end", 2, t->count, t->end);
         putchar('}');
@@ -221,13 +256,17 @@ static void tell_tow(DriveRun *run, const Trail *t) {
     }
     printf("tow in %d steps: ends at (x, y, angle) = ", t->count - 1);
     law_print_vector(3, t->tow.pose);
-    printf("\n  dissipated %.10g J (bounds of each step together %.2g J apart), work %.10g J\n", t->tow.dissipated,
-           t->upper - t->lower, t->tow.work);
-    if (isfinite(radius)) printf("  the hitch turns on a radius of %.8g m in the last step\n", radius);
-    if (t->slack) printf("  nothing moved in %d steps: the rope was slack, or its end rested\n", t->slack);
+    printf("\n  dissipated %.10g J (bounds of each step together %.2g J apart), work %.10g J\n",
+           t->tow.dissipated, t->upper - t->lower, t->tow.work);
+    if (isfinite(radius))
+        printf("  the hitch turns on a radius of %.8g m in the last step\n", radius);
+    if (t->slack)
+        printf("  nothing moved in %d steps: the rope was slack, or its end rested\n", t->slack);
     if (t->unsettled)
-        printf("  note: %d steps did not settle: the motion jumps with the orientation there\n", t->unsettled);
-    if (t->inaccurate) printf("  note: %d steps have no certified motion; shorten them\n", t->inaccurate);
+        printf("  note: %d steps did not settle: the motion jumps with the orientation there\n",
+               t->unsettled);
+    if (t->inaccurate)
+        printf("  note: %d steps have no certified motion; shorten them\n", t->inaccurate);
 }
 
 /* ---- together ---- */

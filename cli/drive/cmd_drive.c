@@ -11,11 +11,12 @@ static const char *const KIND[] = {"system", "body", "planimeter", "rope", "swee
 
 /* what goes with other kinds of file only */
 static int check_options(const CliOptions *options, CpsDriveKind kind) {
-    const bool asked = options->velocity.count > 0 || options->force.count > 0 || options->eliminate;
+    const bool asked =
+        options->velocity.count > 0 || options->force.count > 0 || options->eliminate;
     if (asked && kind != CPS_DRIVE_SYSTEM) {
         fprintf(stderr,
-                "capstan drive: --velocity, --force and --eliminate go with 'system'; found '%s', which says in the "
-                "file how it is driven\n",
+                "capstan drive: --velocity, --force and --eliminate go with 'system'; found '%s', "
+                "which says in the file how it is driven\n",
                 KIND[kind]);
         return EXIT_USAGE;
     }
@@ -31,10 +32,12 @@ static int check_options(const CliOptions *options, CpsDriveKind kind) {
 }
 
 static int answer(DriveRun *run) {
-    static int (*const ANSWER[])(DriveRun *) = {drive_answer_system, drive_answer_body, drive_answer_planimeter,
-                                                drive_answer_rope, drive_answer_sweep};
+    static int (*const ANSWER[])(DriveRun *) = {drive_answer_system, drive_answer_body,
+                                                drive_answer_planimeter, drive_answer_rope,
+                                                drive_answer_sweep};
     const CpsDriveFile *file = run->file;
-    const char *kind = file->kind == CPS_DRIVE_BODY && file->body.vehicle ? "vehicle" : KIND[file->kind];
+    const char *kind =
+        file->kind == CPS_DRIVE_BODY && file->body.vehicle ? "vehicle" : KIND[file->kind];
     if (run->json) {
         fputs("{\"title\": ", stdout);
         cps_json_text(stdout, file->title);
@@ -55,7 +58,8 @@ int cmd_drive(int argc, char **argv) {
     DriveRun run = {.options = &options, .json = options.json, .answered = true};
     int code = law_query_check_input("drive", options.operand, &options.velocity, &options.force);
     if (code != EXIT_OK) return code;
-    if (cps_drive_read(options.operand, NULL, &file, &run.err) != CPS_OK) return cli_report(&run.err);
+    if (cps_drive_read(options.operand, NULL, &file, &run.err) != CPS_OK)
+        return cli_report(&run.err);
     run.file = file;
     code = check_options(&options, file->kind);
     if (code == EXIT_OK) code = answer(&run);

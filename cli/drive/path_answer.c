@@ -26,18 +26,23 @@ static void tell_reading(const DriveRun *run, const CpsPlanimeterReading *r) {
     const double error = r->area - r->exact;
     if (run->json) {
         printf(", \"points\": %d, \"steps\": %d", p->points, p->steps);
-        drive_json("area_m2", r->area), drive_json("exact_m2", r->exact), drive_json("error_m2", error);
-        drive_json("roll_m", r->roll), drive_json("side_slip_m", r->side_slip),
-            drive_json("dissipated_J", r->dissipated);
-        drive_json("pole_turns", r->pole_turns), drive_json("arm_turns", r->arm_turns);
+        drive_json("area_m2", r->area);
+        drive_json("exact_m2", r->exact);
+        drive_json("error_m2", error);
+        drive_json("roll_m", r->roll);
+        drive_json("side_slip_m", r->side_slip);
+        drive_json("dissipated_J", r->dissipated);
+        drive_json("pole_turns", r->pole_turns);
+        drive_json("arm_turns", r->arm_turns);
         return;
     }
-    printf("traced %d sides in %d step%s each, the pole %s\n", p->points, p->steps, p->steps == 1 ? "" : "s",
-           r->pole_turns != 0 ? "inside" : "outside");
-    printf("  wheel rolled %.10g m and slipped sideways %.6g m, which dissipated %.6g J\n", r->roll, r->side_slip,
-           r->dissipated);
-    printf("  area by the wheel  %.12g m2\n  area of the curve  %.12g m2\n  difference         %.3g m2", r->area,
-           r->exact, error);
+    printf("traced %d sides in %d step%s each, the pole %s\n", p->points, p->steps,
+           p->steps == 1 ? "" : "s", r->pole_turns != 0 ? "inside" : "outside");
+    printf("  wheel rolled %.10g m and slipped sideways %.6g m, which dissipated %.6g J\n", r->roll,
+           r->side_slip, r->dissipated);
+    printf("  area by the wheel  %.12g m2\n  area of the curve  %.12g m2\n  difference         "
+           "%.3g m2",
+           r->area, r->exact, error);
     if (r->exact != 0) printf(" (%.2g of it)", fabs(error / r->exact));
     puts("");
 }
@@ -45,7 +50,8 @@ static void tell_reading(const DriveRun *run, const CpsPlanimeterReading *r) {
 int drive_answer_planimeter(DriveRun *run) {
     const CpsDrivePlanimeter *p = &run->file->planimeter;
     CpsPlanimeterReading reading;
-    if (cps_planimeter_trace(&p->planimeter, p->points, p->point, p->steps, &reading, &run->err) != CPS_OK)
+    if (cps_planimeter_trace(&p->planimeter, p->points, p->point, p->steps, &reading, &run->err) !=
+        CPS_OK)
         return cli_report(&run->err);
     tell_reading(run, &reading);
     TraceDrawing drawing = {run->file, &reading};
@@ -73,10 +79,12 @@ static bool go(DriveRun *run, Sweep *s) {
         run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
         return false;
     }
-    s->position = s->end + (size_t)s->count * n, s->force = s->position + (size_t)s->count * n;
+    s->position = s->end + (size_t)s->count * n;
+    s->force = s->position + (size_t)s->count * n;
     cps_drive_walk(w->space, w->points, w->path, s->count, s->end);
     memcpy(s->position, s->state.position, n * sizeof *s->position);
-    for (size_t k = 0; k < n; k++) s->force[k] = s->state.stiffness * (s->state.position[k] - s->state.end[k]);
+    for (size_t k = 0; k < n; k++)
+        s->force[k] = s->state.stiffness * (s->state.position[k] - s->state.end[k]);
     Progress progress = progress_begin(w->steps, run->options->quiet || w->steps < 20000);
     bool good = true;
     for (size_t i = 1; i < (size_t)s->count && good; i++) {
@@ -98,7 +106,8 @@ static void tell_sweep(DriveRun *run, const Sweep *s) {
     run->answered = run->answered && s->inaccurate == 0;
     if (run->json) {
         printf(", \"components\": %d, \"steps\": %d", n, s->count - 1);
-        drive_json("work_J", s->state.work), drive_json("dissipated_J", s->state.dissipated);
+        drive_json("work_J", s->state.work);
+        drive_json("dissipated_J", s->state.dissipated);
         drive_json("stored_J", s->stored);
         printf(", \"inaccurate\": %d", s->inaccurate);
         drive_json_rows("end", n, s->count, s->end);
@@ -107,12 +116,13 @@ static void tell_sweep(DriveRun *run, const Sweep *s) {
         return;
     }
     const size_t last = (size_t)(s->count - 1) * (size_t)n;
-    printf("block on a spring, %d component%s, in %d steps: ends at ", n, n == 1 ? "" : "s", s->count - 1);
+    printf("block on a spring, %d component%s, in %d steps: ends at ", n, n == 1 ? "" : "s",
+           s->count - 1);
     law_print_vector(n, s->position + last);
     fputs(" m, force ", stdout);
     law_print_vector(n, s->force + last);
-    printf(" N\n  dissipated %.10g J, work of the moved end %.10g J, in the spring %.10g J\n", s->state.dissipated,
-           s->state.work, s->stored);
+    printf(" N\n  dissipated %.10g J, work of the moved end %.10g J, in the spring %.10g J\n",
+           s->state.dissipated, s->state.work, s->stored);
     if (s->inaccurate) printf("  note: %d steps are not certified\n", s->inaccurate);
 }
 
@@ -128,7 +138,8 @@ int drive_answer_sweep(DriveRun *run) {
         tell_sweep(run, &sweep);
     else
         code = cli_report(&run->err);
-    if (code == EXIT_OK && run->options->plot) code = cli_plot(draw_sweep, &sweep, run->options->plot);
+    if (code == EXIT_OK && run->options->plot)
+        code = cli_plot(draw_sweep, &sweep, run->options->plot);
     free(sweep.end);
     return code;
 }

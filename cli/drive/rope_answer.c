@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan drive: a rope on a table; the velocity field of least dissipation, then its motion along a path of end B,
- * step by step, as an inextensible line on a plane (scene.h). */
+/* capstan drive: a rope on a table; the velocity field of least dissipation, then its motion along
+ * a path of end B, step by step, as an inextensible line on a plane (scene.h). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +43,8 @@ static void measure(const RopeRun *r, double *length, double *sliding, double *t
         const double *x = rope->node + 2 * (size_t)i, l = hypot(x[2] - x[0], x[3] - x[1]);
         int slide = 0;
         for (int k = 0; k < 2; k++) slide += hypot(v[2 * (i + k)], v[2 * (i + k) + 1]) > rest;
-        *length += l, *sliding += 0.5 * slide * l;
+        *length += l;
+        *sliding += 0.5 * slide * l;
         *tension = fmax(*tension, -cps_motion_law_force(r->motion, rope->nodes + i)[0]);
     }
 }
@@ -53,8 +54,12 @@ static void json_rope(const RopeRun *r, double length, double sliding, double te
     const CpsMotionReport *p = cps_motion_report(r->motion);
     printf(", \"nodes\": %d", rope->nodes);
     drive_json_word("outcome", cps_motion_outcome_name(p->outcome));
-    drive_json("gamma_W", p->value), drive_json("lower_W", p->lower), drive_json("upper_W", p->upper);
-    drive_json("length_m", length), drive_json("sliding_m", sliding), drive_json("tension_max_N", tension);
+    drive_json("gamma_W", p->value);
+    drive_json("lower_W", p->lower);
+    drive_json("upper_W", p->upper);
+    drive_json("length_m", length);
+    drive_json("sliding_m", sliding);
+    drive_json("tension_max_N", tension);
     drive_json_rows("velocity", 2, rope->nodes, cps_motion_velocity(r->motion));
     fputs(", \"tension_N\": [", stdout);
     for (int i = 0; i + 1 < rope->nodes; i++) {
@@ -62,7 +67,8 @@ static void json_rope(const RopeRun *r, double length, double sliding, double te
         law_json_number(-cps_motion_law_force(r->motion, rope->nodes + i)[0], stdout);
     }
     putchar(']');
-    drive_json_list("resistance_N", 2 * (rope->driven[0] + rope->driven[1]), cps_motion_resistance(r->motion));
+    drive_json_list("resistance_N", 2 * (rope->driven[0] + rope->driven[1]),
+                    cps_motion_resistance(r->motion));
 }
 
 static void tell_velocity(const RopeRun *r) {
@@ -82,13 +88,17 @@ static void tell_velocity(const RopeRun *r) {
         json_rope(r, length, sliding, tension);
         return;
     }
-    printf("rope of %.6g m on %d elements, friction %.6g N/m; end B moves with (%.6g, %.6g) m/s\n", length,
-           r->rope->rope.nodes - 1, r->rope->rope.resistance, r->rope->driving[r->rope->rope.driven[0] ? 2 : 0],
+    printf("rope of %.6g m on %d elements, friction %.6g N/m; end B moves with (%.6g, %.6g) m/s\n",
+           length, r->rope->rope.nodes - 1, r->rope->rope.resistance,
+           r->rope->driving[r->rope->rope.driven[0] ? 2 : 0],
            r->rope->driving[r->rope->rope.driven[0] ? 3 : 1]);
-    printf("  gamma = %.10g W, proved between bounds %.2g W apart\n", p->value, p->upper - p->lower);
-    printf("  sliding %.6g m, resting %.6g m; largest tension %.8g N\n", sliding, fmax(length - sliding, 0), tension);
+    printf("  gamma = %.10g W, proved between bounds %.2g W apart\n", p->value,
+           p->upper - p->lower);
+    printf("  sliding %.6g m, resting %.6g m; largest tension %.8g N\n", sliding,
+           fmax(length - sliding, 0), tension);
     fputs("  resistance of the driven ends: ", stdout);
-    law_print_vector(2 * (r->rope->rope.driven[0] + r->rope->rope.driven[1]), cps_motion_resistance(r->motion));
+    law_print_vector(2 * (r->rope->rope.driven[0] + r->rope->rope.driven[1]),
+                     cps_motion_resistance(r->motion));
     puts(" N");
 }
 
@@ -97,13 +107,17 @@ static void tell_velocity(const RopeRun *r) {
 static void keep_shot(RopeRun *r, const double *position, size_t stride) {
     const size_t nodes = (size_t)r->rope->rope.nodes;
     double *to = r->shot + (size_t)r->shots++ * 2 * nodes;
-    for (size_t i = 0; i < nodes; i++) to[2 * i] = position[stride * i], to[2 * i + 1] = position[stride * i + 1];
+    for (size_t i = 0; i < nodes; i++) {
+        to[2 * i] = position[stride * i];
+        to[2 * i + 1] = position[stride * i + 1];
+    }
 }
 
 /* take the steps, keeping shots at even distances */
 static bool step_through(RopeRun *r, CpsEvolution *evolution) {
     const int steps = r->rope->steps, wanted = r->rope->shots;
-    Progress progress = progress_begin(steps, r->run->options->quiet || steps * r->rope->rope.nodes < 20000);
+    Progress progress =
+        progress_begin(steps, r->run->options->quiet || steps * r->rope->rope.nodes < 20000);
     bool good = true;
     for (int i = 1; i <= steps && good && cps_evolution_remaining(evolution) > 0; i++) {
         good = cps_evolution_step(evolution, &r->run->err) == CPS_OK;
@@ -111,9 +125,12 @@ static bool step_through(RopeRun *r, CpsEvolution *evolution) {
         const CpsStepReport report = cps_evolution_report(evolution);
         r->outcome = cps_outcome_worse(r->outcome, report.outcome);
         r->uncertified += !cps_outcome_is_certified(report.outcome);
-        r->dissipated += report.dissipated, r->work += report.ledger.ends;
-        r->gap += report.certificate.gap, r->scale += report.certificate.scale;
-        if (wanted > 1 && (int)((long long)i * (wanted - 1) / steps) > r->shots - 1 && r->shots < wanted)
+        r->dissipated += report.dissipated;
+        r->work += report.ledger.ends;
+        r->gap += report.certificate.gap;
+        r->scale += report.certificate.scale;
+        if (wanted > 1 && (int)((long long)i * (wanted - 1) / steps) > r->shots - 1 &&
+            r->shots < wanted)
             keep_shot(r, cps_evolution_line_view(evolution, 0).position, 3);
         progress_step(&progress, i, "rope");
     }
@@ -122,15 +139,23 @@ static bool step_through(RopeRun *r, CpsEvolution *evolution) {
 }
 
 /* the rope and its path as a scene; the arrays are the caller's */
-static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *element, CpsChange *change, CpsStage *stage,
-                            CpsEvolution **out, CpsError *err) {
+static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *element,
+                            CpsChange *change, CpsStage *stage, CpsEvolution **out, CpsError *err) {
     const int nodes = rope->rope.nodes, steps = rope->steps;
     CpsObstacle table = cps_obstacle_default();
-    table.name = "table", table.friction = rope->friction;
+    table.name = "table";
+    table.friction = rope->friction;
     CpsLine line = cps_line_default();
-    line.name = "rope", line.elements = nodes - 1, line.element_length = element;
-    line.weight = rope->weight, line.stiffness = INFINITY, line.length = 0;
-    for (int i = 0; i < nodes; i++) node[3 * i] = rope->rope.node[2 * i], node[3 * i + 1] = rope->rope.node[2 * i + 1];
+    line.name = "rope";
+    line.elements = nodes - 1;
+    line.element_length = element;
+    line.weight = rope->weight;
+    line.stiffness = INFINITY;
+    line.length = 0;
+    for (int i = 0; i < nodes; i++) {
+        node[3 * i] = rope->rope.node[2 * i];
+        node[3 * i + 1] = rope->rope.node[2 * i + 1];
+    }
     for (int i = 0; i + 1 < nodes; i++) {
         element[i] = hypot(node[3 * i + 3] - node[3 * i], node[3 * i + 4] - node[3 * i + 1]);
         line.length += element[i];
@@ -147,8 +172,11 @@ static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *elem
         stage[i] = (CpsStage){.name = "pull", .steps = 1, .change_count = 1, .change = &change[i]};
     }
     CpsScene scene = cps_scene_default();
-    scene.obstacle_count = scene.line_count = 1, scene.stage_count = steps;
-    scene.obstacle = &table, scene.line = &line, scene.stage = stage;
+    scene.obstacle_count = scene.line_count = 1;
+    scene.stage_count = steps;
+    scene.obstacle = &table;
+    scene.line = &line;
+    scene.stage = stage;
     return cps_evolution_create(&scene, out, err);
 }
 
@@ -161,8 +189,8 @@ static bool follow_path(RopeRun *r) {
     CpsEvolution *evolution = NULL;
     bool good = number && change && stage && r->shot;
     if (!good) r->run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
-    good = good && make_scene(r->rope, number, number + 3 * nodes + 2 * (steps + 1), change, stage, &evolution,
-                              &r->run->err) == CPS_OK;
+    good = good && make_scene(r->rope, number, number + 3 * nodes + 2 * (steps + 1), change, stage,
+                              &evolution, &r->run->err) == CPS_OK;
     if (good) {
         keep_shot(r, r->rope->rope.node, 2);
         good = step_through(r, evolution);
@@ -181,20 +209,23 @@ static void tell_path(const RopeRun *r) {
     else
         r->run->answered = r->run->answered && r->uncertified == 0;
     if (r->run->json) {
-        printf(", \"path\": {\"steps\": %d, \"outcome\": \"%s\", \"uncertified\": %d", r->rope->steps,
-               cps_outcome_key(r->outcome), r->uncertified);
-        drive_json("dissipated_J", r->dissipated), drive_json("work_J", r->work), drive_json("gap_J", r->gap);
+        printf(", \"path\": {\"steps\": %d, \"outcome\": \"%s\", \"uncertified\": %d",
+               r->rope->steps, cps_outcome_key(r->outcome), r->uncertified);
+        drive_json("dissipated_J", r->dissipated);
+        drive_json("work_J", r->work);
+        drive_json("gap_J", r->gap);
         drive_json_rows("shape", 2, nodes, r->shot + (size_t)last * 2 * (size_t)nodes);
         putchar('}');
         return;
     }
     const double *a = r->shot + (size_t)last * 2 * (size_t)nodes;
-    printf("end B along its path in %d steps: %s\n", r->rope->steps, cps_outcome_sentence(r->outcome));
+    printf("end B along its path in %d steps: %s\n", r->rope->steps,
+           cps_outcome_sentence(r->outcome));
     if (r->uncertified)
         printf("  note: %d steps are not certified, so energies are not told\n", r->uncertified);
     else
-        printf("  dissipated %.8g J, work of the ends %.8g J, gaps of all steps together %.1e J\n", r->dissipated,
-               r->work, r->gap);
+        printf("  dissipated %.8g J, work of the ends %.8g J, gaps of all steps together %.1e J\n",
+               r->dissipated, r->work, r->gap);
     printf("  end A comes to (%.6g, %.6g)\n", a[0] + 0.0, a[1] + 0.0);
 }
 
@@ -215,7 +246,8 @@ int drive_answer_rope(DriveRun *run) {
     if (good) tell_velocity(&r);
     if (good && !run->none && r.rope->points > 0 && (good = follow_path(&r))) tell_path(&r);
     int code = good ? EXIT_OK : cli_report(&run->err);
-    if (code == EXIT_OK && run->options->plot && !run->none) code = cli_plot(draw, &r, run->options->plot);
+    if (code == EXIT_OK && run->options->plot && !run->none)
+        code = cli_plot(draw, &r, run->options->plot);
     cps_motion_destroy(r.motion);
     cps_system_destroy(system);
     free(r.shot);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan drive: systems; one motion per velocity with its proof, all motions and forces, or the reduced law. */
+/* capstan drive: systems; one motion per velocity with its proof, all motions and forces, or the
+ * reduced law. */
 #include "drive/system_answer.h"
 
 #include <math.h>
@@ -69,15 +70,19 @@ typedef enum Asked { VELOCITIES, FORCES, RESISTANCES } Asked;
 
 /* all solutions of small systems; else an outcome that says so */
 static bool ask_all(DriveRun *run, const CpsMotion *motion, Asked what, All *all) {
-    typedef CpsStatus Ask(const CpsMotion *, double, CpsSolutionSet *, double *, double *, CpsError *);
+    typedef CpsStatus Ask(const CpsMotion *, double, CpsSolutionSet *, double *, double *,
+                          CpsError *);
     static Ask *const ASK[] = {cps_motion_velocities, cps_motion_forces, cps_motion_resistances};
     const CpsDriveSystem *s = &run->file->system;
-    all->n = what == FORCES ? force_components(s->system) : what == VELOCITIES ? s->parameters : s->driven;
+    all->n = what == FORCES       ? force_components(s->system)
+             : what == VELOCITIES ? s->parameters
+                                  : s->driven;
     all->set = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
     all->low = NULL;
     const CpsMotionOutcome outcome = cps_motion_report(motion)->outcome;
-    if (s->parameters + force_components(s->system) > MOST_DENSE || outcome == CPS_MOTION_NO_BALANCE ||
-        outcome == CPS_MOTION_BLOCKED || outcome == CPS_MOTION_NOT_ATTAINED)
+    if (s->parameters + force_components(s->system) > MOST_DENSE ||
+        outcome == CPS_MOTION_NO_BALANCE || outcome == CPS_MOTION_BLOCKED ||
+        outcome == CPS_MOTION_NOT_ATTAINED)
         return true;
     all->low = calloc(2 * (size_t)all->n + 1, sizeof *all->low);
     if (!all->low) {
@@ -108,7 +113,8 @@ static void print_all(const All *all, const char *what) {
 /* Is component i open by more than the tolerance? */
 static bool is_open(const All *all, int i) {
     const double low = all->low[i], high = all->high[i];
-    return !isfinite(low) || !isfinite(high) || high - low > all->set.tolerance * (fabs(low) + fabs(high));
+    return !isfinite(low) || !isfinite(high) ||
+           high - low > all->set.tolerance * (fabs(low) + fabs(high));
 }
 
 /* rounding is not shown */
@@ -117,7 +123,8 @@ static double tidy(double x, double scale) { return fabs(x) <= 1e-13 * scale ? 0
 /* "omega 0", or "omega 0 (from -3.3 to 0)" where it is not unique */
 static void print_component(const char *name, double x, double scale, const All *all, int i) {
     printf("%s%s %.10g", i ? ", " : "", name, tidy(x, scale));
-    if (all->set.outcome == CPS_SET_ANSWERED && !all->set.unique && all->high[i] - all->low[i] > all->set.tolerance)
+    if (all->set.outcome == CPS_SET_ANSWERED && !all->set.unique &&
+        all->high[i] - all->low[i] > all->set.tolerance)
         printf(" (from %.6g to %.6g)", tidy(all->low[i], scale), tidy(all->high[i], scale));
 }
 
@@ -125,7 +132,8 @@ static void print_velocity(const CpsDriveSystem *s, const double *v, const All *
     double scale = all->set.outcome == CPS_SET_ANSWERED ? all->set.tolerance : 0;
     for (int i = 0; i < s->parameters; i++) scale = fmax(scale, fabs(v[i]));
     fputs("  V: ", stdout);
-    for (int i = 0; i < s->parameters && i < MOST_PRINTED; i++) print_component(s->parameter[i], v[i], scale, all, i);
+    for (int i = 0; i < s->parameters && i < MOST_PRINTED; i++)
+        print_component(s->parameter[i], v[i], scale, all, i);
     puts(s->parameters > MOST_PRINTED ? ", .." : "");
 }
 
@@ -138,7 +146,8 @@ static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const A
                tidy(cps_motion_law_share(motion, k)->dissipated, cps_motion_report(motion)->scale));
         for (int i = 0; i < n && all->set.outcome == CPS_SET_ANSWERED; i++, at++)
             if (is_open(all, at))
-                printf("; component %d from %.6g to %.6g N", i + 1, all->low[at] + 0.0, all->high[at] + 0.0);
+                printf("; component %d from %.6g to %.6g N", i + 1, all->low[at] + 0.0,
+                       all->high[at] + 0.0);
         puts("");
     }
 }
@@ -149,7 +158,8 @@ static void print_resistances(const All *all) {
     printf("  not unique: the resistances are a set of dimension %d", all->set.dimension);
     for (int i = 0; i < all->n && i < MOST_PRINTED; i++)
         if (is_open(all, i))
-            printf("; component %d from %.6g to %.6g N", i + 1, all->low[i] + 0.0, all->high[i] + 0.0);
+            printf("; component %d from %.6g to %.6g N", i + 1, all->low[i] + 0.0,
+                   all->high[i] + 0.0);
     puts("");
 }
 
@@ -157,17 +167,21 @@ static void print_lambda(const CpsMotion *motion) {
     const int count = cps_motion_constraints(motion);
     if (count == 0) return;
     fputs("  constraint forces lambda = ", stdout);
-    law_print_vector(count < MOST_PRINTED ? count : MOST_PRINTED, cps_motion_constraint_forces(motion));
+    law_print_vector(count < MOST_PRINTED ? count : MOST_PRINTED,
+                     cps_motion_constraint_forces(motion));
     puts(count > MOST_PRINTED ? " .." : "");
 }
 
-static void print_not_attained(const CpsDriveSystem *s, const CpsMotion *motion, const All *velocities) {
+static void print_not_attained(const CpsDriveSystem *s, const CpsMotion *motion,
+                               const All *velocities) {
     const CpsMotionReport *r = cps_motion_report(motion);
     printf("  %s\n", cps_motion_outcome_sentence(r->outcome));
-    printf("  gamma = %.8g W is an infimum, between bounds %.2g W apart, and not attained; it is approached along\n",
+    printf("  gamma = %.8g W is an infimum, between bounds %.2g W apart, and not attained; it is "
+           "approached along\n",
            fabs(r->value) <= r->minimum ? 0 : r->value, r->minimum);
     print_velocity(s, cps_motion_direction(motion), velocities);
-    printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition), cps_composition_sentence(r->composition));
+    printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition),
+           cps_composition_sentence(r->composition));
 }
 
 static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions *all) {
@@ -191,13 +205,19 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
         return;
     }
     if (isfinite(r->minimum))
-        printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", r->value + 0.0, r->minimum);
+        printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", r->value + 0.0,
+               r->minimum);
     else
-        printf("  gamma is at most %.12g W; no forces in equilibrium were found that bound it from below\n", r->value + 0.0);
+        printf("  gamma is at most %.12g W; no forces in equilibrium were found that bound it from "
+               "below\n",
+               r->value + 0.0);
     /* of resistances gamma is not what is dissipated */
     if (isfinite(r->minimum) && fabs(r->value + r->load_power - r->dissipated) > 1e-6 * r->scale)
-        printf("  gamma is the least of the potential phi less the load's power; the laws dissipate %.12g W\n", r->dissipated);
-    if (r->outcome != CPS_MOTION_SOLVED) printf("  note: %s\n", cps_motion_outcome_sentence(r->outcome));
+        printf("  gamma is the least of the potential phi less the load's power; the laws "
+               "dissipate %.12g W\n",
+               r->dissipated);
+    if (r->outcome != CPS_MOTION_SOLVED)
+        printf("  note: %s\n", cps_motion_outcome_sentence(r->outcome));
     print_velocity(s, cps_motion_velocity(motion), velocities);
     print_all(velocities, "velocities");
     fputs("  resistance G = ", stdout);
@@ -209,18 +229,23 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
     print_all(forces, "forces");
     if (s->loaded) printf("  load: gives %.10g W; ", tidy(r->load_power, r->scale));
     if (s->loaded && isnan(r->load_factor)) puts("how much of it can be balanced is not known");
-    if (s->loaded && isfinite(r->load_factor)) printf("up to %.6g times as much can be balanced\n", r->load_factor);
+    if (s->loaded && isfinite(r->load_factor))
+        printf("up to %.6g times as much can be balanced\n", r->load_factor);
     if (s->loaded && isinf(r->load_factor)) puts("any multiple of it can be balanced");
-    printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition), cps_composition_sentence(r->composition));
+    printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition),
+           cps_composition_sentence(r->composition));
     if (all->asked && all->known && !all->continuous)
-        puts("  Proposition 2: phi is continuous at no velocity that agrees with W, and a minimum of it need not be a motion");
-    printf("  residuals: drive %.1e, constraints %.1e, equilibrium %.1e, laws %.1e; power gap %.1e of %.3g W\n",
+        puts("  Proposition 2: phi is continuous at no velocity that agrees with W, and a minimum "
+             "of it need not be a motion");
+    printf("  residuals: drive %.1e, constraints %.1e, equilibrium %.1e, laws %.1e; power gap %.1e "
+           "of %.3g W\n",
            r->drive, r->constraint, r->equilibrium, r->outside, fmax(r->law, 0), r->scale);
 }
 
 static void json_all(const char *key, const All *all) {
     printf(", \"%s\": {\"outcome\": \"%s\"", key,
-           all->low ? cps_set_outcome_name(all->set.outcome) : cps_set_outcome_name(CPS_SET_NOT_AVAILABLE));
+           all->low ? cps_set_outcome_name(all->set.outcome)
+                    : cps_set_outcome_name(CPS_SET_NOT_AVAILABLE));
     if (all->set.outcome == CPS_SET_ANSWERED) {
         printf(", \"dimension\": %d, \"unique\": %s, \"bounded\": %s", all->set.dimension,
                all->set.unique ? "true" : "false", all->set.bounded ? "true" : "false");
@@ -257,18 +282,21 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions 
     drive_json("scale_W", r->scale);
     drive_json("dissipated_W", r->dissipated);
     drive_json_list("V", s->parameters, cps_motion_velocity(motion));
-    if (cps_motion_direction(motion)) drive_json_list("direction", s->parameters, cps_motion_direction(motion));
+    if (cps_motion_direction(motion))
+        drive_json_list("direction", s->parameters, cps_motion_direction(motion));
     drive_json_list("G", s->driven, cps_motion_resistance(motion));
     json_laws(s, motion);
     if (cps_motion_constraints(motion) > 0)
-        drive_json_list("lambda", cps_motion_constraints(motion), cps_motion_constraint_forces(motion));
+        drive_json_list("lambda", cps_motion_constraints(motion),
+                        cps_motion_constraint_forces(motion));
     json_all("velocities", &all->velocities);
     json_all("forces", &all->forces);
     json_all("resistances", &all->resistances);
     /* where forces balance: else the condition is about none */
     if (r->outcome != CPS_MOTION_NO_BALANCE && r->outcome != CPS_MOTION_BLOCKED)
         drive_json_word("composition", cps_composition_name(r->composition));
-    if (all->asked && all->known) printf(", \"continuous\": %s", all->continuous ? "true" : "false");
+    if (all->asked && all->known)
+        printf(", \"continuous\": %s", all->continuous ? "true" : "false");
     drive_json("load_power_W", r->load_power);
     drive_json("load_factor", r->load_factor);
     printf(", \"residuals\": {\"drive\": ");
@@ -286,17 +314,22 @@ static bool tell_motion(DriveRun *run, const double *velocity, int i) {
     CpsMotion *motion = NULL;
     Solutions all = {.velocities = {.low = NULL}};
     bool good = cps_system_solve(s->system, velocity, NULL, &motion, &run->err) == CPS_OK &&
-                ask_all(run, motion, VELOCITIES, &all.velocities) && ask_all(run, motion, FORCES, &all.forces) &&
+                ask_all(run, motion, VELOCITIES, &all.velocities) &&
+                ask_all(run, motion, FORCES, &all.forces) &&
                 ask_all(run, motion, RESISTANCES, &all.resistances);
     all.asked = s->parameters + force_components(s->system) <= MOST_DENSE;
-    if (good && all.asked) good = cps_motion_continuous(motion, &all.known, &all.continuous, &run->err) == CPS_OK;
+    if (good && all.asked)
+        good = cps_motion_continuous(motion, &all.known, &all.continuous, &run->err) == CPS_OK;
     if (good && run->json) {
         printf("%s{\"velocity\": ", i ? ",\n    " : "\n    ");
         law_json_vector(s->driven, velocity, stdout);
         json_motion(run, motion, &all);
         putchar('}');
     } else if (good) {
-        if (s->driven) fputs("velocity W = ", stdout), law_print_vector(s->driven, velocity);
+        if (s->driven) {
+            fputs("velocity W = ", stdout);
+            law_print_vector(s->driven, velocity);
+        }
         puts(s->driven ? "" : "nothing is driven");
         print_motion(run, motion, &all);
     }
@@ -313,13 +346,15 @@ static bool tell_motion(DriveRun *run, const double *velocity, int i) {
 
 /* ---- the reduced law ---- */
 
-static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, bool velocity, int i) {
+static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, bool velocity,
+                         int i) {
     const int n = run->file->system.driven;
     CpsSet *found = NULL;
     CpsSetAnswer answer;
     SetAnswer about = {.n = n};
-    bool good = (velocity ? cps_law_forces(set, asked, 0, &found, &answer, &run->err)
-                          : cps_law_velocities(set, asked, 0, &found, &answer, &run->err)) == CPS_OK;
+    bool good =
+        (velocity ? cps_law_forces(set, asked, 0, &found, &answer, &run->err)
+                  : cps_law_velocities(set, asked, 0, &found, &answer, &run->err)) == CPS_OK;
     if (good && found) good = law_answer_ask(found, !velocity, &about, &run->err) == CPS_OK;
     const char *key = velocity ? "velocity" : "force";
     if (good && run->json) {
@@ -338,7 +373,8 @@ static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, 
         printf("%s ", key);
         law_print_vector(n, asked);
         if (velocity && found)
-            printf("\n  dissipates %.12g W%s (gap %.2g W)", answer.value + 0.0, answer.exact ? ", exact" : "", answer.gap);
+            printf("\n  dissipates %.12g W%s (gap %.2g W)", answer.value + 0.0,
+                   answer.exact ? ", exact" : "", answer.gap);
         printf("\n  %s: ", velocity ? "forces" : "velocities");
         if (found)
             law_answer_print(&about, !velocity);
@@ -346,7 +382,8 @@ static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, 
             printf("none: %s", cps_set_outcome_sentence(answer.outcome));
         puts("");
     }
-    const bool open = answer.outcome == CPS_SET_NOT_AVAILABLE || answer.outcome == CPS_SET_INACCURATE;
+    const bool open =
+        answer.outcome == CPS_SET_NOT_AVAILABLE || answer.outcome == CPS_SET_INACCURATE;
     if (good) run->answered = run->answered && !open;
     law_answer_free(&about);
     cps_set_release(found);
@@ -356,9 +393,11 @@ static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, 
 /* Forces that balance the load: none, where the reduced set is empty. */
 static bool tell_empty(DriveRun *run) {
     run->none = true;
-    if (run->json) printf(", \"components\": %d, \"forces\": {\"outcome\": \"%s\"}", run->file->system.driven,
-                          cps_set_outcome_name(CPS_SET_EMPTY));
-    else printf("no reduced law: %s\n", cps_motion_outcome_sentence(CPS_MOTION_NO_BALANCE));
+    if (run->json)
+        printf(", \"components\": %d, \"forces\": {\"outcome\": \"%s\"}", run->file->system.driven,
+               cps_set_outcome_name(CPS_SET_EMPTY));
+    else
+        printf("no reduced law: %s\n", cps_motion_outcome_sentence(CPS_MOTION_NO_BALANCE));
     return true;
 }
 
@@ -370,16 +409,22 @@ static bool tell_elimination(DriveRun *run, const CpsSet *set, CpsComposition co
     if (run->json) {
         printf(", \"components\": %d", n);
         drive_json_word("composition", cps_composition_name(composition));
-        if (measured) drive_json("area", measure.area), drive_json("perimeter", measure.perimeter);
+        if (measured) {
+            drive_json("area", measure.area);
+            drive_json("perimeter", measure.perimeter);
+        }
         return true;
     }
     printf("reduced law between W and G, %d component%s\n", n, n == 1 ? "" : "s");
-    if (measured) printf("set of forces: area %.10g, perimeter %.10g\n", measure.area, measure.perimeter);
-    printf("Proposition 1, %s: %s\n", cps_composition_name(composition), cps_composition_sentence(composition));
+    if (measured)
+        printf("set of forces: area %.10g, perimeter %.10g\n", measure.area, measure.perimeter);
+    printf("Proposition 1, %s: %s\n", cps_composition_name(composition),
+           cps_composition_sentence(composition));
     return true;
 }
 
-static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *velocity, const QueryList *force) {
+static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *velocity,
+                        const QueryList *force) {
     const CliOptions *options = run->options;
     CpsLawPicture picture = {.title = run->file->title,
                              .velocity_count = velocity->count,
@@ -387,12 +432,16 @@ static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *veloc
                              .force_count = force->count,
                              .force = force->row};
     const int n = run->file->system.driven;
-    if (law_plot_axes(options->axes, n, picture.axis)) return law_plot(set, NULL, &picture, options->plot);
-    fprintf(stderr, "capstan drive: --plot and --axes: expected two different components from 1 to %d\n", n);
+    if (law_plot_axes(options->axes, n, picture.axis))
+        return law_plot(set, NULL, &picture, options->plot);
+    fprintf(stderr,
+            "capstan drive: --plot and --axes: expected two different components from 1 to %d\n",
+            n);
     return EXIT_USAGE;
 }
 
-/* Does nothing balance the load?  Beside the limit this proof decides before a set is known to be empty. */
+/* Does nothing balance the load?  Beside the limit this proof decides before a set is known to be
+ * empty. */
 static bool ask_balance(DriveRun *run, bool *none) {
     const CpsDriveSystem *s = &run->file->system;
     CpsMotionOptions options = cps_motion_options_default();
@@ -402,7 +451,8 @@ static bool ask_balance(DriveRun *run, bool *none) {
     double *rest = calloc((size_t)s->driven, sizeof *rest);
     options.composition = false;
     if (!rest) run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
-    const bool good = rest && cps_system_solve(s->system, rest, &options, &motion, &run->err) == CPS_OK;
+    const bool good =
+        rest && cps_system_solve(s->system, rest, &options, &motion, &run->err) == CPS_OK;
     *none = good && cps_motion_report(motion)->outcome == CPS_MOTION_NO_BALANCE;
     cps_motion_destroy(motion);
     free(rest);
@@ -415,7 +465,9 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
     CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
     const size_t n = (size_t)run->file->system.driven;
     bool empty = false, good = ask_balance(run, &empty);
-    if (good && !empty) good = cps_system_eliminate(run->file->system.system, NULL, &set, &composition, &run->err) == CPS_OK;
+    if (good && !empty)
+        good = cps_system_eliminate(run->file->system.system, NULL, &set, &composition,
+                                    &run->err) == CPS_OK;
     if (!good) return cli_report(&run->err);
     if (!empty) good = cps_set_facts(set, 0, &facts, NULL, NULL, &run->err) == CPS_OK;
     empty = empty || facts.outcome == CPS_SET_EMPTY;
@@ -427,7 +479,8 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
         good = tell_reduced(run, set, force->row + (size_t)i * n, false, velocity->count + i);
     if (run->json) putchar(']');
     int code = good ? EXIT_OK : cli_report(&run->err);
-    if (code == EXIT_OK && run->options->plot && !empty) code = draw_reduced(run, set, velocity, force);
+    if (code == EXIT_OK && run->options->plot && !empty)
+        code = draw_reduced(run, set, velocity, force);
     cps_set_release(set);
     return code;
 }
@@ -437,9 +490,11 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
 static void tell_system(const DriveRun *run) {
     const CpsDriveSystem *s = &run->file->system;
     if (!run->json) {
-        printf("system of %d parameter%s and %d law%s; driven:", s->parameters, s->parameters == 1 ? "" : "s",
-               cps_system_laws(s->system), cps_system_laws(s->system) == 1 ? "" : "s");
-        for (int i = 0; i < s->driven && i < MOST_PRINTED; i++) printf("%s %s", i ? "," : "", s->drive[i]);
+        printf("system of %d parameter%s and %d law%s; driven:", s->parameters,
+               s->parameters == 1 ? "" : "s", cps_system_laws(s->system),
+               cps_system_laws(s->system) == 1 ? "" : "s");
+        for (int i = 0; i < s->driven && i < MOST_PRINTED; i++)
+            printf("%s %s", i ? "," : "", s->drive[i]);
         puts(s->driven ? "" : " nothing");
         return;
     }
@@ -479,22 +534,25 @@ static int answer_motions(DriveRun *run, const QueryList *velocity) {
         if (!tell_motion(run, s->driven ? velocity->row + (size_t)i * (size_t)s->driven : NULL, i))
             return cli_report(&run->err);
     if (run->json) putchar(']');
-    if (count == 0 && !run->json) puts("nothing asked: add --velocity W, or 'velocity' in the file");
+    if (count == 0 && !run->json)
+        puts("nothing asked: add --velocity W, or 'velocity' in the file");
     return run->options->plot ? cli_plot(draw_maps, run, run->options->plot) : EXIT_OK;
 }
 
 int drive_answer_system(DriveRun *run) {
     const CpsDriveSystem *s = &run->file->system;
-    QueryList velocity = {.command = "drive", .n = s->driven}, force = {.command = "drive", .n = s->driven};
+    QueryList velocity = {.command = "drive", .n = s->driven},
+              force = {.command = "drive", .n = s->driven};
     const bool asked = run->options->velocity.count + run->options->force.count > 0;
     if (s->driven == 0 && (asked || run->options->eliminate)) {
-        fprintf(stderr, "capstan drive: nothing is driven in this system: add 'drive' to the file\n");
+        fprintf(stderr,
+                "capstan drive: nothing is driven in this system: add 'drive' to the file\n");
         return EXIT_USAGE;
     }
     if (run->options->plot && !run->options->eliminate && s->driven != 2) {
         fprintf(stderr,
-                "capstan drive: --plot draws maps over two driven components; this system has %d: ask with --velocity, "
-                "or draw its law with --eliminate\n",
+                "capstan drive: --plot draws maps over two driven components; this system has %d: "
+                "ask with --velocity, or draw its law with --eliminate\n",
                 s->driven);
         return EXIT_USAGE;
     }
@@ -503,12 +561,16 @@ int drive_answer_system(DriveRun *run) {
     if (code == EXIT_OK && !asked && s->velocity_count > 0) {
         const size_t size = (size_t)s->velocity_count * (size_t)s->driven * sizeof(double);
         velocity.row = malloc(size);
-        if (velocity.row) memcpy(velocity.row, s->velocity, size), velocity.count = s->velocity_count;
+        if (velocity.row) {
+            memcpy(velocity.row, s->velocity, size);
+            velocity.count = s->velocity_count;
+        }
         if (!velocity.row) code = drive_no_memory();
     }
     if (code == EXIT_OK) {
         tell_system(run);
-        code = run->options->eliminate ? answer_reduced(run, &velocity, &force) : answer_motions(run, &velocity);
+        code = run->options->eliminate ? answer_reduced(run, &velocity, &force)
+                                       : answer_motions(run, &velocity);
     }
     free(velocity.row);
     free(force.row);

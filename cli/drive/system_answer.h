@@ -16,8 +16,8 @@ typedef struct DriveRun {
     CpsError err;
 } DriveRun;
 
-/* Answer and, with --plot, draw. Each returns an exit code, after a message where it is not EXIT_OK. The JSON object is
- * begun with the title, and ended, by the caller. */
+/* Answer and, with --plot, draw. Each returns an exit code, after a message where it is not
+ * EXIT_OK. The JSON object is begun with the title, and ended, by the caller. */
 int drive_answer_system(DriveRun *run);
 int drive_answer_body(DriveRun *run);
 int drive_answer_planimeter(DriveRun *run);

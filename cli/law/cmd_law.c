@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan law: read a law; answer velocities with sets of forces and forces with sets of velocities; draw it. */
+/* capstan law: read a law; answer velocities with sets of forces and forces with sets of
+ * velocities; draw it. */
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "capstan/law_io.h"
+#include "law/law_query.h"
 #include "law/set_answer.h"
 #include "plot_file.h"
-#include "law/law_query.h"
 #include "printable.h"
 
 typedef struct LawRun {
@@ -17,12 +18,15 @@ typedef struct LawRun {
     const CpsResistance *resistance;
     int n;
     bool json;
-    bool answered; /* every question so far: what has no mathematical answer ends with EXIT_NOT_CERTIFIED */
+    bool answered; /* every question so far: what has no mathematical answer ends with
+                      EXIT_NOT_CERTIFIED */
     CpsError err;
 } LawRun;
 
 /* does the outcome leave the question open? */
-static bool is_open(CpsSetOutcome outcome) { return outcome == CPS_SET_NOT_AVAILABLE || outcome == CPS_SET_INACCURATE; }
+static bool is_open(CpsSetOutcome outcome) {
+    return outcome == CPS_SET_NOT_AVAILABLE || outcome == CPS_SET_INACCURATE;
+}
 
 static const char *separator(int i) { return i ? ",\n    " : "\n    "; }
 
@@ -34,11 +38,13 @@ static void set_text(const LawRun *run, char *text, size_t size) {
     if (length >= size) memcpy(text + size - 4, "...", 4);
 }
 
-/* what is told of the whole set; a sum over very many contacts is too large for it, though not for its answers */
+/* what is told of the whole set; a sum over very many contacts is too large for it, though not for
+ * its answers */
 static bool ask_set(LawRun *run, CpsSetFacts *facts, CpsSetMeasure *measure) {
     if (!run->set || (!run->json && run->n != 2)) return true;
     CpsStatus status = cps_set_facts(run->set, 0, facts, NULL, NULL, &run->err);
-    if (status == CPS_OK && run->n == 2 && facts->bounded) status = cps_set_measure(run->set, measure, &run->err);
+    if (status == CPS_OK && run->n == 2 && facts->bounded)
+        status = cps_set_measure(run->set, measure, &run->err);
     if (status == CPS_ERR_LIMIT) facts->outcome = CPS_SET_NOT_AVAILABLE;
     return status == CPS_OK || status == CPS_ERR_LIMIT;
 }
@@ -57,12 +63,15 @@ static bool tell_law(LawRun *run) {
     if (run->set) set_text(run, text, sizeof text);
     const bool measured = measure.outcome == CPS_SET_ANSWERED;
     if (!run->json) {
-        if (*cps_law_file_title(run->file)) cli_put_text(stdout, cps_law_file_title(run->file), INT_MAX, false), putchar('\n');
+        if (*cps_law_file_title(run->file)) {
+            cli_put_text(stdout, cps_law_file_title(run->file), INT_MAX, false);
+            putchar('\n');
+        }
         printf("%s, %d component%s", kind, run->n, run->n == 1 ? "" : "s");
         if (run->set) printf("\nset of forces: %s", text);
         if (measured)
-            printf("\narea %.10g (gap %.2g), perimeter %.10g (gap %.2g)", measure.area, measure.area_gap,
-                   measure.perimeter, measure.perimeter_gap);
+            printf("\narea %.10g (gap %.2g), perimeter %.10g (gap %.2g)", measure.area,
+                   measure.area_gap, measure.perimeter, measure.perimeter_gap);
         if (composed)
             printf("\ncomposition rule (line %d): %s: %s", line, cps_composition_name(composition),
                    cps_composition_sentence(composition));
@@ -77,39 +86,51 @@ static bool tell_law(LawRun *run) {
         cps_json_text(stdout, text);
     }
     if (facts.outcome == CPS_SET_ANSWERED)
-        printf(", \"dimension\": %d, \"bounded\": %s", facts.dimension, facts.bounded ? "true" : "false");
+        printf(", \"dimension\": %d, \"bounded\": %s", facts.dimension,
+               facts.bounded ? "true" : "false");
     if (measured) {
         static const char *const KEY[] = {"area", "area_gap", "perimeter", "perimeter_gap"};
-        const double number[] = {measure.area, measure.area_gap, measure.perimeter, measure.perimeter_gap};
-        for (int k = 0; k < 4; k++) printf(", \"%s\": ", KEY[k]), law_json_number(number[k], stdout);
+        const double number[] = {measure.area, measure.area_gap, measure.perimeter,
+                                 measure.perimeter_gap};
+        for (int k = 0; k < 4; k++) {
+            printf(", \"%s\": ", KEY[k]);
+            law_json_number(number[k], stdout);
+        }
     }
     if (composed)
-        printf(", \"composition\": {\"condition\": \"%s\", \"line\": %d}", cps_composition_name(composition), line);
+        printf(", \"composition\": {\"condition\": \"%s\", \"line\": %d}",
+               cps_composition_name(composition), line);
     return true;
 }
 
 /* ---- questions ---- */
 
-/* the dissipated power at V, of a resistance law phi too, which is another number, and the forces */
-static CpsStatus ask_velocity(LawRun *run, const double *velocity, double *power, double *potential, CpsSet **forces,
-                              CpsSetAnswer *answer) {
+/* the dissipated power at V, of a resistance law phi too, which is another number, and the
+ * forces */
+static CpsStatus ask_velocity(LawRun *run, const double *velocity, double *power, double *potential,
+                              CpsSet **forces, CpsSetAnswer *answer) {
     if (run->resistance) {
         CpsResistanceValue value = {.potential = NAN};
-        CpsStatus status = cps_resistance_forces(run->resistance, velocity, 0, forces, answer, &run->err);
-        if (status == CPS_OK) status = cps_resistance_value(run->resistance, velocity, &value, NULL, &run->err);
+        CpsStatus status =
+            cps_resistance_forces(run->resistance, velocity, 0, forces, answer, &run->err);
+        if (status == CPS_OK)
+            status = cps_resistance_value(run->resistance, velocity, &value, NULL, &run->err);
         *power = answer->value;
         *potential = value.potential;
         return status;
     }
     const CpsStatus status = cps_law_forces(run->set, velocity, 0, forces, answer, &run->err);
-    *power = status == CPS_OK && answer->outcome == CPS_SET_UNBOUNDED ? INFINITY : answer->value + 0.0;
+    *power =
+        status == CPS_OK && answer->outcome == CPS_SET_UNBOUNDED ? INFINITY : answer->value + 0.0;
     return status;
 }
 
 /* the velocities at a force */
-static CpsStatus ask_force(LawRun *run, const double *force, CpsSet **velocities, CpsSetAnswer *answer) {
-    return run->set ? cps_law_velocities(run->set, force, 0, velocities, answer, &run->err)
-                    : cps_resistance_velocities(run->resistance, force, velocities, answer, &run->err);
+static CpsStatus ask_force(LawRun *run, const double *force, CpsSet **velocities,
+                           CpsSetAnswer *answer) {
+    return run->set
+               ? cps_law_velocities(run->set, force, 0, velocities, answer, &run->err)
+               : cps_resistance_velocities(run->resistance, force, velocities, answer, &run->err);
 }
 
 /* Is what goes with a force a cone?  Of dry terms alone it is, beyond one point. */
@@ -140,13 +161,19 @@ static bool tell_answer(LawRun *run, bool velocity, const double *asked, int i) 
         return false;
     }
     const bool some = answer.outcome == CPS_SET_ANSWERED;
-    run->answered = run->answered && !is_open(answer.outcome) && !(some && is_open(about.facts.outcome));
+    run->answered =
+        run->answered && !is_open(answer.outcome) && !(some && is_open(about.facts.outcome));
     if (run->json) {
         printf("%s{\"%s\": ", separator(i), velocity ? "velocity" : "force");
         law_json_vector(run->n, asked, stdout);
-        if (velocity) fputs(", \"dissipation_W\": ", stdout), law_json_number(some ? power : NAN, stdout);
-        if (velocity && run->resistance)
-            fputs(", \"potential_W\": ", stdout), law_json_number(some ? potential : NAN, stdout);
+        if (velocity) {
+            fputs(", \"dissipation_W\": ", stdout);
+            law_json_number(some ? power : NAN, stdout);
+        }
+        if (velocity && run->resistance) {
+            fputs(", \"potential_W\": ", stdout);
+            law_json_number(some ? potential : NAN, stdout);
+        }
         printf(", \"%s\": ", velocity ? "forces" : "velocities");
         if (some)
             law_answer_json(&about, cone, stdout);
@@ -159,10 +186,13 @@ static bool tell_answer(LawRun *run, bool velocity, const double *asked, int i) 
     } else {
         fputs(velocity ? "velocity " : "force ", stdout);
         law_print_vector(run->n, asked);
-        if (velocity && some && !isfinite(power)) fputs("\n  dissipates more than can be written", stdout);
+        if (velocity && some && !isfinite(power))
+            fputs("\n  dissipates more than can be written", stdout);
         if (velocity && some && isfinite(power))
-            printf("\n  dissipates %.12g W%s (gap %.2g W)", power, answer.exact ? ", exact" : "", answer.gap);
-        if (velocity && run->resistance && some && isfinite(potential)) printf("; phi = %.12g W", potential);
+            printf("\n  dissipates %.12g W%s (gap %.2g W)", power, answer.exact ? ", exact" : "",
+                   answer.gap);
+        if (velocity && run->resistance && some && isfinite(potential))
+            printf("; phi = %.12g W", potential);
         fputs(velocity ? "\n  forces: " : "\n  velocities: ", stdout);
         if (some)
             law_answer_print(&about, cone);
@@ -179,10 +209,14 @@ static bool tell_pair(LawRun *run, const double *force, const double *velocity, 
     double gap = NAN, distance = NAN;
     CpsLawResidual r = {.outcome = CPS_SET_ANSWERED};
     const CpsStatus status =
-        run->set ? cps_law_residual(run->set, force, velocity, 0, &r, &run->err)
-                 : cps_resistance_residual(run->resistance, force, velocity, &gap, &distance, &run->err);
+        run->set
+            ? cps_law_residual(run->set, force, velocity, 0, &r, &run->err)
+            : cps_resistance_residual(run->resistance, force, velocity, &gap, &distance, &run->err);
     if (status != CPS_OK) return false;
-    if (run->set) gap = r.dissipation, distance = r.normal_cone;
+    if (run->set) {
+        gap = r.dissipation;
+        distance = r.normal_cone;
+    }
     if (run->json) {
         printf("%s{\"gap_W\": ", separator(i));
         law_json_number(gap, stdout);
@@ -213,10 +247,12 @@ static bool tell_all(LawRun *run, const QueryList *velocity, const QueryList *fo
     if (force->count == velocity->count && force->count > 0) {
         if (run->json) fputs(",\n  \"pairs\": [", stdout);
         for (int i = 0; i < force->count; i++)
-            if (!tell_pair(run, force->row + (size_t)i * n, velocity->row + (size_t)i * n, i)) return false;
+            if (!tell_pair(run, force->row + (size_t)i * n, velocity->row + (size_t)i * n, i))
+                return false;
         if (run->json) fputs("]", stdout);
     } else if (force->count > 0 && velocity->count > 0 && !run->json) {
-        printf("no pairs: %d velocities and %d forces; pairs are told of as many of each, in the order given\n",
+        printf("no pairs: %d velocities and %d forces; pairs are told of as many of each, in the "
+               "order given\n",
                velocity->count, force->count);
     }
     if (run->json) puts("}");
@@ -233,12 +269,15 @@ static int check_picture(const LawRun *run, const CliOptions *options) {
         return EXIT_USAGE;
     }
     if (!options->plot || law_plot_axes(options->axes, run->n, axis)) return EXIT_OK;
-    cli_printf(stderr, "capstan law: --axes: found '%.40s', expected two components from 1 to %d, as in 1,2\n",
-            options->axes, run->n);
+    cli_printf(
+        stderr,
+        "capstan law: --axes: found '%.40s', expected two components from 1 to %d, as in 1,2\n",
+        options->axes, run->n);
     return EXIT_USAGE;
 }
 
-static int draw(LawRun *run, const CliOptions *options, const QueryList *velocity, const QueryList *force) {
+static int draw(LawRun *run, const CliOptions *options, const QueryList *velocity,
+                const QueryList *force) {
     CpsLawPicture picture = {.title = cps_law_file_title(run->file),
                              .velocity_count = velocity->count,
                              .velocity = velocity->row,
@@ -268,7 +307,8 @@ int cmd_law(int argc, char **argv) {
 
     CpsLawFile *file = NULL;
     CpsError err;
-    const int input = law_query_check_input("law", options.operand, &options.velocity, &options.force);
+    const int input =
+        law_query_check_input("law", options.operand, &options.velocity, &options.force);
     if (input != EXIT_OK) return input;
     if (cps_law_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
     LawRun run = {.file = file,

@@ -14,11 +14,13 @@ enum { MOST_ROWS = 1000000, LONGEST_LINE = 1 << 20 };
 /* Beyond it powers would overflow, as in law files. */
 static const double LARGEST = 1e100;
 
-static int bad(const QueryList *list, const char *where, int line, const char *what, const char *text) {
+static int bad(const QueryList *list, const char *where, int line, const char *what,
+               const char *text) {
     if (line > 0)
         cli_printf(stderr, "capstan: standard input:%d: %s: found '%.60s'\n", line, what, text);
     else
-        cli_printf(stderr, "capstan %s: --%s: %s: found '%.60s'\n", list->command, where, what, text);
+        cli_printf(stderr, "capstan %s: --%s: %s: found '%.60s'\n", list->command, where, what,
+                   text);
     return line > 0 ? EXIT_INPUT : EXIT_USAGE;
 }
 
@@ -27,7 +29,8 @@ static bool make_room(QueryList *list) {
     const int room = list->room > 0 ? 2 * list->room : 16;
     double *row = realloc(list->row, (size_t)room * (size_t)list->n * sizeof *row);
     if (!row) return false;
-    list->row = row, list->room = room;
+    list->row = row;
+    list->room = room;
     return true;
 }
 
@@ -60,7 +63,8 @@ static int add_row(const char *text, const char *option, int line, QueryList *li
     return EXIT_OK;
 }
 
-/* "vx, vy": as many words as there are columns, each beginning with a letter and no number itself (nan) */
+/* "vx, vy": as many words as there are columns, each beginning with a letter and no number itself
+ * (nan) */
 static bool is_names(const char *text, int columns) {
     int words = 0;
     for (;; text++) {
@@ -68,14 +72,16 @@ static bool is_names(const char *text, int columns) {
         text += strspn(text, " \t\"");
         const unsigned char c = (unsigned char)*text;
         strtod(text, &end);
-        if (!(isalpha(c) || c == '_' || c >= 0x80) || (end > text && strchr(", \t", *end))) return false;
+        if (!(isalpha(c) || c == '_' || c >= 0x80) || (end > text && strchr(", \t", *end)))
+            return false;
         words++;
         text += strcspn(text, ",");
         if (!*text) return words == columns;
     }
 }
 
-/* rows of standard input; blank lines, comments (#) and a line of column names at the top are passed over */
+/* rows of standard input; blank lines, comments (#) and a line of column names at the top are
+ * passed over */
 static int read_rows(const char *option, QueryList *list) {
     char *text = NULL, expected[80];
     size_t room = 0;
@@ -84,8 +90,10 @@ static int read_rows(const char *option, QueryList *list) {
     const int before = list->count;
     for (ssize_t length; code == EXIT_OK && (length = getline(&text, &room, stdin)) >= 0;) {
         line++;
-        if (length > LONGEST_LINE) code = bad(list, option, line, "the line is longer than 1 MiB", "...");
-        if (strlen(text) != (size_t)length) code = bad(list, option, line, "a zero byte: is this text?", text);
+        if (length > LONGEST_LINE)
+            code = bad(list, option, line, "the line is longer than 1 MiB", "...");
+        if (strlen(text) != (size_t)length)
+            code = bad(list, option, line, "a zero byte: is this text?", text);
         text[strcspn(text, "\r\n")] = '\0';
         const char *start = text + strspn(text, " \t");
         if (code != EXIT_OK || !*start || *start == '#') continue;
@@ -105,19 +113,22 @@ static int read_rows(const char *option, QueryList *list) {
     return code;
 }
 
-int law_query_check_input(const char *command, const char *file, const CliList *velocity, const CliList *force) {
+int law_query_check_input(const char *command, const char *file, const CliList *velocity,
+                          const CliList *force) {
     const CliList *list[2] = {velocity, force};
     int readers = strcmp(file, "-") == 0;
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < list[k]->count; i++) readers += strcmp(list[k]->item[i], "-") == 0;
     if (readers < 2) return EXIT_OK;
-    fprintf(stderr, "capstan %s: '-' is given %d times, but standard input can be read once\n", command, readers);
+    fprintf(stderr, "capstan %s: '-' is given %d times, but standard input can be read once\n",
+            command, readers);
     return EXIT_USAGE;
 }
 
 int law_query_read(const CliList *given, const char *option, QueryList *list) {
     int code = EXIT_OK;
     for (int i = 0; i < given->count && code == EXIT_OK; i++)
-        code = strcmp(given->item[i], "-") == 0 ? read_rows(option, list) : add_row(given->item[i], option, 0, list);
+        code = strcmp(given->item[i], "-") == 0 ? read_rows(option, list)
+                                                : add_row(given->item[i], option, 0, list);
     return code;
 }

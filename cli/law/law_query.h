@@ -13,9 +13,10 @@ typedef struct QueryList {
     double *row; /* (count x n) */
 } QueryList;
 
-/* Standard input is asked for at most once, by the law file or one of the options. Returns EXIT_OK, or EXIT_USAGE after
- * a message. */
-int law_query_check_input(const char *command, const char *file, const CliList *velocity, const CliList *force);
+/* Standard input is asked for at most once, by the law file or one of the options. Returns EXIT_OK,
+ * or EXIT_USAGE after a message. */
+int law_query_check_input(const char *command, const char *file, const CliList *velocity,
+                          const CliList *force);
 
 /* Add the arguments of one option, "1,2" each, or "-" for all rows of standard input.
  * Returns EXIT_OK, or another exit code after a message on standard error. */

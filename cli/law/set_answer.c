@@ -37,7 +37,8 @@ static bool take_block(SetAnswer *a) {
     a->block = calloc(2 * n * n + 3 * n + 2 * MOST_LISTED * n, sizeof *a->block);
     if (!a->block) return false;
     a->center = a->block;
-    a->low = a->center + n, a->high = a->low + n;
+    a->low = a->center + n;
+    a->high = a->low + n;
     a->vertex = a->high + n;
     a->ray = a->vertex + MOST_LISTED * n;
     a->basis = a->ray + MOST_LISTED * n;
@@ -52,22 +53,28 @@ static void take_middle(SetAnswer *a) {
     for (int i = 0; i < a->n; i++) a->center[i] += along * a->basis[i];
 }
 
-/* The pointed part of a cone, which lies across its lines: rays where it has dimension 1 or 2, and the lines both ways. */
+/* The pointed part of a cone, which lies across its lines: rays where it has dimension 1 or 2, and
+ * the lines both ways. */
 static CpsStatus ask_pointed(const CpsSet *cone, SetAnswer *a, CpsError *err) {
     const size_t n = (size_t)a->n, lines = (size_t)a->lineality;
     CpsSet *across = NULL, *pointed = NULL;
     CpsSetAnswer listed;
     int count = 0;
-    CpsStatus status = cps_set_subspace(a->n, a->n - a->lineality, a->line + lines * n, &across, err);
-    if (status == CPS_OK) status = cps_set_intersection(2, (const CpsSet *const[]){cone, across}, &pointed, err);
+    CpsStatus status =
+        cps_set_subspace(a->n, a->n - a->lineality, a->line + lines * n, &across, err);
+    if (status == CPS_OK)
+        status = cps_set_intersection(2, (const CpsSet *const[]){cone, across}, &pointed, err);
     if (status == CPS_OK && a->facts.dimension > a->lineality)
         status = cps_set_rays(pointed, 0, MOST_LISTED, a->ray, &count, &listed, err);
-    const bool known = status == CPS_OK && (a->facts.dimension == a->lineality || listed.outcome == CPS_SET_ANSWERED);
+    const bool known = status == CPS_OK &&
+                       (a->facts.dimension == a->lineality || listed.outcome == CPS_SET_ANSWERED);
     if (known && (size_t)count + 2 * lines <= MOST_LISTED) {
         a->ray_count = count;
         for (size_t k = 0; k < 2 * lines; k++)
-            for (size_t i = 0; i < n; i++)
-                a->ray[(size_t)a->ray_count * n + i] = (k % 2 ? -1 : 1) * a->line[k / 2 * n + i], a->ray_count += i == n - 1;
+            for (size_t i = 0; i < n; i++) {
+                a->ray[(size_t)a->ray_count * n + i] = (k % 2 ? -1 : 1) * a->line[k / 2 * n + i];
+                a->ray_count += i == n - 1;
+            }
     }
     cps_set_release(across);
     cps_set_release(pointed);
@@ -79,7 +86,8 @@ static CpsStatus ask_lines(const CpsSet *cone, SetAnswer *a, CpsError *err) {
     CpsSet *turned = NULL, *both = NULL;
     CpsSetFacts facts = {.outcome = CPS_SET_INACCURATE};
     CpsStatus status = cps_set_scale(-1, cone, &turned, err);
-    if (status == CPS_OK) status = cps_set_intersection(2, (const CpsSet *const[]){cone, turned}, &both, err);
+    if (status == CPS_OK)
+        status = cps_set_intersection(2, (const CpsSet *const[]){cone, turned}, &both, err);
     if (status == CPS_OK) status = cps_set_facts(both, 0, &facts, NULL, a->line, err);
     if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED) a->lineality = facts.dimension;
     cps_set_release(turned);
@@ -99,7 +107,8 @@ CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *e
         CpsSetExtent extent;
         status = cps_set_extent(set, a->basis + (size_t)i * (size_t)a->n, &extent, err);
         if (status != CPS_OK) break;
-        a->low[i] = extent.low, a->high[i] = extent.high;
+        a->low[i] = extent.low;
+        a->high[i] = extent.high;
         a->gap = fmax(a->gap, extent.gap);
     }
     if (status == CPS_OK && !cone && a->facts.dimension == 1 && a->facts.bounded) take_middle(a);
@@ -144,14 +153,19 @@ static void print_extents(const SetAnswer *a) {
 /* degrees between two unit vectors */
 static double angle(const SetAnswer *a, const double *u, const double *v) {
     double less = 0, more = 0;
-    for (int i = 0; i < a->n; i++) less += (u[i] - v[i]) * (u[i] - v[i]), more += (u[i] + v[i]) * (u[i] + v[i]);
+    for (int i = 0; i < a->n; i++) {
+        less += (u[i] - v[i]) * (u[i] - v[i]);
+        more += (u[i] + v[i]) * (u[i] + v[i]);
+    }
     return 2 * atan2(sqrt(less), sqrt(more)) * DEGREES;
 }
 
 /* "line", "plane" or "space of dimension 3" */
 static void print_flat(int dimension) {
-    if (dimension > 2) printf("space of dimension %d", dimension);
-    else fputs(dimension > 1 ? "plane" : "line", stdout);
+    if (dimension > 2)
+        printf("space of dimension %d", dimension);
+    else
+        fputs(dimension > 1 ? "plane" : "line", stdout);
 }
 
 /* Lines first: then all is said of what lies across them. */
@@ -160,12 +174,20 @@ static void print_cone_with_lines(const SetAnswer *a) {
     if (l == d && d == 1) {
         fputs("a line along", stdout);
     } else if (l == d) {
-        fputs("a whole ", stdout), print_flat(d), fputs(", spanned by", stdout);
+        fputs("a whole ", stdout);
+        print_flat(d);
+        fputs(", spanned by", stdout);
     } else if (l == d - 1) {
         fputs(d == 2 ? "a half-plane, bounded by the line along" : "a half-space", stdout);
-        if (d > 2) printf(" of dimension %d, bounded by the ", d), print_flat(l), fputs(" spanned by", stdout);
+        if (d > 2) {
+            printf(" of dimension %d, bounded by the ", d);
+            print_flat(l);
+            fputs(" spanned by", stdout);
+        }
     } else {
-        printf("a cone of dimension %d with the ", d), print_flat(l), fputs(l == 1 ? " along" : " spanned by", stdout);
+        printf("a cone of dimension %d with the ", d);
+        print_flat(l);
+        fputs(l == 1 ? " along" : " spanned by", stdout);
     }
     print_list(a, a->line, l);
     if (l == d) return;
@@ -205,7 +227,8 @@ static void print_cone(const SetAnswer *a) {
 /* (x + factor d) */
 static void print_sum(int n, const double *x, double factor, const double *d) {
     putchar('(');
-    for (int i = 0; i < n; i++) printf("%s%.10g", i ? ", " : "", (x ? x[i] : 0) + factor * d[i] + 0.0);
+    for (int i = 0; i < n; i++)
+        printf("%s%.10g", i ? ", " : "", (x ? x[i] : 0) + factor * d[i] + 0.0);
     putchar(')');
 }
 
@@ -278,7 +301,8 @@ void law_answer_json(const SetAnswer *a, bool cone, FILE *out) {
         fprintf(out, "{\"outcome\": \"%s\"}", cps_set_outcome_name(a->facts.outcome));
         return;
     }
-    fprintf(out, "{\"dimension\": %d, \"description\": \"%s\", \"center\": ", a->facts.dimension, description(a, cone));
+    fprintf(out, "{\"dimension\": %d, \"description\": \"%s\", \"center\": ", a->facts.dimension,
+            description(a, cone));
     law_json_vector(a->n, a->center, out);
     if (a->vertex_count >= 0) json_list(a, "vertices", a->vertex, a->vertex_count, out);
     if (a->ray_count >= 0) json_list(a, "rays", a->ray, a->ray_count, out);

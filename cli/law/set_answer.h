@@ -8,7 +8,8 @@
 #include "capstan/io.h"
 #include "capstan/law.h"
 
-/* What is told of a set: facts, extent along an orthonormal basis of its directions, vertices or rays. */
+/* What is told of a set: facts, extent along an orthonormal basis of its directions, vertices or
+ * rays. */
 typedef struct SetAnswer {
     int n;
     CpsSetFacts facts;
@@ -25,7 +26,8 @@ typedef struct SetAnswer {
     double *block;      /* all of the above */
 } SetAnswer;
 
-/* Ask a set (a cone if `cone`). Returns CPS_OK or the library's error; free with law_answer_free. */
+/* Ask a set (a cone if `cone`). Returns CPS_OK or the library's error; free with
+ * law_answer_free. */
 CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *answer, CpsError *err);
 void law_answer_free(SetAnswer *answer);
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan run: solve a scene step by step, write its results, print a short table; or the same by the method of 1990
- * (regularized.h).
+/* capstan run: solve a scene step by step, write its results, print a short table; or the same by
+ * the method of 1990 (regularized.h).
  *
- * The first SIGINT or SIGTERM lets the load step end and keeps the results so far; the second ends at once. A journal
- * of the steps is kept beside the results until the run is finished: after a stop, of whatever kind, --resume goes on
- * from there. */
+ * The first SIGINT or SIGTERM lets the load step end and keeps the results so far; the second ends
+ * at once. A journal of the steps is kept beside the results until the run is finished: after a
+ * stop, of whatever kind, --resume goes on from there. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,14 +12,14 @@
 #include <unistd.h>
 
 #include "capstan/io.h"
-#include "run/classic_options.h"
-#include "run/warnings.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
+#include "run/classic_options.h"
 #include "run/regularized_run.h"
+#include "run/warnings.h"
 #include "signals.h"
 
 enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
@@ -28,10 +28,11 @@ enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
 static const double RANGE_SHOWN = 1e-5;
 
 static void put_head(FILE *table) {
-    static const char *const NAME[] = {"tension A", "tension B"}, *const ERROR[] = {"bound", "mesh"},
+    static const char *const NAME[] = {"tension A", "tension B"},
+                             *const ERROR[] = {"bound", "mesh"},
                              *const LENGTH[] = {"grounded", "slipping", "slack"};
-    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s", NAME_WIDTH, "step", LINE_WIDTH, "line", "outcome", "parts", "iter",
-            "gap/scale");
+    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s", NAME_WIDTH, "step", LINE_WIDTH, "line", "outcome",
+            "parts", "iter", "gap/scale");
     for (int i = 0; i < 2; ++i) fprintf(table, " %12s", NAME[i]);
     for (int i = 0; i < 2; ++i) fprintf(table, " %8s", ERROR[i]);
     for (int i = 0; i < 3; ++i) fprintf(table, " %10s", LENGTH[i]);
@@ -50,7 +51,8 @@ static void put_error(FILE *table, double error) {
         fprintf(table, " %8s", "-");
 }
 
-/* [N] of an end; 0 where it is so small a part of the largest force that it is what the loop leaves, 1e-9 and less */
+/* [N] of an end; 0 where it is so small a part of the largest force that it is what the loop
+ * leaves, 1e-9 and less */
 static double shown_tension(const CpsLineReport *line, int end) {
     const double tension = line->end[end].tension;
     return tension < 1e-9 * line->certificate.largest_force ? 0 : tension;
@@ -59,25 +61,31 @@ static double shown_tension(const CpsLineReport *line, int end) {
 /* at the end of a stage, where forces at rest leave the tension of the end's element open */
 static void put_range(FILE *table, char end, const CpsTensionRange *range, double force) {
     if (range->kind == CPS_RANGE_UNBOUNDED)
-        fprintf(table, "%*s element at %c: any tension from %.6g N up may hold it (jammed)\n", NAME_WIDTH + 1 + LINE_WIDTH, "", end, range->least);
-    else if (range->kind == CPS_RANGE_BOUNDED && range->greatest - range->least > RANGE_SHOWN * force)
-        fprintf(table, "%*s element at %c: any tension from %.6g to %.6g N may hold it\n", NAME_WIDTH + 1 + LINE_WIDTH, "", end, range->least,
-                range->greatest);
+        fprintf(table, "%*s element at %c: any tension from %.6g N up may hold it (jammed)\n",
+                NAME_WIDTH + 1 + LINE_WIDTH, "", end, range->least);
+    else if (range->kind == CPS_RANGE_BOUNDED &&
+             range->greatest - range->least > RANGE_SHOWN * force)
+        fprintf(table, "%*s element at %c: any tension from %.6g to %.6g N may hold it\n",
+                NAME_WIDTH + 1 + LINE_WIDTH, "", end, range->least, range->greatest);
 }
 
-/* [m] natural length of elements with |x'| < 1, by more than the strain that a judgement lets pass (solutions.h, 1e-8) */
+/* [m] natural length of elements with |x'| < 1, by more than the strain that a judgement lets pass
+ * (solutions.h, 1e-8) */
 static double outside_kin(const CpsLineView *view) {
     double length = 0;
     for (int i = 0; i < view->elements; ++i) {
         const double *a = view->position + 3 * (size_t)i, l = view->element_length[i];
-        const double chord = sqrt((a[3] - a[0]) * (a[3] - a[0]) + (a[4] - a[1]) * (a[4] - a[1]) + (a[5] - a[2]) * (a[5] - a[2]));
+        const double chord = sqrt((a[3] - a[0]) * (a[3] - a[0]) + (a[4] - a[1]) * (a[4] - a[1]) +
+                                  (a[5] - a[2]) * (a[5] - a[2]));
         if (chord < (1 - 1e-4) * l) length += l;
     }
     return length;
 }
 
-/* With the friction of the reference a step is P4.2 of S90: does its solution lie in Kin, that is, solve P3.1, and is it the only one? */
-static void put_verdict(FILE *verdicts, const char *step, const CpsLineReport *line, const CpsLineView *view) {
+/* With the friction of the reference a step is P4.2 of S90: does its solution lie in Kin, that is,
+ * solve P3.1, and is it the only one? */
+static void put_verdict(FILE *verdicts, const char *step, const CpsLineReport *line,
+                        const CpsLineView *view) {
     const double length = outside_kin(view);
     cli_put_text(verdicts, step, NAME_WIDTH, true);
     fputc(' ', verdicts);
@@ -87,10 +95,12 @@ static void put_verdict(FILE *verdicts, const char *step, const CpsLineReport *l
         fprintf(verdicts, "a solution of P4.2 outside Kin: |x'| < 1 on %.4g m", length);
     else
         fputs("a solution of P3.1", verdicts);
-    fprintf(verdicts, ", %s\n", line->places == CPS_PLACES_UNIQUE ? "the only one" : "one of many places");
+    fprintf(verdicts, ", %s\n",
+            line->places == CPS_PLACES_UNIQUE ? "the only one" : "one of many places");
 }
 
-static void put_rows(FILE *table, FILE *verdicts, const CpsScene *scene, const CpsEvolution *evolution) {
+static void put_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
+                     const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
@@ -98,16 +108,19 @@ static void put_rows(FILE *table, FILE *verdicts, const CpsScene *scene, const C
         cli_put_text(table, i == 0 ? step.name : "", NAME_WIDTH, true);
         fputc(' ', table);
         cli_put_text(table, cps_evolution_line_view(evolution, i).name, LINE_WIDTH, true);
-        fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g", cps_outcome_key(line.outcome), line.parts, line.iterations,
+        fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g", cps_outcome_key(line.outcome),
+                line.parts, line.iterations,
                 certificate->scale > 0 ? certificate->gap / certificate->scale : certificate->gap,
                 shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B));
         const bool solved = line.outcome == CPS_SOLVED || line.outcome == CPS_TAUT;
         put_error(table, solved ? certificate->tension_bound : NAN);
         put_error(table, solved ? line.tension_mesh : NAN);
         fprintf(table, " %10.4g %10.4g %10.4g\n", line.grounded, line.slipping, line.slack);
-        for (int e = 0; e < 2; ++e) put_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
+        for (int e = 0; e < 2; ++e)
+            put_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
-        if (solved && scene->friction == CPS_FRICTION_FROZEN && !view.slide) put_verdict(verdicts, step.name, &line, &view);
+        if (solved && scene->friction == CPS_FRICTION_FROZEN && !view.slide)
+            put_verdict(verdicts, step.name, &line, &view);
     }
 }
 
@@ -125,26 +138,29 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         const double *d = line.proof;
         const CpsCertificate *c = &line.certificate;
         if (line.outcome == CPS_INFEASIBLE) {
-            fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g)", line.proof_value, d[0], d[1], d[2]);
+            fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g)", line.proof_value, d[0], d[1],
+                    d[2]);
             if (line.proof_obstacle >= 0) {
                 fputs(", the shortest way round obstacle ", stderr);
                 cli_put_text(stderr, scene->obstacle[line.proof_obstacle].name, 80, false);
             }
             fputc(')', stderr);
         } else if (line.outcome == CPS_UNBOUNDED || line.outcome == CPS_SLIDES) {
-            fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1], d[2]);
+            fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1],
+                    d[2]);
             if (line.coulomb > 0)
-                fprintf(stderr,
-                        " with the friction bounds of the reference; these loads press so that mu R, %.6g N in all, holds the "
-                        "line: 'friction: consistent' has an equilibrium",
-                        line.coulomb);
+                fprintf(
+                    stderr,
+                    " with the friction bounds of the reference; these loads press so that mu R, "
+                    "%.6g N in all, holds the line: 'friction: consistent' has an equilibrium",
+                    line.coulomb);
         } else if (line.outcome == CPS_MESH_TOO_COARSE)
             cautions_put_bend(&line.bend, scene->obstacle[line.bend.obstacle].name);
         else if (line.outcome != CPS_TAUT && !(c->scale > 0 && c->largest_force > 0))
             fprintf(stderr, " (gap %.2e J, without any force)", c->gap);
         else if (line.outcome != CPS_TAUT)
-            fprintf(stderr, " (gap %.2e of the scale, force residual %.2e of the largest force)", c->gap / c->scale,
-                    c->force_residual / c->largest_force);
+            fprintf(stderr, " (gap %.2e of the scale, force residual %.2e of the largest force)",
+                    c->gap / c->scale, c->force_residual / c->largest_force);
         fputc('\n', stderr);
     }
 }
@@ -152,16 +168,13 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
 static int exit_code(CpsOutcome worst) {
     switch (worst) {
     case CPS_SOLVED:
-    case CPS_TAUT:
-        return EXIT_OK;
+    case CPS_TAUT: return EXIT_OK;
     case CPS_STALLED:
     case CPS_ITERATION_LIMIT:
-    case CPS_MESH_TOO_COARSE:
-        return EXIT_NOT_CERTIFIED;
+    case CPS_MESH_TOO_COARSE: return EXIT_NOT_CERTIFIED;
     case CPS_UNBOUNDED:
     case CPS_INFEASIBLE:
-    case CPS_SLIDES:
-        return EXIT_NO_SOLUTION;
+    case CPS_SLIDES: return EXIT_NO_SOLUTION;
     }
     return EXIT_NOT_CERTIFIED;
 }
@@ -193,7 +206,8 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     progress_step(&run->progress, report.index + 1, report.name);
     cautions_step(&run->cautions, run->scene, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
-    if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED || cli_stopped())
+    if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED ||
+        cli_stopped())
         put_rows(run->table, run->verdicts, run->scene, run->evolution);
     if (report.outcome != CPS_SOLVED) {
         progress_end(&run->progress);
@@ -213,7 +227,8 @@ static CpsStatus take_back(Run *run, CpsError *err) {
         steps += found;
     }
     progress_end(&run->progress);
-    fprintf(stderr, "capstan: %d of %d steps were done before\n", steps, cps_evolution_step_count(run->evolution));
+    fprintf(stderr, "capstan: %d of %d steps were done before\n", steps,
+            cps_evolution_step_count(run->evolution));
     return CPS_OK;
 }
 
@@ -232,12 +247,17 @@ static CpsStatus take_steps(Run *run, CpsError *err) {
 }
 
 /* Open what a run needs, take the steps, finish. */
-static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *options, CpsError *err) {
+static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *options,
+                           CpsError *err) {
     const double begun = cli_now();
     CpsStatus status = cps_evolution_create(run->scene, &run->evolution, err);
     const CpsResultsOptions wanted = wanted_results(options);
-    if (!status) status = cps_results_open_with(directory, run->scene, run->evolution, &wanted, &run->results, err);
-    const CpsJournalMode journal = options->resume ? CPS_JOURNAL_RESUME : options->overwrite ? CPS_JOURNAL_REPLACE : CPS_JOURNAL_NEW;
+    if (!status)
+        status = cps_results_open_with(directory, run->scene, run->evolution, &wanted,
+                                       &run->results, err);
+    const CpsJournalMode journal = options->resume      ? CPS_JOURNAL_RESUME
+                                   : options->overwrite ? CPS_JOURNAL_REPLACE
+                                                        : CPS_JOURNAL_NEW;
     if (!status) status = cps_journal_open(directory, run->evolution, journal, &run->journal, err);
     if (status) return status;
     if (wanted.sync_at_end) cps_journal_sync_late(run->journal);
@@ -247,35 +267,49 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
     progress_end(&run->progress);
     const double wall = cli_now() - begun;
     CpsError none;
-    if (run->refused) cps_results_finish(run->results, wall, &none); /* what is told is why it could not go on */
+    if (run->refused)
+        cps_results_finish(run->results, wall, &none); /* what is told is why it could not go on */
     if (!status) status = cps_results_finish(run->results, wall, err);
-    if (!status && cps_evolution_remaining(run->evolution) == 0) cps_journal_remove(run->journal);
-    else if (run->journal && wanted.sync_at_end) status = status ? status : cps_journal_sync(run->journal, err);
-    if (!status && options->json) status = cps_results_write_summary(run->results, wall, stdout, err);
+    if (!status && cps_evolution_remaining(run->evolution) == 0)
+        cps_journal_remove(run->journal);
+    else if (run->journal && wanted.sync_at_end)
+        status = status ? status : cps_journal_sync(run->journal, err);
+    if (!status && options->json)
+        status = cps_results_write_summary(run->results, wall, stdout, err);
     return status;
 }
 
 static void say_where(const char *directory, const CpsEvolution *evolution, bool paraview) {
-    const int steps = cps_evolution_step_count(evolution), left = cps_evolution_remaining(evolution);
+    const int steps = cps_evolution_step_count(evolution),
+              left = cps_evolution_remaining(evolution);
     if (cli_stopped())
-        fprintf(stderr, "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n",
+        fprintf(stderr,
+                "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n",
                 steps - left, steps);
-    printf("\nbound     rms error of the tension that the certificate leaves possible, in this step's own problem: it says nothing of the\n"
-           "          mesh, nor of what earlier steps have left. mesh: estimated error by the elements' length, of the step as well\n");
+    printf("\nbound     rms error of the tension that the certificate leaves possible, in this "
+           "step's own problem: it says nothing of the\n"
+           "          mesh, nor of what earlier steps have left. mesh: estimated error by the "
+           "elements' length, of the step as well\n");
     printf("\nresults   %s: summary.json, history.csv, result.nc%s\n", directory,
            paraview ? ", result.pvd (ParaView)" : "");
-    printf("pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg, loop-*.svg of closed cycles\n", directory);
+    printf("pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg, loop-*.svg of closed "
+           "cycles\n",
+           directory);
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
     const double *o = view.origin;
     if (o[0] != 0 || o[1] != 0 || o[2] != 0)
-        printf("origin    places in result.nc, the ParaView files and pictures are measured from (%.15g, %.15g, %.15g) m\n", o[0], o[1], o[2]);
+        printf("origin    places in result.nc, the ParaView files and pictures are measured from "
+               "(%.15g, %.15g, %.15g) m\n",
+               o[0], o[1], o[2]);
 }
 
 static int run(const CpsScene *scene, const char *directory, const CliOptions *options) {
     CpsError err;
     char *text = NULL, *said = NULL;
     size_t size = 0, length = 0;
-    Run run = {.scene = scene, .table = open_memstream(&text, &size), .verdicts = open_memstream(&said, &length)};
+    Run run = {.scene = scene,
+               .table = open_memstream(&text, &size),
+               .verdicts = open_memstream(&said, &length)};
     if (!run.table || !run.verdicts) {
         if (run.table) fclose(run.table);
         if (run.verdicts) fclose(run.verdicts);
@@ -292,7 +326,9 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
         if (length > 0) printf("\n%s", said);
         say_where(directory, run.evolution, !options->no_paraview);
     }
-    const int code = status ? cli_report(&err) : cli_stopped() ? 128 + cli_stopped() : exit_code(run.worst);
+    const int code = status          ? cli_report(&err)
+                     : cli_stopped() ? 128 + cli_stopped()
+                                     : exit_code(run.worst);
     free(text);
     free(said);
     cps_journal_destroy(run.journal);
@@ -309,24 +345,31 @@ static bool adjust(CpsScene *scene, const CliOptions *options) {
     const double tolerance = scene->solver.path_tolerance = strtod(options->tol, &end);
     const bool within = tolerance == 0 || (tolerance >= 1e-9 && tolerance <= 1);
     if (end != options->tol && *end == '\0' && errno == 0 && within) return true;
-    cli_printf(stderr, "capstan run: --tol '%s': expected a number, 0 or 1e-9 to 1\n", options->tol);
+    cli_printf(stderr, "capstan run: --tol '%s': expected a number, 0 or 1e-9 to 1\n",
+               options->tol);
     return false;
 }
 
-/* False: --method is none, or does not go with the other options, and a message has been written. */
+/* False: --method is none, or does not go with the other options, and a message has been
+ * written. */
 static bool is_sound(const CliOptions *options, bool *regularized) {
     const CpsResultsOptions wanted = wanted_results(options);
     CpsError err;
     *regularized = options->method && strcmp(options->method, "regularized") == 0;
     if (options->method && !*regularized && strcmp(options->method, "exact") != 0)
-        cli_printf(stderr, "capstan run: --method: found '%.40s', expected exact or regularized\n", options->method);
+        cli_printf(stderr, "capstan run: --method: found '%.40s', expected exact or regularized\n",
+                   options->method);
     else if (!*regularized && classic_options_given(options))
         fputs("capstan run: --lambda, --n and --delta are those of --method regularized\n", stderr);
-    else if (*regularized && (options->resume || options->tol || options->no_paraview || options->fields || options->sync))
-        fputs("capstan run: --method regularized: takes the steps as given, without --tol and --resume, and writes no fields\n",
+    else if (*regularized && (options->resume || options->tol || options->no_paraview ||
+                              options->fields || options->sync))
+        fputs("capstan run: --method regularized: takes the steps as given, without --tol and "
+              "--resume, and writes no fields\n",
               stderr);
-    else if (options->sync && strcmp(options->sync, "step") != 0 && strcmp(options->sync, "end") != 0)
-        cli_printf(stderr, "capstan run: --sync: found '%.40s', expected step or end\n", options->sync);
+    else if (options->sync && strcmp(options->sync, "step") != 0 &&
+             strcmp(options->sync, "end") != 0)
+        cli_printf(stderr, "capstan run: --sync: found '%.40s', expected step or end\n",
+                   options->sync);
     else if (cps_results_check_options(&wanted, &err) != CPS_OK)
         cli_printf(stderr, "capstan run: --%s\n", err.message);
     else
@@ -337,7 +380,9 @@ static bool is_sound(const CliOptions *options, bool *regularized) {
 int cmd_run(int argc, char **argv) {
     CliOptions options;
     bool regularized;
-    if (!cli_parse(argc, argv, FOR_RUN, "SCENE.yaml", &options) || !is_sound(&options, &regularized)) return EXIT_USAGE;
+    if (!cli_parse(argc, argv, FOR_RUN, "SCENE.yaml", &options) ||
+        !is_sound(&options, &regularized))
+        return EXIT_USAGE;
     CpsSceneFile *file = NULL;
     CpsError err;
     if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
@@ -351,7 +396,9 @@ int cmd_run(int argc, char **argv) {
     }
     int code;
     char *directory = cli_destination(&options, regularized ? "-regularized" : "", &code);
-    if (directory) code = regularized ? run_regularized(&scene, directory, &options) : run(&scene, directory, &options);
+    if (directory)
+        code = regularized ? run_regularized(&scene, directory, &options)
+                           : run(&scene, directory, &options);
     free(directory);
     cps_scene_file_destroy(file);
     return code;

@@ -19,8 +19,9 @@ enum { NEWTON_LIMIT = 5000, STEP_NAME = 96, NAME_WIDTH = 18, LINE_WIDTH = 10 };
 double regularized_friction(const CpsScene *scene, const char *command) {
     if (scene->obstacle_count == 0) return 0;
     if (scene->obstacle_count == 1) return scene->obstacle[0].friction;
-    fprintf(stderr, "capstan %s: found %d obstacles, expected one plane or none for the method of 1990\n", command,
-            scene->obstacle_count);
+    fprintf(stderr,
+            "capstan %s: found %d obstacles, expected one plane or none for the method of 1990\n",
+            command, scene->obstacle_count);
     return -1;
 }
 
@@ -34,19 +35,23 @@ CpsScene regularized_scene(const CpsScene *scene) {
 
 void regularized_tell_friction(const CpsScene *scene) {
     if (scene->friction == CPS_FRICTION_CONSISTENT)
-        puts("friction: A = mu R_R of the reference, (78), in every step, as P2.1 has it; the scene's own, consistent, is A = mu R at x");
+        puts("friction: A = mu R_R of the reference, (78), in every step, as P2.1 has it; the "
+             "scene's own, consistent, is A = mu R at x");
 }
 
 void regularized_tell_steps(const CpsScene *scene) {
     if (scene->solver.path_tolerance > 0)
-        puts("steps are taken whole, as given: the scene's path_tolerance is not applied to any method");
+        puts("steps are taken whole, as given: the scene's path_tolerance is not applied to any "
+             "method");
 }
 
-CpsStatus regularized_step(Regularized *method, const CpsLineView *exact, CpsClassicParameters *parameters,
-                           CpsClassicReport *report, CpsError *err) {
+CpsStatus regularized_step(Regularized *method, const CpsLineView *exact,
+                           CpsClassicParameters *parameters, CpsClassicReport *report,
+                           CpsError *err) {
     CpsClassic *next = NULL;
-    CpsStatus status = method->last ? cps_classic_next(exact, method->friction, method->last, &next, err)
-                                    : cps_classic_create(exact, &next, err);
+    CpsStatus status = method->last
+                           ? cps_classic_next(exact, method->friction, method->last, &next, err)
+                           : cps_classic_create(exact, &next, err);
     cps_classic_destroy(method->last);
     method->last = next;
     if (status != CPS_OK) return status;
@@ -78,7 +83,10 @@ static void free_history(History *h) {
     for (int i = 0; i < h->lines && h->track; ++i) {
         Track *t = &h->track[i];
         cps_classic_destroy(t->method.last);
-        free(t->position), free(t->tension), free(t->parameters), free(t->report);
+        free(t->position);
+        free(t->tension);
+        free(t->parameters);
+        free(t->report);
     }
     free(h->track);
     free(h->name);
@@ -108,7 +116,8 @@ static bool make_history(History *h, double friction, const ClassicOptions *give
 /* in the coordinates of the scene */
 static void store(Track *t, int step, const double *position, const double origin[3]) {
     double *to = t->position + (size_t)step * 3 * (size_t)t->points;
-    for (size_t i = 0; i < 3 * (size_t)t->points; ++i) to[i] = origin[i % 3] != 0 ? origin[i % 3] + position[i] : position[i];
+    for (size_t i = 0; i < 3 * (size_t)t->points; ++i)
+        to[i] = origin[i % 3] != 0 ? origin[i % 3] + position[i] : position[i];
 }
 
 /* all lines of the step that the exact history has just taken */
@@ -143,7 +152,8 @@ static int take_steps(History *h, bool quiet) {
             progress_end(&progress);
             fputs("capstan run: step ", stderr);
             cli_put_text(stderr, report.name, 80, false);
-            fprintf(stderr, ": %s; the method of 1990 has no limit to go to\n", cps_outcome_sentence(report.outcome));
+            fprintf(stderr, ": %s; the method of 1990 has no limit to go to\n",
+                    cps_outcome_sentence(report.outcome));
             code = cps_outcome_is_final(report.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
         } else if (follow(h, &err) != CPS_OK) {
             code = cli_report(&err);
@@ -161,10 +171,11 @@ static double larger(double a, double b) { return b > a ? b : a; }
 
 static void tell(const History *h, const char *directory) {
     CpsClassicReport most = {0};
-    printf("%-*s %-*s %-13s %5s %12s %12s %9s %9s %9s %9s %9s %9s\n", NAME_WIDTH, "step", LINE_WIDTH, "line", "outcome",
-           "iter", "tension A", "tension B", "push", "sunk", "creep", "uncarried", "tension", "place");
-    printf("%-*s %-*s %-13s %5s %12s %12s %9s %9s %9s %9s %9s %9s\n", NAME_WIDTH, "", LINE_WIDTH, "", "", "", "N", "N",
-           "N", "m", "m", "N", "N rms off", "m off");
+    printf("%-*s %-*s %-13s %5s %12s %12s %9s %9s %9s %9s %9s %9s\n", NAME_WIDTH, "step",
+           LINE_WIDTH, "line", "outcome", "iter", "tension A", "tension B", "push", "sunk", "creep",
+           "uncarried", "tension", "place");
+    printf("%-*s %-*s %-13s %5s %12s %12s %9s %9s %9s %9s %9s %9s\n", NAME_WIDTH, "", LINE_WIDTH,
+           "", "", "", "N", "N", "N", "m", "m", "N", "N rms off", "m off");
     for (int s = 1; s < h->done; ++s)
         for (int i = 0; i < h->lines; ++i) {
             const Track *t = &h->track[i];
@@ -173,21 +184,23 @@ static void tell(const History *h, const char *directory) {
             most.penetration = larger(most.penetration, r->penetration);
             most.creep = larger(most.creep, r->creep);
             most.friction_excess = larger(most.friction_excess, r->friction_excess);
-            if (!cli_is_shown(h->scene, h->steps - 1, s - 1) && r->converged && s < h->done - 1) continue;
+            if (!cli_is_shown(h->scene, h->steps - 1, s - 1) && r->converged && s < h->done - 1)
+                continue;
             cli_put_text(stdout, i == 0 ? h->name[s] : "", NAME_WIDTH, true);
             putchar(' ');
             cli_put_text(stdout, cps_evolution_line_view(h->exact, i).name, LINE_WIDTH, true);
             printf(" %-13s %5d %12.6g %12.6g %9.1e %9.1e %9.1e %9.1e %9.1e %9.1e\n",
                    r->converged ? "converged" : "not converged", r->iterations, t->tension[2 * s],
-                   t->tension[2 * s + 1], r->compression, r->penetration, r->creep, r->friction_excess, r->tension_rms,
-                   r->position_max);
+                   t->tension[2 * s + 1], r->compression, r->penetration, r->creep,
+                   r->friction_excess, r->tension_rms, r->position_max);
         }
-    printf("\nno certificate: a regularised solution is no equilibrium under dry friction. Its parameters leave at most"
-           "\n  %.2g N of push in the line (1/n), %.2g m inside the obstacle (lambda), %.2g m of creep below the bound "
-           "(delta),\n  %.2g N that nothing carries; 'off' is from the certified step with frozen friction\n",
+    printf("\nno certificate: a regularised solution is no equilibrium under dry friction. Its "
+           "parameters leave at most\n  %.2g N of push in the line (1/n), %.2g m inside the "
+           "obstacle (lambda), %.2g m of creep below the bound (delta),\n  %.2g N that nothing "
+           "carries; 'off' is from the certified step with frozen friction\n",
            most.compression, most.penetration, most.creep, most.friction_excess);
-    printf("\nresults   %s: summary.json, history.csv\npictures  %s: line-1.svg%s\n", directory, directory,
-           h->lines > 1 ? ", .." : "");
+    printf("\nresults   %s: summary.json, history.csv\npictures  %s: line-1.svg%s\n", directory,
+           directory, h->lines > 1 ? ", .." : "");
 }
 
 /* ---- together ---- */
@@ -199,7 +212,8 @@ static bool all_converged(const History *h) {
     return true;
 }
 
-static int write_results(const History *h, double wall, const char *directory, const CliOptions *options) {
+static int write_results(const History *h, double wall, const char *directory,
+                         const CliOptions *options) {
     CpsError err;
     const char **name = malloc((size_t)h->steps * sizeof *name);
     CpsRegularizedLine *line = calloc((size_t)h->lines, sizeof *line);
@@ -254,7 +268,8 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
         }
         code = take_steps(&h, options->quiet);
         const bool some = h.done > 1 || h.steps == 1;
-        const int written = some ? write_results(&h, cli_now() - begun, directory, options) : EXIT_OK;
+        const int written =
+            some ? write_results(&h, cli_now() - begun, directory, options) : EXIT_OK;
         if (written != EXIT_OK) code = written;
         if (some && written == EXIT_OK && !options->quiet && !options->json) {
             regularized_tell_friction(scene);
@@ -263,7 +278,8 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
         }
         if (code == EXIT_OK && !all_converged(&h)) code = EXIT_NOT_CERTIFIED;
         if (cli_stopped())
-            fprintf(stderr, "capstan: stopped by a signal after %d of %d steps\n", h.done - 1, h.steps - 1);
+            fprintf(stderr, "capstan: stopped by a signal after %d of %d steps\n", h.done - 1,
+                    h.steps - 1);
         if (code == EXIT_OK && cli_stopped()) code = 128 + cli_stopped();
     }
     free_history(&h);

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A history of the regularised method of 1990, step by step: each step goes on from its own last configuration and
- * reactions. Loads, ends and normals are those of the exact history, which goes along. */
+/* A history of the regularised method of 1990, step by step: each step goes on from its own last
+ * configuration and reactions. Loads, ends and normals are those of the exact history, which goes
+ * along. */
 #ifndef CAPSTAN_CLI_RUN_REGULARIZED_RUN_H
 #define CAPSTAN_CLI_RUN_REGULARIZED_RUN_H
 
 #include "capstan/classic.h"
 #include "capstan/io.h"
-#include "run/classic_options.h"
 #include "options.h"
+#include "run/classic_options.h"
 
 /* One line's history so far. Begin with friction, mu of its obstacle, and the parameters given. */
 typedef struct Regularized {
@@ -16,7 +17,8 @@ typedef struct Regularized {
     CpsClassic *last; /* the last step, NULL before the first; the caller's to destroy */
 } Regularized;
 
-/* mu of the scene's obstacle, 0 without one; -1 after a message of `command` where there are several. */
+/* mu of the scene's obstacle, 0 without one; -1 after a message of `command` where there are
+ * several. */
 double regularized_friction(const CpsScene *scene, const char *command);
 
 /* The scene with what the method asks for: friction frozen, steps whole. */
@@ -26,12 +28,14 @@ CpsScene regularized_scene(const CpsScene *scene);
 void regularized_tell_friction(const CpsScene *scene);
 void regularized_tell_steps(const CpsScene *scene);
 
-/* The step that the exact history has just taken, at the parameters with which a study ends or those given, on the step's own elements. */
-CpsStatus regularized_step(Regularized *method, const CpsLineView *exact, CpsClassicParameters *parameters,
-                           CpsClassicReport *report, CpsError *err);
+/* The step that the exact history has just taken, at the parameters with which a study ends or
+ * those given, on the step's own elements. */
+CpsStatus regularized_step(Regularized *method, const CpsLineView *exact,
+                           CpsClassicParameters *parameters, CpsClassicReport *report,
+                           CpsError *err);
 
-/* capstan run --method regularized: all steps of all lines; prints a table, writes the results. A signal (signals.h)
- * ends it after the current step. Returns the exit code. */
+/* capstan run --method regularized: all steps of all lines; prints a table, writes the results. A
+ * signal (signals.h) ends it after the current step. Returns the exit code. */
 int run_regularized(const CpsScene *scene, const char *directory, const CliOptions *options);
 
 #endif

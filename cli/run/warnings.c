@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a user must know of a step though it is certified (see warnings.h).
  *
- * Frozen friction (S90 section 2 d) takes its bound A from the reference. Where the reaction has changed much within
- * the step, A is not mu R any more (example 11.2); where the line has left the obstacle, friction still acts on it, and
- * an equilibrium without it may be the true one (example 11.3). Strict contact keeps out only what touched before
- * (11.1). An element that lies inside a round obstacle is said whatever the outcome: the step is then not certified,
- * but for strict contact.
+ * Frozen friction (S90 section 2 d) takes its bound A from the reference. Where the reaction has
+ * changed much within the step, A is not mu R any more (example 11.2); where the line has left the
+ * obstacle, friction still acts on it, and an equilibrium without it may be the true one (example
+ * 11.3). Strict contact keeps out only what touched before (11.1). An element that lies inside a
+ * round obstacle is said whatever the outcome: the step is then not certified, but for strict
+ * contact.
  *
- * A step goes straight from one equilibrium to another. Where energy is made, or much of it set free, the way between
- * them was another one: the line jumped, or took another branch of equilibria.
+ * A step goes straight from one equilibrium to another. Where energy is made, or much of it set
+ * free, the way between them was another one: the line jumped, or took another branch of
+ * equilibria.
  *
- * A coordinate is a number of 16 digits. Far from the origin of coordinates what rounding leaves of a length makes a tension, and the
- * stiffer the line the larger a one.
+ * A coordinate is a number of 16 digits. Far from the origin of coordinates what rounding leaves of
+ * a length makes a tension, and the stiffer the line the larger a one.
  *
- * Where a line turns by d at one node round an obstacle, the polygon holds tensions up to a ratio k, and a smooth line
- * up to exp(mu d): a mesh that is too coarse for the bend is told by their difference. */
+ * Where a line turns by d at one node round an obstacle, the polygon holds tensions up to a ratio
+ * k, and a smooth line up to exp(mu d): a mesh that is too coarse for the bend is told by their
+ * difference. */
 #include "run/warnings.h"
 
 #include <float.h>
@@ -23,8 +26,8 @@
 
 #include "printable.h"
 
-/* parts of all bounds from which a user is told; a sunk node from a part of the line's length that is no rounding, and an
- * element inside an obstacle from where it is not certified */
+/* parts of all bounds from which a user is told; a sunk node from a part of the line's length that
+ * is no rounding, and an element inside an obstacle from where it is not certified */
 static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6, TOLD_PIERCED = 1e-10;
 /* a part of the length from which slack decides what is lost: most of it */
 static const double TOLD_SLACK = 0.5;
@@ -33,12 +36,14 @@ static const double TOLD_ROUNDED = 1e-3;
 /* parts by which the ratios of tensions of polygon and smooth line may differ */
 static const double TOLD_BEND = 0.01;
 
-/* part of what is dissipated and worked in a step from which a user is told of energy set free without a snap */
+/* part of what is dissipated and worked in a step from which a user is told of energy set free
+ * without a snap */
 static const double TOLD_FREED = 0.5;
 
 static double length3(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-static void note(Cautions *cautions, int kind, double value, double of, const char *step, const char *line) {
+static void note(Cautions *cautions, int kind, double value, double of, const char *step,
+                 const char *line) {
     cautions->kind[kind].steps++;
     if (!(value > cautions->kind[kind].value)) return;
     cautions->kind[kind].value = value;
@@ -47,12 +52,13 @@ static void note(Cautions *cautions, int kind, double value, double of, const ch
     snprintf(cautions->kind[kind].line, sizeof cautions->kind[kind].line, "%s", line);
 }
 
-static void note_pierced(Cautions *cautions, double value, double of, const char *step, const char *line, const char *obstacle) {
+static void note_pierced(Cautions *cautions, double value, double of, const char *step,
+                         const char *line, const char *obstacle) {
     const bool worst = value > cautions->kind[CAUTION_PIERCED].value;
     note(cautions, CAUTION_PIERCED, value, of, step, line);
     if (worst)
-        snprintf(cautions->kind[CAUTION_PIERCED].obstacle, sizeof cautions->kind[CAUTION_PIERCED].obstacle, "%s",
-                 obstacle);
+        snprintf(cautions->kind[CAUTION_PIERCED].obstacle,
+                 sizeof cautions->kind[CAUTION_PIERCED].obstacle, "%s", obstacle);
 }
 
 /* friction on nodes that have left the obstacle, and all bounds together [N] */
@@ -74,12 +80,14 @@ static double lifted_friction(const CpsLineView *view, double *bounds) {
 
 /* [J] dissipated plus positive work of a step */
 static double exchanged(const CpsLedger *l) {
-    return l->dissipated + fmax(0, l->ends) + fmax(0, l->obstacles) + fmax(0, -l->elastic) + fmax(0, -l->gravity);
+    return l->dissipated + fmax(0, l->ends) + fmax(0, l->obstacles) + fmax(0, -l->elastic) +
+           fmax(0, -l->gravity);
 }
 
-/* Energy that the step made, or set free. The first forces at held ends are not known: their work is known to half of
- * it. */
-static void note_energy(Cautions *cautions, const CpsStepReport *step, const CpsLineReport *line, const char *name) {
+/* Energy that the step made, or set free. The first forces at held ends are not known: their work
+ * is known to half of it. */
+static void note_energy(Cautions *cautions, const CpsStepReport *step, const CpsLineReport *line,
+                        const char *name) {
     const double beside = exchanged(&line->ledger), open = line->ledger.imbalance;
     const double freed = open - (step->index == 0 ? fabs(line->ledger.ends) : 0);
     const double known = line->certificate.gap + 1e-8 * line->certificate.scale;
@@ -89,14 +97,18 @@ static void note_energy(Cautions *cautions, const CpsStepReport *step, const Cps
         note(cautions, CAUTION_FREED, freed, beside, step->name, name);
 }
 
-/* [N] tension by rounding of the largest coordinate of an end, eps |x| EA/L; inextensible lines have no such figure */
+/* [N] tension by rounding of the largest coordinate of an end, eps |x| EA/L; inextensible lines
+ * have no such figure */
 static double rounded_tension(const CpsLineView *view) {
     double reach = 0;
     for (size_t k = 0; k < 3; ++k) {
         const double *b = view->position + 3 * (size_t)view->elements;
-        reach = fmax(reach, fmax(fabs(view->origin[k] + view->position[k]), fabs(view->origin[k] + b[k])));
+        reach = fmax(reach,
+                     fmax(fabs(view->origin[k] + view->position[k]), fabs(view->origin[k] + b[k])));
     }
-    return view->compliance > 0 ? DBL_EPSILON * reach / (view->compliance * view->arc_length[view->elements]) : 0;
+    return view->compliance > 0
+               ? DBL_EPSILON * reach / (view->compliance * view->arc_length[view->elements])
+               : 0;
 }
 
 void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution *evolution) {
@@ -105,9 +117,11 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
-        const double length = view.arc_length[view.elements], pierced = line.certificate.element_penetration;
+        const double length = view.arc_length[view.elements],
+                     pierced = line.certificate.element_penetration;
         if (line.pierced >= 0 && pierced > TOLD_PIERCED * length)
-            note_pierced(cautions, pierced, length, step, view.name, scene->obstacle[line.pierced].name);
+            note_pierced(cautions, pierced, length, step, view.name,
+                         scene->obstacle[line.pierced].name);
         if (line.outcome != CPS_SOLVED) continue;
         note_energy(cautions, &report, &line, view.name);
         if (line.snaps > 0) note(cautions, CAUTION_JUMPED, line.jump, length, step, view.name);
@@ -122,80 +136,93 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
         if (bend->turn > 0 && bend->ratio > (1 + TOLD_BEND) * bend->coulomb) {
             if (bend->ratio / bend->coulomb > cautions->kind[CAUTION_BEND].value) {
                 cautions->bend = *bend;
-                snprintf(cautions->kind[CAUTION_BEND].obstacle, sizeof cautions->kind[CAUTION_BEND].obstacle, "%s", scene->obstacle[bend->obstacle].name);
+                snprintf(cautions->kind[CAUTION_BEND].obstacle,
+                         sizeof cautions->kind[CAUTION_BEND].obstacle, "%s",
+                         scene->obstacle[bend->obstacle].name);
             }
             note(cautions, CAUTION_BEND, bend->ratio / bend->coulomb, 1, step, view.name);
         }
-        if (scene->contact == CPS_CONTACT_STRICT && line.certificate.penetration > TOLD_SUNK * length)
+        if (scene->contact == CPS_CONTACT_STRICT &&
+            line.certificate.penetration > TOLD_SUNK * length)
             note(cautions, CAUTION_SUNK, line.certificate.penetration, length, step, view.name);
         if (line.slack > TOLD_SLACK * length && line.slipping > 0)
             note(cautions, CAUTION_SLACK, line.slack, length, step, view.name);
-        if (line.places != CPS_PLACES_UNIQUE) note(cautions, CAUTION_PLACES, (double)line.places, 0, step, view.name);
+        if (line.places != CPS_PLACES_UNIQUE)
+            note(cautions, CAUTION_PLACES, (double)line.places, 0, step, view.name);
         const double rounded = rounded_tension(&view), force = line.certificate.largest_force;
-        if (rounded > TOLD_ROUNDED * force && force > 0) note(cautions, CAUTION_ROUNDED, rounded, force, step, view.name);
+        if (rounded > TOLD_ROUNDED * force && force > 0)
+            note(cautions, CAUTION_ROUNDED, rounded, force, step, view.name);
     }
 }
 
 void cautions_put_bend(const CpsBend *bend, const char *obstacle) {
-    fprintf(stderr, " (at %.4g m the line turns by %.4g degrees at one node round obstacle '%s', mu %.4g: it holds ", bend->arc_length,
-            bend->turn * 57.29577951308232, obstacle, bend->friction);
-    if (isinf(bend->ratio)) fputs("any tension", stderr);
-    else fprintf(stderr, "tensions up to a ratio of %.4g", bend->ratio);
-    fprintf(stderr, ", a smooth line up to exp(mu d) = %.4g; elements no longer than %.3g m keep them within 1 %%)", bend->coulomb,
-            bend->element);
+    fprintf(stderr,
+            " (at %.4g m the line turns by %.4g degrees at one node round obstacle '%s', mu %.4g: "
+            "it holds ",
+            bend->arc_length, bend->turn * 57.29577951308232, obstacle, bend->friction);
+    if (isinf(bend->ratio))
+        fputs("any tension", stderr);
+    else
+        fprintf(stderr, "tensions up to a ratio of %.4g", bend->ratio);
+    fprintf(stderr,
+            ", a smooth line up to exp(mu d) = %.4g; elements no longer than %.3g m keep them "
+            "within 1 %%)",
+            bend->coulomb, bend->element);
 }
 
 static void put_figures(int kind, double value, double of) {
     if (kind == CAUTION_BOUND)
-        fprintf(
-            stderr,
-            "the friction bounds of the reference differ from mu R by %.4g N, of %.4g N in all; 'friction: consistent' "
-            "follows R",
-            value, of);
+        fprintf(stderr,
+                "the friction bounds of the reference differ from mu R by %.4g N, of %.4g N in "
+                "all; 'friction: consistent' follows R",
+                value, of);
     else if (kind == CAUTION_LIFTED)
         fprintf(stderr,
-                "friction of %.4g N, of bounds of %.4g N in all, acts where the line has left the obstacle, and an "
-                "equilibrium "
-                "without it is no solution of this step; 'friction: consistent' has none there",
+                "friction of %.4g N, of bounds of %.4g N in all, acts where the line has left the "
+                "obstacle, and an equilibrium without it is no solution of this step; 'friction: "
+                "consistent' has none there",
                 value, of);
     else if (kind == CAUTION_SLACK)
         fprintf(stderr,
-                "slack over %.4g m of %.4g m: where a line has no tension its place and what friction dissipates there "
-                "depend on the mesh; compare several numbers of elements",
+                "slack over %.4g m of %.4g m: where a line has no tension its place and what "
+                "friction dissipates there depend on the mesh; compare several numbers of elements",
                 value, of);
     else if (kind == CAUTION_PLACES)
         fprintf(stderr, "its forces leave a choice of places: %s",
-                value > CPS_PLACES_NEAREST ? "one of them is taken, which says nothing of the others" : "the nearest to where the step began is taken");
+                value > CPS_PLACES_NEAREST
+                    ? "one of them is taken, which says nothing of the others"
+                    : "the nearest to where the step began is taken");
     else if (kind == CAUTION_JUMPED)
         fprintf(stderr,
-                "the line jumps by %.4g m, of %.4g m of length, however small the load steps: it comes to rest at an equilibrium, which need "
-                "not be the only one",
+                "the line jumps by %.4g m, of %.4g m of length, however small the load steps: it "
+                "comes to rest at an equilibrium, which need not be the only one",
                 value, of);
     else if (kind == CAUTION_MADE)
         fprintf(stderr,
-                "the energy does not close by %.4g J, beside %.4g J dissipated and worked: the line jumps, takes another "
-                "branch, or friction is that of the reference; smaller load steps or a 'path_tolerance' tell which",
+                "the energy does not close by %.4g J, beside %.4g J dissipated and worked: the "
+                "line jumps, takes another branch, or friction is that of the reference; smaller "
+                "load steps or a 'path_tolerance' tell which",
                 value, of);
     else if (kind == CAUTION_FREED)
-        fprintf(stderr,
-                "%.4g J are set free, beside %.4g J dissipated and worked: the line falls or jumps, or the load step is "
-                "large; smaller load steps or a 'path_tolerance' tell which",
-                value, of);
+        fprintf(
+            stderr,
+            "%.4g J are set free, beside %.4g J dissipated and worked: the line falls or jumps, or "
+            "the load step is large; smaller load steps or a 'path_tolerance' tell which",
+            value, of);
     else if (kind == CAUTION_ROUNDED)
         fprintf(stderr,
-                "coordinates are so large that their last digit is worth %.4g N of tension, of %.4g N: measure places from "
-                "one near the lines",
+                "coordinates are so large that their last digit is worth %.4g N of tension, of "
+                "%.4g N: measure places from one near the lines",
                 value, of);
     else if (kind == CAUTION_SUNK)
         fprintf(stderr,
-                "the line is %.4g m inside the obstacle, of %.4g m of length: 'contact: strict' keeps out only what "
-                "touched "
-                "before; 'contact: gained' keeps all out",
+                "the line is %.4g m inside the obstacle, of %.4g m of length: 'contact: strict' "
+                "keeps out only what touched before; 'contact: gained' keeps all out",
                 value, of);
     else
         fprintf(stderr,
-                "the line goes through the obstacle: an element lies %.4g m inside it, more than a chord may, of %.4g m of length; take shorter "
-                "elements or smaller steps",
+                "the line goes through the obstacle: an element lies %.4g m inside it, more than a "
+                "chord may, of %.4g m of length; take shorter elements or smaller steps",
                 value, of);
 }
 
@@ -216,7 +243,8 @@ void cautions_say(const Cautions *cautions) {
             cautions_put_bend(&cautions->bend, cautions->kind[CAUTION_BEND].obstacle);
         } else
             put_figures(k, cautions->kind[k].value, cautions->kind[k].of);
-        if (cautions->kind[k].steps > 1) fprintf(stderr, " (the worst of %d)", cautions->kind[k].steps);
+        if (cautions->kind[k].steps > 1)
+            fprintf(stderr, " (the worst of %d)", cautions->kind[k].steps);
         fputc('\n', stderr);
     }
 }

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a user must know of a step though it is solved and certified: with frozen friction or strict contact what S90
- * annex 6 shows, where most of a line is slack, where its forces leave a choice of places, energy that comes from nowhere or is set free, coordinates with too few digits, and
- * where the mesh is coarse for the bends in it; and, whatever the outcome, where a line goes through an obstacle. */
+/* What a user must know of a step though it is solved and certified: with frozen friction or strict
+ * contact what S90 annex 6 shows, where most of a line is slack, where its forces leave a choice of
+ * places, energy that comes from nowhere or is set free, coordinates with too few digits, and where
+ * the mesh is coarse for the bends in it; and, whatever the outcome, where a line goes through an
+ * obstacle. */
 #ifndef CAPSTAN_CLI_RUN_WARNINGS_H
 #define CAPSTAN_CLI_RUN_WARNINGS_H
 
@@ -38,7 +40,8 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
 /* A line on standard error for each kind met, with its figures and what to do. */
 void cautions_say(const Cautions *cautions);
 
-/* A bend round the obstacle, in brackets, on standard error: what the mesh makes of it, and which mesh would do. */
+/* A bend round the obstacle, in brackets, on standard error: what the mesh makes of it, and which
+ * mesh would do. */
 void cautions_put_bend(const CpsBend *bend, const char *obstacle);
 
 #endif

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan study: solve a scene up to one of its steps, then that step once more by the methods of Souza de Cursi's
- * paper of 1990: regularised, with h, lambda, n and delta on their way to the limits; and to first order. Tables,
- * pictures, a verdict. Or all solutions of the step: its slack laid out, a configuration judged.
+/* capstan study: solve a scene up to one of its steps, then that step once more by the methods of
+ * Souza de Cursi's paper of 1990: regularised, with h, lambda, n and delta on their way to the
+ * limits; and to first order. Tables, pictures, a verdict. Or all solutions of the step: its slack
+ * laid out, a configuration judged.
  *
- * The first SIGINT or SIGTERM lets the solve end and keeps what there is; the second ends at once. */
+ * The first SIGINT or SIGTERM lets the solve end and keeps what there is; the second ends at
+ * once. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,12 +14,12 @@
 #include <unistd.h>
 
 #include "capstan/classic_io.h"
-#include "run/classic_options.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
+#include "run/classic_options.h"
 #include "run/regularized_run.h"
 #include "signals.h"
 #include "study/study_methods.h"
@@ -27,22 +29,26 @@
 
 static bool is_laid(const CpsScene *scene) {
     bool laid = false;
-    for (int i = 0; i < scene->line_count; ++i) laid = laid || scene->line[i].start.kind == CPS_START_LAID;
+    for (int i = 0; i < scene->line_count; ++i)
+        laid = laid || scene->line[i].start.kind == CPS_START_LAID;
     return laid;
 }
 
-/* Is `asked` the name of the stage, then its last step, or of one of its steps, "pull 3/10"?  The step within the stage from 1, or 0. */
+/* Is `asked` the name of the stage, then its last step, or of one of its steps, "pull 3/10"?  The
+ * step within the stage from 1, or 0. */
 static int step_of_stage(const CpsStage *stage, const char *asked) {
     const size_t length = strlen(stage->name);
     int k, n;
     char end;
     if (strcmp(stage->name, asked) == 0) return stage->steps;
-    if (strncmp(asked, stage->name, length) != 0 || sscanf(asked + length, " %9d/%9d%c", &k, &n, &end) != 2) return 0;
+    if (strncmp(asked, stage->name, length) != 0 ||
+        sscanf(asked + length, " %9d/%9d%c", &k, &n, &end) != 2)
+        return 0;
     return n == stage->steps && n > 1 && k >= 1 && k <= n ? k : 0;
 }
 
-/* The number of the step asked for, from 1 as a run counts them: by its name, which only one may have, or by that number; without one the
- * first that is not laid. 0 after a message. */
+/* The number of the step asked for, from 1 as a run counts them: by its name, which only one may
+ * have, or by that number; without one the first that is not laid. 0 after a message. */
 static int find_step(const CpsScene *scene, const char *asked) {
     int before = is_laid(scene) ? 1 : 0, found = 0, number = 0;
     char end;
@@ -51,17 +57,22 @@ static int find_step(const CpsScene *scene, const char *asked) {
     for (int s = 0; s < scene->stage_count; before += scene->stage[s++].steps) {
         const int within = step_of_stage(&scene->stage[s], asked);
         if (within > 0 && found > 0) {
-            cli_printf(stderr, "capstan study: --step: '%.80s' is the name of step %d and of step %d: give the number\n", asked, found,
-                       before + within);
+            cli_printf(stderr,
+                       "capstan study: --step: '%.80s' is the name of step %d and of step %d: give "
+                       "the number\n",
+                       asked, found, before + within);
             return 0;
         }
         if (within > 0) found = before + within;
     }
     if (scene->stage_count == 0 && before == 0 && strcmp(asked, "equilibrium") == 0) found = 1;
     const int steps = before > 0 ? before : 1;
-    if (found == 0 && sscanf(asked, "%9d%c", &number, &end) == 1 && number >= 1 && number <= steps) found = number;
+    if (found == 0 && sscanf(asked, "%9d%c", &number, &end) == 1 && number >= 1 && number <= steps)
+        found = number;
     if (found == 0)
-        cli_printf(stderr, "capstan study: --step: found '%.80s', expected the name of a step, 'capstan run' lists them, or a number from 1 to %d\n",
+        cli_printf(stderr,
+                   "capstan study: --step: found '%.80s', expected the name of a step, 'capstan "
+                   "run' lists them, or a number from 1 to %d\n",
                    asked, steps);
     return found;
 }
@@ -75,7 +86,8 @@ static int reach_step(CpsEvolution *evolution, int number) {
         if (step.outcome != CPS_SOLVED) {
             fputs("capstan study: step ", stderr);
             cli_put_text(stderr, step.name, 80, false);
-            fprintf(stderr, ": %s; there is nothing to compare with\n", cps_outcome_sentence(step.outcome));
+            fprintf(stderr, ": %s; there is nothing to compare with\n",
+                    cps_outcome_sentence(step.outcome));
             return cps_outcome_is_final(step.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
         }
         if (step.index + 1 == number) return EXIT_OK;
@@ -90,7 +102,9 @@ static int find_line(const CpsEvolution *evolution, const char *asked) {
     if (!asked) return 0;
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i)
         if (strcmp(cps_evolution_line_view(evolution, i).name, asked) == 0) return i;
-    cli_printf(stderr, "capstan study: --line: found '%.80s', expected the name of a line of the scene\n", asked);
+    cli_printf(stderr,
+               "capstan study: --line: found '%.80s', expected the name of a line of the scene\n",
+               asked);
     return -1;
 }
 
@@ -113,20 +127,22 @@ static void put_row(const CpsStudyRow *row, const CpsClassicStep *step) {
     const CpsClassicReport *r = &row->report;
     const CpsClassicParameters *p = &row->parameters;
     const int cells = p->cells > 0 ? p->cells : step->elements;
-    printf("%-6s %9.3g %9.2g %9.2g %9.2g %5d %11.3e", cps_study_stage_key(row->stage), step->length / cells, p->penalty,
-           p->stiffness, p->delta, r->iterations, r->energy_error);
+    printf("%-6s %9.3g %9.2g %9.2g %9.2g %5d %11.3e", cps_study_stage_key(row->stage),
+           step->length / cells, p->penalty, p->stiffness, p->delta, r->iterations,
+           r->energy_error);
     put_rate(row->rate_energy);
     printf(" %10.2e", r->tension_rms);
     put_rate(row->rate_tension);
-    printf(" %9.1e %9.1e %9.1e %9.1e%s\n", r->compression, r->penetration, r->creep, r->friction_excess,
-           r->converged ? "" : "  not converged");
+    printf(" %9.1e %9.1e %9.1e %9.1e%s\n", r->compression, r->penetration, r->creep,
+           r->friction_excess, r->converged ? "" : "  not converged");
 }
 
 static void put_head(void) {
-    printf("%-6s %9s %9s %9s %9s %5s %11s %5s %10s %5s %9s %9s %9s %9s\n", "stage", "h", "lambda", "1/n", "delta",
-           "iter", "energy", "rate", "tension", "rate", "push", "sunk", "creep", "uncarried");
-    printf("%-6s %9s %9s %9s %9s %5s %11s %5s %10s %5s %9s %9s %9s %9s\n", "", "m", "N/m2", "N m2", "m", "", "J", "",
-           "N rms", "", "N", "m", "m", "N");
+    printf("%-6s %9s %9s %9s %9s %5s %11s %5s %10s %5s %9s %9s %9s %9s\n", "stage", "h", "lambda",
+           "1/n", "delta", "iter", "energy", "rate", "tension", "rate", "push", "sunk", "creep",
+           "uncarried");
+    printf("%-6s %9s %9s %9s %9s %5s %11s %5s %10s %5s %9s %9s %9s %9s\n", "", "m", "N/m2", "N m2",
+           "m", "", "J", "", "N rms", "", "N", "m", "m", "N");
 }
 
 static bool on_row(void *user, const CpsStudyRow *row, int done, int of) {
@@ -139,61 +155,70 @@ static bool on_row(void *user, const CpsStudyRow *row, int done, int of) {
 
 static void put_force(const CpsFirstOrderReport *r, const char *what) {
     const double *f = r->unbalanced;
-    printf("    (%.6g, %.6g, %.6g) N at a = %.6g m %s\n", f[0], f[1], f[2], r->unbalanced_arc, what);
+    printf("    (%.6g, %.6g, %.6g) N at a = %.6g m %s\n", f[0], f[1], f[2], r->unbalanced_arc,
+           what);
 }
 
 static void tell_verdict(const CpsFirstOrderReport *r, const char *contact) {
     printf("  %s: %s\n", contact, cps_first_order_sentence(r->verdict));
     switch (r->verdict) {
     case CPS_FIRST_ORDER_SHORTENS:
-        printf("    t_R.u' = %.6g at a = %.6g m; (86) fails on %.6g m of %.6g m without tension in the reference\n",
+        printf("    t_R.u' = %.6g at a = %.6g m; (86) fails on %.6g m of %.6g m without tension in "
+               "the reference\n",
                r->least_strain, r->least_strain_arc, r->shortened, r->slack);
         break;
-    case CPS_FIRST_ORDER_UNBALANCED:
-        put_force(r, "is carried by nothing, (89)");
-        break;
-    case CPS_FIRST_ORDER_MESH:
-        put_force(r, "does not pull along the slack end, (87)");
-        break;
-    case CPS_FIRST_ORDER_SOLVED:
-        break;
+    case CPS_FIRST_ORDER_UNBALANCED: put_force(r, "is carried by nothing, (89)"); break;
+    case CPS_FIRST_ORDER_MESH: put_force(r, "does not pull along the slack end, (87)"); break;
+    case CPS_FIRST_ORDER_SOLVED: break;
     case CPS_FIRST_ORDER_UNDECIDED:
         printf("    forces still fail by %.4g N after %d rounds\n", r->residual, r->rounds);
         break;
     }
     if (r->verdict == CPS_FIRST_ORDER_SOLVED || r->verdict == CPS_FIRST_ORDER_MESH)
-        printf("    x_R + u is at most %.4g m from the solution of P2.1; forces fail by at most %.2g N\n", r->against_step, r->residual);
+        printf("    x_R + u is at most %.4g m from the solution of P2.1; forces fail by at most "
+               "%.2g N\n",
+               r->against_step, r->residual);
 }
 
-/* P10.1 as it stands, and with every node kept out, where that is the step's own contact and the answer is another one */
+/* P10.1 as it stands, and with every node kept out, where that is the step's own contact and the
+ * answer is another one */
 static void tell_first_order(const CpsFirstOrder *const *solution) {
-    const CpsFirstOrderReport paper = cps_first_order_report(solution[0]), gained = cps_first_order_report(solution[1]);
-    const CpsFirstOrderView a = cps_first_order_view(solution[0]), b = cps_first_order_view(solution[1]);
+    const CpsFirstOrderReport paper = cps_first_order_report(solution[0]),
+                              gained = cps_first_order_report(solution[1]);
+    const CpsFirstOrderView a = cps_first_order_view(solution[0]),
+                            b = cps_first_order_view(solution[1]);
     double apart = 0;
-    for (int k = 0; k < 3 * (a.elements + 1); ++k) apart = fmax(apart, fabs(a.displacement[k] - b.displacement[k]));
+    for (int k = 0; k < 3 * (a.elements + 1); ++k)
+        apart = fmax(apart, fabs(a.displacement[k] - b.displacement[k]));
     printf("\nconsistent first-order problem P10.1\n");
     tell_verdict(&paper, "C of (77), u.n >= 0 where x_R touches");
     if (paper.verdict != gained.verdict || apart > 1e-6 * a.arc_length[a.elements])
         tell_verdict(&gained, "every node kept out, (16), as the step with 'contact: gained' does");
     if (paper.outside > 0)
-        printf("  (on %.6g m the reference has |x_R'| < 1, outside Kin: taken as slack and just straight)\n", paper.outside);
+        printf("  (on %.6g m the reference has |x_R'| < 1, outside Kin: taken as slack and just "
+               "straight)\n",
+               paper.outside);
 }
 
-static void tell(const CpsStudy *study, const CpsFirstOrder *const *first_order, const CpsLineView *view, const Teller *teller,
-                 double tolerance, const char *directory) {
-    printf("exact: J** + j = %.10g J on %d elements; everything below is against it\n\n", teller->step.energy,
-           teller->step.elements);
+static void tell(const CpsStudy *study, const CpsFirstOrder *const *first_order,
+                 const CpsLineView *view, const Teller *teller, double tolerance,
+                 const char *directory) {
+    printf("exact: J** + j = %.10g J on %d elements; everything below is against it\n\n",
+           teller->step.energy, teller->step.elements);
     put_head();
-    for (int i = 0; i < cps_study_row_count(study); ++i) put_row(cps_study_row(study, i), &teller->step);
+    for (int i = 0; i < cps_study_row_count(study); ++i)
+        put_row(cps_study_row(study, i), &teller->step);
     tell_first_order(first_order);
     study_tell_slack(view, tolerance);
-    printf("\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, relaxed.svg\n",
+    printf("\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, "
+           "relaxed.svg\n",
            directory, directory);
 }
 
 /* ---- all together ---- */
 
-static int study_step(const CpsLineView *view, const char *title, const char *directory, const CliOptions *options) {
+static int study_step(const CpsLineView *view, const char *title, const char *directory,
+                      const CliOptions *options) {
     CpsError err;
     CpsClassic *classic = NULL;
     CpsStudy *study = NULL;
@@ -210,13 +235,17 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
         status = cps_study_run(classic, &how, on_row, &teller, &study, &err);
         progress_end(&teller.progress);
     }
-    if (status == CPS_OK) status = cps_first_order_solve(classic, CPS_FIRST_ORDER_TOUCHING, &first_order[0], &err);
-    if (status == CPS_OK) status = cps_first_order_solve(classic, CPS_FIRST_ORDER_GAINED, &first_order[1], &err);
+    if (status == CPS_OK)
+        status = cps_first_order_solve(classic, CPS_FIRST_ORDER_TOUCHING, &first_order[0], &err);
+    if (status == CPS_OK)
+        status = cps_first_order_solve(classic, CPS_FIRST_ORDER_GAINED, &first_order[1], &err);
     if (status == CPS_OK) {
         const CpsStudyFiles files = {title, classic, study, first_order[0]};
         status = cps_study_write(directory, &files, &err);
     }
-    if (status == CPS_OK && !options->quiet) tell(study, (const CpsFirstOrder *const *)first_order, view, &teller, study_find_tolerance(options->tolerance), directory);
+    if (status == CPS_OK && !options->quiet)
+        tell(study, (const CpsFirstOrder *const *)first_order, view, &teller,
+             study_find_tolerance(options->tolerance), directory);
     const int code = status != CPS_OK   ? cli_report(&err)
                      : cli_stopped()    ? 128 + cli_stopped()
                      : teller.converged ? EXIT_OK
@@ -231,11 +260,13 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
 
 /* Say which friction bounds the solutions are judged with. */
 static void tell_bounds(const CpsScene *scene) {
-    puts(scene->friction == CPS_FRICTION_CONSISTENT ? "friction: consistent, A = mu R at x; P4.2 and P3.1 are those with this A"
-                                                    : "friction: frozen, A = mu R_R of the reference, (78)");
+    puts(scene->friction == CPS_FRICTION_CONSISTENT
+             ? "friction: consistent, A = mu R at x; P4.2 and P3.1 are those with this A"
+             : "friction: frozen, A = mu R_R of the reference, (78)");
 }
 
-/* The methods of the paper take the frozen history; configurations are judged and completed in the scene's own. */
+/* The methods of the paper take the frozen history; configurations are judged and completed in the
+ * scene's own. */
 static int study(const CpsScene *given, const char *directory, const CliOptions *options) {
     CpsError err;
     CpsEvolution *evolution = NULL;
@@ -253,9 +284,11 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
         const double tolerance = study_find_tolerance(options->tolerance);
         const int parts = cps_evolution_line_report(evolution, line).parts;
         if (parts > 1)
-            fprintf(stderr, "capstan study: the step was taken in %d parts: this is about the last one\n", parts);
-        snprintf(title, sizeof title, "%.120s: %.60s, %.60s", scene.title ? scene.title : "capstan", step.name,
-                 view.name);
+            fprintf(stderr,
+                    "capstan study: the step was taken in %d parts: this is about the last one\n",
+                    parts);
+        snprintf(title, sizeof title, "%.120s: %.60s, %.60s", scene.title ? scene.title : "capstan",
+                 step.name, view.name);
         if (!options->quiet) {
             cli_put_text(stdout, title, 240, false);
             putchar('\n');
@@ -269,7 +302,8 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
         if (options->judge)
             code = study_judge(&view, options->judge, tolerance, options->quiet);
         else if (options->complete)
-            code = study_complete(&view, study_find_completion(options->complete), tolerance, title, directory, options->quiet);
+            code = study_complete(&view, study_find_completion(options->complete), tolerance, title,
+                                  directory, options->quiet);
         else
             code = study_step(&view, title, directory, options);
     }
@@ -280,11 +314,16 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
 /* one thing at a time, and one that there is */
 static bool is_sound(const CliOptions *options) {
     if (options->history + (options->judge != NULL) + (options->complete != NULL) > 1) {
-        fputs("capstan study: found two of --history, --judge and --complete, expected one at most\n", stderr);
+        fputs(
+            "capstan study: found two of --history, --judge and --complete, expected one at most\n",
+            stderr);
         return false;
     }
-    if (classic_options_given(options) && (options->judge || options->complete || (options->history && options->h))) {
-        fputs("capstan study: --lambda, --n and --delta are those of the method of 1990, in a step or with --history; --h is that of a step\n", stderr);
+    if (classic_options_given(options) &&
+        (options->judge || options->complete || (options->history && options->h))) {
+        fputs("capstan study: --lambda, --n and --delta are those of the method of 1990, in a step "
+              "or with --history; --h is that of a step\n",
+              stderr);
         return false;
     }
     if (!(study_find_tolerance(options->tolerance) > 0)) return false;
@@ -293,7 +332,8 @@ static bool is_sound(const CliOptions *options) {
 
 int cmd_study(int argc, char **argv) {
     CliOptions options;
-    if (!cli_parse(argc, argv, FOR_STUDY, "SCENE.yaml", &options) || !is_sound(&options)) return EXIT_USAGE;
+    if (!cli_parse(argc, argv, FOR_STUDY, "SCENE.yaml", &options) || !is_sound(&options))
+        return EXIT_USAGE;
     CpsSceneFile *file = NULL;
     CpsError err;
     if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A whole history by three methods (see study_methods.h). The regularised one goes on from its own configurations and
- * reactions; loads and ends are those of the frozen history. */
+/* A whole history by three methods (see study_methods.h). The regularised one goes on from its own
+ * configurations and reactions; loads and ends are those of the frozen history. */
 #include "study/study_methods.h"
 
 #include <math.h>
@@ -14,12 +14,13 @@
 
 enum { REGULARISED, FROZEN, CONSISTENT, METHODS, NAME_SIZE = 96 };
 
-static const char *const METHOD[METHODS] = {"regularised, 1990", "frozen friction", "consistent friction"};
+static const char *const METHOD[METHODS] = {"regularised, 1990", "frozen friction",
+                                            "consistent friction"};
 
 typedef struct Histories {
     const CpsScene *scene;
-    const char *line;  /* as asked for */
-    double friction;   /* mu of the obstacle */
+    const char *line; /* as asked for */
+    double friction;  /* mu of the obstacle */
     ClassicOptions given;
     int steps, points; /* the start is step 0 */
     double *position[METHODS];
@@ -36,14 +37,18 @@ static int out_of_memory(void) {
 static int find_line(const Histories *h) {
     for (int i = 0; i < h->scene->line_count; ++i)
         if (!h->line || strcmp(h->scene->line[i].name, h->line) == 0) return i;
-    fprintf(stderr, "capstan study: --line: found '%.80s', expected the name of a line of the scene\n", h->line);
+    fprintf(stderr,
+            "capstan study: --line: found '%.80s', expected the name of a line of the scene\n",
+            h->line);
     return -1;
 }
 
 /* in the coordinates of the scene */
-static void store(Histories *h, int method, int step, const double *position, const double origin[3]) {
+static void store(Histories *h, int method, int step, const double *position,
+                  const double origin[3]) {
     double *to = h->position[method] + (size_t)step * 3 * (size_t)h->points;
-    for (size_t i = 0; i < 3 * (size_t)h->points; ++i) to[i] = origin[i % 3] != 0 ? origin[i % 3] + position[i] : position[i];
+    for (size_t i = 0; i < 3 * (size_t)h->points; ++i)
+        to[i] = origin[i % 3] != 0 ? origin[i % 3] + position[i] : position[i];
 }
 
 /* the step once more by the regularised method */
@@ -62,7 +67,8 @@ static int run_evolution(Histories *h, int method, int line) {
     CpsScene scene = regularized_scene(h->scene);
     if (method == CONSISTENT) {
         scene.friction = CPS_FRICTION_CONSISTENT;
-        scene.solver.halvings = h->scene->solver.halvings; /* nothing promises that a whole step converges */
+        scene.solver.halvings =
+            h->scene->solver.halvings; /* nothing promises that a whole step converges */
     }
     CpsError err;
     CpsEvolution *evolution = NULL;
@@ -95,16 +101,17 @@ static int run_evolution(Histories *h, int method, int line) {
 }
 
 static void tell(const Histories *h) {
-    printf("%-20s %-20s %12s %12s %12s %12s\n%-20s %-20s %12s %12s %12s %12s\n", "step", "method", "B.x", "B.y", "B.z",
-           "from frozen", "", "", "m", "m", "m", "m");
+    printf("%-20s %-20s %12s %12s %12s %12s\n%-20s %-20s %12s %12s %12s %12s\n", "step", "method",
+           "B.x", "B.y", "B.z", "from frozen", "", "", "m", "m", "m", "m");
     for (int s = 0; s < h->steps; ++s)
         for (int m = 0; m < METHODS; ++m) {
             const size_t size = 3 * (size_t)h->points, from = (size_t)s * size;
             double most = 0;
             for (size_t p = from; p < from + size; p += 3) {
                 const double *a = h->position[m] + p, *b = h->position[FROZEN] + p;
-                most = fmax(most, sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                                       (a[2] - b[2]) * (a[2] - b[2])));
+                most =
+                    fmax(most, sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                                    (a[2] - b[2]) * (a[2] - b[2])));
             }
             const double *tip = h->position[m] + from + size - 3;
             cli_put_text(stdout, m == 0 ? h->name[s] : "", 20, true);
@@ -125,10 +132,14 @@ static int run_all(Histories *h, const char *directory, bool quiet) {
     for (int m = 0; m < METHODS; ++m) method[m] = (CpsMethodHistory){METHOD[m], h->position[m]};
     CpsError err;
     const char *title = h->scene->title ? h->scene->title : "capstan";
-    const CpsStatus status = cps_methods_write(directory, title, METHODS, method, h->steps, h->points, name, &err);
+    const CpsStatus status =
+        cps_methods_write(directory, title, METHODS, method, h->steps, h->points, name, &err);
     free(name);
     if (status != CPS_OK) return cli_report(&err);
-    if (!quiet) regularized_tell_steps(h->scene), tell(h);
+    if (!quiet) {
+        regularized_tell_steps(h->scene);
+        tell(h);
+    }
     if (!quiet) printf("\nresults   %s: methods.csv, methods.svg\n", directory);
     if (!h->converged) fprintf(stderr, "capstan study: a regularised solve did not converge\n");
     return h->converged ? EXIT_OK : EXIT_NOT_CERTIFIED;
@@ -141,7 +152,7 @@ int study_methods(const CpsScene *scene, const CliOptions *options, const char *
     if (friction < 0) return EXIT_INPUT;
     if (cps_evolution_create(scene, &evolution, &err) != CPS_OK) return cli_report(&err);
     Histories h = {.scene = scene,
-                     .line = options->line,
+                   .line = options->line,
                    .friction = friction,
                    .steps = 1 + cps_evolution_step_count(evolution),
                    .converged = true};

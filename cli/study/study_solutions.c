@@ -28,7 +28,8 @@ double study_find_tolerance(const char *text) {
     char *end = NULL;
     const double tolerance = strtod(text, &end);
     if (end != text && *end == '\0' && tolerance > 0 && tolerance < 1) return tolerance;
-    cli_printf(stderr, "capstan study: --tolerance '%.40s': expected a number above 0 and below 1\n", text);
+    cli_printf(stderr,
+               "capstan study: --tolerance '%.40s': expected a number above 0 and below 1\n", text);
     return NAN;
 }
 
@@ -36,7 +37,10 @@ CpsCompletion study_find_completion(const char *name) {
     CpsCompletion how = CPS_COMPLETION_SHORTEST;
     while (how < CPS_COMPLETIONS && strcmp(name, cps_completion_key(how)) != 0) ++how;
     if (how == CPS_COMPLETIONS)
-        cli_printf(stderr, "capstan study: --complete: found '%.40s', expected shortest, straight or meander\n", name);
+        cli_printf(
+            stderr,
+            "capstan study: --complete: found '%.40s', expected shortest, straight or meander\n",
+            name);
     return how;
 }
 
@@ -46,7 +50,8 @@ static const char *hold_of(const CpsSlackPart *part) {
     if (part->loose) return "loose";
     if (!part->rubs) return "held by its ends";
     if (part->sliding) return "held by friction, at its bound: may slide on";
-    return part->at_bound ? "held by friction, at its bound where nothing slides by itself" : "held by friction";
+    return part->at_bound ? "held by friction, at its bound where nothing slides by itself"
+                          : "held by friction";
 }
 
 static int tell_parts(const CpsLineView *view) {
@@ -60,7 +65,8 @@ static int tell_parts(const CpsLineView *view) {
     return parts;
 }
 
-static void tell_judgement(const char *what, const CpsLineView *view, const double *position, double tolerance) {
+static void tell_judgement(const char *what, const CpsLineView *view, const double *position,
+                           double tolerance) {
     CpsError err;
     CpsJudgementReport report;
     if (cps_solution_judge(view, position, tolerance, &report, &err) == CPS_OK)
@@ -74,10 +80,11 @@ void study_tell_slack(const CpsLineView *view, double tolerance) {
     tell_parts(view);
     tell_judgement("as found", view, view->position, tolerance);
     double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
-    if (position && cps_solution_complete(view, CPS_COMPLETION_MEANDER, position, &slack, &err) == CPS_OK &&
+    if (position &&
+        cps_solution_complete(view, CPS_COMPLETION_MEANDER, position, &slack, &err) == CPS_OK &&
         slack.parts > 0) {
-        snprintf(what, sizeof what, "laid out %s, %.6g m of it", cps_completion_sentence(CPS_COMPLETION_MEANDER),
-                 slack.loose);
+        snprintf(what, sizeof what, "laid out %s, %.6g m of it",
+                 cps_completion_sentence(CPS_COMPLETION_MEANDER), slack.loose);
         tell_judgement(what, view, position, tolerance);
     }
     free(position);
@@ -93,11 +100,13 @@ static int bad_file(const char *path, int line, const char *found, const char *e
 /* How many columns of a table with names are read: up to z. 0: this is no such line. */
 static int named_columns(const char *text) {
     static const char WITH[] = "arc_length,x,y,z", WITHOUT[] = "x,y,z";
-    return strncmp(text, WITH, sizeof WITH - 1) == 0 ? 4 : strncmp(text, WITHOUT, sizeof WITHOUT - 1) == 0 ? 3 : 0;
+    return strncmp(text, WITH, sizeof WITH - 1) == 0         ? 4
+           : strncmp(text, WITHOUT, sizeof WITHOUT - 1) == 0 ? 3
+                                                             : 0;
 }
 
-/* Numbers of a row into value: `named` of them, whatever follows, or where that is 0 all that there are, at most 4; -1 where there is
- * anything else. */
+/* Numbers of a row into value: `named` of them, whatever follows, or where that is 0 all that there
+ * are, at most 4; -1 where there is anything else. */
 static int read_row(const char *text, int named, double value[4]) {
     for (int n = 0; n < 4;) {
         char *end;
@@ -120,17 +129,24 @@ static int read_nodes(const CpsLineView *view, const char *path, FILE *file, dou
     int line = 0, node = 0, columns = 0, named = 0;
     while (fgets(text, sizeof text, file)) {
         if (++line == 1) named = named_columns(text);
-        if (!strchr(text, '\n') && !feof(file)) return bad_file(path, line, strlen(text) + 1 < sizeof text ? "a zero byte" : "a row of more than 510 bytes", EXPECTED);
+        if (!strchr(text, '\n') && !feof(file))
+            return bad_file(path, line,
+                            strlen(text) + 1 < sizeof text ? "a zero byte"
+                                                           : "a row of more than 510 bytes",
+                            EXPECTED);
         const int n = read_row(text, named, value);
         if (n < 0 && node == 0 && line <= 2) continue; /* names, units */
-        if (n < 3 || (columns > 0 && n != columns)) return bad_file(path, line, "another row", EXPECTED);
+        if (n < 3 || (columns > 0 && n != columns))
+            return bad_file(path, line, "another row", EXPECTED);
         if (node > view->elements) break;
-        if (n == 4 && !(fabs(value[0] - view->arc_length[node]) <= 1e-6 * view->arc_length[view->elements])) {
+        if (n == 4 &&
+            !(fabs(value[0] - view->arc_length[node]) <= 1e-6 * view->arc_length[view->elements])) {
             snprintf(found, sizeof found, "arc length %.9g m", value[0]);
             return bad_file(path, line, found, "that of the line's nodes, in order");
         }
         columns = n;
-        for (int x = 0; x < 3; ++x) position[3 * (size_t)node + (size_t)x] = value[n - 3 + x] - view->origin[x];
+        for (int x = 0; x < 3; ++x)
+            position[3 * (size_t)node + (size_t)x] = value[n - 3 + x] - view->origin[x];
         ++node;
     }
     if (ferror(file)) {
@@ -138,8 +154,8 @@ static int read_nodes(const CpsLineView *view, const char *path, FILE *file, dou
         return EXIT_IO;
     }
     if (node == view->elements + 1 && feof(file)) return EXIT_OK;
-    cli_printf(stderr, "capstan: %s: found %s%d rows of nodes, expected %d\n", path, feof(file) ? "" : "more than ", node,
-            view->elements + 1);
+    cli_printf(stderr, "capstan: %s: found %s%d rows of nodes, expected %d\n", path,
+               feof(file) ? "" : "more than ", node, view->elements + 1);
     return EXIT_INPUT;
 }
 
@@ -170,17 +186,22 @@ static int read_configuration(const CpsLineView *view, const char *path, double 
 static void tell_report(const CpsJudgementReport *r, double tolerance, double length) {
     printf("%s\n\n", cps_judgement_sentence(r->judgement));
     printf("energy above the minimum  %12.5g J, of which\n", r->energy);
-    printf("  tension                 %12.5g J  0 where tensions and their directions are those of the step\n",
+    printf("  tension                 %12.5g J  0 where tensions and their directions are those of "
+           "the step\n",
            r->tension);
-    printf("  contact                 %12.5g J  0 where what the obstacle pushes stays on it\n", r->contact);
-    printf("  sliding                 %12.5g J  0 where it slides in the normal cone of the friction force\n",
+    printf("  contact                 %12.5g J  0 where what the obstacle pushes stays on it\n",
+           r->contact);
+    printf("  sliding                 %12.5g J  0 where it slides in the normal cone of the "
+           "friction force\n",
            r->sliding);
-    printf(
-        "inside the obstacle       %12.5g m\nheld ends off              %12.5g m\nlargest 1 - |x'|          %12.5g\n",
-        r->penetration, r->end_error, r->shortening);
-    if (r->judgement != CPS_JUDGED_SOLUTION) printf("what fails is largest at a = %.6g m\n", r->arc_length);
-    printf("tolerance %.3g: sums up to %.3g J, of the scale S = %.5g J; lengths up to %.3g m; 1 - |x'| up to %.3g, its root\n", tolerance,
-           tolerance * r->scale, r->scale, tolerance * length, sqrt(tolerance));
+    printf("inside the obstacle       %12.5g m\nheld ends off              %12.5g m\nlargest 1 - "
+           "|x'|          %12.5g\n",
+           r->penetration, r->end_error, r->shortening);
+    if (r->judgement != CPS_JUDGED_SOLUTION)
+        printf("what fails is largest at a = %.6g m\n", r->arc_length);
+    printf("tolerance %.3g: sums up to %.3g J, of the scale S = %.5g J; lengths up to %.3g m; 1 - "
+           "|x'| up to %.3g, its root\n",
+           tolerance, tolerance * r->scale, r->scale, tolerance * length, sqrt(tolerance));
 }
 
 int study_judge(const CpsLineView *view, const char *path, double tolerance, bool quiet) {
@@ -192,7 +213,11 @@ int study_judge(const CpsLineView *view, const char *path, double tolerance, boo
     if (code == EXIT_OK && cps_solution_judge(view, position, tolerance, &report, &err) != CPS_OK)
         code = cli_report(&err);
     else if (code == EXIT_OK) {
-        if (!quiet) cli_put_text(stdout, path, 200, false), printf(": "), tell_report(&report, tolerance, view->arc_length[view->elements]);
+        if (!quiet) {
+            cli_put_text(stdout, path, 200, false);
+            printf(": ");
+            tell_report(&report, tolerance, view->arc_length[view->elements]);
+        }
         code = report.judgement == CPS_JUDGED_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
     }
     free(position);
@@ -201,8 +226,8 @@ int study_judge(const CpsLineView *view, const char *path, double tolerance, boo
 
 /* ---- slack laid out ---- */
 
-static CpsStatus complete_all(const CpsLineView *view, double *all, CpsCompletedLine *line, CpsSlackReport *slack,
-                              CpsError *err) {
+static CpsStatus complete_all(const CpsLineView *view, double *all, CpsCompletedLine *line,
+                              CpsSlackReport *slack, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (int k = 0; k < CPS_COMPLETIONS && status == CPS_OK; ++k) {
         double *position = all + 3 * (size_t)k * ((size_t)view->elements + 1);
@@ -212,7 +237,8 @@ static CpsStatus complete_all(const CpsLineView *view, double *all, CpsCompleted
     return status;
 }
 
-int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance, const char *title, const char *directory, bool quiet) {
+int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance, const char *title,
+                   const char *directory, bool quiet) {
     CpsError err;
     CpsSlackReport slack[CPS_COMPLETIONS];
     CpsJudgementReport report = {0};
@@ -220,16 +246,20 @@ int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance,
     double *all = malloc(3 * CPS_COMPLETIONS * ((size_t)view->elements + 1) * sizeof *all);
     if (!all) return out_of_memory();
     CpsStatus status = complete_all(view, all, &line, slack, &err);
-    if (status == CPS_OK) status = cps_solution_judge(view, line.position[how], tolerance, &report, &err);
+    if (status == CPS_OK)
+        status = cps_solution_judge(view, line.position[how], tolerance, &report, &err);
     if (status == CPS_OK) status = cps_completed_write(directory, &line, &err);
     if (status == CPS_OK && !quiet) {
         tell_parts(view);
         tell_judgement("as found", view, view->position, tolerance);
-        printf("  laid out %s, %.6g m of it in %d piece%s: %s\n", cps_completion_sentence(how), slack[how].loose,
-               slack[how].parts, slack[how].parts == 1 ? "" : "s", cps_judgement_sentence(report.judgement));
+        printf("  laid out %s, %.6g m of it in %d piece%s: %s\n", cps_completion_sentence(how),
+               slack[how].loose, slack[how].parts, slack[how].parts == 1 ? "" : "s",
+               cps_judgement_sentence(report.judgement));
         if (slack[how].left > 0)
-            printf("  %.6g m keep |x'| < 1, between nodes held closer than their length\n", slack[how].left);
-        printf("\nresults   %s: completed.csv\npictures  %s: completed.svg\n", directory, directory);
+            printf("  %.6g m keep |x'| < 1, between nodes held closer than their length\n",
+                   slack[how].left);
+        printf("\nresults   %s: completed.csv\npictures  %s: completed.svg\n", directory,
+               directory);
     }
     free(all);
     if (status != CPS_OK) return cli_report(&err);

@@ -2,18 +2,27 @@
 /* capstan/base.h: status codes, the error record and the version.
  *
  * Rules that hold for the whole interface:
- *   - SI units everywhere; vectors are x, y, z; axes are right-handed, gravity is given by the scene.
- *   - Every call that can fail returns a CpsStatus and takes an optional CpsError last (NULL is accepted).
+ *   - SI units everywhere; vectors are x, y, z; axes are right-handed, gravity is given by the
+ *       scene.
+ *   - Every call that can fail returns a CpsStatus and takes an optional CpsError last (NULL is
+ *       accepted).
  *     The status says whether the call worked. What the mathematics said is an outcome (evolve.h).
  *   - The library copies what it needs. Each create has one destroy, and destroy accepts NULL.
- *   - A call with a status refuses, with CPS_ERR_ARGUMENT, a handle or array that is NULL where the call does not say that it
- *     may be, a count or size below what it says, and a number outside an enumeration; CPS_ERR_LIMIT what is too large.
- *     A call without a status gives nothing there, and for an index that there is not: 0, NULL, false, a struct of zeros, or
+ *   - A call with a status refuses, with CPS_ERR_ARGUMENT, a handle or array that is NULL where the
+ *       call does not say that it
+ *     may be, a count or size below what it says, and a number outside an enumeration;
+ *         CPS_ERR_LIMIT what is too large.
+ *     A call without a status gives nothing there, and for an index that there is not: 0, NULL,
+ *         false, a struct of zeros, or
  *     NaN where 0 would be an answer. No handle is changed by a call that is refused.
- *   - A returned `const double *` is a view owned by the handle, valid until the next non-const call on it.
- *   - The library never prints, exits or aborts, and has no mutable global state: different handles may be
- *     used from different threads at the same time. That is promised of capstan's own code: libfyaml, which reads
- *     files, and libnetcdf, which writes result.nc, may end the process where they get no memory (capstan-io only). */
+ *   - A returned `const double *` is a view owned by the handle, valid until the next non-const
+ *       call on it.
+ *   - The library never prints, exits or aborts, and has no mutable global state: different handles
+ *       may be
+ *     used from different threads at the same time. That is promised of capstan's own code:
+ *         libfyaml, which reads
+ *     files, and libnetcdf, which writes result.nc, may end the process where they get no memory
+ *         (capstan-io only). */
 #ifndef CAPSTAN_BASE_H
 #define CAPSTAN_BASE_H
 
@@ -35,12 +44,12 @@ extern "C" {
 #define CPS_VERSION_PATCH 0
 
 /* One list: name, fixed number, sentence. Numbers are never reused. */
-#define CPS_STATUS_LIST(X)                                                        \
-    X(CPS_OK, 0, "success")                                                       \
-    X(CPS_ERR_ARGUMENT, 1, "an argument is outside what the call accepts")        \
-    X(CPS_ERR_MEMORY, 2, "out of memory")                                         \
-    X(CPS_ERR_INPUT, 3, "the input file is not valid")                            \
-    X(CPS_ERR_IO, 4, "a file could not be read or written")                       \
+#define CPS_STATUS_LIST(X)                                                 \
+    X(CPS_OK, 0, "success")                                                \
+    X(CPS_ERR_ARGUMENT, 1, "an argument is outside what the call accepts") \
+    X(CPS_ERR_MEMORY, 2, "out of memory")                                  \
+    X(CPS_ERR_INPUT, 3, "the input file is not valid")                     \
+    X(CPS_ERR_IO, 4, "a file could not be read or written")                \
     X(CPS_ERR_LIMIT, 5, "a size limit was exceeded")
 
 typedef enum CpsStatus {
@@ -49,9 +58,10 @@ typedef enum CpsStatus {
 #undef CPS_STATUS_ENUM
 } CpsStatus;
 
-/* Where and why a call failed. `file` is empty and line, column are 0 when no input file is concerned;
- * otherwise lines and columns count from 1. `where` is the place in what was given, by the names that a scene file
- * uses: "lines.cable.length", "history[2].cable.B", entries counted from 1; empty when no part of it is meant. */
+/* Where and why a call failed. `file` is empty and line, column are 0 when no input file is
+ * concerned; otherwise lines and columns count from 1. `where` is the place in what was given, by
+ * the names that a scene file uses: "lines.cable.length", "history[2].cable.B", entries counted
+ * from 1; empty when no part of it is meant. */
 typedef struct CpsError {
     CpsStatus status;
     int line, column;

@@ -9,6 +9,7 @@
 #include "capstan/evolve.h"
 #include "capstan/law.h"
 #include "capstan/planar.h"
+#include "capstan/report.h"
 #include "capstan/rope.h"
 #include "capstan/scene.h"
 #include "capstan/set.h"

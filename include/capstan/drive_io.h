@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/drive_io.h: driven systems read from YAML, and pictures of them.
- *                                                       (library capstan-io; docs/formats.md, "Driven systems") */
+ *                                                       (library capstan-io; docs/formats.md,
+ *                                                           "Driven systems") */
 #ifndef CAPSTAN_DRIVE_IO_H
 #define CAPSTAN_DRIVE_IO_H
 
@@ -99,12 +100,14 @@ typedef struct CpsDriveFile {
     CpsDriveSweep sweep;
 } CpsDriveFile;
 
-/* Read a file. As cps_law_read: `path` is a regular file, or "-" for standard input; on bad input `err` has file, line
- * and column. A curve named in the file is looked for beside it. */
-CPS_API CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out, CpsError *err);
+/* Read a file. As cps_law_read: `path` is a regular file, or "-" for standard input; on bad input
+ * `err` has file, line and column. A curve named in the file is looked for beside it. */
+CPS_API CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out,
+                                 CpsError *err);
 CPS_API void cps_drive_file_destroy(CpsDriveFile *file); /* NULL is accepted */
 
-/* Write the JSON schema (draft 2020-12) of such files, from the same table of keys that the reader uses. */
+/* Write the JSON schema (draft 2020-12) of such files, from the same table of keys that the reader
+ * uses. */
 CPS_API CpsStatus cps_drive_write_schema(FILE *out, CpsError *err);
 
 /* `count` points evenly spaced along a path, its ends included.
@@ -118,35 +121,38 @@ CPS_API void cps_drive_walk(int space, int points, const double *path, int count
 /* Called between parts of long work. */
 typedef void CpsDriveProgress(void *user, int done, int all);
 
-/* Of a system with two driven components and W from -map_radius to map_radius: the resistance G and gamma as one map,
- * every parameter (the first six) as one more. Each is solved for on a grid. */
-CPS_API CpsStatus cps_drive_draw_system(const CpsDriveFile *file, CpsDriveProgress *progress, void *user, FILE *out,
-                                        CpsError *err);
+/* Of a system with two driven components and W from -map_radius to map_radius: the resistance G and
+ * gamma as one map, every parameter (the first six) as one more. Each is solved for on a grid. */
+CPS_API CpsStatus cps_drive_draw_system(const CpsDriveFile *file, CpsDriveProgress *progress,
+                                        void *user, FILE *out, CpsError *err);
 
-/* Of a body: its limit surface seen along two components, with the ellipsoid of equal axes; its outline with pushes,
- * their motions and centres of rotation.
+/* Of a body: its limit surface seen along two components, with the ellipsoid of equal axes; its
+ * outline with pushes, their motions and centres of rotation.
  *
  *   poses  (count, 3) poses along the tow; NULL: none
  *   ends   (count, 2) hitch or rope's end */
-CPS_API CpsStatus cps_drive_draw_body(const CpsDriveFile *file, int count, const double *poses, const double *ends,
-                                      FILE *out, CpsError *err);
+CPS_API CpsStatus cps_drive_draw_body(const CpsDriveFile *file, int count, const double *poses,
+                                      const double *ends, FILE *out, CpsError *err);
 
-CPS_API CpsStatus cps_drive_draw_planimeter(const CpsDriveFile *file, const CpsPlanimeterReading *reading, FILE *out,
+CPS_API CpsStatus cps_drive_draw_planimeter(const CpsDriveFile *file,
+                                            const CpsPlanimeterReading *reading, FILE *out,
                                             CpsError *err);
 
-/* Of a rope: its shape with velocities, sliding and resting parts, tension along it; and shapes on the way.
+/* Of a rope: its shape with velocities, sliding and resting parts, tension along it; and shapes on
+ * the way.
  *
  *   motion  of cps_rope_system
  *   shots   (count, nodes, 2) shapes, the first being the start; NULL: none
  */
-CPS_API CpsStatus cps_drive_draw_rope(const CpsDriveFile *file, const CpsMotion *motion, int count, const double *shots,
-                                      FILE *out, CpsError *err);
+CPS_API CpsStatus cps_drive_draw_rope(const CpsDriveFile *file, const CpsMotion *motion, int count,
+                                      const double *shots, FILE *out, CpsError *err);
 
 /* Of a block on a spring: its path, or in one component position and force over the moved end.
  *
  *   end, position, force  (count, space) */
-CPS_API CpsStatus cps_drive_draw_sweep(const CpsDriveFile *file, int count, const double *end, const double *position,
-                                       const double *force, FILE *out, CpsError *err);
+CPS_API CpsStatus cps_drive_draw_sweep(const CpsDriveFile *file, int count, const double *end,
+                                       const double *position, const double *force, FILE *out,
+                                       CpsError *err);
 
 #ifdef __cplusplus
 }

@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/planar.h: rigid bodies that slide on a plane: limit surfaces, pushing, vehicles, towing, planimeters,
- * sweeping. (Moreau 1977, M77, sections 10-12)
+/* capstan/planar.h: rigid bodies that slide on a plane: limit surfaces, pushing, vehicles, towing,
+ * planimeters, sweeping. (Moreau 1977, M77, sections 10-12)
  *
- * A body rests on patches: points, wheels, rods, rings, discs, polygons. Its velocity is a twist (vx, vy, w): velocity
- * [m/s] of the body's origin and yaw rate [rad/s]; friction acts on it by a wrench (Fx, Fy, M) [N, N m] about that
- * origin. Both are in body axes. The law of the body in these three components is the sum of its patches,
+ * A body rests on patches: points, wheels, rods, rings, discs, polygons. Its velocity is a twist
+ * (vx, vy, w): velocity [m/s] of the body's origin and yaw rate [rad/s]; friction acts on it by a
+ * wrench (Fx, Fy, M) [N, N m] about that origin. Both are in body axes. The law of the body in
+ * these three components is the sum of its patches,
  *
  *     phi(vx, vy, w) = sum over patches of the integral of phi_r(v + w x r)
  *
- * and the boundary of its set of wrenches is the limit surface of planar sliding. Every shape here has a closed form
- * (far from the centre of rotation, where it would cancel, Gauss's rule), correct to rounding; cps_planar_bounds proves
- * any value of it by sums from below and from above that share nothing with the closed form; cps_planar_law gives laws
- * (law.h) inside and outside the true one.
+ * and the boundary of its set of wrenches is the limit surface of planar sliding. Every shape here
+ * has a closed form (far from the centre of rotation, where it would cancel, Gauss's rule), correct
+ * to rounding; cps_planar_bounds proves any value of it by sums from below and from above that
+ * share nothing with the closed form; cps_planar_law gives laws (law.h) inside and outside the true
+ * one.
  *
- * Velocities may be displacements over a step: powers are then work. Outcomes are those of set.h. */
+ * Velocities may be displacements over a step: powers are then work. Outcomes are those of
+ * set.h. */
 #ifndef CAPSTAN_PLANAR_H
 #define CAPSTAN_PLANAR_H
 
@@ -40,12 +43,14 @@ typedef enum CpsPatchKind {
 typedef struct CpsPatch {
     CpsPatchKind kind;
     double position[2]; /* [m] contact; middle of rod, ring, disc; origin of the corners */
-    double angle;    /* [rad] of the patch's first axis: the rod, the wheel's rolling direction, the law's first axis */
+    double angle;    /* [rad] of the patch's first axis: the rod, the wheel's rolling direction, the
+                        law's first axis */
     double friction; /* coefficient >= 0 (not with a law) */
     double load;     /* [N] >= 0, carried by the whole patch (not with a law) */
     double size;     /* [m] > 0: half length or radius; not for points and polygons */
     double brake;    /* [N m] wheel: largest torque of its brake, >= 0; INFINITY: locked */
-    double tilt[2]; /* [1/m] areas: pressure is mean x (1 + tilt . (r - centroid)) >= 0, in patch axes; rods: tilt[0] */
+    double tilt[2];  /* [1/m] areas: pressure is mean x (1 + tilt . (r - centroid)) >= 0, in patch
+                        axes; rods: tilt[0] */
     int corner_count;     /* polygon: >= 3 */
     const double *corner; /* [m] (corner_count, 2) in patch axes from `position` */
     const CpsLaw *law;    /* point: a bounded law of R^2 in patch axes, or NULL */
@@ -60,8 +65,10 @@ typedef struct CpsPlanar CpsPlanar;
 /* Would this patch be accepted?  Messages call it "this patch". */
 CPS_API CpsStatus cps_patch_check(const CpsPatch *patch, CpsError *err);
 
-/* A body on `count` >= 1 patches, which are checked and copied. It may be shared between threads. */
-CPS_API CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out, CpsError *err);
+/* A body on `count` >= 1 patches, which are checked and copied. It may be shared between
+ * threads. */
+CPS_API CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out,
+                                    CpsError *err);
 CPS_API void cps_planar_destroy(CpsPlanar *body); /* NULL is accepted */
 CPS_API int cps_planar_patches(const CpsPlanar *body);
 
@@ -72,97 +79,117 @@ CPS_API int cps_planar_patches(const CpsPlanar *body);
  *   wrench    (3) a wrench of friction there, -<twist, wrench> = phi; or NULL
  *   by_patch  (patches) what each dissipates [W]; or NULL
  *   answer    `exact` but where a point's law had to be solved for: then gap bounds the error */
-CPS_API CpsStatus cps_planar_dissipation(const CpsPlanar *body, const double twist[3], double wrench[3],
-                                         double *by_patch, CpsSetAnswer *answer, CpsError *err);
+CPS_API CpsStatus cps_planar_dissipation(const CpsPlanar *body, const double twist[3],
+                                         double wrench[3], double *by_patch, CpsSetAnswer *answer,
+                                         CpsError *err);
 
-/* lower <= phi <= upper at a twist, proved. Each patch is cut into cells; |v + w x r| is convex in r, so a cell's load
- * at its centroid gives too little (Jensen) and the load spread over corners that enclose the cell too much. No closed
- * form and no extrapolation enters; rounding of the sums is added to the bounds. */
+/* lower <= phi <= upper at a twist, proved. Each patch is cut into cells; |v + w x r| is convex in
+ * r, so a cell's load at its centroid gives too little (Jensen) and the load spread over corners
+ * that enclose the cell too much. No closed form and no extrapolation enters; rounding of the sums
+ * is added to the bounds. */
 typedef struct CpsPlanarBounds {
-    CpsSetOutcome outcome; /* INACCURATE: the most cells did not reach the tolerance; the bounds hold */
-    double lower, upper;   /* [W] */
-    double cells;          /* in all patches */
+    /* INACCURATE: the most cells did not reach the tolerance; the bounds hold */
+    CpsSetOutcome outcome;
+    double lower, upper; /* [W] */
+    double cells;        /* in all patches */
 } CpsPlanarBounds;
-/*   tolerance  upper - lower wanted, relative to upper; 0 picks 1e-6. Cells grow as its inverse: 1e6 of them at 1e-6 */
+/*   tolerance  upper - lower wanted, relative to upper; 0 picks 1e-6. Cells grow as its inverse:
+ *              1e6 of them at 1e-6 */
 CPS_API CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double tolerance,
                                     CpsPlanarBounds *bounds, CpsError *err);
 
-/* A law of R^3 on wrenches, the sum of the contacts of all cells: its set lies inside the true one or encloses it.
- * Points and wheels are as they are, so for a body on these alone both sides are the exact law. Areas: the distance
- * falls as 1/cells.
+/* A law of R^3 on wrenches, the sum of the contacts of all cells: its set lies inside the true one
+ * or encloses it. Points and wheels are as they are, so for a body on these alone both sides are
+ * the exact law. Areas: the distance falls as 1/cells.
  *
  *   cells  at most this many for each patch, from 1 to CPS_PLANAR_MAX_CELLS */
 typedef enum CpsPlanarSide { CPS_PLANAR_INNER, CPS_PLANAR_OUTER } CpsPlanarSide;
-CPS_API CpsStatus cps_planar_law(const CpsPlanar *body, CpsPlanarSide side, int cells, CpsLaw **out, CpsError *err);
+CPS_API CpsStatus cps_planar_law(const CpsPlanar *body, CpsPlanarSide side, int cells, CpsLaw **out,
+                                 CpsError *err);
 
-/* The body as a system (drive.h), for everything that is asked of one: elimination, all motions, all forces. Parameters
- * are the twist and then the spin [rad/s] of each wheel with a finite brake, in the order of the patches. Laws in the
- * order of the patches, with names such as "patch 2": of each cell (a point is one), of a wheel the contact and then
- * its brake (M77 section 9). No drive is set.
+/* The body as a system (drive.h), for everything that is asked of one: elimination, all motions,
+ * all forces. Parameters are the twist and then the spin [rad/s] of each wheel with a finite brake,
+ * in the order of the patches. Laws in the order of the patches, with names such as "patch 2": of
+ * each cell (a point is one), of a wheel the contact and then its brake (M77 section 9). No drive
+ * is set.
  *
  *   side, cells  as for cps_planar_law */
-CPS_API CpsStatus cps_planar_system(const CpsPlanar *body, CpsPlanarSide side, int cells, CpsSystem **out,
-                                    CpsError *err);
+CPS_API CpsStatus cps_planar_system(const CpsPlanar *body, CpsPlanarSide side, int cells,
+                                    CpsSystem **out, CpsError *err);
 
-/* What a wheel does while its body moves: M77 section 11, by minimum dissipation. As there,
- * slip = velocity + spin x radius along the rolling direction, so a wheel that rolls forward has a negative spin. */
+/* What a wheel does while its body moves: M77 section 11, by minimum dissipation. As there, slip =
+ * velocity + spin x radius along the rolling direction, so a wheel that rolls forward has a
+ * negative spin. */
 typedef struct CpsWheelMotion {
-    double velocity[2];   /* [m/s] of the wheel's centre: sideways (axis i), rolling direction (j = up x i) */
-    double slip[2];       /* [m/s] of the contact over the ground, same axes */
-    double spin;          /* [rad/s] of the wheel against the body, about i */
+    double velocity[2]; /* [m/s] of the wheel's centre: sideways (axis i), rolling direction (j = up
+                           x i) */
+    double slip[2];     /* [m/s] of the contact over the ground, same axes */
+    double spin;        /* [rad/s] of the wheel against the body, about i */
     double ground, brake; /* [W] dissipated in the contact and in the brake */
 } CpsWheelMotion;
 /*   patch  number of a patch of kind wheel, from 0 */
-CPS_API CpsStatus cps_planar_wheel(const CpsPlanar *body, int patch, const double twist[3], CpsWheelMotion *motion,
-                                   CpsError *err);
+CPS_API CpsStatus cps_planar_wheel(const CpsPlanar *body, int patch, const double twist[3],
+                                   CpsWheelMotion *motion, CpsError *err);
 
 /* ---- driven bodies (M77 section 12) ---- */
 
-/* Some components of the motion imposed: map x twist = velocity; the others follow by minimum dissipation. */
+/* Some components of the motion imposed: map x twist = velocity; the others follow by minimum
+ * dissipation. */
 typedef struct CpsPlanarMotion {
-    CpsSetOutcome outcome; /* NOT_ATTAINED: no motion up to 1e6 times the driven speed has the least dissipation;
-                              INACCURATE: the bounds are apart by more than 1e-8 of the upper one */
-    double lower, upper;   /* [W] lower <= gamma(velocity) <= upper: by a wrench that obeys the law, and by `twist` */
-    double scale;          /* [W] twist x largest wrench met: what a gap is compared with where gamma is 0 */
+    /* NOT_ATTAINED: no motion up to 1e6 times the driven speed has the least dissipation;
+     * INACCURATE: the bounds are apart by more than 1e-8 of the upper one */
+    CpsSetOutcome outcome;
+    double lower, upper; /* [W] lower <= gamma(velocity) <= upper: by a wrench that obeys the law,
+                            and by `twist` */
+    double scale; /* [W] twist x largest wrench met: what a gap is compared with where gamma is 0 */
     double twist[3];
     double wrench[3]; /* of friction, in balance with the drive to rounding; gives `lower` */
-    double drive[3];  /* (rows) driving forces, one for each row of the map: sum of drive x velocity = lower */
-    double center[2]; /* [m] instantaneous centre of rotation, in body axes; infinite for a translation */
+    double drive[3];  /* (rows) driving forces, one for each row of the map: sum of drive x velocity
+                         = lower */
+    double center[2]; /* [m] instantaneous centre of rotation, in body axes; infinite for a
+                         translation */
 } CpsPlanarMotion;
 
 /*   rows      1 to 3
- *   map       (rows, 3), rows independent. A point at (x, y) of the body moves with (1, 0, -y) and (0, 1, x)
+ *   map       (rows, 3), rows independent. A point at (x, y) of the body moves with (1, 0, -y) and
+ *             (0, 1, x)
  *   velocity  (rows) */
-CPS_API CpsStatus cps_planar_drive(const CpsPlanar *body, int rows, const double *map, const double *velocity,
-                                   CpsPlanarMotion *motion, CpsError *err);
+CPS_API CpsStatus cps_planar_drive(const CpsPlanar *body, int rows, const double *map,
+                                   const double *velocity, CpsPlanarMotion *motion, CpsError *err);
 
-/* The least and largest of each component of the twist over all motions that dissipate at most gamma (1 + tolerance). A
- * motion that is unique shows a width of the order of the tolerance's root; INFINITY where friction does not hold it.
+/* The least and largest of each component of the twist over all motions that dissipate at most
+ * gamma (1 + tolerance). A motion that is unique shows a width of the order of the tolerance's
+ * root; INFINITY where friction does not hold it.
  *
  *   tolerance  > 0; 0 picks 1e-9 */
-CPS_API CpsStatus cps_planar_motions(const CpsPlanar *body, int rows, const double *map, const double *velocity,
-                                     double tolerance, double low[3], double high[3], CpsError *err);
+CPS_API CpsStatus cps_planar_motions(const CpsPlanar *body, int rows, const double *map,
+                                     const double *velocity, double tolerance, double low[3],
+                                     double high[3], CpsError *err);
 
-/* Carry a pose (x, y, angle) along the screw motion of a constant twist increment [m, m, rad] in body axes, exactly:
- * with cps_planar_drive, the step of a body whose drive is fixed to it. Nothing is done where one of them is NULL. */
+/* Carry a pose (x, y, angle) along the screw motion of a constant twist increment [m, m, rad] in
+ * body axes, exactly: with cps_planar_drive, the step of a body whose drive is fixed to it. Nothing
+ * is done where one of them is NULL. */
 CPS_API void cps_planar_move(double pose[3], const double twist[3]);
 
 /* ---- towing: a body drawn along a path, quasi-static, finite rotations ---- */
 
 /* State and ledger; start from {.pose = .., .hitch = .., .rope = .., .end = ..}. */
 typedef struct CpsTow {
-    double pose[3];    /* [m, m, rad] of the body's origin and axes in the plane */
-    double hitch[2];   /* [m] where it is held, in body axes */
-    double rope;       /* [m] >= 0: length of an inextensible rope from the hitch; 0: the hitch itself is moved */
+    double pose[3];  /* [m, m, rad] of the body's origin and axes in the plane */
+    double hitch[2]; /* [m] where it is held, in body axes */
+    double rope; /* [m] >= 0: length of an inextensible rope from the hitch; 0: the hitch itself is
+                    moved */
     double end[2];     /* [m] where the far end of the rope is; not used without a rope */
     double work;       /* [J] of the driver so far: force x displacement of the hitch */
     double dissipated; /* [J] so far */
 } CpsTow;
 
 typedef struct CpsTowStep {
-    CpsSetOutcome outcome; /* not ANSWERED: the state is unchanged. INACCURATE also for a turn of more than 2 rad */
-    bool pulled;           /* false: the rope is slack, or the end did not move, and the body stays */
-    bool settled; /* false: the motion jumps with the orientation (the step is then of first order), or is too long */
+    CpsSetOutcome outcome; /* not ANSWERED: the state is unchanged. INACCURATE also for a turn of
+                              more than 2 rad */
+    bool pulled;  /* false: the rope is slack, or the end did not move, and the body stays */
+    bool settled; /* false: the motion jumps with the orientation (the step is then of first order),
+                     or is too long */
     double twist[3];     /* [m, m, rad] of the screw motion, constant in body axes */
     double force[2];     /* [N] on the hitch, in the plane, in the middle of the step */
     double work;         /* [J] of this step, force x displacement of the hitch */
@@ -170,17 +197,18 @@ typedef struct CpsTowStep {
     double lower, upper; /* [J] bounds of `dissipated` */
 } CpsTowStep;
 
-/* Move the driven end (the hitch or the far end of the rope) to `target` [m]. The body makes the screw motion of least
- * dissipation that brings the hitch there, or to the rope's length from there: second order in the step. Work and
- * dissipation differ by the order of the step squared. Where settled, the hitch is there to rounding. Where the least
- * is not unique (cps_planar_motions) one of the motions is taken. */
-CPS_API CpsStatus cps_planar_tow(const CpsPlanar *body, CpsTow *tow, const double target[2], CpsTowStep *step,
-                                 CpsError *err);
+/* Move the driven end (the hitch or the far end of the rope) to `target` [m]. The body makes the
+ * screw motion of least dissipation that brings the hitch there, or to the rope's length from
+ * there: second order in the step. Work and dissipation differ by the order of the step squared.
+ * Where settled, the hitch is there to rounding. Where the least is not unique (cps_planar_motions)
+ * one of the motions is taken. */
+CPS_API CpsStatus cps_planar_tow(const CpsPlanar *body, CpsTow *tow, const double target[2],
+                                 CpsTowStep *step, CpsError *err);
 
 /* ---- sweeping: a block on a spring whose end is moved ---- */
 
-/* State and ledger; start from {.stiffness = .., .position = .., .end = ..}. As many components as the law has, 1 to 3:
- * a point of a line, of the plane, .. */
+/* State and ledger; start from {.stiffness = .., .position = .., .end = ..}. As many components as
+ * the law has, 1 to 3: a point of a line, of the plane, .. */
 typedef struct CpsSweep {
     double stiffness;   /* [N/m] > 0, the same in all directions */
     double position[3]; /* [m] of the block, u */
@@ -197,17 +225,18 @@ typedef struct CpsSweepStep {
     double stored;           /* [J] in the spring after it */
 } CpsSweepStep;
 
-/* Move the end: u becomes the point of X + C/stiffness nearest to u (catching-up scheme, first order). In one component
- * this is the play operator, and exact. work = dissipated + change of stored + a defect of second order in the step.
+/* Move the end: u becomes the point of X + C/stiffness nearest to u (catching-up scheme, first
+ * order). In one component this is the play operator, and exact. work = dissipated + change of
+ * stored + a defect of second order in the step.
  *
  *   end  (space of law) */
-CPS_API CpsStatus cps_sweep_step(const CpsLaw *law, CpsSweep *sweep, const double *end, CpsSweepStep *step,
-                                 CpsError *err);
+CPS_API CpsStatus cps_sweep_step(const CpsLaw *law, CpsSweep *sweep, const double *end,
+                                 CpsSweepStep *step, CpsError *err);
 
 /* ---- polar planimeter ---- */
 
-/* Pole arm from `pole` to a hinge, tracer arm from there to the tracer; a wheel without brake (b = 0) on the tracer
- * arm, its axis along it, `wheel` from the hinge towards the tracer. */
+/* Pole arm from `pole` to a hinge, tracer arm from there to the tracer; a wheel without brake (b =
+ * 0) on the tracer arm, its axis along it, `wheel` from the hinge towards the tracer. */
 typedef struct CpsPlanimeter {
     double pole[2];
     double pole_arm, tracer_arm, wheel; /* [m] arms > 0 */
@@ -216,18 +245,20 @@ typedef struct CpsPlanimeter {
 } CpsPlanimeter;
 
 typedef struct CpsPlanimeterReading {
-    double roll;                  /* [m] rolled by the wheel, against its normal, positive to the left of the arm */
+    double roll; /* [m] rolled by the wheel, against its normal, positive to the left of the arm */
     double side_slip;             /* [m] length of side-slip */
     double dissipated;            /* [J] by it */
     double pole_turns, arm_turns; /* whole turns of pole arm and tracer arm, counterclockwise */
-    double area;                  /* [m2] tracer_arm x roll + circles of the turns: counterclockwise is positive */
-    double exact;                 /* [m2] of the polygon of the points */
+    double area;  /* [m2] tracer_arm x roll + circles of the turns: counterclockwise is positive */
+    double exact; /* [m2] of the polygon of the points */
 } CpsPlanimeterReading;
 
-/* Trace the closed polygon of `count` >= 3 points (count, 2), every side in `steps` >= 1 equal steps. The arms are
- * placed exactly at each step, the wheel's law is taken at the mean of its two headings: second order in the step.
- * Refused: a tracer out of reach, or nearer to its limits than 1e-6 of the arms, where the elbow could fold over. */
-CPS_API CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count, const double *point, int steps,
+/* Trace the closed polygon of `count` >= 3 points (count, 2), every side in `steps` >= 1 equal
+ * steps. The arms are placed exactly at each step, the wheel's law is taken at the mean of its two
+ * headings: second order in the step. Refused: a tracer out of reach, or nearer to its limits than
+ * 1e-6 of the arms, where the elbow could fold over. */
+CPS_API CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count,
+                                       const double *point, int steps,
                                        CpsPlanimeterReading *reading, CpsError *err);
 
 #ifdef __cplusplus

@@ -18,9 +18,11 @@ typedef enum CpsObstacleKind {
     CPS_OBSTACLE_SPHERE    /* a solid ball */
 } CpsObstacleKind;
 
-/* How two coefficients make a set of friction forces (M77 section 4: the force is normal to the set's boundary against the sliding). */
+/* How two coefficients make a set of friction forces (M77 section 4: the force is normal to the
+ * set's boundary against the sliding). */
 typedef enum CpsFrictionShape {
-    CPS_FRICTION_ELLIPSE, /* (F1/mu1)^2 + (F2/mu2)^2 <= R^2; the disc of Coulomb's law where mu1 = mu2 */
+    CPS_FRICTION_ELLIPSE, /* (F1/mu1)^2 + (F2/mu2)^2 <= R^2; the disc of Coulomb's law where mu1 =
+                             mu2 */
     CPS_FRICTION_BOX      /* |F1| <= mu1 R and |F2| <= mu2 R: two independent laws */
 } CpsFrictionShape;
 
@@ -29,18 +31,25 @@ typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
     CpsObstacleKind kind; /* default plane */
-    double point[3];      /* [m] a point of the plane or of the cylinder's axis, the sphere's centre; default 0 0 0 */
-    double normal[3];     /* [-] plane: any non-zero length, default 0 0 1 */
-    double axis[3];       /* [-] of the cylinder, and of the turn of cylinder and sphere; any non-zero length, default 0 1 0 */
-    double radius;        /* [m] cylinder, sphere: > 0 */
-    double friction;         /* [-] coefficient mu >= 0, default 0; where two directions differ, that along the first one */
-    double friction_lateral; /* [-] across the first direction; default -1: the same as `friction` */
+    double point[3];  /* [m] a point of the plane or of the cylinder's axis, the sphere's centre;
+                         default 0 0 0 */
+    double normal[3]; /* [-] plane: any non-zero length, default 0 0 1 */
+    double axis[3];   /* [-] of the cylinder, and of the turn of cylinder and sphere; any non-zero
+                         length, default 0 1 0 */
+    double radius;    /* [m] cylinder, sphere: > 0 */
+    double friction;  /* [-] coefficient mu >= 0, default 0; where two directions differ, that along
+                         the first one */
+    double
+        friction_lateral; /* [-] across the first direction; default -1: the same as `friction` */
     CpsFrictionShape friction_shape; /* default ellipse */
-    const CpsSet *friction_set; /* default NULL; else any planar set of set.h, bounded and with 0 in it, of the friction forces on the
-                                   line per unit normal force, along the first and second tangent: in place of the coefficients. The
-                                   second tangent is normal x first. It need not be symmetric (a ratchet); the evolution keeps what
-                                   it needs of it. In the line's own axes it turns with the line; `grain` fixes it in space */
-    double grain[3]; /* [-] the first direction, its part in the tangent plane, fixed in space; default 0 0 0: along the line */
+    /* default NULL; else any planar set of set.h, bounded and with 0 in it, of the friction forces
+     * on the line per unit normal force, along the first and second tangent: in place of the
+     * coefficients. The second tangent is normal x first. It need not be symmetric (a ratchet); the
+     * evolution keeps what it needs of it. In the line's own axes it turns with the line; `grain`
+     * fixes it in space */
+    const CpsSet *friction_set;
+    double grain[3]; /* [-] the first direction, its part in the tangent plane, fixed in space;
+                        default 0 0 0: along the line */
 } CpsObstacle;
 
 typedef enum CpsEndKind {
@@ -60,30 +69,37 @@ typedef enum CpsStartKind {
     CPS_START_POLYLINE, /* along point[0..point_count-1] */
     CPS_START_ARC,      /* from point[0], around centre point[1], turning about axis */
     CPS_START_LAID,     /* by statics: the frictionless equilibrium under the ends given */
-    CPS_START_NODES     /* any configuration: node i at point[i], with the forces of the reference if they are known */
+    CPS_START_NODES /* any configuration: node i at point[i], with the forces of the reference if
+                       they are known */
 } CpsStartKind;
 
-/* The first reference configuration. Nodes follow the shape by natural length, an elastic line being
- * stretched evenly over a shape longer than itself; a shape shorter than the line is refused (use laid).
+/* The first reference configuration. Nodes follow the shape by natural length, an elastic line
+ * being stretched evenly over a shape longer than itself; a shape shorter than the line is refused
+ * (use laid).
  *
- * Given nodes are any x_R of S90, also one that is slack: no element at more than twice its length, or beyond it where the line is
- * inextensible. With them go T_R and either R_R or A_R; of the arrays that are NULL the first step knows what the places tell. */
+ * Given nodes are any x_R of S90, also one that is slack: no element at more than twice its length,
+ * or beyond it where the line is inextensible. With them go T_R and either R_R or A_R; of the
+ * arrays that are NULL the first step knows what the places tell. */
 typedef struct CpsStart {
     CpsStartKind kind;
-    int point_count;      /* straight, arc: 2; polyline: >= 2; laid: 0; nodes: elements + 1 */
-    const double *point;  /* (point_count, 3) [m] */
-    double axis[3];       /* [-] arc: axis of the turn, right-hand rule, default 0 0 1 */
-    const double *tension;  /* nodes: (elements) [N] T_R >= 0; NULL: K (|x'| - 1)^+, and 0 of an inextensible line */
-    const double *reaction; /* nodes: (elements + 1) [N] R_R >= 0 of the obstacle that the node touches; NULL: S90 section 2 d 2,
-                               -((T_R t)' + w).n where that is positive, with the force on a free end */
-    const double *friction_bound; /* nodes: (elements + 1) [N] A_R >= 0 in place of `reaction`, R_R = A_R/mu with the node's own
-                                     coefficient; with frozen friction it is the bound of the first step */
+    int point_count;       /* straight, arc: 2; polyline: >= 2; laid: 0; nodes: elements + 1 */
+    const double *point;   /* (point_count, 3) [m] */
+    double axis[3];        /* [-] arc: axis of the turn, right-hand rule, default 0 0 1 */
+    const double *tension; /* nodes: (elements) [N] T_R >= 0; NULL: K (|x'| - 1)^+, and 0 of an
+                              inextensible line */
+    /* nodes: (elements + 1) [N] R_R >= 0 of the obstacle that the node touches; NULL: S90 section 2
+     * d 2, -((T_R t)' + w).n where that is positive, with the force on a free end */
+    const double *reaction;
+    /* nodes: (elements + 1) [N] A_R >= 0 in place of `reaction`, R_R = A_R/mu with the node's own
+     * coefficient; with frozen friction it is the bound of the first step */
+    const double *friction_bound;
 } CpsStart;
 
 /* A stretch of a line that rubs otherwise: chain and wire in one line, say. */
 typedef struct CpsFrictionZone {
     double from, to; /* [m] natural arc length from end A, 0 <= from < to <= length of the line */
-    double factor;   /* [-] >= 0, of the coefficients, or the friction set, of whatever obstacle it touches */
+    double factor;   /* [-] >= 0, of the coefficients, or the friction set, of whatever obstacle it
+                        touches */
 } CpsFrictionZone;
 
 /* A tension-only line, node 0 at end A, node `elements` at end B. */
@@ -93,18 +109,19 @@ typedef struct CpsLine {
     double length;                /* [m] natural length > 0 */
     int elements;                 /* >= 1 */
     const double *element_length; /* (elements) [m], their sum is `length`; NULL: all equal */
-    double weight;                /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
-    double stiffness;             /* [N] EA > 0; INFINITY: inextensible */
-    int zone_count;               /* >= 0, default 0 */
-    const CpsFrictionZone *zone;  /* (zone_count) in order from A to B, without overlap; the factor elsewhere is 1. A node's
-                                     is the mean over the length that it stands for */
+    double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double stiffness; /* [N] EA > 0; INFINITY: inextensible */
+    int zone_count;   /* >= 0, default 0 */
+    /* (zone_count) in order from A to B, without overlap; the factor elsewhere is 1. A node's is
+     * the mean over the length that it stands for */
+    const CpsFrictionZone *zone;
     CpsStart start;
-    CpsEnd end[2];                /* default: A held and B free without force, both where the start puts them;
-                                     a held end must agree with the start shape */
+    CpsEnd end[2]; /* default: A held and B free without force, both where the start puts them;
+                      a held end must agree with the start shape */
 } CpsLine;
 
-/* One end of one line gets a new imposed position or force. A free end given a position is grabbed where it
- * is and moved; a held end given a force is let go from the force it carries. */
+/* One end of one line gets a new imposed position or force. A free end given a position is grabbed
+ * where it is and moved; a held end given a force is let go from the force it carries. */
 typedef struct CpsChange {
     int line; /* index in the scene */
     int end;  /* CPS_END_A or CPS_END_B */
@@ -126,12 +143,15 @@ typedef struct CpsStage {
     int turn_count;
     const CpsTurn *turn;
     bool gravity_changes; /* default false: gravity stays as it is */
-    double gravity[3];    /* [m/s2] else what the scene's becomes in the stage's steps; a line's weight goes with it: w per |g| of the scene */
+    double gravity[3]; /* [m/s2] else what the scene's becomes in the stage's steps; a line's weight
+                          goes with it: w per |g| of the scene */
 } CpsStage;
 
 typedef enum CpsFriction {
-    CPS_FRICTION_FROZEN,    /* the bound A = mu R is that of the reference configuration   (S90 section 2 d) */
-    CPS_FRICTION_CONSISTENT /* the default, Coulomb's law: A = mu R with the reaction of the configuration reached */
+    CPS_FRICTION_FROZEN, /* the bound A = mu R is that of the reference configuration   (S90 section
+                            2 d) */
+    CPS_FRICTION_CONSISTENT /* the default, Coulomb's law: A = mu R with the reaction of the
+                               configuration reached */
 } CpsFriction;
 
 typedef enum CpsContact {
@@ -145,18 +165,21 @@ typedef enum CpsLinearSystem {
 } CpsLinearSystem;
 
 typedef struct CpsSolverOptions {
-    double tolerance;              /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8 */
-    int max_iterations;            /* of one solve of a line, 1..1000, default 60; 20 more for each doubling of its elements beyond 12 800 */
+    double tolerance;   /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8 */
+    int max_iterations; /* of one solve of a line, 1..1000, default 60; 20 more for each doubling of
+                           its elements beyond 12 800 */
     CpsLinearSystem linear_system; /* default chain */
-    double path_tolerance; /* [-] a step is cut until going in halves changes ways per length and tensions per largest force by no
-                              more, 1e-9..1; default 0: steps are as given */
-    int halvings;          /* how often a step may be halved, for the path or because it does not converge, 0..30, default 10 */
+    /* [-] a step is cut until going in halves changes ways per length and tensions per largest
+     * force by no more, 1e-9..1; default 0: steps are as given */
+    double path_tolerance;
+    int halvings; /* how often a step may be halved, for the path or because it does not converge,
+                     0..30, default 10 */
 } CpsSolverOptions;
 
 typedef struct CpsScene {
     uint32_t cookie;
-    const char *title; /* may be NULL */
-    double gravity[3]; /* [m/s2] default 0 0 -9.81; its direction is that of the lines' weight */
+    const char *title;  /* may be NULL */
+    double gravity[3];  /* [m/s2] default 0 0 -9.81; its direction is that of the lines' weight */
     int obstacle_count; /* >= 0 */
     const CpsObstacle *obstacle;
     int line_count; /* >= 1 */

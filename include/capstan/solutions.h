@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/solutions.h: all solutions of a step (S90 results 4.3, 4.4, theorem 6.3, formula (55)).
  *
- * A step's tensions are unique, its configuration only where nothing is slack. From one solution and its forces:
+ * A step's tensions are unique, its configuration only where nothing is slack. From one solution
+ * and its forces:
  *   - is a given configuration another solution, and if not, why;
  *   - which slack parts are held in place by friction or contact, and which are free;
- *   - a solution in Kin, with |x'| >= 1 everywhere, by laying the free slack out at its full length.
+ *   - a solution in Kin, with |x'| >= 1 everywhere, by laying the free slack out at its full
+ *       length.
  *
- * The step is a view of one line after cps_evolution_step, on plane obstacles with isotropic friction. */
+ * The step is a view of one line after cps_evolution_step, on plane obstacles with isotropic
+ * friction. */
 #ifndef CAPSTAN_SOLUTIONS_H
 #define CAPSTAN_SOLUTIONS_H
 
@@ -18,17 +21,24 @@ extern "C" {
 
 /* ---- is it a solution? ---- */
 
-/* The energy of a configuration above the minimum is the sum of three gaps against the step's own forces, none
- * negative: a configuration in C is a solution of P4.2 exactly where all three vanish, and of P3.1 if it also shortens
- * nothing (result 4.3). What fails first, in this order, is the verdict. */
-#define CPS_JUDGEMENT_LIST(X)                                                                                          \
-    X(CPS_JUDGED_SOLUTION, 0, "solution", "a solution of P3.1: same tensions, contact and friction, |x'| >= 1")        \
-    X(CPS_JUDGED_RELAXED, 1, "relaxed", "a solution of P4.2 but not of P3.1: somewhere |x'| < 1, outside Kin")         \
-    X(CPS_JUDGED_ENDS, 2, "ends", "no solution: a held end is elsewhere")                                              \
-    X(CPS_JUDGED_PENETRATES, 3, "penetrates", "no solution: a node is inside the obstacle, outside C")                 \
-    X(CPS_JUDGED_TENSION, 4, "tension", "no solution: other tensions, or tensions in another direction")               \
-    X(CPS_JUDGED_CONTACT, 5, "contact", "no solution: contact is lost where the obstacle pushes, R > 0")               \
-    X(CPS_JUDGED_SLIDING, 6, "sliding", "no solution: sliding outside the normal cone of the friction force")
+/* The energy of a configuration above the minimum is the sum of three gaps against the step's own
+ * forces, none negative: a configuration in C is a solution of P4.2 exactly where all three vanish,
+ * and of P3.1 if it also shortens nothing (result 4.3). What fails first, in this order, is the
+ * verdict. */
+#define CPS_JUDGEMENT_LIST(X)                                                \
+    X(CPS_JUDGED_SOLUTION, 0, "solution",                                    \
+      "a solution of P3.1: same tensions, contact and friction, |x'| >= 1")  \
+    X(CPS_JUDGED_RELAXED, 1, "relaxed",                                      \
+      "a solution of P4.2 but not of P3.1: somewhere |x'| < 1, outside Kin") \
+    X(CPS_JUDGED_ENDS, 2, "ends", "no solution: a held end is elsewhere")    \
+    X(CPS_JUDGED_PENETRATES, 3, "penetrates",                                \
+      "no solution: a node is inside the obstacle, outside C")               \
+    X(CPS_JUDGED_TENSION, 4, "tension",                                      \
+      "no solution: other tensions, or tensions in another direction")       \
+    X(CPS_JUDGED_CONTACT, 5, "contact",                                      \
+      "no solution: contact is lost where the obstacle pushes, R > 0")       \
+    X(CPS_JUDGED_SLIDING, 6, "sliding",                                      \
+      "no solution: sliding outside the normal cone of the friction force")
 
 typedef enum CpsJudgement {
 #define CPS_JUDGEMENT_ENUM(name, number, key, sentence) name = number,
@@ -42,7 +52,8 @@ CPS_API const char *cps_judgement_sentence(CpsJudgement judgement);
 typedef struct CpsJudgementReport {
     CpsJudgement judgement;
     double scale;   /* [J] S of docs/theory.md (5): a gap up to tolerance times S is none */
-    double energy;  /* [J] above the step's minimum: the sum of the next three, and exact up to the step's own gap */
+    double energy;  /* [J] above the step's minimum: the sum of the next three, and exact up to the
+                       step's own gap */
     double tension; /* [J] sum of l (W(x') + W*(p) - p.x') */
     double contact; /* [J] sum of R (n.u + gap) */
     double sliding; /* [J] sum of A |u_T| + F.u_T */
@@ -56,34 +67,40 @@ typedef struct CpsJudgementReport {
  *
  *   step       a solved step; elastic or inextensible
  *   position   (elements + 1, 3) [m], finite
- *   tolerance  [-] 0 < tolerance < 1: gaps up to tolerance times the scale S of docs/theory.md, lengths up to
- *              tolerance times the line's length, and strains, which cost their square, up to sqrt(tolerance) are none
+ *   tolerance  [-] 0 < tolerance < 1: gaps up to tolerance times the scale S of docs/theory.md,
+ *              lengths up to tolerance times the line's length, and strains, which cost their
+ *              square, up to sqrt(tolerance) are none
  *
  * Returns CPS_OK or CPS_ERR_ARGUMENT. */
-CPS_API CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, double tolerance,
-                                     CpsJudgementReport *report, CpsError *err);
+CPS_API CpsStatus cps_solution_judge(const CpsLineView *step, const double *position,
+                                     double tolerance, CpsJudgementReport *report, CpsError *err);
 
 /* ---- slack ---- */
 
 /* A stretch of line without tension, all of it loose or all of it not. */
 typedef struct CpsSlackPart {
     double from, to; /* [m] natural abscissas */
-    bool loose;      /* its nodes may move and stay a solution; else friction or an end holds each, or it is straight between two */
-    bool rubs;       /* friction acts on one of its nodes at least */
-    bool at_bound;   /* friction is at its bound on one of them */
-    bool sliding;    /* one of those, with what its elements carry along, may slide on against its friction force, or back, and leave a
-                        solution; elsewhere friction at its bound holds slack as well, as where a part begins beside one that is taut */
-    bool grounded;   /* the obstacle pushes on one of its nodes at least: contact keeps those down */
+    bool loose; /* its nodes may move and stay a solution; else friction or an end holds each, or it
+                   is straight between two */
+    bool rubs;  /* friction acts on one of its nodes at least */
+    bool at_bound; /* friction is at its bound on one of them */
+    /* one of those, with what its elements carry along, may slide on against its friction force, or
+     * back, and leave a solution; elsewhere friction at its bound holds slack as well, as where a
+     * part begins beside one that is taut */
+    bool sliding;
+    bool grounded; /* the obstacle pushes on one of its nodes at least: contact keeps those down */
 } CpsSlackPart;
 
-/* List the slack of a step from end A to end B; returns how many parts there are, of which the first `room` are filled.
- * None of a step that is NULL or has no elements, nor into NULL. 0: the configuration is unique (result 4.4 (ii)); with held parts only, none of them sliding, it still is. */
+/* List the slack of a step from end A to end B; returns how many parts there are, of which the
+ * first `room` are filled. None of a step that is NULL or has no elements, nor into NULL. 0: the
+ * configuration is unique (result 4.4 (ii)); with held parts only, none of them sliding, it still
+ * is. */
 CPS_API int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part);
 
 /* How slack is laid out between two nodes that stay. All have |x'| = 1 and keep to the plane. */
-#define CPS_COMPLETION_LIST(X)                                                                                         \
-    X(CPS_COMPLETION_SHORTEST, 0, "shortest", "to and fro along the shortest way")                                     \
-    X(CPS_COMPLETION_STRAIGHT, 1, "straight", "in two straight pieces, or in one to a loose end")                      \
+#define CPS_COMPLETION_LIST(X)                                                                    \
+    X(CPS_COMPLETION_SHORTEST, 0, "shortest", "to and fro along the shortest way")                \
+    X(CPS_COMPLETION_STRAIGHT, 1, "straight", "in two straight pieces, or in one to a loose end") \
     X(CPS_COMPLETION_MEANDER, 2, "meander", "in a meander, to one side and the other")
 
 typedef enum CpsCompletion {
@@ -102,22 +119,24 @@ typedef struct CpsSlackReport {
     double held;     /* [m] of it between nodes both held in place: by friction, or ends */
     double loose;    /* [m] of it with a node that may move and stay a solution */
     double straight; /* [m] of the slack with |x'| >= 1 already, as found */
-    double left;     /* [m] with |x'| < 1 also after completion: between two nodes held closer than their length */
+    double left;     /* [m] with |x'| < 1 also after completion: between two nodes held closer than
+                        their length */
     int parts;       /* pieces of line completed */
 } CpsSlackReport;
 
-/* Complete the slack so that |x'| = 1 there: nodes without friction between two that stay are laid out, within the
- * plane they rest on, at the full length of their elements; the first and the last element come down from a node that stays above it.
- * (55) with a tangent of one's own choice. What no directions of the elements close, one of them being longer than all others and the
- * chord, stays as found, or up to a free end goes straight on.
+/* Complete the slack so that |x'| = 1 there: nodes without friction between two that stay are laid
+ * out, within the plane they rest on, at the full length of their elements; the first and the last
+ * element come down from a node that stays above it. (55) with a tangent of one's own choice. What
+ * no directions of the elements close, one of them being longer than all others and the chord,
+ * stays as found, or up to a free end goes straight on.
  *
  *   step       a solved step
  *   position   (elements + 1, 3) [m] out: the step's configuration with the slack laid out
  *   report     may be NULL
  *
  * Returns CPS_OK or CPS_ERR_ARGUMENT. */
-CPS_API CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, double *position,
-                                        CpsSlackReport *report, CpsError *err);
+CPS_API CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how,
+                                        double *position, CpsSlackReport *report, CpsError *err);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One block of memory, laid out twice by the same function: first with no block, to measure; then on the block.
- * The two cannot disagree, and nothing is allocated afterwards.
+/* One block of memory, laid out twice by the same function: first with no block, to measure; then
+ * on the block. The two cannot disagree, and nothing is allocated afterwards.
  *
  *     CpsiArena arena = {0};
  *     layout(&arena, ...);                       measures
@@ -26,6 +26,7 @@ void *cpsi_arena_take(CpsiArena *arena, size_t count, size_t size);
 bool cpsi_arena_allocate(CpsiArena *arena);
 void cpsi_arena_free(CpsiArena *arena);
 
-#define CPSI_TAKE(arena, count, type) ((type *)cpsi_arena_take((arena), (size_t)(count), sizeof(type)))
+#define CPSI_TAKE(arena, count, type) \
+    ((type *)cpsi_arena_take((arena), (size_t)(count), sizeof(type)))
 
 #endif

@@ -5,14 +5,16 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#define STRING(x) #x
+#define STRING(x)                    #x
 #define VERSION(major, minor, patch) STRING(major) "." STRING(minor) "." STRING(patch)
 
-const char *cps_version(void) { return VERSION(CPS_VERSION_MAJOR, CPS_VERSION_MINOR, CPS_VERSION_PATCH); }
+const char *cps_version(void) {
+    return VERSION(CPS_VERSION_MAJOR, CPS_VERSION_MINOR, CPS_VERSION_PATCH);
+}
 
 const char *cps_status_name(CpsStatus status) {
     switch (status) {
-#define CASE(name, number, sentence)                                                                                   \
+#define CASE(name, number, sentence) \
     case name: return #name;
         CPS_STATUS_LIST(CASE)
 #undef CASE
@@ -22,7 +24,7 @@ const char *cps_status_name(CpsStatus status) {
 
 const char *cps_status_sentence(CpsStatus status) {
     switch (status) {
-#define CASE(name, number, sentence)                                                                                   \
+#define CASE(name, number, sentence) \
     case name: return sentence;
         CPS_STATUS_LIST(CASE)
 #undef CASE
@@ -51,6 +53,7 @@ CpsStatus cpsi_fail_inside(CpsError *err, CpsStatus status, const char *format, 
     vsnprintf(err->where, sizeof err->where, format, args);
     va_end(args);
     const size_t used = strlen(err->where);
-    snprintf(err->where + used, sizeof err->where - used, "%s%s", rest[0] && rest[0] != '[' ? "." : "", rest);
+    snprintf(err->where + used, sizeof err->where - used, "%s%s",
+             rest[0] && rest[0] != '[' ? "." : "", rest);
     return status;
 }

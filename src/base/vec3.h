@@ -12,16 +12,24 @@ typedef struct Vec3 {
 
 static inline Vec3 vec3(double x, double y, double z) { return (Vec3){x, y, z}; }
 static inline Vec3 vec3_load(const double a[3]) { return (Vec3){a[0], a[1], a[2]}; }
-static inline void vec3_store(double out[3], Vec3 a) { out[0] = a.x, out[1] = a.y, out[2] = a.z; }
+static inline void vec3_store(double out[3], Vec3 a) {
+    out[0] = a.x;
+    out[1] = a.y;
+    out[2] = a.z;
+}
 static inline Vec3 vec3_add(Vec3 a, Vec3 b) { return (Vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static inline Vec3 vec3_sub(Vec3 a, Vec3 b) { return (Vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
-static inline Vec3 vec3_scale(double k, Vec3 a) { return (Vec3){k*a.x, k*a.y, k*a.z}; }
-static inline Vec3 vec3_axpy(double k, Vec3 a, Vec3 b) { return (Vec3){k*a.x + b.x, k*a.y + b.y, k*a.z + b.z}; }
-static inline double vec3_dot(Vec3 a, Vec3 b) { return a.x*b.x + a.y*b.y + a.z*b.z; }
+static inline Vec3 vec3_scale(double k, Vec3 a) { return (Vec3){k * a.x, k * a.y, k * a.z}; }
+static inline Vec3 vec3_axpy(double k, Vec3 a, Vec3 b) {
+    return (Vec3){k * a.x + b.x, k * a.y + b.y, k * a.z + b.z};
+}
+static inline double vec3_dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline Vec3 vec3_cross(Vec3 a, Vec3 b) {
-    return (Vec3){a.y*b.z - a.z*b.y, a.z*b.x - a.x*b.z, a.x*b.y - a.y*b.x};
+    return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 static inline double vec3_norm(Vec3 a) { return sqrt(vec3_dot(a, a)); }
-static inline bool vec3_finite(const double a[3]) { return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]); }
+static inline bool vec3_finite(const double a[3]) {
+    return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]);
+}
 
 #endif

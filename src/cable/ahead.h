@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rounds that look ahead: where the next round on tangent planes starts, foreseen from the last few. */
+/* Rounds that look ahead: where the next round on tangent planes starts, foreseen from the last
+ * few. */
 #ifndef CAPSTAN_SRC_CABLE_AHEAD_H
 #define CAPSTAN_SRC_CABLE_AHEAD_H
 
@@ -11,12 +12,12 @@ enum { CPSI_AHEAD_KEPT = 8 };
 
 /* Places and ways of the last rounds, of n nodes. */
 typedef struct CpsiAhead {
-    int kept;                          /* changes known, at most CPSI_AHEAD_KEPT, the newest first */
-    bool begun;                        /* a round is known */
-    double *from;                      /* (n, 3) [m] where the round under way starts */
-    double *to, *way;                  /* (n, 3) [m] where the round before ended, and its way */
-    double *d_to[CPSI_AHEAD_KEPT];     /* (n, 3) [m] changes of these from one round to the next */
-    double *d_way[CPSI_AHEAD_KEPT];    /* (n, 3) [m] */
+    int kept;                       /* changes known, at most CPSI_AHEAD_KEPT, the newest first */
+    bool begun;                     /* a round is known */
+    double *from;                   /* (n, 3) [m] where the round under way starts */
+    double *to, *way;               /* (n, 3) [m] where the round before ended, and its way */
+    double *d_to[CPSI_AHEAD_KEPT];  /* (n, 3) [m] changes of these from one round to the next */
+    double *d_way[CPSI_AHEAD_KEPT]; /* (n, 3) [m] */
 } CpsiAhead;
 
 void cpsi_ahead_layout(CpsiAhead *ahead, CpsiArena *arena, int n);
@@ -24,7 +25,8 @@ void cpsi_ahead_layout(CpsiAhead *ahead, CpsiArena *arena, int n);
 /* The round to come starts at `place` (n, 3), and nothing before it counts. */
 void cpsi_ahead_start(CpsiAhead *ahead, int n, const double *place);
 
-/* The round has taken the nodes to `place` (n, 3): put it to where the next one is to start. Nodes with weight 0 follow the others. */
+/* The round has taken the nodes to `place` (n, 3): put it to where the next one is to start. Nodes
+ * with weight 0 follow the others. */
 void cpsi_ahead_foresee(CpsiAhead *ahead, int n, const double *weight, double *place);
 
 #endif

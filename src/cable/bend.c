@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Bends round obstacles (bend.h).
  *
- * A node at which a line under the tensions T and T' turns by d round an obstacle is pressed by R = (T + T') sin(d/2) and rubbed by
- * F = (T' - T) cos(d/2), so that |F| <= mu R holds tensions up to the ratio k = (1 + mu tan(d/2))/(1 - mu tan(d/2)) where a smooth
- * line holds exp(mu d). They agree to order d^3, and at mu tan(d/2) = 1 the node holds anything.
+ * A node at which a line under the tensions T and T' turns by d round an obstacle is pressed by R =
+ * (T + T') sin(d/2) and rubbed by F = (T' - T) cos(d/2), so that |F| <= mu R holds tensions up to
+ * the ratio k = (1 + mu tan(d/2))/(1 - mu tan(d/2)) where a smooth line holds exp(mu d). They agree
+ * to order d^3, and at mu tan(d/2) = 1 the node holds anything.
  *
- * Only the turn towards the obstacle presses: asin(e.n) - asin(e'.n), e and e' the directions of the two forces. A line bent to the
- * side on a surface is held by friction that its weight or other bends give, and loses nothing of the law. Nor do planes press by a turn: both
- * elements of a node on a plane lead away from it. */
+ * Only the turn towards the obstacle presses: asin(e.n) - asin(e'.n), e and e' the directions of
+ * the two forces. A line bent to the side on a surface is held by friction that its weight or other
+ * bends give, and loses nothing of the law. Nor do planes press by a turn: both elements of a node
+ * on a plane lead away from it. */
 #include "cable/bend.h"
 
 #include "cable/rub_set.h"
@@ -15,21 +17,27 @@
 
 /* A force below this share of the largest one has the direction that rounding gave it. */
 static const double LEAST_FORCE = 1e-9;
-/* Ratios that differ by this share are told; the mesh that keeps them nearer is the one that is advised. */
+/* Ratios that differ by this share are told; the mesh that keeps them nearer is the one that is
+ * advised. */
 static const double TOLD = 0.01;
-/* From mu tan(d/2) = 1 on any tension is held; from here on the ratio, 19 and more, is the mesh's. */
+/* From mu tan(d/2) = 1 on any tension is held; from here on the ratio, 19 and more, is the
+ * mesh's. */
 static const double LOCKED = 0.9;
 
 /* ln of the ratio of tensions that a turn by d holds. */
 static double held(double friction, double turn) {
-    const double t = friction*tan(0.5*turn);
-    return t < 1 ? 2*atanh(t) : INFINITY;
+    const double t = friction * tan(0.5 * turn);
+    return t < 1 ? 2 * atanh(t) : INFINITY;
 }
 
 /* How far the node holds more than a smooth line: ln of the quotient of the ratios. */
-static double excess(const CpsBend *bend) { return held(bend->friction, bend->turn) - bend->friction*bend->turn; }
+static double excess(const CpsBend *bend) {
+    return held(bend->friction, bend->turn) - bend->friction * bend->turn;
+}
 
-bool cpsi_bend_locks(const CpsBend *bend) { return bend->friction*tan(0.5*bend->turn) >= LOCKED; }
+bool cpsi_bend_locks(const CpsBend *bend) {
+    return bend->friction * tan(0.5 * bend->turn) >= LOCKED;
+}
 
 bool cpsi_bend_is_sharper(const CpsBend *a, const CpsBend *b) {
     const bool locks = cpsi_bend_locks(a);
@@ -40,57 +48,70 @@ bool cpsi_bend_is_sharper(const CpsBend *a, const CpsBend *b) {
 static double told_turn(double friction) {
     double low = 0, high = acos(-1.0);
     for (int i = 0; i < 60; i++) {
-        const double turn = 0.5*(low + high);
-        if (held(friction, turn) - friction*turn < log1p(TOLD)) low = turn;
-        else high = turn;
+        const double turn = 0.5 * (low + high);
+        if (held(friction, turn) - friction * turn < log1p(TOLD))
+            low = turn;
+        else
+            high = turn;
     }
     return low;
 }
 
-/* The larger coefficient for a slip along the line, this way or that: the support of the set of forces. */
+/* The larger coefficient for a slip along the line, this way or that: the support of the set of
+ * forces. */
 static double friction_along(const CpsiLine *line, int c, Vec3 along) {
     const CpsiRubSet set = cpsi_rub_set(line, c);
     double wanted[3], way[3];
     vec3_store(wanted, along);
     cpsi_frame_to(way, cpsi_line_axes(line, c), wanted);
     const double size = hypot(way[0], way[1]);
-    const double forth[2] = {size > 0 ? way[0]/size : 1, size > 0 ? way[1]/size : 0}, back[2] = {-forth[0], -forth[1]};
-    return fmax(cpsi_rub_dissipation(&set, set.friction, forth), cpsi_rub_dissipation(&set, set.friction, back));
+    const double forth[2] = {size > 0 ? way[0] / size : 1, size > 0 ? way[1] / size : 0},
+                 back[2] = {-forth[0], -forth[1]};
+    return fmax(cpsi_rub_dissipation(&set, set.friction, forth),
+                cpsi_rub_dissipation(&set, set.friction, back));
 }
 
-/* The forces of the line before and after contact c, false where there is none on one side. What an element's contact does acts on both of its
- * nodes, which turn the line in its place. */
+/* The forces of the line before and after contact c, false where there is none on one side. What an
+ * element's contact does acts on both of its nodes, which turn the line in its place. */
 static bool forces(const CpsiLine *line, int c, Vec3 *before, Vec3 *after) {
     const int e = cpsi_line_element(line, c);
     if (e < 0) {
         const int j = cpsi_line_node(line, c);
         if (j == 0 || j == line->n - 1) return false;
-        *before = vec3_load(&line->segment_force[3*(j - 1)]), *after = vec3_load(&line->segment_force[3*j]);
+        *before = vec3_load(&line->segment_force[3 * (j - 1)]);
+        *after = vec3_load(&line->segment_force[3 * j]);
         return true;
     }
-    const Vec3 within = vec3_load(&line->segment_force[3*e]), f = vec3_load(&line->friction_force[3*c]);
-    const Vec3 action = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3*c]), f);
-    *before = vec3_axpy(1 - line->beta[e], action, within), *after = vec3_axpy(-line->beta[e], action, within);
+    const Vec3 within = vec3_load(&line->segment_force[3 * e]),
+               f = vec3_load(&line->friction_force[3 * c]);
+    const Vec3 action = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3 * c]), f);
+    *before = vec3_axpy(1 - line->beta[e], action, within);
+    *after = vec3_axpy(-line->beta[e], action, within);
     return true;
 }
 
 /* [m] Natural arc length at contact c. */
 static double arc_of(const CpsiLine *line, int c) {
     const int e = cpsi_line_element(line, c);
-    return e < 0 ? line->arc_length[cpsi_line_node(line, c)] : line->arc_length[e] + line->beta[e]*line->element_length[e];
+    return e < 0 ? line->arc_length[cpsi_line_node(line, c)]
+                 : line->arc_length[e] + line->beta[e] * line->element_length[e];
 }
 
-/* The bend at contact c; turn 0 where the reaction does not come from a turn of the line round a curved obstacle. */
+/* The bend at contact c; turn 0 where the reaction does not come from a turn of the line round a
+ * curved obstacle. */
 static CpsBend bend_of(const CpsiLine *line, int c) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     CpsBend bend = {0};
     Vec3 before, after;
-    if (!obstacle || obstacle->kind == CPS_OBSTACLE_PLANE || !(line->reaction[c] > 0 && line->friction_bound[c] > 0) ||
+    if (!obstacle || obstacle->kind == CPS_OBSTACLE_PLANE ||
+        !(line->reaction[c] > 0 && line->friction_bound[c] > 0) ||
         !forces(line, c, &before, &after))
         return bend;
-    const double least = LEAST_FORCE*line->report.certificate.largest_force, p = vec3_norm(before), q = vec3_norm(after);
+    const double least = LEAST_FORCE * line->report.certificate.largest_force,
+                 p = vec3_norm(before), q = vec3_norm(after);
     if (!(p > least && q > least)) return bend;
-    const Vec3 n = vec3_load(&line->normal[3*c]), e = vec3_scale(1/p, before), f = vec3_scale(1/q, after);
+    const Vec3 n = vec3_load(&line->normal[3 * c]), e = vec3_scale(1 / p, before),
+               f = vec3_scale(1 / q, after);
     const double rise = fmax(-1, fmin(1, vec3_dot(e, n))), fall = fmax(-1, fmin(1, vec3_dot(f, n)));
     bend.turn = fmax(0, asin(rise) - asin(fall));
     if (bend.turn > 0) bend.friction = friction_along(line, c, vec3_add(e, f));
@@ -107,7 +128,8 @@ CpsBend cpsi_line_bend(const CpsiLine *line) {
     }
     if (!(worst.turn > 0)) return worst;
     worst.ratio = exp(held(worst.friction, worst.turn));
-    worst.coulomb = exp(worst.friction*worst.turn);
-    worst.element = 2*line->obstacle[worst.obstacle].radius*sin(0.5*told_turn(worst.friction));
+    worst.coulomb = exp(worst.friction * worst.turn);
+    worst.element =
+        2 * line->obstacle[worst.obstacle].radius * sin(0.5 * told_turn(worst.friction));
     return worst;
 }

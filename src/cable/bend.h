@@ -5,7 +5,8 @@
 
 #include "cable/line.h"
 
-/* The contact at which the mesh changes the law of friction most, zeros where there is none: theory.md section 3. */
+/* The contact at which the mesh changes the law of friction most, zeros where there is none:
+ * theory.md section 3. */
 CpsBend cpsi_line_bend(const CpsiLine *line);
 
 /* Does the mesh change the law more at a than at b? */

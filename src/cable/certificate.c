@@ -1,16 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The certificate of one step (docs/theory.md, "Certificate").
  *
- * With positions x that keep clear of the obstacle and forces (p, F, R) that balance, |F_j| <= w_j, R_j >= 0, P - D is the sum of
+ * With positions x that keep clear of the obstacle and forces (p, F, R) that balance, |F_j| <= w_j,
+ * R_j >= 0, P - D is the sum of
  *
- *     segment    l [W(e) + W*(p) - p.e] = l [ (c/2) (T_x - |p|)^2 + (|p||e| - p.e) ]     |e| >= 1, T_x = (|e| - 1)/c
- *                                       = l [ |p| (1 - |e|) + (c/2) |p|^2 + (|p||e| - p.e) ]      |e| < 1
- *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given set's phi is its support
+ *     segment    l [W(e) + W*(p) - p.e] = l [ (c/2) (T_x - |p|)^2 + (|p||e| - p.e) ]
+ *         |e| >= 1, T_x = (|e| - 1)/c
+ *                                       = l [ |p| (1 - |e|) + (c/2) |p|^2 + (|p||e| - p.e) ]
+ *                                           |e| < 1
+ *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given
+ *                set's phi is its support
  *     contact    R (n.u + gap)
  *
- * where u and s of a contact of an element are those of its point, (1 - beta) u_j + beta u_{j+1}, on whose nodes its forces act by these shares,
- * with s the way slid, u_T on a plane. Each is >= 0, where |p||e| - p.e = |p x e|^2/(|p||e| + p.e) has no cancellation. An inextensible element is taken as long as it
- * is found, |e| <= 1 up to rounding; the excess is reported as stretch_residual. */
+ * where u and s of a contact of an element are those of its point, (1 - beta) u_j + beta u_{j+1},
+ * on whose nodes its forces act by these shares, with s the way slid, u_T on a plane. Each is >= 0,
+ * where |p||e| - p.e = |p x e|^2/(|p||e| + p.e) has no cancellation. An inextensible element is
+ * taken as long as it is found, |e| <= 1 up to rounding; the excess is reported as
+ * stretch_residual. */
 #include "cable/certificate.h"
 
 #include <float.h>
@@ -21,16 +27,16 @@
 #include "linsys/frame.h"
 #include "linsys/small.h"
 
-/* What the loop (to 1e-13) and rounding leave of the gap where nothing is strained and nothing works, per length and force, the largest or
- * all loads together: no step is asked for less. */
+/* What the loop (to 1e-13) and rounding leave of the gap where nothing is strained and nothing
+ * works, per length and force, the largest or all loads together: no step is asked for less. */
 static const double GAP_FLOOR = 1e-12;
 
 /* |a||b| - a.b for any two vectors, without cancellation. */
 static double angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
-    const double dot = vec3_dot(a, b), sum = size_a*size_b + dot;
-    if (!(dot > 0)) return size_a*size_b - dot;
+    const double dot = vec3_dot(a, b), sum = size_a * size_b + dot;
+    if (!(dot > 0)) return size_a * size_b - dot;
     const Vec3 cross = vec3_cross(a, b);
-    return vec3_dot(cross, cross)/sum;
+    return vec3_dot(cross, cross) / sum;
 }
 
 static Vec3 tangential(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
@@ -40,23 +46,25 @@ Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
         const int c = cpsi_line_contacts(line) + e;
         if (e < 0 || e + 1 >= line->n || line->on[c] < 0) continue;
         const double part = cpsi_line_part(line, e, j);
-        sum = vec3_axpy(part, vec3_load(&line->friction_force[3*c]), sum);
-        sum = vec3_axpy(part*line->reaction[c], vec3_load(&line->normal[3*c]), sum);
+        sum = vec3_axpy(part, vec3_load(&line->friction_force[3 * c]), sum);
+        sum = vec3_axpy(part * line->reaction[c], vec3_load(&line->normal[3 * c]), sum);
     }
     return sum;
 }
 
 /* Everything that acts on node j except the segments. */
 static Vec3 node_force(const CpsiLine *line, int j) {
-    Vec3 sum = vec3_load(&line->load[3*j]);
+    Vec3 sum = vec3_load(&line->load[3 * j]);
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
-        sum = vec3_add(sum, vec3_load(&line->friction_force[3*c]));
-        sum = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3*c]), sum);
+        sum = vec3_add(sum, vec3_load(&line->friction_force[3 * c]));
+        sum = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3 * c]), sum);
     }
     return cpsi_add_element_contacts(line, j, sum);
 }
 
-static Vec3 segment_force(const CpsiLine *line, int e) { return vec3_load(&line->segment_force[3*e]); }
+static Vec3 segment_force(const CpsiLine *line, int e) {
+    return vec3_load(&line->segment_force[3 * e]);
+}
 
 /* The friction set of contact c, with force or way in its tangent axes. */
 static CpsiRubSet rub_set(const CpsiLine *line, int c, const double vector[3], double local[3]) {
@@ -67,7 +75,7 @@ static CpsiRubSet rub_set(const CpsiLine *line, int c, const double vector[3], d
 /* How much more friction contact c could give, in whatever direction. */
 static double room_of(const CpsiLine *line, int c) {
     double f[3];
-    const CpsiRubSet set = rub_set(line, c, &line->friction_force[3*c], f);
+    const CpsiRubSet set = rub_set(line, c, &line->friction_force[3 * c], f);
     return cpsi_rub_room(&set, line->friction_bound[c], f);
 }
 
@@ -75,41 +83,47 @@ static double room_of(const CpsiLine *line, int c) {
 static void add_outer(double m[9], double scale, Vec3 a, Vec3 b) {
     const double left[3] = {a.x, a.y, a.z}, right[3] = {b.x, b.y, b.z};
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) m[3*i + k] += scale*left[i]*right[k];
+        for (int k = 0; k < 3; k++) m[3 * i + k] += scale * left[i] * right[k];
 }
 
 /* Does the bound of contact c follow its reaction? */
 static bool bound_follows(const CpsiLine *line, int c) {
-    const double bound = cpsi_rub_set(line, c).friction*line->reaction[c];
-    return bound > 0 && fabs(line->friction_bound[c] - bound) <= 1e-12*bound;
+    const double bound = cpsi_rub_set(line, c).friction * line->reaction[c];
+    return bound > 0 && fabs(line->friction_bound[c] - bound) <= 1e-12 * bound;
 }
 
-/* Share out the force `rest` that a line free at both ends has in excess. With one vector lambda for all, a contact gives
- * R (n.lambda) n, and what friction its bound allows: F (n.lambda) where that follows R, and room lambda_T; the sum is a 3 x 3 system. */
+/* Share out the force `rest` that a line free at both ends has in excess. With one vector lambda
+ * for all, a contact gives R (n.lambda) n, and what friction its bound allows: F (n.lambda) where
+ * that follows R, and room lambda_T; the sum is a 3 x 3 system. */
 static void share_out(CpsiLine *line, Vec3 rest) {
     double m[9] = {0}, lambda[3] = {-rest.x, -rest.y, -rest.z}, trace = 0;
     int pivot[3];
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-        const Vec3 n = vec3_load(&line->normal[3*c]);
+        const Vec3 n = vec3_load(&line->normal[3 * c]);
         const double room = room_of(line, c);
         add_outer(m, line->reaction[c] - room, n, n);
-        if (line->frozen) add_outer(m, room, n, n), add_outer(m, -room, cpsi_line_friction_normal(line, c), cpsi_line_friction_normal(line, c));
-        if (bound_follows(line, c)) add_outer(m, 1, vec3_load(&line->friction_force[3*c]), n);
-        for (int i = 0; i < 3; i++) m[4*i] += room;
-        trace += line->reaction[c] + 2*room;
+        if (line->frozen) {
+            add_outer(m, room, n, n);
+            add_outer(m, -room, cpsi_line_friction_normal(line, c),
+                      cpsi_line_friction_normal(line, c));
+        }
+        if (bound_follows(line, c)) add_outer(m, 1, vec3_load(&line->friction_force[3 * c]), n);
+        for (int i = 0; i < 3; i++) m[4 * i] += room;
+        trace += line->reaction[c] + 2 * room;
     }
     /* directions in which nobody gives anything keep what is in excess: the balance says so */
-    for (int i = 0; i < 3; i++) m[4*i] += DBL_EPSILON*trace;
+    for (int i = 0; i < 3; i++) m[4 * i] += DBL_EPSILON * trace;
     if (!(trace > 0) || !cpsi_lu_factor(3, m, pivot)) return;
     cpsi_lu_solve(3, m, pivot, lambda);
     const Vec3 by = vec3_load(lambda);
     if (!(vec3_norm(by) < 1)) return;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-        const Vec3 n = vec3_load(&line->normal[3*c]), f = vec3_load(&line->friction_force[3*c]);
+        const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);
         const double along = vec3_dot(n, by), follow = bound_follows(line, c) ? 1 + along : 1;
         /* inside the set before it is scaled, so inside after it */
-        const Vec3 more = vec3_axpy(room_of(line, c), tangential(by, cpsi_line_friction_normal(line, c)), f);
-        vec3_store(&line->friction_force[3*c], vec3_scale(follow, more));
+        const Vec3 more =
+            vec3_axpy(room_of(line, c), tangential(by, cpsi_line_friction_normal(line, c)), f);
+        vec3_store(&line->friction_force[3 * c], vec3_scale(follow, more));
         line->friction_bound[c] *= follow;
         line->reaction[c] *= 1 + along;
     }
@@ -118,20 +132,22 @@ static void share_out(CpsiLine *line, Vec3 rest) {
 void cpsi_balance_forces(CpsiLine *line) {
     const int n = line->n, elements = n - 1;
     if (line->end[CPS_END_A].kind == CPS_END_FREE && line->end[CPS_END_B].kind == CPS_END_FREE) {
-        for (int round = 0; round < 2; round++) { /* the second for what the first left by rounding */
+        for (int round = 0; round < 2;
+             round++) { /* the second for what the first left by rounding */
             Vec3 rest = vec3(0, 0, 0);
             for (int j = 0; j < n; j++) rest = vec3_add(rest, node_force(line, j));
             share_out(line, rest);
         }
     }
-    /* from B to A, starting from nothing beyond a free end or from the force found in the last element */
+    /* from B to A, starting from nothing beyond a free end or from the force found in the last
+     * element */
     if (line->end[CPS_END_B].kind == CPS_END_FREE || line->end[CPS_END_A].kind == CPS_END_HELD) {
         Vec3 p = segment_force(line, elements - 1);
         if (line->end[CPS_END_B].kind == CPS_END_FREE) p = node_force(line, n - 1);
-        vec3_store(&line->segment_force[3*(elements - 1)], p);
+        vec3_store(&line->segment_force[3 * (elements - 1)], p);
         for (int e = elements - 2; e >= 0; e--) {
             p = vec3_add(p, node_force(line, e + 1));
-            vec3_store(&line->segment_force[3*e], p);
+            vec3_store(&line->segment_force[3 * e], p);
         }
         return;
     }
@@ -140,18 +156,19 @@ void cpsi_balance_forces(CpsiLine *line) {
     vec3_store(&line->segment_force[0], p);
     for (int e = 1; e < elements; e++) {
         p = vec3_sub(p, node_force(line, e));
-        vec3_store(&line->segment_force[3*e], p);
+        vec3_store(&line->segment_force[3 * e], p);
     }
 }
 
-/* An element on which no force acts at all is not longer than it is by this: rounding, and what a program leaves of |e| <= 1. With no
- * force anywhere the gap has nothing to be compared with. */
+/* An element on which no force acts at all is not longer than it is by this: rounding, and what a
+ * program leaves of |e| <= 1. With no force anywhere the gap has nothing to be compared with. */
 static const double LEAST_STRAIN = 1e-12;
 
 /* What the rounding of its nodes' coordinates does to the strain of an element. */
 static double coordinate_rounding(const CpsiLine *line, int e) {
-    const double sum = vec3_norm(vec3_load(&line->position[3*e])) + vec3_norm(vec3_load(&line->position[3*(e + 1)]));
-    return 4*DBL_EPSILON*sum/line->element_length[e];
+    const double sum = vec3_norm(vec3_load(&line->position[3 * e])) +
+                       vec3_norm(vec3_load(&line->position[3 * (e + 1)]));
+    return 4 * DBL_EPSILON * sum / line->element_length[e];
 }
 
 static void raise_to(double *largest, double value) { *largest = cpsi_larger(*largest, value); }
@@ -161,27 +178,29 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
     const double c = line->compliance;
     for (int e = 0; e + 1 < line->n; e++) {
         const double l = line->element_length[e];
-        const Vec3 dx = vec3_sub(vec3_load(&line->position[3*(e + 1)]), vec3_load(&line->position[3*e]));
-        const Vec3 strain = vec3_scale(1/l, dx), p = segment_force(line, e);
+        const Vec3 dx =
+            vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
+        const Vec3 strain = vec3_scale(1 / l, dx), p = segment_force(line, e);
         double size = vec3_norm(strain);
-        const double force = vec3_norm(p), along = force*c;
-        if (!(force > 0) && size > 1 && size <= 1 + LEAST_STRAIN + coordinate_rounding(line, e)) size = 1;
+        const double force = vec3_norm(p), along = force * c;
+        if (!(force > 0) && size > 1 && size <= 1 + LEAST_STRAIN + coordinate_rounding(line, e))
+            size = 1;
         const double over = size - 1;
         double gap = angle_defect(p, strain, force, size);
-        if (size > 0) raise_to(&out->element_push, -vec3_dot(p, strain)/size);
+        if (size > 0) raise_to(&out->element_push, -vec3_dot(p, strain) / size);
         if (c > 0) raise_to(&out->elongation_residual, over - along);
         if (over > 0 && c > 0) {
-            gap += 0.5*(over - along)*((over - along)/c);
-            out->primal += l*0.5*over*(over/c);
+            gap += 0.5 * (over - along) * ((over - along) / c);
+            out->primal += l * 0.5 * over * (over / c);
         } else if (over > 0) {
             raise_to(&out->stretch_residual, over);
-            gap *= 1/size; /* as if scaled back to |e| = 1 */
+            gap *= 1 / size; /* as if scaled back to |e| = 1 */
         } else {
-            gap += force*(-over + 0.5*along);
+            gap += force * (-over + 0.5 * along);
         }
-        out->gap += l*gap;
-        out->dual -= l*force*(1 + 0.5*along);
-        out->scale += l*force*(1 + along);
+        out->gap += l * gap;
+        out->dual -= l * force * (1 + 0.5 * along);
+        out->scale += l * force * (1 + along);
         raise_to(&out->tension_estimate, fabs(line->tension[e] - force));
         raise_to(&out->largest_force, force);
     }
@@ -189,17 +208,19 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
 
 /* Friction and reaction of contact c, and what they do on the node. */
 static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
-    const Vec3 x = cpsi_line_place(line, line->position, c), reference = cpsi_line_place(line, line->reference, c);
-    const Vec3 n = vec3_load(&line->normal[3*c]), f = vec3_load(&line->friction_force[3*c]);
+    const Vec3 x = cpsi_line_place(line, line->position, c),
+               reference = cpsi_line_place(line, line->reference, c);
+    const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);
     const Vec3 slide = cpsi_line_slide(line, c);
     const double w = line->friction_bound[c], reaction = line->reaction[c];
     double force[3], way[3], along[3];
     vec3_store(along, slide);
     const CpsiRubSet set = rub_set(line, c, along, way);
-    cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3*c]);
-    const double law = cpsi_rub_gap(&set, w, force, way), dissipation = cpsi_rub_dissipation(&set, w, way);
+    cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
+    const double law = cpsi_rub_gap(&set, w, force, way),
+                 dissipation = cpsi_rub_dissipation(&set, w, way);
     out->law_residual += law > 0 ? law : 0;
-    out->friction_residual += fabs(w - set.friction*reaction);
+    out->friction_residual += fabs(w - set.friction * reaction);
     out->primal += dissipation;
     out->scale += dissipation;
     /* the place from which it slid, on the tangent plane: the reference there */
@@ -208,32 +229,33 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     if (reaction > 0) {
         /* a node is laid on the surface by the rounds, an element is near it on either side */
         const double distance = vec3_dot(n, vec3_sub(x, reference)) + line->gap[c];
-        out->contact_residual += reaction*(cpsi_line_element(line, c) >= 0 ? fabs(distance) : fmax(0, distance));
-        out->dual += reaction*(vec3_dot(n, reference) - line->gap[c]);
+        out->contact_residual +=
+            reaction * (cpsi_line_element(line, c) >= 0 ? fabs(distance) : fmax(0, distance));
+        out->dual += reaction * (vec3_dot(n, reference) - line->gap[c]);
         raise_to(&out->largest_force, reaction);
     }
     return vec3_axpy(reaction, n, f);
 }
 
-/* The loads' part of S: the work that they do in the step, node by node and without sign, and the floor; never more than the moments
- * |b_j| |x_j - x_A|. */
+/* The loads' part of S: the work that they do in the step, node by node and without sign, and the
+ * floor; never more than the moments |b_j| |x_j - x_A|. */
 static double load_scale(const CpsiLine *line, double largest_force, double tolerance) {
     const Vec3 anchor = vec3_load(&line->position[0]);
     double work = 0, moment = 0, loads = 0;
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3*j]), b = vec3_load(&line->load[3*j]);
-        work += fabs(vec3_dot(b, vec3_sub(x, vec3_load(&line->reference[3*j]))));
-        moment += vec3_norm(b)*vec3_norm(vec3_sub(x, anchor));
+        const Vec3 x = vec3_load(&line->position[3 * j]), b = vec3_load(&line->load[3 * j]);
+        work += fabs(vec3_dot(b, vec3_sub(x, vec3_load(&line->reference[3 * j]))));
+        moment += vec3_norm(b) * vec3_norm(vec3_sub(x, anchor));
         loads += vec3_norm(b);
     }
-    work += GAP_FLOOR*fmax(loads, largest_force)*line->length/tolerance;
+    work += GAP_FLOOR * fmax(loads, largest_force) * line->length / tolerance;
     return work <= moment ? work : moment;
 }
 
 /* Nodes: friction, contact, loads and the balance of forces. */
 static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3*j]), b = vec3_load(&line->load[3*j]);
+        const Vec3 x = vec3_load(&line->position[3 * j]), b = vec3_load(&line->load[3 * j]);
         out->primal -= vec3_dot(b, x);
         raise_to(&out->largest_force, vec3_norm(b));
         Vec3 balance = b;
@@ -242,8 +264,11 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         double distance;
         if (cpsi_line_nearest(line, x, &distance) >= 0) raise_to(&out->penetration, -distance);
         balance = cpsi_add_element_contacts(line, j, balance);
-        if (cpsi_line_is_held(line, j)) { /* the held end's share of D: what its support does, times where it is held */
-            out->dual -= vec3_dot(balance, vec3_load(line->end[j == 0 ? CPS_END_A : CPS_END_B].value));
+        if (cpsi_line_is_held(
+                line,
+                j)) { /* the held end's share of D: what its support does, times where it is held */
+            out->dual -=
+                vec3_dot(balance, vec3_load(line->end[j == 0 ? CPS_END_A : CPS_END_B].value));
             continue;
         }
         for (int c = j; c < cpsi_line_contacts(line); c += line->n)
@@ -256,7 +281,7 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
 }
 
 bool cpsi_law_holds(const CpsiLine *line, double tolerance) {
-    const double rounding = 1e-14*line->report.certificate.largest_force*line->length;
+    const double rounding = 1e-14 * line->report.certificate.largest_force * line->length;
     double law = 0, dissipated = 0, bounds = 0;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double w = line->friction_bound[c];
@@ -264,13 +289,14 @@ bool cpsi_law_holds(const CpsiLine *line, double tolerance) {
         double force[3], way[3], along[3];
         vec3_store(along, cpsi_line_slide(line, c));
         const CpsiRubSet set = rub_set(line, c, along, way);
-        cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3*c]);
+        cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
         const double off = fabs(cpsi_rub_gap(&set, w, force, way));
-        if (off > tolerance*w*line->length + rounding) return false;
-        law += off, bounds += w*line->length;
+        if (off > tolerance * w * line->length + rounding) return false;
+        law += off;
+        bounds += w * line->length;
         dissipated += cpsi_rub_dissipation(&set, w, way);
     }
-    return law <= tolerance*dissipated + 1e-12*bounds + rounding;
+    return law <= tolerance * dissipated + 1e-12 * bounds + rounding;
 }
 
 CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance) {
@@ -280,8 +306,10 @@ CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance) {
     out.scale += load_scale(line, out.largest_force, tolerance);
     int pierced;
     out.element_penetration = cpsi_line_pierces(line, &pierced);
-    /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)); it says nothing beyond the tension itself */
-    const double bound = line->compliance > 0 ? sqrt(2*out.gap/(line->compliance*line->length)) : NAN;
+    /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)); it says nothing beyond
+     * the tension itself */
+    const double bound =
+        line->compliance > 0 ? sqrt(2 * out.gap / (line->compliance * line->length)) : NAN;
     out.tension_bound = bound <= out.largest_force ? bound : NAN;
     return out;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A time step with drag (damped_step.h): the implicit Euler step of w x' = f/d with f the sum of all forces on a node, w the share of the line
- * that it stands for and d the drag. */
+/* A time step with drag (damped_step.h): the implicit Euler step of w x' = f/d with f the sum of
+ * all forces on a node, w the share of the line that it stands for and d the drag. */
 #include "cable/damped_step.h"
 
 #include <math.h>
@@ -13,14 +13,15 @@
 #include "cable/rounds.h"
 
 static bool is_finite(const CpsiLine *line) {
-    for (int i = 0; i < 3*line->n; i++)
+    for (int i = 0; i < 3 * line->n; i++)
         if (!isfinite(line->position[i])) return false;
     for (int e = 0; e + 1 < line->n; e++)
         if (!isfinite(line->tension[e])) return false;
     return cpsi_line_is_near(line);
 }
 
-/* With bounds that follow the reactions, or if that cannot be solved with those of the reference: the next step corrects them. */
+/* With bounds that follow the reactions, or if that cannot be solved with those of the reference:
+ * the next step corrects them. */
 static bool solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) {
         CpsiIpmReport ipm = cpsi_line_solve(line, program, options, CPSI_BOUNDS_FOLLOW, false);
@@ -30,18 +31,24 @@ static bool solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptio
     return ipm.gap + ipm.residual <= options->solver.tolerance && is_finite(line);
 }
 
-CpsiDampedStep cpsi_line_damped_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+CpsiDampedStep cpsi_line_damped_step(CpsiLine *line, CpsiChainProgram *program,
+                                     const CpsiStepOptions *options) {
     CpsiDampedStep step = {0};
     double turned;
     cpsi_line_pose(line, options);
     step.solved = solve(line, program, options);
     if (!step.solved) {
-        memcpy(line->position, line->reference, 3*(size_t)line->n*sizeof *line->position);
+        memcpy(line->position, line->reference, 3 * (size_t)line->n * sizeof *line->position);
         return step;
     }
-    if (line->follows) step.shortened = !cpsi_rounds_look(line, !options->frictionless, &turned);
-    else cpsi_contact_slide(line);
-    if (line->follows && line->contacts > 1) cpsi_contact_meet(line, true), cpsi_contact_look(line);
+    if (line->follows)
+        step.shortened = !cpsi_rounds_look(line, !options->frictionless, &turned);
+    else
+        cpsi_contact_slide(line);
+    if (line->follows && line->contacts > 1) {
+        cpsi_contact_meet(line, true);
+        cpsi_contact_look(line);
+    }
     if (options->friction == CPS_FRICTION_CONSISTENT) cpsi_rounds_take_bounds(line);
     cpsi_line_let_go(line, program);
     cpsi_line_classify(line, program);

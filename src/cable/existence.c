@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whether there is an equilibrium at all (existence.h). An inextensible line shorter than the distance of its ends has none; a line with no
- * end held needs friction and reactions that can carry its loads. */
+/* Whether there is an equilibrium at all (existence.h). An inextensible line shorter than the
+ * distance of its ends has none; a line with no end held needs friction and reactions that can
+ * carry its loads. */
 #include "cable/existence.h"
 
 #include <math.h>
@@ -9,66 +10,76 @@
 #include "cable/line_solve.h"
 #include "cable/rub_set.h"
 
-/* Ends farther apart than an inextensible line is long: a constant force along the ends is a proof. */
+/* Ends farther apart than an inextensible line is long: a constant force along the ends is a
+ * proof. */
 static bool too_short(CpsiLine *line) {
     if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_HELD)) return false;
-    const Vec3 span = vec3_sub(vec3_load(line->end[CPS_END_B].value), vec3_load(line->end[CPS_END_A].value));
+    const Vec3 span =
+        vec3_sub(vec3_load(line->end[CPS_END_B].value), vec3_load(line->end[CPS_END_A].value));
     const double distance = vec3_norm(span);
-    if (!(distance > line->length*(1 + CPSI_TAUT))) return false;
+    if (!(distance > line->length * (1 + CPSI_TAUT))) return false;
     line->report.outcome = CPS_INFEASIBLE;
-    vec3_store(line->report.proof, vec3_scale(1/distance, span));
+    vec3_store(line->report.proof, vec3_scale(1 / distance, span));
     line->report.proof_value = distance - line->length;
     return true;
 }
 
-/* No end held: a rigid translation v with B.v > sum w |v_T| lowers the energy for ever, B the sum of loads. The best v has
- * the part of B that friction cannot carry, and its normal part where the obstacle does not stop it. On one plane with isotropic
- * friction, or none; elsewhere the loop has to find out. */
+/* No end held: a rigid translation v with B.v > sum w |v_T| lowers the energy for ever, B the sum
+ * of loads. The best v has the part of B that friction cannot carry, and its normal part where the
+ * obstacle does not stop it. On one plane with isotropic friction, or none; elsewhere the loop has
+ * to find out. */
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     if (!cpsi_line_both_ends(line, CPS_END_FREE) || line->follows) return false;
     Vec3 sum = vec3(0, 0, 0);
     double friction = 0, steepest = 0, least = INFINITY, loads = 0;
     bool stopped = false;
     for (int j = 0; j < line->n; j++) {
-        const Vec3 b = vec3_load(&line->load[3*j]);
+        const Vec3 b = vec3_load(&line->load[3 * j]);
         sum = vec3_add(sum, b);
         loads += vec3_norm(b);
         friction += line->friction_bound[j];
         const double coefficient = cpsi_rub_set(line, j).friction;
-        steepest = fmax(steepest, coefficient), least = fmin(least, coefficient);
+        steepest = fmax(steepest, coefficient);
+        least = fmin(least, coefficient);
         stopped = stopped || isfinite(line->gap[j]);
     }
     const Vec3 n = vec3_load(&line->common[6]);
     const double normal = vec3_dot(sum, n), along = stopped && normal < 0 ? 0 : normal;
     const Vec3 tangent = vec3_axpy(-normal, n, sum);
     /* all reactions together balance B.n; at best they rest where friction is largest */
-    if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) friction = steepest*fmax(0, -normal);
+    if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless)
+        friction = steepest * fmax(0, -normal);
     const double pull = vec3_norm(tangent), beyond = pull > friction ? pull - friction : 0;
-    const double fall = sqrt(beyond*beyond + along*along);
-    if (!(fall > CPSI_TAUT*loads)) return false;
-    const Vec3 slide = pull > 0 ? vec3_scale(beyond/(pull*fall), tangent) : vec3(0, 0, 0);
+    const double fall = sqrt(beyond * beyond + along * along);
+    if (!(fall > CPSI_TAUT * loads)) return false;
+    const Vec3 slide = pull > 0 ? vec3_scale(beyond / (pull * fall), tangent) : vec3(0, 0, 0);
     line->report.outcome = CPS_UNBOUNDED;
-    vec3_store(line->report.proof, vec3_axpy(along/fall, n, slide));
+    vec3_store(line->report.proof, vec3_axpy(along / fall, n, slide));
     line->report.proof_value = fall;
-    /* with bounds that follow the reactions these, which add up to what presses, would hold it wherever they are */
+    /* with bounds that follow the reactions these, which add up to what presses, would hold it
+     * wherever they are */
     const bool frozen = options->friction == CPS_FRICTION_FROZEN && !options->frictionless;
-    if (frozen && along == 0 && pull <= least*-normal) line->report.coulomb = least*-normal;
+    if (frozen && along == 0 && pull <= least * -normal) line->report.coulomb = least * -normal;
     return true;
 }
 
-/* Does point x, moving along v, not come nearer to the obstacle, of which it is farther than `touch` [m]? */
+/* Does point x, moving along v, not come nearer to the obstacle, of which it is farther than
+ * `touch` [m]? */
 static bool moves_off(const CpsiObstacle *obstacle, Vec3 x, Vec3 v, double touch) {
-    return cpsi_obstacle_gap(obstacle, x) > touch && vec3_dot(cpsi_obstacle_normal(obstacle, x), v) >= 0;
+    return cpsi_obstacle_gap(obstacle, x) > touch &&
+           vec3_dot(cpsi_obstacle_normal(obstacle, x), v) >= 0;
 }
 
-/* Does the line, moving along the unit vector v, never come nearer to the obstacle, which it does not touch?  The distance of an element from a
- * convex obstacle is a convex function of the way along v: what does not fall at first never falls. */
+/* Does the line, moving along the unit vector v, never come nearer to the obstacle, which it does
+ * not touch?  The distance of an element from a convex obstacle is a convex function of the way
+ * along v: what does not fall at first never falls. */
 static bool leaves(const CpsiLine *line, const CpsiObstacle *obstacle, Vec3 v) {
-    const double touch = CPSI_TOUCH*line->length;
+    const double touch = CPSI_TOUCH * line->length;
     for (int j = 0; j < line->n; j++)
-        if (!moves_off(obstacle, vec3_load(&line->position[3*j]), v, touch)) return false;
+        if (!moves_off(obstacle, vec3_load(&line->position[3 * j]), v, touch)) return false;
     for (int e = 0; e + 1 < line->n; e++) {
-        const Vec3 a = vec3_load(&line->position[3*e]), b = vec3_load(&line->position[3*(e + 1)]);
+        const Vec3 a = vec3_load(&line->position[3 * e]),
+                   b = vec3_load(&line->position[3 * (e + 1)]);
         double share;
         if (!cpsi_obstacle_faces(obstacle, a, b, &share)) continue;
         if (!moves_off(obstacle, vec3_axpy(share, vec3_sub(b, a), a), v, touch)) return false;
@@ -81,12 +92,12 @@ bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *loa
     Vec3 sum = vec3(0, 0, 0);
     double loads = 0;
     for (int j = 0; j < line->n; j++) {
-        sum = vec3_add(sum, vec3_load(&line->load[3*j]));
-        loads += vec3_norm(vec3_load(&line->load[3*j]));
+        sum = vec3_add(sum, vec3_load(&line->load[3 * j]));
+        loads += vec3_norm(vec3_load(&line->load[3 * j]));
     }
     const double size = vec3_norm(sum);
-    if (!(size > CPSI_TAUT*loads)) return false;
-    const Vec3 v = vec3_scale(1/size, sum);
+    if (!(size > CPSI_TAUT * loads)) return false;
+    const Vec3 v = vec3_scale(1 / size, sum);
     for (int k = 0; k < line->obstacle_count; k++)
         if (!leaves(line, &line->obstacle[k], v)) return false;
     vec3_store(direction, v);

@@ -6,11 +6,12 @@
 #include "cable/line.h"
 #include "cable/step_options.h"
 
-/* Is there a proof that the step, as it is posed, has no solution?  Then the line's report holds the outcome and the proof. */
+/* Is there a proof that the step, as it is posed, has no solution?  Then the line's report holds
+ * the outcome and the proof. */
 bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options);
 
-/* Does the line fall freely, and meet nothing for ever?  `direction` is that of the sum of its loads and `load` [N] its size. Reads position and
- * load. */
+/* Does the line fall freely, and meet nothing for ever?  `direction` is that of the sum of its
+ * loads and `load` [N] its size. Reads position and load. */
 bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *load);
 
 #endif

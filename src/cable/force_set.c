@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The forces that hold a line in its place, as a program (force_set.h).
  *
- * A contact's force varies in a span of one to three directions: along n + F/R where it slips, which keeps F = -mu R u/|u|; in n and the
- * tangents where it sticks; with frozen friction, F in its disc and R apart. Balance at node j reads
+ * A contact's force varies in a span of one to three directions: along n + F/R where it slips,
+ * which keeps F = -mu R u/|u|; in n and the tangents where it sticks; with frozen friction, F in
+ * its disc and R apart. Balance at node j reads
  *
  *     dT_j t_j - dT_j+1 t_j+1 = sum of the directions times their amounts.
  *
- * With fewer than three directions that is more than one equation for the two tensions: what is left of t_j and t_j+1 across the span
- * vanishes for both (they keep what they have), or runs along one line (a fixed ratio), or is zero (both vary freely). */
+ * With fewer than three directions that is more than one equation for the two tensions: what is
+ * left of t_j and t_j+1 across the span vanishes for both (they keep what they have), or runs along
+ * one line (a fixed ratio), or is zero (both vary freely). */
 #include "cable/force_set.h"
 
 #include <math.h>
@@ -19,26 +21,28 @@
 #include "linsys/frame.h"
 #include "linsys/small.h"
 
-/* Directions that differ by less [rad] are one: a tension that crosses there is off balance by this share at most, and the angle between force
- * and element costs its square. */
+/* Directions that differ by less [rad] are one: a tension that crosses there is off balance by this
+ * share at most, and the angle between force and element costs its square. */
 static const double ANGLE = 1e-8;
-/* Elements shorter than their length by less are taut, nodes that moved by less per length of the line are stuck: what rounding and the
- * loop's last digits leave. */
+/* Elements shorter than their length by less are taut, nodes that moved by less per length of the
+ * line are stuck: what rounding and the loop's last digits leave. */
 static const double EXACT = 1e-9;
-/* The cones are wider by this share of the largest force, so that a set with a single member has an inside: below what the certificate lets pass. */
+/* The cones are wider by this share of the largest force, so that a set with a single member has an
+ * inside: below what the certificate lets pass. */
 static const double WIDER = 1e-12;
-/* What the loop aims at, and is content with where rounding stops it before: near the boundary of many cones at once, or where the
- * multipliers are large. */
+/* What the loop aims at, and is content with where rounding stops it before: near the boundary of
+ * many cones at once, or where the multipliers are large. */
 static const double TARGETS[] = {1e-12, 1e-10, 1e-8};
-/* Tensions that grow from node to node may be far larger than the largest force, and the loop finds their size by and by. */
+/* Tensions that grow from node to node may be far larger than the largest force, and the loop finds
+ * their size by and by. */
 enum { MAX_ITERATIONS = 200, PATIENCE = 60, CONES = 5, COLUMNS = 6 };
 
 /* How the force of one contact may vary. */
 typedef struct Contact {
     int columns, cones, rows;
-    double column[3][3];  /* the directions */
-    double rise[3];       /* what each does to R */
-    double rub[3][2];     /* and to F, in the tangents of the contact */
+    double column[3][3]; /* the directions */
+    double rise[3];      /* what each does to R */
+    double rub[3][2];    /* and to F, in the tangents of the contact */
     int dim[CONES];
     double row[CONES][3], h[CONES]; /* of the cones, on the amounts */
 } Contact;
@@ -48,19 +52,21 @@ typedef struct Node {
     int contacts, which[2], first[2]; /* first: the column where a contact begins */
     Contact contact[2];
     int columns, own;
-    double left[COLUMNS], right[COLUMNS]; /* the amounts that carry t of the element before, and after */
+    double left[COLUMNS],
+        right[COLUMNS]; /* the amounts that carry t of the element before, and after */
     double own_way[CPSI_SITE_OWN][COLUMNS]; /* amounts that cancel */
     double left_rest[3], right_rest[3];     /* what no amounts carry */
     int rests;
 } Node;
 
-/* contacts --------------------------------------------------------------------------------------------------------- */
+/* contacts ------------------------------------------------------------------------------------- */
 
 static bool touches(const CpsiLine *line, int c) {
     if (!isfinite(line->gap[c])) return false;
     const int j = cpsi_line_node(line, c);
-    const Vec3 u = vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&line->reference[3*j]));
-    return line->state[c] != CPS_NODE_FREE || vec3_dot(vec3_load(&line->normal[3*c]), u) + line->gap[c] <= CPSI_TOUCH*line->length;
+    const Vec3 u = vec3_sub(vec3_load(&line->position[3 * j]), vec3_load(&line->reference[3 * j]));
+    return line->state[c] != CPS_NODE_FREE ||
+           vec3_dot(vec3_load(&line->normal[3 * c]), u) + line->gap[c] <= CPSI_TOUCH * line->length;
 }
 
 static void add_row(Contact *contact, int dim, const double row[3], double h) {
@@ -76,59 +82,65 @@ static void add_column(Contact *contact, Vec3 direction, double rise, const doub
     memcpy(contact->rub[k], rub, sizeof contact->rub[k]);
 }
 
-/* The two tangents along which friction is free to vary: not where it slips, nor where there is none. */
-static void free_tangents(const CpsiLine *line, const CpsiForceLaw *law, int c, const CpsiRubSet *set, bool out[2]) {
+/* The two tangents along which friction is free to vary: not where it slips, nor where there is
+ * none. */
+static void free_tangents(const CpsiLine *line, const CpsiForceLaw *law, int c,
+                          const CpsiRubSet *set, bool out[2]) {
     double slide[3], way[3];
     vec3_store(slide, cpsi_line_slide(line, c));
     cpsi_frame_to(way, cpsi_line_axes(line, c), slide);
-    for (int a = 0; a < 2; a++) way[a] = fabs(set->ratio[a]*way[a]);
-    const double still = EXACT*line->length;
+    for (int a = 0; a < 2; a++) way[a] = fabs(set->ratio[a] * way[a]);
+    const double still = EXACT * line->length;
     const bool rests = line->state[c] == CPS_NODE_STICK && !law->tight;
     for (int a = 0; a < 2; a++) {
-        const double slid = set->box ? way[a] : sqrt(way[0]*way[0] + way[1]*way[1]);
+        const double slid = set->box ? way[a] : sqrt(way[0] * way[0] + way[1] * way[1]);
         out[a] = set->ratio[a] > 0 && (rests || slid <= still);
     }
 }
 
-/* The cones of a contact whose friction is free along `free` of its tangents: columns are the normal one, if there is, then those. */
-static void add_cones(Contact *contact, const CpsiRubSet *set, const bool free[2], bool normal, double mu, double reaction, double bound,
-                      const double force[2]) {
+/* The cones of a contact whose friction is free along `free` of its tangents: columns are the
+ * normal one, if there is, then those. */
+static void add_cones(Contact *contact, const CpsiRubSet *set, const bool free[2], bool normal,
+                      double mu, double reaction, double bound, const double force[2]) {
     const int first = normal ? 1 : 0, count = free[0] + free[1];
     const double follow = normal ? mu : 0; /* the bound with the normal column */
-    if (normal && (count == 0 || mu == 0)) add_row(contact, 1, (const double[3]){1, 0, 0}, reaction);
+    if (normal && (count == 0 || mu == 0))
+        add_row(contact, 1, (const double[3]){1, 0, 0}, reaction);
     if (count == 2 && !set->box) {
         add_row(contact, 3, (const double[3]){follow, 0, 0}, bound);
         for (int a = 0; a < 2; a++) {
             double row[3] = {0};
-            row[first + a] = 1/set->ratio[a];
-            add_row(contact, 0, row, force[a]/set->ratio[a]);
+            row[first + a] = 1 / set->ratio[a];
+            add_row(contact, 0, row, force[a] / set->ratio[a]);
         }
         return;
     }
     for (int a = 0, k = first; a < 2; a++) {
         if (!free[a]) continue;
         for (int sign = -1; sign < 2; sign += 2) {
-            double row[3] = {normal ? set->ratio[a]*follow : 0, 0, 0};
+            double row[3] = {normal ? set->ratio[a] * follow : 0, 0, 0};
             row[k] = sign;
-            add_row(contact, 1, row, set->ratio[a]*bound + sign*force[a]);
+            add_row(contact, 1, row, set->ratio[a] * bound + sign * force[a]);
         }
         k++;
     }
 }
 
-/* How the force of contact c may vary; false where its friction set is one that is not looked into. Forces in units of `unit`. */
-static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit, int c, Contact *out) {
+/* How the force of contact c may vary; false where its friction set is one that is not looked into.
+ * Forces in units of `unit`. */
+static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit, int c,
+                     Contact *out) {
     static const double none[2] = {0, 0};
     *out = (Contact){0};
     const CpsiRubSet set = cpsi_rub_set(line, c);
-    const double *axes = cpsi_line_axes(line, c), reaction = line->reaction[c]/unit;
+    const double *axes = cpsi_line_axes(line, c), reaction = line->reaction[c] / unit;
     const bool touching = touches(line, c), rubs = !law->frictionless && set.friction > 0;
     const bool given = rubs && set.given && (touching || line->friction_bound[c] > 0);
     double force[3];
-    cpsi_frame_to(force, axes, &line->friction_force[3*c]);
+    cpsi_frame_to(force, axes, &line->friction_force[3 * c]);
     for (int a = 0; a < 2; a++) force[a] /= unit;
     bool free[2] = {false, false};
-    const Vec3 n = vec3_load(&line->normal[3*c]);
+    const Vec3 n = vec3_load(&line->normal[3 * c]);
     if (given && !law->frozen) return false;
     if (law->frozen || !rubs) {
         /* R by itself; F within its given bound, which has no directions without end */
@@ -144,43 +156,47 @@ static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit,
         Vec3 way = n;
         for (int a = 0; a < 2 && slips; a++) {
             if (free[a]) continue;
-            rub[a] = force[a]/reaction;
-            way = vec3_axpy(rub[a], vec3_load(&axes[3*a]), way);
+            rub[a] = force[a] / reaction;
+            way = vec3_axpy(rub[a], vec3_load(&axes[3 * a]), way);
         }
         add_column(out, way, 1, rub);
     }
     const bool normal = out->columns > 0;
     for (int a = 0; a < 2; a++)
-        if (free[a]) add_column(out, vec3_load(&axes[3*a]), 0, (const double[2]){a == 0, a == 1});
+        if (free[a]) add_column(out, vec3_load(&axes[3 * a]), 0, (const double[2]){a == 0, a == 1});
     const double follow = law->frozen || !rubs ? 0 : set.friction;
-    add_cones(out, &set, free, normal, follow, reaction, law->frozen ? line->friction_bound[c]/unit : follow*reaction, force);
+    add_cones(out, &set, free, normal, follow, reaction,
+              law->frozen ? line->friction_bound[c] / unit : follow * reaction, force);
     return !given;
 }
 
-/* nodes ------------------------------------------------------------------------------------------------------------ */
+/* nodes ---------------------------------------------------------------------------------------- */
 
-/* Amounts of the columns that carry `t`, and what is left of it; q (3, columns) becomes an orthonormal basis of the rows. */
-static int carry(const Node *node, const double t[3], double *q, double amounts[COLUMNS], double rest[3]) {
+/* Amounts of the columns that carry `t`, and what is left of it; q (3, columns) becomes an
+ * orthonormal basis of the rows. */
+static int carry(const Node *node, const double t[3], double *q, double amounts[COLUMNS],
+                 double rest[3]) {
     const int d = node->columns;
     double rhs[3];
     int k = 0;
     for (int i = 0; i < node->contacts; i++)
         for (int m = 0; m < node->contact[i].columns; m++, k++)
-            for (int a = 0; a < 3; a++) q[a*d + k] = node->contact[i].column[m][a];
+            for (int a = 0; a < 3; a++) q[a * d + k] = node->contact[i].column[m][a];
     memcpy(rhs, t, sizeof rhs);
     const int rank = d > 0 ? cpsi_orthonormal_span(3, d, q, rhs, ANGLE) : 0;
     for (int m = 0; m < d; m++) {
         amounts[m] = 0;
-        for (int r = 0; r < rank; r++) amounts[m] += rhs[r]*q[r*d + m];
+        for (int r = 0; r < rank; r++) amounts[m] += rhs[r] * q[r * d + m];
     }
     for (int r = rank; r < 3; r++) rest[r - rank] = rhs[r];
     return rank;
 }
 
 /* All of it for node j; elements beyond the ends have no tangent. */
-static void look(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law, int j, Node *node) {
+static void look(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law, int j,
+                 Node *node) {
     static const double none[3] = {0, 0, 0};
-    double q[COLUMNS*COLUMNS];
+    double q[COLUMNS * COLUMNS];
     *node = (Node){0};
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
         Contact *contact = &node->contact[node->contacts];
@@ -190,13 +206,15 @@ static void look(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *la
         node->first[node->contacts++] = node->columns;
         node->columns += contact->columns;
     }
-    const double *before = j > 0 ? &set->tangent[3*(j - 1)] : none, *after = j + 1 < line->n ? &set->tangent[3*j] : none;
+    const double *before = j > 0 ? &set->tangent[3 * (j - 1)] : none,
+                 *after = j + 1 < line->n ? &set->tangent[3 * j] : none;
     carry(node, before, q, node->left, node->left_rest);
     const int rank = carry(node, after, q, node->right, node->right_rest);
     node->rests = 3 - rank;
     node->own = node->columns - rank;
     if (node->own > 0) cpsi_complete_rows(rank, node->columns, q);
-    for (int k = 0; k < node->own; k++) memcpy(node->own_way[k], &q[(rank + k)*node->columns], (size_t)node->columns*sizeof *q);
+    for (int k = 0; k < node->own; k++)
+        memcpy(node->own_way[k], &q[(rank + k) * node->columns], (size_t)node->columns * sizeof *q);
 }
 
 static double dot(int n, const double *a, const double *b) { return cpsi_dot(n, a, b); }
@@ -210,30 +228,34 @@ typedef struct Relation {
 static Relation relate(const Node *node) {
     const double a = sqrt(dot(node->rests, node->left_rest, node->left_rest));
     const double b = sqrt(dot(node->rests, node->right_rest, node->right_rest));
-    if (a <= ANGLE || b <= ANGLE) return (Relation){.left_stays = a > ANGLE, .right_stays = b > ANGLE};
-    const double ratio = dot(node->rests, node->left_rest, node->right_rest)/(b*b);
+    if (a <= ANGLE || b <= ANGLE)
+        return (Relation){.left_stays = a > ANGLE, .right_stays = b > ANGLE};
+    const double ratio = dot(node->rests, node->left_rest, node->right_rest) / (b * b);
     double off = 0;
-    for (int k = 0; k < node->rests; k++) off += pow(node->left_rest[k] - ratio*node->right_rest[k], 2);
-    if (!(sqrt(off) <= ANGLE*a)) return (Relation){.left_stays = true, .right_stays = true};
+    for (int k = 0; k < node->rests; k++)
+        off += pow(node->left_rest[k] - ratio * node->right_rest[k], 2);
+    if (!(sqrt(off) <= ANGLE * a)) return (Relation){.left_stays = true, .right_stays = true};
     return (Relation){.linked = true, .ratio = ratio};
 }
 
-/* elements --------------------------------------------------------------------------------------------------------- */
+/* elements ------------------------------------------------------------------------------------- */
 
 /* Tangents and tensions; which elements are taut. */
 static void measure_elements(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law) {
     for (int e = 0; e + 1 < line->n; e++) {
-        const Vec3 dx = vec3_sub(vec3_load(&line->position[3*(e + 1)]), vec3_load(&line->position[3*e]));
-        const double size = vec3_norm(dx), missing = 1 - size/line->element_length[e];
-        const Vec3 t = size > 0 ? vec3_scale(1/size, dx) : vec3(0, 0, 0);
-        vec3_store(&set->tangent[3*e], t);
-        set->tension[e] = vec3_dot(vec3_load(&line->segment_force[3*e]), t);
-        const bool pulls = !law->tight && set->tension[e] > missing*set->force;
+        const Vec3 dx =
+            vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
+        const double size = vec3_norm(dx), missing = 1 - size / line->element_length[e];
+        const Vec3 t = size > 0 ? vec3_scale(1 / size, dx) : vec3(0, 0, 0);
+        vec3_store(&set->tangent[3 * e], t);
+        set->tension[e] = vec3_dot(vec3_load(&line->segment_force[3 * e]), t);
+        const bool pulls = !law->tight && set->tension[e] > missing * set->force;
         set->scalar[e] = !law->shares && size > 0 && (missing <= EXACT || pulls) ? 0 : -1;
     }
 }
 
-/* One scalar for each run of elements whose tensions go together; a run with one that stays stays. Returns how many there are. */
+/* One scalar for each run of elements whose tensions go together; a run with one that stays stays.
+ * Returns how many there are. */
 static int number_scalars(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law) {
     int scalars = 0;
     Node node;
@@ -267,7 +289,7 @@ static int number_scalars(CpsiForceSet *set, const CpsiLine *line, const CpsiFor
     return scalars;
 }
 
-/* the program ------------------------------------------------------------------------------------------------------ */
+/* the program ---------------------------------------------------------------------------------- */
 
 /* T >= 0 */
 static void add_element(CpsiForceSet *set, const CpsiForceLaw *law, int e) {
@@ -275,7 +297,7 @@ static void add_element(CpsiForceSet *set, const CpsiForceLaw *law, int e) {
     cpsi_scalar_program_site(&set->program, set->scalar[e], -1, 0);
     const int row = cpsi_scalar_program_cone(&set->program, 1);
     set->program.g[row][0] = set->gain[e];
-    set->program.h[row] = (law->directions ? 0 : set->tension[e]/set->force) + WIDER;
+    set->program.h[row] = (law->directions ? 0 : set->tension[e] / set->force) + WIDER;
 }
 
 /* Scalar and gain of an element that may be beyond the ends. */
@@ -285,17 +307,20 @@ static int scalar_of(const CpsiForceSet *set, const CpsiLine *line, int e, doubl
     return is ? set->scalar[e] : -1;
 }
 
-static void add_contact(CpsiForceSet *set, const CpsiForceLaw *law, const Node *node, int i, const double gain[2], bool one) {
+static void add_contact(CpsiForceSet *set, const CpsiForceLaw *law, const Node *node, int i,
+                        const double gain[2], bool one) {
     const Contact *contact = &node->contact[i];
     const int first = node->first[i], d = contact->columns;
     for (int k = 0, r = 0; k < contact->cones; k++) {
         const int row = cpsi_scalar_program_cone(&set->program, contact->dim[k]);
         for (int m = 0; m < contact->dim[k]; m++, r++) {
             double *g = set->program.g[row + m];
-            const double before = gain[0]*dot(d, contact->row[r], &node->left[first]);
-            const double after = -gain[1]*dot(d, contact->row[r], &node->right[first]);
-            g[0] = one ? before + after : before, g[1] = one ? 0 : after;
-            for (int a = 0; a < node->own; a++) g[2 + a] = dot(d, contact->row[r], &node->own_way[a][first]);
+            const double before = gain[0] * dot(d, contact->row[r], &node->left[first]);
+            const double after = -gain[1] * dot(d, contact->row[r], &node->right[first]);
+            g[0] = one ? before + after : before;
+            g[1] = one ? 0 : after;
+            for (int a = 0; a < node->own; a++)
+                g[2 + a] = dot(d, contact->row[r], &node->own_way[a][first]);
             set->program.h[row + m] = (law->directions ? 0 : contact->h[r]) + (m == 0 ? WIDER : 0);
         }
     }
@@ -307,7 +332,8 @@ static void add_node(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw
     Node node;
     double gain[2];
     look(set, line, law, j, &node);
-    const int before = scalar_of(set, line, j - 1, &gain[0]), after = scalar_of(set, line, j, &gain[1]);
+    const int before = scalar_of(set, line, j - 1, &gain[0]),
+              after = scalar_of(set, line, j, &gain[1]);
     if (node.columns == 0 || (before < 0 && after < 0 && node.own == 0)) return;
     const bool one = before >= 0 && before == after;
     set->site[j] = set->program.sites;
@@ -340,31 +366,35 @@ bool cpsi_force_set_build(CpsiForceSet *set, const CpsiLine *line, const CpsiFor
 }
 
 bool cpsi_force_set_solve(CpsiForceSet *set) {
-    for (size_t k = 0; k < sizeof TARGETS/sizeof *TARGETS; k++) {
-        const CpsiIpmOptions options = {.target = TARGETS[k], .scale = 1, .max_iterations = MAX_ITERATIONS, .patience = PATIENCE};
+    for (size_t k = 0; k < sizeof TARGETS / sizeof *TARGETS; k++) {
+        const CpsiIpmOptions options = {.target = TARGETS[k],
+                                        .scale = 1,
+                                        .max_iterations = MAX_ITERATIONS,
+                                        .patience = PATIENCE};
         cpsi_scalar_program_end(&set->program);
         if (cpsi_ipm_solve(&set->program.base, &options).outcome == CPSI_IPM_SOLVED) return true;
     }
     return false;
 }
 
-/* back ------------------------------------------------------------------------------------------------------------- */
+/* back ----------------------------------------------------------------------------------------- */
 
-static void put_contact(const CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw *law, int c, const Contact *contact, const double *amount) {
+static void put_contact(const CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw *law, int c,
+                        const Contact *contact, const double *amount) {
     const CpsiRubSet rub = cpsi_rub_set(line, c);
     const double *axes = cpsi_line_axes(line, c);
     double force[3], reaction = line->reaction[c];
-    cpsi_frame_to(force, axes, &line->friction_force[3*c]);
+    cpsi_frame_to(force, axes, &line->friction_force[3 * c]);
     for (int k = 0; k < contact->columns; k++) {
-        reaction += set->force*amount[k]*contact->rise[k];
-        for (int a = 0; a < 2; a++) force[a] += set->force*amount[k]*contact->rub[k][a];
+        reaction += set->force * amount[k] * contact->rise[k];
+        for (int a = 0; a < 2; a++) force[a] += set->force * amount[k] * contact->rub[k][a];
     }
     line->reaction[c] = fmax(0, reaction);
     if (law->frictionless) return;
-    if (!law->frozen) line->friction_bound[c] = rub.friction*line->reaction[c];
+    if (!law->frozen) line->friction_bound[c] = rub.friction * line->reaction[c];
     if (!rub.given) cpsi_rub_clip(&rub, line->friction_bound[c], line->friction_bound[c], force);
     force[2] = 0;
-    cpsi_frame_from(&line->friction_force[3*c], axes, force);
+    cpsi_frame_from(&line->friction_force[3 * c], axes, force);
 }
 
 void cpsi_force_set_apply(CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw *law) {
@@ -375,24 +405,29 @@ void cpsi_force_set_apply(CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw 
         Node node;
         double gain[2], amount[COLUMNS];
         look(set, line, law, j, &node);
-        const int before = scalar_of(set, line, j - 1, &gain[0]), after = scalar_of(set, line, j, &gain[1]);
+        const int before = scalar_of(set, line, j - 1, &gain[0]),
+                  after = scalar_of(set, line, j, &gain[1]);
         for (int k = 0; k < node.columns; k++) {
-            amount[k] = (before >= 0 ? gain[0]*u[before]*node.left[k] : 0) - (after >= 0 ? gain[1]*u[after]*node.right[k] : 0);
-            for (int a = 0; a < node.own; a++) amount[k] += u[site->at + a]*node.own_way[a][k];
+            amount[k] = (before >= 0 ? gain[0] * u[before] * node.left[k] : 0) -
+                        (after >= 0 ? gain[1] * u[after] * node.right[k] : 0);
+            for (int a = 0; a < node.own; a++) amount[k] += u[site->at + a] * node.own_way[a][k];
         }
         for (int i = 0; i < node.contacts; i++)
             put_contact(set, line, law, node.which[i], &node.contact[i], &amount[node.first[i]]);
     }
     for (int e = 0; e + 1 < line->n; e++) {
         if (set->scalar[e] < 0) continue;
-        const double tension = fmax(0, set->tension[e] + set->force*set->gain[e]*u[set->scalar[e]]);
-        const Vec3 p = vec3_axpy(tension - set->tension[e], vec3_load(&set->tangent[3*e]), vec3_load(&line->segment_force[3*e]));
-        vec3_store(&line->segment_force[3*e], p);
+        const double tension =
+            fmax(0, set->tension[e] + set->force * set->gain[e] * u[set->scalar[e]]);
+        const Vec3 p = vec3_axpy(tension - set->tension[e], vec3_load(&set->tangent[3 * e]),
+                                 vec3_load(&line->segment_force[3 * e]));
+        vec3_store(&line->segment_force[3 * e], p);
         line->tension[e] = tension;
     }
 }
 
-int cpsi_force_set_share(const CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law, int c, double share[CPSI_SITE_OWN]) {
+int cpsi_force_set_share(const CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law,
+                         int c, double share[CPSI_SITE_OWN]) {
     const int j = cpsi_line_node(line, c);
     if (set->site[j] < 0) return -1;
     Node node;
@@ -401,39 +436,50 @@ int cpsi_force_set_share(const CpsiForceSet *set, const CpsiLine *line, const Cp
     for (int i = 0; i < node.contacts; i++) {
         if (node.which[i] != c) continue;
         for (int a = 0; a < CPSI_SITE_OWN; a++)
-            share[a] = a < node.own ? dot(node.contact[i].columns, node.contact[i].rise, &node.own_way[a][node.first[i]]) : 0;
+            share[a] = a < node.own ? dot(node.contact[i].columns, node.contact[i].rise,
+                                          &node.own_way[a][node.first[i]])
+                                    : 0;
         return set->site[j];
     }
     return -1;
 }
 
-/* the fields as they were ------------------------------------------------------------------------------------------ */
+/* the fields as they were ---------------------------------------------------------------------- */
 
 void cpsi_force_set_layout(CpsiForceSet *set, CpsiArena *arena, int n, int contacts) {
-    const int all = n*contacts;
-    cpsi_scalar_program_layout(&set->program, arena, n, 2*n + 1, CONES*all + n + 1);
-    set->tangent = CPSI_TAKE(arena, 3*(size_t)n, double);
+    const int all = n * contacts;
+    cpsi_scalar_program_layout(&set->program, arena, n, 2 * n + 1, CONES * all + n + 1);
+    set->tangent = CPSI_TAKE(arena, 3 * (size_t)n, double);
     set->tension = CPSI_TAKE(arena, n, double);
     set->gain = CPSI_TAKE(arena, n, double);
     set->scalar = CPSI_TAKE(arena, n, int);
     set->site = CPSI_TAKE(arena, n, int);
-    set->segment_force = CPSI_TAKE(arena, 3*(size_t)n, double);
+    set->segment_force = CPSI_TAKE(arena, 3 * (size_t)n, double);
     set->kept_tension = CPSI_TAKE(arena, n, double);
     set->reaction = CPSI_TAKE(arena, all, double);
-    set->friction = CPSI_TAKE(arena, 3*(size_t)all, double);
+    set->friction = CPSI_TAKE(arena, 3 * (size_t)all, double);
     set->bound = CPSI_TAKE(arena, all, double);
 }
 
 /* Copy the fields of a line to their room, or back. */
 static void copy_fields(const CpsiForceSet *set, CpsiLine *line, bool back) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
-    const struct { double *room, *field; size_t count; } fields[] = {
-        {set->segment_force, line->segment_force, 3*(n - 1)}, {set->kept_tension, line->tension, n - 1},
-        {set->reaction, line->reaction, contacts}, {set->friction, line->friction_force, 3*contacts},
-        {set->bound, line->friction_bound, contacts}};
-    for (size_t k = 0; k < sizeof fields/sizeof *fields; k++)
-        memcpy(back ? fields[k].field : fields[k].room, back ? fields[k].room : fields[k].field, fields[k].count*sizeof(double));
+    const struct {
+        double *room, *field;
+        size_t count;
+    } fields[] = {{set->segment_force, line->segment_force, 3 * (n - 1)},
+                  {set->kept_tension, line->tension, n - 1},
+                  {set->reaction, line->reaction, contacts},
+                  {set->friction, line->friction_force, 3 * contacts},
+                  {set->bound, line->friction_bound, contacts}};
+    for (size_t k = 0; k < sizeof fields / sizeof *fields; k++)
+        memcpy(back ? fields[k].field : fields[k].room, back ? fields[k].room : fields[k].field,
+               fields[k].count * sizeof(double));
 }
 
-void cpsi_force_set_keep(CpsiForceSet *set, const CpsiLine *line) { copy_fields(set, (CpsiLine *)(uintptr_t)line, false); }
-void cpsi_force_set_restore(const CpsiForceSet *set, CpsiLine *line) { copy_fields(set, line, true); }
+void cpsi_force_set_keep(CpsiForceSet *set, const CpsiLine *line) {
+    copy_fields(set, (CpsiLine *)(uintptr_t)line, false);
+}
+void cpsi_force_set_restore(const CpsiForceSet *set, CpsiLine *line) {
+    copy_fields(set, line, true);
+}

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Friction sets (friction_set.h).
  *
- * The centre is the analytic one of the conic form, the minimum of -sum log det(A v + b) (log of the number itself for a half-line), where
- * A'z^-1 = 0: Newton's method, damped while its decrement is large (Nesterov and Nemirovskii 1994), from the point with the
- * largest margin, which a small conic program finds. */
+ * The centre is the analytic one of the conic form, the minimum of -sum log det(A v + b) (log of
+ * the number itself for a half-line), where A'z^-1 = 0: Newton's method, damped while its decrement
+ * is large (Nesterov and Nemirovskii 1994), from the point with the largest margin, which a small
+ * conic program finds. */
 #include "cable/friction_set.h"
 
 #include <math.h>
@@ -36,11 +37,14 @@ struct CpsiFrictionSet {
 
 CpsStatus cpsi_friction_set_check(const CpsSet *set, const char *name, CpsError *err) {
     if (cps_set_space(set) != 2)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': friction set: it lies in R^%d, expected the plane R^2", name,
-                         cps_set_space(set));
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "obstacle '%s': friction set: it lies in R^%d, expected the plane R^2",
+                         name, cps_set_space(set));
     if (cpsi_set_has_user(set))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "obstacle '%s': friction set: it holds a user's set, which is known by its support alone", name);
+                         "obstacle '%s': friction set: it holds a user's set, which is known by "
+                         "its support alone",
+                         name);
     CpsSetFacts facts;
     const CpsStatus status = cps_set_facts(set, 0, &facts, NULL, NULL, err);
     if (status) return status;
@@ -48,10 +52,14 @@ CpsStatus cpsi_friction_set_check(const CpsSet *set, const char *name, CpsError 
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': friction set: %s", name,
                          cps_set_outcome_sentence(facts.outcome));
     if (!facts.bounded)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': friction set: it is unbounded, expected a bounded one", name);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "obstacle '%s': friction set: it is unbounded, expected a bounded one",
+                         name);
     if (!facts.has_zero)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "obstacle '%s': friction set: it does not contain 0, but a node may touch without friction", name);
+                         "obstacle '%s': friction set: it does not contain 0, but a node may touch "
+                         "without friction",
+                         name);
     return CPS_OK;
 }
 
@@ -61,69 +69,82 @@ static void lay(CpsiFrictionSet *set) {
     const CpsiForm *form = set->form;
     set->centre = CPSI_TAKE(&set->arena, form->unknowns, double);
     set->cost = CPSI_TAKE(&set->arena, form->unknowns, double);
-    set->program = cpsi_conic_layout(&set->arena, form->unknowns, form->rows, form->cones, form->largest_cone);
+    set->program =
+        cpsi_conic_layout(&set->arena, form->unknowns, form->rows, form->cones, form->largest_cone);
 }
 
 /* What the search for a centre needs. */
 typedef struct Work {
     CpsiConicProgram *program;
-    double *a, *b, *c;               /* of the program for the margin */
+    double *a, *b, *c; /* of the program for the margin */
     int *dim;
-    double *z, *gradient, *step;     /* (rows), (unknowns), (unknowns) */
-    double *hessian, *factor;        /* (unknowns, unknowns) */
+    double *z, *gradient, *step; /* (rows), (unknowns), (unknowns) */
+    double *hessian, *factor;    /* (unknowns, unknowns) */
 } Work;
 
 static void lay_work(CpsiArena *arena, Work *work, const CpsiForm *form) {
     const size_t n = (size_t)form->unknowns, m = (size_t)form->rows;
-    work->program = cpsi_conic_layout(arena, form->unknowns + 1, form->rows + 1, form->cones + 1, form->largest_cone);
-    work->a = CPSI_TAKE(arena, (m + 1)*(n + 1), double);
+    work->program = cpsi_conic_layout(arena, form->unknowns + 1, form->rows + 1, form->cones + 1,
+                                      form->largest_cone);
+    work->a = CPSI_TAKE(arena, (m + 1) * (n + 1), double);
     work->b = CPSI_TAKE(arena, m + 1, double);
     work->c = CPSI_TAKE(arena, n + 1, double);
     work->dim = CPSI_TAKE(arena, form->cones + 1, int);
     work->z = CPSI_TAKE(arena, m, double);
     work->gradient = CPSI_TAKE(arena, n, double);
     work->step = CPSI_TAKE(arena, n, double);
-    work->hessian = CPSI_TAKE(arena, n*n, double);
-    work->factor = CPSI_TAKE(arena, n*n, double);
+    work->hessian = CPSI_TAKE(arena, n * n, double);
+    work->factor = CPSI_TAKE(arena, n * n, double);
 }
 
 /* The largest t <= 1 with A v + b - t e in K, and v. */
 static double find_margin(const CpsiForm *form, const Work *work, double *v) {
     const size_t n = (size_t)form->unknowns, m = (size_t)form->rows, width = n + 1;
-    for (size_t i = 0; i < m; i++) memcpy(&work->a[i*width], &form->a[i*n], n*sizeof *work->a);
-    memcpy(work->b, form->b, m*sizeof *work->b);
-    memcpy(work->dim, form->dim, (size_t)form->cones*sizeof *work->dim);
-    for (int k = 0, i = 0; k < form->cones; i += form->dim[k++]) work->a[(size_t)i*width + n] = -1;
-    work->a[m*width + n] = -1, work->b[m] = 1, work->dim[form->cones] = 1, work->c[n] = -1;
+    for (size_t i = 0; i < m; i++)
+        memcpy(&work->a[i * width], &form->a[i * n], n * sizeof *work->a);
+    memcpy(work->b, form->b, m * sizeof *work->b);
+    memcpy(work->dim, form->dim, (size_t)form->cones * sizeof *work->dim);
+    for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
+        work->a[(size_t)i * width + n] = -1;
+    work->a[m * width + n] = -1;
+    work->b[m] = 1;
+    work->dim[form->cones] = 1;
+    work->c[n] = -1;
     CpsiConicProgram *program = work->program;
-    program->dim = work->dim, program->a = work->a, program->b = work->b, program->c = work->c;
+    program->dim = work->dim;
+    program->a = work->a;
+    program->b = work->b;
+    program->c = work->c;
     if (cpsi_conic_solve(program, ACCEPT).outcome != CPSI_CONIC_SOLVED) return 0;
-    memcpy(v, program->base.u, n*sizeof *v);
+    memcpy(v, program->base.u, n * sizeof *v);
     return program->base.u[n];
 }
 
-/* z = A v + b, its gradient A'z^-1 and the Hessian A'(2 (Jz)(Jz)'/det^2 - J/det) A of the barrier. False: z is not inside. */
+/* z = A v + b, its gradient A'z^-1 and the Hessian A'(2 (Jz)(Jz)'/det^2 - J/det) A of the barrier.
+ * False: z is not inside. */
 static bool differentiate(const CpsiForm *form, const Work *work, const double *v) {
     const size_t n = (size_t)form->unknowns;
-    memset(work->gradient, 0, n*sizeof *work->gradient);
-    memset(work->hessian, 0, n*n*sizeof *work->hessian);
-    for (int i = 0; i < form->rows; i++) work->z[i] = cpsi_dot(form->unknowns, &form->a[(size_t)i*n], v) + form->b[i];
+    memset(work->gradient, 0, n * sizeof *work->gradient);
+    memset(work->hessian, 0, n * n * sizeof *work->hessian);
+    for (int i = 0; i < form->rows; i++)
+        work->z[i] = cpsi_dot(form->unknowns, &form->a[(size_t)i * n], v) + form->b[i];
     for (int k = 0, i = 0; k < form->cones; i += form->dim[k++]) {
         const int d = form->dim[k];
-        const double *z = &work->z[i], *a = &form->a[(size_t)i*n];
+        const double *z = &work->z[i], *a = &form->a[(size_t)i * n];
         if (!(z[0] > (d == 1 ? 0 : cpsi_norm(d - 1, z + 1)))) return false;
-        const double det = d == 1 ? z[0]*z[0] : cpsi_soc_det(z, d);
-        for (size_t j = 0; j < n; j++) { /* the column a'Jz, then products; a half-line's (1/z)^2 comes out the same */
-            double jz = z[0]*a[j];
-            for (size_t r = 1; r < (size_t)d; r++) jz -= z[r]*a[r*n + j];
-            work->step[j] = jz/det;
-            work->gradient[j] += jz/det;
+        const double det = d == 1 ? z[0] * z[0] : cpsi_soc_det(z, d);
+        for (size_t j = 0; j < n;
+             j++) { /* the column a'Jz, then products; a half-line's (1/z)^2 comes out the same */
+            double jz = z[0] * a[j];
+            for (size_t r = 1; r < (size_t)d; r++) jz -= z[r] * a[r * n + j];
+            work->step[j] = jz / det;
+            work->gradient[j] += jz / det;
         }
         for (size_t j = 0; j < n; j++)
             for (size_t l = 0; l < n; l++) {
-                double inner = a[j]*a[l];
-                for (size_t r = 1; r < (size_t)d; r++) inner -= a[r*n + j]*a[r*n + l];
-                work->hessian[j*n + l] += 2*work->step[j]*work->step[l] - inner/det;
+                double inner = a[j] * a[l];
+                for (size_t r = 1; r < (size_t)d; r++) inner -= a[r * n + j] * a[r * n + l];
+                work->hessian[j * n + l] += 2 * work->step[j] * work->step[l] - inner / det;
             }
     }
     return true;
@@ -133,18 +154,20 @@ static bool differentiate(const CpsiForm *form, const Work *work, const double *
 static bool centre(const CpsiForm *form, const Work *work, double *v) {
     const int n = form->unknowns;
     for (int round = 0; round < MOST_CENTERING; round++) {
-        if (!differentiate(form, work, v) || !cpsi_cholesky(n, work->hessian, work->factor)) return false;
+        if (!differentiate(form, work, v) || !cpsi_cholesky(n, work->hessian, work->factor))
+            return false;
         /* step = (L L')^-1 gradient, decrement = |L^-1 gradient| */
         double *x = work->step;
         for (int i = 0; i < n; i++)
-            x[i] = (work->gradient[i] - cpsi_dot(i, &work->factor[i*n], x))/work->factor[i*n + i];
+            x[i] = (work->gradient[i] - cpsi_dot(i, &work->factor[i * n], x)) /
+                   work->factor[i * n + i];
         const double decrement = cpsi_norm(n, x);
         for (int i = n - 1; i >= 0; i--) {
-            for (int j = i + 1; j < n; j++) x[i] -= work->factor[j*n + i]*x[j];
-            x[i] /= work->factor[i*n + i];
+            for (int j = i + 1; j < n; j++) x[i] -= work->factor[j * n + i] * x[j];
+            x[i] /= work->factor[i * n + i];
         }
-        const double by = decrement > 0.25 ? 1/(1 + decrement) : 1;
-        for (int i = 0; i < n; i++) v[i] += by*x[i];
+        const double by = decrement > 0.25 ? 1 / (1 + decrement) : 1;
+        for (int i = 0; i < n; i++) v[i] += by * x[i];
         if (decrement <= 1e-8) return true; /* the last step squares it: rounding */
     }
     return false;
@@ -154,14 +177,17 @@ static CpsStatus find_centre(CpsiFrictionSet *set, const char *name, CpsError *e
     CpsiArena arena = {0};
     Work work;
     lay_work(&arena, &work, set->form);
-    if (!cpsi_arena_allocate(&arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a friction set");
+    if (!cpsi_arena_allocate(&arena))
+        return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a friction set");
     lay_work(&arena, &work, set->form);
-    const bool found = find_margin(set->form, &work, set->centre) > LEAST_MARGIN && centre(set->form, &work, set->centre);
+    const bool found = find_margin(set->form, &work, set->centre) > LEAST_MARGIN &&
+                       centre(set->form, &work, set->centre);
     cpsi_arena_free(&arena);
     return found ? CPS_OK
                  : cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "obstacle '%s': friction set: its expression has no interior or no centre: write it with fewer "
-                             "operations", name);
+                             "obstacle '%s': friction set: its expression has no interior or no "
+                             "centre: write it with fewer operations",
+                             name);
 }
 
 /* A set of dimension 1 as the segment that it is, however it was written. */
@@ -176,12 +202,23 @@ static CpsStatus as_segment(const CpsSet *set, const double along[2], CpsSet **o
 
 static void describe(CpsiFrictionSet *set, double reach) {
     const CpsiForm *form = set->form;
-    set->shape = (CpsiShapeForm){.unknowns = form->unknowns, .rows = form->rows, .cones = form->cones, .spread = form->rows,
-                                 .dim = form->dim, .a = form->a, .b = form->b, .p = form->p, .origin = form->origin,
-                                 .centre = set->centre, .reach = reach};
+    set->shape = (CpsiShapeForm){.unknowns = form->unknowns,
+                                 .rows = form->rows,
+                                 .cones = form->cones,
+                                 .spread = form->rows,
+                                 .dim = form->dim,
+                                 .a = form->a,
+                                 .b = form->b,
+                                 .p = form->p,
+                                 .origin = form->origin,
+                                 .centre = set->centre,
+                                 .reach = reach};
     for (int k = 0; k < form->cones; k++) set->shape.spread += form->dim[k] > 1;
     CpsiConicProgram *program = set->program;
-    program->dim = form->dim, program->a = form->a, program->b = form->b, program->c = set->cost;
+    program->dim = form->dim;
+    program->a = form->a;
+    program->b = form->b;
+    program->c = set->cost;
 }
 
 /* The largest norm in a box round the set. */
@@ -203,10 +240,12 @@ static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, 
     const CpsiForm *form = set->form;
     if (form->empty || form->lines > 0 || form->unknowns == 0 || form->rows > MOST_ROWS)
         return cpsi_fail(err, CPS_ERR_LIMIT,
-                         "obstacle '%s': friction set: its conic form has %d rows, expected 1 to %d: use fewer parts", name,
-                         form->rows, (int)MOST_ROWS);
+                         "obstacle '%s': friction set: its conic form has %d rows, expected 1 to "
+                         "%d: use fewer parts",
+                         name, form->rows, (int)MOST_ROWS);
     lay(set);
-    if (!cpsi_arena_allocate(&set->arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a friction set");
+    if (!cpsi_arena_allocate(&set->arena))
+        return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a friction set");
     lay(set);
     double reach;
     status = find_reach(of, &reach, err);
@@ -215,7 +254,8 @@ static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, 
     return status;
 }
 
-CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFrictionSet **out, CpsError *err) {
+CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFrictionSet **out,
+                                 CpsError *err) {
     *out = NULL;
     CpsSetFacts facts;
     double basis[4];
@@ -227,8 +267,10 @@ CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFricti
     if (!status && !made) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a friction set");
     if (!status) status = make(segment ? segment : set, name, made, err);
     cps_set_release(segment);
-    if (status) cpsi_friction_set_free(made);
-    else *out = made;
+    if (status)
+        cpsi_friction_set_free(made);
+    else
+        *out = made;
     return status;
 }
 
@@ -247,7 +289,7 @@ double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]) {
     if (!(size > 0)) return size;
     double largest = 0;
     for (int j = 0; j < form->unknowns; j++) {
-        set->cost[j] = (form->p[j]*u[0] + form->p[form->unknowns + j]*u[1])/size;
+        set->cost[j] = (form->p[j] * u[0] + form->p[form->unknowns + j] * u[1]) / size;
         largest = fmax(largest, fabs(set->cost[j]));
     }
     const double here = -cpsi_dot(2, u, form->origin);
@@ -256,5 +298,5 @@ double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]) {
     for (int j = 0; j < form->unknowns; j++) set->cost[j] /= largest;
     const CpsiConicResult result = cpsi_conic_solve(set->program, ACCEPT);
     if (result.outcome != CPSI_CONIC_SOLVED) return NAN;
-    return here - size*largest*cpsi_dot(form->unknowns, set->cost, set->program->base.u);
+    return here - size * largest * cpsi_dot(form->unknowns, set->cost, set->program->base.u);
 }

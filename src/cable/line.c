@@ -8,30 +8,30 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     line->arc_length = CPSI_TAKE(arena, n, double);
     line->element_length = CPSI_TAKE(arena, n, double);
-    line->reference = CPSI_TAKE(arena, 3*n, double);
-    line->position = CPSI_TAKE(arena, 3*n, double);
-    line->load = CPSI_TAKE(arena, 3*n, double);
-    line->normal = CPSI_TAKE(arena, 3*contacts, double);
+    line->reference = CPSI_TAKE(arena, 3 * n, double);
+    line->position = CPSI_TAKE(arena, 3 * n, double);
+    line->load = CPSI_TAKE(arena, 3 * n, double);
+    line->normal = CPSI_TAKE(arena, 3 * contacts, double);
     line->gap = CPSI_TAKE(arena, contacts, double);
     line->friction_factor = line->has_zones ? CPSI_TAKE(arena, n, double) : NULL;
     line->friction_bound = CPSI_TAKE(arena, contacts, double);
-    line->friction_force = CPSI_TAKE(arena, 3*contacts, double);
+    line->friction_force = CPSI_TAKE(arena, 3 * contacts, double);
     line->reaction = CPSI_TAKE(arena, contacts, double);
-    line->segment_force = CPSI_TAKE(arena, 3*n, double);
+    line->segment_force = CPSI_TAKE(arena, 3 * n, double);
     line->tension = CPSI_TAKE(arena, n, double);
-    line->motion = CPSI_TAKE(arena, 3*n, double);
+    line->motion = CPSI_TAKE(arena, 3 * n, double);
     line->state = CPSI_TAKE(arena, contacts, unsigned char);
-    line->slide = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
+    line->slide = line->follows ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
     line->round = line->follows ? CPSI_TAKE(arena, contacts, double) : NULL;
-    line->base = line->follows ? CPSI_TAKE(arena, 3*n, double) : NULL;
-    line->axes = line->follows ? CPSI_TAKE(arena, 9*contacts, double) : NULL;
-    line->first_axes = line->follows ? CPSI_TAKE(arena, 9*contacts, double) : NULL;
-    line->curvature = line->follows ? CPSI_TAKE(arena, 3*contacts, double) : NULL;
+    line->base = line->follows ? CPSI_TAKE(arena, 3 * n, double) : NULL;
+    line->axes = line->follows ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
+    line->first_axes = line->follows ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
+    line->curvature = line->follows ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
     line->on = line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
     line->pressed = line->follows ? CPSI_TAKE(arena, contacts, bool) : NULL;
     line->beta = line->element_contacts > 0 ? CPSI_TAKE(arena, n, double) : NULL;
     line->carries = line->follows ? CPSI_TAKE(arena, n, double) : NULL;
-    line->trail = line->follows ? CPSI_TAKE(arena, 6*(size_t)n, double) : NULL;
+    line->trail = line->follows ? CPSI_TAKE(arena, 6 * (size_t)n, double) : NULL;
     if (line->follows) cpsi_ahead_layout(&line->ahead, arena, line->n);
     const bool inextensible = line->compliance == 0;
     line->tension_before = inextensible ? CPSI_TAKE(arena, n, double) : NULL;
@@ -42,7 +42,8 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
 double cpsi_line_longest_way(const CpsiLine *line, const double *from) {
     double longest = 0;
     for (int j = 0; j < line->n; j++)
-        longest = cpsi_larger(longest, vec3_norm(vec3_sub(vec3_load(&line->position[3*j]), vec3_load(&from[3*j]))));
+        longest = cpsi_larger(longest, vec3_norm(vec3_sub(vec3_load(&line->position[3 * j]),
+                                                          vec3_load(&from[3 * j]))));
     return longest;
 }
 
@@ -64,11 +65,13 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
         for (int e = 0; e + 1 < line->n; e++) {
-            const Vec3 a = vec3_load(&line->position[3*e]), b = vec3_load(&line->position[3*(e + 1)]);
+            const Vec3 a = vec3_load(&line->position[3 * e]),
+                       b = vec3_load(&line->position[3 * (e + 1)]);
             double share;
             if (!cpsi_obstacle_faces(o, a, b, &share)) continue;
             const Vec3 nearest = vec3_axpy(share, vec3_sub(b, a), a);
-            const double depth = -cpsi_obstacle_gap(o, nearest) - cpsi_obstacle_allowance(o, line->element_length[e]);
+            const double depth = -cpsi_obstacle_gap(o, nearest) -
+                                 cpsi_obstacle_allowance(o, line->element_length[e]);
             if (!(depth > worst)) continue;
             worst = depth;
             *obstacle = k;
@@ -88,19 +91,21 @@ void cpsi_line_measure(CpsiLine *line) {
     }
 }
 
-/* The force K (|x'| - 1)^+ t of element e at `position`; 0 for an inextensible line, whose tension shapes do not tell. */
+/* The force K (|x'| - 1)^+ t of element e at `position`; 0 for an inextensible line, whose tension
+ * shapes do not tell. */
 static Vec3 start_force(const CpsiLine *line, int e) {
-    const Vec3 dx = vec3_sub(vec3_load(&line->position[3*(e + 1)]), vec3_load(&line->position[3*e]));
-    const double size = vec3_norm(dx), strain = size/line->element_length[e] - 1;
+    const Vec3 dx =
+        vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
+    const double size = vec3_norm(dx), strain = size / line->element_length[e] - 1;
     if (!(line->compliance > 0) || !(strain > 0)) return vec3(0, 0, 0);
-    return vec3_scale(strain/(line->compliance*size), dx);
+    return vec3_scale(strain / (line->compliance * size), dx);
 }
 
 void cpsi_line_start_reaction(CpsiLine *line, double touch) {
     for (int j = 0; j < line->n; j++) {
         line->reaction[j] = 0;
         line->state[j] = CPS_NODE_FREE;
-        const Vec3 x = vec3_load(&line->position[3*j]);
+        const Vec3 x = vec3_load(&line->position[3 * j]);
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
         if (!(gap <= touch)) continue;

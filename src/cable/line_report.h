@@ -15,7 +15,8 @@ void cpsi_line_report_ends(CpsiLine *line);
 /* Lengths that lie on an obstacle and that slid there, the ends having been reported. */
 void cpsi_line_report_lengths(CpsiLine *line);
 
-/* [m] The way of an end on obstacle k in this step: that of the node, less that of an obstacle that turns. */
+/* [m] The way of an end on obstacle k in this step: that of the node, less that of an obstacle that
+ * turns. */
 Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k);
 
 #endif

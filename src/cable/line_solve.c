@@ -11,18 +11,21 @@
 #include "cable/side.h"
 #include "linsys/frame.h"
 
-/* Steps to the centre at the target (line_step.c), and towards smaller products where friction acts: each halves what a node at its limit creeps, and takes two digits off what the
- * force of one that slips lacks. */
+/* Steps to the centre at the target (line_step.c), and towards smaller products where friction
+ * acts: each halves what a node at its limit creeps, and takes two digits off what the force of one
+ * that slips lacks. */
 static const int SHARPENINGS = 6;
 /* No step takes a node this many lengths away: it was on its way to nowhere. */
 static const double AFAR = 1e4;
 /* A reference this much tighter than the loads and the ends explain. */
 static const double HELD = 100;
-/* ... and, where nothing else asks for any force, by more than this strain: less is what rounding leaves of |x'| <= 1. */
+/* ... and, where nothing else asks for any force, by more than this strain: less is what rounding
+ * leaves of |x'| <= 1. */
 static const double LEAST_STRAIN = 1e-12;
 /* A taut line's forces are those of a line longer by this share. */
 static const double TAUT_SLACK = 1e-9;
-/* Places are known to this share of the length, and no element of an inextensible line is longer by more. */
+/* Places are known to this share of the length, and no element of an inextensible line is longer by
+ * more. */
 static const double PLACES = CPSI_TOUCH;
 /* A reaction below this share of the unit of force is rounding where the node is apart. */
 static const double LEAST_REACTION = 1e-12;
@@ -30,10 +33,12 @@ static const double LEAST_REACTION = 1e-12;
 void cpsi_line_pose(CpsiLine *line, const CpsiStepOptions *options) {
     cpsi_contact_pose(line, options->contact, options->friction, options->frictionless);
     for (int j = 0; j < line->n; j++)
-        for (int a = 0; a < 3; a++) line->load[3*j + a] = cpsi_line_share(line, j)*line->weight[a];
+        for (int a = 0; a < 3; a++)
+            line->load[3 * j + a] = cpsi_line_share(line, j) * line->weight[a];
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_FREE)
-            for (int a = 0; a < 3; a++) line->load[3*(end == CPS_END_A ? 0 : line->n - 1) + a] += line->end[end].value[a];
+            for (int a = 0; a < 3; a++)
+                line->load[3 * (end == CPS_END_A ? 0 : line->n - 1) + a] += line->end[end].value[a];
 }
 
 bool cpsi_line_both_ends(const CpsiLine *line, CpsEndKind kind) {
@@ -41,27 +46,32 @@ bool cpsi_line_both_ends(const CpsiLine *line, CpsEndKind kind) {
 }
 
 double cpsi_line_end_distance(const CpsiLine *line) {
-    return vec3_norm(vec3_sub(vec3_load(line->end[CPS_END_B].value), vec3_load(line->end[CPS_END_A].value)));
+    return vec3_norm(
+        vec3_sub(vec3_load(line->end[CPS_END_B].value), vec3_load(line->end[CPS_END_A].value)));
 }
 
 bool cpsi_line_is_taut(const CpsiLine *line) {
-    return line->compliance == 0 && cpsi_line_both_ends(line, CPS_END_HELD) && cpsi_line_end_distance(line) >= line->length*(1 - CPSI_TAUT);
+    return line->compliance == 0 && cpsi_line_both_ends(line, CPS_END_HELD) &&
+           cpsi_line_end_distance(line) >= line->length * (1 - CPSI_TAUT);
 }
 
-/* A force of the size of the tension to come: the largest of the weight, the forces applied, and for two held ends the T
- * of a shallow line, c T - (W/T)^2/24 = distance/L - 1. 0 if nothing asks for any force. */
+/* A force of the size of the tension to come: the largest of the weight, the forces applied, and
+ * for two held ends the T of a shallow line, c T - (W/T)^2/24 = distance/L - 1. 0 if nothing asks
+ * for any force. */
 static double force_scale(const CpsiLine *line, double distance) {
-    const double strain = distance/line->length - 1, c = line->compliance;
-    double weight = line->length*vec3_norm(vec3_load(line->weight)), scale = weight;
-    for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3*j])));
+    const double strain = distance / line->length - 1, c = line->compliance;
+    double weight = line->length * vec3_norm(vec3_load(line->weight)), scale = weight;
+    for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
     if (!cpsi_line_both_ends(line, CPS_END_HELD) || (scale == 0 && strain <= 0)) return scale;
     /* the left side grows with T: bracket by doubling, then halve */
     double low = scale > 0 ? scale : DBL_MIN, high = low;
-    while (high < 1e300 && c*high - (weight/high)*(weight/high)/24 < strain) high *= 2;
-    for (int i = 0; i < 60 && high > 1.001*low; i++) {
-        const double middle = sqrt(low)*sqrt(high);
-        if (c*middle - (weight/middle)*(weight/middle)/24 < strain) low = middle;
-        else high = middle;
+    while (high < 1e300 && c * high - (weight / high) * (weight / high) / 24 < strain) high *= 2;
+    for (int i = 0; i < 60 && high > 1.001 * low; i++) {
+        const double middle = sqrt(low) * sqrt(high);
+        if (c * middle - (weight / middle) * (weight / middle) / 24 < strain)
+            low = middle;
+        else
+            high = middle;
     }
     return high < 1e300 ? high : scale;
 }
@@ -70,44 +80,57 @@ static double force_scale(const CpsiLine *line, double distance) {
 static void straighten(CpsiLine *line) {
     const Vec3 a = vec3_load(line->end[CPS_END_A].value), b = vec3_load(line->end[CPS_END_B].value);
     for (int j = 1; j + 1 < line->n; j++)
-        vec3_store(&line->position[3*j], vec3_axpy(line->arc_length[j]/line->length, vec3_sub(b, a), a));
+        vec3_store(&line->position[3 * j],
+                   vec3_axpy(line->arc_length[j] / line->length, vec3_sub(b, a), a));
 }
 
 bool cpsi_line_is_near(const CpsiLine *line) {
-    for (int j = 0; j < 3*line->n; j++)
-        if (!(fabs(line->position[j] - line->reference[j]) <= AFAR*line->length)) return false;
+    for (int j = 0; j < 3 * line->n; j++)
+        if (!(fabs(line->position[j] - line->reference[j]) <= AFAR * line->length)) return false;
     return true;
 }
 
-/* Is the line where the step can have taken it, and clear of the obstacles that keep it out?  Strict contact with frozen friction sees them
- * from the reference only, from where the line goes straight and passes none. */
+/* Is the line where the step can have taken it, and clear of the obstacles that keep it out?
+ * Strict contact with frozen friction sees them from the reference only, from where the line goes
+ * straight and passes none. */
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool consistent = line->follows && options->friction == CPS_FRICTION_CONSISTENT;
-    if ((consistent || line->frozen) && !(cpsi_contact_depth(line) <= 0.1*CPSI_TOUCH*line->length)) return false;
+    if ((consistent || line->frozen) &&
+        !(cpsi_contact_depth(line) <= 0.1 * CPSI_TOUCH * line->length))
+        return false;
     /* strict contact keeps out nodes that touched, and nothing else (S90 (35)) */
-    if (line->gains && !(line->report.certificate.element_penetration <= 0.1*CPSI_TOUCH*line->length)) return false;
+    if (line->gains &&
+        !(line->report.certificate.element_penetration <= 0.1 * CPSI_TOUCH * line->length))
+        return false;
     const bool straight = line->follows && !consistent && !line->frozen && !options->frictionless;
     if (straight && cpsi_side_share(line, line->reference, line->position, 1) < 1) return false;
     if (consistent && !cpsi_law_holds(line, options->solver.tolerance)) return false;
     return cpsi_line_is_near(line);
 }
 
-/* What the gap may hide where other forces are large. An element that pushes with P costs 2 P |e| l, of first order, and is held to the
- * tolerance of the largest force; one that is longer by x than its force makes it costs l x^2/(2c), of second order, and is held to the
- * tolerance's root. */
+/* What the gap may hide where other forces are large. An element that pushes with P costs 2 P |e|
+ * l, of first order, and is held to the tolerance of the largest force; one that is longer by x
+ * than its force makes it costs l x^2/(2c), of second order, and is held to the tolerance's
+ * root. */
 static bool is_a_line(const CpsCertificate *c, double tolerance) {
-    return c->element_push <= tolerance*c->largest_force && c->elongation_residual <= sqrt(tolerance);
+    return c->element_push <= tolerance * c->largest_force &&
+           c->elongation_residual <= sqrt(tolerance);
 }
 
-/* The iterate of the loop as a certified answer, or what it is instead. The loop's own residuals (tensions against
- * elongations, positions against distances) must be well below the tolerance too, but not below what rounding leaves. */
-CpsOutcome cpsi_line_judge(const CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
+/* The iterate of the loop as a certified answer, or what it is instead. The loop's own residuals
+ * (tensions against elongations, positions against distances) must be well below the tolerance too,
+ * but not below what rounding leaves. */
+CpsOutcome cpsi_line_judge(const CpsiLine *line, const CpsiStepOptions *options,
+                           const CpsiIpmReport *ipm) {
     const CpsCertificate *c = &line->report.certificate;
     const double tolerance = options->solver.tolerance;
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
-    const bool consistent = options->friction == CPS_FRICTION_FROZEN || c->friction_residual <= CPSI_CLEAN*c->largest_force;
-    if (finite && consistent && ipm->residual <= fmax(0.01*tolerance, CPSI_CLEAN) && c->gap <= tolerance*c->scale &&
-        c->stretch_residual <= fmin(tolerance, PLACES) && is_a_line(c, tolerance) && c->force_residual <= CPSI_CLEAN*c->largest_force && is_in_place(line, options))
+    const bool consistent = options->friction == CPS_FRICTION_FROZEN ||
+                            c->friction_residual <= CPSI_CLEAN * c->largest_force;
+    if (finite && consistent && ipm->residual <= fmax(0.01 * tolerance, CPSI_CLEAN) &&
+        c->gap <= tolerance * c->scale && c->stretch_residual <= fmin(tolerance, PLACES) &&
+        is_a_line(c, tolerance) && c->force_residual <= CPSI_CLEAN * c->largest_force &&
+        is_in_place(line, options))
         return cpsi_line_is_taut(line) ? CPS_TAUT : CPS_SOLVED;
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }
@@ -115,9 +138,11 @@ CpsOutcome cpsi_line_judge(const CpsiLine *line, const CpsiStepOptions *options,
 void cpsi_line_let_go(CpsiLine *line, const CpsiChainProgram *program) {
     const CpsiStop *stop = &program->stop;
     for (int k = 0; k < stop->count; k++) {
-        if (!(stop->z[k] < stop->s[k] && stop->weight[k]*stop->z[k] < LEAST_REACTION)) continue;
-        if (line->frozen) line->reaction[stop->contact[k]] = 0;
-        else cpsi_contact_clear(line, stop->contact[k]);
+        if (!(stop->z[k] < stop->s[k] && stop->weight[k] * stop->z[k] < LEAST_REACTION)) continue;
+        if (line->frozen)
+            line->reaction[stop->contact[k]] = 0;
+        else
+            cpsi_contact_clear(line, stop->contact[k]);
     }
 }
 
@@ -132,45 +157,57 @@ void cpsi_line_certify(CpsiLine *line, const CpsiStepOptions *options, const Cps
 static double reference_tension(const CpsiLine *line) {
     double most = 0;
     for (int e = 0; e + 1 < line->n && line->compliance > 0; e++) {
-        const Vec3 dx = vec3_sub(vec3_load(&line->reference[3*(e + 1)]), vec3_load(&line->reference[3*e]));
-        most = fmax(most, (vec3_norm(dx)/line->element_length[e] - 1)/line->compliance);
+        const Vec3 dx =
+            vec3_sub(vec3_load(&line->reference[3 * (e + 1)]), vec3_load(&line->reference[3 * e]));
+        most = fmax(most, (vec3_norm(dx) / line->element_length[e] - 1) / line->compliance);
     }
     return most;
 }
 
 double cpsi_line_unit_force(const CpsiLine *line, CpsiBounds bounds) {
-    double force = force_scale(line, cpsi_line_end_distance(line)/(cpsi_line_is_taut(line) ? 1 + TAUT_SLACK : 1)), all = 0;
+    double force = force_scale(line, cpsi_line_end_distance(line) /
+                                         (cpsi_line_is_taut(line) ? 1 + TAUT_SLACK : 1)),
+           all = 0;
     const double before = line->obstacle_count > 0 ? reference_tension(line) : 0;
-    if (before > HELD*force && (force > 0 || before*line->compliance > LEAST_STRAIN)) force = before;
-    for (int c = 0; c < cpsi_line_all_contacts(line) && bounds == CPSI_BOUNDS_TRIED; c++) all += line->friction_bound[c];
+    if (before > HELD * force && (force > 0 || before * line->compliance > LEAST_STRAIN))
+        force = before;
+    for (int c = 0; c < cpsi_line_all_contacts(line) && bounds == CPSI_BOUNDS_TRIED; c++)
+        all += line->friction_bound[c];
     return fmax(force, all);
 }
 
-bool cpsi_line_is_clean(const CpsiIpmReport *ipm) { return ipm->gap + fmax(ipm->residual, ipm->imbalance) <= CPSI_CLEAN; }
-
-/* The limit of iterations is for lines of up to FINE elements. On finer meshes the loop needs more where a line rests slack by friction: on example
- * 5.7 of S90, let down, 34 with 800 elements, 47 with 6400, 66 with 50 000 and 81 with 100 000. */
-static int most_iterations(const CpsiLine *line, const CpsiStepOptions *options) {
-    static const double FINE = 12800, PER_DOUBLING = 20;
-    const double doublings = log2(line->n/FINE);
-    return options->solver.max_iterations + (doublings > 0 ? (int)(PER_DOUBLING*doublings) : 0);
+bool cpsi_line_is_clean(const CpsiIpmReport *ipm) {
+    return ipm->gap + fmax(ipm->residual, ipm->imbalance) <= CPSI_CLEAN;
 }
 
-/* A line that nothing loads: no force, no friction, no reaction, and the place of least motion. False where there is no such place: something
- * must hold it then. */
-static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
+/* The limit of iterations is for lines of up to FINE elements. On finer meshes the loop needs more
+ * where a line rests slack by friction: on example 5.7 of S90, let down, 34 with 800 elements, 47
+ * with 6400, 66 with 50 000 and 81 with 100 000. */
+static int most_iterations(const CpsiLine *line, const CpsiStepOptions *options) {
+    static const double FINE = 12800, PER_DOUBLING = 20;
+    const double doublings = log2(line->n / FINE);
+    return options->solver.max_iterations + (doublings > 0 ? (int)(PER_DOUBLING * doublings) : 0);
+}
+
+/* A line that nothing loads: no force, no friction, no reaction, and the place of least motion.
+ * False where there is no such place: something must hold it then. */
+static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program,
+                           const CpsiStepOptions *options, CpsiBounds bounds) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
-    memcpy(line->position, line->reference, 3*n*sizeof *line->position);
+    memcpy(line->position, line->reference, 3 * n * sizeof *line->position);
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_HELD)
-            memcpy(&line->position[end == CPS_END_A ? 0 : 3*(n - 1)], line->end[end].value, sizeof line->end[end].value);
-    memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
-    memset(line->segment_force, 0, 3*n*sizeof *line->segment_force);
-    memset(line->reaction, 0, contacts*sizeof *line->reaction);
-    memset(line->tension, 0, n*sizeof *line->tension);
-    if (bounds != CPSI_BOUNDS_GIVEN) memset(line->friction_bound, 0, contacts*sizeof *line->friction_bound);
-    if (line->follows) memset(line->pressed, 0, contacts*sizeof *line->pressed);
-    line->report.iterations += cpsi_least_motion(line, options->least, NULL, bounds, most_iterations(line, options));
+            memcpy(&line->position[end == CPS_END_A ? 0 : 3 * (n - 1)], line->end[end].value,
+                   sizeof line->end[end].value);
+    memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
+    memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
+    memset(line->reaction, 0, contacts * sizeof *line->reaction);
+    memset(line->tension, 0, n * sizeof *line->tension);
+    if (bounds != CPSI_BOUNDS_GIVEN)
+        memset(line->friction_bound, 0, contacts * sizeof *line->friction_bound);
+    if (line->follows) memset(line->pressed, 0, contacts * sizeof *line->pressed);
+    line->report.iterations +=
+        cpsi_least_motion(line, options->least, NULL, bounds, most_iterations(line, options));
     if (line->report.places == CPS_PLACES_ANY) return false;
     cpsi_step_program_clear(line, program);
     return true;
@@ -179,36 +216,43 @@ static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program, const Cpsi
 /* [N] The largest force in the line or on it. */
 static double largest_force(const CpsiLine *line) {
     double most = 0;
-    for (int e = 0; e + 1 < line->n; e++) most = fmax(most, vec3_norm(vec3_load(&line->segment_force[3*e])));
+    for (int e = 0; e + 1 < line->n; e++)
+        most = fmax(most, vec3_norm(vec3_load(&line->segment_force[3 * e])));
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) most = fmax(most, line->reaction[c]);
     return most;
 }
 
-CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds,
-                           bool curved) {
+CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
+                              const CpsiStepOptions *options, CpsiBounds bounds, bool curved) {
     const bool taut = cpsi_line_is_taut(line);
     const double force = cpsi_line_unit_force(line, bounds);
     if (!(force > 0) && options->least && rests_unloaded(line, program, options, bounds))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
-    CpsiStepScale scale = {.force = force > 0 ? force : 1, .longer = taut ? 1 + TAUT_SLACK : 1, .bounds = bounds, .curved = curved, .drag = options->drag};
+    CpsiStepScale scale = {.force = force > 0 ? force : 1,
+                           .longer = taut ? 1 + TAUT_SLACK : 1,
+                           .bounds = bounds,
+                           .curved = curved,
+                           .drag = options->drag};
     cpsi_step_program_fill(line, program, &scale);
     double loads = 0;
-    for (int i = 0; i < 3*line->n; i++) loads += fabs(program->base.load[i]);
-    const CpsiIpmOptions ipm_options = {
-        .target = CPSI_TARGET,
-        .scale = loads > 0 ? loads : 1,
-        .max_iterations = most_iterations(line, options),
-        .centrings = options->centrings,
-        .sharpenings = options->centrings > 0 ? SHARPENINGS : 0};
+    for (int i = 0; i < 3 * line->n; i++) loads += fabs(program->base.load[i]);
+    const CpsiIpmOptions ipm_options = {.target = CPSI_TARGET,
+                                        .scale = loads > 0 ? loads : 1,
+                                        .max_iterations = most_iterations(line, options),
+                                        .centrings = options->centrings,
+                                        .sharpenings = options->centrings > 0 ? SHARPENINGS : 0};
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
     cpsi_step_program_unpack(line, program, &scale);
     line->report.iterations += ipm.iterations;
     line->report.places = CPS_PLACES_UNIQUE;
-    if (!(loads > 0) && options->least && largest_force(line) <= CPSI_CLEAN*force && rests_unloaded(line, program, options, bounds))
+    if (!(loads > 0) && options->least && largest_force(line) <= CPSI_CLEAN * force &&
+        rests_unloaded(line, program, options, bounds))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
-    if (taut) straighten(line);
+    if (taut)
+        straighten(line);
     else if (options->least && !curved && !(options->drag > 0) && cpsi_line_is_clean(&ipm))
-        line->report.iterations += cpsi_least_motion(line, options->least, program, bounds, most_iterations(line, options));
+        line->report.iterations += cpsi_least_motion(line, options->least, program, bounds,
+                                                     most_iterations(line, options));
     return ipm;
 }

@@ -1,19 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One step of one line (S90 problem P4.2, with A frozen from the reference or following the reaction), in four moves:
+/* One step of one line (S90 problem P4.2, with A frozen from the reference or following the
+ * reaction), in four moves:
  *
  *   pose      reference x_R, friction bounds w = mu R_R where the reference touches, gaps, loads
  *   decide    is there an equilibrium at all?  (existence.h)
  *   solve     write the step as a program (step_program.c), run ipm/
  *   conclude  back to world axes; balance the forces; classify nodes; certificate; report
  *
- * Consistent friction is solved in one go, the bound of each rub tied to the reaction beside it (ipm/rub.c). That problem is no
- * minimisation and may stall; then the bounds are found in rounds, each a convex step with the last round's mu R.
+ * Consistent friction is solved in one go, the bound of each rub tied to the reaction beside it
+ * (ipm/rub.c). That problem is no minimisation and may stall; then the bounds are found in rounds,
+ * each a convex step with the last round's mu R.
  *
- * On curved obstacles, or where friction follows the line's direction, each round is such a program on the tangent planes where the
- * last one ended: the inequalities are kept whole, normals and axes turn from round to round. Rounds come to rest where the equilibrium is
- * stable (docs/theory.md 2a); they look ahead (ahead.h), and where that does not settle they go slowly, or with a drag. What the last round leaves is in
- * the certificate, which is taken at the place reached, with its own normals. Frozen friction keeps the bounds and axes of the reference, as
- * S90 has it; strict contact beside it the planes of the reference too. */
+ * On curved obstacles, or where friction follows the line's direction, each round is such a program
+ * on the tangent planes where the last one ended: the inequalities are kept whole, normals and axes
+ * turn from round to round. Rounds come to rest where the equilibrium is stable (docs/theory.md
+ * 2a); they look ahead (ahead.h), and where that does not settle they go slowly, or with a drag.
+ * What the last round leaves is in the certificate, which is taken at the place reached, with its
+ * own normals. Frozen friction keeps the bounds and axes of the reference, as S90 has it; strict
+ * contact beside it the planes of the reference too. */
 #include "cable/line_step.h"
 
 #include <math.h>
@@ -34,17 +38,22 @@
 #include "ipm/ipm.h"
 #include "linsys/frame.h"
 
-/* Steps to the centre once there: what is left of a force's angle to its element is squared by each. */
+/* Steps to the centre once there: what is left of a force's angle to its element is squared by
+ * each. */
 static const int CENTRINGS = 2;
-/* A line stays where it is if its gap is at most a digit worse than that of the step before: without slip, and balanced anew, the same forces
- * add up to a little more or less. */
+/* A line stays where it is if its gap is at most a digit worse than that of the step before:
+ * without slip, and balanced anew, the same forces add up to a little more or less. */
 static const double AS_GOOD = 10;
 
-/* solve --------------------------------------------------------------------------------------------------------- */
+/* solve ---------------------------------------------------------------------------------------- */
 
-/* Solve with bounds that follow the reactions or with the bounds of the line, on the planes of the pose. */
-static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, bool follow) {
-    const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN, false);
+/* Solve with bounds that follow the reactions or with the bounds of the line, on the planes of the
+ * pose. */
+static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program,
+                             const CpsiStepOptions *options, bool follow) {
+    const CpsiIpmReport ipm =
+        cpsi_line_solve(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN,
+                        false);
     cpsi_contact_slide(line);
     if (follow) cpsi_line_let_go(line, program);
     cpsi_line_certify(line, options, &ipm);
@@ -58,29 +67,35 @@ static void solve_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
     if (options->dragged) {
         cpsi_rounds_drag(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN);
     } else if (line->follows && (consistent || options->frictionless || line->frozen)) {
-        cpsi_rounds_settle(line, program, options, !follow ? CPSI_BOUNDS_GIVEN : options->trying ? CPSI_BOUNDS_TRIED : CPSI_BOUNDS_FOLLOW);
+        cpsi_rounds_settle(line, program, options,
+                           !follow           ? CPSI_BOUNDS_GIVEN
+                           : options->trying ? CPSI_BOUNDS_TRIED
+                                             : CPSI_BOUNDS_FOLLOW);
     } else {
         const CpsiIpmReport ipm = attempt(line, program, options, follow);
-        if (follow && !cpsi_line_is_clean(&ipm)) cpsi_rounds_settle(line, program, options, CPSI_BOUNDS_TRIED);
+        if (follow && !cpsi_line_is_clean(&ipm))
+            cpsi_rounds_settle(line, program, options, CPSI_BOUNDS_TRIED);
     }
 }
 
 /* Is every number of the answer one? */
 static bool is_finite(const CpsiLine *line) {
     const CpsCertificate *c = &line->report.certificate;
-    return isfinite(c->primal) && isfinite(c->dual) && isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
+    return isfinite(c->primal) && isfinite(c->dual) && isfinite(c->gap) && isfinite(c->scale) &&
+           isfinite(c->force_residual);
 }
 
-/* Back to the reference, without forces: what is reported where arithmetic has broken down, or the line was on its way to nowhere. */
+/* Back to the reference, without forces: what is reported where arithmetic has broken down, or the
+ * line was on its way to nowhere. */
 static void forget(CpsiLine *line, const CpsiStepOptions *options) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     const CpsiIpmReport none = {.outcome = CPSI_IPM_STALLED};
-    memcpy(line->position, line->reference, 3*n*sizeof *line->position);
-    memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
-    memset(line->segment_force, 0, 3*n*sizeof *line->segment_force);
-    memset(line->friction_bound, 0, contacts*sizeof *line->friction_bound);
-    memset(line->reaction, 0, contacts*sizeof *line->reaction);
-    memset(line->tension, 0, n*sizeof *line->tension);
+    memcpy(line->position, line->reference, 3 * n * sizeof *line->position);
+    memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
+    memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
+    memset(line->friction_bound, 0, contacts * sizeof *line->friction_bound);
+    memset(line->reaction, 0, contacts * sizeof *line->reaction);
+    memset(line->tension, 0, n * sizeof *line->tension);
     if (line->follows) {
         cpsi_contact_return(line);
         cpsi_contact_look(line);
@@ -89,21 +104,25 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.outcome = CPS_STALLED;
 }
 
-/* Solve in one way or another: with places as they are found, should the rule of least motion be in the way; slowly, where a line without
- * tension has no place of its own to settle at; with reactions that turn with their normals late, and not in statics, because they have a
- * line stay on a crest that it would leave; then also without centrings: where hardly any force is left, the centre may lie farther from
- * the boundary than the tolerance lets it; with bounds that are tried: where what rests in a corner has many answers, the loop with
- * bounds that follow ends far from the boundary. Last in rounds that a drag may hold back, where the others go to and fro or have far to
+/* Solve in one way or another: with places as they are found, should the rule of least motion be in
+ * the way; slowly, where a line without tension has no place of its own to settle at; with
+ * reactions that turn with their normals late, and not in statics, because they have a line stay on
+ * a crest that it would leave; then also without centrings: where hardly any force is left, the
+ * centre may lie farther from the boundary than the tolerance lets it; with bounds that are tried:
+ * where what rests in a corner has many answers, the loop with bounds that follow ends far from the
+ * boundary. Last in rounds that a drag may hold back, where the others go to and fro or have far to
  * go. */
 static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     enum { QUICK, AS_FOUND, SLOW, TURNING, TRYING, DRAGGED, WAYS };
     const int first = line->follows && options->frictionless ? SLOW : QUICK;
     for (int way = first; way < WAYS; way++) {
-        if (way == AS_FOUND && !(options->least && options->least->chose)) continue; /* all places were as they were found */
+        if (way == AS_FOUND && !(options->least && options->least->chose))
+            continue;                                /* all places were as they were found */
         if (way == SLOW && !line->follows) continue; /* no rounds on one plane */
         if (way == TURNING && line->follows && options->frictionless) continue;
         if (way == TRYING && (!line->follows || line->frozen || options->frictionless)) continue;
-        const bool rounds = line->follows && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless || line->frozen);
+        const bool rounds = line->follows && (options->friction == CPS_FRICTION_CONSISTENT ||
+                                              options->frictionless || line->frozen);
         if (way == DRAGGED && !rounds) return;
         CpsiStepOptions with = *options;
         with.slow = way == SLOW;
@@ -113,23 +132,26 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         with.dragged = way == DRAGGED;
         with.trying = way == TRYING;
         with.centrings = way == TURNING ? 0 : CENTRINGS;
-        if (way > first) memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line)*sizeof *line->reaction);
+        if (way > first)
+            memset(line->reaction, 0,
+                   (size_t)cpsi_line_all_contacts(line) * sizeof *line->reaction);
         if (line->follows) cpsi_contact_return(line);
         solve_step(line, program, &with);
-        if (options->least && (way == AS_FOUND || way == DRAGGED)) cpsi_places_as_found(line, program);
+        if (options->least && (way == AS_FOUND || way == DRAGGED))
+            cpsi_places_as_found(line, program);
         if (cps_outcome_is_certified(line->report.outcome)) return;
     }
 }
 
-/* conclude ------------------------------------------------------------------------------------------------------ */
+/* conclude ------------------------------------------------------------------------------------- */
 
 /* What the tensions of an inextensible line, and the reactions in corners, are to be near to. */
 static void remember(CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (!line->forces) return;
-    memcpy(line->tension_before, line->tension, (n - 1)*sizeof *line->tension);
-    memcpy(line->reaction_before, line->reaction, contacts*sizeof *line->reaction);
-    if (line->follows) memcpy(line->on_before, line->on, contacts*sizeof *line->on);
+    memcpy(line->tension_before, line->tension, (n - 1) * sizeof *line->tension);
+    memcpy(line->reaction_before, line->reaction, contacts * sizeof *line->reaction);
+    if (line->follows) memcpy(line->on_before, line->on, contacts * sizeof *line->on);
 }
 
 /* Free, stick and slip, and the sums that go with them. */
@@ -139,8 +161,10 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
     cpsi_line_classify(line, program);
 }
 
-/* The forces of an inextensible line, where its place leaves a choice: those nearest to the forces before, if they can be certified. */
-static void choose_forces(CpsiLine *line, const CpsiChainProgram *program, const CpsiStepOptions *options) {
+/* The forces of an inextensible line, where its place leaves a choice: those nearest to the forces
+ * before, if they can be certified. */
+static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
+                          const CpsiStepOptions *options) {
     if (!line->forces || !cps_outcome_is_certified(line->report.outcome)) return;
     const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
     const CpsCertificate before = line->report.certificate;
@@ -161,10 +185,12 @@ static void choose_forces(CpsiLine *line, const CpsiChainProgram *program, const
     }
 }
 
-/* Does nothing change that could move the line?  Held ends where they were, obstacles that do not turn, friction within its bounds. */
+/* Does nothing change that could move the line?  Held ends where they were, obstacles that do not
+ * turn, friction within its bounds. */
 static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) {
     for (int end = 0; end < 2; end++) {
-        const double *at = &line->reference[end == CPS_END_A ? 0 : 3*(line->n - 1)], *to = line->end[end].value;
+        const double *at = &line->reference[end == CPS_END_A ? 0 : 3 * (line->n - 1)],
+                     *to = line->end[end].value;
         for (int a = 0; line->end[end].kind == CPS_END_HELD && a < 3; a++)
             if (at[a] != to[a]) return false;
     }
@@ -174,37 +200,44 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
         double f[3], inside[3];
         const CpsiRubSet set = cpsi_rub_set(line, c);
         const double bound = line->friction_bound[c];
-        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
+        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
         if (f[0] == 0 && f[1] == 0 && f[2] == 0) continue;
-        /* a given set is not asked whether it holds F: the bound must be the one that held it, as one that follows is */
+        /* a given set is not asked whether it holds F: the bound must be the one that held it, as
+         * one that follows is */
         if (set.given && !(bound > 0 && options->friction == CPS_FRICTION_CONSISTENT)) return false;
         memcpy(inside, f, sizeof f);
         cpsi_rub_clip(&set, bound, bound, inside);
         const double out = hypot(f[0] - inside[0], f[1] - inside[1]) + fabs(f[2]);
-        if (!(out <= CPSI_CLEAN*line->report.certificate.largest_force)) return false;
+        if (!(out <= CPSI_CLEAN * line->report.certificate.largest_force)) return false;
     }
     return true;
 }
 
-/* Is the line in equilibrium where it is, with the forces that it has?  Then it stays, and keeps them: no motion is less than none. What
- * has been told of the step before, in `before`, is true of this one too, but that nothing slips. */
+/* Is the line in equilibrium where it is, with the forces that it has?  Then it stays, and keeps
+ * them: no motion is less than none. What has been told of the step before, in `before`, is true of
+ * this one too, but that nothing slips. */
 static bool stays(CpsiLine *line, const CpsiStepOptions *options, const CpsLineReport *before) {
     static const CpsiIpmReport nothing_left = {.outcome = CPSI_IPM_SOLVED};
     if (!options->least || options->frictionless || !(before->share > 0)) return false;
     line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
-    const double left = line->report.certificate.force_residual/line->report.certificate.largest_force;
-    if (left > CPSI_CLEAN && left <= CPSI_TOUCH) { /* the same loads, but normals turned when the line was laid on */
+    const double left =
+        line->report.certificate.force_residual / line->report.certificate.largest_force;
+    if (left > CPSI_CLEAN &&
+        left <= CPSI_TOUCH) { /* the same loads, but normals turned when the line was laid on */
         cpsi_balance_forces(line);
         line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
     }
     if (!nothing_moves(line, options)) return false;
     const CpsCertificate *c = &line->report.certificate;
     line->report.outcome = cpsi_line_judge(line, options, &nothing_left);
-    if (!cps_outcome_is_certified(line->report.outcome) || !(c->gap <= fmax(AS_GOOD*before->certificate.gap, CPSI_TARGET*c->scale))) return false;
+    if (!cps_outcome_is_certified(line->report.outcome) ||
+        !(c->gap <= fmax(AS_GOOD * before->certificate.gap, CPSI_TARGET * c->scale)))
+        return false;
     for (int i = 0; i < cpsi_line_all_contacts(line); i++)
         if (line->state[i] == CPS_NODE_SLIP) line->state[i] = CPS_NODE_STICK;
     line->report.slack = before->slack;
-    line->report.places = before->places == CPS_PLACES_UNIQUE ? CPS_PLACES_UNIQUE : CPS_PLACES_NEAREST;
+    line->report.places =
+        before->places == CPS_PLACES_UNIQUE ? CPS_PLACES_UNIQUE : CPS_PLACES_NEAREST;
     return true;
 }
 
@@ -212,7 +245,8 @@ static bool stays(CpsiLine *line, const CpsiStepOptions *options, const CpsLineR
 static void keep_ends(CpsiLine *line) {
     line->report = (CpsLineReport){.pierced = -1, .proof_obstacle = -1};
     for (int end = 0; end < 2; end++) {
-        memcpy(line->report.end[end].position, &line->position[end == CPS_END_A ? 0 : 3*(line->n - 1)], 3*sizeof(double));
+        memcpy(line->report.end[end].position,
+               &line->position[end == CPS_END_A ? 0 : 3 * (line->n - 1)], 3 * sizeof(double));
         line->report.end[end].range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
     }
 }
@@ -224,9 +258,9 @@ bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, doubl
     cpsi_line_pose(line, options);
     if (!cpsi_line_slides(line, margin)) return false;
     line->report.outcome = CPS_SLIDES;
-    memset(line->friction_force, 0, 3*contacts*sizeof *line->friction_force);
-    memset(line->segment_force, 0, 3*n*sizeof *line->segment_force);
-    memset(line->tension, 0, n*sizeof *line->tension);
+    memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
+    memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
+    memset(line->tension, 0, n * sizeof *line->tension);
     return true;
 }
 
@@ -242,7 +276,8 @@ bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) 
     return true;
 }
 
-/* The bend at which the mesh changes the law of friction most; beyond all friction it is no answer. */
+/* The bend at which the mesh changes the law of friction most; beyond all friction it is no
+ * answer. */
 static void report_bend(CpsiLine *line) {
     line->report.bend = cpsi_line_bend(line);
     if (cps_outcome_is_certified(line->report.outcome) && cpsi_bend_locks(&line->report.bend))
@@ -271,9 +306,14 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     cpsi_line_pierces(line, &line->report.pierced);
     classify(line, program);
     choose_forces(line, program, options);
-    /* contacts that are free may have come to other obstacles in the last round; the forces of the others are those that were certified */
-    const bool looked = line->follows && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless);
-    if ((looked || line->frozen) && line->contacts > 1) cpsi_contact_meet(line, true), cpsi_contact_look(line);
+    /* contacts that are free may have come to other obstacles in the last round; the forces of the
+     * others are those that were certified */
+    const bool looked =
+        line->follows && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless);
+    if ((looked || line->frozen) && line->contacts > 1) {
+        cpsi_contact_meet(line, true);
+        cpsi_contact_look(line);
+    }
     if (looked) cpsi_contact_still(line);
     cpsi_line_report_ends(line);
     cpsi_line_report_lengths(line);

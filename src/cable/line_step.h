@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One quasi-static step of one line: problem P4.2 of S90 (= P2.1 and P3.1 by results 4.1 and 4.3) as a conic program. */
+/* One quasi-static step of one line: problem P4.2 of S90 (= P2.1 and P3.1 by results 4.1 and 4.3)
+ * as a conic program. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_STEP_H
 #define CAPSTAN_SRC_CABLE_LINE_STEP_H
 
@@ -7,21 +8,23 @@
 #include "cable/step_options.h"
 #include "ipm/chain_program.h"
 
-/* From the line's position (and its reaction and state there) to the next equilibrium under line->end.
+/* From the line's position (and its reaction and state there) to the next equilibrium under
+ * line->end.
  *
- *   line      reads position, reaction, state; writes every field and the report. Where there is no equilibrium
- *             (infeasible, unbounded) position, reaction and state stay.
+ *   line      reads position, reaction, state; writes every field and the report. Where there is no
+ *             equilibrium (infeasible, unbounded) position, reaction and state stay.
  *   program   scratch laid out for at least line->n nodes
  *
  * Allocates nothing. */
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options);
 
-/* Instead of a step that finds no answer: does the line slide along itself without end, by this margin (slides.h)?  Then the report says so, and position,
- * reaction and state stay. Coulomb's friction alone; frozen friction has bounds that no tension raises. */
+/* Instead of a step that finds no answer: does the line slide along itself without end, by this
+ * margin (slides.h)?  Then the report says so, and position, reaction and state stay. Coulomb's
+ * friction alone; frozen friction has bounds that no tension raises. */
 bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, double margin);
 
-/* Before a step is tried: is the line too short to reach round an obstacle to where its ends are to be (shortfall.h)?  Then the report says so, and
- * position, reaction and state stay. */
+/* Before a step is tried: is the line too short to reach round an obstacle to where its ends are to
+ * be (shortfall.h)?  Then the report says so, and position, reaction and state stay. */
 bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options);
 
 #endif

@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The mesh estimate (docs/theory.md 4, "What it says of the mesh").
  *
- * The forces of a step balance for the continuous line too, p(a) = p_i - q s at s from the middle of element i, q the weight per length;
- * what is wrong is the shape. An element's chord is l (t + c p_i), the line's own is the integral of t(p) + c p, and they differ by
+ * The forces of a step balance for the continuous line too, p(a) = p_i - q s at s from the middle
+ * of element i, q the weight per length; what is wrong is the shape. An element's chord is l (t + c
+ * p_i), the line's own is the integral of t(p) + c p, and they differ by
  *
  *     e_i = (l^3/24 T^2) (2 (q.t) q_n + |q_n|^2 t),      q_n = q - (q.t) t
  *
- * A span between two supports is held at both: the sum of its e_i must be made up by a change f of the force in it, with
+ * A span between two supports is held at both: the sum of its e_i must be made up by a change f of
+ * the force in it, with
  *
  *     [ sum l ((1/T + c)(I - t t^T) + c t t^T) + sliding lengths beside it c d d^T ] f = - sum e_i
  *
- * At a touchdown on a plane the curve begins between nodes, where the force's normal part is 0: with v = p.n/|q.n| for the element there
- * this adds (|q.n|/2H) (l/2 - v)^2 along the normal. Bends over curved obstacles add what a polygon's friction differs from exp(mu turn). A
- * span with a free end carries what is given. */
+ * At a touchdown on a plane the curve begins between nodes, where the force's normal part is 0:
+ * with v = p.n/|q.n| for the element there this adds (|q.n|/2H) (l/2 - v)^2 along the normal. Bends
+ * over curved obstacles add what a polygon's friction differs from exp(mu turn). A span with a free
+ * end carries what is given. */
 #include "cable/mesh_error.h"
 
 #include <math.h>
@@ -24,24 +27,28 @@ typedef struct Span {
     Vec3 defect;          /* [m] */
 } Span;
 
-static Vec3 force_of(const CpsiLine *line, int e) { return vec3_load(&line->segment_force[3*e]); }
+static Vec3 force_of(const CpsiLine *line, int e) { return vec3_load(&line->segment_force[3 * e]); }
 
 /* The contact that carries node j, or -1. */
 static int carried_by(const CpsiLine *line, int j) {
     int best = -1;
     for (int c = j; c < cpsi_line_contacts(line); c += line->n)
-        if (line->state[c] != CPS_NODE_FREE && (best < 0 || line->reaction[c] > line->reaction[best])) best = c;
+        if (line->state[c] != CPS_NODE_FREE &&
+            (best < 0 || line->reaction[c] > line->reaction[best]))
+            best = c;
     return best;
 }
 
-static bool is_support(const CpsiLine *line, int j) { return cpsi_line_is_held(line, j) || carried_by(line, j) >= 0; }
+static bool is_support(const CpsiLine *line, int j) {
+    return cpsi_line_is_held(line, j) || carried_by(line, j) >= 0;
+}
 
 /* m += along d d^T + across (I - d d^T), d a unit vector */
 static void add_compliance(double m[9], Vec3 d, double along, double across) {
     const double v[3] = {d.x, d.y, d.z};
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) m[3*i + k] += (along - across)*v[i]*v[k];
-        m[4*i] += across;
+        for (int k = 0; k < 3; k++) m[3 * i + k] += (along - across) * v[i] * v[k];
+        m[4 * i] += across;
     }
 }
 
@@ -49,28 +56,30 @@ static void add_compliance(double m[9], Vec3 d, double along, double across) {
 static bool add_element(const CpsiLine *line, int e, Span *span) {
     const Vec3 p = force_of(line, e), q = vec3_load(line->weight);
     const double l = line->element_length[e], tension = vec3_norm(p);
-    if (!(tension > l*vec3_norm(q)) || !(tension > 0)) return false;
-    const Vec3 t = vec3_scale(1/tension, p);
+    if (!(tension > l * vec3_norm(q)) || !(tension > 0)) return false;
+    const Vec3 t = vec3_scale(1 / tension, p);
     const double along = vec3_dot(q, t);
     const Vec3 across = vec3_axpy(-along, t, q);
-    const Vec3 chord = vec3_axpy(2*along, across, vec3_scale(vec3_dot(across, across), t));
-    span->defect = vec3_axpy(l*l*l/(24*tension*tension), chord, span->defect);
-    add_compliance(span->compliance, t, l*line->compliance, l*(1/tension + line->compliance));
+    const Vec3 chord = vec3_axpy(2 * along, across, vec3_scale(vec3_dot(across, across), t));
+    span->defect = vec3_axpy(l * l * l / (24 * tension * tension), chord, span->defect);
+    add_compliance(span->compliance, t, l * line->compliance, l * (1 / tension + line->compliance));
     return true;
 }
 
-/* The span's end at node j, its element e beside it and `inward` the step to the next node outside the span. */
+/* The span's end at node j, its element e beside it and `inward` the step to the next node outside
+ * the span. */
 static void add_support(const CpsiLine *line, int j, int e, int inward, Span *span) {
     const int c = carried_by(line, j);
     if (cpsi_line_is_held(line, j) || c < 0) return;
-    const Vec3 n = vec3_load(&line->normal[3*c]), q = vec3_load(line->weight), p = force_of(line, e);
+    const Vec3 n = vec3_load(&line->normal[3 * c]), q = vec3_load(line->weight),
+               p = force_of(line, e);
     const double press = -vec3_dot(q, n), l = line->element_length[e];
     const Vec3 flat = vec3_axpy(-vec3_dot(p, n), n, p);
     const double tight = vec3_norm(flat);
     if (!(tight > 0)) return;
     if (cpsi_line_obstacle(line, c)->kind == CPS_OBSTACLE_PLANE && press > 0) {
-        const double off = 0.5*l - fabs(vec3_dot(p, n))/press;
-        span->defect = vec3_axpy(inward*press/(2*tight)*off*off, n, span->defect);
+        const double off = 0.5 * l - fabs(vec3_dot(p, n)) / press;
+        span->defect = vec3_axpy(inward * press / (2 * tight) * off * off, n, span->defect);
     }
     /* what slides beside the span gives way as it stretches; up to a free end it is drawn along */
     double slides = 0;
@@ -81,9 +90,12 @@ static void add_support(const CpsiLine *line, int j, int e, int inward, Span *sp
         slides += line->element_length[inward < 0 ? next : k];
     }
     const int last = carried_by(line, k);
-    const bool drawn = (k == 0 || k == line->n - 1) && !cpsi_line_is_held(line, k) && last >= 0 && line->state[last] == CPS_NODE_SLIP;
-    const double gives = drawn ? 1e6*(span->compliance[0] + span->compliance[4] + span->compliance[8]) : slides*line->compliance;
-    add_compliance(span->compliance, vec3_scale(1/tight, flat), gives, 0);
+    const bool drawn = (k == 0 || k == line->n - 1) && !cpsi_line_is_held(line, k) && last >= 0 &&
+                       line->state[last] == CPS_NODE_SLIP;
+    const double gives =
+        drawn ? 1e6 * (span->compliance[0] + span->compliance[4] + span->compliance[8])
+              : slides * line->compliance;
+    add_compliance(span->compliance, vec3_scale(1 / tight, flat), gives, 0);
 }
 
 /* [N] Largest change of the tension in the span of elements first..last. */
@@ -98,26 +110,32 @@ static double span_error(const CpsiLine *line, int first, int last) {
     double *m = span.compliance, change[3], worst = 0;
     int pivot[3];
     const double trace = m[0] + m[4] + m[8];
-    for (int i = 0; i < 3; i++) m[4*i] += 1e-14*trace; /* an inextensible line pulled straight has no compliance along it */
+    for (int i = 0; i < 3; i++)
+        m[4 * i] +=
+            1e-14 * trace; /* an inextensible line pulled straight has no compliance along it */
     vec3_store(change, span.defect);
     if (!(trace > 0) || !cpsi_lu_factor(3, m, pivot)) return NAN;
     cpsi_lu_solve(3, m, pivot, change);
     for (int e = first; e <= last; e++) {
         const Vec3 p = force_of(line, e);
-        worst = fmax(worst, fabs(vec3_dot(vec3_load(change), p))/vec3_norm(p));
+        worst = fmax(worst, fabs(vec3_dot(vec3_load(change), p)) / vec3_norm(p));
     }
     return worst;
 }
 
-/* By what part friction over the bend at node j differs from that of an arc, where it slips on a curved obstacle. */
+/* By what part friction over the bend at node j differs from that of an arc, where it slips on a
+ * curved obstacle. */
 static double bend_error(const CpsiLine *line, int j) {
     const int c = carried_by(line, j);
-    if (j == 0 || j == line->n - 1 || c < 0 || line->state[c] != CPS_NODE_SLIP || !(line->reaction[c] > 0)) return 0;
+    if (j == 0 || j == line->n - 1 || c < 0 || line->state[c] != CPS_NODE_SLIP ||
+        !(line->reaction[c] > 0))
+        return 0;
     if (cpsi_line_obstacle(line, c)->kind == CPS_OBSTACLE_PLANE) return 0;
     const Vec3 before = force_of(line, j - 1), after = force_of(line, j);
-    const double mu = line->friction_bound[c]/line->reaction[c];
-    const double turn = atan2(vec3_norm(vec3_cross(before, after)), vec3_dot(before, after)), half = mu*tan(0.5*turn);
-    return half < 1 ? fabs(log1p(half) - log1p(-half) - mu*turn) : INFINITY;
+    const double mu = line->friction_bound[c] / line->reaction[c];
+    const double turn = atan2(vec3_norm(vec3_cross(before, after)), vec3_dot(before, after)),
+                 half = mu * tan(0.5 * turn);
+    return half < 1 ? fabs(log1p(half) - log1p(-half) - mu * turn) : INFINITY;
 }
 
 double cpsi_mesh_error(const CpsiLine *line) {
@@ -133,5 +151,5 @@ double cpsi_mesh_error(const CpsiLine *line) {
         if (isnan(worst)) return NAN;
         first = e + 1;
     }
-    return worst + largest*expm1(bends);
+    return worst + largest * expm1(bends);
 }

@@ -15,9 +15,11 @@
 static const int ROUNDS = 12;
 /* ... and of the slow way. */
 static const int SLOW_ROUNDS = 100;
-/* ... which end after so many that came no nearer, and ask their certificate as often: what has no tension may go on moving. */
+/* ... which end after so many that came no nearer, and ask their certificate as often: what has no
+ * tension may go on moving. */
 static const int SLOW_PATIENCE = 20;
-/* Rounds that close in, their axes turning by no more than CLOSING [rad] in one, may be as many as this. */
+/* Rounds that close in, their axes turning by no more than CLOSING [rad] in one, may be as many as
+ * this. */
 static const int MORE_ROUNDS = 60;
 static const double CLOSING = 1e-2;
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
@@ -26,10 +28,11 @@ static const double SETTLED = 1e-10;
 static const double NEAR = 0.1;
 /* ... and bounds that were tried differ by no more than this share, in sum, from mu R. */
 static const double MATCHED = 1e-11;
-/* Rounds with drag, at most, and those that are given a chance to halve their turn before the drag is changed. */
+/* Rounds with drag, at most, and those that are given a chance to halve their turn before the drag
+ * is changed. */
 static const int DRAG_ROUNDS = 200, DRAG_PATIENCE = 10;
-/* [-] The drag changes by factors of 4, from the least that holds back a line whose tension is one over its length to one with which it
- * hardly moves in all these rounds. */
+/* [-] The drag changes by factors of 4, from the least that holds back a line whose tension is one
+ * over its length to one with which it hardly moves in all these rounds. */
 static const double LEAST_DRAG = 0.25, MOST_DRAG = 1e4;
 
 void cpsi_rounds_take_bounds(CpsiLine *line) {
@@ -38,10 +41,10 @@ void cpsi_rounds_take_bounds(CpsiLine *line) {
         const CpsiRubSet set = cpsi_rub_set(line, c);
         const double within = line->friction_bound[c];
         double f[3];
-        line->friction_bound[c] = isfinite(line->gap[c]) ? set.friction*line->reaction[c] : 0;
-        cpsi_frame_to(f, axes, &line->friction_force[3*c]);
+        line->friction_bound[c] = isfinite(line->gap[c]) ? set.friction * line->reaction[c] : 0;
+        cpsi_frame_to(f, axes, &line->friction_force[3 * c]);
         cpsi_rub_clip(&set, within, line->friction_bound[c], f);
-        cpsi_frame_from(&line->friction_force[3*c], axes, f);
+        cpsi_frame_from(&line->friction_force[3 * c], axes, f);
     }
 }
 
@@ -50,29 +53,31 @@ static double mismatch(const CpsiLine *line) {
     double off = 0, all = 0;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!isfinite(line->gap[c])) continue;
-        const double follow = cpsi_rub_set(line, c).friction*line->reaction[c];
+        const double follow = cpsi_rub_set(line, c).friction * line->reaction[c];
         off += fabs(line->friction_bound[c] - follow);
         all += follow;
     }
-    return all > 0 ? off/all : 0;
+    return all > 0 ? off / all : 0;
 }
 
-/* The next round's bounds: mu R as Newton's method foresees it from the last solution, or simply mu R. */
+/* The next round's bounds: mu R as Newton's method foresees it from the last solution, or simply mu
+ * R. */
 static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force) {
     const bool newton = cpsi_chain_program_follow(program);
     for (int k = 0; k < program->stop.count; k++) {
         const int c = program->stop.contact[k];
         const double foreseen = program->stop.z[k] + program->stop.dz[k], now = program->stop.z[k];
         const double reaction = newton && isfinite(foreseen) ? fmax(0, foreseen) : now;
-        line->friction_bound[c] = cpsi_rub_set(line, c).friction*reaction*force*program->stop.weight[k];
+        line->friction_bound[c] =
+            cpsi_rub_set(line, c).friction * reaction * force * program->stop.weight[k];
     }
 }
 
 bool cpsi_rounds_look(CpsiLine *line, bool sides, double *turned) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3];
-        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
-        memcpy(&line->friction_force[3*c], f, sizeof f);
+        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
+        memcpy(&line->friction_force[3 * c], f, sizeof f);
     }
     const bool shortened = cpsi_contact_shorten(line, sides) < 1;
     *turned = cpsi_contact_move(line, sides);
@@ -80,16 +85,20 @@ bool cpsi_rounds_look(CpsiLine *line, bool sides, double *turned) {
     cpsi_contact_look(line);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3];
-        cpsi_frame_from(f, cpsi_line_axes(line, c), &line->friction_force[3*c]);
-        memcpy(&line->friction_force[3*c], f, sizeof f);
+        cpsi_frame_from(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
+        memcpy(&line->friction_force[3 * c], f, sizeof f);
     }
     return !shortened;
 }
 
-/* One round: solve where the line is, the reactions turning with their normals if that can be solved. */
-static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds, bool curved) {
+/* One round: solve where the line is, the reactions turning with their normals if that can be
+ * solved. */
+static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program,
+                                 const CpsiStepOptions *options, CpsiBounds bounds, bool curved) {
     const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, bounds, curved);
-    return cpsi_line_is_clean(&ipm) || !curved ? ipm : cpsi_line_solve(line, program, options, bounds, false);
+    return cpsi_line_is_clean(&ipm) || !curved
+               ? ipm
+               : cpsi_line_solve(line, program, options, bounds, false);
 }
 
 /* The base of the next round: where the last one ended, or foreseen from several that close in. */
@@ -98,36 +107,43 @@ static void look_ahead(CpsiLine *line, bool sides, double turned) {
         cpsi_ahead_start(&line->ahead, line->n, line->base);
         return;
     }
-    memcpy(line->carries, line->reaction, (size_t)line->n*sizeof *line->carries);
+    memcpy(line->carries, line->reaction, (size_t)line->n * sizeof *line->carries);
     for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)
-        for (int j = e; j <= e + 1; j++) line->carries[j] += line->reaction[cpsi_line_contacts(line) + e];
+        for (int j = e; j <= e + 1; j++)
+            line->carries[j] += line->reaction[cpsi_line_contacts(line) + e];
     cpsi_ahead_foresee(&line->ahead, line->n, line->carries, line->base);
     if (sides && cpsi_side_share(line, line->position, line->base, 1) < 1)
-        memcpy(line->base, line->position, 3*(size_t)line->n*sizeof *line->base);
+        memcpy(line->base, line->position, 3 * (size_t)line->n * sizeof *line->base);
 }
 
 /* The last round as an answer: is it one? */
-static bool conclude(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds,
-                     const CpsiIpmReport *ipm) {
+static bool conclude(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                     CpsiBounds bounds, const CpsiIpmReport *ipm) {
     if (bounds != CPSI_BOUNDS_GIVEN) cpsi_rounds_take_bounds(line);
     if (bounds != CPSI_BOUNDS_GIVEN || line->frozen) cpsi_line_let_go(line, program);
     cpsi_line_certify(line, options, ipm);
     return cps_outcome_is_certified(line->report.outcome);
 }
 
-void cpsi_rounds_settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
+void cpsi_rounds_settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                        CpsiBounds bounds) {
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     double turned = line->follows ? INFINITY : 0, off = 0, best = INFINITY;
     const bool sides = !options->frictionless; /* statics comes from no side */
     bool arrived = true;
     int since = 0;
     for (int round = 0, most = options->slow ? SLOW_ROUNDS : ROUNDS; round < most; round++) {
-        if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow) look_ahead(line, sides, turned);
-        if (line->follows) cpsi_contact_meet(line, false), cpsi_contact_look(line);
+        if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow)
+            look_ahead(line, sides, turned);
+        if (line->follows) {
+            cpsi_contact_meet(line, false);
+            cpsi_contact_look(line);
+        }
         ipm = solve_round(line, program, options, bounds, options->turning);
         if (bounds == CPSI_BOUNDS_FOLLOW && !cpsi_line_is_clean(&ipm)) {
             bounds = CPSI_BOUNDS_TRIED;
-            for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->friction_bound[c] = line->reaction[c] = 0;
+            for (int c = 0; c < cpsi_line_all_contacts(line); c++)
+                line->friction_bound[c] = line->reaction[c] = 0;
             ipm = solve_round(line, program, options, bounds, options->turning);
         }
         if (bounds == CPSI_BOUNDS_TRIED) {
@@ -137,13 +153,17 @@ void cpsi_rounds_settle(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
         if (line->follows) arrived = cpsi_rounds_look(line, sides, &turned);
         if (turned <= SETTLED && off <= MATCHED && cpsi_line_is_clean(&ipm)) break;
         if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
-        if (turned < 0.5*best) best = turned, since = round;
+        if (turned < 0.5 * best) {
+            best = turned;
+            since = round;
+        }
         if (options->slow && round >= since + SLOW_PATIENCE) break;
-        if (options->slow && arrived && bounds != CPSI_BOUNDS_TRIED && (round + 1)%SLOW_PATIENCE == 0 &&
-            conclude(line, program, options, bounds, &ipm))
+        if (options->slow && arrived && bounds != CPSI_BOUNDS_TRIED &&
+            (round + 1) % SLOW_PATIENCE == 0 && conclude(line, program, options, bounds, &ipm))
             return;
     }
-    if (conclude(line, program, options, bounds, &ipm) && !arrived) line->report.outcome = CPS_STALLED;
+    if (conclude(line, program, options, bounds, &ipm) && !arrived)
+        line->report.outcome = CPS_STALLED;
 }
 
 /* Rounds with drag that are watched: from where, and how far they have gone since. */
@@ -157,29 +177,30 @@ typedef struct Watch {
 /* [m] Root of the mean square of the way of the nodes between two places (n, 3). */
 static double way_between(int n, const double *from, const double *to) {
     double sum = 0;
-    for (int i = 0; i < 3*n; i++) sum += (to[i] - from[i])*(to[i] - from[i]);
-    return sqrt(sum/n);
+    for (int i = 0; i < 3 * n; i++) sum += (to[i] - from[i]) * (to[i] - from[i]);
+    return sqrt(sum / n);
 }
 
 static void begin_watch(const CpsiLine *line, Watch *watch) {
-    memcpy(watch->from, line->base, 3*(size_t)line->n*sizeof *watch->from);
+    memcpy(watch->from, line->base, 3 * (size_t)line->n * sizeof *watch->from);
     watch->path = 0;
     watch->best = INFINITY;
     watch->waited = 0;
 }
 
-/* The drag of the rounds to come, after some that did not halve their turn: less where the line is on its way, more where it goes to and
- * fro. */
+/* The drag of the rounds to come, after some that did not halve their turn: less where the line is
+ * on its way, more where it goes to and fro. */
 static double next_drag(const CpsiLine *line, const Watch *watch, double drag) {
-    const bool on_its_way = way_between(line->n, watch->from, line->base) > 0.5*watch->path;
-    if (on_its_way) return drag > LEAST_DRAG ? 0.25*drag : 0;
-    return fmax(4*drag, LEAST_DRAG);
+    const bool on_its_way = way_between(line->n, watch->from, line->base) > 0.5 * watch->path;
+    if (on_its_way) return drag > LEAST_DRAG ? 0.25 * drag : 0;
+    return fmax(4 * drag, LEAST_DRAG);
 }
 
-void cpsi_rounds_drag(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options, CpsiBounds bounds) {
+void cpsi_rounds_drag(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                      CpsiBounds bounds) {
     CpsiStepOptions with = *options;
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
-    Watch watch = {.from = line->trail, .before = &line->trail[3*line->n]};
+    Watch watch = {.from = line->trail, .before = &line->trail[3 * line->n]};
     double turned = INFINITY;
     const bool sides = !options->frictionless; /* statics comes from no side */
     bool arrived = true;
@@ -188,17 +209,22 @@ void cpsi_rounds_drag(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     begin_watch(line, &watch);
     for (int round = 0; round < DRAG_ROUNDS; round++) {
         look_ahead(line, sides, watch.waited > 0 ? turned : INFINITY);
-        memcpy(watch.before, line->base, 3*(size_t)line->n*sizeof *watch.before);
-        cpsi_contact_meet(line, false), cpsi_contact_look(line);
+        memcpy(watch.before, line->base, 3 * (size_t)line->n * sizeof *watch.before);
+        cpsi_contact_meet(line, false);
+        cpsi_contact_look(line);
         ipm = cpsi_line_solve(line, program, &with, bounds, false);
         arrived = cpsi_rounds_look(line, sides, &turned);
         if (turned <= SETTLED && cpsi_line_is_clean(&ipm)) break;
         watch.path += way_between(line->n, watch.before, line->base);
-        if (turned < 0.5*watch.best) watch.best = turned, watch.waited = 0;
+        if (turned < 0.5 * watch.best) {
+            watch.best = turned;
+            watch.waited = 0;
+        }
         if (++watch.waited <= DRAG_PATIENCE) continue;
         if (with.drag > MOST_DRAG) break;
         with.drag = next_drag(line, &watch, with.drag);
         begin_watch(line, &watch);
     }
-    if (conclude(line, program, options, bounds, &ipm) && !arrived) line->report.outcome = CPS_STALLED;
+    if (conclude(line, program, options, bounds, &ipm) && !arrived)
+        line->report.outcome = CPS_STALLED;
 }

@@ -1,61 +1,72 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Too short to reach round an obstacle (shortfall.h). The line does not pass the obstacle (side.h), so that its turn about the axis of a cylinder is the one
- * that it has where the step begins, changed by what the held ends do on their straight ways. */
+/* Too short to reach round an obstacle (shortfall.h). The line does not pass the obstacle (side.h),
+ * so that its turn about the axis of a cylinder is the one that it has where the step begins,
+ * changed by what the held ends do on their straight ways. */
 #include "cable/shortfall.h"
 
 #include "cable/line_solve.h"
 #include "geometry/shortest_way.h"
 
-/* An element that comes nearer to the axis than this share of the radius is on no side of it; those of a solution stay beyond three quarters. */
+/* An element that comes nearer to the axis than this share of the radius is on no side of it; those
+ * of a solution stay beyond three quarters. */
 static const double TOO_NEAR = 0.5;
 
 static const double ROUND = 6.28318530717958647692;
 
 static Vec3 held_at(const CpsiLine *line, int end) { return vec3_load(line->end[end].value); }
 
-/* Add the angle about the axis of obstacle o from one point to the next; false where the straight way between them tells no side. */
+/* Add the angle about the axis of obstacle o from one point to the next; false where the straight
+ * way between them tells no side. */
 static bool add_angle(const CpsiObstacle *o, Vec3 from, Vec3 to, double *sum) {
-    if (!(cpsi_obstacle_depth(o, from, to) <= (1 - TOO_NEAR)*o->radius)) return false;
+    if (!(cpsi_obstacle_depth(o, from, to) <= (1 - TOO_NEAR) * o->radius)) return false;
     *sum += cpsi_obstacle_angle(o, cpsi_obstacle_normal(o, from), cpsi_obstacle_normal(o, to));
     return true;
 }
 
-/* [rad] By which the line turns about the axis of a cylinder from A to B, where its ends are to be. Whole rounds are counted along the line, so that only
- * the rest has rounding. */
+/* [rad] By which the line turns about the axis of a cylinder from A to B, where its ends are to be.
+ * Whole rounds are counted along the line, so that only the rest has rounding. */
 static bool turn_about(const CpsiLine *line, const CpsiObstacle *o, bool laid, double *turn) {
     const Vec3 a = held_at(line, CPS_END_A), b = held_at(line, CPS_END_B);
-    const double rest = cpsi_obstacle_angle(o, cpsi_obstacle_normal(o, a), cpsi_obstacle_normal(o, b));
+    const double rest =
+        cpsi_obstacle_angle(o, cpsi_obstacle_normal(o, a), cpsi_obstacle_normal(o, b));
     double sum = 0;
     *turn = rest;
     if (laid || o->kind != CPS_OBSTACLE_CYLINDER) return true;
     Vec3 at = a;
     for (int j = 0; j < line->n; j++) {
-        const Vec3 next = vec3_load(&line->position[3*j]);
+        const Vec3 next = vec3_load(&line->position[3 * j]);
         if (!add_angle(o, at, next, &sum)) return false;
         at = next;
     }
     if (!add_angle(o, at, b, &sum)) return false;
-    *turn = rest + ROUND*round((sum - rest)/ROUND);
+    *turn = rest + ROUND * round((sum - rest) / ROUND);
     return true;
 }
 
-bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options, CpsiShortfall *out) {
-    if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_HELD) || options->contact != CPS_CONTACT_GAINED) return false;
+bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
+                           CpsiShortfall *out) {
+    if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_HELD) ||
+        options->contact != CPS_CONTACT_GAINED)
+        return false;
     const Vec3 a = held_at(line, CPS_END_A), b = held_at(line, CPS_END_B);
-    const double allowed = line->length*(1 + CPSI_TAUT);
+    const double allowed = line->length * (1 + CPSI_TAUT);
     if (vec3_norm(vec3_sub(b, a)) > allowed) return false;
     double longest = 0;
     for (int e = 0; e + 1 < line->n; e++) longest = fmax(longest, line->element_length[e]);
     *out = (CpsiShortfall){.obstacle = -1};
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
-        CpsiPolygon polygon = {longest, line->element_contacts > 0 ? o->radius - cpsi_obstacle_allowance(o, longest) : 0};
+        CpsiPolygon polygon = {longest, line->element_contacts > 0
+                                            ? o->radius - cpsi_obstacle_allowance(o, longest)
+                                            : 0};
         CpsiShortestWay way;
         double turn;
-        if (o->kind == CPS_OBSTACLE_PLANE || !turn_about(line, o, options->frictionless, &turn)) continue;
+        if (o->kind == CPS_OBSTACLE_PLANE || !turn_about(line, o, options->frictionless, &turn))
+            continue;
         if (!cpsi_shortest_way(o, a, b, turn, polygon, &way)) continue;
         const double missing = way.length - line->length;
-        if (way.length - way.rounding > allowed && missing > out->missing) *out = (CpsiShortfall){k, missing, way.leaves};
+        if (way.length - way.rounding > allowed && missing > out->missing)
+            *out = (CpsiShortfall){k, missing, way.leaves};
     }
     return out->obstacle >= 0;
 }

@@ -10,7 +10,8 @@ typedef struct CpsiStepOptions {
     CpsFriction friction;
     CpsContact contact;
     bool frictionless; /* a start laid by statics */
-    CpsiLeastMotion *least; /* scratch of the rule of least motion; NULL: places are as they are found */
+    /* scratch of the rule of least motion; NULL: places are as they are found */
+    CpsiLeastMotion *least;
     /* set by the step itself */
     int centrings;
     bool slow;    /* many rounds, that do not look ahead */

@@ -1,24 +1,29 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The tension field of an inextensible line (tension_field.h).
  *
- * Places do not tell the tension of an inextensible line at rest: friction may carry it here or there. Of all forces that hold the line where
- * it is (force_set.h) those are reported whose tensions are nearest to the ones before the step,
+ * Places do not tell the tension of an inextensible line at rest: friction may carry it here or
+ * there. Of all forces that hold the line where it is (force_set.h) those are reported whose
+ * tensions are nearest to the ones before the step,
  *
  *     min  sum l_i (T_i - T_R,i)^2,
  *
- * which is what the limit of a stiff line does: its energy in terms of forces is sum l c (T - T_R)^2/2. */
+ * which is what the limit of a stiff line does: its energy in terms of forces is sum l c (T -
+ * T_R)^2/2. */
 #include "cable/tension_field.h"
 
 #include <math.h>
 
-/* Scalars this near to where they cost least, in units of the largest force, are there if that is allowed: some ten times the root of the
- * loop's target. */
+/* Scalars this near to where they cost least, in units of the largest force, are there if that is
+ * allowed: some ten times the root of the loop's target. */
 static const double NEAR = 1e-5;
-/* ... and allowed means this near to a cone: forces that were at a limit before are so again but for what the places changed. */
+/* ... and allowed means this near to a cone: forces that were at a limit before are so again but
+ * for what the places changed. */
 static const double LANDED = 1e-9;
 
 CpsiForceLaw cpsi_force_law(const CpsiStepOptions *options, bool tight) {
-    return (CpsiForceLaw){.frozen = options->friction == CPS_FRICTION_FROZEN, .frictionless = options->frictionless, .tight = tight};
+    return (CpsiForceLaw){.frozen = options->friction == CPS_FRICTION_FROZEN,
+                          .frictionless = options->frictionless,
+                          .tight = tight};
 }
 
 /* How forces are shared in a corner costs this beside tensions, so that a jam has a least one. */
@@ -26,7 +31,8 @@ static const double SHARE = 1e-8;
 
 static void weigh_shares(CpsiForceSet *set) {
     for (int k = 0; k < set->program.sites; k++)
-        for (int a = 0; a < set->program.site[k].own; a++) set->program.site[k].weight[(CPSI_SITE_OWN + 1)*a] += SHARE;
+        for (int a = 0; a < set->program.site[k].own; a++)
+            set->program.site[k].weight[(CPSI_SITE_OWN + 1) * a] += SHARE;
 }
 
 /* l/L (T_i - T_R,i)^2/2 in units of the program. */
@@ -35,19 +41,21 @@ static void weigh_tensions(CpsiForceSet *set, const CpsiLine *line) {
     for (int e = 0; e + 1 < line->n; e++) {
         const int g = set->scalar[e];
         if (g < 0) continue;
-        const double l = line->element_length[e]/line->length, gain = set->gain[e];
-        program->weight[g] += l*gain*gain;
-        program->base.load[g] += l*gain*(line->tension_before[e] - set->tension[e])/set->force;
+        const double l = line->element_length[e] / line->length, gain = set->gain[e];
+        program->weight[g] += l * gain * gain;
+        program->base.load[g] +=
+            l * gain * (line->tension_before[e] - set->tension[e]) / set->force;
     }
 }
 
-/* Where T_R itself is allowed the least is 0, and the loop comes near to it by the root of its gap only: put the scalars that are near to
- * where they cost least there, and back those that leave a cone by it. */
+/* Where T_R itself is allowed the least is 0, and the loop comes near to it by the root of its gap
+ * only: put the scalars that are near to where they cost least there, and back those that leave a
+ * cone by it. */
 static void land(CpsiForceSet *set) {
     CpsiScalarProgram *program = &set->program;
     double *y = program->base.u, *found = program->base.du, *best = program->base.residual;
     for (int g = 0; g < program->scalars; g++) {
-        const double least = program->base.load[g]/program->weight[g];
+        const double least = program->base.load[g] / program->weight[g];
         found[g] = y[g];
         best[g] = fabs(y[g] - least) <= NEAR ? least : y[g];
         y[g] = best[g];
@@ -82,15 +90,17 @@ static void weigh_reactions(CpsiForceSet *set, const CpsiLine *line, const CpsiF
         const int k = cpsi_force_set_share(set, line, law, c, share);
         if (k < 0) continue;
         CpsiSite *site = &set->program.site[k];
-        const double off = (reaction_before(line, c) - line->reaction[c])/set->force;
+        const double off = (reaction_before(line, c) - line->reaction[c]) / set->force;
         for (int a = 0; a < site->own; a++) {
-            for (int b = 0; b < site->own; b++) site->weight[CPSI_SITE_OWN*a + b] += share[a]*share[b];
-            set->program.base.load[site->at + a] += share[a]*off;
+            for (int b = 0; b < site->own; b++)
+                site->weight[CPSI_SITE_OWN * a + b] += share[a] * share[b];
+            set->program.base.load[site->at + a] += share[a] * off;
         }
     }
 }
 
-bool cpsi_line_tension_field(CpsiLine *line, CpsiForceSet *set, const CpsiStepOptions *options, bool tight) {
+bool cpsi_line_tension_field(CpsiLine *line, CpsiForceSet *set, const CpsiStepOptions *options,
+                             bool tight) {
     CpsiForceLaw law = cpsi_force_law(options, tight);
     bool chosen = false;
     if (cpsi_force_set_build(set, line, &law)) {

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Between which values the tensions at the ends of an inextensible line lie (tension_field.h).
  *
- * Over the set of force_set.h the tension of one element is a linear function: its least and its greatest value are cone programs. The
- * solution's duals z are virtual displacements of the nodes: with load + G'z = 0 no forces of the set have load.y > z.h. Whether there is
- * a greatest value is asked first: the tension has no bound just where the directions in which the set has no end contain one along which
- * it grows, and that is the same program without loads, with the growth held at 1. */
+ * Over the set of force_set.h the tension of one element is a linear function: its least and its
+ * greatest value are cone programs. The solution's duals z are virtual displacements of the nodes:
+ * with load + G'z = 0 no forces of the set have load.y > z.h. Whether there is a greatest value is
+ * asked first: the tension has no bound just where the directions in which the set has no end
+ * contain one along which it grows, and that is the same program without loads, with the growth
+ * held at 1. */
 #include <math.h>
 
 #include "cable/tension_field.h"
@@ -12,32 +14,34 @@
 /* The growth along a direction without end is 1 or 0. */
 static const double GROWS = 0.5;
 
-/* Where other forces than the one asked for have no end the loop may not settle: a small weight on all of them is tried then. What it takes off
- * the extreme value is in the bound. */
+/* Where other forces than the one asked for have no end the loop may not settle: a small weight on
+ * all of them is tried then. What it takes off the extreme value is in the bound. */
 static const double WEIGHTS[] = {0, 1e-10, 1e-8};
 
-/* A value and its bound that differ by no more than this share of the largest force are an answer: the root of the loop's rounding. */
+/* A value and its bound that differ by no more than this share of the largest force are an answer:
+ * the root of the loop's rounding. */
 static const double TIGHT = 1e-7;
 
-/* The extreme value of the tension of element e, and its bound: the greatest by sign 1, the least by -1. False where no program found
- * both close to each other. */
+/* The extreme value of the tension of element e, and its bound: the greatest by sign 1, the least
+ * by -1. False where no program found both close to each other. */
 static bool extreme(CpsiForceSet *set, int e, double sign, double *value, double *bound) {
     const double now = *value = *bound = fmax(0, set->tension[e]);
     const int g = set->scalar[e];
     if (g < 0) return true;
-    set->program.base.load[g] = sign*set->gain[e];
-    for (size_t k = 0; k < sizeof WEIGHTS/sizeof *WEIGHTS; k++) {
+    set->program.base.load[g] = sign * set->gain[e];
+    for (size_t k = 0; k < sizeof WEIGHTS / sizeof *WEIGHTS; k++) {
         cpsi_scalar_program_weigh(&set->program, WEIGHTS[k]);
         if (!cpsi_force_set_solve(set)) continue;
         /* T >= 0 is a bound too, and better than rounding */
-        *value = fmax(0, now + set->force*set->gain[e]*set->program.base.u[g]);
-        *bound = fmax(0, now + sign*set->force*cpsi_scalar_program_bound(&set->program));
-        if (fabs(*value - *bound) <= TIGHT*set->force) return true;
+        *value = fmax(0, now + set->force * set->gain[e] * set->program.base.u[g]);
+        *bound = fmax(0, now + sign * set->force * cpsi_scalar_program_bound(&set->program));
+        if (fabs(*value - *bound) <= TIGHT * set->force) return true;
     }
     return false;
 }
 
-/* Is there a direction of the set along which the tension of element e grows without end? False in `*known` where that was not found out. */
+/* Is there a direction of the set along which the tension of element e grows without end? False in
+ * `*known` where that was not found out. */
 static bool grows(CpsiForceSet *set, const CpsiLine *line, CpsiForceLaw law, int e, bool *known) {
     law.directions = true;
     *known = true;
@@ -49,7 +53,7 @@ static bool grows(CpsiForceSet *set, const CpsiLine *line, CpsiForceLaw law, int
     set->program.h[row] = 1;
     set->program.base.load[g] = set->gain[e];
     *known = cpsi_force_set_solve(set);
-    return *known && set->gain[e]*set->program.base.u[g] > GROWS;
+    return *known && set->gain[e] * set->program.base.u[g] > GROWS;
 }
 
 static CpsTensionRange range_of(CpsiLine *line, CpsiForceSet *set, const CpsiForceLaw *law, int e) {
@@ -58,7 +62,8 @@ static CpsTensionRange range_of(CpsiLine *line, CpsiForceSet *set, const CpsiFor
     const bool unbounded = grows(set, line, *law, e, &known);
     if (!known) return range;
     if (!cpsi_force_set_build(set, line, law)) {
-        range.least = range.least_bound = range.greatest = range.greatest_bound = fmax(0, set->tension[e]);
+        range.least = range.least_bound = range.greatest = range.greatest_bound =
+            fmax(0, set->tension[e]);
         range.kind = set->partial ? CPS_RANGE_NOT_GIVEN : CPS_RANGE_BOUNDED;
         return range;
     }

@@ -5,7 +5,7 @@
 #include <math.h>
 
 static inline double at(const double *a, int band, int row, int column) {
-    return a[(size_t)row*((size_t)band + 1) + (size_t)(column - row + band)];
+    return a[(size_t)row * ((size_t)band + 1) + (size_t)(column - row + band)];
 }
 
 static inline int first_column(int row, int band) { return row > band ? row - band : 0; }
@@ -15,7 +15,7 @@ bool cpsi_band_factor(int unknowns, int band, double *a) {
         const int first = first_column(r, band);
         for (int c = first; c <= r; ++c) {
             double sum = at(a, band, r, c);
-            for (int k = first; k < c; ++k) sum -= at(a, band, r, k)*at(a, band, c, k);
+            for (int k = first; k < c; ++k) sum -= at(a, band, r, k) * at(a, band, c, k);
             if (c < r)
                 sum /= at(a, band, c, c);
             else if (!(sum > 0))
@@ -30,11 +30,11 @@ bool cpsi_band_factor(int unknowns, int band, double *a) {
 
 void cpsi_band_solve(int unknowns, int band, const double *factor, double *x) {
     for (int r = 0; r < unknowns; ++r) {
-        for (int k = first_column(r, band); k < r; ++k) x[r] -= at(factor, band, r, k)*x[k];
+        for (int k = first_column(r, band); k < r; ++k) x[r] -= at(factor, band, r, k) * x[k];
         x[r] /= at(factor, band, r, r);
     }
     for (int r = unknowns - 1; r >= 0; --r) {
         x[r] /= at(factor, band, r, r);
-        for (int k = first_column(r, band); k < r; ++k) x[k] -= at(factor, band, r, k)*x[r];
+        for (int k = first_column(r, band); k < r; ++k) x[k] -= at(factor, band, r, k) * x[r];
     }
 }

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* P10.1 of S90 annex 5 as a convex function of the displacement, for given multipliers of friction and contact.
+/* P10.1 of S90 annex 5 as a convex function of the displacement, for given multipliers of friction
+ * and contact.
  *
- * With x_R' = s t, the tension T_R = K (s - 1)^+ of the reference and e = (s - 1)^+, the first-order tension (84) comes
- * from
+ * With x_R' = s t, the tension T_R = K (s - 1)^+ of the reference and e = (s - 1)^+, the
+ * first-order tension (84) comes from
  *
  *   Q(u) = sum w_i [ T_R t.u' + (K/2s) (e |u'|^2 + (t.u')^2) ] - sum b_j.u_j
  *
- * and (90), (79)-(82) are its minimum plus sum A_j |u_T,j| over n.u_j + gap_j >= 0. Both are added as augmented
- * Lagrangians, friction q in the disc of radius A and reaction R >= 0 being the multipliers:
+ * and (90), (79)-(82) are its minimum plus sum A_j |u_T,j| over n.u_j + gap_j >= 0. Both are added
+ * as augmented Lagrangians, friction q in the disc of radius A and reaction R >= 0 being the
+ * multipliers:
  *
  *   q <- P_disc(q + r u_T),     R <- (R - r (n.u + gap))^+,     and a small k/2 |u - u_before|^2,
  *
- * so that each round minimises a strictly convex function with a continuous gradient, and a force that nothing balances
- * shows as one that k (u - u_before) never ceases to carry. */
+ * so that each round minimises a strictly convex function with a continuous gradient, and a force
+ * that nothing balances shows as one that k (u - u_before) never ceases to carry. */
 #ifndef CAPSTAN_SRC_CLASSIC_FIRST_ORDER_H
 #define CAPSTAN_SRC_CLASSIC_FIRST_ORDER_H
 

@@ -14,7 +14,8 @@ struct CpsClassic {
     double *unknown, *work, *tension;
 };
 
-/* [N] What the obstacle pushes on the half element beside a held end of the last solution; 0 for one that is in the air. */
+/* [N] What the obstacle pushes on the half element beside a held end of the last solution; 0 for
+ * one that is in the air. */
 double cpsi_end_push(const CpsClassic *classic, int end);
 
 #endif

@@ -7,17 +7,19 @@
 #include "base/larger.h"
 #include "classic/places.h"
 
-/* an element is slack with a tension below this part of the step's largest force: its complement, the slack, is then
- * larger */
+/* an element is slack with a tension below this part of the step's largest force: its complement,
+ * the slack, is then larger */
 static const double SLACK_TENSION = 1e-5;
 
-/* a friction force this part below its bound is at it: what a step's certificate of 1e-8 leaves of it */
+/* a friction force this part below its bound is at it: what a step's certificate of 1e-8 leaves of
+ * it */
 static const double AT_BOUND = 1e-6;
 
 /* a reaction below this part of it is none: a step leaves some 1e-13 where there is a distance */
 static const double NO_PUSH = 1e-11;
 
-/* directions [rad] and cosines that differ by less are the same; a slip shorter than the second, per length, is none */
+/* directions [rad] and cosines that differ by less are the same; a slip shorter than the second,
+ * per length, is none */
 static const double SAME = 1e-6, SLIP = 1e-9;
 
 double cpsi_slack_force(const CpsLineView *step) {
@@ -28,11 +30,12 @@ double cpsi_slack_force(const CpsLineView *step) {
 }
 
 double cpsi_element_stretch(const CpsLineView *step, const double *position, int i) {
-    return vec3_norm(vec3_sub(cpsi_at(position, i + 1), cpsi_at(position, i)))/step->element_length[i];
+    return vec3_norm(vec3_sub(cpsi_at(position, i + 1), cpsi_at(position, i))) /
+           step->element_length[i];
 }
 
 static bool is_slack(const CpsLineView *step, int element, double force) {
-    return step->tension[element] <= SLACK_TENSION*force;
+    return step->tension[element] <= SLACK_TENSION * force;
 }
 
 /* without friction, and without tension on either side; an end has to be free */
@@ -42,8 +45,8 @@ static bool is_loose(const CpsLineView *step, int node, double force) {
         const CpsEnd *end = &step->end[node == 0 ? CPS_END_A : CPS_END_B];
         if (end->kind == CPS_END_HELD) return false;
     }
-    return (node == 0 || is_slack(step, node - 1, force)) && (node == n || is_slack(step, node, force)) &&
-           !(step->friction_bound[node] > 0);
+    return (node == 0 || is_slack(step, node - 1, force)) &&
+           (node == n || is_slack(step, node, force)) && !(step->friction_bound[node] > 0);
 }
 
 /* ---- pieces ---- */
@@ -51,10 +54,12 @@ static bool is_loose(const CpsLineView *step, int node, double force) {
 /* the plane on which the loose nodes of a piece lie, if there is one */
 static void find_plane(const CpsLineView *step, double force, CpsiPiece *piece) {
     const int from = piece->first + !piece->open[0], to = piece->last + piece->open[1];
-    const Vec3 a = cpsi_at(step->position, piece->first), b = cpsi_at(step->position, piece->last + 1);
-    piece->foot[0] = a, piece->foot[1] = b;
+    const Vec3 a = cpsi_at(step->position, piece->first),
+               b = cpsi_at(step->position, piece->last + 1);
+    piece->foot[0] = a;
+    piece->foot[1] = b;
     for (int j = from; j <= to && !piece->grounded; ++j) {
-        if (!(step->reaction[j] > NO_PUSH*force) || !isfinite(step->gap[j])) continue;
+        if (!(step->reaction[j] > NO_PUSH * force) || !isfinite(step->gap[j])) continue;
         piece->grounded = true;
         piece->normal = cpsi_at(step->normal, j);
         const double level = vec3_dot(piece->normal, cpsi_at(step->reference, j)) - step->gap[j];
@@ -64,14 +69,15 @@ static void find_plane(const CpsLineView *step, double force, CpsiPiece *piece) 
         }
     }
     if (piece->grounded) return;
-    /* in the air without load: any plane through the chord, a level one across it where that is told apart from it */
+    /* in the air without load: any plane through the chord, a level one across it where that is
+     * told apart from it */
     const Vec3 chord = vec3_sub(b, a), up = cpsi_at(step->normal, from <= to ? from : piece->first);
     const Vec3 z = vec3_norm(up) > 0 ? up : vec3(0, 0, 1);
     Vec3 side = vec3_cross(z, chord);
-    if (!(vec3_norm(side) > SAME*vec3_norm(chord))) side = vec3_cross(vec3(z.y, z.z, z.x), z);
+    if (!(vec3_norm(side) > SAME * vec3_norm(chord))) side = vec3_cross(vec3(z.y, z.z, z.x), z);
     const Vec3 along = vec3_norm(chord) > 0 ? chord : vec3_cross(side, z);
     const Vec3 normal = vec3_cross(along, side);
-    piece->normal = vec3_scale(1/vec3_norm(normal), normal);
+    piece->normal = vec3_scale(1 / vec3_norm(normal), normal);
 }
 
 CpsiPiece cpsi_piece_at(const CpsLineView *step, int element, double force) {
@@ -86,8 +92,9 @@ CpsiPiece cpsi_piece_at(const CpsLineView *step, int element, double force) {
 
 double cpsi_piece_reach(const CpsLineView *step, const CpsiPiece *piece, int i) {
     const double l = step->element_length[i];
-    const double h = (i == piece->first ? piece->height[0] : 0) - (i == piece->last ? piece->height[1] : 0);
-    return sqrt(fmax(0, (l - h)*(l + h)));
+    const double h =
+        (i == piece->first ? piece->height[0] : 0) - (i == piece->last ? piece->height[1] : 0);
+    return sqrt(fmax(0, (l - h) * (l + h)));
 }
 
 bool cpsi_piece_moves(const CpsLineView *step, const CpsiPiece *piece) {
@@ -96,14 +103,14 @@ bool cpsi_piece_moves(const CpsLineView *step, const CpsiPiece *piece) {
     if (piece->first == piece->last) return false;
     double reach = 0;
     for (int i = piece->first; i <= piece->last; ++i) reach += cpsi_piece_reach(step, piece, i);
-    return reach > vec3_norm(vec3_sub(piece->foot[1], piece->foot[0]))*(1 + CPSI_FULL);
+    return reach > vec3_norm(vec3_sub(piece->foot[1], piece->foot[0])) * (1 + CPSI_FULL);
 }
 
 /* ---- nodes that slide on ---- */
 
 static bool at_bound(const CpsLineView *step, int node) {
     const double bound = step->friction_bound[node];
-    return bound > 0 && vec3_norm(cpsi_at(step->friction, node)) >= bound*(1 - AT_BOUND);
+    return bound > 0 && vec3_norm(cpsi_at(step->friction, node)) >= bound * (1 - AT_BOUND);
 }
 
 static bool is_held(const CpsLineView *step, int node) {
@@ -111,8 +118,8 @@ static bool is_held(const CpsLineView *step, int node) {
            (node == step->elements && step->end[CPS_END_B].kind == CPS_END_HELD);
 }
 
-/* may a node go along the unit vector v of its plane by itself and leave a solution? Friction at its bound lets it slide on, or back as far
- * as it has slid. */
+/* may a node go along the unit vector v of its plane by itself and leave a solution? Friction at
+ * its bound lets it slide on, or back as far as it has slid. */
 static bool may_go(const CpsLineView *step, int node, Vec3 v) {
     if (is_held(step, node)) return false;
     if (!(step->friction_bound[node] > 0)) return true;
@@ -120,20 +127,20 @@ static bool may_go(const CpsLineView *step, int node, Vec3 v) {
     const Vec3 force = cpsi_at(step->friction, node), n = cpsi_at(step->normal, node);
     const Vec3 u = vec3_sub(cpsi_at(step->position, node), cpsi_at(step->reference, node));
     const double along = vec3_dot(force, v), size = vec3_norm(force);
-    if (!(vec3_norm(vec3_cross(force, v)) <= SAME*size)) return false;
+    if (!(vec3_norm(vec3_cross(force, v)) <= SAME * size)) return false;
     const double slid = vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
-    return along < 0 || slid > SLIP*step->arc_length[step->elements];
+    return along < 0 || slid > SLIP * step->arc_length[step->elements];
 }
 
-/* does the element between a node that goes along v and the next one, on side 0 or 1, carry that one along? Not where it is short, or
- * becomes so. */
+/* does the element between a node that goes along v and the next one, on side 0 or 1, carry that
+ * one along? Not where it is short, or becomes so. */
 static bool carries(const CpsLineView *step, int node, int side, Vec3 v, double force) {
     const int i = side == 0 ? node - 1 : node, other = side == 0 ? node - 1 : node + 1;
     if (!is_slack(step, i, force)) return true;
     const double stretch = cpsi_element_stretch(step, step->position, i);
     if (stretch < 1 - CPSI_FULL) return false;
     const Vec3 e = vec3_sub(cpsi_at(step->position, node), cpsi_at(step->position, other));
-    return !(vec3_dot(e, v) < -SAME*vec3_norm(e));
+    return !(vec3_dot(e, v) < -SAME * vec3_norm(e));
 }
 
 /* may a node, with all that it carries along, move along v? */
@@ -154,7 +161,8 @@ static bool may_slide(const CpsLineView *step, int node, double force) {
     const Vec3 f = cpsi_at(step->friction, node);
     const double size = vec3_norm(f);
     return at_bound(step, node) && size > 0 &&
-           (cluster_goes(step, node, vec3_scale(-1/size, f), force) || cluster_goes(step, node, vec3_scale(1/size, f), force));
+           (cluster_goes(step, node, vec3_scale(-1 / size, f), force) ||
+            cluster_goes(step, node, vec3_scale(1 / size, f), force));
 }
 
 /* ---- the list ---- */

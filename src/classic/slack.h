@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Where a solved step leaves its line slack, and what may move there without changing the energy.
  *
- * A slack element carries no tension. A node between two of them is loose when it bears no friction bound: it may go
- * anywhere within its plane that its elements reach. Between the nodes that stay a line falls into pieces; the
- * interior nodes of a piece are loose, and so is its last or first node where that is a free end. */
+ * A slack element carries no tension. A node between two of them is loose when it bears no friction
+ * bound: it may go anywhere within its plane that its elements reach. Between the nodes that stay a
+ * line falls into pieces; the interior nodes of a piece are loose, and so is its last or first node
+ * where that is a free end. */
 #ifndef CAPSTAN_SRC_CLASSIC_SLACK_H
 #define CAPSTAN_SRC_CLASSIC_SLACK_H
 
@@ -33,7 +34,8 @@ CpsiPiece cpsi_piece_at(const CpsLineView *step, int element, double force);
 /* [m] Of element i of a piece, what its length reaches within the plane. */
 double cpsi_piece_reach(const CpsLineView *step, const CpsiPiece *piece, int i);
 
-/* May nodes of the piece move and leave a solution? Where it is straight at its length between two nodes that stay they may not. */
+/* May nodes of the piece move and leave a solution? Where it is straight at its length between two
+ * nodes that stay they may not. */
 bool cpsi_piece_moves(const CpsLineView *step, const CpsiPiece *piece);
 
 /* |x'| of element i of a configuration. */

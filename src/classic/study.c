@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The study of S90 annex 4: h, then lambda, then n, then delta to their limits (theorems 9.1 and 9.2, result 5.6).
+/* The study of S90 annex 4: h, then lambda, then n, then delta to their limits (theorems 9.1 and
+ * 9.2, result 5.6).
  *
- * An order of convergence is taken from three successive values, |v0 - v1|/|v1 - v2| = factor^rate, which needs no
- * limit. Tensions are compared where all cells of a stage have a middle: in stage h at multiples of its first h, then
- * in the middles of the step's elements. */
+ * An order of convergence is taken from three successive values, |v0 - v1|/|v1 - v2| = factor^rate,
+ * which needs no limit. Tensions are compared where all cells of a stage have a middle: in stage h
+ * at multiples of its first h, then in the middles of the step's elements. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,31 +50,46 @@ static int divisions(double ratio, double *factor) {
     const int count = (int)ceil(decades - 1e-9);
     *factor = 10;
     if (!(decades > 1e-9)) return 0;
-    if (fabs(decades - count) > 1e-9) *factor = pow(ratio, 1.0/count);
+    if (fabs(decades - count) > 1e-9) *factor = pow(ratio, 1.0 / count);
     return count;
 }
 
 CpsStudyOptions cps_study_options_to(const CpsClassic *classic, const CpsClassicParameters *to) {
     if (!classic || !to) return (CpsStudyOptions){0};
-    CpsStudyOptions options = {.from = cps_classic_coarse(classic), .factor = {2, 10, 10, 10}, .max_iterations = NEWTON_LIMIT};
+    CpsStudyOptions options = {.from = cps_classic_coarse(classic),
+                               .factor = {2, 10, 10, 10},
+                               .max_iterations = NEWTON_LIMIT};
     CpsClassicParameters *from = &options.from;
-    const int last = to->cells > 0 ? to->cells : 4*cps_classic_step(classic).elements;
+    const int last = to->cells > 0 ? to->cells : 4 * cps_classic_step(classic).elements;
     int cells = from->cells;
-    for (options.values[CPS_STUDY_H] = 1; cells < last && options.values[CPS_STUDY_H] < MAX_HALVINGS; cells *= 2)
+    for (options.values[CPS_STUDY_H] = 1;
+         cells < last && options.values[CPS_STUDY_H] < MAX_HALVINGS; cells *= 2)
         ++options.values[CPS_STUDY_H];
-    if (to->cells > 0) { /* the first of them so that the last is the one asked for, or a few more */
+    if (to->cells >
+        0) { /* the first of them so that the last is the one asked for, or a few more */
         const int halvings = 1 << (options.values[CPS_STUDY_H] - 1);
-        from->cells = (last + halvings - 1)/halvings;
+        from->cells = (last + halvings - 1) / halvings;
         if (from->cells < 2) from->cells = 2;
     }
     /* lambda begins with the first value, n and delta below it */
-    options.values[CPS_STUDY_LAMBDA] = 1 + divisions(to->penalty/from->penalty, &options.factor[CPS_STUDY_LAMBDA]);
-    options.values[CPS_STUDY_N] = to->stiffness > 0 ? divisions(from->stiffness/to->stiffness, &options.factor[CPS_STUDY_N]) : 1;
-    options.values[CPS_STUDY_DELTA] = divisions(from->delta/to->delta, &options.factor[CPS_STUDY_DELTA]);
+    options.values[CPS_STUDY_LAMBDA] =
+        1 + divisions(to->penalty / from->penalty, &options.factor[CPS_STUDY_LAMBDA]);
+    options.values[CPS_STUDY_N] =
+        to->stiffness > 0 ? divisions(from->stiffness / to->stiffness, &options.factor[CPS_STUDY_N])
+                          : 1;
+    options.values[CPS_STUDY_DELTA] =
+        divisions(from->delta / to->delta, &options.factor[CPS_STUDY_DELTA]);
     if (options.values[CPS_STUDY_LAMBDA] == 1) from->penalty = to->penalty;
-    if (!(to->stiffness > 0)) from->stiffness = 0;
-    else if (options.values[CPS_STUDY_N] == 0) from->stiffness = 10*to->stiffness, options.values[CPS_STUDY_N] = 1;
-    if (options.values[CPS_STUDY_DELTA] == 0) from->delta = 10*to->delta, options.values[CPS_STUDY_DELTA] = 1;
+    if (!(to->stiffness > 0)) {
+        from->stiffness = 0;
+    } else if (options.values[CPS_STUDY_N] == 0) {
+        from->stiffness = 10 * to->stiffness;
+        options.values[CPS_STUDY_N] = 1;
+    }
+    if (options.values[CPS_STUDY_DELTA] == 0) {
+        from->delta = 10 * to->delta;
+        options.values[CPS_STUDY_DELTA] = 1;
+    }
     return options;
 }
 
@@ -87,17 +103,19 @@ CpsStudyOptions cps_study_options(const CpsClassic *classic) {
 
 /* NaN where the changes do not keep their sign: no order shows there */
 static double rate_of(double change_before, double change, double factor) {
-    return change_before/change > 0 ? log(change_before/change)/log(factor) : NAN;
+    return change_before / change > 0 ? log(change_before / change) / log(factor) : NAN;
 }
 
 static double rms_between(int count, const double *a, const double *b) {
     double sum = 0;
-    for (int i = 0; i < count; ++i) sum += (a[i] - b[i])*(a[i] - b[i]);
-    return sqrt(sum/count);
+    for (int i = 0; i < count; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(sum / count);
 }
 
-/* begin a stage: nothing to compare with on other cells; of another parameter the value at rest is the first */
-static void begin_stage(Trail *trail, CpsStudyStage stage, const CpsClassicStep *step, int coarsest) {
+/* begin a stage: nothing to compare with on other cells; of another parameter the value at rest is
+ * the first */
+static void begin_stage(Trail *trail, CpsStudyStage stage, const CpsClassicStep *step,
+                        int coarsest) {
     if (stage >= CPS_STUDY_N) {
         trail->count = 1;
         return;
@@ -105,21 +123,26 @@ static void begin_stage(Trail *trail, CpsStudyStage stage, const CpsClassicStep 
     trail->count = 0;
     trail->samples = stage == CPS_STUDY_H ? coarsest - 1 : step->elements;
     for (int i = 0; i < trail->samples; ++i)
-        trail->place[i] = stage == CPS_STUDY_H ? (i + 1)*step->length/coarsest
-                                               : (step->arc_length[i] + step->arc_length[i + 1])/2;
+        trail->place[i] = stage == CPS_STUDY_H
+                              ? (i + 1) * step->length / coarsest
+                              : (step->arc_length[i] + step->arc_length[i + 1]) / 2;
 }
 
 static void sample(const CpsClassic *classic, const Trail *trail, double *tension) {
     const CpsClassicView view = cps_classic_view(classic);
     for (int i = 0; i < trail->samples; ++i)
-        tension[i] = cpsi_between_middles(view.cells, view.arc_length, view.tension, trail->place[i]);
+        tension[i] =
+            cpsi_between_middles(view.cells, view.arc_length, view.tension, trail->place[i]);
 }
 
 /* take the newest solution in and give the row its rates */
 static void follow(Trail *trail, const CpsClassic *classic, double factor, CpsStudyRow *row) {
     double *oldest = trail->tension[2];
-    trail->tension[2] = trail->tension[1], trail->tension[1] = trail->tension[0], trail->tension[0] = oldest;
-    trail->energy[2] = trail->energy[1], trail->energy[1] = trail->energy[0];
+    trail->tension[2] = trail->tension[1];
+    trail->tension[1] = trail->tension[0];
+    trail->tension[0] = oldest;
+    trail->energy[2] = trail->energy[1];
+    trail->energy[1] = trail->energy[0];
     trail->energy[0] = row->report.total;
     sample(classic, trail, trail->tension[0]);
     trail->change_before = trail->change;
@@ -127,7 +150,8 @@ static void follow(Trail *trail, const CpsClassic *classic, double factor, CpsSt
     ++trail->count;
     row->rate_energy = row->rate_tension = NAN;
     if (trail->count < 3) return;
-    row->rate_energy = rate_of(trail->energy[2] - trail->energy[1], trail->energy[1] - trail->energy[0], factor);
+    row->rate_energy =
+        rate_of(trail->energy[2] - trail->energy[1], trail->energy[1] - trail->energy[0], factor);
     row->rate_tension = rate_of(trail->change_before, trail->change, factor);
 }
 
@@ -136,13 +160,13 @@ static void follow(Trail *trail, const CpsClassic *classic, double factor, CpsSt
 static double seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9*(double)now.tv_nsec;
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 static void lay_view(CpsiArena *arena, int cells, CpsClassicView *view) {
     *view = (CpsClassicView){.cells = cells,
                              .arc_length = CPSI_TAKE(arena, cells + 1, double),
-                             .position = CPSI_TAKE(arena, 3*((size_t)cells + 1), double),
+                             .position = CPSI_TAKE(arena, 3 * ((size_t)cells + 1), double),
                              .tension = CPSI_TAKE(arena, cells, double),
                              .exact = CPSI_TAKE(arena, cells, double)};
 }
@@ -153,9 +177,9 @@ static CpsStatus keep(Kept *kept, const CpsClassicView *view, CpsError *err) {
     lay_view(&arena, view->cells, &copy);
     if (!cpsi_arena_allocate(&arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     lay_view(&arena, view->cells, &copy);
-    const size_t cells = (size_t)view->cells*sizeof(double);
+    const size_t cells = (size_t)view->cells * sizeof(double);
     memcpy((double *)copy.arc_length, view->arc_length, cells + sizeof(double));
-    memcpy((double *)copy.position, view->position, 3*(cells + sizeof(double)));
+    memcpy((double *)copy.position, view->position, 3 * (cells + sizeof(double)));
     memcpy((double *)copy.tension, view->tension, cells);
     memcpy((double *)copy.exact, view->exact, cells);
     *kept = (Kept){arena, copy};
@@ -163,7 +187,8 @@ static CpsStatus keep(Kept *kept, const CpsClassicView *view, CpsError *err) {
 }
 
 /* value k of a stage: its own parameter carried on, the others where they came to rest */
-static void advance(CpsStudyStage stage, const CpsStudyOptions *options, int k, CpsClassicParameters *p) {
+static void advance(CpsStudyStage stage, const CpsStudyOptions *options, int k,
+                    CpsClassicParameters *p) {
     const double factor = options->factor[stage];
     switch (stage) {
     case CPS_STUDY_H:
@@ -175,19 +200,15 @@ static void advance(CpsStudyStage stage, const CpsStudyOptions *options, int k, 
         else
             p->cells = 0; /* the step's elements from here on */
         break;
-    case CPS_STUDY_N:
-        p->stiffness /= factor;
-        break;
-    case CPS_STUDY_DELTA:
-        p->delta /= factor;
-        break;
-    case CPS_STUDY_STAGES:
-        break;
+    case CPS_STUDY_N: p->stiffness /= factor; break;
+    case CPS_STUDY_DELTA: p->delta /= factor; break;
+    case CPS_STUDY_STAGES: break;
     }
 }
 
-static CpsStatus run_stages(CpsClassic *classic, const CpsStudyOptions *options, CpsStudyProgress *progress, void *user,
-                            Trail *trail, CpsStudy *study, CpsError *err) {
+static CpsStatus run_stages(CpsClassic *classic, const CpsStudyOptions *options,
+                            CpsStudyProgress *progress, void *user, Trail *trail, CpsStudy *study,
+                            CpsError *err) {
     const CpsClassicStep step = cps_classic_step(classic);
     CpsClassicParameters p = options->from;
     for (CpsStudyStage stage = CPS_STUDY_H; stage < CPS_STUDY_STAGES; ++stage) {
@@ -197,7 +218,8 @@ static CpsStatus run_stages(CpsClassic *classic, const CpsStudyOptions *options,
             CpsStudyRow *row = &study->row[study->rows];
             *row = (CpsStudyRow){.stage = stage, .parameters = p};
             const double begun = seconds();
-            const CpsStatus status = cps_classic_solve(classic, &p, options->max_iterations, &row->report, err);
+            const CpsStatus status =
+                cps_classic_solve(classic, &p, options->max_iterations, &row->report, err);
             if (status != CPS_OK) return status;
             row->wall = seconds() - begun;
             follow(trail, classic, options->factor[stage], row);
@@ -215,31 +237,35 @@ static CpsStatus check(const CpsStudyOptions *options, CpsError *err) {
     for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
         const char *key = cps_study_stage_key((CpsStudyStage)s);
         if (!(options->values[s] >= 1 && options->values[s] <= MAX_VALUES))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "values of stage %s: found %d, expected 1 to %d", key,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "values of stage %s: found %d, expected 1 to %d", key,
                              options->values[s], (int)MAX_VALUES);
         if (!(options->factor[s] > 1 && isfinite(options->factor[s])))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "factor of stage %s: found %g, expected a number > 1", key,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "factor of stage %s: found %g, expected a number > 1", key,
                              options->factor[s]);
     }
     if (!(options->from.cells >= 2 && options->from.cells <= MAX_COARSEST))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cells to begin with: found %d, expected 2 to %d", options->from.cells,
-                         (int)MAX_COARSEST);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cells to begin with: found %d, expected 2 to %d",
+                         options->from.cells, (int)MAX_COARSEST);
     if (options->factor[CPS_STUDY_H] != 2)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "factor of stage h: found %g, expected 2",
                          options->factor[CPS_STUDY_H]);
     return CPS_OK;
 }
 
-CpsStatus cps_study_run(CpsClassic *classic, const CpsStudyOptions *options, CpsStudyProgress *progress, void *user,
-                        CpsStudy **out, CpsError *err) {
-    if (!classic || !options || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic, options or out is NULL");
+CpsStatus cps_study_run(CpsClassic *classic, const CpsStudyOptions *options,
+                        CpsStudyProgress *progress, void *user, CpsStudy **out, CpsError *err) {
+    if (!classic || !options || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic, options or out is NULL");
     *out = NULL;
     CpsStatus status = check(options, err);
     if (status != CPS_OK) return status;
     CpsStudy *study = calloc(1, sizeof *study);
     const int elements = cps_classic_step(classic).elements;
-    const size_t samples = (size_t)(elements > options->from.cells ? elements : options->from.cells);
-    double *trails = calloc(4*samples, sizeof *trails);
+    const size_t samples =
+        (size_t)(elements > options->from.cells ? elements : options->from.cells);
+    double *trails = calloc(4 * samples, sizeof *trails);
     if (study) {
         for (int s = 0; s < CPS_STUDY_STAGES; ++s) study->room += options->values[s];
         study->row = calloc((size_t)study->room, sizeof *study->row);
@@ -247,7 +273,8 @@ CpsStatus cps_study_run(CpsClassic *classic, const CpsStudyOptions *options, Cps
     if (!study || !trails || !study->row) {
         status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     } else {
-        Trail trail = {.place = trails, .tension = {trails + samples, trails + 2*samples, trails + 3*samples}};
+        Trail trail = {.place = trails,
+                       .tension = {trails + samples, trails + 2 * samples, trails + 3 * samples}};
         status = run_stages(classic, options, progress, user, &trail, study, err);
     }
     free(trails);
@@ -272,5 +299,6 @@ const CpsStudyRow *cps_study_row(const CpsStudy *study, int row) {
 }
 
 CpsClassicView cps_study_stage_end(const CpsStudy *study, CpsStudyStage stage) {
-    return study && stage >= 0 && stage < CPS_STUDY_STAGES ? study->end[stage].view : (CpsClassicView){0};
+    return study && stage >= 0 && stage < CPS_STUDY_STAGES ? study->end[stage].view
+                                                           : (CpsClassicView){0};
 }

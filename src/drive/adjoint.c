@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* B*f of one piece (adjoint.h).
  *
- * A law whose set is flat, a segment say, may be tied to the parameters so that its forces do no work on one of them: the sum over the
- * components is then 0 in exact arithmetic and rounding in floating point. Left in a program whose equations are scaled, that rounding
- * would become a full equation. */
+ * A law whose set is flat, a segment say, may be tied to the parameters so that its forces do no
+ * work on one of them: the sum over the components is then 0 in exact arithmetic and rounding in
+ * floating point. Left in a program whose equations are scaled, that rounding would become a full
+ * equation. */
 #include "drive/adjoint.h"
 
 #include <math.h>
@@ -11,12 +12,14 @@
 
 #include "base/status.h"
 
-/* A sum this small beside its terms is rounding: vectors of a form come from orthogonal bases, right to some tens of eps. */
+/* A sum this small beside its terms is rounding: vectors of a form come from orthogonal bases,
+ * right to some tens of eps. */
 static const double ROUNDING = 1e-13;
 
 CpsStatus cpsi_adjoint_new(const CpsSystem *system, CpsiAdjoint *out, CpsError *err) {
     const size_t n = (size_t)system->n;
-    *out = (CpsiAdjoint){.sum = calloc(2*n + 1, sizeof(double)), .column = calloc(n + 1, sizeof(int))};
+    *out = (CpsiAdjoint){.sum = calloc(2 * n + 1, sizeof(double)),
+                         .column = calloc(n + 1, sizeof(int))};
     if (out->sum && out->column) {
         out->terms = out->sum + n;
         return CPS_OK;
@@ -43,22 +46,24 @@ static void add_row(CpsiAdjoint *adjoint, const CpsiRows *map, int row, double f
         const int column = map->column[e];
         if (map->value[e] == 0) continue;
         if (adjoint->terms[column] == 0) adjoint->column[adjoint->count++] = column;
-        adjoint->sum[column] += map->value[e]*force;
-        adjoint->terms[column] += fabs(map->value[e])*size;
+        adjoint->sum[column] += map->value[e] * force;
+        adjoint->terms[column] += fabs(map->value[e]) * size;
     }
 }
 
-void cpsi_adjoint_apply(CpsiAdjoint *adjoint, const CpsSystem *system, const CpsiPiece *piece, const double *f, size_t stride,
-                        double size) {
+void cpsi_adjoint_apply(CpsiAdjoint *adjoint, const CpsSystem *system, const CpsiPiece *piece,
+                        const double *f, size_t stride, double size) {
     const int base = system->law[piece->law].first + piece->offset;
-    for (int i = 0; i < adjoint->count; i++) adjoint->sum[adjoint->column[i]] = adjoint->terms[adjoint->column[i]] = 0;
+    for (int i = 0; i < adjoint->count; i++)
+        adjoint->sum[adjoint->column[i]] = adjoint->terms[adjoint->column[i]] = 0;
     adjoint->count = 0;
     for (int r = 0; r < piece->space; r++) {
-        const double force = f[(size_t)r*stride];
+        const double force = f[(size_t)r * stride];
         if (force != 0) add_row(adjoint, &system->map, base + r, force, size);
     }
     for (int i = 0; i < adjoint->count; i++) {
         const int column = adjoint->column[i];
-        if (fabs(adjoint->sum[column]) <= ROUNDING*adjoint->terms[column]) adjoint->sum[column] = 0;
+        if (fabs(adjoint->sum[column]) <= ROUNDING * adjoint->terms[column])
+            adjoint->sum[column] = 0;
     }
 }

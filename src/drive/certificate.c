@@ -4,11 +4,12 @@
  * With V any velocity and F_k any forces, r = sum of B_k*F_k + load - D*G - C*lambda,
  *
  *     upper = sum of phi_k(U_k) - <load, V>     >=  gamma                       if D V = W, C V = 0
- *     lower = - <W, G> - sum of phi_k*(-F_k)    <=  gamma                       if r = 0, F_k in C_k
+ *     lower = - <W, G> - sum of phi_k*(-F_k)    <=  gamma
+ *         if r = 0, F_k in C_k
  *
- * What is missing of the conditions is rounding; it is multiplied by what it acts on, |V_i|, |U_k|, |G|, |lambda|,
- * and taken into the bounds, and so is the rounding of their own arithmetic, so that lower <= upper shows an honest
- * gap. */
+ * What is missing of the conditions is rounding; it is multiplied by what it acts on, |V_i|, |U_k|,
+ * |G|, |lambda|, and taken into the bounds, and so is the rounding of their own arithmetic, so that
+ * lower <= upper shows an honest gap. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -19,34 +20,40 @@
 #include "drive/motion.h"
 #include "linsys/small.h"
 
-/* Velocities that one-sided laws forbid count as on the boundary up to this share of the largest velocity. */
+/* Velocities that one-sided laws forbid count as on the boundary up to this share of the largest
+ * velocity. */
 static const double ON_BOUNDARY = 1e-8;
 
-/* Forces that miss equilibrium by more than this share of the largest are not in equilibrium: a hundred times what a solution
- * may be off by. */
+/* Forces that miss equilibrium by more than this share of the largest are not in equilibrium: a
+ * hundred times what a solution may be off by. */
 static const double BALANCED = 1e-6;
 
-/* What closed forms of potentials, conjugates and distances, and the few additions that make a bound of them, may be
- * off by, relative to their size: each is right to a few eps. Sums over rows, columns and laws are in twice the
- * digits. */
-static const double ROUNDING = 16*DBL_EPSILON;
+/* What closed forms of potentials, conjugates and distances, and the few additions that make a
+ * bound of them, may be off by, relative to their size: each is right to a few eps. Sums over rows,
+ * columns and laws are in twice the digits. */
+static const double ROUNDING = 16 * DBL_EPSILON;
 
-static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a certificate"); }
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a certificate");
+}
 
 /* A sum in twice the digits: what additions and products round off is kept beside it. */
 static void add(CpsiSum *sum, double x) {
     const double next = sum->high + x;
-    if (isfinite(next)) sum->low += fabs(sum->high) >= fabs(x) ? (sum->high - next) + x : (x - next) + sum->high;
+    if (isfinite(next))
+        sum->low += fabs(sum->high) >= fabs(x) ? (sum->high - next) + x : (x - next) + sum->high;
     sum->high = next;
 }
 
 static void add_product(CpsiSum *sum, double a, double b) {
-    const double product = a*b;
+    const double product = a * b;
     add(sum, product);
     if (isfinite(product)) sum->low += fma(a, b, -product);
 }
 
-static double total(const CpsiSum *sum) { return isfinite(sum->high) ? sum->high + sum->low : sum->high; }
+static double total(const CpsiSum *sum) {
+    return isfinite(sum->high) ? sum->high + sum->low : sum->high;
+}
 
 /* <row i, x> - y: the residual itself, where <row i, x> alone is rounding of y */
 static double row_residual(const CpsiRows *rows, int i, const double *x, double y) {
@@ -68,7 +75,7 @@ void cpsi_motion_carry(CpsMotion *motion) {
 
 void cpsi_motion_take_forces(CpsMotion *motion, const CpsiDriveProgram *program) {
     const CpsSystem *system = motion->system;
-    memset(motion->law_force, 0, (size_t)system->components*sizeof *motion->law_force);
+    memset(motion->law_force, 0, (size_t)system->components * sizeof *motion->law_force);
     for (int k = 0; k < system->pieces; k++) {
         const CpsiPiece *piece = &system->piece[k];
         double *force = &motion->piece_force[motion->piece_at[k]];
@@ -84,13 +91,17 @@ typedef struct Part {
     double potential, conjugate, outside, forbidden, missing;
 } Part;
 
-/* phi(U) and the distance of F from C by the conic form, F = o + P v: with z of the program, A'z = P'U + e,
+/* phi(U) and the distance of F from C by the conic form, F = o + P v: with z of the program, A'z =
+ * P'U + e,
  *
- *     phi(U) <= -<U, o> + b.z + <e, v'> for every v' of the form,     F is outside by no more than A v + b is
+ *     phi(U) <= -<U, o> + b.z + <e, v'> for every v' of the form,
+ *         F is outside by no more than A v + b is
  *     outside K.
  *
- * For sets without a closed form, and for velocities that the recession of an unbounded set forbids by rounding. */
-static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, int k, const double *u) {
+ * For sets without a closed form, and for velocities that the recession of an unbounded set forbids
+ * by rounding. */
+static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
+                    const double *u) {
     const CpsiForm *form = program->form[k];
     const double *z = cpsi_sparse_program_z(program->program) + program->row[k];
     const double *v = cpsi_sparse_program_x(program->program) + program->first[k];
@@ -99,47 +110,52 @@ static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, in
                  power = program->power / unit; /* v in units of `unit` */
     Part part = {0};
     CpsiSum potential = {0};
-    for (int i = 0; i < form->rows; i++) add_product(&potential, power*form->b[i], z[i]);
+    for (int i = 0; i < form->rows; i++) add_product(&potential, power * form->b[i], z[i]);
     for (int i = 0; i < space; i++) add_product(&potential, -u[i], form->origin[i]);
     part.potential = total(&potential);
     for (int j = 0; j < n; j++) {
         CpsiSum sum = {0};
         for (int i = 0; i < form->rows; i++)
-            add_product(&sum, power*form->a[(size_t)i*(size_t)n + (size_t)j], z[i]);
+            add_product(&sum, power * form->a[(size_t)i * (size_t)n + (size_t)j], z[i]);
         for (int i = 0; i < space; i++)
-            add_product(&sum, -form->p[(size_t)i*(size_t)n + (size_t)j], u[i]);
+            add_product(&sum, -form->p[(size_t)i * (size_t)n + (size_t)j], u[i]);
         const double e = total(&sum);
-        part.forbidden = fmax(part.forbidden, fabs(e)/form->size);
-        part.missing += fabs(e)*unit*(1 + fabs(v[j])); /* v is of order one */
+        part.forbidden = fmax(part.forbidden, fabs(e) / form->size);
+        part.missing += fabs(e) * unit * (1 + fabs(v[j])); /* v is of order one */
     }
     for (int c = 0, i = 0; c < form->cones; i += form->dim[c++]) {
         double first = 0, rest = 0;
         for (int r = 0; r < form->dim[c]; r++) {
-            const double s = form->b[i + r] + unit*cpsi_dot(n, &form->a[(size_t)(i + r)*(size_t)n], v);
-            if (r == 0) first = s;
-            else rest = hypot(rest, s);
+            const double s =
+                form->b[i + r] + unit * cpsi_dot(n, &form->a[(size_t)(i + r) * (size_t)n], v);
+            if (r == 0)
+                first = s;
+            else
+                rest = hypot(rest, s);
         }
-        part.outside = fmax(part.outside, (rest - first)*form->size);
+        part.outside = fmax(part.outside, (rest - first) * form->size);
     }
     return part;
 }
 
-static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *program, int k, const double *u,
-                               const double *f, Part *part, CpsError *err) {
+static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
+                               const double *u, const double *f, Part *part, CpsError *err) {
     const CpsiPiece *piece = &motion->system->piece[k];
     CpsSetAnswer phi, margin;
     CpsStatus status = cps_law_dissipation(piece->set, u, NULL, &phi, err);
     if (status == CPS_OK) status = cps_set_contains(piece->set, f, NULL, &margin, err);
     if (status != CPS_OK) return status;
-    part->potential =
-        phi.outcome == CPS_SET_ANSWERED || phi.outcome == CPS_SET_NOT_ATTAINED ? phi.value + phi.gap : INFINITY;
+    part->potential = phi.outcome == CPS_SET_ANSWERED || phi.outcome == CPS_SET_NOT_ATTAINED
+                          ? phi.value + phi.gap
+                          : INFINITY;
     part->outside = margin.outcome == CPS_SET_ANSWERED ? fmax(0, -margin.value) : INFINITY;
     if (!program || (phi.exact && isfinite(part->potential) && margin.exact)) return CPS_OK;
 
     /* the tighter of two certificates, each with what it leaves open */
     const Part form = by_form(motion, program, k, u);
     if (form.potential + form.missing < part->potential || !isfinite(part->potential)) {
-        part->potential = form.potential, part->missing = form.missing;
+        part->potential = form.potential;
+        part->missing = form.missing;
         if (phi.outcome == CPS_SET_UNBOUNDED) part->forbidden = form.forbidden;
     }
     part->outside = fmin(part->outside, form.outside);
@@ -147,18 +163,20 @@ static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *
 }
 
 /* h*(gauge of C at F), or <F, D^-1 F>/2 */
-static CpsStatus term_conjugate(const CpsiPiece *piece, const double *f, Part *part, CpsError *err) {
+static CpsStatus term_conjugate(const CpsiPiece *piece, const double *f, Part *part,
+                                CpsError *err) {
     const size_t n = (size_t)piece->space;
     if (piece->term->kind == CPSI_VISCOUS) {
-        double *factor = calloc(2*n*n, sizeof *factor), *inverse = factor + n*n;
+        double *factor = calloc(2 * n * n, sizeof *factor), *inverse = factor + n * n;
         if (!factor) return out_of_memory(err);
         if (cpsi_cholesky(piece->space, piece->term->data, factor)) {
             cpsi_lower_inverse(piece->space, factor, inverse);
             for (size_t i = 0; i < n; i++) {
-                const double y = cpsi_dot((int)i + 1, &inverse[i*n], f);
-                part->conjugate += 0.5*y*y;
+                const double y = cpsi_dot((int)i + 1, &inverse[i * n], f);
+                part->conjugate += 0.5 * y * y;
             }
-        } else part->conjugate = INFINITY;
+        } else
+            part->conjugate = INFINITY;
         free(factor);
         return CPS_OK;
     }
@@ -167,21 +185,23 @@ static CpsStatus term_conjugate(const CpsiPiece *piece, const double *f, Part *p
     CpsStatus status = cps_set_gauge(piece->set, f, &gauge, err);
     if (status != CPS_OK) return status;
     /* past the end of a table: brought back, and the way counted as outside */
-    const double end = piece->term->kind == CPSI_TABLE ? piece->term->data[2*piece->term->count - 1] : INFINITY;
+    const double end =
+        piece->term->kind == CPSI_TABLE ? piece->term->data[2 * piece->term->count - 1] : INFINITY;
     const double s = fmin(gauge.value, end);
-    if (gauge.value > end) part->outside = (1 - end/gauge.value)*cpsi_norm(piece->space, f);
+    if (gauge.value > end) part->outside = (1 - end / gauge.value) * cpsi_norm(piece->space, f);
     if (gauge.outcome == CPS_SET_ANSWERED) status = cpsi_term_dual(piece->term, s, &dual, err);
     part->conjugate = dual.value;
     return status;
 }
 
-static CpsStatus piece_part(const CpsMotion *motion, const CpsiDriveProgram *program, int k, Part *part,
-                            CpsError *err) {
+static CpsStatus piece_part(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
+                            Part *part, CpsError *err) {
     const CpsiPiece *piece = &motion->system->piece[k];
     const double *u = &motion->law_velocity[motion->system->law[piece->law].first + piece->offset];
     const double *f = &motion->piece_force[motion->piece_at[k]];
     *part = (Part){0};
-    if (!piece->term || piece->term->kind == CPSI_DRY) return friction_part(motion, program, k, u, f, part, err);
+    if (!piece->term || piece->term->kind == CPSI_DRY)
+        return friction_part(motion, program, k, u, f, part, err);
     return term_conjugate(piece, f, part, err);
 }
 
@@ -191,7 +211,8 @@ typedef struct Totals {
     double terms, missing, gap, dissipated, size, outside, forbidden;
 } Totals;
 
-static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, int l, Totals *totals, CpsError *err) {
+static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, int l,
+                            Totals *totals, CpsError *err) {
     const CpsiSystemLaw *law = &motion->system->law[l];
     const double *u = &motion->law_velocity[law->first], *f = &motion->law_force[law->first];
     CpsMotionShare share = {0};
@@ -221,15 +242,17 @@ static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, 
     motion->share[l] = share;
     add(&totals->potential, share.potential);
     add(&totals->conjugate, conjugate);
-    totals->terms += fabs(share.potential) + fabs(conjugate) + speed*force;
-    totals->missing += share.outside*speed;
+    totals->terms += fabs(share.potential) + fabs(conjugate) + speed * force;
+    totals->missing += share.outside * speed;
     /* phi is taken at U, and V gives it a rounding beside U */
     for (int i = 0; i < law->space; i++)
-        totals->missing += fabs(f[i]*row_residual(&motion->system->map, law->first + i, motion->velocity, u[i]));
+        totals->missing +=
+            fabs(f[i] * row_residual(&motion->system->map, law->first + i, motion->velocity, u[i]));
     totals->gap += share.gap;
     totals->dissipated += share.dissipated;
-    totals->size += speed*force;
-    if (share.outside > 0) totals->outside = cpsi_larger(totals->outside, share.outside/fmax(force, motion->force));
+    totals->size += speed * force;
+    if (share.outside > 0)
+        totals->outside = cpsi_larger(totals->outside, share.outside / fmax(force, motion->force));
     return CPS_OK;
 }
 
@@ -252,23 +275,23 @@ static void measure_balance(CpsMotion *motion, double *above, double *below) {
         const double miss = row_residual(&system->drive, j, motion->velocity, motion->driving[j]);
         add_row(&system->drive, j, -motion->resistance[j], r);
         moved = cpsi_larger(moved, fabs(miss));
-        *above += fabs(miss*motion->resistance[j]);
+        *above += fabs(miss * motion->resistance[j]);
     }
     for (int j = 0; j < system->constraint.rows; j++) {
         const double miss = row_residual(&system->constraint, j, motion->velocity, 0);
         add_row(&system->constraint, j, -motion->constraint[j], r);
         held = cpsi_larger(held, fabs(miss));
-        *above += fabs(miss*motion->constraint[j]);
+        *above += fabs(miss * motion->constraint[j]);
     }
     for (int i = 0; i < system->n; i++) {
         left = cpsi_larger(left, fabs(total(&r[i])));
-        *below += fabs(total(&r[i])*motion->velocity[i]);
+        *below += fabs(total(&r[i]) * motion->velocity[i]);
     }
     const double drive = largest_of(system->drive.rows, motion->driving);
-    report->drive = drive > 0 ? moved/drive : moved;
-    report->constraint = motion->speed > 0 ? held/motion->speed : held;
+    report->drive = drive > 0 ? moved / drive : moved;
+    report->constraint = motion->speed > 0 ? held / motion->speed : held;
     force = fmax(force, motion->force);
-    report->equilibrium = left/force;
+    report->equilibrium = left / force;
 }
 
 CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program, CpsError *err) {
@@ -284,23 +307,32 @@ CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program
         if (status != CPS_OK) return status;
     }
     measure_balance(motion, &above, &below);
-    for (int j = 0; j < system->drive.rows; j++) add_product(&drive, motion->driving[j], motion->resistance[j]);
-    for (int i = 0; i < system->n && system->load; i++) add_product(&load, system->load[i], motion->velocity[i]);
+    for (int j = 0; j < system->drive.rows; j++)
+        add_product(&drive, motion->driving[j], motion->resistance[j]);
+    for (int i = 0; i < system->n && system->load; i++)
+        add_product(&load, system->load[i], motion->velocity[i]);
     const double drive_power = total(&drive);
     report->load_power = total(&load);
-    const double rounding = ROUNDING*(totals.terms + fabs(drive_power) + fabs(report->load_power));
-    report->upper = total(&totals.potential) - report->load_power + above + totals.missing + rounding;
+    const double rounding =
+        ROUNDING * (totals.terms + fabs(drive_power) + fabs(report->load_power));
+    report->upper =
+        total(&totals.potential) - report->load_power + above + totals.missing + rounding;
     report->lower = -drive_power - total(&totals.conjugate) - below - totals.missing - rounding;
     report->value = report->upper;
     report->minimum = report->upper - report->lower;
     report->law = totals.gap;
     report->dissipated = totals.dissipated;
     report->outside = totals.outside;
-    const double forbidden = motion->speed > 0 ? totals.forbidden/motion->speed : totals.forbidden;
+    const double forbidden =
+        motion->speed > 0 ? totals.forbidden / motion->speed : totals.forbidden;
     report->constraint = cpsi_larger(report->constraint, forbidden);
     if (!(forbidden <= ON_BOUNDARY)) report->upper = report->value = report->minimum = INFINITY;
     /* forces that miss balance say nothing about velocities other than V */
-    if (!(report->equilibrium <= BALANCED)) report->lower = -INFINITY, report->minimum = INFINITY;
-    report->scale = fmax(fmax(totals.size, motion->force*motion->driven), fabs(report->load_power) + fabs(drive_power));
+    if (!(report->equilibrium <= BALANCED)) {
+        report->lower = -INFINITY;
+        report->minimum = INFINITY;
+    }
+    report->scale = fmax(fmax(totals.size, motion->force * motion->driven),
+                         fabs(report->load_power) + fabs(drive_power));
     return CPS_OK;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Proposition 1's condition: do the forces in the middle of all that balance lie inside the laws' sets? */
+/* Proposition 1's condition: do the forces in the middle of all that balance lie inside the laws'
+ * sets? */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,7 +8,9 @@
 #include "drive/motion.h"
 #include "linsys/small.h"
 
-static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion"); }
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion");
+}
 
 /* Do the forces of the form fill the space? */
 static CpsStatus full_dimension(const CpsiForm *form, int space, bool *full, CpsError *err) {
@@ -16,12 +19,12 @@ static CpsStatus full_dimension(const CpsiForm *form, int space, bool *full, Cps
         *full = false;
         return CPS_OK;
     }
-    double *rows = malloc((count*n + 1)*sizeof *rows);
+    double *rows = malloc((count * n + 1) * sizeof *rows);
     if (!rows) return out_of_memory(err);
     for (size_t j = 0; j < count; j++)
         for (size_t i = 0; i < n; i++) {
             const size_t u = (size_t)form->unknowns;
-            rows[j*n + i] = j < u ? form->p[i*u + j] : form->q[(j - u)*(size_t)form->n + i];
+            rows[j * n + i] = j < u ? form->p[i * u + j] : form->q[(j - u) * (size_t)form->n + i];
         }
     *full = cpsi_orthonormal_rows((int)count, space, rows, NULL, 1e-9) == space;
     free(rows);
@@ -36,10 +39,11 @@ static double margin_of(const CpsiForm *form, const double *s) {
     return least;
 }
 
-CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsComposition *composition,
-                                  int *iterations, CpsError *err) {
+CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary,
+                                  CpsComposition *composition, int *iterations, CpsError *err) {
     CpsiDriveProgram program;
-    CpsStatus status = cpsi_drive_program_new(system, CPSI_AIM_MIDDLE, NULL, 1, false, &program, err);
+    CpsStatus status =
+        cpsi_drive_program_new(system, CPSI_AIM_MIDDLE, NULL, 1, false, &program, err);
     if (status != CPS_OK) return status;
     cpsi_drive_program_solve(&program);
     *iterations += program.result.iterations;
@@ -52,10 +56,12 @@ CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary, CpsC
         const CpsiPiece *piece = &system->piece[k];
         CpsComposition place = CPS_COMPOSE_INTERIOR;
         /* neighbours of one set have one dimension */
-        if (k == 0 || form != program.form[k - 1]) status = full_dimension(form, piece->space, &full, err);
+        if (k == 0 || form != program.form[k - 1])
+            status = full_dimension(form, piece->space, &full, err);
         if (!full) place = CPS_COMPOSE_RELATIVE_INTERIOR;
         if (margin_of(form, s + program.row[k]) < boundary)
-            place = piece->set && cpsi_law_polyhedral(piece->set) ? CPS_COMPOSE_POLYHEDRAL : CPS_COMPOSE_NOT_SATISFIED;
+            place = piece->set && cpsi_law_polyhedral(piece->set) ? CPS_COMPOSE_POLYHEDRAL
+                                                                  : CPS_COMPOSE_NOT_SATISFIED;
         if (place > *composition) *composition = place;
     }
     cpsi_drive_program_clear(&program);

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A system small enough for dense bases: what the reduced law and the sets of all solutions are written in.
+/* A system small enough for dense bases: what the reduced law and the sets of all solutions are
+ * written in.
  *
  *     V = E W + N y         rows of N orthonormal, D N = 0, C N = 0;  D E = 1, C E = 0
- *     F = F0 + L t          rows of L orthonormal: the forces with N (B*F + load) = 0, in equilibrium for some G,
+ *     F = F0 + L t          rows of L orthonormal: the forces with N (B*F + load) = 0, in
+ *                           equilibrium for some G,
  *     lambda */
 #ifndef CAPSTAN_SRC_DRIVE_DENSE_H
 #define CAPSTAN_SRC_DRIVE_DENSE_H

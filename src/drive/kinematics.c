@@ -11,7 +11,8 @@
 #include "linsys/small.h"
 #include "linsys/sparse.h"
 
-/* Regularisation of dependent rows: above rounding; rows that are nearly dependent need more rounds of refinement. */
+/* Regularisation of dependent rows: above rounding; rows that are nearly dependent need more rounds
+ * of refinement. */
 static const double REGULAR = 1e-12;
 static const int MOST_ROUNDS = 12;
 /* Entries of the factor. */
@@ -19,9 +20,9 @@ static const size_t MOST_ENTRIES = (size_t)500 << 20;
 
 struct CpsiKinematics {
     const CpsSystem *system;
-    CpsiRows rows;     /* R */
-    double *size;      /* (rows) norm of each row as it was given */
-    double *x, *left;  /* (n + rows) */
+    CpsiRows rows;    /* R */
+    double *size;     /* (rows) norm of each row as it was given */
+    double *x, *left; /* (n + rows) */
     CpsiLdl *ldl;
 };
 
@@ -34,18 +35,21 @@ void cpsi_kinematics_free(CpsiKinematics *k) {
     free(k);
 }
 
-static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the kinematics"); }
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the kinematics");
+}
 
 /* How many entries of R. */
 static size_t count_entries(const CpsSystem *system, int *rows) {
-    size_t count = system->drive.start[system->drive.rows] + system->constraint.start[system->constraint.rows];
+    size_t count =
+        system->drive.start[system->drive.rows] + system->constraint.start[system->constraint.rows];
     *rows = system->drive.rows + system->constraint.rows;
     for (int k = 0; k < system->pieces; k++) {
         const CpsiPiece *piece = &system->piece[k];
         const int lines = piece->term ? 0 : system->form[piece->form]->lines;
         const int base = system->law[piece->law].first + piece->offset;
         *rows += lines;
-        count += (size_t)lines*(system->map.start[base + piece->space] - system->map.start[base]);
+        count += (size_t)lines * (system->map.start[base + piece->space] - system->map.start[base]);
     }
     return count;
 }
@@ -61,7 +65,7 @@ static void list_lines(const CpsSystem *system, int first, CpsiAdjoint *adjoint,
         const CpsiPiece *piece = &system->piece[k];
         const CpsiForm *form = piece->term ? NULL : system->form[piece->form];
         for (int l = 0; form && l < form->lines; l++, first++) {
-            cpsi_adjoint_apply(adjoint, system, piece, &form->q[(size_t)l*(size_t)form->n], 1, 1);
+            cpsi_adjoint_apply(adjoint, system, piece, &form->q[(size_t)l * (size_t)form->n], 1, 1);
             for (int i = 0; i < adjoint->count; i++)
                 *(*to)++ = (CpsEntry){first, adjoint->column[i], adjoint->sum[adjoint->column[i]]};
         }
@@ -72,11 +76,12 @@ static CpsStatus write_rows(CpsiKinematics *k, CpsError *err) {
     const CpsSystem *system = k->system;
     int rows;
     const size_t count = count_entries(system, &rows);
-    if (count > MOST_ENTRIES) return cpsi_fail(err, CPS_ERR_LIMIT, "the constraints have %zu entries", count);
+    if (count > MOST_ENTRIES)
+        return cpsi_fail(err, CPS_ERR_LIMIT, "the constraints have %zu entries", count);
     CpsiAdjoint adjoint;
     CpsStatus status = cpsi_adjoint_new(system, &adjoint, err);
     if (status != CPS_OK) return status;
-    CpsEntry *list = malloc((count + 1)*sizeof *list), *at = list;
+    CpsEntry *list = malloc((count + 1) * sizeof *list), *at = list;
     if (!list) {
         cpsi_adjoint_free(&adjoint);
         return out_of_memory(err);
@@ -85,10 +90,11 @@ static CpsStatus write_rows(CpsiKinematics *k, CpsError *err) {
     list_rows(&system->constraint, system->drive.rows, &at);
     list_lines(system, system->drive.rows + system->constraint.rows, &adjoint, &at);
     cpsi_adjoint_free(&adjoint);
-    status = cpsi_rows_append(&k->rows, "constraints", system->n, rows, (int)(at - list), list, err);
+    status =
+        cpsi_rows_append(&k->rows, "constraints", system->n, rows, (int)(at - list), list, err);
     free(list);
-    k->size = malloc(((size_t)rows + 1)*sizeof *k->size);
-    k->x = calloc(2*((size_t)system->n + (size_t)rows), sizeof *k->x);
+    k->size = malloc(((size_t)rows + 1) * sizeof *k->size);
+    k->x = calloc(2 * ((size_t)system->n + (size_t)rows), sizeof *k->x);
     if (status == CPS_OK && (!k->size || !k->x)) status = out_of_memory(err);
     if (status != CPS_OK) return status;
     k->left = k->x + system->n + rows;
@@ -104,23 +110,32 @@ static CpsStatus write_rows(CpsiKinematics *k, CpsError *err) {
 static CpsStatus factorise(CpsiKinematics *k, CpsError *err) {
     const size_t n = (size_t)k->system->n, rows = (size_t)k->rows.rows, all = n + rows;
     const size_t entries = all + k->rows.start[rows];
-    size_t *start = malloc((all + 1)*sizeof *start), at = 0, found = 0;
-    int *index = malloc(entries*sizeof *index);
-    double *value = malloc(entries*sizeof *value);
+    size_t *start = malloc((all + 1) * sizeof *start), at = 0, found = 0;
+    int *index = malloc(entries * sizeof *index);
+    double *value = malloc(entries * sizeof *value);
     signed char *sign = malloc(all);
     bool done = start && index && value && sign;
     if (done) {
-        for (size_t j = 0; j < n; j++) start[j] = at, sign[j] = 1, index[at] = (int)j, value[at++] = 1;
+        for (size_t j = 0; j < n; j++) {
+            start[j] = at;
+            sign[j] = 1;
+            index[at] = (int)j;
+            value[at++] = 1;
+        }
         for (size_t i = 0; i < rows; i++) {
-            start[n + i] = at, sign[n + i] = -1;
-            for (size_t e = k->rows.start[i]; e < k->rows.start[i + 1]; e++)
-                index[at] = k->rows.column[e], value[at++] = k->rows.value[e];
-            index[at] = (int)(n + i), value[at++] = -REGULAR;
+            start[n + i] = at;
+            sign[n + i] = -1;
+            for (size_t e = k->rows.start[i]; e < k->rows.start[i + 1]; e++) {
+                index[at] = k->rows.column[e];
+                value[at++] = k->rows.value[e];
+            }
+            index[at] = (int)(n + i);
+            value[at++] = -REGULAR;
         }
         start[all] = at;
         const CpsiPattern pattern = {.n = (int)all, .start = start, .index = index};
         k->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &found);
-        done = k->ldl && cpsi_ldl_factor(k->ldl, value, sign, 0.1*REGULAR);
+        done = k->ldl && cpsi_ldl_factor(k->ldl, value, sign, 0.1 * REGULAR);
     }
     free(start);
     free(index);
@@ -135,16 +150,20 @@ CpsStatus cpsi_kinematics_new(const CpsSystem *system, CpsiKinematics **out, Cps
     k->system = system;
     CpsStatus status = write_rows(k, err);
     if (status == CPS_OK) status = factorise(k, err);
-    if (status == CPS_OK) *out = k;
-    else cpsi_kinematics_free(k);
+    if (status == CPS_OK)
+        *out = k;
+    else
+        cpsi_kinematics_free(k);
     return status;
 }
 
 /* left (rows) = (W, 0, 0)/size - R V; its largest */
-static double miss(const CpsiKinematics *k, const double *driving, const double *velocity, double *left) {
+static double miss(const CpsiKinematics *k, const double *driving, const double *velocity,
+                   double *left) {
     double largest = 0;
     for (int i = 0; i < k->rows.rows; i++) {
-        left[i] = (i < k->system->drive.rows ? driving[i]/k->size[i] : 0) - cpsi_rows_times(&k->rows, i, velocity);
+        left[i] = (i < k->system->drive.rows ? driving[i] / k->size[i] : 0) -
+                  cpsi_rows_times(&k->rows, i, velocity);
         largest = fmax(largest, fabs(left[i]));
     }
     return largest;
@@ -155,23 +174,27 @@ void cpsi_kinematics_project(CpsiKinematics *k, const double *driving, double *v
     double before = INFINITY;
     for (int round = 0; round < MOST_ROUNDS; round++) {
         const double now = miss(k, driving, velocity, k->x + n);
-        if (!(now > 0) || !(now < 0.5*before)) return;
+        if (!(now > 0) || !(now < 0.5 * before)) return;
         before = now;
-        memset(k->x, 0, (size_t)n*sizeof *k->x);
+        memset(k->x, 0, (size_t)n * sizeof *k->x);
         cpsi_ldl_solve(k->ldl, k->x);
-        for (int i = 0; i < n; i++) k->left[i] = velocity[i], velocity[i] += k->x[i];
+        for (int i = 0; i < n; i++) {
+            k->left[i] = velocity[i];
+            velocity[i] += k->x[i];
+        }
         /* the last round may only add rounding: take it back */
-        if (miss(k, driving, velocity, k->left + n) > now) memcpy(velocity, k->left, (size_t)n*sizeof *velocity);
+        if (miss(k, driving, velocity, k->left + n) > now)
+            memcpy(velocity, k->left, (size_t)n * sizeof *velocity);
     }
 }
 
-double cpsi_kinematics_contradiction(const CpsiKinematics *k, const double *driving, const double *velocity,
-                                     double *drive, double *constraint) {
+double cpsi_kinematics_contradiction(const CpsiKinematics *k, const double *driving,
+                                     const double *velocity, double *drive, double *constraint) {
     const int m = k->system->drive.rows, c = k->system->constraint.rows;
     double *left = k->left + k->system->n, size = 0;
     const double largest = miss(k, driving, velocity, left);
-    for (int i = 0; i < m; i++) size = fmax(size, fabs(driving[i]/k->size[i]));
-    for (int i = 0; drive && i < m; i++) drive[i] = -left[i]/k->size[i];
-    for (int i = 0; constraint && i < c; i++) constraint[i] = -left[m + i]/k->size[m + i];
-    return size > 0 ? largest/size : largest;
+    for (int i = 0; i < m; i++) size = fmax(size, fabs(driving[i] / k->size[i]));
+    for (int i = 0; drive && i < m; i++) drive[i] = -left[i] / k->size[i];
+    for (int i = 0; constraint && i < c; i++) constraint[i] = -left[m + i] / k->size[m + i];
+    return size > 0 ? largest / size : largest;
 }

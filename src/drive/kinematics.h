@@ -2,7 +2,8 @@
 /* Velocities that agree with drive and constraints: the nearest one, by the sparse system
  *
  *     [ I   R' ] [ dV]   [ 0 ]
- *     [ R  -e  ] [ p ] = [ t ]         R = [D; C; lines of the laws' sets], rows of size one, e small
+ *     [ R  -e  ] [ p ] = [ t ]         R = [D; C; lines of the laws' sets], rows of size one, e
+ *         small
  *
  * refined until R dV = t, also where rows depend on each other. */
 #ifndef CAPSTAN_SRC_DRIVE_KINEMATICS_H
@@ -15,12 +16,13 @@ typedef struct CpsiKinematics CpsiKinematics;
 CpsStatus cpsi_kinematics_new(const CpsSystem *system, CpsiKinematics **out, CpsError *err);
 void cpsi_kinematics_free(CpsiKinematics *kinematics);
 
-/* Move V (n) to the nearest velocity with D V = driving, C V = 0 and no velocity along lines of forces. */
+/* Move V (n) to the nearest velocity with D V = driving, C V = 0 and no velocity along lines of
+ * forces. */
 void cpsi_kinematics_project(CpsiKinematics *kinematics, const double *driving, double *velocity);
 
-/* Rows that contradict W leave a residual p of [D; C; lines] V = (W, 0, 0) with R'p = 0: its parts for D and C (NULL
- * where not wanted), relative to |W|; returns the largest. */
-double cpsi_kinematics_contradiction(const CpsiKinematics *kinematics, const double *driving, const double *velocity,
-                                     double *drive, double *constraint);
+/* Rows that contradict W leave a residual p of [D; C; lines] V = (W, 0, 0) with R'p = 0: its parts
+ * for D and C (NULL where not wanted), relative to |W|; returns the largest. */
+double cpsi_kinematics_contradiction(const CpsiKinematics *kinematics, const double *driving,
+                                     const double *velocity, double *drive, double *constraint);
 
 #endif

@@ -10,17 +10,20 @@
 #include "base/status.h"
 #include "drive/kinematics.h"
 
-/* Rows of drive and constraints contradict W beyond this share of it: rounding of W and refinement leave less. */
+/* Rows of drive and constraints contradict W beyond this share of it: rounding of W and refinement
+ * leave less. */
 static const double CONTRADICTION = 1e-9;
 
 /* [m/s] What nothing drives is at rest below this; without W there is no speed to compare with. */
 static const double REST = 1e-12;
 
-/* Bounds that are nearer than this share of the power scale, and as much for each component of the laws, are as near as rounding
- * lets them be. Velocities are then known to its root. */
+/* Bounds that are nearer than this share of the power scale, and as much for each component of the
+ * laws, are as near as rounding lets them be. Velocities are then known to its root. */
 static const double FEW = 1e-12, EACH = 1e-15;
 
-static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion"); }
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion");
+}
 
 const char *cps_motion_outcome_name(CpsMotionOutcome outcome) {
     switch (outcome) {
@@ -57,11 +60,12 @@ void cps_motion_destroy(CpsMotion *motion) {
     free(motion);
 }
 
-static CpsStatus motion_new(const CpsSystem *system, const double *driving, CpsMotion **out, CpsError *err) {
+static CpsStatus motion_new(const CpsSystem *system, const double *driving, CpsMotion **out,
+                            CpsError *err) {
     CpsMotion *motion = calloc(1, sizeof *motion);
     if (!motion) return out_of_memory(err);
-    const size_t n = (size_t)system->n, m = (size_t)system->drive.rows, rows = (size_t)system->constraint.rows,
-                 components = (size_t)system->components;
+    const size_t n = (size_t)system->n, m = (size_t)system->drive.rows,
+                 rows = (size_t)system->constraint.rows, components = (size_t)system->components;
     size_t forces = 0;
     motion->system = system;
     motion->piece_at = calloc((size_t)system->pieces + 1, sizeof *motion->piece_at);
@@ -71,7 +75,8 @@ static CpsStatus motion_new(const CpsSystem *system, const double *driving, CpsM
         forces += (size_t)system->piece[k].space;
     }
     motion->balance = calloc(n + 1, sizeof *motion->balance);
-    motion->driving = calloc(2*m + 2*n + rows + 2*components + forces + 1, sizeof *motion->driving);
+    motion->driving =
+        calloc(2 * m + 2 * n + rows + 2 * components + forces + 1, sizeof *motion->driving);
     if (!motion->driving || !motion->balance || !motion->piece_at || !motion->share) {
         cps_motion_destroy(motion);
         return out_of_memory(err);
@@ -83,7 +88,7 @@ static CpsStatus motion_new(const CpsSystem *system, const double *driving, CpsM
     motion->law_velocity = motion->constraint + rows;
     motion->law_force = motion->law_velocity + components;
     motion->piece_force = motion->law_force + components;
-    if (m > 0) memcpy(motion->driving, driving, m*sizeof *driving);
+    if (m > 0) memcpy(motion->driving, driving, m * sizeof *driving);
     motion->report.load_factor = INFINITY;
     motion->report.composition = CPS_COMPOSE_NOT_SATISFIED;
     *out = motion;
@@ -101,7 +106,8 @@ static double force_size(const CpsSystem *system) {
     double size = system->load ? largest_of(system->n, system->load) : 0;
     for (int k = 0; k < system->forms; k++) {
         bool bounded = false; /* a cone has no size */
-        for (int i = 0; i < system->form[k]->rows; i++) bounded = bounded || system->form[k]->b[i] != 0;
+        for (int i = 0; i < system->form[k]->rows; i++)
+            bounded = bounded || system->form[k]->b[i] != 0;
         if (bounded) size = fmax(size, system->form[k]->size);
     }
     return size > 0 ? size : 1;
@@ -119,36 +125,44 @@ static void block(CpsMotionReport *report) {
 static void start_velocity(CpsMotion *motion, CpsiKinematics *kinematics) {
     cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
     motion->speed = motion->driven = largest_of(motion->system->n, motion->velocity);
-    const double left = cpsi_kinematics_contradiction(kinematics, motion->driving, motion->velocity, motion->resistance,
-                                                      motion->constraint);
-    if (left > CONTRADICTION) block(&motion->report);
+    const double left = cpsi_kinematics_contradiction(kinematics, motion->driving, motion->velocity,
+                                                      motion->resistance, motion->constraint);
+    if (left > CONTRADICTION)
+        block(&motion->report);
     else if (motion->system->drive.rows > 0 || motion->system->constraint.rows > 0) {
-        memset(motion->resistance, 0, (size_t)motion->system->drive.rows*sizeof *motion->resistance);
-        memset(motion->constraint, 0, (size_t)motion->system->constraint.rows*sizeof *motion->constraint);
+        memset(motion->resistance, 0,
+               (size_t)motion->system->drive.rows * sizeof *motion->resistance);
+        memset(motion->constraint, 0,
+               (size_t)motion->system->constraint.rows * sizeof *motion->constraint);
     }
 }
 
-/* The largest factor on the load. Where it is below one, V of the program has <load, V> = 1 and phi(V) = factor: a proof,
- * where phi(V) < <load, V> beyond rounding. */
-static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, double band, CpsError *err) {
+/* The largest factor on the load. Where it is below one, V of the program has <load, V> = 1 and
+ * phi(V) = factor: a proof, where phi(V) < <load, V> beyond rounding. */
+static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, double band,
+                              CpsError *err) {
     CpsMotionReport *report = &motion->report;
     CpsiDriveProgram program;
-    CpsStatus status = cpsi_drive_program_new(motion->system, CPSI_AIM_FACTOR, NULL, 1, false, &program, err);
+    CpsStatus status =
+        cpsi_drive_program_new(motion->system, CPSI_AIM_FACTOR, NULL, 1, false, &program, err);
     if (status != CPS_OK) return status;
     cpsi_drive_program_solve(&program);
     report->iterations += program.result.iterations;
     const CpsiConicOutcome outcome = program.result.outcome;
-    if (outcome == CPSI_CONIC_SOLVED) report->load_factor = cpsi_drive_program_factor(&program);
-    else if (outcome != CPSI_CONIC_UNBOUNDED) report->load_factor = NAN;
+    if (outcome == CPSI_CONIC_SOLVED)
+        report->load_factor = cpsi_drive_program_factor(&program);
+    else if (outcome != CPSI_CONIC_UNBOUNDED)
+        report->load_factor = NAN;
     if (outcome == CPSI_CONIC_FAILED) report->outcome = CPS_MOTION_INACCURATE;
     if (report->load_factor < 1 + band) report->outcome = CPS_MOTION_LIMIT_LOAD;
     if (report->load_factor < 1) {
         const size_t m = (size_t)motion->system->drive.rows;
-        double *driving = malloc((m + 1)*sizeof *driving);
-        if (!driving) status = out_of_memory(err);
+        double *driving = malloc((m + 1) * sizeof *driving);
+        if (!driving)
+            status = out_of_memory(err);
         else {
-            memcpy(driving, motion->driving, m*sizeof *driving);
-            memset(motion->driving, 0, m*sizeof *driving);
+            memcpy(driving, motion->driving, m * sizeof *driving);
+            memset(motion->driving, 0, m * sizeof *driving);
             cpsi_drive_program_velocity(&program, motion->velocity);
             cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
             cpsi_motion_take_forces(motion, &program);
@@ -157,7 +171,7 @@ static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, dou
                 report->outcome = CPS_MOTION_NO_BALANCE;
                 report->value = report->lower = report->upper = -INFINITY;
             } else {
-                memcpy(motion->driving, driving, m*sizeof *driving);
+                memcpy(motion->driving, driving, m * sizeof *driving);
                 start_velocity(motion, kinematics);
             }
         }
@@ -173,89 +187,111 @@ static bool has_resistance(const CpsSystem *system) {
     return false;
 }
 
-/* Are the bounds near, and is what they are made of admissible? `least`: a power that does not count. */
+/* Are the bounds near, and is what they are made of admissible? `least`: a power that does not
+ * count. */
 static bool close_enough(const CpsMotionReport *report, double tolerance, double least) {
     const double residual = cpsi_larger(cpsi_larger(report->drive, report->constraint),
                                         cpsi_larger(report->equilibrium, report->outside));
-    return report->minimum <= tolerance*fmax(fmax(report->scale, fabs(report->value)), least) && residual <= tolerance;
+    return report->minimum <= tolerance * fmax(fmax(report->scale, fabs(report->value)), least) &&
+           residual <= tolerance;
 }
 
 /* The program itself, with velocities of size `speed`, and the bounds of what comes out. */
-static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double speed, bool even, bool still,
-                         CpsError *err) {
+static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double speed, bool even,
+                         bool still, CpsError *err) {
     CpsMotionReport *report = &motion->report;
     CpsiDriveProgram program;
-    CpsStatus status =
-        cpsi_drive_program_new(motion->system, CPSI_AIM_MOTION, motion->driving, speed, even, &program, err);
+    CpsStatus status = cpsi_drive_program_new(motion->system, CPSI_AIM_MOTION, motion->driving,
+                                              speed, even, &program, err);
     if (status != CPS_OK) return status;
     cpsi_drive_program_solve(&program);
     report->iterations += program.result.iterations;
     if (!still) {
         cpsi_drive_program_velocity(&program, motion->velocity);
-        if (program.result.outcome == CPSI_CONIC_SOLVED || program.result.outcome == CPSI_CONIC_FAILED)
+        if (program.result.outcome == CPSI_CONIC_SOLVED ||
+            program.result.outcome == CPSI_CONIC_FAILED)
             cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
         if (motion->speed == 0 && largest_of(motion->system->n, motion->velocity) <= REST)
-            memset(motion->velocity, 0, (size_t)motion->system->n*sizeof *motion->velocity);
+            memset(motion->velocity, 0, (size_t)motion->system->n * sizeof *motion->velocity);
     }
     cpsi_motion_take_forces(motion, &program);
-    if (program.result.outcome == CPSI_CONIC_UNBOUNDED) block(report);
-    else status = cpsi_motion_certify(motion, &program, err);
+    if (program.result.outcome == CPSI_CONIC_UNBOUNDED)
+        block(report);
+    else
+        status = cpsi_motion_certify(motion, &program, err);
     cpsi_drive_program_clear(&program);
     return status;
 }
 
-/* An attempt as it was begun, and how good it was: bounds within the tolerance, the distance between them. */
+/* An attempt as it was begun, and how good it was: bounds within the tolerance, the distance
+ * between them. */
 typedef struct Trial {
     CpsMotion *motion;
     CpsiKinematics *kinematics;
-    double first;             /* the speed that it is compared with before a motion is known */
+    double first; /* the speed that it is compared with before a motion is known */
     CpsMotionOutcome so_far;
-    double tolerance, least;  /* of close_enough */
+    double tolerance, least; /* of close_enough */
     bool still;
 } Trial;
 
 static CpsStatus try_once(const Trial *trial, double speed, bool even, bool *near, CpsError *err) {
     trial->motion->speed = trial->first;
     trial->motion->report.outcome = trial->so_far;
-    const CpsStatus status = attempt(trial->motion, trial->kinematics, speed, even, trial->still, err);
-    *near = status == CPS_OK && close_enough(&trial->motion->report, trial->tolerance, trial->least);
+    const CpsStatus status =
+        attempt(trial->motion, trial->kinematics, speed, even, trial->still, err);
+    *near =
+        status == CPS_OK && close_enough(&trial->motion->report, trial->tolerance, trial->least);
     return status;
 }
 
-/* Equations divided each by its own forces tell strong laws from weak ones best; where a weak law's equation decides velocities
- * that a strong one resists, one divisor for all does. So where the first leaves bounds farther apart than rounding does, the
- * second is tried as well, and the one with the nearer bounds is taken. */
+/* Equations divided each by its own forces tell strong laws from weak ones best; where a weak law's
+ * equation decides velocities that a strong one resists, one divisor for all does. So where the
+ * first leaves bounds farther apart than rounding does, the second is tried as well, and the one
+ * with the nearer bounds is taken. */
 static CpsStatus try_both(const Trial *trial, double speed, bool *near, CpsError *err) {
     const CpsMotionReport *report = &trial->motion->report;
     CpsStatus status = try_once(trial, speed, false, near, err);
     if (status != CPS_OK || report->outcome == CPS_MOTION_BLOCKED) return status;
-    if (*near && report->minimum <= (FEW + EACH*trial->motion->system->components)*report->scale) return CPS_OK;
+    if (*near &&
+        report->minimum <= (FEW + EACH * trial->motion->system->components) * report->scale)
+        return CPS_OK;
     const double apart = *near ? report->minimum : INFINITY;
     status = try_once(trial, speed, true, near, err);
-    if (status != CPS_OK || report->outcome == CPS_MOTION_BLOCKED || (*near && report->minimum < apart)) return status;
+    if (status != CPS_OK || report->outcome == CPS_MOTION_BLOCKED ||
+        (*near && report->minimum < apart))
+        return status;
     return isfinite(apart) ? try_once(trial, speed, false, near, err) : CPS_OK;
 }
 
-/* A motion. The size of velocities is a guess, and only resistances are about it: another one where it was wrong. */
-static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics, const CpsMotionOptions *options, CpsError *err) {
+/* A motion. The size of velocities is a guess, and only resistances are about it: another one where
+ * it was wrong. */
+static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics,
+                      const CpsMotionOptions *options, CpsError *err) {
     static const double GUESS[] = {1, 100, 0.01, 1e4};
     const double speed = motion->speed > 0 ? motion->speed : 1;
     const bool resistance = has_resistance(motion->system);
-    /* nothing drives, and no load gives power at a rate that a resistance would have to match: rest is a solution */
+    /* nothing drives, and no load gives power at a rate that a resistance would have to match: rest
+     * is a solution */
     const bool still = motion->speed == 0 && !(resistance && cpsi_system_loaded(motion->system));
-    const Trial trial = {.motion = motion, .kinematics = kinematics, .first = motion->speed, .so_far = motion->report.outcome,
-                         .tolerance = options->tolerance, .least = motion->force*REST, .still = still};
-    for (size_t k = 0; k < (resistance ? sizeof GUESS/sizeof *GUESS : 1); k++) {
+    const Trial trial = {.motion = motion,
+                         .kinematics = kinematics,
+                         .first = motion->speed,
+                         .so_far = motion->report.outcome,
+                         .tolerance = options->tolerance,
+                         .least = motion->force * REST,
+                         .still = still};
+    for (size_t k = 0; k < (resistance ? sizeof GUESS / sizeof *GUESS : 1); k++) {
         bool near = false;
-        const CpsStatus status = try_both(&trial, speed*GUESS[k], &near, err);
+        const CpsStatus status = try_both(&trial, speed * GUESS[k], &near, err);
         if (status != CPS_OK || motion->report.outcome == CPS_MOTION_BLOCKED || near) return status;
         motion->report.outcome = CPS_MOTION_INACCURATE;
     }
     return CPS_OK;
 }
 
-CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving, const CpsMotionOptions *options,
-                           CpsMotion **out, CpsiKinematics **kinematics, CpsError *err) {
+CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving,
+                           const CpsMotionOptions *options, CpsMotion **out,
+                           CpsiKinematics **kinematics, CpsError *err) {
     CpsMotion *motion = NULL;
     CpsiKinematics *made = NULL;
     CpsStatus status = motion_new(system, driving, &motion, err);
@@ -266,7 +302,8 @@ CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving, const
         /* can the load be balanced at all, and with which forces in hand? */
         if (motion->report.outcome == CPS_MOTION_SOLVED && cpsi_system_loaded(system))
             status = balance_load(motion, made, options->boundary, err);
-        motion->possible = motion->report.outcome == CPS_MOTION_SOLVED || motion->report.outcome == CPS_MOTION_LIMIT_LOAD;
+        motion->possible = motion->report.outcome == CPS_MOTION_SOLVED ||
+                           motion->report.outcome == CPS_MOTION_LIMIT_LOAD;
         if (status == CPS_OK && motion->possible) status = move(motion, made, options, err);
     }
     if (status == CPS_OK) {
@@ -281,16 +318,28 @@ CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving, const
 
 /* ---- views ---- */
 
-const CpsMotionReport *cps_motion_report(const CpsMotion *motion) { return motion ? &motion->report : NULL; }
-const double *cps_motion_velocity(const CpsMotion *motion) { return motion ? motion->velocity : NULL; }
+const CpsMotionReport *cps_motion_report(const CpsMotion *motion) {
+    return motion ? &motion->report : NULL;
+}
+const double *cps_motion_velocity(const CpsMotion *motion) {
+    return motion ? motion->velocity : NULL;
+}
 const double *cps_motion_direction(const CpsMotion *motion) {
     return motion && motion->report.outcome == CPS_MOTION_NOT_ATTAINED ? motion->direction : NULL;
 }
-const double *cps_motion_resistance(const CpsMotion *motion) { return motion ? motion->resistance : NULL; }
-const double *cps_motion_constraint_forces(const CpsMotion *motion) { return motion ? motion->constraint : NULL; }
-int cps_motion_constraints(const CpsMotion *motion) { return motion ? motion->system->constraint.rows : 0; }
+const double *cps_motion_resistance(const CpsMotion *motion) {
+    return motion ? motion->resistance : NULL;
+}
+const double *cps_motion_constraint_forces(const CpsMotion *motion) {
+    return motion ? motion->constraint : NULL;
+}
+int cps_motion_constraints(const CpsMotion *motion) {
+    return motion ? motion->system->constraint.rows : 0;
+}
 
-static bool has_law(const CpsMotion *motion, int k) { return motion && k >= 0 && k < motion->system->laws; }
+static bool has_law(const CpsMotion *motion, int k) {
+    return motion && k >= 0 && k < motion->system->laws;
+}
 
 const double *cps_motion_law_velocity(const CpsMotion *motion, int k) {
     return has_law(motion, k) ? &motion->law_velocity[motion->system->law[k].first] : NULL;

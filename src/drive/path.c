@@ -1,26 +1,29 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A system along a path W(t): one motion per interval, and the ledger of its work.
  *
- * The power of the balance (drive.h) with V is  -<W, G> + <load, V> = - sum <U_k, F_k>: what device and load give is
- * what the laws take. */
+ * The power of the balance (drive.h) with V is  -<W, G> + <load, V> = - sum <U_k, F_k>: what device
+ * and load give is what the laws take. */
 #include <math.h>
 
 #include "base/status.h"
 #include "capstan/drive.h"
 
-static CpsStatus check(const CpsSystem *system, int count, const double *duration, const double *driving,
-                       CpsError *err) {
-    if (count < 1) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path: %d intervals, expected at least 1", count);
+static CpsStatus check(const CpsSystem *system, int count, const double *duration,
+                       const double *driving, CpsError *err) {
+    if (count < 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "path: %d intervals, expected at least 1", count);
     const int m = cps_system_drive_space(system);
     for (int i = 0; i < count; i++) {
         if (!(duration[i] > 0) || !isfinite(duration[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "path: interval %d lasts %g s, expected a positive finite time",
-                             i + 1, duration[i]);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "path: interval %d lasts %g s, expected a positive finite time", i + 1,
+                             duration[i]);
         for (int k = 0; k < m; k++)
             if (!isfinite(driving[(size_t)i * (size_t)m + (size_t)k]))
-                return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                                 "path: interval %d: component %d of W is %g, expected a finite number", i + 1, k + 1,
-                                 driving[(size_t)i * (size_t)m + (size_t)k]);
+                return cpsi_fail(
+                    err, CPS_ERR_ARGUMENT,
+                    "path: interval %d: component %d of W is %g, expected a finite number", i + 1,
+                    k + 1, driving[(size_t)i * (size_t)m + (size_t)k]);
     }
     return CPS_OK;
 }
@@ -40,14 +43,16 @@ static CpsPathStep account(const CpsMotion *motion, const double *w, int m, doub
 }
 
 static bool has_motion(CpsMotionOutcome outcome) {
-    return outcome != CPS_MOTION_NO_BALANCE && outcome != CPS_MOTION_BLOCKED && outcome != CPS_MOTION_NOT_ATTAINED;
+    return outcome != CPS_MOTION_NO_BALANCE && outcome != CPS_MOTION_BLOCKED &&
+           outcome != CPS_MOTION_NOT_ATTAINED;
 }
 
-CpsStatus cps_system_drive_path(const CpsSystem *system, int count, const double *duration, const double *driving,
-                                const CpsMotionOptions *options, CpsPathStep *step, double *travel, int *done,
-                                CpsError *err) {
+CpsStatus cps_system_drive_path(const CpsSystem *system, int count, const double *duration,
+                                const double *driving, const CpsMotionOptions *options,
+                                CpsPathStep *step, double *travel, int *done, CpsError *err) {
     if (!system || !duration || !driving || !step || !done)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "path: system, duration, driving, step and done are all needed");
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "path: system, duration, driving, step and done are all needed");
     *done = 0;
     CpsStatus status = check(system, count, duration, driving, err);
     const int n = cps_system_parameters(system), m = cps_system_drive_space(system);
@@ -64,7 +69,8 @@ CpsStatus cps_system_drive_path(const CpsSystem *system, int count, const double
             const double *v = cps_motion_velocity(motion);
             for (int k = 0; travel && k < n; k++)
                 travel[(size_t)i * (size_t)n + (size_t)k] =
-                    (i > 0 ? travel[(size_t)(i - 1) * (size_t)n + (size_t)k] : 0) + duration[i] * v[k];
+                    (i > 0 ? travel[(size_t)(i - 1) * (size_t)n + (size_t)k] : 0) +
+                    duration[i] * v[k];
         }
         cps_motion_destroy(motion);
         if (!has_motion(outcome)) break;

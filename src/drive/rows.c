@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Entries are checked, sorted by row and column and added up where they meet; arrays double as they grow. */
+/* Entries are checked, sorted by row and column and added up where they meet; arrays double as they
+ * grow. */
 #include "drive/rows.h"
 
 #include <limits.h>
@@ -9,20 +10,24 @@
 
 #include "base/status.h"
 
-static CpsStatus check(const char *what, int n, int more, int count, const CpsEntry *entry, CpsError *err) {
+static CpsStatus check(const char *what, int n, int more, int count, const CpsEntry *entry,
+                       CpsError *err) {
     if (more < 0 || count < 0 || (count > 0 && !entry))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: %d rows with %d entries, expected at least 0 and a list", what,
-                         more, count);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: %d rows with %d entries, expected at least 0 and a list", what, more,
+                         count);
     for (int e = 0; e < count; e++) {
         if (entry[e].row < 0 || entry[e].row >= more)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: entry %d is in row %d, expected from 0 to %d", what, e,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s: entry %d is in row %d, expected from 0 to %d", what, e,
                              entry[e].row, more - 1);
         if (entry[e].column < 0 || entry[e].column >= n)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: entry %d is in column %d, expected from 0 to %d", what, e,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s: entry %d is in column %d, expected from 0 to %d", what, e,
                              entry[e].column, n - 1);
         if (!isfinite(entry[e].value))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: entry %d is %g, expected a finite number", what, e,
-                             entry[e].value);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: entry %d is %g, expected a finite number",
+                             what, e, entry[e].value);
     }
     return CPS_OK;
 }
@@ -30,9 +35,9 @@ static CpsStatus check(const char *what, int n, int more, int count, const CpsEn
 /* Room for `need` items of `size` bytes, doubling. */
 static bool grow(void **items, size_t *room, size_t need, size_t size) {
     if (need <= *room) return true;
-    const size_t target = need > 2**room ? need : 2**room;
-    if (target > SIZE_MAX/2/size) return false;
-    void *more = realloc(*items, target*size);
+    const size_t target = need > 2 * *room ? need : 2 * *room;
+    if (target > SIZE_MAX / 2 / size) return false;
+    void *more = realloc(*items, target * size);
     if (!more) return false;
     *items = more;
     *room = target;
@@ -43,7 +48,8 @@ static bool make_room(CpsiRows *rows, size_t more, size_t count) {
     const size_t used = rows->rows > 0 ? rows->start[rows->rows] : 0, need = used + count;
     size_t room = rows->room;
     const bool fresh = !rows->start;
-    bool done = grow((void **)&rows->start, &rows->row_room, (size_t)rows->rows + more + 1, sizeof *rows->start);
+    bool done = grow((void **)&rows->start, &rows->row_room, (size_t)rows->rows + more + 1,
+                     sizeof *rows->start);
     if (done && fresh) rows->start[0] = 0;
     if (done) done = grow((void **)&rows->column, &room, need, sizeof *rows->column);
     room = rows->room;
@@ -58,27 +64,31 @@ static int by_place(const void *a, const void *b) {
     return (x->column > y->column) - (x->column < y->column);
 }
 
-CpsStatus cpsi_rows_append(CpsiRows *rows, const char *what, int n, int more, int count, const CpsEntry *entry,
-                           CpsError *err) {
+CpsStatus cpsi_rows_append(CpsiRows *rows, const char *what, int n, int more, int count,
+                           const CpsEntry *entry, CpsError *err) {
     const CpsStatus status = check(what, n, more, count, entry, err);
     if (status != CPS_OK) return status;
-    if (more > INT_MAX/4 - rows->rows)
-        return cpsi_fail(err, CPS_ERR_LIMIT, "%s: more than %d rows", what, INT_MAX/4);
-    CpsEntry *sorted = malloc(((size_t)count + 1)*sizeof *sorted);
+    if (more > INT_MAX / 4 - rows->rows)
+        return cpsi_fail(err, CPS_ERR_LIMIT, "%s: more than %d rows", what, INT_MAX / 4);
+    CpsEntry *sorted = malloc(((size_t)count + 1) * sizeof *sorted);
     if (!sorted || !make_room(rows, (size_t)more, (size_t)count)) {
         free(sorted);
         return cpsi_fail(err, CPS_ERR_MEMORY, "%s: no memory for %d entries", what, count);
     }
     if (count > 0) {
-        memcpy(sorted, entry, (size_t)count*sizeof *sorted);
+        memcpy(sorted, entry, (size_t)count * sizeof *sorted);
         qsort(sorted, (size_t)count, sizeof *sorted, by_place);
     }
     size_t at = rows->start[rows->rows];
     for (int r = 0, e = 0; r < more; r++) {
         const size_t begin = at;
         for (; e < count && sorted[e].row == r; e++) {
-            if (at > begin && rows->column[at - 1] == sorted[e].column) rows->value[at - 1] += sorted[e].value;
-            else rows->column[at] = sorted[e].column, rows->value[at++] = sorted[e].value;
+            if (at > begin && rows->column[at - 1] == sorted[e].column) {
+                rows->value[at - 1] += sorted[e].value;
+            } else {
+                rows->column[at] = sorted[e].column;
+                rows->value[at++] = sorted[e].value;
+            }
         }
         rows->start[++rows->rows] = at;
     }
@@ -95,10 +105,12 @@ void cpsi_rows_free(CpsiRows *rows) {
 
 double cpsi_rows_times(const CpsiRows *rows, int i, const double *x) {
     double sum = 0;
-    for (size_t e = rows->start[i]; e < rows->start[i + 1]; e++) sum += rows->value[e]*x[rows->column[e]];
+    for (size_t e = rows->start[i]; e < rows->start[i + 1]; e++)
+        sum += rows->value[e] * x[rows->column[e]];
     return sum;
 }
 
 void cpsi_rows_add(const CpsiRows *rows, int i, double factor, double *out) {
-    for (size_t e = rows->start[i]; e < rows->start[i + 1]; e++) out[rows->column[e]] += factor*rows->value[e];
+    for (size_t e = rows->start[i]; e < rows->start[i + 1]; e++)
+        out[rows->column[e]] += factor * rows->value[e];
 }

@@ -5,7 +5,8 @@
 
 #include "capstan/drive.h"
 
-/* Row i: entries start[i] .. start[i + 1], each column once, in increasing order. Zeroed, it has no rows. */
+/* Row i: entries start[i] .. start[i + 1], each column once, in increasing order. Zeroed, it has no
+ * rows. */
 typedef struct CpsiRows {
     int rows;
     size_t row_room, room;
@@ -14,10 +15,10 @@ typedef struct CpsiRows {
     double *value;
 } CpsiRows;
 
-/* Append `rows` rows from entries whose rows count from 0 and whose columns are below n; entries at one place add
- * up. On failure nothing has changed. `what` names them in messages. */
-CpsStatus cpsi_rows_append(CpsiRows *rows, const char *what, int n, int more, int count, const CpsEntry *entry,
-                           CpsError *err);
+/* Append `rows` rows from entries whose rows count from 0 and whose columns are below n; entries at
+ * one place add up. On failure nothing has changed. `what` names them in messages. */
+CpsStatus cpsi_rows_append(CpsiRows *rows, const char *what, int n, int more, int count,
+                           const CpsEntry *entry, CpsError *err);
 void cpsi_rows_free(CpsiRows *rows);
 
 /* <row i, x> */

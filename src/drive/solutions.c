@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* All motions and all forces for one W.
  *
- * Solutions come in pairs freely: every V of a solution goes with every F of another (phi(V) = - <V, F> for both,
- * Proposition 2). So with one pair (V*, F*), in coordinates V = V* + N y, F = F* + L t of dense.h,
+ * Solutions come in pairs freely: every V of a solution goes with every F of another (phi(V) = -
+ * <V, F> for both, Proposition 2). So with one pair (V*, F*), in coordinates V = V* + N y, F = F* +
+ * L t of dense.h,
  *
  *     motions   { y : -(U* + B N y) in N_C(F*) }          an intersection of preimages of cones
  *     forces    { t : F* + L t in the face of C at -U* }   an intersection of preimages of faces
  *
- * U* and F* are known to rounding, so a cone or face is moved to the nearest place where it holds them; how far is
- * reported. */
+ * U* and F* are known to rounding, so a cone or face is moved to the nearest place where it holds
+ * them; how far is reported. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,26 +56,29 @@ static void clear(Gather *g) {
     cpsi_dense_clear(&g->dense);
 }
 
-static CpsStatus begin(const CpsMotion *motion, double tolerance, bool forces, Gather *g, CpsError *err) {
+static CpsStatus begin(const CpsMotion *motion, double tolerance, bool forces, Gather *g,
+                       CpsError *err) {
     *g = (Gather){.motion = motion, .tolerance = tolerance > 0 ? tolerance : TOLERANCE};
     g->found.tolerance = g->tolerance;
     if (!(tolerance >= 0) || !(tolerance < 1))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tolerance is %g, expected 0, or a number between 0 and 1", tolerance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the tolerance is %g, expected 0, or a number between 0 and 1", tolerance);
     CpsStatus status = cpsi_dense_new(motion->system, &g->dense, err);
     if (status != CPS_OK) return status;
     const CpsiDense *d = &g->dense;
     g->space = forces ? d->balanced : d->free;
     g->basis = forces ? d->forces : d->kernel;
-    g->map = calloc(((size_t)g->space + 1)*(size_t)d->components + 1, sizeof *g->map);
+    g->map = calloc(((size_t)g->space + 1) * (size_t)d->components + 1, sizeof *g->map);
     g->part = calloc((size_t)motion->system->pieces + 1, sizeof *g->part);
     if (!g->map || !g->part) return out_of_memory(err);
-    g->point = g->map + (size_t)g->space*(size_t)d->components;
+    g->point = g->map + (size_t)g->space * (size_t)d->components;
     return CPS_OK;
 }
 
-/* Require of the coordinates that x + map (y or t) lies in `set`, moved so that x does; `size` is what "how far" is
- * relative to. */
-static CpsStatus require(Gather *g, const CpsSet *set, const double *x, double size, CpsError *err) {
+/* Require of the coordinates that x + map (y or t) lies in `set`, moved so that x does; `size` is
+ * what "how far" is relative to. */
+static CpsStatus require(Gather *g, const CpsSet *set, const double *x, double size,
+                         CpsError *err) {
     CpsSetAnswer near;
     CpsStatus status = cps_set_project(set, x, NULL, g->point, &near, err);
     if (status != CPS_OK) return status;
@@ -82,7 +86,8 @@ static CpsStatus require(Gather *g, const CpsSet *set, const double *x, double s
         g->found.outcome = near.outcome;
         return CPS_OK;
     }
-    if (near.value > 0) g->found.moved = fmax(g->found.moved, size > 0 ? near.value/size : near.value);
+    if (near.value > 0)
+        g->found.moved = fmax(g->found.moved, size > 0 ? near.value / size : near.value);
     if (g->space == 0) return CPS_OK;
     status = cps_set_preimage(g->space, g->map, g->point, set, &g->part[g->parts], err);
     if (status == CPS_OK) g->parts++;
@@ -97,16 +102,20 @@ static double scale_of(int n, const double *a) {
 
 /* R^n, where nothing is required */
 static CpsStatus whole_space(int n, CpsSet **out, CpsError *err) {
-    double *ends = malloc(2*(size_t)n*sizeof *ends);
+    double *ends = malloc(2 * (size_t)n * sizeof *ends);
     if (!ends) return out_of_memory(err);
-    for (int i = 0; i < n; i++) ends[i] = -INFINITY, ends[n + i] = INFINITY;
+    for (int i = 0; i < n; i++) {
+        ends[i] = -INFINITY;
+        ends[n + i] = INFINITY;
+    }
     const CpsStatus status = cps_set_box(n, ends, ends + n, out, err);
     free(ends);
     return status;
 }
 
 /* Extents of the components, the dimension, and the set in the components of V or F. */
-static CpsStatus finish(Gather *g, int n, const double *origin, double size, double *low, double *high, CpsError *err) {
+static CpsStatus finish(Gather *g, int n, const double *origin, double size, double *low,
+                        double *high, CpsError *err) {
     CpsSolutionSet *found = &g->found;
     const size_t w = (size_t)n, q = (size_t)g->space;
     if (found->outcome == CPS_SET_ANSWERED && found->moved > MOST_MOVED * g->tolerance)
@@ -122,14 +131,16 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
         return cps_set_point(n, origin, &found->set, err);
     }
     CpsSet *inside = NULL, *image = NULL;
-    double *turned = malloc((w*q + q + 1)*sizeof *turned), *direction = turned ? turned + w*q : NULL, widest = 0;
+    double *turned = malloc((w * q + q + 1) * sizeof *turned),
+           *direction = turned ? turned + w * q : NULL, widest = 0;
     CpsStatus status = turned ? CPS_OK : out_of_memory(err);
     if (status == CPS_OK && g->parts > 0)
         status = cps_set_intersection(g->parts, (const CpsSet *const *)g->part, &inside, err);
-    else if (status == CPS_OK) status = whole_space(g->space, &inside, err);
+    else if (status == CPS_OK)
+        status = whole_space(g->space, &inside, err);
     for (size_t i = 0; status == CPS_OK && i < w && found->outcome == CPS_SET_ANSWERED; i++) {
         CpsSetExtent extent;
-        for (size_t j = 0; j < q; j++) direction[j] = turned[i*q + j] = g->basis[j*w + i];
+        for (size_t j = 0; j < q; j++) direction[j] = turned[i * q + j] = g->basis[j * w + i];
         if (scale_of(g->space, direction) == 0) continue;
         status = cps_set_extent(inside, direction, &extent, err);
         if (status != CPS_OK) break;
@@ -142,14 +153,17 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
     }
     /* a set no wider than the tolerance is a point; else widths below it are flat */
     CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
-    if (status == CPS_OK && found->outcome == CPS_SET_ANSWERED && !(widest <= g->tolerance*size)) {
-        const double flat = isfinite(widest) ? fmin(0.1, g->tolerance*size/widest) : g->tolerance;
+    if (status == CPS_OK && found->outcome == CPS_SET_ANSWERED &&
+        !(widest <= g->tolerance * size)) {
+        const double flat =
+            isfinite(widest) ? fmin(0.1, g->tolerance * size / widest) : g->tolerance;
         status = cps_set_facts(inside, fmax(flat, 1e-9), &facts, NULL, NULL, err);
         found->outcome = facts.outcome;
     }
     found->dimension = facts.dimension;
     found->unique = facts.dimension == 0;
-    if (status == CPS_OK && found->outcome == CPS_SET_ANSWERED) status = cps_set_image(n, turned, inside, &image, err);
+    if (status == CPS_OK && found->outcome == CPS_SET_ANSWERED)
+        status = cps_set_image(n, turned, inside, &image, err);
     if (status == CPS_OK && image) status = cps_set_translate(origin, image, &found->set, err);
     cps_set_release(inside);
     cps_set_release(image);
@@ -160,7 +174,8 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
 static bool has_solution(const CpsMotion *motion) {
     const CpsMotionReport *report = &motion->report;
     const CpsMotionOutcome outcome = report->outcome;
-    return (outcome == CPS_MOTION_SOLVED || outcome == CPS_MOTION_LIMIT_LOAD || outcome == CPS_MOTION_INACCURATE) &&
+    return (outcome == CPS_MOTION_SOLVED || outcome == CPS_MOTION_LIMIT_LOAD ||
+            outcome == CPS_MOTION_INACCURATE) &&
            isfinite(report->value);
 }
 
@@ -175,9 +190,12 @@ static CpsStatus velocities_of_piece(Gather *g, int k, CpsError *err) {
     CpsSetAnswer answer = {.outcome = CPS_SET_NOT_AVAILABLE};
     const bool term = piece->term && piece->term->kind != CPSI_DRY;
     CpsStatus status;
-    if (term && piece->term->kind == CPSI_VISCOUS) status = cps_set_point(piece->space, u, &cone, err);
-    else if (term) status = cpsi_term_velocities(piece->space, piece->term, f, g->tolerance, &cone, err);
-    else status = cps_law_velocities(piece->set, f, g->tolerance, &cone, &answer, err);
+    if (term && piece->term->kind == CPSI_VISCOUS)
+        status = cps_set_point(piece->space, u, &cone, err);
+    else if (term)
+        status = cpsi_term_velocities(piece->space, piece->term, f, g->tolerance, &cone, err);
+    else
+        status = cps_law_velocities(piece->set, f, g->tolerance, &cone, &answer, err);
     if (status != CPS_OK) return status;
     if (!cone) {
         g->found.outcome = term ? CPS_SET_NOT_AVAILABLE : answer.outcome;
@@ -185,27 +203,31 @@ static CpsStatus velocities_of_piece(Gather *g, int k, CpsError *err) {
     }
     for (int i = 0; i < piece->space; i++)
         for (int j = 0; j < g->space; j++)
-            g->map[(size_t)i*(size_t)g->space + (size_t)j] =
-                cpsi_dot(n, &g->dense.map[(size_t)(first + i)*(size_t)n], &g->basis[(size_t)j*(size_t)n]);
+            g->map[(size_t)i * (size_t)g->space + (size_t)j] =
+                cpsi_dot(n, &g->dense.map[(size_t)(first + i) * (size_t)n],
+                         &g->basis[(size_t)j * (size_t)n]);
     for (int i = 0; i < piece->space; i++)
-        cpsi_dense_round((size_t)g->space, cpsi_norm(n, &g->dense.map[(size_t)(first + i)*(size_t)n]),
-                         &g->map[(size_t)i*(size_t)g->space]);
+        cpsi_dense_round((size_t)g->space,
+                         cpsi_norm(n, &g->dense.map[(size_t)(first + i) * (size_t)n]),
+                         &g->map[(size_t)i * (size_t)g->space]);
     status = require(g, cone, u, motion->speed, err);
     cps_set_release(cone);
     return status;
 }
 
-/* phi less the load's power at V + step d, INFINITY where it has no value; work (n + largest law). */
-static CpsStatus value_beside(const CpsMotion *motion, const double *d, double step, double *work, double *value,
-                              CpsError *err) {
+/* phi less the load's power at V + step d, INFINITY where it has no value; work (n + largest
+ * law). */
+static CpsStatus value_beside(const CpsMotion *motion, const double *d, double step, double *work,
+                              double *value, CpsError *err) {
     const CpsSystem *system = motion->system;
     double *v = work, *u = work + system->n;
     CpsStatus status = CPS_OK;
-    for (int i = 0; i < system->n; i++) v[i] = motion->velocity[i] + step*d[i];
+    for (int i = 0; i < system->n; i++) v[i] = motion->velocity[i] + step * d[i];
     *value = system->load ? -cpsi_dot(system->n, system->load, v) : 0;
     for (int l = 0; status == CPS_OK && l < system->laws; l++) {
         const CpsiSystemLaw *law = &system->law[l];
-        for (int i = 0; i < law->space; i++) u[i] = cpsi_rows_times(&system->map, law->first + i, v);
+        for (int i = 0; i < law->space; i++)
+            u[i] = cpsi_rows_times(&system->map, law->first + i, v);
         if (law->resistance) {
             CpsResistanceValue of = {0};
             status = cps_resistance_value(law->resistance, u, &of, NULL, err);
@@ -219,39 +241,48 @@ static CpsStatus value_beside(const CpsMotion *motion, const double *d, double s
     return status;
 }
 
-/* Do the bounds tell V from its neighbours?  Not where a step of a hundredth along what is free raises phi by less than they are
- * apart: then the motion found is one of several as far as they go, and `no other` would be said of too little. */
+/* Do the bounds tell V from its neighbours?  Not where a step of a hundredth along what is free
+ * raises phi by less than they are apart: then the motion found is one of several as far as they
+ * go, and `no other` would be said of too little. */
 static CpsStatus check_told_apart(Gather *g, CpsError *err) {
     const CpsMotion *motion = g->motion;
     const size_t n = (size_t)motion->system->n;
-    double *work = malloc((n + (size_t)motion->system->components + 1)*sizeof *work), beside;
+    double *work = malloc((n + (size_t)motion->system->components + 1) * sizeof *work), beside;
     CpsStatus status = work ? CPS_OK : out_of_memory(err);
-    for (int k = 0; status == CPS_OK && k < 2*g->space; k++) {
-        const double *d = &g->basis[(size_t)(k/2)*n];
-        const double step = (k % 2 ? -1 : 1)*NEIGHBOUR*motion->speed/fmax(scale_of((int)n, d), 1e-300);
+    for (int k = 0; status == CPS_OK && k < 2 * g->space; k++) {
+        const double *d = &g->basis[(size_t)(k / 2) * n];
+        const double step =
+            (k % 2 ? -1 : 1) * NEIGHBOUR * motion->speed / fmax(scale_of((int)n, d), 1e-300);
         status = value_beside(motion, d, step, work, &beside, err);
         if (status == CPS_OK && beside - motion->report.upper < motion->report.minimum)
             g->found.outcome = CPS_SET_INACCURATE;
     }
-    if (g->found.outcome != CPS_SET_ANSWERED) cps_set_release(g->found.set), g->found.set = NULL;
+    if (g->found.outcome != CPS_SET_ANSWERED) {
+        cps_set_release(g->found.set);
+        g->found.set = NULL;
+    }
     free(work);
     return status;
 }
 
-CpsStatus cps_motion_velocities(const CpsMotion *motion, double tolerance, CpsSolutionSet *all, double *low,
-                                double *high, CpsError *err) {
+CpsStatus cps_motion_velocities(const CpsMotion *motion, double tolerance, CpsSolutionSet *all,
+                                double *low, double *high, CpsError *err) {
     if (!motion || !all) return cpsi_fail(err, CPS_ERR_ARGUMENT, "motion or all is NULL");
     *all = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
     if (!has_solution(motion)) return CPS_OK;
     Gather g;
     CpsStatus status = begin(motion, tolerance, false, &g, err);
-    for (int k = 0; status == CPS_OK && k < motion->system->pieces && g.found.outcome == CPS_SET_ANSWERED; k++)
+    for (int k = 0;
+         status == CPS_OK && k < motion->system->pieces && g.found.outcome == CPS_SET_ANSWERED; k++)
         status = velocities_of_piece(&g, k, err);
-    if (status == CPS_OK) status = finish(&g, motion->system->n, motion->velocity, motion->speed, low, high, err);
+    if (status == CPS_OK)
+        status = finish(&g, motion->system->n, motion->velocity, motion->speed, low, high, err);
     if (status == CPS_OK && g.found.unique && motion->speed > 0 && motion->report.minimum > 0)
         status = check_told_apart(&g, err);
-    if (status == CPS_OK) *all = g.found;
-    else cps_set_release(g.found.set);
+    if (status == CPS_OK)
+        *all = g.found;
+    else
+        cps_set_release(g.found.set);
     clear(&g);
     return status;
 }
@@ -259,10 +290,11 @@ CpsStatus cps_motion_velocities(const CpsMotion *motion, double tolerance, CpsSo
 /* ---- forces ---- */
 
 /* A set for some components of all forces, from `first` on. */
-static CpsStatus require_forces(Gather *g, const CpsSet *face, int first, int space, CpsError *err) {
+static CpsStatus require_forces(Gather *g, const CpsSet *face, int first, int space,
+                                CpsError *err) {
     const size_t c = (size_t)g->dense.components, p = (size_t)g->space;
     for (size_t i = 0; i < (size_t)space; i++)
-        for (size_t j = 0; j < p; j++) g->map[i*p + j] = g->basis[j*c + (size_t)first + i];
+        for (size_t j = 0; j < p; j++) g->map[i * p + j] = g->basis[j * c + (size_t)first + i];
     return require(g, face, &g->motion->law_force[first], g->motion->force, err);
 }
 
@@ -274,8 +306,10 @@ static CpsStatus forces_of_piece(Gather *g, const CpsiPiece *piece, CpsError *er
     CpsSetAnswer answer = {.outcome = CPS_SET_ANSWERED};
     CpsStatus status = CPS_OK;
     /* a law at rest bears any of its forces */
-    if (scale_of(piece->space, u) <= g->tolerance*motion->speed) face = cps_set_retain(piece->set);
-    else status = cps_law_forces(piece->set, u, g->tolerance, &face, &answer, err);
+    if (scale_of(piece->space, u) <= g->tolerance * motion->speed)
+        face = cps_set_retain(piece->set);
+    else
+        status = cps_law_forces(piece->set, u, g->tolerance, &face, &answer, err);
     if (status == CPS_OK && face) status = require_forces(g, face, first, piece->space, err);
     if (!face) g->found.outcome = answer.outcome;
     cps_set_release(face);
@@ -288,8 +322,9 @@ static CpsStatus forces_of_resistance(Gather *g, const CpsiSystemLaw *law, CpsEr
     const double *u = &g->motion->law_velocity[law->first];
     double *still = calloc((size_t)law->space + 1, sizeof *still);
     if (!still) return out_of_memory(err);
-    const bool rest = scale_of(law->space, u) <= g->tolerance*g->motion->speed;
-    CpsStatus status = cps_resistance_forces(law->resistance, rest ? still : u, g->tolerance, &forces, &answer, err);
+    const bool rest = scale_of(law->space, u) <= g->tolerance * g->motion->speed;
+    CpsStatus status = cps_resistance_forces(law->resistance, rest ? still : u, g->tolerance,
+                                             &forces, &answer, err);
     if (status == CPS_OK && forces) status = require_forces(g, forces, law->first, law->space, err);
     if (!forces) g->found.outcome = answer.outcome;
     cps_set_release(forces);
@@ -297,15 +332,16 @@ static CpsStatus forces_of_resistance(Gather *g, const CpsiSystemLaw *law, CpsEr
     return status;
 }
 
-CpsStatus cps_motion_forces(const CpsMotion *motion, double tolerance, CpsSolutionSet *all, double *low, double *high,
-                            CpsError *err) {
+CpsStatus cps_motion_forces(const CpsMotion *motion, double tolerance, CpsSolutionSet *all,
+                            double *low, double *high, CpsError *err) {
     if (!motion || !all) return cpsi_fail(err, CPS_ERR_ARGUMENT, "motion or all is NULL");
     *all = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
     if (!has_solution(motion) || motion->system->components == 0) return CPS_OK;
     const CpsSystem *system = motion->system;
     Gather g;
     CpsStatus status = begin(motion, tolerance, true, &g, err);
-    for (int l = 0; status == CPS_OK && l < system->laws && g.found.outcome == CPS_SET_ANSWERED; l++) {
+    for (int l = 0; status == CPS_OK && l < system->laws && g.found.outcome == CPS_SET_ANSWERED;
+         l++) {
         const CpsiSystemLaw *law = &system->law[l];
         if (law->resistance) {
             status = forces_of_resistance(&g, law, err);
@@ -314,9 +350,12 @@ CpsStatus cps_motion_forces(const CpsMotion *motion, double tolerance, CpsSoluti
         for (int k = law->piece; status == CPS_OK && k < law->piece + law->pieces; k++)
             status = forces_of_piece(&g, &system->piece[k], err);
     }
-    if (status == CPS_OK) status = finish(&g, system->components, motion->law_force, motion->force, low, high, err);
-    if (status == CPS_OK) *all = g.found;
-    else cps_set_release(g.found.set);
+    if (status == CPS_OK)
+        status = finish(&g, system->components, motion->law_force, motion->force, low, high, err);
+    if (status == CPS_OK)
+        *all = g.found;
+    else
+        cps_set_release(g.found.set);
     clear(&g);
     return status;
 }

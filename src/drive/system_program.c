@@ -11,7 +11,8 @@
 #include "drive/adjoint.h"
 #include "linsys/small.h"
 
-/* Residual and gap above which the solver's outcome is no proof by itself; the bounds decide on motions. */
+/* Residual and gap above which the solver's outcome is no proof by itself; the bounds decide on
+ * motions. */
 static const double ACCEPT = 1e-7;
 
 static CpsStatus out_of_memory(CpsError *err) {
@@ -22,7 +23,7 @@ void cpsi_drive_program_clear(CpsiDriveProgram *p) {
     cpsi_sparse_program_free(p->program);
     for (int k = 0; p->own && k < p->system->pieces; k++) cpsi_form_free(p->own[k]);
     void *part[] = {p->form, p->own, p->first, p->block, p->c};
-    for (size_t k = 0; k < sizeof part/sizeof *part; k++) free(part[k]);
+    for (size_t k = 0; k < sizeof part / sizeof *part; k++) free(part[k]);
     cpsi_rows_free(&p->equation);
     *p = (CpsiDriveProgram){0};
 }
@@ -33,24 +34,32 @@ static CpsStatus gather_forms(CpsiDriveProgram *p, double speed, int *blocks, Cp
     const size_t pieces = (size_t)system->pieces + 1;
     p->form = calloc(pieces, sizeof *p->form);
     p->own = calloc(pieces, sizeof *p->own);
-    p->first = calloc(3*pieces, sizeof *p->first);
+    p->first = calloc(3 * pieces, sizeof *p->first);
     p->block = calloc(pieces, sizeof *p->block);
     if (!p->form || !p->own || !p->first || !p->block) return out_of_memory(err);
-    p->line = p->first + pieces, p->row = p->line + pieces;
+    p->line = p->first + pieces;
+    p->row = p->line + pieces;
     size_t unknowns = 0, rows = 0, lines = 0;
     for (int k = 0; k < system->pieces; k++) {
         const CpsiPiece *piece = &system->piece[k];
         if (piece->term) {
-            const CpsStatus status = cpsi_term_form(piece->space, piece->term, speed, &p->own[k], err);
+            const CpsStatus status =
+                cpsi_term_form(piece->space, piece->term, speed, &p->own[k], err);
             if (status != CPS_OK) return status;
         }
         const CpsiForm *form = p->form[k] = piece->term ? p->own[k] : system->form[piece->form];
-        p->first[k] = (int)unknowns, p->row[k] = (int)rows, p->line[k] = (int)lines;
-        unknowns += (size_t)form->unknowns, rows += (size_t)form->rows, lines += (size_t)form->lines;
-        if (unknowns + rows + lines > INT_MAX/8)
-            return cpsi_fail(err, CPS_ERR_LIMIT, "the laws have more than %d unknowns", INT_MAX/8);
+        p->first[k] = (int)unknowns;
+        p->row[k] = (int)rows;
+        p->line[k] = (int)lines;
+        unknowns += (size_t)form->unknowns;
+        rows += (size_t)form->rows;
+        lines += (size_t)form->lines;
+        if (unknowns + rows + lines > INT_MAX / 8)
+            return cpsi_fail(err, CPS_ERR_LIMIT, "the laws have more than %d unknowns",
+                             INT_MAX / 8);
         if (form->unknowns > 0)
-            p->block[(*blocks)++] = (CpsiBlock){form->unknowns, form->rows, form->cones, form->dim, form->a, form->b};
+            p->block[(*blocks)++] =
+                (CpsiBlock){form->unknowns, form->rows, form->cones, form->dim, form->a, form->b};
     }
     for (int k = 0; k < system->pieces; k++) p->line[k] += (int)unknowns;
     p->resistance = (int)(unknowns + lines);
@@ -71,10 +80,11 @@ typedef struct List {
 static bool push(List *list, int row, int column, double value) {
     if (value == 0) return true;
     if (list->count >= list->room) {
-        const size_t room = list->room > 0 ? 2*list->room : 1024;
-        CpsEntry *more = realloc(list->entry, room*sizeof *more);
+        const size_t room = list->room > 0 ? 2 * list->room : 1024;
+        CpsEntry *more = realloc(list->entry, room * sizeof *more);
         if (!more) return false;
-        list->entry = more, list->room = room;
+        list->entry = more;
+        list->room = room;
     }
     list->entry[list->count++] = (CpsEntry){row, column, value};
     return list->count < INT_MAX;
@@ -86,17 +96,20 @@ static bool push_piece(const CpsiDriveProgram *p, int k, CpsiAdjoint *adjoint, L
     const CpsiForm *form = p->form[k];
     const CpsiPiece *piece = &system->piece[k];
     const size_t space = (size_t)piece->space, unknowns = (size_t)form->unknowns;
-    const double size = cpsi_adjoint_size(space*unknowns, form->p), far = cpsi_adjoint_size(space, form->origin);
+    const double size = cpsi_adjoint_size(space * unknowns, form->p),
+                 far = cpsi_adjoint_size(space, form->origin);
     bool done = true;
     cpsi_adjoint_apply(adjoint, system, piece, form->origin, 1, far);
-    for (int i = 0; i < adjoint->count; i++) p->h[adjoint->column[i]] += adjoint->sum[adjoint->column[i]];
+    for (int i = 0; i < adjoint->count; i++)
+        p->h[adjoint->column[i]] += adjoint->sum[adjoint->column[i]];
     for (int j = 0; done && j < form->unknowns; j++) {
         cpsi_adjoint_apply(adjoint, system, piece, &form->p[j], unknowns, size);
         for (int i = 0; done && i < adjoint->count; i++)
-            done = push(list, adjoint->column[i], p->first[k] + j, adjoint->sum[adjoint->column[i]]);
+            done =
+                push(list, adjoint->column[i], p->first[k] + j, adjoint->sum[adjoint->column[i]]);
     }
     for (int l = 0; done && l < form->lines; l++) {
-        cpsi_adjoint_apply(adjoint, system, piece, &form->q[(size_t)l*(size_t)form->n], 1, 1);
+        cpsi_adjoint_apply(adjoint, system, piece, &form->q[(size_t)l * (size_t)form->n], 1, 1);
         for (int i = 0; done && i < adjoint->count; i++)
             done = push(list, adjoint->column[i], p->line[k] + l, adjoint->sum[adjoint->column[i]]);
     }
@@ -123,13 +136,15 @@ static CpsStatus write_equations(CpsiDriveProgram *p, CpsiAim aim, CpsError *err
     done = done && push_transposed(&system->drive, p->resistance, &list) &&
            push_transposed(&system->constraint, p->constraint, &list);
     for (int i = 0; done && system->load && i < system->n; i++) {
-        if (aim == CPSI_AIM_FACTOR) done = push(&list, i, p->factor, system->load[i]);
-        else p->h[i] += system->load[i];
+        if (aim == CPSI_AIM_FACTOR)
+            done = push(&list, i, p->factor, system->load[i]);
+        else
+            p->h[i] += system->load[i];
     }
     if (!done) status = out_of_memory(err);
     if (status == CPS_OK)
-        status =
-            cpsi_rows_append(&p->equation, "equilibrium", p->unknowns, system->n, (int)list.count, list.entry, err);
+        status = cpsi_rows_append(&p->equation, "equilibrium", p->unknowns, system->n,
+                                  (int)list.count, list.entry, err);
     free(list.entry);
     cpsi_adjoint_free(&adjoint);
     return status;
@@ -155,9 +170,9 @@ static void measure_columns(const CpsiDriveProgram *p, double *largest) {
     }
 }
 
-/* Columns first: cones are brought to the force of all bounded laws together, which bounds what they may have to
- * carry in a chain. Then each equation is divided by its largest entry of a bounded law, and each free column by its
- * largest entry. */
+/* Columns first: cones are brought to the force of all bounded laws together, which bounds what
+ * they may have to carry in a chain. Then each equation is divided by its largest entry of a
+ * bounded law, and each free column by its largest entry. */
 static void scale(CpsiDriveProgram *p, bool even) {
     CpsiRows *e = &p->equation;
     const int n = p->system->n, laws = p->resistance;
@@ -172,21 +187,24 @@ static void scale(CpsiDriveProgram *p, bool even) {
     total = fmax(total, force);
     for (int j = 0; j < p->unknowns; j++) p->column_scale[j] = 1;
     for (int k = 0; total > 0 && k < p->system->pieces; k++)
-        for (int j = p->first[k]; is_cone(p->form[k]) && j < p->first[k] + p->form[k]->unknowns; j++)
-            if (largest[j] > 0) p->column_scale[j] = total/largest[j];
+        for (int j = p->first[k]; is_cone(p->form[k]) && j < p->first[k] + p->form[k]->unknowns;
+             j++)
+            if (largest[j] > 0) p->column_scale[j] = total / largest[j];
     for (int i = 0; i < n; i++) {
         double most = 0;
         for (size_t k = e->start[i]; k < e->start[i + 1]; k++) {
-            if (e->column[k] < laws && p->column_scale[e->column[k]] == 1) most = fmax(most, fabs(e->value[k]));
+            if (e->column[k] < laws && p->column_scale[e->column[k]] == 1)
+                most = fmax(most, fabs(e->value[k]));
             e->value[k] *= p->column_scale[e->column[k]];
         }
         if (most == 0 || even) most = force > 0 ? force : 1;
-        p->row_scale[i] = 1/most;
+        p->row_scale[i] = 1 / most;
         p->h[i] /= most;
         for (size_t k = e->start[i]; k < e->start[i + 1]; k++) e->value[k] /= most;
     }
     measure_columns(p, largest);
-    for (int j = laws; j < p->unknowns; j++) p->column_scale[j] = largest[j] > 0 ? 1/largest[j] : 1;
+    for (int j = laws; j < p->unknowns; j++)
+        p->column_scale[j] = largest[j] > 0 ? 1 / largest[j] : 1;
     for (size_t k = 0; k < e->start[n]; k++)
         if (e->column[k] >= laws) e->value[k] *= p->column_scale[e->column[k]];
     for (int j = 0; j < p->unknowns; j++) p->c[j] = 0;
@@ -194,76 +212,98 @@ static void scale(CpsiDriveProgram *p, bool even) {
 
 static void write_objective(CpsiDriveProgram *p, CpsiAim aim, const double *driving) {
     if (aim == CPSI_AIM_FACTOR) p->c[p->factor] = -1;
-    for (int j = 0; aim == CPSI_AIM_MOTION && j < p->system->drive.rows; j++) p->c[p->resistance + j] = driving[j];
+    for (int j = 0; aim == CPSI_AIM_MOTION && j < p->system->drive.rows; j++)
+        p->c[p->resistance + j] = driving[j];
     for (int k = 0; aim == CPSI_AIM_MOTION && k < p->system->pieces; k++) {
         const CpsiForm *form = p->own[k];
         if (!form) continue;
         const size_t last = (size_t)form->n - 1, u = (size_t)form->unknowns;
-        for (size_t j = 0; j < u; j++) p->c[(size_t)p->first[k] + j] = form->p[last*u + j];
-        for (size_t l = 0; l < (size_t)form->lines; l++) p->c[(size_t)p->line[k] + l] = form->q[(l + 1)*(last + 1) - 1];
+        for (size_t j = 0; j < u; j++) p->c[(size_t)p->first[k] + j] = form->p[last * u + j];
+        for (size_t l = 0; l < (size_t)form->lines; l++)
+            p->c[(size_t)p->line[k] + l] = form->q[(l + 1) * (last + 1) - 1];
     }
     p->power = 0;
-    for (int j = 0; j < p->unknowns; j++) p->power = fmax(p->power, fabs(p->c[j] *= p->column_scale[j]));
+    for (int j = 0; j < p->unknowns; j++)
+        p->power = fmax(p->power, fabs(p->c[j] *= p->column_scale[j]));
     if (!(p->power > 0)) p->power = 1;
     for (int j = 0; j < p->unknowns; j++) p->c[j] /= p->power;
 }
 
-CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving, double speed, bool even,
-                                 CpsiDriveProgram *out, CpsError *err) {
+CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving,
+                                 double speed, bool even, CpsiDriveProgram *out, CpsError *err) {
     CpsiDriveProgram p = {.system = system};
     int blocks = 0;
     CpsStatus status = gather_forms(&p, aim == CPSI_AIM_MOTION ? speed : 0, &blocks, err);
     if (status == CPS_OK && aim == CPSI_AIM_FACTOR) p.unknowns++;
     if (status == CPS_OK) {
         const size_t u = (size_t)p.unknowns, n = (size_t)system->n;
-        p.c = calloc(2*u + 2*n + 1, sizeof *p.c);
-        if (!p.c) status = out_of_memory(err);
-        else p.h = p.c + u, p.row_scale = p.h + n, p.column_scale = p.row_scale + n;
+        p.c = calloc(2 * u + 2 * n + 1, sizeof *p.c);
+        if (!p.c) {
+            status = out_of_memory(err);
+        } else {
+            p.h = p.c + u;
+            p.row_scale = p.h + n;
+            p.column_scale = p.row_scale + n;
+        }
     }
     if (status == CPS_OK) status = write_equations(&p, aim, err);
     if (status == CPS_OK) {
         scale(&p, even);
         write_objective(&p, aim, driving);
-        const CpsiSparseData data = {.unknowns = p.unknowns, .equations = system->n, .blocks = blocks,
-                                     .block = p.block, .start = p.equation.start, .column = p.equation.column,
-                                     .value = p.equation.value, .c = p.c, .h = p.h};
+        const CpsiSparseData data = {.unknowns = p.unknowns,
+                                     .equations = system->n,
+                                     .blocks = blocks,
+                                     .block = p.block,
+                                     .start = p.equation.start,
+                                     .column = p.equation.column,
+                                     .value = p.equation.value,
+                                     .c = p.c,
+                                     .h = p.h};
         status = cpsi_sparse_program_new(&data, &p.program, err);
     }
-    if (status == CPS_OK) *out = p;
-    else cpsi_drive_program_clear(&p);
+    if (status == CPS_OK)
+        *out = p;
+    else
+        cpsi_drive_program_clear(&p);
     return status;
 }
 
-void cpsi_drive_program_solve(CpsiDriveProgram *p) { p->result = cpsi_sparse_program_solve(p->program, ACCEPT); }
+void cpsi_drive_program_solve(CpsiDriveProgram *p) {
+    p->result = cpsi_sparse_program_solve(p->program, ACCEPT);
+}
 
 /* ---- reading the solution ---- */
 
 void cpsi_drive_program_force(const CpsiDriveProgram *p, int piece, double *force) {
     const CpsiForm *form = p->form[piece];
-    const double *x = cpsi_sparse_program_x(p->program), *v = &x[p->first[piece]], *l = &x[p->line[piece]];
-    const double *of_v = &p->column_scale[p->first[piece]], *of_l = &p->column_scale[p->line[piece]];
+    const double *x = cpsi_sparse_program_x(p->program), *v = &x[p->first[piece]],
+                 *l = &x[p->line[piece]];
+    const double *of_v = &p->column_scale[p->first[piece]],
+                 *of_l = &p->column_scale[p->line[piece]];
     const bool ray = p->result.outcome == CPSI_CONIC_UNBOUNDED;
     for (int i = 0; i < p->system->piece[piece].space; i++) {
         force[i] = ray ? 0 : form->origin[i];
         for (int j = 0; j < form->unknowns; j++)
-            force[i] += form->p[(size_t)i*(size_t)form->unknowns + (size_t)j]*of_v[j]*v[j];
-        for (int k = 0; k < form->lines; k++) force[i] += form->q[(size_t)k*(size_t)form->n + (size_t)i]*of_l[k]*l[k];
+            force[i] += form->p[(size_t)i * (size_t)form->unknowns + (size_t)j] * of_v[j] * v[j];
+        for (int k = 0; k < form->lines; k++)
+            force[i] += form->q[(size_t)k * (size_t)form->n + (size_t)i] * of_l[k] * l[k];
     }
 }
 
 void cpsi_drive_program_velocity(const CpsiDriveProgram *p, double *velocity) {
     const double *y = cpsi_sparse_program_y(p->program);
-    for (int i = 0; i < p->system->n; i++) velocity[i] = -p->power*p->row_scale[i]*y[i];
+    for (int i = 0; i < p->system->n; i++) velocity[i] = -p->power * p->row_scale[i] * y[i];
 }
 
-void cpsi_drive_program_multipliers(const CpsiDriveProgram *p, double *resistance, double *constraint) {
+void cpsi_drive_program_multipliers(const CpsiDriveProgram *p, double *resistance,
+                                    double *constraint) {
     const double *x = cpsi_sparse_program_x(p->program);
     for (int j = 0; j < p->system->drive.rows; j++)
-        resistance[j] = x[p->resistance + j]*p->column_scale[p->resistance + j];
+        resistance[j] = x[p->resistance + j] * p->column_scale[p->resistance + j];
     for (int j = 0; j < p->system->constraint.rows; j++)
-        constraint[j] = x[p->constraint + j]*p->column_scale[p->constraint + j];
+        constraint[j] = x[p->constraint + j] * p->column_scale[p->constraint + j];
 }
 
 double cpsi_drive_program_factor(const CpsiDriveProgram *p) {
-    return cpsi_sparse_program_x(p->program)[p->factor]*p->column_scale[p->factor];
+    return cpsi_sparse_program_x(p->program)[p->factor] * p->column_scale[p->factor];
 }

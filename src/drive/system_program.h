@@ -2,11 +2,12 @@
 /* A driven system as one conic program over forces (ipm/sparse_program.h):
  *
  *     min  <W, G> + sum of costs    s.t.  sum of B_k* F_k + load - D* G - C* lambda = 0,
- *                                          F_k = o + P v + Q'l,  A v + b in K        the conic form of each piece
+ *                                          F_k = o + P v + Q'l,  A v + b in K
+ *                                              the conic form of each piece
  *
- * whose multipliers are -V. The cost of a piece is phi*(-F): 0 for friction, an unknown of an epigraph for a term of
- * a resistance. Equations are divided by the size of the forces in them, the free unknowns by what makes their
- * largest entry one. */
+ * whose multipliers are -V. The cost of a piece is phi*(-F): 0 for friction, an unknown of an
+ * epigraph for a term of a resistance. Equations are divided by the size of the forces in them, the
+ * free unknowns by what makes their largest entry one. */
 #ifndef CAPSTAN_SRC_DRIVE_SYSTEM_PROGRAM_H
 #define CAPSTAN_SRC_DRIVE_SYSTEM_PROGRAM_H
 
@@ -22,23 +23,24 @@ typedef enum CpsiAim {
 
 typedef struct CpsiDriveProgram {
     const CpsSystem *system;
-    const CpsiForm **form;  /* (pieces) of each piece */
-    CpsiForm **own;         /* (pieces) made here, for terms; else NULL */
+    const CpsiForm **form;   /* (pieces) of each piece */
+    CpsiForm **own;          /* (pieces) made here, for terms; else NULL */
     int *first, *line, *row; /* (pieces) first unknown v, first unknown l, first row */
     int unknowns, resistance, constraint, factor; /* and where G, lambda, mu begin */
     CpsiBlock *block;
     CpsiRows equation;
-    double *c, *h;          /* (unknowns), (n) */
+    double *c, *h;                    /* (unknowns), (n) */
     double *row_scale, *column_scale; /* (n), (unknowns) */
-    double power;           /* unit of the objective */
+    double power;                     /* unit of the objective */
     CpsiSparseProgram *program;
     CpsiConicResult result;
 } CpsiDriveProgram;
 
-/* Write the program down and prepare it. For a motion `driving` (m) is W and `speed` > 0 the size of velocities,
- * for terms. even: all equations are divided by one force, not each by the largest in it. */
-CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving, double speed, bool even,
-                                 CpsiDriveProgram *out, CpsError *err);
+/* Write the program down and prepare it. For a motion `driving` (m) is W and `speed` > 0 the size
+ * of velocities, for terms. even: all equations are divided by one force, not each by the largest
+ * in it. */
+CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving,
+                                 double speed, bool even, CpsiDriveProgram *out, CpsError *err);
 void cpsi_drive_program_clear(CpsiDriveProgram *p);
 void cpsi_drive_program_solve(CpsiDriveProgram *p);
 
@@ -46,11 +48,12 @@ void cpsi_drive_program_solve(CpsiDriveProgram *p);
 void cpsi_drive_program_force(const CpsiDriveProgram *p, int piece, double *force);
 /* V (n), G (m), lambda. */
 void cpsi_drive_program_velocity(const CpsiDriveProgram *p, double *velocity);
-void cpsi_drive_program_multipliers(const CpsiDriveProgram *p, double *resistance, double *constraint);
+void cpsi_drive_program_multipliers(const CpsiDriveProgram *p, double *resistance,
+                                    double *constraint);
 double cpsi_drive_program_factor(const CpsiDriveProgram *p);
 
-/* The epigraph {(F, e) : phi*(-F) <= e} of a term in conic form; speed is the size of velocities. speed 0: {F :
- * phi*(-F) finite} x {0}. */
+/* The epigraph {(F, e) : phi*(-F) <= e} of a term in conic form; speed is the size of velocities.
+ * speed 0: {F : phi*(-F) finite} x {0}. */
 CpsStatus cpsi_term_form(int n, const CpsiTerm *term, double speed, CpsiForm **out, CpsError *err);
 
 #endif

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Terms of resistance laws as epigraphs of their conjugates, e >= phi*(-F).
  *
- *     viscous     phi* = |y|^2/2,  F = L y,  D = L L'                      2 a q >= a |y|^2, a second-order cone
- *     h of gauge  phi* = h*(s),  F in s C;  h' is a sum of ramps from speed x_i that rise by r_i with slope m_i, so h*
- *                 is the inf-convolution of theirs:  s = s_0 + sum of s_i,  0 <= s_0 <= h'(0),  0 <= s_i <= r_i,
- *                 e = sum of x_i s_i + s_i^2/(2 m_i)
+ *     viscous     phi* = |y|^2/2,  F = L y,  D = L L'
+ *         2 a q >= a |y|^2, a second-order cone
+ *     h of gauge  phi* = h*(s),  F in s C;  h' is a sum of ramps from speed x_i that rise by r_i
+ *                 with slope m_i, so h* is the inf-convolution of theirs:  s = s_0 + sum of s_i,  0
+ *                 <= s_0 <= h'(0),  0 <= s_i <= r_i, e = sum of x_i s_i + s_i^2/(2 m_i)
  *
  * Without their costs these are the forces that the term can bear, all of R^n for a viscous one.
  *
- * Each square is q_i >= s_i^2/(2 m_i), written with the size a of q as |(q - a/2, ..)| <= q + a/2. */
+ * Each square is q_i >= s_i^2/(2 m_i), written with the size a of q as |(q - a/2, ..)| <= q +
+ * a/2. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,16 +27,18 @@ static CpsStatus out_of_memory(CpsError *err) {
 static double *square_cone(CpsiRaw *raw, int q, double a, int count) {
     double *rows = cpsi_raw_cone(raw, count + 2);
     const size_t w = (size_t)raw->width;
-    rows[q] = 1, rows[w - 1] = 0.5*a;
-    rows[w + (size_t)q] = 1, rows[2*w - 1] = -0.5*a;
-    return rows + 2*w;
+    rows[q] = 1;
+    rows[w - 1] = 0.5 * a;
+    rows[w + (size_t)q] = 1;
+    rows[2 * w - 1] = -0.5 * a;
+    return rows + 2 * w;
 }
 
 /* x (n + 1, width): F and e; F are the first unknowns */
 static double *begin_x(const CpsiRaw *raw, int n) {
     const size_t w = (size_t)raw->width;
-    double *x = calloc(((size_t)n + 2)*w, sizeof *x);
-    for (size_t i = 0; x && i < (size_t)n; i++) x[i*w + i] = 1;
+    double *x = calloc(((size_t)n + 2) * w, sizeof *x);
+    for (size_t i = 0; x && i < (size_t)n; i++) x[i * w + i] = 1;
     return x;
 }
 
@@ -51,25 +55,29 @@ static CpsStatus any_force(int n, CpsiForm **out, CpsError *err) {
     return status;
 }
 
-static CpsStatus viscous_form(int n, const double *matrix, double speed, CpsiForm **out, CpsError *err) {
+static CpsStatus viscous_form(int n, const double *matrix, double speed, CpsiForm **out,
+                              CpsError *err) {
     const size_t w = (size_t)n;
     const CpsiCount count = {.unknowns = w + 1, .rows = w + 2, .cones = 1};
     CpsiRaw *raw = NULL;
     CpsStatus status = cpsi_raw_new(count, n + 1, &raw, err);
     if (status != CPS_OK) return status;
-    double *factor = calloc(2*w*w, sizeof *factor), *inverse = factor ? factor + w*w : NULL, *x = begin_x(raw, n);
+    double *factor = calloc(2 * w * w, sizeof *factor), *inverse = factor ? factor + w * w : NULL,
+           *x = begin_x(raw, n);
     double trace = 0;
-    for (size_t i = 0; i < w; i++) trace += matrix[i*w + i];
-    const double a = speed*speed*trace/n;
-    if (!factor || !x) status = out_of_memory(err);
+    for (size_t i = 0; i < w; i++) trace += matrix[i * w + i];
+    const double a = speed * speed * trace / n;
+    if (!factor || !x)
+        status = out_of_memory(err);
     else if (!cpsi_cholesky(n, matrix, factor))
-        status = cpsi_fail(err, CPS_ERR_ARGUMENT, "a viscous matrix lost its definiteness to rounding");
+        status =
+            cpsi_fail(err, CPS_ERR_ARGUMENT, "a viscous matrix lost its definiteness to rounding");
     else {
         cpsi_lower_inverse(n, factor, inverse);
         double *rows = square_cone(raw, n, a, n);
         for (size_t i = 0; i < w; i++)
-            for (size_t j = 0; j <= i; j++) rows[i*(w + 2) + j] = sqrt(a)*inverse[i*w + j];
-        x[w*(w + 2) + w] = 1;
+            for (size_t j = 0; j <= i; j++) rows[i * (w + 2) + j] = sqrt(a) * inverse[i * w + j];
+        x[w * (w + 2) + w] = 1;
         status = cpsi_form_reduce(raw, n + 1, x, 0, NULL, 1e-11, out, err);
     }
     free(factor);
@@ -78,7 +86,8 @@ static CpsStatus viscous_form(int n, const double *matrix, double speed, CpsiFor
     return status;
 }
 
-/* One ramp of h': from speed `from` it rises by `rise` (INFINITY: for ever) with `slope`; INFINITY: a step. */
+/* One ramp of h': from speed `from` it rises by `rise` (INFINITY: for ever) with `slope`; INFINITY:
+ * a step. */
 typedef struct Ramp {
     double from, rise, slope;
 } Ramp;
@@ -98,7 +107,7 @@ static int ramps_of(const CpsiTerm *term, Ramp *ramp) {
     if (factor[0] > 0) ramp[count++] = (Ramp){0, factor[0], INFINITY};
     for (int i = 1; i < term->count; i++) {
         const double rise = factor[i] - factor[i - 1];
-        if (rise > 0) ramp[count++] = (Ramp){speed[i - 1], rise, rise/(speed[i] - speed[i - 1])};
+        if (rise > 0) ramp[count++] = (Ramp){speed[i - 1], rise, rise / (speed[i] - speed[i - 1])};
     }
     return count;
 }
@@ -111,23 +120,27 @@ static void emit_ramp(CpsiRaw *raw, const Ramp *ramp, double speed, double *t, d
     if (speed > 0) e[s] += ramp->from;
     if (isfinite(ramp->slope) && speed > 0) {
         const int q = raw->next++;
-        const double size = fmin(ramp->rise, ramp->slope*speed), a = size*size/ramp->slope;
+        const double size = fmin(ramp->rise, ramp->slope * speed), a = size * size / ramp->slope;
         double *row = square_cone(raw, q, a, 1);
-        row[s] = size/ramp->slope; /* sqrt(a/slope) */
+        row[s] = size / ramp->slope; /* sqrt(a/slope) */
         e[q] += 1;
     }
     cpsi_raw_cone(raw, 1)[s] = 1;
     if (!isfinite(ramp->rise)) return;
     double *below = cpsi_raw_cone(raw, 1);
-    below[s] = -1, below[w - 1] = ramp->rise;
+    below[s] = -1;
+    below[w - 1] = ramp->rise;
 }
 
-static CpsStatus gauge_form(int n, const CpsiTerm *term, double speed, CpsiForm **out, CpsError *err) {
-    Ramp *ramp = malloc(((size_t)term->count + 2)*sizeof *ramp);
+static CpsStatus gauge_form(int n, const CpsiTerm *term, double speed, CpsiForm **out,
+                            CpsError *err) {
+    Ramp *ramp = malloc(((size_t)term->count + 2) * sizeof *ramp);
     if (!ramp) return out_of_memory(err);
     const int ramps = ramps_of(term, ramp);
-    CpsiCount count = {.unknowns = (size_t)n + 2*(size_t)ramps, .equations = (size_t)n,
-                       .rows = 5*(size_t)ramps, .cones = 3*(size_t)ramps};
+    CpsiCount count = {.unknowns = (size_t)n + 2 * (size_t)ramps,
+                       .equations = (size_t)n,
+                       .rows = 5 * (size_t)ramps,
+                       .cones = 3 * (size_t)ramps};
     cpsi_raw_count(term->set, &count);
     CpsiRaw *raw = NULL;
     CpsStatus status = cpsi_raw_new(count, n, &raw, err);
@@ -135,9 +148,9 @@ static CpsStatus gauge_form(int n, const CpsiTerm *term, double speed, CpsiForm 
     if (status == CPS_OK && !x) status = out_of_memory(err);
     if (status == CPS_OK) {
         const size_t w = (size_t)raw->width;
-        double *e = x + (size_t)n*w, *t = e + w;
+        double *e = x + (size_t)n * w, *t = e + w;
         const double size = cpsi_set_size(term->set);
-        for (int k = 0; k < ramps; k++) emit_ramp(raw, &ramp[k], speed*size, t, e);
+        for (int k = 0; k < ramps; k++) emit_ramp(raw, &ramp[k], speed * size, t, e);
         /* no ramp, no force */
         for (int i = 0; ramps == 0 && i < n; i++) cpsi_raw_equation(raw)[i] = 1;
         if (ramps > 0 && !cpsi_raw_emit(raw, term->set, x, t)) status = out_of_memory(err);

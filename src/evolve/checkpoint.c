@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The state of an evolution as bytes: everything that steps change and that later steps or the views read.
+/* The state of an evolution as bytes: everything that steps change and that later steps or the
+ * views read.
  *
- * One walk over the state serves to measure, to save and to load. Numbers are copied as they are, so that a run that goes on from a
- * saved state gives the same bits as one that was never interrupted; a state is for the same program on the same kind of machine.
- * Structs go field by field: the bytes hold no padding and no address, and are the same in every run. */
+ * One walk over the state serves to measure, to save and to load. Numbers are copied as they are,
+ * so that a run that goes on from a saved state gives the same bits as one that was never
+ * interrupted; a state is for the same program on the same kind of machine. Structs go field by
+ * field: the bytes hold no padding and no address, and are the same in every run. */
 #include "evolve/checkpoint.h"
 
 #include <stdlib.h>
@@ -37,12 +39,17 @@ static void pass(Tape *tape, void *data, size_t size) {
 
 /* A field that is added to one of these has to be passed below as well. */
 #if UINTPTR_MAX == 0xffffffffffffffff
-_Static_assert(sizeof(CpsCertificate) == 16*8 && sizeof(CpsLedger) == 6*8 && sizeof(CpsTensionRange) == 5*8, "pass_certificate, ..");
-_Static_assert(sizeof(CpsEndReport) == 11*8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7*8, "pass_end_report, pass_bend");
-_Static_assert(sizeof(CpsLineReport) == 19*8 + sizeof(CpsCertificate) + sizeof(CpsLedger) + 2*sizeof(CpsEndReport) + sizeof(CpsBend),
+_Static_assert(sizeof(CpsCertificate) == 16 * 8 && sizeof(CpsLedger) == 6 * 8 &&
+                   sizeof(CpsTensionRange) == 5 * 8,
+               "pass_certificate, ..");
+_Static_assert(sizeof(CpsEndReport) == 11 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
+               "pass_end_report, pass_bend");
+_Static_assert(sizeof(CpsLineReport) == 19 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
+                                            2 * sizeof(CpsEndReport) + sizeof(CpsBend),
                "pass_line_report");
-_Static_assert(sizeof(CpsStepReport) == 9*8 + sizeof(CpsCertificate) + sizeof(CpsLedger), "pass_step_report");
-_Static_assert(sizeof(CpsEnd) == 4*8, "pass_end");
+_Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
+               "pass_step_report");
+_Static_assert(sizeof(CpsEnd) == 4 * 8, "pass_end");
 #endif
 
 /* numbers alone: there is nothing between them */
@@ -124,15 +131,17 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     double *const nodes[] = {line->reference, line->position, line->load, line->motion};
     double *const vectors[] = {line->normal, line->friction_force, line->slide};
     double *const scalars[] = {line->gap, line->friction_bound, line->reaction};
-    for (size_t i = 0; i < sizeof nodes/sizeof *nodes; i++) pass(tape, nodes[i], 3*n*sizeof(double));
-    for (size_t i = 0; i < sizeof vectors/sizeof *vectors; i++)
-        if (vectors[i]) pass(tape, vectors[i], 3*contacts*sizeof(double));
-    for (size_t i = 0; i < sizeof scalars/sizeof *scalars; i++) pass(tape, scalars[i], contacts*sizeof(double));
-    pass(tape, line->segment_force, 3*(n - 1)*sizeof(double));
-    pass(tape, line->tension, (n - 1)*sizeof(double));
-    pass(tape, line->state, contacts*sizeof *line->state);
-    if (line->on) pass(tape, line->on, contacts*sizeof *line->on);
-    if (line->beta) pass(tape, line->beta, n*sizeof *line->beta);
+    for (size_t i = 0; i < sizeof nodes / sizeof *nodes; i++)
+        pass(tape, nodes[i], 3 * n * sizeof(double));
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        if (vectors[i]) pass(tape, vectors[i], 3 * contacts * sizeof(double));
+    for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
+        pass(tape, scalars[i], contacts * sizeof(double));
+    pass(tape, line->segment_force, 3 * (n - 1) * sizeof(double));
+    pass(tape, line->tension, (n - 1) * sizeof(double));
+    pass(tape, line->state, contacts * sizeof *line->state);
+    if (line->on) pass(tape, line->on, contacts * sizeof *line->on);
+    if (line->beta) pass(tape, line->beta, n * sizeof *line->beta);
     for (int end = 0; end < 2; end++) pass_end(tape, &line->end[end]);
     PASS(tape, line->weight);
     PASS(tape, line->weight_before);
@@ -147,7 +156,8 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     PASS(tape, evolution->current);
     PASS(tape, evolution->part);
     for (int k = 0; k < evolution->stage_count; k++)
-        for (int i = 0; i < evolution->stage[k].change_count; i++) pass_end(tape, &evolution->stage[k].change[i].from);
+        for (int i = 0; i < evolution->stage[k].change_count; i++)
+            pass_end(tape, &evolution->stage[k].change[i].from);
     for (int i = 0; i < evolution->line_count; i++) pass_line(tape, &evolution->line[i]);
     return tape->at;
 }
@@ -155,10 +165,12 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
 /* FNV-1a, 64 bits. */
 static void mix(uint64_t *hash, const void *data, size_t size) {
     const unsigned char *byte = data;
-    for (size_t i = 0; i < size; i++) *hash = (*hash ^ byte[i])*1099511628211u;
+    for (size_t i = 0; i < size; i++) *hash = (*hash ^ byte[i]) * 1099511628211u;
 }
 
-static void mix_numbers(uint64_t *hash, size_t count, const double *number) { mix(hash, number, count*sizeof *number); }
+static void mix_numbers(uint64_t *hash, size_t count, const double *number) {
+    mix(hash, number, count * sizeof *number);
+}
 
 static void mix_line(uint64_t *hash, const CpsiLine *line) {
     mix(hash, line->name, strlen(line->name) + 1);
@@ -167,7 +179,7 @@ static void mix_line(uint64_t *hash, const CpsiLine *line) {
     mix_numbers(hash, 1, &line->compliance);
     mix_numbers(hash, 3, line->weight);
     mix_numbers(hash, (size_t)line->n - 1, line->element_length);
-    mix_numbers(hash, 3*(size_t)line->n, line->position);
+    mix_numbers(hash, 3 * (size_t)line->n, line->position);
     mix_numbers(hash, (size_t)line->n - 1, line->tension);
     mix_numbers(hash, (size_t)line->n, line->reaction);
     if (line->friction_factor) mix_numbers(hash, (size_t)line->n, line->friction_factor);
@@ -195,27 +207,32 @@ static void mix_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
 }
 
 static void mix_obstacle(uint64_t *hash, const CpsiObstacle *obstacle, const CpsiFrictionSet *set) {
-    const int what[4] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain, obstacle->has_set};
+    const int what[4] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain,
+                         obstacle->has_set};
     mix(hash, what, sizeof what);
-    mix_numbers(hash, 3, (const double[3]){obstacle->frame.point.x, obstacle->frame.point.y, obstacle->frame.point.z});
+    mix_numbers(hash, 3,
+                (const double[3]){obstacle->frame.point.x, obstacle->frame.point.y,
+                                  obstacle->frame.point.z});
     const Vec3 axis = obstacle->frame.axis[2], grain = obstacle->grain;
     mix_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
-    mix_numbers(hash, 3, (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
+    mix_numbers(hash, 3,
+                (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
     if (!set) return;
     const CpsiShapeForm *form = cpsi_friction_set_shape(set);
-    mix(hash, form->dim, (size_t)form->cones*sizeof *form->dim);
-    mix_numbers(hash, (size_t)(form->rows*form->unknowns), form->a);
+    mix(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
+    mix_numbers(hash, (size_t)(form->rows * form->unknowns), form->a);
     mix_numbers(hash, (size_t)form->rows, form->b);
-    mix_numbers(hash, 2*(size_t)form->unknowns, form->p);
+    mix_numbers(hash, 2 * (size_t)form->unknowns, form->p);
     mix_numbers(hash, 2, form->origin);
 }
 
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     uint64_t hash = 14695981039346656037u;
     const CpsSolverOptions *solver = &evolution->options.solver;
-    const int what[] = {evolution->line_count,       evolution->stage_count,       evolution->obstacle_count,
-                        (int)evolution->options.friction, (int)evolution->options.contact, solver->max_iterations,
-                        (int)solver->linear_system,  solver->halvings};
+    const int what[] = {evolution->line_count,           evolution->stage_count,
+                        evolution->obstacle_count,       (int)evolution->options.friction,
+                        (int)evolution->options.contact, solver->max_iterations,
+                        (int)solver->linear_system,      solver->halvings};
     mix(&hash, what, sizeof what);
     mix_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
     mix_numbers(&hash, 3, evolution->origin);
@@ -234,26 +251,32 @@ size_t cps_evolution_state_size(const CpsEvolution *evolution) {
 
 void cps_evolution_save(const CpsEvolution *evolution, void *state) {
     if (!evolution || !state) return;
-    Head head = {.size = cps_evolution_state_size(evolution), .fingerprint = evolution->fingerprint};
+    Head head = {.size = cps_evolution_state_size(evolution),
+                 .fingerprint = evolution->fingerprint};
     memcpy(head.magic, MAGIC, sizeof MAGIC);
     memcpy(state, &head, sizeof head);
     Tape tape = {.out = state};
     pass_state(&tape, (CpsEvolution *)(uintptr_t)evolution); /* only read */
 }
 
-CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t size, CpsError *err) {
-    if (!evolution || !state) return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution and state are both needed");
+CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t size,
+                             CpsError *err) {
+    if (!evolution || !state)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution and state are both needed");
     Head head;
-    if (size < sizeof head) return cpsi_fail(err, CPS_ERR_ARGUMENT, "a saved state of %zu bytes is cut short", size);
+    if (size < sizeof head)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "a saved state of %zu bytes is cut short", size);
     memcpy(&head, state, sizeof head);
     if (memcmp(head.magic, MAGIC, sizeof MAGIC) != 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "this is no saved state of an evolution");
     if (head.fingerprint != evolution->fingerprint)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state is of another scene than this one, or of other settings");
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the saved state is of another scene than this one, or of other settings");
     if (head.size != size || size != cps_evolution_state_size(evolution))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state has %zu bytes, expected %zu", size,
                          cps_evolution_state_size(evolution));
-    /* what a state says is believed only once it has been checked, and the check needs it in place */
+    /* what a state says is believed only once it has been checked, and the check needs it in
+     * place */
     unsigned char *before = malloc(size);
     if (!before) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while loading a state");
     cps_evolution_save(evolution, before);
@@ -263,5 +286,6 @@ CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t 
     free(before);
     evolution->report.name = evolution->step_name;
     evolution->ended = cps_outcome_is_final(evolution->report.outcome);
-    return fault ? cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state is damaged: %s", fault) : CPS_OK;
+    return fault ? cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state is damaged: %s", fault)
+                 : CPS_OK;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saving and loading an evolution between two steps (cps_evolution_save, cps_evolution_load in capstan/evolve.h). */
+/* Saving and loading an evolution between two steps (cps_evolution_save, cps_evolution_load in
+ * capstan/evolve.h). */
 #ifndef CAPSTAN_SRC_EVOLVE_CHECKPOINT_H
 #define CAPSTAN_SRC_EVOLVE_CHECKPOINT_H
 

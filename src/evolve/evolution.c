@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The history of a scene: load steps in sequence, each line solved on its own.
  *
- * A stage of n steps takes each end that it changes from where it is (position, or force carried) to the stage's value in n
- * equal parts. The lines do not act on each other, so a step is one program per line and the report adds them up. */
+ * A stage of n steps takes each end that it changes from where it is (position, or force carried)
+ * to the stage's value in n equal parts. The lines do not act on each other, so a step is one
+ * program per line and the report adds them up. */
 #define _POSIX_C_SOURCE 200809L
 #include "capstan/evolve.h"
 
@@ -24,7 +25,7 @@
 #include "evolve/path_check.h"
 #include "evolve/start.h"
 
-/* create -------------------------------------------------------------------------------------------------------- */
+/* create --------------------------------------------------------------------------------------- */
 
 static char *take_name(CpsiArena *arena, const char *name) {
     const size_t size = strlen(name) + 1;
@@ -40,10 +41,12 @@ static bool scene_follows(const CpsScene *scene) {
     return cpsi_obstacle_follows(&only);
 }
 
-/* Are elements kept out of obstacles, beside the nodes?  Of round ones; strict contact is that of S90, which knows nodes alone. */
+/* Are elements kept out of obstacles, beside the nodes?  Of round ones; strict contact is that of
+ * S90, which knows nodes alone. */
 static bool scene_keeps_elements_out(const CpsScene *scene) {
     bool round = false;
-    for (int k = 0; k < scene->obstacle_count; k++) round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
+    for (int k = 0; k < scene->obstacle_count; k++)
+        round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
     return round && scene->contact == CPS_CONTACT_GAINED;
 }
 
@@ -52,8 +55,10 @@ static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
     free(set);
 }
 
-/* The friction sets of the obstacles; *out is NULL where none is given. `largest` holds them all. */
-static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiShapeForm *largest, CpsError *err) {
+/* The friction sets of the obstacles; *out is NULL where none is given. `largest` holds them
+ * all. */
+static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiShapeForm *largest,
+                           CpsError *err) {
     *out = NULL;
     *largest = (CpsiShapeForm){0};
     bool any = false;
@@ -64,7 +69,8 @@ static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiSh
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsObstacle *obstacle = &scene->obstacle[k];
         if (!obstacle->friction_set) continue;
-        const CpsStatus status = cpsi_friction_set_make(obstacle->friction_set, obstacle->name, &set[k], err);
+        const CpsStatus status =
+            cpsi_friction_set_make(obstacle->friction_set, obstacle->name, &set[k], err);
         if (status) {
             free_sets(scene, set);
             return status;
@@ -80,12 +86,14 @@ static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiSh
     return CPS_OK;
 }
 
-/* Everything an evolution holds, in one block (base/arena.h); called once to measure and once to place. */
+/* Everything an evolution holds, in one block (base/arena.h); called once to measure and once to
+ * place. */
 static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiShapeForm *largest) {
     CpsEvolution measured = {0};
     CpsiLine any = {0};
     CpsiEvolutionStage none = {0};
-    CpsEvolution *placed = CPSI_TAKE(arena, 1, CpsEvolution), *evolution = placed ? placed : &measured;
+    CpsEvolution *placed = CPSI_TAKE(arena, 1, CpsEvolution),
+                 *evolution = placed ? placed : &measured;
     const bool real = placed != NULL;
     evolution->line = CPSI_TAKE(arena, scene->line_count, CpsiLine);
     evolution->is_laid = CPSI_TAKE(arena, scene->line_count, bool);
@@ -101,7 +109,8 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     evolution->room.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
     const bool follows = scene_follows(scene);
-    const int contacts = scene->obstacle_count > 1 ? 2 : 1, element_contacts = scene_keeps_elements_out(scene) ? 1 : 0;
+    const int contacts = scene->obstacle_count > 1 ? 2 : 1,
+              element_contacts = scene_keeps_elements_out(scene) ? 1 : 0;
     int nodes = 0, inextensible = 0;
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
@@ -111,7 +120,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
         line->contacts = contacts;
         line->element_contacts = element_contacts;
         line->has_zones = scene->line[i].zone_count > 0;
-        line->compliance = isinf(scene->line[i].stiffness) ? 0 : 1/scene->line[i].stiffness;
+        line->compliance = isinf(scene->line[i].stiffness) ? 0 : 1 / scene->line[i].stiffness;
         cpsi_line_layout(line, arena);
         if (line->n > nodes) nodes = line->n;
         if (line->compliance == 0 && line->n > inextensible) inextensible = line->n;
@@ -122,10 +131,15 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
-    cpsi_advance_layout(&evolution->room, arena, nodes, contacts + element_contacts, scene->solver.path_tolerance > 0);
-    if (inextensible > 0) cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts + element_contacts);
-    const CpsiLinsysOps *ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE ? &cpsi_linsys_dense : &cpsi_linsys_chain;
-    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0, element_contacts > 0, largest, ops);
+    cpsi_advance_layout(&evolution->room, arena, nodes, contacts + element_contacts,
+                        scene->solver.path_tolerance > 0);
+    if (inextensible > 0)
+        cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts + element_contacts);
+    const CpsiLinsysOps *ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE
+                                   ? &cpsi_linsys_dense
+                                   : &cpsi_linsys_chain;
+    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0,
+                              element_contacts > 0, largest, ops);
     cpsi_least_motion_layout(&evolution->least, arena, nodes, contacts, ops);
     return placed;
 }
@@ -139,7 +153,7 @@ static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     line->turn = evolution->room.turn;
     const bool own = line->follows || line->obstacle_count == 0;
     const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
-    for (int i = 0; i < 3; i++) vec3_store(&line->common[3*i], plane.axis[i]);
+    for (int i = 0; i < 3; i++) vec3_store(&line->common[3 * i], plane.axis[i]);
 }
 
 /* The mean factor of the zones over the length that each node stands for. */
@@ -147,7 +161,8 @@ static void fill_friction_factor(CpsiLine *line, const CpsLine *def) {
     if (!line->has_zones) return;
     int first = 0;
     for (int j = 0; j < line->n; j++) {
-        const double low = j > 0 ? line->arc_length[j] - 0.5*line->element_length[j - 1] : line->arc_length[j];
+        const double low =
+            j > 0 ? line->arc_length[j] - 0.5 * line->element_length[j - 1] : line->arc_length[j];
         line->friction_factor[j] = cpsi_zone_factor(def, &first, low, cpsi_line_share(line, j));
     }
 }
@@ -155,22 +170,26 @@ static void fill_friction_factor(CpsiLine *line, const CpsLine *def) {
 /* The first guess of statics lies on the free side. */
 static void lift(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3*j]);
+        const Vec3 x = vec3_load(&line->position[3 * j]);
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
-        if (gap < 0) vec3_store(&line->position[3*j], vec3_axpy(-gap, cpsi_obstacle_normal(&line->obstacle[on], x), x));
+        if (gap < 0)
+            vec3_store(&line->position[3 * j],
+                       vec3_axpy(-gap, cpsi_obstacle_normal(&line->obstacle[on], x), x));
     }
 }
 
-static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsScene *scene, const CpsLine *def) {
+static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsScene *scene,
+                      const CpsLine *def) {
     line->length = def->length;
     fill_obstacles(line, evolution);
     const Vec3 gravity = vec3_load(scene->gravity);
     const double size = vec3_norm(gravity);
-    vec3_store(line->weight, vec3_scale(size > 0 ? def->weight/size : 0, gravity));
+    vec3_store(line->weight, vec3_scale(size > 0 ? def->weight / size : 0, gravity));
     memcpy(line->weight_before, line->weight, sizeof line->weight);
     for (int e = 0; e < def->elements; e++)
-        line->element_length[e] = def->element_length ? def->element_length[e] : def->length/def->elements;
+        line->element_length[e] =
+            def->element_length ? def->element_length[e] : def->length / def->elements;
     cpsi_line_measure(line);
     fill_friction_factor(line, def);
     for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) line->on[c] = -1;
@@ -180,29 +199,27 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         if (line->end[end].kind == CPS_END_HELD) cpsi_start_end(def, end, line->end[end].value);
     }
     switch (def->start.kind) {
-    case CPS_START_LAID:
-        lift(line);
-        break;
-    case CPS_START_NODES:
-        cpsi_node_start(line, def);
-        break;
-    default:
-        cpsi_line_start_reaction(line, CPS_TOUCH*line->length);
+    case CPS_START_LAID: lift(line); break;
+    case CPS_START_NODES: cpsi_node_start(line, def); break;
+    default: cpsi_line_start_reaction(line, CPS_TOUCH * line->length);
     }
-    memcpy(line->reference, line->position, 3*(size_t)line->n*sizeof *line->reference);
+    memcpy(line->reference, line->position, 3 * (size_t)line->n * sizeof *line->reference);
 }
 
 static void fill(CpsEvolution *evolution, const CpsScene *scene) {
-    evolution->options = (CpsiStepOptions){
-        .solver = scene->solver, .friction = scene->friction, .contact = scene->contact, .least = &evolution->least};
+    evolution->options = (CpsiStepOptions){.solver = scene->solver,
+                                           .friction = scene->friction,
+                                           .contact = scene->contact,
+                                           .least = &evolution->least};
     evolution->obstacle_count = scene->obstacle_count;
-    for (int k = 0; k < scene->obstacle_count; k++) evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
+    for (int k = 0; k < scene->obstacle_count; k++)
+        evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
         fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
         const double pull = vec3_norm(vec3_load(scene->gravity));
-        evolution->mass[i] = pull > 0 ? scene->line[i].weight/pull : 0;
+        evolution->mass[i] = pull > 0 ? scene->line[i].weight / pull : 0;
         if (evolution->line[i].compliance == 0) evolution->line[i].forces = &evolution->forces;
         evolution->move[i].angle = evolution->angle;
         evolution->is_laid[i] = scene->line[i].start.kind == CPS_START_LAID;
@@ -214,8 +231,11 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         stage->steps = from->steps;
         stage->change_count = from->change_count;
         for (int k = 0; k < from->change_count; k++)
-            stage->change[k] = (CpsiChange){.line = from->change[k].line, .end = from->change[k].end, .to = from->change[k].to};
-        memcpy(stage->from, i > 0 ? evolution->stage[i - 1].to : scene->gravity, sizeof stage->from);
+            stage->change[k] = (CpsiChange){.line = from->change[k].line,
+                                            .end = from->change[k].end,
+                                            .to = from->change[k].to};
+        memcpy(stage->from, i > 0 ? evolution->stage[i - 1].to : scene->gravity,
+               sizeof stage->from);
         memcpy(stage->to, from->gravity_changes ? from->gravity : stage->from, sizeof stage->to);
         stage->turn_count = from->turn_count;
         for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
@@ -225,7 +245,10 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     if (evolution->step_count == 0) {
         /* no history: one step to the equilibrium under the ends as they are */
         const double *g = scene->gravity;
-        evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium", .steps = 1, .from = {g[0], g[1], g[2]}, .to = {g[0], g[1], g[2]}};
+        evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium",
+                                                   .steps = 1,
+                                                   .from = {g[0], g[1], g[2]},
+                                                   .to = {g[0], g[1], g[2]}};
         evolution->stage_count = evolution->step_count = 1;
     }
     evolution->report = (CpsStepReport){.name = evolution->step_name, .index = -1};
@@ -233,7 +256,8 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
 }
 
 CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err) {
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the handle");
+    if (!out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the handle");
     *out = NULL;
     CpsiFrictionSet **set = NULL;
     CpsiShapeForm sizes;
@@ -253,7 +277,8 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
     if (!cpsi_arena_allocate(&arena)) {
         cpsi_local_scene_free(&local);
         free_sets(scene, set);
-        return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had", (double)bytes*1e-6);
+        return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had",
+                         (double)bytes * 1e-6);
     }
     CpsEvolution *evolution = layout(&arena, scene, largest);
     evolution->arena = arena;
@@ -267,25 +292,29 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
 
 void cps_evolution_destroy(CpsEvolution *evolution) {
     if (!evolution) return;
-    for (int k = 0; evolution->set && k < evolution->obstacle_count; k++) cpsi_friction_set_free(evolution->set[k]);
+    for (int k = 0; evolution->set && k < evolution->obstacle_count; k++)
+        cpsi_friction_set_free(evolution->set[k]);
     free(evolution->set);
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
     cpsi_arena_free(&arena);
 }
 
-/* step ---------------------------------------------------------------------------------------------------------- */
+/* step ----------------------------------------------------------------------------------------- */
 
-int cps_evolution_step_count(const CpsEvolution *evolution) { return evolution ? evolution->step_count : 0; }
+int cps_evolution_step_count(const CpsEvolution *evolution) {
+    return evolution ? evolution->step_count : 0;
+}
 
 int cps_evolution_remaining(const CpsEvolution *evolution) {
     return !evolution || evolution->ended ? 0 : evolution->step_count - evolution->done;
 }
 
-/* Where an end is taken from: its position if it is to be held, the force that it carries if it is let go. */
+/* Where an end is taken from: its position if it is to be held, the force that it carries if it is
+ * let go. */
 static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
     CpsEnd now = {.kind = kind};
     if (kind == line->end[end].kind) return line->end[end];
-    const double *x = &line->position[3*(end == CPS_END_A ? 0 : line->n - 1)];
+    const double *x = &line->position[3 * (end == CPS_END_A ? 0 : line->n - 1)];
     memcpy(now.value, kind == CPS_END_HELD ? x : line->report.end[end].force, sizeof now.value);
     return now;
 }
@@ -293,44 +322,53 @@ static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
 /* An end at `part` of the `steps` of its stage. */
 static CpsEnd end_at(const CpsiChange *change, int part, int steps) {
     CpsEnd end = change->to;
-    const double share = (double)part/steps;
+    const double share = (double)part / steps;
     for (int a = 0; a < 3 && part < steps; a++)
-        end.value[a] = change->from.value[a] + share*(change->to.value[a] - change->from.value[a]);
+        end.value[a] =
+            change->from.value[a] + share * (change->to.value[a] - change->from.value[a]);
     return end;
 }
 
-/* Free ends are grabbed where they are, and only now is it known whether the way from there leads through an obstacle. */
+/* Free ends are grabbed where they are, and only now is it known whether the way from there leads
+ * through an obstacle. */
 static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
     const CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
     for (int i = 0; i < stage->change_count && evolution->part == 0; i++) {
         const CpsiChange *change = &stage->change[i];
         const CpsiLine *line = &evolution->line[change->line];
-        if (change->to.kind != CPS_END_HELD || line->end[change->end].kind == CPS_END_HELD) continue;
+        if (change->to.kind != CPS_END_HELD || line->end[change->end].kind == CPS_END_HELD)
+            continue;
         const CpsEnd from = end_now(line, change->end, CPS_END_HELD);
         const double *a = from.value, *b = change->to.value, *o = evolution->origin;
         /* that of the data: coordinates of the scene */
-        const double rounding = cpsi_place_rounding(line->length, vec3_add(vec3_load(o), vec3_load(b)));
+        const double rounding =
+            cpsi_place_rounding(line->length, vec3_add(vec3_load(o), vec3_load(b)));
         for (int k = 0; k < evolution->obstacle_count; k++) {
             const double depth =
-                cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b), CPSI_PATH_TOUCH*line->length + rounding);
+                cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b),
+                                CPSI_PATH_TOUCH * line->length + rounding);
             if (depth > 0)
                 return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                                 "stage '%.64s': %s.%s is grabbed at (%g, %g, %g) m and goes straight to (%g, %g, %g) m, through obstacle "
+                                 "stage '%.64s': %s.%s is grabbed at (%g, %g, %g) m and goes "
+                                 "straight to (%g, %g, %g) m, through obstacle "
                                  "'%s', up to %g m deep: add way points around it",
-                                 stage->name, line->name, change->end == CPS_END_A ? "A" : "B", o[0] + a[0], o[1] + a[1], o[2] + a[2],
-                                 o[0] + b[0], o[1] + b[1], o[2] + b[2],
-                                 evolution->obstacle_name[k], depth);
+                                 stage->name, line->name, change->end == CPS_END_A ? "A" : "B",
+                                 o[0] + a[0], o[1] + a[1], o[2] + a[2], o[0] + b[0], o[1] + b[1],
+                                 o[2] + b[2], evolution->obstacle_name[k], depth);
         }
     }
     return CPS_OK;
 }
 
 /* [N/m] The weight of line i when `part` of the steps of a stage are through. */
-static void weight_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage, int i, int part, double weight[3]) {
-    const double share = (double)part/stage->steps;
+static void weight_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage, int i,
+                      int part, double weight[3]) {
+    const double share = (double)part / stage->steps;
     for (int a = 0; a < 3; a++) {
-        const double gravity = part < stage->steps ? stage->from[a] + share*(stage->to[a] - stage->from[a]) : stage->to[a];
-        weight[a] = evolution->mass[i]*gravity;
+        const double gravity = part < stage->steps
+                                   ? stage->from[a] + share * (stage->to[a] - stage->from[a])
+                                   : stage->to[a];
+        weight[a] = evolution->mass[i] * gravity;
     }
 }
 
@@ -349,17 +387,26 @@ static void plan(CpsEvolution *evolution) {
         if (evolution->part == 0)
             change->from = end_now(&evolution->line[change->line], change->end, change->to.kind);
         CpsiMove *move = &evolution->move[change->line];
-        move->from[change->end] = evolution->part == 0 ? change->from : end_at(change, evolution->part, stage->steps);
+        move->from[change->end] =
+            evolution->part == 0 ? change->from : end_at(change, evolution->part, stage->steps);
         move->to[change->end] = end_at(change, evolution->part + 1, stage->steps);
     }
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
-    for (int k = 0; k < stage->turn_count; k++) evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle/stage->steps;
-    if (stage->steps == 1) snprintf(evolution->step_name, CPSI_STEP_NAME, "%s", stage->name);
-    else snprintf(evolution->step_name, CPSI_STEP_NAME, "%.64s %d/%d", stage->name, evolution->part + 1, stage->steps);
-    if (++evolution->part == stage->steps) evolution->part = 0, evolution->current++;
+    for (int k = 0; k < stage->turn_count; k++)
+        evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
+    if (stage->steps == 1)
+        snprintf(evolution->step_name, CPSI_STEP_NAME, "%s", stage->name);
+    else
+        snprintf(evolution->step_name, CPSI_STEP_NAME, "%.64s %d/%d", stage->name,
+                 evolution->part + 1, stage->steps);
+    if (++evolution->part == stage->steps) {
+        evolution->part = 0;
+        evolution->current++;
+    }
 }
 
-/* Statics: lines laid find their first equilibrium. The others take a load step under the ends as they are. */
+/* Statics: lines laid find their first equilibrium. The others take a load step under the ends as
+ * they are. */
 static void lay(CpsEvolution *evolution) {
     snprintf(evolution->step_name, CPSI_STEP_NAME, "laid");
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
@@ -373,7 +420,8 @@ static void lay(CpsEvolution *evolution) {
             cpsi_line_advance(line, &evolution->program, &options, move, &evolution->room, false);
             continue;
         }
-        options.frictionless = true, options.contact = CPS_CONTACT_GAINED;
+        options.frictionless = true;
+        options.contact = CPS_CONTACT_GAINED;
         cpsi_line_lay(line, &evolution->program, &options, &evolution->room);
     }
 }
@@ -391,8 +439,13 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     if (line->places > step->places) step->places = line->places;
     step->jump = cpsi_larger(step->jump, line->jump);
     step->unaccounted += line->unaccounted;
-    to->primal += from->primal, to->dual += from->dual, to->gap += from->gap, to->scale += from->scale;
-    to->friction_residual += from->friction_residual, to->law_residual += from->law_residual, to->contact_residual += from->contact_residual;
+    to->primal += from->primal;
+    to->dual += from->dual;
+    to->gap += from->gap;
+    to->scale += from->scale;
+    to->friction_residual += from->friction_residual;
+    to->law_residual += from->law_residual;
+    to->contact_residual += from->contact_residual;
     to->tension_bound = cpsi_larger(to->tension_bound, from->tension_bound);
     to->tension_estimate = cpsi_larger(to->tension_estimate, from->tension_estimate);
     to->force_residual = cpsi_larger(to->force_residual, from->force_residual);
@@ -407,10 +460,11 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
 static double seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9*(double)now.tv_nsec;
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Between which values the tensions at the ends lie, where a stage or the statics of the start ends. */
+/* Between which values the tensions at the ends lie, where a stage or the statics of the start
+ * ends. */
 static void find_ranges(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->line_count; i++) {
         CpsiLine *line = &evolution->line[i];
@@ -429,7 +483,8 @@ static void find_ranges(CpsEvolution *evolution) {
 CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     if (!evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution is NULL");
     if (cps_evolution_remaining(evolution) == 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "no load step remains: ask cps_evolution_remaining first");
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "no load step remains: ask cps_evolution_remaining first");
     const double begin = seconds();
     const bool laying = evolution->laid && evolution->done == 0;
     const CpsStatus status = laying ? CPS_OK : check_grabs(evolution, err);
@@ -439,34 +494,42 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     } else {
         plan(evolution);
         for (int i = 0; i < evolution->line_count; i++)
-            cpsi_line_advance(&evolution->line[i], &evolution->program, &evolution->options, &evolution->move[i],
-                              &evolution->room, evolution->done > 0);
+            cpsi_line_advance(&evolution->line[i], &evolution->program, &evolution->options,
+                              &evolution->move[i], &evolution->room, evolution->done > 0);
     }
     if (evolution->part == 0) find_ranges(evolution);
     evolution->report = (CpsStepReport){.name = evolution->step_name, .index = evolution->done};
-    for (int i = 0; i < evolution->line_count; i++) add_report(&evolution->report, &evolution->line[i].report);
+    for (int i = 0; i < evolution->line_count; i++)
+        add_report(&evolution->report, &evolution->line[i].report);
     evolution->done++;
     evolution->ended = cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;
     return CPS_OK;
 }
 
-/* report -------------------------------------------------------------------------------------------------------- */
+/* report --------------------------------------------------------------------------------------- */
 
 CpsStepReport cps_evolution_report(const CpsEvolution *evolution) {
-    return evolution ? evolution->report : (CpsStepReport){.name = "", .index = -1, .outcome = CPS_STALLED};
+    return evolution ? evolution->report
+                     : (CpsStepReport){.name = "", .index = -1, .outcome = CPS_STALLED};
 }
 
-int cps_evolution_line_count(const CpsEvolution *evolution) { return evolution ? evolution->line_count : 0; }
+int cps_evolution_line_count(const CpsEvolution *evolution) {
+    return evolution ? evolution->line_count : 0;
+}
 
-static bool has_line(const CpsEvolution *evolution, int line) { return line >= 0 && line < cps_evolution_line_count(evolution); }
+static bool has_line(const CpsEvolution *evolution, int line) {
+    return line >= 0 && line < cps_evolution_line_count(evolution);
+}
 
 CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) {
-    if (!has_line(evolution, line)) return (CpsLineReport){.outcome = CPS_STALLED, .pierced = -1, .proof_obstacle = -1};
+    if (!has_line(evolution, line))
+        return (CpsLineReport){.outcome = CPS_STALLED, .pierced = -1, .proof_obstacle = -1};
     CpsLineReport report = evolution->line[line].report;
     for (int end = 0; end < 2; end++)
         for (int a = 0; a < 3; a++)
-            if (evolution->origin[a] != 0) report.end[end].position[a] += evolution->origin[a]; /* 0 keeps its sign */
+            if (evolution->origin[a] != 0)
+                report.end[end].position[a] += evolution->origin[a]; /* 0 keeps its sign */
     return report;
 }
 
@@ -503,12 +566,12 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
     const size_t first = (size_t)cpsi_line_contacts(from);
     view.element_obstacle = from->on + first;
     view.element_share = from->beta;
-    view.element_normal = from->normal + 3*first;
+    view.element_normal = from->normal + 3 * first;
     view.element_gap = from->gap + first;
     view.element_friction_bound = from->friction_bound + first;
-    view.element_friction = from->friction_force + 3*first;
+    view.element_friction = from->friction_force + 3 * first;
     view.element_reaction = from->reaction + first;
-    view.element_slide = from->slide + 3*first;
+    view.element_slide = from->slide + 3 * first;
     view.element_state = from->state + first;
     return view;
 }

@@ -31,24 +31,25 @@ struct CpsEvolution {
     CpsiStepOptions options;
     int line_count, stage_count, step_count;
     int obstacle_count;
-    CpsiObstacle *obstacle; /* (obstacle_count) */
+    CpsiObstacle *obstacle;     /* (obstacle_count) */
     const char **obstacle_name; /* (obstacle_count) */
-    CpsiFrictionSet **set;  /* (obstacle_count) those given as sets, NULL where none is */
-    double *angle;          /* (obstacle_count) [rad] by which each turns in the step */
-    CpsiMove *move;         /* (line_count) what the step does to each line */
+    CpsiFrictionSet **set;      /* (obstacle_count) those given as sets, NULL where none is */
+    double *angle;              /* (obstacle_count) [rad] by which each turns in the step */
+    CpsiMove *move;             /* (line_count) what the step does to each line */
     CpsiAdvance room;
-    CpsiLine *line;   /* (line_count) */
-    CpsiEvolutionStage *stage;     /* (stage_count) */
-    bool laid;        /* the first step is the statics of lines laid */
-    bool *is_laid;    /* (line_count) */
-    double *mass;     /* (line_count) [kg/m] weight per gravity; 0 where there is no gravity at the start */
-    int done;         /* steps taken */
+    CpsiLine *line;            /* (line_count) */
+    CpsiEvolutionStage *stage; /* (stage_count) */
+    bool laid;                 /* the first step is the statics of lines laid */
+    bool *is_laid;             /* (line_count) */
+    double *
+        mass; /* (line_count) [kg/m] weight per gravity; 0 where there is no gravity at the start */
+    int done; /* steps taken */
     int current, part; /* next stage, steps already taken of it */
-    bool ended;       /* an infeasible or unbounded step ends the history */
+    bool ended;        /* an infeasible or unbounded step ends the history */
     CpsiChainProgram program;
     CpsiForceSet forces; /* room for those of inextensible lines */
     CpsiLeastMotion least;
-    double origin[3]; /* [m] from which all places are measured */
+    double origin[3];     /* [m] from which all places are measured */
     uint64_t fingerprint; /* of everything that does not change: which scene this is */
 };
 

@@ -10,7 +10,7 @@ double cpsi_zone_factor(const CpsLine *line, int *first, double low, double shar
     double factor = 1;
     for (int k = *first; k < line->zone_count && line->zone[k].from < high; k++) {
         const CpsFrictionZone *zone = &line->zone[k];
-        factor += (zone->factor - 1)*(fmin(high, zone->to) - fmax(low, zone->from))/share;
+        factor += (zone->factor - 1) * (fmin(high, zone->to) - fmax(low, zone->from)) / share;
     }
     return fmax(0, factor);
 }

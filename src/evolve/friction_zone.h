@@ -5,8 +5,8 @@
 
 #include "capstan/scene.h"
 
-/* The mean factor over the length `share` of a node that begins at abscissa `low` [m]. *first counts the zones that end before that: 0 for
- * the first node, and handed on from node to node. */
+/* The mean factor over the length `share` of a node that begins at abscissa `low` [m]. *first
+ * counts the zones that end before that: 0 for the first node, and handed on from node to node. */
 double cpsi_zone_factor(const CpsLine *line, int *first, double low, double share);
 
 #endif

@@ -3,12 +3,16 @@
  *
  *     ends + obstacles = elastic + gravity + dissipated + imbalance
  *
- * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched, gravity = - sum (weight of the node) . x, with
- * the mean of the weights before and after where gravity changes.
- * Work of an end is the mean of its force before and after times its way, the trapezium rule; where no force was there before, the one
- * after. Friction works with the force at the end of the step, on the way slid (dissipated) and on the way of the obstacle that turns
- * under it (obstacles); the part of an end's force that is in balance with the friction of its half element does as that does. So the imbalance of a step is of second order in its size where nothing slides, and over a path it vanishes at
- * first order with the steps; on a path along which forces are linear in the ways and nothing slides it is rounding. */
+ * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched,
+ * gravity = - sum (weight of the node) . x, with the mean of the weights before and after where
+ * gravity changes.
+ * Work of an end is the mean of its force before and after times its way, the trapezium rule; where
+ * no force was there before, the one after. Friction works with the force at the end of the step,
+ * on the way slid (dissipated) and on the way of the obstacle that turns under it (obstacles); the
+ * part of an end's force that is in balance with the friction of its half element does as that
+ * does. So the imbalance of a step is of second order in its size where nothing slides, and over a
+ * path it vanishes at first order with the steps; on a path along which forces are linear in the
+ * ways and nothing slides it is rounding. */
 #include "evolve/ledger.h"
 
 #include "cable/contact.h"
@@ -16,18 +20,21 @@
 
 static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
     const Vec3 origin = vec3_load(line->position);
-    const Vec3 weight = vec3_scale(0.5, vec3_add(vec3_load(line->weight_before), vec3_load(line->weight)));
+    const Vec3 weight =
+        vec3_scale(0.5, vec3_add(vec3_load(line->weight_before), vec3_load(line->weight)));
     *elastic = *gravity = 0;
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3*j]);
-        /* from the line's own end, so that a far origin of the axes costs no digits; the end's own height comes last */
-        *gravity -= cpsi_line_share(line, j)*vec3_dot(weight, vec3_sub(x, origin));
+        const Vec3 x = vec3_load(&line->position[3 * j]);
+        /* from the line's own end, so that a far origin of the axes costs no digits; the end's own
+         * height comes last */
+        *gravity -= cpsi_line_share(line, j) * vec3_dot(weight, vec3_sub(x, origin));
         if (j == 0 || !(line->compliance > 0)) continue;
         const double l = line->element_length[j - 1];
-        const double strain = vec3_norm(vec3_sub(x, vec3_load(&line->position[3*(j - 1)])))/l - 1;
-        if (strain > 0) *elastic += l*strain*(strain/(2*line->compliance));
+        const double strain =
+            vec3_norm(vec3_sub(x, vec3_load(&line->position[3 * (j - 1)]))) / l - 1;
+        if (strain > 0) *elastic += l * strain * (strain / (2 * line->compliance));
     }
-    *gravity -= line->length*vec3_dot(weight, origin);
+    *gravity -= line->length * vec3_dot(weight, origin);
 }
 
 CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], bool known) {
@@ -38,7 +45,7 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
         const int j = i == CPS_END_A ? 0 : line->n - 1;
         start.known[i] = known || is_free;
         for (int a = 0; a < 3; a++) {
-            start.end[i].position[a] = line->position[3*j + a];
+            start.end[i].position[a] = line->position[3 * j + a];
             start.end[i].force[a] = is_free ? end[i].value[a] : line->report.end[i].force[a];
             start.end[i].friction[a] = is_free ? 0 : line->report.end[i].friction[a];
         }
@@ -50,9 +57,10 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
 static double end_work(const CpsEndReport *before, const CpsEndReport *after, bool known) {
     double work = 0;
     for (int a = 0; a < 3; a++) {
-        const double pull = after->force[a] + after->friction[a], pulled = before->force[a] + before->friction[a];
-        const double force = (known ? 0.5*(pulled + pull) : pull) - after->friction[a];
-        work += force*(after->position[a] - before->position[a]);
+        const double pull = after->force[a] + after->friction[a],
+                     pulled = before->force[a] + before->friction[a];
+        const double force = (known ? 0.5 * (pulled + pull) : pull) - after->friction[a];
+        work += force * (after->position[a] - before->position[a]);
     }
     return work;
 }
@@ -63,21 +71,26 @@ static double end_obstacle_work(const CpsiLine *line) {
     for (int end = 0; line->follows && end < 2; end++) {
         const int j = end == CPS_END_A ? 0 : line->n - 1, k = line->on[j];
         if (!cpsi_line_is_held(line, j) || k < 0 || line->turn[k] == 0) continue;
-        const Vec3 own = cpsi_obstacle_way(&line->obstacle[k], vec3_load(&line->reference[3*j]), vec3_load(&line->position[3*j]));
-        work += vec3_dot(vec3_load(line->report.end[end].friction), vec3_sub(own, cpsi_line_end_slide(line, end, k)));
+        const Vec3 own = cpsi_obstacle_way(&line->obstacle[k], vec3_load(&line->reference[3 * j]),
+                                           vec3_load(&line->position[3 * j]));
+        work += vec3_dot(vec3_load(line->report.end[end].friction),
+                         vec3_sub(own, cpsi_line_end_slide(line, end, k)));
     }
     return work;
 }
 
-/* Work of obstacles that turn: friction on the way of the surface under the node, which is the node's own way less the way slid. */
+/* Work of obstacles that turn: friction on the way of the surface under the node, which is the
+ * node's own way less the way slid. */
 static double obstacle_work(const CpsiLine *line) {
     double work = 0;
     for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) {
         const int k = line->on[c];
         if (k < 0 || line->turn[k] == 0) continue;
-        const Vec3 x = cpsi_line_place(line, line->position, c), from = cpsi_line_place(line, line->reference, c);
+        const Vec3 x = cpsi_line_place(line, line->position, c),
+                   from = cpsi_line_place(line, line->reference, c);
         const Vec3 own = cpsi_contact_way(line, c, from, x);
-        work += vec3_dot(vec3_load(&line->friction_force[3*c]), vec3_sub(own, cpsi_line_slide(line, c)));
+        work += vec3_dot(vec3_load(&line->friction_force[3 * c]),
+                         vec3_sub(own, cpsi_line_slide(line, c)));
     }
     return work + end_obstacle_work(line);
 }
@@ -93,7 +106,8 @@ CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
         report->work = end_work(&start->end[end], report, start->known[end]);
         ledger.ends += report->work;
     }
-    ledger.imbalance = ledger.ends + ledger.obstacles - ledger.elastic - ledger.gravity - ledger.dissipated;
+    ledger.imbalance =
+        ledger.ends + ledger.obstacles - ledger.elastic - ledger.gravity - ledger.dissipated;
     return ledger;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reference of S90 as data (see node_start.h): x_R at the nodes, T_R in the elements, and what the obstacle pushed, R_R, or the bound of
- * friction that it left, A_R = mu R_R, (78). Where neither is given the reaction is the one that T_R and the loads leave, section 2 d 2. */
+/* The reference of S90 as data (see node_start.h): x_R at the nodes, T_R in the elements, and what
+ * the obstacle pushed, R_R, or the bound of friction that it left, A_R = mu R_R, (78). Where
+ * neither is given the reaction is the one that T_R and the loads leave, section 2 d 2. */
 #include "evolve/node_start.h"
 
 #include <math.h>
@@ -11,19 +12,22 @@
 #include "evolve/friction_zone.h"
 #include "geometry/obstacle.h"
 
-/* An inextensible element may be longer than its length by this, relative: coordinates written with 9 digits pass. */
+/* An inextensible element may be longer than its length by this, relative: coordinates written with
+ * 9 digits pass. */
 static const double LENGTH_TOLERANCE = 1e-8;
-/* An elastic element may not be stretched beyond this strain: more is a slip of the pen, as of other starts. */
+/* An elastic element may not be stretched beyond this strain: more is a slip of the pen, as of
+ * other starts. */
 static const double MAX_STRAIN = 1;
-/* How near to the obstacle a given node counts as touching, per length of the line, and what counts as no force, per largest: a step that is
- * certified leaves products of reaction and distance of about 1e-13 in these units, so that where R is more than NOTHING the distance is less
- * than TOUCH. */
+/* How near to the obstacle a given node counts as touching, per length of the line, and what counts
+ * as no force, per largest: a step that is certified leaves products of reaction and distance of
+ * about 1e-13 in these units, so that where R is more than NOTHING the distance is less than
+ * TOUCH. */
 static const double TOUCH = 1e-7, NOTHING = 1e-6;
 /* Numbers whose squares and products would overflow are taken for infinite. */
 static const double LARGEST = 1e100;
 
 static double element_length(const CpsLine *line, int e) {
-    return line->element_length ? line->element_length[e] : line->length/line->elements;
+    return line->element_length ? line->element_length[e] : line->length / line->elements;
 }
 
 /* ---- check ---- */
@@ -31,21 +35,28 @@ static double element_length(const CpsLine *line, int e) {
 static CpsStatus check_lengths(const CpsLine *line, CpsError *err) {
     const bool elastic = isfinite(line->stiffness);
     for (int e = 0; e < line->elements; e++) {
-        const Vec3 a = vec3_load(&line->start.point[3*e]), b = vec3_load(&line->start.point[3*(e + 1)]);
+        const Vec3 a = vec3_load(&line->start.point[3 * e]),
+                   b = vec3_load(&line->start.point[3 * (e + 1)]);
         const double l = element_length(line, e), found = vec3_norm(vec3_sub(b, a));
-        if (found <= l*(elastic ? 1 + MAX_STRAIN : 1 + LENGTH_TOLERANCE)) continue;
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start: nodes %d and %d are %.10g m apart, the element between them is %.10g m long%s",
-                         line->name, e, e + 1, found, l, elastic ? ", expected at most twice that" : " and inextensible");
+        if (found <= l * (elastic ? 1 + MAX_STRAIN : 1 + LENGTH_TOLERANCE)) continue;
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%s': start: nodes %d and %d are %.10g m apart, the element between "
+                         "them is %.10g m long%s",
+                         line->name, e, e + 1, found, l,
+                         elastic ? ", expected at most twice that" : " and inextensible");
     }
     return CPS_OK;
 }
 
 /* Forces of an array, from its `from`th node or element. */
-static CpsStatus check_forces(const CpsLine *line, const double *force, int count, const char *what, const char *where, CpsError *err) {
+static CpsStatus check_forces(const CpsLine *line, const double *force, int count, const char *what,
+                              const char *where, CpsError *err) {
     for (int i = 0; force && i < count; i++)
         if (!(force[i] >= 0 && force[i] <= LARGEST))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start: the %s %s %d is %g N, expected a finite number >= 0", line->name, what,
-                             where, i, force[i]);
+            return cpsi_fail(
+                err, CPS_ERR_ARGUMENT,
+                "line '%s': start: the %s %s %d is %g N, expected a finite number >= 0", line->name,
+                what, where, i, force[i]);
     return CPS_OK;
 }
 
@@ -63,24 +74,35 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
     int first = 0;
     for (int j = 0; force && j <= line->elements; j++) largest = fmax(largest, force[j]);
     for (int j = 0; force && j <= line->elements; j++) {
-        const double before = j > 0 ? element_length(line, j - 1) : 0, after = j < line->elements ? element_length(line, j) : 0;
+        const double before = j > 0 ? element_length(line, j - 1) : 0,
+                     after = j < line->elements ? element_length(line, j) : 0;
         at += before;
-        const double factor = cpsi_zone_factor(line, &first, at - 0.5*before, 0.5*(before + after));
+        const double factor =
+            cpsi_zone_factor(line, &first, at - 0.5 * before, 0.5 * (before + after));
         const CpsObstacle *nearest = NULL;
         double gap = INFINITY;
         for (int k = 0; k < scene->obstacle_count; k++) {
             const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
-            const double distance = cpsi_obstacle_gap(&obstacle, vec3_load(&start->point[3*j]));
-            if (distance < gap) gap = distance, nearest = &scene->obstacle[k];
+            const double distance = cpsi_obstacle_gap(&obstacle, vec3_load(&start->point[3 * j]));
+            if (distance < gap) {
+                gap = distance;
+                nearest = &scene->obstacle[k];
+            }
         }
-        if (!(force[j] > NOTHING*largest)) continue;
-        /* one below the obstacle is refused as such, unless contact is strict, where it may be there and is pushed no more */
-        const bool near = gap <= TOUCH*line->length && (scene->contact == CPS_CONTACT_GAINED || gap >= -TOUCH*line->length);
+        if (!(force[j] > NOTHING * largest)) continue;
+        /* one below the obstacle is refused as such, unless contact is strict, where it may be
+         * there and is pushed no more */
+        const bool near = gap <= TOUCH * line->length &&
+                          (scene->contact == CPS_CONTACT_GAINED || gap >= -TOUCH * line->length);
         if (!nearest || !near)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start: the %s of node %d is %g N, but it touches no obstacle, expected 0", line->name,
-                             what, j, force[j]);
-        if (start->friction_bound && !(factor*coefficient(nearest) > 0))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start: the %s of node %d is %g N, but obstacle '%s' has no friction there, expected 0",
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "line '%s': start: the %s of node %d is %g N, but it touches no "
+                             "obstacle, expected 0",
+                             line->name, what, j, force[j]);
+        if (start->friction_bound && !(factor * coefficient(nearest) > 0))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "line '%s': start: the %s of node %d is %g N, but obstacle '%s' has "
+                             "no friction there, expected 0",
                              line->name, what, j, force[j], nearest->name);
     }
     return CPS_OK;
@@ -89,18 +111,29 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
 CpsStatus cpsi_node_start_check(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     const CpsStart *start = &line->start;
     if (!start->point || start->point_count != line->elements + 1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start has %d nodes, expected %d: one more than elements", line->name,
-                         start->point ? start->point_count : 0, line->elements + 1);
-    for (int i = 0; i < 3*start->point_count; i++)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%s': start has %d nodes, expected %d: one more than elements",
+                         line->name, start->point ? start->point_count : 0, line->elements + 1);
+    for (int i = 0; i < 3 * start->point_count; i++)
         if (!(fabs(start->point[i]) <= LARGEST))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start: a coordinate of node %d is %g m, expected a finite number", line->name, i/3,
-                             start->point[i]);
+            return cpsi_fail(
+                err, CPS_ERR_ARGUMENT,
+                "line '%s': start: a coordinate of node %d is %g m, expected a finite number",
+                line->name, i / 3, start->point[i]);
     if (start->reaction && start->friction_bound)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': start: found reactions and friction bounds, expected one of them: A = mu R", line->name);
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "line '%s': start: found reactions and friction bounds, expected one of them: A = mu R",
+            line->name);
     CpsStatus status = check_lengths(line, err);
-    if (status == CPS_OK) status = check_forces(line, start->tension, line->elements, "tension", "of element", err);
-    if (status == CPS_OK) status = check_forces(line, start->reaction, start->point_count, "reaction", "at node", err);
-    if (status == CPS_OK) status = check_forces(line, start->friction_bound, start->point_count, "friction bound", "at node", err);
+    if (status == CPS_OK)
+        status = check_forces(line, start->tension, line->elements, "tension", "of element", err);
+    if (status == CPS_OK)
+        status =
+            check_forces(line, start->reaction, start->point_count, "reaction", "at node", err);
+    if (status == CPS_OK)
+        status = check_forces(line, start->friction_bound, start->point_count, "friction bound",
+                              "at node", err);
     return status == CPS_OK ? check_touch(scene, line, err) : status;
 }
 
@@ -108,11 +141,12 @@ CpsStatus cpsi_node_start_check(const CpsScene *scene, const CpsLine *line, CpsE
 
 /* The force T_R t of element e. */
 static Vec3 force_of(const CpsiLine *line, const CpsLine *def, int e) {
-    const Vec3 dx = vec3_sub(vec3_load(&line->position[3*(e + 1)]), vec3_load(&line->position[3*e]));
-    const double size = vec3_norm(dx), strain = size/line->element_length[e] - 1;
-    const double elastic = line->compliance > 0 && strain > 0 ? strain/line->compliance : 0;
+    const Vec3 dx =
+        vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
+    const double size = vec3_norm(dx), strain = size / line->element_length[e] - 1;
+    const double elastic = line->compliance > 0 && strain > 0 ? strain / line->compliance : 0;
     const double tension = def->start.tension ? def->start.tension[e] : elastic;
-    return size > 0 ? vec3_scale(tension/size, dx) : vec3(0, 0, 0);
+    return size > 0 ? vec3_scale(tension / size, dx) : vec3(0, 0, 0);
 }
 
 /* What balances the loads and the line's forces on node j along the normal. */
@@ -121,7 +155,8 @@ static double balance(const CpsiLine *line, const CpsLine *def, int j, Vec3 norm
     if (j > 0) sum = vec3_sub(sum, force_of(line, def, j - 1));
     if (j + 1 < line->n) sum = vec3_add(sum, force_of(line, def, j));
     for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_FREE && j == (end == CPS_END_A ? 0 : line->n - 1)) sum = vec3_add(sum, vec3_load(line->end[end].value));
+        if (line->end[end].kind == CPS_END_FREE && j == (end == CPS_END_A ? 0 : line->n - 1))
+            sum = vec3_add(sum, vec3_load(line->end[end].value));
     return fmax(0, -vec3_dot(sum, normal));
 }
 
@@ -129,19 +164,19 @@ void cpsi_node_start(CpsiLine *line, const CpsLine *def) {
     const CpsStart *start = &def->start;
     for (int e = 0; start->tension && e + 1 < line->n; e++) line->tension[e] = start->tension[e];
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3*j]);
+        const Vec3 x = vec3_load(&line->position[3 * j]);
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
         line->reaction[j] = 0;
         line->state[j] = CPS_NODE_FREE;
-        if (!(fabs(gap) <= TOUCH*line->length)) continue;
+        if (!(fabs(gap) <= TOUCH * line->length)) continue;
         line->state[j] = CPS_NODE_STICK;
         if (line->follows) line->on[j] = on;
         if (start->reaction) {
             line->reaction[j] = start->reaction[j];
         } else if (start->friction_bound) {
             const double friction = cpsi_rub_set(line, j).friction;
-            line->reaction[j] = friction > 0 ? start->friction_bound[j]/friction : 0;
+            line->reaction[j] = friction > 0 ? start->friction_bound[j] / friction : 0;
         } else {
             line->reaction[j] = balance(line, def, j, cpsi_obstacle_normal(&line->obstacle[on], x));
         }

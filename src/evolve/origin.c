@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The local origin of a scene (origin.h): the middle of the lines' places, in round numbers, along those axes only on which it is far. */
+/* The local origin of a scene (origin.h): the middle of the lines' places, in round numbers, along
+ * those axes only on which it is far. */
 #include "evolve/origin.h"
 
 #include <float.h>
@@ -9,10 +10,11 @@
 
 #include "base/status.h"
 
-/* Lines within so many lengths of the origin keep it: their coordinates lose three digits at most, and none of a scene that has always been
- * there changes. */
+/* Lines within so many lengths of the origin keep it: their coordinates lose three digits at most,
+ * and none of a scene that has always been there changes. */
 static const double FAR = 512;
-/* Two places, of data and arithmetic, are each off by up to a unit in the last digit of their coordinates. */
+/* Two places, of data and arithmetic, are each off by up to a unit in the last digit of their
+ * coordinates. */
 static const double ROUNDINGS = 8;
 
 typedef struct Box {
@@ -31,7 +33,7 @@ static Box places_of(const CpsScene *scene) {
     Box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (int i = 0; i < scene->line_count; i++) {
         const CpsLine *line = &scene->line[i];
-        for (int k = 0; k < line->start.point_count; k++) include(&box, &line->start.point[3*k]);
+        for (int k = 0; k < line->start.point_count; k++) include(&box, &line->start.point[3 * k]);
         for (int end = 0; end < 2; end++)
             if (line->end[end].kind == CPS_END_HELD) include(&box, line->end[end].value);
     }
@@ -44,8 +46,8 @@ static void find_origin(const CpsScene *scene, double origin[3]) {
     const double unit = pow(10, ceil(log10(length)));
     const Box box = places_of(scene);
     for (int a = 0; a < 3; a++) {
-        const double middle = 0.5*(box.low[a] + box.high[a]);
-        origin[a] = fabs(middle) > FAR*length ? round(middle/unit)*unit : 0;
+        const double middle = 0.5 * (box.low[a] + box.high[a]);
+        origin[a] = fabs(middle) > FAR * length ? round(middle / unit) * unit : 0;
     }
 }
 
@@ -57,7 +59,8 @@ static void shift_end(CpsEnd *end, const double origin[3]) {
     if (end->kind == CPS_END_HELD) shift(end->value, origin);
 }
 
-/* Room in a block, of which `used` bytes are taken; all that is kept there has the alignment of a double. */
+/* Room in a block, of which `used` bytes are taken; all that is kept there has the alignment of a
+ * double. */
 static void *copy(char *block, size_t *used, const void *from, size_t size) {
     void *to = block + *used;
     if (size > 0) memcpy(to, from, size);
@@ -66,10 +69,13 @@ static void *copy(char *block, size_t *used, const void *from, size_t size) {
 }
 
 static size_t size_of(const CpsScene *scene) {
-    size_t size = (size_t)scene->obstacle_count*sizeof(CpsObstacle) + (size_t)scene->line_count*sizeof(CpsLine) +
-                  (size_t)scene->stage_count*sizeof(CpsStage);
-    for (int i = 0; i < scene->line_count; i++) size += (size_t)scene->line[i].start.point_count*3*sizeof(double);
-    for (int i = 0; i < scene->stage_count; i++) size += (size_t)scene->stage[i].change_count*sizeof(CpsChange);
+    size_t size = (size_t)scene->obstacle_count * sizeof(CpsObstacle) +
+                  (size_t)scene->line_count * sizeof(CpsLine) +
+                  (size_t)scene->stage_count * sizeof(CpsStage);
+    for (int i = 0; i < scene->line_count; i++)
+        size += (size_t)scene->line[i].start.point_count * 3 * sizeof(double);
+    for (int i = 0; i < scene->stage_count; i++)
+        size += (size_t)scene->stage[i].change_count * sizeof(CpsChange);
     return size;
 }
 
@@ -79,25 +85,30 @@ CpsStatus cpsi_local_scene(const CpsScene *scene, CpsiLocalScene *out, CpsError 
     find_origin(scene, origin);
     if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return CPS_OK;
     char *block = out->block = malloc(size_of(scene));
-    if (!block) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the scene about a local origin");
+    if (!block)
+        return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the scene about a local origin");
     size_t used = 0;
-    CpsObstacle *obstacle = copy(block, &used, scene->obstacle, (size_t)scene->obstacle_count*sizeof *obstacle);
-    CpsLine *line = copy(block, &used, scene->line, (size_t)scene->line_count*sizeof *line);
-    CpsStage *stage = copy(block, &used, scene->stage, (size_t)scene->stage_count*sizeof *stage);
+    CpsObstacle *obstacle =
+        copy(block, &used, scene->obstacle, (size_t)scene->obstacle_count * sizeof *obstacle);
+    CpsLine *line = copy(block, &used, scene->line, (size_t)scene->line_count * sizeof *line);
+    CpsStage *stage = copy(block, &used, scene->stage, (size_t)scene->stage_count * sizeof *stage);
     for (int k = 0; k < scene->obstacle_count; k++) shift(obstacle[k].point, origin);
     for (int i = 0; i < scene->line_count; i++) {
         const int points = line[i].start.point_count;
-        double *point = copy(block, &used, line[i].start.point, (size_t)points*3*sizeof *point);
-        for (int k = 0; k < points; k++) shift(&point[3*k], origin);
+        double *point = copy(block, &used, line[i].start.point, (size_t)points * 3 * sizeof *point);
+        for (int k = 0; k < points; k++) shift(&point[3 * k], origin);
         line[i].start.point = point;
         for (int end = 0; end < 2; end++) shift_end(&line[i].end[end], origin);
     }
     for (int i = 0; i < scene->stage_count; i++) {
-        CpsChange *change = copy(block, &used, stage[i].change, (size_t)stage[i].change_count*sizeof *change);
+        CpsChange *change =
+            copy(block, &used, stage[i].change, (size_t)stage[i].change_count * sizeof *change);
         for (int k = 0; k < stage[i].change_count; k++) shift_end(&change[k].to, origin);
         stage[i].change = change;
     }
-    out->scene.obstacle = obstacle, out->scene.line = line, out->scene.stage = stage;
+    out->scene.obstacle = obstacle;
+    out->scene.line = line;
+    out->scene.stage = stage;
     return CPS_OK;
 }
 
@@ -105,5 +116,5 @@ void cpsi_local_scene_free(CpsiLocalScene *local) { free(local->block); }
 
 double cpsi_place_rounding(double length, Vec3 x) {
     const double reach = fmax(fabs(x.x), fmax(fabs(x.y), fabs(x.z)));
-    return reach > FAR*length ? ROUNDINGS*DBL_EPSILON*reach : 0;
+    return reach > FAR * length ? ROUNDINGS * DBL_EPSILON * reach : 0;
 }

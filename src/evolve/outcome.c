@@ -4,7 +4,7 @@
 
 const char *cps_outcome_key(CpsOutcome outcome) {
     switch (outcome) {
-#define CASE(name, number, key, sentence)                                                                              \
+#define CASE(name, number, key, sentence) \
     case name: return key;
         CPS_OUTCOME_LIST(CASE)
 #undef CASE
@@ -14,7 +14,7 @@ const char *cps_outcome_key(CpsOutcome outcome) {
 
 const char *cps_outcome_sentence(CpsOutcome outcome) {
     switch (outcome) {
-#define CASE(name, number, key, sentence)                                                                              \
+#define CASE(name, number, key, sentence) \
     case name: return sentence;
         CPS_OUTCOME_LIST(CASE)
 #undef CASE
@@ -22,13 +22,16 @@ const char *cps_outcome_sentence(CpsOutcome outcome) {
     return "unknown outcome";
 }
 
-bool cps_outcome_is_certified(CpsOutcome outcome) { return outcome == CPS_SOLVED || outcome == CPS_TAUT; }
+bool cps_outcome_is_certified(CpsOutcome outcome) {
+    return outcome == CPS_SOLVED || outcome == CPS_TAUT;
+}
 
 bool cps_outcome_is_final(CpsOutcome outcome) {
     return outcome == CPS_UNBOUNDED || outcome == CPS_INFEASIBLE || outcome == CPS_SLIDES;
 }
 
-/* From best to worst: certified answers, answers that are not certified, proofs that there is none. */
+/* From best to worst: certified answers, answers that are not certified, proofs that there is
+ * none. */
 static int badness(CpsOutcome outcome) {
     switch (outcome) {
     case CPS_SOLVED: return 0;
@@ -47,7 +50,7 @@ CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b) { return badness(b) > b
 
 const char *cps_range_key(CpsRange range) {
     switch (range) {
-#define CASE(name, number, key, sentence)                                                                              \
+#define CASE(name, number, key, sentence) \
     case name: return key;
         CPS_RANGE_LIST(CASE)
 #undef CASE

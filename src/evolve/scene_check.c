@@ -17,15 +17,19 @@
 
 enum { SCENE_COOKIE = 0x5ce9e501, LINE_COOKIE = 0x11e00e02, OBSTACLE_COOKIE = 0x0b57ac03 };
 
-/* A start shape must be as long as the line to this relative accuracy: lengths written with 9 digits pass. */
+/* A start shape must be as long as the line to this relative accuracy: lengths written with 9
+ * digits pass. */
 static const double LENGTH_TOLERANCE = 1e-8;
 /* An elastic line may start stretched, but not beyond this strain: more is a slip of the pen. */
 static const double MAX_START_STRAIN = 1.0;
-/* How far a held end may lie from where the start shape puts it, or below the obstacle, per length of the line. */
+/* How far a held end may lie from where the start shape puts it, or below the obstacle, per length
+ * of the line. */
 static const double PLACE_TOLERANCE = 1e-9;
-/* How far the elements' lengths may sum up beside the line's, relative: lengths written with 10 digits pass. */
+/* How far the elements' lengths may sum up beside the line's, relative: lengths written with 10
+ * digits pass. */
 static const double SUM_TOLERANCE = 1e-9;
-/* What still fits into the memory of a large machine (1 kB per element), and into a list of results. */
+/* What still fits into the memory of a large machine (1 kB per element), and into a list of
+ * results. */
 enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000, MAX_OBSTACLES = 1000 };
 
 /* [rad] Of one stage, which takes a part for every quarter of a turn: 10 000 turns. */
@@ -36,7 +40,10 @@ CpsScene cps_scene_default(void) {
         .cookie = SCENE_COOKIE,
         .gravity = {0, 0, -9.81},
         .friction = CPS_FRICTION_CONSISTENT,
-        .solver = {.tolerance = 1e-8, .max_iterations = 60, .linear_system = CPS_LINEAR_SYSTEM_CHAIN, .halvings = 10},
+        .solver = {.tolerance = 1e-8,
+                   .max_iterations = 60,
+                   .linear_system = CPS_LINEAR_SYSTEM_CHAIN,
+                   .halvings = 10},
     };
 }
 
@@ -62,21 +69,23 @@ CpsObstacle cps_obstacle_default(void) {
 
 /* ---- the check ----
  *
- * A message begins with the object and its key. Beside it the error says its place as data: a check names the key, and
- * who calls it the object around: "length" in "lines.cable". */
+ * A message begins with the object and its key. Beside it the error says its place as data: a check
+ * names the key, and who calls it the object around: "length" in "lines.cable". */
 
 /* Fails at a key of the object that is being checked; arguments as for cpsi_fail. */
 #define FAIL_AT(key, err, ...) cpsi_fail_inside(err, cpsi_fail(err, __VA_ARGS__), "%s", key)
 
-/* Numbers whose squares and products would overflow are taken for infinite; lengths whose squares would vanish for
- * zero. */
+/* Numbers whose squares and products would overflow are taken for infinite; lengths whose squares
+ * would vanish for zero. */
 static const double LARGEST = 1e100, SMALLEST = 1e-100;
 
 static bool usable(double x) { return fabs(x) <= LARGEST; }
 static bool usable3(const double x[3]) { return usable(x[0]) && usable(x[1]) && usable(x[2]); }
 static bool positive(double x) { return x >= SMALLEST && x <= LARGEST; }
 static bool not_negative(double x) { return x >= 0 && x <= LARGEST; }
-static bool direction(const double x[3]) { return usable3(x) && vec3_norm(vec3_load(x)) >= SMALLEST; }
+static bool direction(const double x[3]) {
+    return usable3(x) && vec3_norm(vec3_load(x)) >= SMALLEST;
+}
 
 static const char *end_letter(int end) { return end == CPS_END_A ? "A" : "B"; }
 
@@ -90,65 +99,80 @@ static bool name_is_valid(const char *name) {
 
 static CpsStatus check_name(const char *what, int index, const char *name, CpsError *err) {
     if (name_is_valid(name)) return CPS_OK;
-    return cpsi_fail(
-        err, CPS_ERR_ARGUMENT,
-        "%s %d: its name is '%.80s', expected a letter followed by letters, digits, '_' or '-', at most 64 in all",
-        what, index + 1, name ? name : "(none)");
+    return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                     "%s %d: its name is '%.80s', expected a letter followed by letters, digits, "
+                     "'_' or '-', at most 64 in all",
+                     what, index + 1, name ? name : "(none)");
 }
 
 static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
     if (o->kind < CPS_OBSTACLE_PLANE || o->kind > CPS_OBSTACLE_SPHERE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': unknown kind %d", o->name, (int)o->kind);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': unknown kind %d", o->name,
+                         (int)o->kind);
     const bool plane = o->kind == CPS_OBSTACLE_PLANE, ball = o->kind == CPS_OBSTACLE_SPHERE;
     const char *what = plane ? "plane point" : ball ? "sphere center" : "cylinder point";
     if (!usable3(o->point))
-        return FAIL_AT(plane ? "plane.point" : ball ? "sphere.center" : "cylinder.point", err, CPS_ERR_ARGUMENT, "obstacle '%s': %s is (%g, %g, %g) m, expected finite numbers", o->name,
-                         what, o->point[0], o->point[1], o->point[2]);
+        return FAIL_AT(plane  ? "plane.point"
+                       : ball ? "sphere.center"
+                              : "cylinder.point",
+                       err, CPS_ERR_ARGUMENT,
+                       "obstacle '%s': %s is (%g, %g, %g) m, expected finite numbers", o->name,
+                       what, o->point[0], o->point[1], o->point[2]);
     const double *d = plane ? o->normal : o->axis;
     if (!direction(d))
-        return FAIL_AT(plane ? "plane.normal" : ball ? "sphere.axis" : "cylinder.axis", err, CPS_ERR_ARGUMENT,
-                         "obstacle '%s': %s is (%g, %g, %g), expected a direction: finite numbers, not all 0", o->name,
-                         plane ? "plane normal" : "axis", d[0], d[1], d[2]);
+        return FAIL_AT(
+            plane  ? "plane.normal"
+            : ball ? "sphere.axis"
+                   : "cylinder.axis",
+            err, CPS_ERR_ARGUMENT,
+            "obstacle '%s': %s is (%g, %g, %g), expected a direction: finite numbers, not all 0",
+            o->name, plane ? "plane normal" : "axis", d[0], d[1], d[2]);
     if (!plane && !positive(o->radius))
-        return FAIL_AT(ball ? "sphere.radius" : "cylinder.radius", err, CPS_ERR_ARGUMENT, "obstacle '%s': radius is %g m, expected a positive finite number", o->name,
-                         o->radius);
+        return FAIL_AT(ball ? "sphere.radius" : "cylinder.radius", err, CPS_ERR_ARGUMENT,
+                       "obstacle '%s': radius is %g m, expected a positive finite number", o->name,
+                       o->radius);
     return CPS_OK;
 }
 
 static CpsStatus check_rubbing(const CpsObstacle *o, CpsError *err) {
     if (!not_negative(o->friction))
-        return FAIL_AT("friction", err, CPS_ERR_ARGUMENT, "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
-                         o->friction);
+        return FAIL_AT("friction", err, CPS_ERR_ARGUMENT,
+                       "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
+                       o->friction);
     if (o->friction_lateral != -1 && !not_negative(o->friction_lateral))
         return FAIL_AT("friction.lateral", err, CPS_ERR_ARGUMENT,
-                         "obstacle '%s': friction: lateral is %g, expected a finite number >= 0", o->name,
-                         o->friction_lateral);
+                       "obstacle '%s': friction: lateral is %g, expected a finite number >= 0",
+                       o->name, o->friction_lateral);
     if (o->friction_shape != CPS_FRICTION_ELLIPSE && o->friction_shape != CPS_FRICTION_BOX)
-        return FAIL_AT("friction.shape", err, CPS_ERR_ARGUMENT, "obstacle '%s': friction: unknown shape %d", o->name,
-                         (int)o->friction_shape);
+        return FAIL_AT("friction.shape", err, CPS_ERR_ARGUMENT,
+                       "obstacle '%s': friction: unknown shape %d", o->name,
+                       (int)o->friction_shape);
     const double *g = o->grain;
     if (!usable3(g) || ((g[0] != 0 || g[1] != 0 || g[2] != 0) && !direction(g)))
         return FAIL_AT("friction.grain", err, CPS_ERR_ARGUMENT,
-                         "obstacle '%s': friction: grain is (%g, %g, %g), expected a direction: finite numbers, or all 0 for "
-                         "the line's own",
-                         o->name, g[0], g[1], g[2]);
+                       "obstacle '%s': friction: grain is (%g, %g, %g), expected a direction: "
+                       "finite numbers, or all 0 for the line's own",
+                       o->name, g[0], g[1], g[2]);
     if (!o->friction_set) return CPS_OK;
-    return cpsi_fail_inside(err, cpsi_friction_set_check(o->friction_set, o->name, err), "friction.set");
+    return cpsi_fail_inside(err, cpsi_friction_set_check(o->friction_set, o->name, err),
+                            "friction.set");
 }
 
 static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
     if (scene->obstacle_count < 0 || scene->obstacle_count > MAX_OBSTACLES)
-        return FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT, "obstacles: found %d, expected 0 to %d", scene->obstacle_count,
-                         (int)MAX_OBSTACLES);
+        return FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT, "obstacles: found %d, expected 0 to %d",
+                       scene->obstacle_count, (int)MAX_OBSTACLES);
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsObstacle *o = scene->obstacle ? &scene->obstacle[k] : NULL;
         if (!o || o->cookie != OBSTACLE_COOKIE)
-            return FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT, "obstacle %d: not made by cps_obstacle_default()", k + 1);
+            return FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT,
+                           "obstacle %d: not made by cps_obstacle_default()", k + 1);
         CpsStatus status = check_name("obstacle", k, o->name, err);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "obstacles[%d]", k + 1);
         for (int i = 0; i < k && status == CPS_OK; i++)
             if (strcmp(scene->obstacle[i].name, o->name) == 0)
-                status = cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': obstacles %d and %d have the same name", o->name,
+                status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                   "obstacle '%s': obstacles %d and %d have the same name", o->name,
                                    i + 1, k + 1);
         if (status == CPS_OK) status = check_surface(o, err);
         if (status == CPS_OK) status = check_rubbing(o, err);
@@ -163,7 +187,10 @@ static double height(const CpsScene *scene, Vec3 x, const char **name) {
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
         const double gap = cpsi_obstacle_gap(&obstacle, x);
-        if (gap < least) least = gap, *name = scene->obstacle[k].name;
+        if (gap < least) {
+            least = gap;
+            *name = scene->obstacle[k].name;
+        }
     }
     return least;
 }
@@ -175,42 +202,48 @@ static double place_tolerance(const CpsLine *line, Vec3 x) {
 
 static CpsStatus check_elements(const CpsLine *line, CpsError *err) {
     if (line->elements < 1)
-        return FAIL_AT("elements", err, CPS_ERR_ARGUMENT, "line '%s': elements is %d, expected at least 1", line->name,
-                         line->elements);
+        return FAIL_AT("elements", err, CPS_ERR_ARGUMENT,
+                       "line '%s': elements is %d, expected at least 1", line->name,
+                       line->elements);
     if (!line->element_length) return CPS_OK;
     double sum = 0;
     for (int i = 0; i < line->elements; i++) {
         if (!positive(line->element_length[i]))
-            return FAIL_AT("elements", err, CPS_ERR_ARGUMENT,
-                             "line '%s': elements: number %d is %g m long, expected a positive finite number",
-                             line->name, i + 1, line->element_length[i]);
+            return FAIL_AT(
+                "elements", err, CPS_ERR_ARGUMENT,
+                "line '%s': elements: number %d is %g m long, expected a positive finite number",
+                line->name, i + 1, line->element_length[i]);
         sum += line->element_length[i];
     }
     if (!(fabs(sum - line->length) <= SUM_TOLERANCE * line->length))
         return FAIL_AT("elements", err, CPS_ERR_ARGUMENT,
-            "line '%s': elements are %.12g m long together, but length is %.12g m: make them agree to 9 digits",
-            line->name, sum, line->length);
+                       "line '%s': elements are %.12g m long together, but length is %.12g m: make "
+                       "them agree to 9 digits",
+                       line->name, sum, line->length);
     return CPS_OK;
 }
 
 static CpsStatus check_zones(const CpsLine *line, CpsError *err) {
     if (line->zone_count < 0 || (line->zone_count > 0 && !line->zone))
-        return FAIL_AT("friction_zones", err, CPS_ERR_ARGUMENT, "line '%s': friction zones: found %d, expected 0 or more", line->name,
-                         line->zone ? line->zone_count : 0);
+        return FAIL_AT("friction_zones", err, CPS_ERR_ARGUMENT,
+                       "line '%s': friction zones: found %d, expected 0 or more", line->name,
+                       line->zone ? line->zone_count : 0);
     double behind = 0;
     for (int k = 0; k < line->zone_count; k++) {
         const CpsFrictionZone *zone = &line->zone[k];
         char place[32];
         snprintf(place, sizeof place, "friction_zones[%d]", k + 1);
         if (!(zone->from >= behind && zone->from < zone->to && zone->to <= line->length))
-            return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                             "line '%s': friction zones: number %d goes from %g m to %g m, expected one that begins at %g m "
-                             "or after and ends within the line's length %g m",
-                             line->name, k + 1, zone->from, zone->to, behind, line->length);
+            return FAIL_AT(
+                place, err, CPS_ERR_ARGUMENT,
+                "line '%s': friction zones: number %d goes from %g m to %g m, expected one that "
+                "begins at %g m or after and ends within the line's length %g m",
+                line->name, k + 1, zone->from, zone->to, behind, line->length);
         if (!not_negative(zone->factor))
             return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                             "line '%s': friction zones: number %d has the factor %g, expected a finite number >= 0", line->name,
-                             k + 1, zone->factor);
+                           "line '%s': friction zones: number %d has the factor %g, expected a "
+                           "finite number >= 0",
+                           line->name, k + 1, zone->factor);
         behind = zone->to;
     }
     return CPS_OK;
@@ -218,19 +251,23 @@ static CpsStatus check_zones(const CpsLine *line, CpsError *err) {
 
 static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     if (!positive(line->length))
-        return FAIL_AT("length", err, CPS_ERR_ARGUMENT, "line '%s': length is %g m, expected a positive finite number",
-                         line->name, line->length);
+        return FAIL_AT("length", err, CPS_ERR_ARGUMENT,
+                       "line '%s': length is %g m, expected a positive finite number", line->name,
+                       line->length);
     if (!not_negative(line->weight))
-        return FAIL_AT("weight", err, CPS_ERR_ARGUMENT, "line '%s': weight is %g N/m, expected a finite number >= 0",
-                         line->name, line->weight);
+        return FAIL_AT("weight", err, CPS_ERR_ARGUMENT,
+                       "line '%s': weight is %g N/m, expected a finite number >= 0", line->name,
+                       line->weight);
     if (line->weight > 0 && !direction(scene->gravity))
         return FAIL_AT("weight", err, CPS_ERR_ARGUMENT,
-            "line '%s': weight is %g N/m, but gravity is zero and has no direction: give the scene a gravity",
-            line->name, line->weight);
+                       "line '%s': weight is %g N/m, but gravity is zero and has no direction: "
+                       "give the scene a gravity",
+                       line->name, line->weight);
     if (!positive(line->stiffness) && line->stiffness != INFINITY)
         return FAIL_AT("stiffness", err, CPS_ERR_ARGUMENT,
-            "line '%s': stiffness is %g N, expected a positive number, or infinity for an inextensible line",
-            line->name, line->stiffness);
+                       "line '%s': stiffness is %g N, expected a positive number, or infinity for "
+                       "an inextensible line",
+                       line->name, line->stiffness);
     const CpsStatus status = check_elements(line, err);
     return status ? status : check_zones(line, err);
 }
@@ -239,32 +276,38 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
 static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
     const CpsStart *start = &line->start;
     if (start->kind < CPS_START_STRAIGHT || start->kind > CPS_START_NODES)
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT, "line '%s': start has the unknown kind %d", line->name,
-                         (int)start->kind);
+        return FAIL_AT("start", err, CPS_ERR_ARGUMENT, "line '%s': start has the unknown kind %d",
+                       line->name, (int)start->kind);
     if (start->kind == CPS_START_LAID || start->kind == CPS_START_NODES) return CPS_OK;
     const bool polyline = start->kind == CPS_START_POLYLINE;
     if (!start->point || (polyline ? start->point_count < 2 : start->point_count != 2))
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT, "line '%s': start has %d points, expected %s", line->name,
-                         start->point ? start->point_count : 0, polyline ? "at least 2" : "2");
+        return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
+                       "line '%s': start has %d points, expected %s", line->name,
+                       start->point ? start->point_count : 0, polyline ? "at least 2" : "2");
     for (int i = 0; i < start->point_count; i++)
         if (!usable3(&start->point[3 * i]))
             return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                             "line '%s': start: point %d is (%g, %g, %g) m, expected finite numbers", line->name, i + 1,
-                             start->point[3 * i], start->point[3 * i + 1], start->point[3 * i + 2]);
+                           "line '%s': start: point %d is (%g, %g, %g) m, expected finite numbers",
+                           line->name, i + 1, start->point[3 * i], start->point[3 * i + 1],
+                           start->point[3 * i + 2]);
     if (start->kind != CPS_START_ARC) return CPS_OK;
     if (!direction(start->axis))
         return FAIL_AT("start.arc.axis", err, CPS_ERR_ARGUMENT,
-                         "line '%s': start: arc axis is (%g, %g, %g), expected a direction: finite numbers, not all 0",
-                         line->name, start->axis[0], start->axis[1], start->axis[2]);
+                       "line '%s': start: arc axis is (%g, %g, %g), expected a direction: finite "
+                       "numbers, not all 0",
+                       line->name, start->axis[0], start->axis[1], start->axis[2]);
     const double radius = cpsi_start_arc(line).radius;
     if (!positive(radius))
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT, "line '%s': start: the arc's first point lies on its axis", line->name);
+        return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
+                       "line '%s': start: the arc's first point lies on its axis", line->name);
     for (int i = 0; i < line->elements; i++) {
-        const double l = line->element_length ? line->element_length[i] : line->length / line->elements;
+        const double l =
+            line->element_length ? line->element_length[i] : line->length / line->elements;
         if (l > 2 * radius)
             return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                "line '%s': start: an element is %g m long, longer than the arc's diameter %g m: use more elements",
-                line->name, l, 2 * radius);
+                           "line '%s': start: an element is %g m long, longer than the arc's "
+                           "diameter %g m: use more elements",
+                           line->name, l, 2 * radius);
     }
     return CPS_OK;
 }
@@ -274,27 +317,32 @@ static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
     const double shape = cpsi_start_length(line), length = line->length;
     const bool elastic = isfinite(line->stiffness);
     const Vec3 first = line->start.point_count > 0 ? vec3_load(line->start.point) : vec3(0, 0, 0);
-    const double tolerance = LENGTH_TOLERANCE + line->start.point_count * cpsi_place_rounding(line->length, first) / length;
+    const double tolerance = LENGTH_TOLERANCE + line->start.point_count *
+                                                    cpsi_place_rounding(line->length, first) /
+                                                    length;
     if (!(shape >= length * (1 - tolerance)))
         return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-            "line '%s': start is %.10g m long, shorter than the line's length %.10g m: lengthen the shape, or "
-            "use 'laid'",
-            line->name, shape, length);
+                       "line '%s': start is %.10g m long, shorter than the line's length %.10g m: "
+                       "lengthen the shape, or use 'laid'",
+                       line->name, shape, length);
     if (!elastic && !(shape <= length * (1 + tolerance)))
         return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-            "line '%s': start is %.10g m long, longer than the inextensible line's length %.10g m: shorten it",
-            line->name, shape, length);
+                       "line '%s': start is %.10g m long, longer than the inextensible line's "
+                       "length %.10g m: shorten it",
+                       line->name, shape, length);
     if (elastic && !(shape <= length * (1 + MAX_START_STRAIN)))
         return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                         "line '%s': start is %.10g m long, more than twice the line's length %.10g m: shorten it",
-                         line->name, shape, length);
+                       "line '%s': start is %.10g m long, more than twice the line's length %.10g "
+                       "m: shorten it",
+                       line->name, shape, length);
     return CPS_OK;
 }
 
-/* No node of the start shape below the obstacle; statics keeps a laid line above by itself. With strict contact given nodes may have gone
- * through it. */
+/* No node of the start shape below the obstacle; statics keeps a laid line above by itself. With
+ * strict contact given nodes may have gone through it. */
 static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, CpsError *err) {
-    const bool through = line->start.kind == CPS_START_NODES && scene->contact == CPS_CONTACT_STRICT;
+    const bool through =
+        line->start.kind == CPS_START_NODES && scene->contact == CPS_CONTACT_STRICT;
     if (scene->obstacle_count == 0 || line->start.kind == CPS_START_LAID || through) return CPS_OK;
     CpsiStartWalk walk = cpsi_start_walk(line);
     for (int i = 0; i <= line->elements; i++) {
@@ -303,8 +351,9 @@ static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, 
         const double above = height(scene, x, &name);
         if (!(above >= -place_tolerance(line, x)))
             return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                "line '%s': start: node %d lies %g m below obstacle '%s': lift the shape, or turn the normal",
-                line->name, i, -above, name);
+                           "line '%s': start: node %d lies %g m below obstacle '%s': lift the "
+                           "shape, or turn the normal",
+                           line->name, i, -above, name);
     }
     return CPS_OK;
 }
@@ -314,29 +363,34 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
     const char *letter = end_letter(end), *place = end == CPS_END_A ? "ends.A" : "ends.B";
     const double *v = e->value;
     if (e->kind != CPS_END_HELD && e->kind != CPS_END_FREE)
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "line '%s': ends: end %s has the unknown kind %d", line->name, letter,
-                         (int)e->kind);
+        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                       "line '%s': ends: end %s has the unknown kind %d", line->name, letter,
+                       (int)e->kind);
     if (e->kind == CPS_END_FREE) {
         if (usable3(v)) return CPS_OK;
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                         "line '%s': ends: the force on end %s is (%g, %g, %g) N, expected finite numbers", line->name,
-                         letter, v[0], v[1], v[2]);
+        return FAIL_AT(
+            place, err, CPS_ERR_ARGUMENT,
+            "line '%s': ends: the force on end %s is (%g, %g, %g) N, expected finite numbers",
+            line->name, letter, v[0], v[1], v[2]);
     }
     const bool laid = line->start.kind == CPS_START_LAID;
     if (isnan(v[0]) && isnan(v[1]) && isnan(v[2])) {
         if (!laid) return CPS_OK;
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                         "line '%s': ends: end %s has no position, and a laid start gives none: fix it at [x, y, z]",
-                         line->name, letter);
+                       "line '%s': ends: end %s has no position, and a laid start gives none: fix "
+                       "it at [x, y, z]",
+                       line->name, letter);
     }
     if (!usable3(v))
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "line '%s': ends: end %s is at (%g, %g, %g) m, expected finite numbers",
-                         line->name, letter, v[0], v[1], v[2]);
+        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                       "line '%s': ends: end %s is at (%g, %g, %g) m, expected finite numbers",
+                       line->name, letter, v[0], v[1], v[2]);
     const char *name = "";
     const double above = height(scene, vec3_load(v), &name);
     if (!(above >= -place_tolerance(line, vec3_load(v))))
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "line '%s': ends: end %s is %g m below obstacle '%s'", line->name,
-                         letter, -above, name);
+        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                       "line '%s': ends: end %s is %g m below obstacle '%s'", line->name, letter,
+                       -above, name);
     if (laid) return CPS_OK;
 
     /* where the start puts the end: ask as if no value were given */
@@ -346,9 +400,10 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
     cpsi_start_end(&open, end, start);
     const double off = vec3_norm(vec3_sub(vec3_load(start), vec3_load(v)));
     if (!(off <= place_tolerance(line, vec3_load(v))))
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-            "line '%s': ends: end %s is fixed at (%.10g, %.10g, %.10g) m, but the start puts it at (%.10g, %.10g, "
-            "%.10g) m, %g m away: make them agree, or give no position",
+        return FAIL_AT(
+            place, err, CPS_ERR_ARGUMENT,
+            "line '%s': ends: end %s is fixed at (%.10g, %.10g, %.10g) m, but the start puts it at "
+            "(%.10g, %.10g, %.10g) m, %g m away: make them agree, or give no position",
             line->name, letter, v[0], v[1], v[2], start[0], start[1], start[2], off);
     return CPS_OK;
 }
@@ -356,32 +411,38 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
 static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
     const CpsLine *line = &scene->line[index];
     if (line->cookie != LINE_COOKIE)
-        return FAIL_AT("lines", err, CPS_ERR_ARGUMENT, "line %d: not made by cps_line_default()", index + 1);
+        return FAIL_AT("lines", err, CPS_ERR_ARGUMENT, "line %d: not made by cps_line_default()",
+                       index + 1);
     CpsStatus status = check_name("line", index, line->name, err);
     if (status != CPS_OK) return cpsi_fail_inside(err, status, "lines[%d]", index + 1);
     for (int i = 0; i < index && status == CPS_OK; i++)
         if (strcmp(scene->line[i].name, line->name) == 0)
-            status = cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': lines %d and %d have the same name", line->name,
-                               i + 1, index + 1);
+            status =
+                cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': lines %d and %d have the same name",
+                          line->name, i + 1, index + 1);
     if (status == CPS_OK) status = check_numbers(scene, line, err);
     if (status == CPS_OK) status = check_start_data(line, err);
-    if (status == CPS_OK && line->start.kind == CPS_START_NODES) status = cpsi_fail_inside(err, cpsi_node_start_check(scene, line, err), "start");
+    if (status == CPS_OK && line->start.kind == CPS_START_NODES)
+        status = cpsi_fail_inside(err, cpsi_node_start_check(scene, line, err), "start");
     if (status == CPS_OK) status = check_start_length(line, err);
     if (status == CPS_OK) status = check_start_height(scene, line, err);
     for (int end = 0; end < 2 && status == CPS_OK; end++) status = check_end(scene, line, end, err);
-    if (status == CPS_OK && line->start.kind == CPS_START_LAID && line->end[0].kind == CPS_END_FREE &&
-        line->end[1].kind == CPS_END_FREE)
-        status = FAIL_AT("ends", err, CPS_ERR_ARGUMENT, "line '%s': ends: both are free, but a laid start needs a fixed one",
-                           line->name);
+    if (status == CPS_OK && line->start.kind == CPS_START_LAID &&
+        line->end[0].kind == CPS_END_FREE && line->end[1].kind == CPS_END_FREE)
+        status = FAIL_AT("ends", err, CPS_ERR_ARGUMENT,
+                         "line '%s': ends: both are free, but a laid start needs a fixed one",
+                         line->name);
     return cpsi_fail_inside(err, status, "lines.%s", line->name);
 }
 
 static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsError *err) {
     const CpsChange *change = &scene->stage[stage].change[index];
-    if (change->line < 0 || change->line >= scene->line_count || (change->end != CPS_END_A && change->end != CPS_END_B))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "stage %d: change %d names line %d, end %d: there are %d lines, ends are 0 and 1", stage + 1,
-                         index + 1, change->line, change->end, scene->line_count);
+    if (change->line < 0 || change->line >= scene->line_count ||
+        (change->end != CPS_END_A && change->end != CPS_END_B))
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "stage %d: change %d names line %d, end %d: there are %d lines, ends are 0 and 1",
+            stage + 1, index + 1, change->line, change->end, scene->line_count);
     const CpsLine *line = &scene->line[change->line];
     const char *letter = end_letter(change->end);
     char place[80];
@@ -389,47 +450,58 @@ static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsEr
     for (int i = 0; i < index; i++) {
         const CpsChange *other = &scene->stage[stage].change[i];
         if (other->line == change->line && other->end == change->end)
-            return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s is changed twice", stage + 1, line->name, letter);
+            return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s is changed twice",
+                           stage + 1, line->name, letter);
     }
     const double *v = change->to.value;
     if (change->to.kind != CPS_END_HELD && change->to.kind != CPS_END_FREE)
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s has the unknown kind %d", stage + 1, line->name,
-                         letter, (int)change->to.kind);
+        return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s has the unknown kind %d",
+                       stage + 1, line->name, letter, (int)change->to.kind);
     if (!usable3(v))
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s gets (%g, %g, %g), expected finite numbers", stage + 1,
-                         line->name, letter, v[0], v[1], v[2]);
+        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                       "stage %d: %s.%s gets (%g, %g, %g), expected finite numbers", stage + 1,
+                       line->name, letter, v[0], v[1], v[2]);
     const char *name = "";
-    const double above = change->to.kind == CPS_END_HELD ? height(scene, vec3_load(v), &name) : INFINITY;
+    const double above =
+        change->to.kind == CPS_END_HELD ? height(scene, vec3_load(v), &name) : INFINITY;
     if (!(above >= -place_tolerance(line, vec3_load(v))))
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s is moved to %g m below obstacle '%s'", stage + 1,
-                         line->name, letter, -above, name);
+        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                       "stage %d: %s.%s is moved to %g m below obstacle '%s'", stage + 1,
+                       line->name, letter, -above, name);
     return CPS_OK;
 }
 
 static CpsStatus check_turns(const CpsScene *scene, int index, CpsError *err) {
     const CpsStage *stage = &scene->stage[index];
     if (stage->turn_count < 0 || (stage->turn_count > 0 && !stage->turn))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d turns, expected 0 or more", index + 1, stage->turn_count);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d turns, expected 0 or more",
+                         index + 1, stage->turn_count);
     for (int i = 0; i < stage->turn_count; i++) {
         const CpsTurn *turn = &stage->turn[i];
         if (turn->obstacle < 0 || turn->obstacle >= scene->obstacle_count)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: turn %d names obstacle %d: there are %d", index + 1, i + 1,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "stage %d: turn %d names obstacle %d: there are %d", index + 1, i + 1,
                              turn->obstacle, scene->obstacle_count);
         const CpsObstacle *obstacle = &scene->obstacle[turn->obstacle];
         char place[80];
         snprintf(place, sizeof place, "%s.turn", obstacle->name);
         if (obstacle->kind == CPS_OBSTACLE_PLANE)
-            return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: obstacle '%s' is a plane: only a cylinder or a sphere turns",
-                             index + 1, obstacle->name);
+            return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                           "stage %d: obstacle '%s' is a plane: only a cylinder or a sphere turns",
+                           index + 1, obstacle->name);
         if (!usable(turn->angle))
-            return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: obstacle '%s' turns by %g, expected a finite angle", index + 1,
-                             obstacle->name, turn->angle);
+            return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                           "stage %d: obstacle '%s' turns by %g, expected a finite angle",
+                           index + 1, obstacle->name, turn->angle);
         if (fabs(turn->angle) > MAX_TURN)
-            return FAIL_AT(place, err, CPS_ERR_LIMIT, "stage %d: obstacle '%s' turns by %g degrees, the limit is %g", index + 1,
-                             obstacle->name, turn->angle*DEGREES, MAX_TURN*DEGREES);
+            return FAIL_AT(place, err, CPS_ERR_LIMIT,
+                           "stage %d: obstacle '%s' turns by %g degrees, the limit is %g",
+                           index + 1, obstacle->name, turn->angle * DEGREES, MAX_TURN * DEGREES);
         for (int k = 0; k < i; k++)
             if (stage->turn[k].obstacle == turn->obstacle)
-                return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: obstacle '%s' is turned twice", index + 1, obstacle->name);
+                return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                               "stage %d: obstacle '%s' is turned twice", index + 1,
+                               obstacle->name);
     }
     return CPS_OK;
 }
@@ -437,27 +509,33 @@ static CpsStatus check_turns(const CpsScene *scene, int index, CpsError *err) {
 /* An entry of the history; `steps` counts those of all so far. */
 static CpsStatus check_stage(const CpsScene *scene, int k, int64_t *steps, CpsError *err) {
     const CpsStage *stage = &scene->stage[k];
-    if (!stage->name || !stage->name[0]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: it has no name", k + 1);
+    if (!stage->name || !stage->name[0])
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: it has no name", k + 1);
     if (stage->steps < 1)
-        return FAIL_AT("steps", err, CPS_ERR_ARGUMENT, "stage %d: steps is %d, expected at least 1", k + 1, stage->steps);
+        return FAIL_AT("steps", err, CPS_ERR_ARGUMENT, "stage %d: steps is %d, expected at least 1",
+                       k + 1, stage->steps);
     *steps += stage->steps;
     if (*steps > MAX_STEPS)
-        return FAIL_AT("steps", err, CPS_ERR_LIMIT, "stage %d: steps of the history exceed %lld in all, the limit", k + 1,
+        return FAIL_AT("steps", err, CPS_ERR_LIMIT,
+                       "stage %d: steps of the history exceed %lld in all, the limit", k + 1,
                        (long long)MAX_STEPS);
     if (stage->change_count < 0 || (stage->change_count > 0 && !stage->change))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d changes, expected 0 or more", k + 1,
-                         stage->change_count);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d changes, expected 0 or more",
+                         k + 1, stage->change_count);
     if (stage->gravity_changes && !usable3(stage->gravity))
-        return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT, "stage %d: gravity is (%g, %g, %g) m/s2, expected finite numbers", k + 1, stage->gravity[0],
-                       stage->gravity[1], stage->gravity[2]);
+        return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
+                       "stage %d: gravity is (%g, %g, %g) m/s2, expected finite numbers", k + 1,
+                       stage->gravity[0], stage->gravity[1], stage->gravity[2]);
     CpsStatus status = check_turns(scene, k, err);
-    for (int i = 0; i < stage->change_count && status == CPS_OK; i++) status = check_change(scene, k, i, err);
+    for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
+        status = check_change(scene, k, i, err);
     return status;
 }
 
 static CpsStatus check_history(const CpsScene *scene, CpsError *err) {
     if (scene->stage_count < 0 || (scene->stage_count > 0 && !scene->stage))
-        return FAIL_AT("history", err, CPS_ERR_ARGUMENT, "history: found %d stages, expected 0 or more", scene->stage_count);
+        return FAIL_AT("history", err, CPS_ERR_ARGUMENT,
+                       "history: found %d stages, expected 0 or more", scene->stage_count);
     int64_t steps = 0;
     for (int k = 0; k < scene->stage_count; k++) {
         const CpsStatus status = check_stage(scene, k, &steps, err);
@@ -469,25 +547,34 @@ static CpsStatus check_history(const CpsScene *scene, CpsError *err) {
 static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
     const CpsSolverOptions *solver = &scene->solver;
     if (!(solver->tolerance >= 1e-14 && solver->tolerance <= 1e-2))
-        return FAIL_AT("solver.tolerance", err, CPS_ERR_ARGUMENT, "solver: tolerance is %g, expected 1e-14 to 1e-2", solver->tolerance);
+        return FAIL_AT("solver.tolerance", err, CPS_ERR_ARGUMENT,
+                       "solver: tolerance is %g, expected 1e-14 to 1e-2", solver->tolerance);
     if (solver->max_iterations < 1 || solver->max_iterations > 1000)
-        return FAIL_AT("solver.max_iterations", err, CPS_ERR_ARGUMENT, "solver: max_iterations is %d, expected 1 to 1000",
-                         solver->max_iterations);
-    if (!(solver->path_tolerance == 0 || (solver->path_tolerance >= 1e-9 && solver->path_tolerance <= 1)))
-        return FAIL_AT("solver.path_tolerance", err, CPS_ERR_ARGUMENT, "solver: path_tolerance is %g, expected 0 or 1e-9 to 1",
-                         solver->path_tolerance);
+        return FAIL_AT("solver.max_iterations", err, CPS_ERR_ARGUMENT,
+                       "solver: max_iterations is %d, expected 1 to 1000", solver->max_iterations);
+    if (!(solver->path_tolerance == 0 ||
+          (solver->path_tolerance >= 1e-9 && solver->path_tolerance <= 1)))
+        return FAIL_AT("solver.path_tolerance", err, CPS_ERR_ARGUMENT,
+                       "solver: path_tolerance is %g, expected 0 or 1e-9 to 1",
+                       solver->path_tolerance);
     if (solver->halvings < 0 || solver->halvings > 30)
-        return FAIL_AT("solver.halvings", err, CPS_ERR_ARGUMENT, "solver: halvings is %d, expected 0 to 30", solver->halvings);
-    if (solver->linear_system != CPS_LINEAR_SYSTEM_CHAIN && solver->linear_system != CPS_LINEAR_SYSTEM_DENSE)
-        return FAIL_AT("solver.linear_system", err, CPS_ERR_ARGUMENT, "solver: linear_system has the unknown value %d",
-                         (int)solver->linear_system);
+        return FAIL_AT("solver.halvings", err, CPS_ERR_ARGUMENT,
+                       "solver: halvings is %d, expected 0 to 30", solver->halvings);
+    if (solver->linear_system != CPS_LINEAR_SYSTEM_CHAIN &&
+        solver->linear_system != CPS_LINEAR_SYSTEM_DENSE)
+        return FAIL_AT("solver.linear_system", err, CPS_ERR_ARGUMENT,
+                       "solver: linear_system has the unknown value %d",
+                       (int)solver->linear_system);
     if (scene->friction != CPS_FRICTION_FROZEN && scene->friction != CPS_FRICTION_CONSISTENT)
-        return FAIL_AT("friction", err, CPS_ERR_ARGUMENT, "friction: unknown value %d", (int)scene->friction);
+        return FAIL_AT("friction", err, CPS_ERR_ARGUMENT, "friction: unknown value %d",
+                       (int)scene->friction);
     if (scene->contact != CPS_CONTACT_GAINED && scene->contact != CPS_CONTACT_STRICT)
-        return FAIL_AT("contact", err, CPS_ERR_ARGUMENT, "contact: unknown value %d", (int)scene->contact);
+        return FAIL_AT("contact", err, CPS_ERR_ARGUMENT, "contact: unknown value %d",
+                       (int)scene->contact);
     if (!usable3(scene->gravity))
-        return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT, "gravity: is (%g, %g, %g) m/s2, expected finite numbers",
-                         scene->gravity[0], scene->gravity[1], scene->gravity[2]);
+        return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
+                       "gravity: is (%g, %g, %g) m/s2, expected finite numbers", scene->gravity[0],
+                       scene->gravity[1], scene->gravity[2]);
     return CPS_OK;
 }
 
@@ -498,15 +585,18 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
     if (status == CPS_OK) status = check_obstacles(scene, err);
     if (status != CPS_OK) return status;
     if (scene->line_count < 1 || !scene->line)
-        return FAIL_AT("lines", err, CPS_ERR_ARGUMENT, "lines: found %d, expected at least one", scene->line_count);
+        return FAIL_AT("lines", err, CPS_ERR_ARGUMENT, "lines: found %d, expected at least one",
+                       scene->line_count);
     if (scene->line_count > MAX_LINES)
-        return FAIL_AT("lines", err, CPS_ERR_LIMIT, "lines: found %d, the limit is %d", scene->line_count, (int)MAX_LINES);
+        return FAIL_AT("lines", err, CPS_ERR_LIMIT, "lines: found %d, the limit is %d",
+                       scene->line_count, (int)MAX_LINES);
     int64_t elements = 0;
     for (int i = 0; i < scene->line_count; i++) {
         elements += scene->line[i].elements > 0 ? scene->line[i].elements : 0;
         if (elements > MAX_ELEMENTS)
-            return FAIL_AT("lines", err, CPS_ERR_LIMIT, "lines: %lld elements or more together, the limit is %lld",
-                             (long long)elements, (long long)MAX_ELEMENTS);
+            return FAIL_AT("lines", err, CPS_ERR_LIMIT,
+                           "lines: %lld elements or more together, the limit is %lld",
+                           (long long)elements, (long long)MAX_ELEMENTS);
     }
     for (int i = 0; i < scene->line_count; i++) {
         status = check_line(scene, i, err);

@@ -9,7 +9,8 @@ static double element_length(const CpsLine *line, int i) {
 }
 
 double cpsi_start_length(const CpsLine *line) {
-    if (line->start.kind == CPS_START_ARC || line->start.kind == CPS_START_LAID) return line->length;
+    if (line->start.kind == CPS_START_ARC || line->start.kind == CPS_START_LAID)
+        return line->length;
     double length = 0;
     for (int i = 1; i < line->start.point_count; i++)
         length += vec3_norm(vec3_sub(shape_point(line, i), shape_point(line, i - 1)));
@@ -28,7 +29,9 @@ CpsiArc cpsi_start_arc(const CpsLine *line) {
     return (CpsiArc){.centre = centre, .e1 = e1, .e2 = vec3_cross(unit, e1), .radius = radius};
 }
 
-static bool is_placed(const CpsEnd *end) { return end->kind == CPS_END_HELD && vec3_finite(end->value); }
+static bool is_placed(const CpsEnd *end) {
+    return end->kind == CPS_END_HELD && vec3_finite(end->value);
+}
 
 /* ends of the first guess of a laid line, of which at least one is held */
 static void laid_guess(const CpsLine *line, Vec3 guess[2]) {
@@ -48,12 +51,14 @@ CpsiStartWalk cpsi_start_walk(const CpsLine *line) {
     if (line->start.kind == CPS_START_LAID) {
         Vec3 guess[2];
         laid_guess(line, guess);
-        walk.from = guess[0], walk.to = guess[1];
+        walk.from = guess[0];
+        walk.to = guess[1];
     }
     return walk;
 }
 
-/* the point of a polyline at the walk's abscissa, which never decreases; the last node is exactly the last point */
+/* the point of a polyline at the walk's abscissa, which never decreases; the last node is exactly
+ * the last point */
 static Vec3 polyline_point(CpsiStartWalk *walk) {
     const CpsLine *line = walk->line;
     const double target = walk->natural * walk->stretch;
@@ -77,15 +82,9 @@ Vec3 cpsi_start_next(CpsiStartWalk *walk) {
     Vec3 x = {0, 0, 0};
     switch (line->start.kind) {
     case CPS_START_STRAIGHT:
-    case CPS_START_POLYLINE:
-        x = polyline_point(walk);
-        break;
-    case CPS_START_ARC:
-        x = arc_point(&walk->arc, walk->angle);
-        break;
-    case CPS_START_NODES:
-        x = shape_point(line, walk->node);
-        break;
+    case CPS_START_POLYLINE: x = polyline_point(walk); break;
+    case CPS_START_ARC: x = arc_point(&walk->arc, walk->angle); break;
+    case CPS_START_NODES: x = shape_point(line, walk->node); break;
     case CPS_START_LAID:
         x = vec3_axpy(walk->natural / line->length, vec3_sub(walk->to, walk->from), walk->from);
         if (walk->node == line->elements) x = walk->to;
@@ -97,7 +96,8 @@ Vec3 cpsi_start_next(CpsiStartWalk *walk) {
         const double l = element_length(line, walk->node);
         if (line->start.kind == CPS_START_ARC) walk->angle += 2 * asin(l / (2 * walk->arc.radius));
         walk->node++;
-        walk->natural = line->element_length ? walk->natural + l : line->length * walk->node / line->elements;
+        walk->natural =
+            line->element_length ? walk->natural + l : line->length * walk->node / line->elements;
     }
     return x;
 }

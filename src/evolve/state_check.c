@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The check of a loaded state (see state_check.h).
  *
- * Everything that serves as an index, a count or a kind is compared with its range, and all numbers that later steps start from are finite.
- * Numbers that are only told may be NaN or infinite, as in reports. */
+ * Everything that serves as an index, a count or a kind is compared with its range, and all numbers
+ * that later steps start from are finite. Numbers that are only told may be NaN or infinite, as in
+ * reports. */
 #include "evolve/state_check.h"
 
 #include <math.h>
@@ -20,7 +21,9 @@ static bool none_is_nan(const double *x, size_t count) {
     return true;
 }
 
-static bool within(int64_t value, int64_t least, int64_t greatest) { return least <= value && value <= greatest; }
+static bool within(int64_t value, int64_t least, int64_t greatest) {
+    return least <= value && value <= greatest;
+}
 
 #define COUNT_ONE(name, number, key, sentence) +1
 enum { OUTCOMES = CPS_OUTCOME_LIST(COUNT_ONE), RANGES = CPS_RANGE_LIST(COUNT_ONE) };
@@ -34,25 +37,32 @@ static bool is_end(const CpsEnd *end) {
 static bool is_place_in_history(const CpsEvolution *evolution) {
     if (!within(evolution->done, 0, evolution->step_count)) return false;
     int left = evolution->done - (evolution->laid && evolution->done > 0 ? 1 : 0), current = 0;
-    while (current < evolution->stage_count && left >= evolution->stage[current].steps) left -= evolution->stage[current++].steps;
+    while (current < evolution->stage_count && left >= evolution->stage[current].steps)
+        left -= evolution->stage[current++].steps;
     return evolution->current == current && evolution->part == left;
 }
 
 static bool is_step_report(const CpsEvolution *evolution) {
     const CpsStepReport *report = &evolution->report;
-    return report->index == evolution->done - 1 && is_outcome(report->outcome) && within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
-           report->iterations >= 0 && report->parts >= 0 && report->snaps >= 0 &&
+    return report->index == evolution->done - 1 && is_outcome(report->outcome) &&
+           within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) && report->iterations >= 0 &&
+           report->parts >= 0 && report->snaps >= 0 &&
            memchr(evolution->step_name, '\0', sizeof evolution->step_name);
 }
 
-/* The obstacle of a bend is looked up wherever the mesh is too coarse, else only where the line turns. */
+/* The obstacle of a bend is looked up wherever the mesh is too coarse, else only where the line
+ * turns. */
 static bool is_line_report(const CpsLineReport *report, int obstacles) {
     const bool bends = report->bend.turn > 0 || report->outcome == CPS_MESH_TOO_COARSE;
-    bool sound = is_outcome(report->outcome) && within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) && report->iterations >= 0 &&
-                 report->parts >= 0 && report->snaps >= 0 && within(report->pierced, -1, obstacles - 1) &&
+    bool sound = is_outcome(report->outcome) &&
+                 within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
+                 report->iterations >= 0 && report->parts >= 0 && report->snaps >= 0 &&
+                 within(report->pierced, -1, obstacles - 1) &&
                  within(report->proof_obstacle, -1, obstacles - 1) &&
                  within(report->bend.obstacle, 0, bends || obstacles > 0 ? obstacles - 1 : 0);
-    for (int end = 0; end < 2; end++) sound = sound && within(report->end[end].range.kind, 0, RANGES - 1) && all_finite(report->end[end].force, 3);
+    for (int end = 0; end < 2; end++)
+        sound = sound && within(report->end[end].range.kind, 0, RANGES - 1) &&
+                all_finite(report->end[end].force, 3);
     return sound;
 }
 
@@ -60,21 +70,28 @@ static bool is_line_report(const CpsLineReport *report, int obstacles) {
 static bool are_contacts(const CpsiLine *line) {
     const int contacts = cpsi_line_all_contacts(line);
     for (int c = 0; c < contacts; c++)
-        if (line->state[c] > CPS_NODE_SLIP || (line->on && !within(line->on[c], -1, line->obstacle_count - 1))) return false;
+        if (line->state[c] > CPS_NODE_SLIP ||
+            (line->on && !within(line->on[c], -1, line->obstacle_count - 1)))
+            return false;
     return true;
 }
 
 static bool are_fields(const CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
-    return all_finite(line->reference, 3*n) && all_finite(line->position, 3*n) && all_finite(line->load, 3*n) &&
-           all_finite(line->motion, 3*n) && all_finite(line->weight, 3) && all_finite(line->weight_before, 3) && all_finite(line->normal, 3*contacts) && all_finite(line->friction_force, 3*contacts) &&
-           all_finite(line->slide, 3*contacts) && none_is_nan(line->gap, contacts) && all_finite(line->friction_bound, contacts) &&
-           all_finite(line->reaction, contacts) && all_finite(line->segment_force, 3*(n - 1)) && all_finite(line->tension, n - 1) &&
+    return all_finite(line->reference, 3 * n) && all_finite(line->position, 3 * n) &&
+           all_finite(line->load, 3 * n) && all_finite(line->motion, 3 * n) &&
+           all_finite(line->weight, 3) && all_finite(line->weight_before, 3) &&
+           all_finite(line->normal, 3 * contacts) &&
+           all_finite(line->friction_force, 3 * contacts) &&
+           all_finite(line->slide, 3 * contacts) && none_is_nan(line->gap, contacts) &&
+           all_finite(line->friction_bound, contacts) && all_finite(line->reaction, contacts) &&
+           all_finite(line->segment_force, 3 * (n - 1)) && all_finite(line->tension, n - 1) &&
            all_finite(line->beta, n);
 }
 
 const char *cpsi_state_fault(const CpsEvolution *evolution) {
-    if (!is_place_in_history(evolution)) return "it stands at a step that the history does not have";
+    if (!is_place_in_history(evolution))
+        return "it stands at a step that the history does not have";
     if (!is_step_report(evolution)) return "its report is none of a step";
     for (int k = 0; k < evolution->stage_count; k++)
         for (int i = 0; i < evolution->stage[k].change_count; i++)
@@ -83,8 +100,10 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
         const CpsiLine *line = &evolution->line[i];
         for (int end = 0; end < 2; end++)
             if (!is_end(&line->end[end])) return "an end is neither held nor free, or at no place";
-        if (!is_line_report(&line->report, evolution->obstacle_count)) return "the report of a line is none";
-        if (!are_contacts(line)) return "a contact is with an obstacle that there is not, or in no state";
+        if (!is_line_report(&line->report, evolution->obstacle_count))
+            return "the report of a line is none";
+        if (!are_contacts(line))
+            return "a contact is with an obstacle that there is not, or in no state";
         if (!are_fields(line)) return "a number is not finite";
     }
     return NULL;

@@ -8,7 +8,10 @@ static const double LEAST = 1e-12;
 static const double HALF_ROUND = 1e-8;
 
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
-    CpsiObstacle out = {.kind = def->kind, .radius = def->radius, .shape = def->friction_shape, .has_set = def->friction_set};
+    CpsiObstacle out = {.kind = def->kind,
+                        .radius = def->radius,
+                        .shape = def->friction_shape,
+                        .has_set = def->friction_set};
     out.frame = cpsi_plane(def->point, def->kind == CPS_OBSTACLE_PLANE ? def->normal : def->axis);
     out.friction[0] = def->friction;
     out.friction[1] = def->friction_lateral >= 0 ? def->friction_lateral : def->friction;
@@ -21,11 +24,13 @@ static bool is_isotropic(const CpsiObstacle *o) {
     return !o->has_set && o->friction[0] == o->friction[1] && o->shape == CPS_FRICTION_ELLIPSE;
 }
 
-bool cpsi_obstacle_follows(const CpsiObstacle *o) { return o->kind != CPS_OBSTACLE_PLANE || !is_isotropic(o); }
+bool cpsi_obstacle_follows(const CpsiObstacle *o) {
+    return o->kind != CPS_OBSTACLE_PLANE || !is_isotropic(o);
+}
 
 static Vec3 unit(Vec3 v, Vec3 otherwise) {
     const double size = vec3_norm(v);
-    return size > 0 ? vec3_scale(1/size, v) : otherwise;
+    return size > 0 ? vec3_scale(1 / size, v) : otherwise;
 }
 
 static Vec3 reject(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
@@ -42,8 +47,9 @@ double cpsi_obstacle_gap(const CpsiObstacle *o, Vec3 x) {
 
 double cpsi_obstacle_depth(const CpsiObstacle *o, Vec3 from, Vec3 to) {
     const Vec3 a = cpsi_obstacle_spoke(o, from), way = vec3_sub(cpsi_obstacle_spoke(o, to), a);
-    if (o->kind == CPS_OBSTACLE_PLANE) return -fmin(cpsi_obstacle_gap(o, from), cpsi_obstacle_gap(o, to));
-    const double square = vec3_dot(way, way), nearest = square > 0 ? -vec3_dot(a, way)/square : 0;
+    if (o->kind == CPS_OBSTACLE_PLANE)
+        return -fmin(cpsi_obstacle_gap(o, from), cpsi_obstacle_gap(o, to));
+    const double square = vec3_dot(way, way), nearest = square > 0 ? -vec3_dot(a, way) / square : 0;
     return o->radius - vec3_norm(vec3_axpy(fmin(1, fmax(0, nearest)), way, a));
 }
 
@@ -52,27 +58,35 @@ Vec3 cpsi_obstacle_normal(const CpsiObstacle *o, Vec3 x) {
     return unit(cpsi_obstacle_spoke(o, x), o->frame.axis[0]);
 }
 
-void cpsi_obstacle_axes(const CpsiObstacle *o, Vec3 x, Vec3 along, double axes[9], double curvature[3]) {
+void cpsi_obstacle_axes(const CpsiObstacle *o, Vec3 x, Vec3 along, double axes[9],
+                        double curvature[3]) {
     const Vec3 n = cpsi_obstacle_normal(o, x), wanted = o->has_grain ? o->grain : along;
     Vec3 t = reject(wanted, n);
     /* a direction along the normal has no tangent: any other */
-    for (int i = 0; i < 3 && !(vec3_norm(t) > LEAST*vec3_norm(wanted)); i++) {
+    for (int i = 0; i < 3 && !(vec3_norm(t) > LEAST * vec3_norm(wanted)); i++) {
         t = reject(o->frame.axis[i], n);
         if (vec3_norm(t) < 0.5) t = vec3(0, 0, 0);
     }
     t = unit(t, o->frame.axis[0]);
     const Vec3 b = vec3_cross(n, t);
-    vec3_store(&axes[0], t), vec3_store(&axes[3], b), vec3_store(&axes[6], n);
-    const double kappa = o->kind == CPS_OBSTACLE_PLANE ? 0 : 1/fmax(vec3_norm(cpsi_obstacle_spoke(o, x)), 0.5*o->radius);
+    vec3_store(&axes[0], t);
+    vec3_store(&axes[3], b);
+    vec3_store(&axes[6], n);
+    const double kappa = o->kind == CPS_OBSTACLE_PLANE
+                             ? 0
+                             : 1 / fmax(vec3_norm(cpsi_obstacle_spoke(o, x)), 0.5 * o->radius);
     const Vec3 straight = o->kind == CPS_OBSTACLE_CYLINDER ? o->frame.axis[2] : vec3(0, 0, 0);
     const double c = vec3_dot(straight, t), s = vec3_dot(straight, b);
-    curvature[0] = kappa*(1 - c*c), curvature[1] = -kappa*c*s, curvature[2] = kappa*(1 - s*s);
+    curvature[0] = kappa * (1 - c * c);
+    curvature[1] = -kappa * c * s;
+    curvature[2] = kappa * (1 - s * s);
 }
 
 /* v turned about a unit axis. */
 static Vec3 turned(Vec3 v, Vec3 axis, double angle) {
     const Vec3 along = vec3_scale(vec3_dot(v, axis), axis), across = vec3_sub(v, along);
-    return vec3_add(along, vec3_axpy(cos(angle), across, vec3_scale(sin(angle), vec3_cross(axis, across))));
+    return vec3_add(along, vec3_axpy(cos(angle), across,
+                                     vec3_scale(sin(angle), vec3_cross(axis, across))));
 }
 
 Vec3 cpsi_obstacle_move(const CpsiObstacle *o, Vec3 x, Vec3 u) {
@@ -87,33 +101,38 @@ Vec3 cpsi_obstacle_move(const CpsiObstacle *o, Vec3 x, Vec3 u) {
     const double way = vec3_norm(tangent);
     if (!(way > 0 && distance > 0)) return vec3_add(x, u);
     /* along the circle of x in the plane of n and the tangent */
-    const double angle = way/distance, reach = distance + rise;
-    const Vec3 t = vec3_scale(1/way, tangent), centre = vec3_sub(x, s);
+    const double angle = way / distance, reach = distance + rise;
+    const Vec3 t = vec3_scale(1 / way, tangent), centre = vec3_sub(x, s);
     const Vec3 arm = vec3_axpy(cos(angle), n, vec3_scale(sin(angle), t));
     return vec3_add(vec3_axpy(reach, arm, centre), straight);
 }
 
 Vec3 cpsi_obstacle_way(const CpsiObstacle *o, Vec3 from, Vec3 to) {
     if (o->kind == CPS_OBSTACLE_PLANE) return reject(vec3_sub(to, from), o->frame.axis[2]);
-    const Vec3 n0 = cpsi_obstacle_normal(o, from), n1 = cpsi_obstacle_normal(o, to), axis = o->frame.axis[2];
+    const Vec3 n0 = cpsi_obstacle_normal(o, from), n1 = cpsi_obstacle_normal(o, to),
+               axis = o->frame.axis[2];
     Vec3 straight = vec3(0, 0, 0);
-    if (o->kind == CPS_OBSTACLE_CYLINDER) straight = vec3_scale(vec3_dot(vec3_sub(to, from), axis), axis);
+    if (o->kind == CPS_OBSTACLE_CYLINDER)
+        straight = vec3_scale(vec3_dot(vec3_sub(to, from), axis), axis);
     /* the great circle from n0 to n1, its direction at n1 */
     const Vec3 pole = vec3_cross(n0, n1);
     const double sine = vec3_norm(pole), cosine = vec3_dot(n0, n1), angle = atan2(sine, cosine);
     if (!(sine > 0) && cosine > 0) return straight;
-    if (sine < HALF_ROUND && cosine < 0) { /* every direction arrives; on a cylinder those across the axis */
+    if (sine < HALF_ROUND &&
+        cosine < 0) { /* every direction arrives; on a cylinder those across the axis */
         const Vec3 across = vec3_cross(axis, n1), other = vec3_cross(o->frame.axis[0], n1);
-        return vec3_axpy(o->radius*angle, unit(vec3_norm(across) > 0.5 ? across : other, axis), straight);
+        return vec3_axpy(o->radius * angle, unit(vec3_norm(across) > 0.5 ? across : other, axis),
+                         straight);
     }
-    const Vec3 arrival = vec3_cross(vec3_scale(1/sine, pole), n1);
-    return vec3_axpy(o->radius*angle, arrival, straight);
+    const Vec3 arrival = vec3_cross(vec3_scale(1 / sine, pole), n1);
+    return vec3_axpy(o->radius * angle, arrival, straight);
 }
 
 double cpsi_obstacle_angle(const CpsiObstacle *o, Vec3 from, Vec3 to) {
     if (o->kind == CPS_OBSTACLE_PLANE) return 0;
     const Vec3 pole = vec3_cross(from, to);
-    const double sine = o->kind == CPS_OBSTACLE_CYLINDER ? vec3_dot(pole, o->frame.axis[2]) : vec3_norm(pole);
+    const double sine =
+        o->kind == CPS_OBSTACLE_CYLINDER ? vec3_dot(pole, o->frame.axis[2]) : vec3_norm(pole);
     return atan2(sine, vec3_dot(from, to));
 }
 
@@ -121,11 +140,13 @@ bool cpsi_obstacle_faces(const CpsiObstacle *o, Vec3 a, Vec3 b, double *share) {
     if (o->kind == CPS_OBSTACLE_PLANE) return false;
     const Vec3 from = cpsi_obstacle_spoke(o, a), along = vec3_sub(cpsi_obstacle_spoke(o, b), from);
     const double passed = -vec3_dot(from, along), whole = vec3_dot(along, along);
-    *share = passed/whole;
+    *share = passed / whole;
     return passed > 0 && passed < whole;
 }
 
-double cpsi_obstacle_allowance(const CpsiObstacle *o, double l) { return fmin(0.25*l*(l/o->radius), 0.25*o->radius); }
+double cpsi_obstacle_allowance(const CpsiObstacle *o, double l) {
+    return fmin(0.25 * l * (l / o->radius), 0.25 * o->radius);
+}
 
 Vec3 cpsi_obstacle_turn(const CpsiObstacle *o, Vec3 x, double angle) {
     if (angle == 0) return x;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Obstacles: distance, axes of contact, and motion along the surface.
  *
- * A surface is seen from the point x of a node. Its normal n(x) is that of the foot of x, the nearest point of the
- * surface; on the surfaces here (plane, cylinder, sphere) that map is closed form, and so are the geodesics. */
+ * A surface is seen from the point x of a node. Its normal n(x) is that of the foot of x, the
+ * nearest point of the surface; on the surfaces here (plane, cylinder, sphere) that map is closed
+ * form, and so are the geodesics. */
 #ifndef CAPSTAN_SRC_GEOMETRY_OBSTACLE_H
 #define CAPSTAN_SRC_GEOMETRY_OBSTACLE_H
 
@@ -11,8 +12,9 @@
 
 typedef struct CpsiObstacle {
     CpsObstacleKind kind;
-    CpsiPlane frame;    /* plane: the surface. Cylinder: axis[2] is its axis. Sphere: axis[2] is what it turns about */
-    double radius;      /* [m] cylinder, sphere */
+    CpsiPlane frame; /* plane: the surface. Cylinder: axis[2] is its axis. Sphere: axis[2] is what
+                        it turns about */
+    double radius;   /* [m] cylinder, sphere */
     double friction[2]; /* [-] along the first tangent of the contact and across it */
     CpsFrictionShape shape;
     bool has_set;   /* the forces are those of a set instead, which the line knows (cable/line.h) */
@@ -22,40 +24,48 @@ typedef struct CpsiObstacle {
 
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def);
 
-/* Does the step problem change as nodes move on it: a curved surface, or friction that follows the line's direction? */
+/* Does the step problem change as nodes move on it: a curved surface, or friction that follows the
+ * line's direction? */
 bool cpsi_obstacle_follows(const CpsiObstacle *obstacle);
 
-/* From the plane's point, the cylinder's axis or the sphere's centre to x, on a cylinder across the axis. */
+/* From the plane's point, the cylinder's axis or the sphere's centre to x, on a cylinder across the
+ * axis. */
 Vec3 cpsi_obstacle_spoke(const CpsiObstacle *obstacle, Vec3 x);
 /* [m] Signed distance of x, positive on the free side. */
 double cpsi_obstacle_gap(const CpsiObstacle *obstacle, Vec3 x);
-/* [m] How deep the straight way between two points goes below the surface at most; negative: its distance from it. */
+/* [m] How deep the straight way between two points goes below the surface at most; negative: its
+ * distance from it. */
 double cpsi_obstacle_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 /* Unit normal at the foot of x, towards the free side. */
 Vec3 cpsi_obstacle_normal(const CpsiObstacle *obstacle, Vec3 x);
 
-/* Axes of contact at x: rows first tangent, second tangent, normal. The first tangent is the grain's or `along`'s (any
- * vector) part in the tangent plane; curvature [1/m] of the surface through x as xx, xy, yy in these axes. */
-void cpsi_obstacle_axes(const CpsiObstacle *obstacle, Vec3 x, Vec3 along, double axes[9], double curvature[3]);
+/* Axes of contact at x: rows first tangent, second tangent, normal. The first tangent is the
+ * grain's or `along`'s (any vector) part in the tangent plane; curvature [1/m] of the surface
+ * through x as xx, xy, yy in these axes. */
+void cpsi_obstacle_axes(const CpsiObstacle *obstacle, Vec3 x, Vec3 along, double axes[9],
+                        double curvature[3]);
 
-/* Where x comes to lie when it moves by u: the tangential part of u along the surface's geodesic, the normal part after
- * it. */
+/* Where x comes to lie when it moves by u: the tangential part of u along the surface's geodesic,
+ * the normal part after it. */
 Vec3 cpsi_obstacle_move(const CpsiObstacle *obstacle, Vec3 x, Vec3 u);
 
-/* The way from one point's foot to another's along the surface, as a tangent vector at the second: its length is that
- * of the geodesic, its direction the one of arrival. The shorter way round; of two points half round apart, one of them. */
+/* The way from one point's foot to another's along the surface, as a tangent vector at the second:
+ * its length is that of the geodesic, its direction the one of arrival. The shorter way round; of
+ * two points half round apart, one of them. */
 Vec3 cpsi_obstacle_way(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 
-/* [rad] The angle between two normals of a round obstacle: about a cylinder's axis by the right-hand rule, from -pi to pi; on a
- * ball that of the great circle, from 0 to pi. 0 on a plane. */
+/* [rad] The angle between two normals of a round obstacle: about a cylinder's axis by the
+ * right-hand rule, from -pi to pi; on a ball that of the great circle, from 0 to pi. 0 on a
+ * plane. */
 double cpsi_obstacle_angle(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 
-/* The point (1 - share) a + share b of the straight element from a to b that is nearest to the axis of a cylinder or the centre of a
- * sphere. False where that is one of its ends, and for a plane. */
+/* The point (1 - share) a + share b of the straight element from a to b that is nearest to the axis
+ * of a cylinder or the centre of a sphere. False where that is one of its ends, and for a plane. */
 bool cpsi_obstacle_faces(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double *share);
 
-/* [m] How far an element of natural length l may cut into a round obstacle of radius R: delta = min(l^2/(4 R), R/4). A chord between two
- * points of the surface cuts in by l^2/(8 R) and more, but by less than delta up to l = 1.3 R. */
+/* [m] How far an element of natural length l may cut into a round obstacle of radius R: delta =
+ * min(l^2/(4 R), R/4). A chord between two points of the surface cuts in by l^2/(8 R) and more, but
+ * by less than delta up to l = 1.3 R. */
 double cpsi_obstacle_allowance(const CpsiObstacle *obstacle, double l);
 
 /* x carried along as the obstacle turns about its axis by `angle` [rad], right-hand rule. */

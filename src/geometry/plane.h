@@ -10,8 +10,8 @@ typedef struct CpsiPlane {
     Vec3 axis[3]; /* orthonormal, right-handed; axis[2] is the unit normal, towards the free side */
 } CpsiPlane;
 
-/* The plane through `point` with `normal` of any non-zero length. The tangent axes are as close to x and y as they can be,
- * so that a horizontal plane keeps x, y, z to the last bit. */
+/* The plane through `point` with `normal` of any non-zero length. The tangent axes are as close to
+ * x and y as they can be, so that a horizontal plane keeps x, y, z to the last bit. */
 CpsiPlane cpsi_plane(const double point[3], const double normal[3]);
 
 /* Signed distance of x from the plane [m], positive on the free side. */

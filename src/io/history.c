@@ -19,7 +19,8 @@ bool cpsi_results_pictured(const CpsResults *results, int step) {
 
 double cpsi_results_turn(const CpsResults *results, int step, int obstacle) {
     for (int i = 0; i < results->stage_count; ++i)
-        if (step >= results->stage[i].first && step <= results->stage[i].last) return results->stage[i].turn[obstacle];
+        if (step >= results->stage[i].first && step <= results->stage[i].last)
+            return results->stage[i].turn[obstacle];
     return 0;
 }
 
@@ -27,7 +28,8 @@ double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
     double sum = 0;
     for (int i = 0; i < results->stage_count && results->stage[i].first <= step; ++i) {
         const CpsiStage *stage = &results->stage[i];
-        sum += ((step < stage->last ? step : stage->last) - stage->first + 1) * stage->turn[obstacle];
+        sum +=
+            ((step < stage->last ? step : stage->last) - stage->first + 1) * stage->turn[obstacle];
     }
     return sum;
 }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the writers of results and the pictures share: the history so far in numbers, and sampled shapes for the pictures.
+/* What the writers of results and the pictures share: the history so far in numbers, and sampled
+ * shapes for the pictures.
  *
- * Fields go to files step by step; memory keeps one row of reports per step and at most about sixty sampled
- * shapes, so it does not grow with the number of nodes. */
+ * Fields go to files step by step; memory keeps one row of reports per step and at most about sixty
+ * sampled shapes, so it does not grow with the number of nodes. */
 #ifndef CAPSTAN_SRC_IO_HISTORY_H
 #define CAPSTAN_SRC_IO_HISTORY_H
 
@@ -63,7 +64,8 @@ struct CpsResults {
     double gravity[3];
     double origin[3]; /* [m] that of the views */
     int obstacle_count;
-    CpsObstacle *obstacle; /* (obstacle_count), without names and friction sets, about the origin of the views */
+    CpsObstacle *obstacle; /* (obstacle_count), without names and friction sets, about the origin of
+                              the views */
     int line_count;
     char **line_name;
     double *line_length; /* [m] */
@@ -78,8 +80,8 @@ struct CpsResults {
     CpsiSnapshot *snapshot;
 };
 
-/* Is this step among those that get their own plan view and elevation? All of a short history; of a long one the
- * ends of its stages, or an even selection, and always the first and the last step. */
+/* Is this step among those that get their own plan view and elevation? All of a short history; of a
+ * long one the ends of its stages, or an even selection, and always the first and the last step. */
 bool cpsi_results_pictured(const CpsResults *results, int step);
 
 /* [rad] By how much an obstacle turns in one step; and since the start, when that step is over. */
@@ -91,7 +93,8 @@ CpsOutcome cpsi_results_outcome(const CpsResults *results);
 
 /* How node j rests, the stronger of its contacts: where it slides on one obstacle it slides. */
 static inline unsigned char cpsi_node_state(const CpsLineView *view, int j) {
-    const unsigned char state = view->state[j], other = view->contacts > 1 ? view->state[view->elements + 1 + j] : 0;
+    const unsigned char state = view->state[j],
+                        other = view->contacts > 1 ? view->state[view->elements + 1 + j] : 0;
     return other > state ? other : state;
 }
 

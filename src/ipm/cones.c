@@ -8,19 +8,23 @@
 
 void cpsi_cones_layout(CpsiArena *arena, CpsiCones *cones, int rows, int count, int largest) {
     const size_t m = (size_t)rows;
-    double *at = CPSI_TAKE(arena, 7*m + (size_t)count + 4*(size_t)largest, double);
+    double *at = CPSI_TAKE(arena, 7 * m + (size_t)count + 4 * (size_t)largest, double);
     *cones = (CpsiCones){.rows = rows, .count = count};
     if (!at) return;
-    double **part[] = {&cones->s, &cones->z, &cones->ds, &cones->dz, &cones->q, &cones->w, &cones->rho};
-    for (size_t k = 0; k < sizeof part/sizeof *part; k++, at += m) *part[k] = at;
+    double **part[] = {&cones->s, &cones->z, &cones->ds, &cones->dz,
+                       &cones->q, &cones->w, &cones->rho};
+    for (size_t k = 0; k < sizeof part / sizeof *part; k++, at += m) *part[k] = at;
     cones->g = at;
     cones->scratch = at + count;
 }
 
 void cpsi_cones_start(CpsiCones *cones, double mu) {
-    memset(cones->s, 0, (size_t)cones->rows*sizeof *cones->s);
-    memset(cones->z, 0, (size_t)cones->rows*sizeof *cones->z);
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) cones->s[i] = 1, cones->z[i] = mu;
+    memset(cones->s, 0, (size_t)cones->rows * sizeof *cones->s);
+    memset(cones->z, 0, (size_t)cones->rows * sizeof *cones->z);
+    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
+        cones->s[i] = 1;
+        cones->z[i] = mu;
+    }
 }
 
 void cpsi_cones_scale(CpsiCones *cones) {
@@ -29,15 +33,17 @@ void cpsi_cones_scale(CpsiCones *cones) {
     for (int i = 0; i < cones->rows; i++) cones->q[i] = -cones->z[i];
 }
 
-void cpsi_cones_apply(const CpsiCones *cones, int k, int i, double sign, double factor, const double *x, double *out) {
+void cpsi_cones_apply(const CpsiCones *cones, int k, int i, double sign, double factor,
+                      const double *x, double *out) {
     cpsi_cone_apply(out, &cones->w[i], x, sign, factor, cones->dim[k]);
 }
 
 double cpsi_cones_step(CpsiCones *cones) {
     double inverse = 0;
     for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
-        const double step = cpsi_cone_step(cones->dim[k], &cones->w[i], cones->g[k], &cones->s[i], &cones->z[i],
-                                           &cones->ds[i], &cones->dz[i], cones->scratch);
+        const double step =
+            cpsi_cone_step(cones->dim[k], &cones->w[i], cones->g[k], &cones->s[i], &cones->z[i],
+                           &cones->ds[i], &cones->dz[i], cones->scratch);
         inverse = cpsi_larger(inverse, step);
     }
     return inverse;
@@ -45,13 +51,13 @@ double cpsi_cones_step(CpsiCones *cones) {
 
 void cpsi_cones_correct(CpsiCones *cones, double target) {
     for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++])
-        cpsi_cone_correct(&cones->q[i], cones->dim[k], &cones->w[i], cones->g[k], &cones->s[i], &cones->z[i], &cones->ds[i],
-                          &cones->dz[i], target, cones->scratch);
+        cpsi_cone_correct(&cones->q[i], cones->dim[k], &cones->w[i], cones->g[k], &cones->s[i],
+                          &cones->z[i], &cones->ds[i], &cones->dz[i], target, cones->scratch);
 }
 
 void cpsi_cones_advance(CpsiCones *cones, double alpha) {
     for (int i = 0; i < cones->rows; i++) {
-        cones->s[i] += alpha*cones->ds[i];
-        cones->z[i] += alpha*cones->dz[i];
+        cones->s[i] += alpha * cones->ds[i];
+        cones->z[i] += alpha * cones->dz[i];
     }
 }

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The cones of a program, one after the other: pairs (s, z), their Nesterov-Todd scaling, steps and corrections.
+/* The cones of a program, one after the other: pairs (s, z), their Nesterov-Todd scaling, steps and
+ * corrections.
  *
- * A half-line is a cone of dimension 1 with W = 1 and g = z/s; for the others see cone/soc.h. H = g W^-2. */
+ * A half-line is a cone of dimension 1 with W = 1 and g = z/s; for the others see cone/soc.h. H = g
+ * W^-2. */
 #ifndef CAPSTAN_SRC_IPM_CONES_H
 #define CAPSTAN_SRC_IPM_CONES_H
 
@@ -10,12 +12,12 @@
 
 typedef struct CpsiCones {
     int rows, count;
-    const int *dim;                             /* (count) */
-    double *s, *z, *ds, *dz;                    /* (rows) */
-    double *q;                                  /* (rows) right-hand side: dz = q - H ds */
-    double *w, *g;                              /* (rows), (count) scaling */
-    double *rho;                                /* (rows) what s differs by from what the unknowns say */
-    double *scratch;                            /* (4 largest) */
+    const int *dim;          /* (count) */
+    double *s, *z, *ds, *dz; /* (rows) */
+    double *q;               /* (rows) right-hand side: dz = q - H ds */
+    double *w, *g;           /* (rows), (count) scaling */
+    double *rho;             /* (rows) what s differs by from what the unknowns say */
+    double *scratch;         /* (4 largest) */
 } CpsiCones;
 
 void cpsi_cones_layout(CpsiArena *arena, CpsiCones *cones, int rows, int count, int largest);
@@ -24,8 +26,10 @@ void cpsi_cones_layout(CpsiArena *arena, CpsiCones *cones, int rows, int count, 
 void cpsi_cones_start(CpsiCones *cones, double mu);
 /* Scaling at (s, z), and q of the predictor. */
 void cpsi_cones_scale(CpsiCones *cones);
-/* out = factor W^sign x for cone k, whose rows begin at i; x and out (dim) of the cone, not overlapping. */
-void cpsi_cones_apply(const CpsiCones *cones, int k, int i, double sign, double factor, const double *x, double *out);
+/* out = factor W^sign x for cone k, whose rows begin at i; x and out (dim) of the cone, not
+ * overlapping. */
+void cpsi_cones_apply(const CpsiCones *cones, int k, int i, double sign, double factor,
+                      const double *x, double *out);
 /* The largest of 1/alpha to the boundaries along (ds, dz). */
 double cpsi_cones_step(CpsiCones *cones);
 /* q of the corrector, s o z -> target e less the second-order term of (ds, dz). */

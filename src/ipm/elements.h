@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The elements of a program over a chain (chain_program.h): the arrays of each kind, the program that holds them, and what one kind
- * needs of another. Each kind is a file: stretch.c, drag.c, stop.c, rub.c, shape.c; chain_program.c puts them together. */
+/* The elements of a program over a chain (chain_program.h): the arrays of each kind, the program
+ * that holds them, and what one kind needs of another. Each kind is a file: stretch.c, drag.c,
+ * stop.c, rub.c, shape.c; chain_program.c puts them together. */
 #ifndef CAPSTAN_SRC_IPM_ELEMENTS_H
 #define CAPSTAN_SRC_IPM_ELEMENTS_H
 
@@ -9,29 +10,30 @@
 
 /* Element i = 1..n-1 between nodes i-1 and i; index 0 is unused. */
 typedef struct CpsiStretch {
-    double *length;       /* (n) l_i > 0, their sum is 1 */
-    double compliance;    /* c >= 0, of every element */
-    double (*s)[4];       /* (n) (1 + d, e) */
-    double (*z)[4];       /* (n) (T, -p) */
-    double (*w)[4];       /* (n) Nesterov-Todd scaling */
-    double *g;            /* (n) and its factor */
-    double *inverse_w;    /* (n) 1/|w1| */
-    double (*q)[4];       /* (n) right-hand side of the complementarity equation */
-    double (*ds)[4];      /* (n) direction */
-    double (*dz)[4];      /* (n) */
+    double *length;    /* (n) l_i > 0, their sum is 1 */
+    double compliance; /* c >= 0, of every element */
+    double (*s)[4];    /* (n) (1 + d, e) */
+    double (*z)[4];    /* (n) (T, -p) */
+    double (*w)[4];    /* (n) Nesterov-Todd scaling */
+    double *g;         /* (n) and its factor */
+    double *inverse_w; /* (n) 1/|w1| */
+    double (*q)[4];    /* (n) right-hand side of the complementarity equation */
+    double (*ds)[4];   /* (n) direction */
+    double (*dz)[4];   /* (n) */
 } CpsiStretch;
 
 typedef struct CpsiRub {
     int count;
     int *node;
-    int *contact;   /* (count) the caller's number */
-    double *weight; /* (count) w_k > 0, that of its stop */
-    double (*s)[3]; /* (count) (t, u_x, u_y) */
-    double (*z)[3]; /* (count) (A, F_x, F_y) */
+    int *contact;        /* (count) the caller's number */
+    double *weight;      /* (count) w_k > 0, that of its stop */
+    double (*s)[3];      /* (count) (t, u_x, u_y) */
+    double (*z)[3];      /* (count) (A, F_x, F_y) */
     double (*offset)[2]; /* (count) o_k; NULL: none */
-    double (*map)[6];    /* (count) B_k (2, 3) row by row; NULL: the first two rows of the identity */
-    bool follow;      /* the bounds follow the reactions, A = friction R, those of shapes too; else A is given and stays */
-    int *stop;        /* (count) the stop whose reaction bounds it, where they follow */
+    double (*map)[6]; /* (count) B_k (2, 3) row by row; NULL: the first two rows of the identity */
+    bool follow; /* the bounds follow the reactions, A = friction R, those of shapes too; else A is
+                    given and stays */
+    int *stop;   /* (count) the stop whose reaction bounds it, where they follow */
     double *friction; /* (count) */
     double (*w)[3];
     double *g;
@@ -41,18 +43,19 @@ typedef struct CpsiRub {
 typedef struct CpsiStop {
     int count;
     int *node;
-    int *contact;   /* (count) the caller's number */
-    double *weight; /* (count) w_k > 0 */
-    double *gap;    /* (count) g_k >= 0 */
-    bool *second;           /* (count) of two at a node */
-    double (*normal)[3];    /* (count) n_k; of a first stop z. NULL: all are z, and none is second */
-    double (*curvature)[6]; /* (count) R0 times the curvature of the surface, xx, xy, yy, xz, yz, zz: the force R n gains that times u;
-                               with `normal` */
-    double *s, *z;  /* (count) distance, reaction */
+    int *contact;        /* (count) the caller's number */
+    double *weight;      /* (count) w_k > 0 */
+    double *gap;         /* (count) g_k >= 0 */
+    bool *second;        /* (count) of two at a node */
+    double (*normal)[3]; /* (count) n_k; of a first stop z. NULL: all are z, and none is second */
+    double (*curvature)[6]; /* (count) R0 times the curvature of the surface, xx, xy, yy, xz, yz,
+                               zz: the force R n gains that times u; with `normal` */
+    double *s, *z;          /* (count) distance, reaction */
     double *q, *ds, *dz;
 } CpsiStop;
 
-/* A planar set of forces { origin + P v : A v + b in K }, K a product of half-lines (dimension 1) and second-order cones. */
+/* A planar set of forces { origin + P v : A v + b in K }, K a product of half-lines (dimension 1)
+ * and second-order cones. */
 typedef struct CpsiShapeForm {
     int unknowns, rows, cones;
     int spread;           /* rows, and one more for each second-order cone */
@@ -72,16 +75,18 @@ typedef struct CpsiShape {
     const CpsiShapeForm **form; /* (count) */
     double *bound;              /* (count) a: the forces are a times the set */
     double (*offset)[2];        /* (count) o_k */
-    double (*tangent)[6];       /* (count) the tangents (2, 3) of its stop row by row: x and y of a first one */
-    bool *second;               /* (count) as its stop */
-    int *stop;                  /* (count) as of a rub, where the bounds follow */
-    double *friction;           /* (count) */
-    double *d_bound, *shift;    /* (count) direction of a, and what it has beside that of friction R */
-    double (*turn)[2];          /* (count) cosine and sine of the turn of the node's tangents in the linear system */
-    double (*du)[2];            /* (count) the direction in these */
-    double *frame;              /* (n, 9) the axes of the nodes, so turned */
-    double *data, *scratch;     /* (count, stride) what each element holds (shape.c) */
-    int *index;                 /* (count, index_stride) */
+    double (*tangent)[6]; /* (count) the tangents (2, 3) of its stop row by row: x and y of a first
+                             one */
+    bool *second;         /* (count) as its stop */
+    int *stop;            /* (count) as of a rub, where the bounds follow */
+    double *friction;     /* (count) */
+    double *d_bound, *shift; /* (count) direction of a, and what it has beside that of friction R */
+    double (*turn)[2]; /* (count) cosine and sine of the turn of the node's tangents in the linear
+                          system */
+    double (*du)[2];   /* (count) the direction in these */
+    double *frame;     /* (n, 9) the axes of the nodes, so turned */
+    double *data, *scratch; /* (count, stride) what each element holds (shape.c) */
+    int *index;             /* (count, index_stride) */
     size_t stride, index_stride;
 } CpsiShape;
 
@@ -89,33 +94,36 @@ typedef struct CpsiChainProgram {
     CpsiProgram base;    /* u (n, or 2 n with points, 3) and so on: node after node */
     int n;               /* nodes */
     unsigned char *held; /* (n) */
-    double *frame;       /* (n, or 2 n, 9) axes of the nodes (linsys/frame.h); NULL: the common axes */
+    double *frame; /* (n, or 2 n, 9) axes of the nodes (linsys/frame.h); NULL: the common axes */
     struct {
         double *frame, (*offset)[2], (*map)[6], (*normal)[3], (*curvature)[6];
-        double *share;   /* (n) where on its way element i has a point, 0: none; NULL: there is no room for points */
+        double *share; /* (n) where on its way element i has a point, 0: none; NULL: there is no
+                          room for points */
         CpsiMatrixSecond second;
-        double *press;   /* (n) w (z/s) n.du of second stops */
-        bool two;        /* there is room for second stops */
-    } own;               /* room for what only nodes with axes of their own have */
+        double *press; /* (n) w (z/s) n.du of second stops */
+        bool two;      /* there is room for second stops */
+    } own;             /* room for what only nodes with axes of their own have */
     CpsiStretch stretch;
-    double drag;         /* d >= 0: a force -d w_j u_j on node j, w_j its share of the line */
+    double drag; /* d >= 0: a force -d w_j u_j on node j, w_j its share of the line */
     CpsiRub rub;
     CpsiStop stop;
-    CpsiShape shape;     /* laid out only where asked for */
-    double *dt;          /* (n) direction of the tension unknowns (index 0 unused) */
+    CpsiShape shape; /* laid out only where asked for */
+    double *dt;      /* (n) direction of the tension unknowns (index 0 unused) */
     CpsiMatrix matrix;
     const CpsiLinsysOps *ops;
     CpsiLinsys *linsys;
 } CpsiChainProgram;
 
-static inline CpsiChainProgram *cpsi_chain(CpsiProgram *program) { return (CpsiChainProgram *)program; }
+static inline CpsiChainProgram *cpsi_chain(CpsiProgram *program) {
+    return (CpsiChainProgram *)program;
+}
 
 /* n.u of stop k, for a field u of the nodes. */
 static inline double cpsi_stop_rise(const CpsiStop *stop, int k, const double *u) {
-    const double *v = &u[3*stop->node[k]];
+    const double *v = &u[3 * stop->node[k]];
     if (!stop->normal || !stop->second[k]) return v[2];
     const double *n = stop->normal[k];
-    return n[0]*v[0] + n[1]*v[1] + n[2]*v[2];
+    return n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
 }
 
 /* rho = gap + n.u - s of stop k. */
@@ -129,35 +137,38 @@ static inline void cpsi_add_mapped(double *d, double by, const double b[6], cons
     static const int ROW[6] = {0, 0, 1, 0, 1, 2}, COLUMN[6] = {0, 1, 1, 2, 2, 2};
     for (int i = 0; i < 6; i++) {
         const double *p = &b[ROW[i]], *q = &b[COLUMN[i]];
-        d[i] += by*(p[0]*(m[0]*q[0] + m[1]*q[3]) + p[3]*(m[1]*q[0] + m[2]*q[3]));
+        d[i] += by * (p[0] * (m[0] * q[0] + m[1] * q[3]) + p[3] * (m[1] * q[0] + m[2] * q[3]));
     }
 }
 
-/* Friction that follows stop k: (c times the change of the bound) acts on the node, c in its axes; the bound is friction R. Adds what
- * goes with du to the matrix. */
-static inline void cpsi_stop_follow(CpsiChainProgram *program, int k, double weight, double friction, const double c[3]) {
+/* Friction that follows stop k: (c times the change of the bound) acts on the node, c in its axes;
+ * the bound is friction R. Adds what goes with du to the matrix. */
+static inline void cpsi_stop_follow(CpsiChainProgram *program, int k, double weight,
+                                    double friction, const double c[3]) {
     const CpsiStop *stop = &program->stop;
     const int node = stop->node[k];
     if (stop->normal && stop->second[k]) { /* compliance s/(w z): friction c over it */
         for (int a = 0; a < 3; a++)
-            program->own.second.column[3*node + a] += weight/stop->weight[k]*friction*c[a];
+            program->own.second.column[3 * node + a] += weight / stop->weight[k] * friction * c[a];
         return;
     }
     for (int a = 0; a < 2; a++)
-        program->matrix.skew[2*node + a] += weight*friction*stop->z[k]/stop->s[k]*c[a];
+        program->matrix.skew[2 * node + a] += weight * friction * stop->z[k] / stop->s[k] * c[a];
 }
 
 /* ---- shapes (shape.c) ---- */
 
 /* The arrays of at most `count` shapes on n nodes. */
-void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, int count, const CpsiShapeForm *largest);
+void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, int count,
+                       const CpsiShapeForm *largest);
 /* F of shape k, per unit weight. */
 void cpsi_shape_force(const CpsiShape *shape, int k, double force[2]);
 /* |o + u_xy| of shape k. */
 double cpsi_shape_way(const CpsiChainProgram *program, int k);
 /* How far F is inside the set, 0 on its boundary, of order one at the centre. */
 double cpsi_shape_margin(const CpsiShape *shape, int k);
-/* Tangential components of nodes to the turned tangents of their shapes; a direction back, and kept. */
+/* Tangential components of nodes to the turned tangents of their shapes; a direction back, and
+ * kept. */
 void cpsi_shape_turn(const CpsiShape *shape, double *x);
 void cpsi_shape_turn_back(CpsiShape *shape, double *du);
 /* The shapes' part of cpsi_chain_program_follow: every bound moves to friction R. */

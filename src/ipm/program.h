@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A conic program as the interior-point loop sees it: unknowns, elements by kind, and a linear system.
+/* A conic program as the interior-point loop sees it: unknowns, elements by kind, and a linear
+ * system.
  *
- *     min  sum of the elements' energies - load.u      over u, each element holding its own cones and private unknowns
+ *     min  sum of the elements' energies - load.u
+ *         over u, each element holding its own cones and private unknowns
  *
- * Iterate: every cone has an interior pair (s, z), s primal and z dual. The loop (ipm.c) knows nothing else; a program of one
- * shape (chain_program.h) supplies the kinds of its elements and the linear system that fits them. Kinds work on arrays: one call per
- * kind and pass, none per element. */
+ * Iterate: every cone has an interior pair (s, z), s primal and z dual. The loop (ipm.c) knows
+ * nothing else; a program of one shape (chain_program.h) supplies the kinds of its elements and the
+ * linear system that fits them. Kinds work on arrays: one call per kind and pass, none per
+ * element. */
 #ifndef CAPSTAN_SRC_IPM_PROGRAM_H
 #define CAPSTAN_SRC_IPM_PROGRAM_H
 
@@ -13,7 +16,8 @@
 
 typedef struct CpsiProgram CpsiProgram;
 
-/* What a pass over the elements of one kind adds up. Step lengths are kept as inverses: the largest bounds the step. */
+/* What a pass over the elements of one kind adds up. Step lengths are kept as inverses: the largest
+ * bounds the step. */
 typedef struct CpsiSums {
     double inverse_step; /* 1/alpha of the nearest boundary */
     double weight;       /* sum of weights */
@@ -22,8 +26,9 @@ typedef struct CpsiSums {
     double scale;        /* sum w s0 z0 over the cones */
     double bound;        /* sum w A of what a dual ray neglects: forces bounded by friction */
     double largest;      /* largest dual */
-    double ray;          /* minus what the duals, as a ray, ask of the primal: > 0 speaks for infeasibility */
-    double ray_cost;     /* sum l c T^2: > 0 where the ray strains what has compliance */
+    double
+        ray; /* minus what the duals, as a ray, ask of the primal: > 0 speaks for infeasibility */
+    double ray_cost; /* sum l c T^2: > 0 where the ray strains what has compliance */
 } CpsiSums;
 
 /* One kind of element. `keep` is the share of the residuals that a direction is to remove. */
@@ -32,15 +37,19 @@ typedef struct CpsiKind {
     void (*start)(CpsiProgram *program, double mu, double margin);
     /* add the elements' forces to program->residual; add up s.z and residuals */
     void (*measure)(CpsiProgram *program, CpsiSums *sums);
-    /* scaling; add the condensed stiffness to the matrix; right-hand side q of the predictor, s o z -> 0 */
+    /* scaling; add the condensed stiffness to the matrix; right-hand side q of the predictor, s o z
+     * -> 0 */
     void (*scale)(CpsiProgram *program);
     /* add to du, the right-hand side, the forces that q and the residuals put on the unknowns */
     void (*load)(CpsiProgram *program, double keep);
-    /* direction (ds, dz) from du; step to the boundary; a predictor may leave its second-order term in q */
+    /* direction (ds, dz) from du; step to the boundary; a predictor may leave its second-order term
+     * in q */
     void (*direct)(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums);
-    /* q of the corrector: s o z -> target e, less the second-order term of the predictor just taken */
+    /* q of the corrector: s o z -> target e, less the second-order term of the predictor just
+     * taken */
     void (*correct)(CpsiProgram *program, double target);
-    /* q of a step to the centre, s o z -> target e, without a predictor; NULL where the loop is not asked to centre */
+    /* q of a step to the centre, s o z -> target e, without a predictor; NULL where the loop is not
+     * asked to centre */
     void (*centre)(CpsiProgram *program, double target);
     /* s += alpha ds, z += alpha dz */
     void (*advance)(CpsiProgram *program, double alpha);
@@ -54,7 +63,8 @@ struct CpsiProgram {
     double *residual; /* (size) imbalance of forces */
     int kind_count;
     const CpsiKind *const *kind; /* (kind_count) */
-    /* the linear system: clear its matrix before `scale`; factorise after it; solve for du in place */
+    /* the linear system: clear its matrix before `scale`; factorise after it; solve for du in
+     * place */
     void (*clear)(CpsiProgram *program);
     bool (*factor)(CpsiProgram *program);
     void (*solve)(CpsiProgram *program);

@@ -1,26 +1,33 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Shape: dry friction with any planar convex set of forces, a C, C = { origin + P v : A v + b in K }, K half-lines and second-order cones.
+/* Shape: dry friction with any planar convex set of forces, a C, C = { origin + P v : A v + b in K
+ * }, K half-lines and second-order cones.
  *
- * With the variables scaled by the bound a, the force F = origin a + P v lies in a C where z = A v + b a is in K, and against the way
- * u = o + v_xy of its node it is the one that dissipates most when
+ * With the variables scaled by the bound a, the force F = origin a + P v lies in a C where z = A v
+ * + b a is in K, and against the way u = o + v_xy of its node it is the one that dissipates most
+ * when
  *
- *     A's = P'u,    s in K,    s o z = 0          s.z = a phi(u) + <u, F>,   phi(u) = s.b - <u, origin>
+ *     A's = P'u,    s in K,    s o z = 0          s.z = a phi(u) + <u, F>,
+ *         phi(u) = s.b - <u, origin>
  *
- * (the dual of max -<u, F>). Linearised, dz + H ds = q with H = g W^-2, dz = A dv + b da, A'ds = P'du + r, r = P'u - A's:
+ * (the dual of max -<u, F>). Linearised, dz + H ds = q with H = g W^-2, dz = A dv + b da, A'ds =
+ * P'du + r, r = P'u - A's:
  *
  *     N dv = A'H^-1 (q - b da) - P'du - r,      N = A'H^-1 A
  *     dF = c da + P N^-1 (A'H^-1 q - r) - M du,     M = P N^-1 P',     c = origin - P N^-1 A'H^-1 b
  *
- * M goes to the node's block and c, where a = friction R follows the reaction of the stop beside it, to its column z as in rub.c. Near a
- * solution H^-1 holds numbers from mu to 1/mu. So N is never formed: with B = H^-1/2 A = Q R, its rows turned to the axes of W so
- * that each has one size, dv is a least-squares solution and sqrt(H) ds its residual,
+ * M goes to the node's block and c, where a = friction R follows the reaction of the stop beside
+ * it, to its column z as in rub.c. Near a solution H^-1 holds numbers from mu to 1/mu. So N is
+ * never formed: with B = H^-1/2 A = Q R, its rows turned to the axes of W so that each has one
+ * size, dv is a least-squares solution and sqrt(H) ds its residual,
  *
- *     dv = R^-1 (Q1'y - t),   sqrt(H) ds = Q (t, Q2'y),   y = H^-1/2 (q - b da),   t = R^-T (P'du + r),
+ *     dv = R^-1 (Q1'y - t),   sqrt(H) ds = Q (t, Q2'y),   y = H^-1/2 (q - b da),
+ *         t = R^-T (P'du + r),
  *
- * which keeps A'ds = P'du + r to the last digit. M = G'G with G = R^-T P' is large along a face of C and of order one across while a node
- * slides on that face. So the linear system has the node's tangents turned to where the columns of G are orthogonal (Jacobi), and
- * du in these axes is kept for R^-T P'du = G du: turned back, the small part along the face would be lost in the other. A node's second
- * shape, on another obstacle, lies as it comes in these axes.
+ * which keeps A'ds = P'du + r to the last digit. M = G'G with G = R^-T P' is large along a face of
+ * C and of order one across while a node slides on that face. So the linear system has the node's
+ * tangents turned to where the columns of G are orthogonal (Jacobi), and du in these axes is kept
+ * for R^-T P'du = G du: turned back, the small part along the face would be lost in the other. A
+ * node's second shape, on another obstacle, lies as it comes in these axes.
  *
  * It starts from the centre of C, where A'z^-1 = 0: then s = mu z^-1 leaves r = P'u. */
 #include <string.h>
@@ -33,49 +40,54 @@
 /* The arrays of one element inside its share of `data` and `index`. */
 typedef struct Element {
     const CpsiShapeForm *form;
-    double *v, *dv, *r, *beta;             /* (unknowns) */
-    double *pull[2];                       /* (unknowns) the columns of G, turned */
-    double *s, *z, *w, *q, *ds, *dz;       /* (rows) */
-    double *g;                             /* (cones) */
-    double *qr;                            /* (spread, unknowns) */
-    int *row, *column;                     /* (spread), (unknowns) */
-    int spread;                            /* rows of B */
+    double *v, *dv, *r, *beta;       /* (unknowns) */
+    double *pull[2];                 /* (unknowns) the columns of G, turned */
+    double *s, *z, *w, *q, *ds, *dz; /* (rows) */
+    double *g;                       /* (cones) */
+    double *qr;                      /* (spread, unknowns) */
+    int *row, *column;               /* (spread), (unknowns) */
+    int spread;                      /* rows of B */
 } Element;
 
 static Element element(const CpsiShape *shape, int k) {
     const CpsiShapeForm *form = shape->form[k];
     Element e = {.form = form, .spread = form->spread};
-    double *at = &shape->data[(size_t)k*shape->stride];
-    double **of_unknowns[] = {&e.v, &e.dv, &e.r, &e.beta, &e.pull[0], &e.pull[1]}, **of_rows[] = {&e.s, &e.z, &e.w, &e.q, &e.ds, &e.dz};
+    double *at = &shape->data[(size_t)k * shape->stride];
+    double **of_unknowns[] = {&e.v, &e.dv, &e.r, &e.beta, &e.pull[0], &e.pull[1]},
+           **of_rows[] = {&e.s, &e.z, &e.w, &e.q, &e.ds, &e.dz};
     for (int i = 0; i < 6; i++, at += form->unknowns) *of_unknowns[i] = at;
     for (int i = 0; i < 6; i++, at += form->rows) *of_rows[i] = at;
     e.g = at;
     e.qr = at + form->cones;
-    e.row = &shape->index[(size_t)k*shape->index_stride];
+    e.row = &shape->index[(size_t)k * shape->index_stride];
     e.column = e.row + e.spread;
     return e;
 }
 
-void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, int most, const CpsiShapeForm *largest) {
-    const size_t count = (size_t)most, unknowns = (size_t)largest->unknowns, rows = (size_t)largest->rows;
+void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, int most,
+                       const CpsiShapeForm *largest) {
+    const size_t count = (size_t)most, unknowns = (size_t)largest->unknowns,
+                 rows = (size_t)largest->rows;
     const size_t spread = (size_t)largest->spread;
-    shape->stride = 6*unknowns + 6*rows + (size_t)largest->cones + spread*unknowns;
+    shape->stride = 6 * unknowns + 6 * rows + (size_t)largest->cones + spread * unknowns;
     shape->index_stride = spread + unknowns;
     shape->node = CPSI_TAKE(arena, count, int);
     shape->contact = CPSI_TAKE(arena, count, int);
     shape->second = CPSI_TAKE(arena, count, bool);
     shape->stop = CPSI_TAKE(arena, count, int);
     shape->form = CPSI_TAKE(arena, count, const CpsiShapeForm *);
-    double **const scalars[] = {&shape->weight, &shape->friction, &shape->bound, &shape->d_bound, &shape->shift};
-    for (size_t i = 0; i < sizeof scalars/sizeof *scalars; i++) *scalars[i] = CPSI_TAKE(arena, count, double);
+    double **const scalars[] = {&shape->weight, &shape->friction, &shape->bound, &shape->d_bound,
+                                &shape->shift};
+    for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
+        *scalars[i] = CPSI_TAKE(arena, count, double);
     shape->offset = cpsi_arena_take(arena, count, sizeof *shape->offset);
     shape->tangent = cpsi_arena_take(arena, count, sizeof *shape->tangent);
     shape->turn = cpsi_arena_take(arena, count, sizeof *shape->turn);
     shape->du = cpsi_arena_take(arena, count, sizeof *shape->du);
-    shape->frame = CPSI_TAKE(arena, 9*(size_t)n, double);
-    shape->data = CPSI_TAKE(arena, count*shape->stride, double);
-    shape->index = CPSI_TAKE(arena, count*shape->index_stride, int);
-    shape->scratch = CPSI_TAKE(arena, 4*spread + 2*unknowns, double);
+    shape->frame = CPSI_TAKE(arena, 9 * (size_t)n, double);
+    shape->data = CPSI_TAKE(arena, count * shape->stride, double);
+    shape->index = CPSI_TAKE(arena, count * shape->index_stride, int);
+    shape->scratch = CPSI_TAKE(arena, 4 * spread + 2 * unknowns, double);
 }
 
 /* ---- small products ---- */
@@ -83,59 +95,68 @@ void cpsi_shape_layout(CpsiShape *shape, CpsiArena *arena, int n, int most, cons
 /* Rows of B that a cone of dimension d makes. */
 static int spread_of(int d) { return d == 1 ? 1 : d + 1; }
 
-/* out = H^-1/2 x in the axes of W: of a second-order cone its components along (1, n), (1, -n) and across, n = w1/|w1|. */
+/* out = H^-1/2 x in the axes of W: of a second-order cone its components along (1, n), (1, -n) and
+ * across, n = w1/|w1|. */
 static void spread(const Element *e, const double *x, double *out) {
-    for (int k = 0, i = 0, o = 0; k < e->form->cones; i += e->form->dim[k], o += spread_of(e->form->dim[k]), k++) {
+    for (int k = 0, i = 0, o = 0; k < e->form->cones;
+         i += e->form->dim[k], o += spread_of(e->form->dim[k]), k++) {
         const int d = e->form->dim[k];
-        const double by = 1/sqrt(e->g[k]), *w = &e->w[i];
-        out[o] = by*x[i];
+        const double by = 1 / sqrt(e->g[k]), *w = &e->w[i];
+        out[o] = by * x[i];
         if (d == 1) continue;
         const double size = cpsi_norm(d - 1, w + 1), large = w[0] + size, half = sqrt(0.5);
         double along = 0;
-        for (int a = 1; a < d; a++) along += (size > 0 ? w[a]/size : a == 1)*x[i + a];
-        out[o] = by*half*large*(x[i] + along);
-        out[o + 1] = by*half/large*(x[i] - along);
-        for (int a = 1; a < d; a++) out[o + 1 + a] = by*(x[i + a] - (size > 0 ? w[a]/size : a == 1)*along);
+        for (int a = 1; a < d; a++) along += (size > 0 ? w[a] / size : a == 1) * x[i + a];
+        out[o] = by * half * large * (x[i] + along);
+        out[o + 1] = by * half / large * (x[i] - along);
+        for (int a = 1; a < d; a++)
+            out[o + 1 + a] = by * (x[i + a] - (size > 0 ? w[a] / size : a == 1) * along);
     }
 }
 
 /* The transpose of `spread`. */
 static void gather(const Element *e, const double *y, double *out) {
-    for (int k = 0, i = 0, o = 0; k < e->form->cones; i += e->form->dim[k], o += spread_of(e->form->dim[k]), k++) {
+    for (int k = 0, i = 0, o = 0; k < e->form->cones;
+         i += e->form->dim[k], o += spread_of(e->form->dim[k]), k++) {
         const int d = e->form->dim[k];
-        const double by = 1/sqrt(e->g[k]), *w = &e->w[i];
-        out[i] = by*y[o];
+        const double by = 1 / sqrt(e->g[k]), *w = &e->w[i];
+        out[i] = by * y[o];
         if (d == 1) continue;
         const double size = cpsi_norm(d - 1, w + 1), large = w[0] + size, half = sqrt(0.5);
-        const double first = half*large*y[o], second = half/large*y[o + 1];
+        const double first = half * large * y[o], second = half / large * y[o + 1];
         double along = 0;
-        for (int a = 1; a < d; a++) along += (size > 0 ? w[a]/size : a == 1)*y[o + 1 + a];
-        out[i] = by*(first + second);
+        for (int a = 1; a < d; a++) along += (size > 0 ? w[a] / size : a == 1) * y[o + 1 + a];
+        out[i] = by * (first + second);
         for (int a = 1; a < d; a++)
-            out[i + a] = by*(y[o + 1 + a] + (size > 0 ? w[a]/size : a == 1)*(first - second - along));
+            out[i + a] =
+                by * (y[o + 1 + a] + (size > 0 ? w[a] / size : a == 1) * (first - second - along));
     }
 }
 
 /* out = P'u */
 static void lift(const CpsiShapeForm *form, const double u[2], double *out) {
-    for (int j = 0; j < form->unknowns; j++) out[j] = form->p[j]*u[0] + form->p[form->unknowns + j]*u[1];
+    for (int j = 0; j < form->unknowns; j++)
+        out[j] = form->p[j] * u[0] + form->p[form->unknowns + j] * u[1];
 }
 
 /* T u, in the tangents of shape k. */
 static void tangential(const CpsiShape *shape, int k, const double u[3], double out[2]) {
     const double *t = shape->tangent[k];
-    for (int a = 0; a < 2; a++) out[a] = t[3*a]*u[0] + t[3*a + 1]*u[1] + t[3*a + 2]*u[2];
+    for (int a = 0; a < 2; a++)
+        out[a] = t[3 * a] * u[0] + t[3 * a + 1] * u[1] + t[3 * a + 2] * u[2];
 }
 
 /* T^T f */
 static void spatial(const double t[6], const double f[2], double out[3]) {
-    for (int a = 0; a < 3; a++) out[a] = t[a]*f[0] + t[3 + a]*f[1];
+    for (int a = 0; a < 3; a++) out[a] = t[a] * f[0] + t[3 + a] * f[1];
 }
 
 /* out += factor (origin a + P v) */
-static void add_force(const CpsiShapeForm *form, double factor, double a, const double *v, double out[2]) {
+static void add_force(const CpsiShapeForm *form, double factor, double a, const double *v,
+                      double out[2]) {
     for (int i = 0; i < 2; i++)
-        out[i] += factor*(form->origin[i]*a + cpsi_dot(form->unknowns, &form->p[i*form->unknowns], v));
+        out[i] += factor *
+                  (form->origin[i] * a + cpsi_dot(form->unknowns, &form->p[i * form->unknowns], v));
 }
 
 void cpsi_shape_force(const CpsiShape *shape, int k, double force[2]) {
@@ -146,7 +167,7 @@ void cpsi_shape_force(const CpsiShape *shape, int k, double force[2]) {
 double cpsi_shape_way(const CpsiChainProgram *program, int k) {
     const CpsiShape *shape = &program->shape;
     double u[2];
-    tangential(shape, k, &program->base.u[3*shape->node[k]], u);
+    tangential(shape, k, &program->base.u[3 * shape->node[k]], u);
     return hypot(u[0] + shape->offset[k][0], u[1] + shape->offset[k][1]);
 }
 
@@ -155,7 +176,7 @@ static void push(const CpsiShape *shape, int k, double a, const double *v, doubl
     double f[2] = {0, 0}, here[3];
     add_force(shape->form[k], shape->weight[k], a, v, f);
     spatial(shape->tangent[k], f, here);
-    for (int i = 0; i < 3; i++) force[3*shape->node[k] + i] += here[i];
+    for (int i = 0; i < 3; i++) force[3 * shape->node[k] + i] += here[i];
 }
 
 double cpsi_shape_margin(const CpsiShape *shape, int k) {
@@ -163,7 +184,7 @@ double cpsi_shape_margin(const CpsiShape *shape, int k) {
     double least = INFINITY;
     for (int c = 0, i = 0; c < e.form->cones; i += e.form->dim[c++])
         least = fmin(least, e.z[i] - cpsi_norm(e.form->dim[c] - 1, &e.z[i + 1]));
-    return least/shape->bound[k];
+    return least / shape->bound[k];
 }
 
 /* ---- the kind ---- */
@@ -175,16 +196,18 @@ static void start(CpsiProgram *base, double mu, double margin) {
     for (int k = 0; k < shape->count; k++) {
         const Element e = element(shape, k);
         const CpsiShapeForm *form = e.form;
-        if (program->rub.follow) shape->bound[k] = shape->friction[k]*program->stop.z[shape->stop[k]];
+        if (program->rub.follow)
+            shape->bound[k] = shape->friction[k] * program->stop.z[shape->stop[k]];
         const double a = shape->bound[k];
-        for (int j = 0; j < form->unknowns; j++) e.v[j] = a*form->centre[j];
+        for (int j = 0; j < form->unknowns; j++) e.v[j] = a * form->centre[j];
         for (int i = 0; i < form->rows; i++)
-            e.z[i] = a*(cpsi_dot(form->unknowns, &form->a[i*form->unknowns], form->centre) + form->b[i]);
+            e.z[i] = a * (cpsi_dot(form->unknowns, &form->a[i * form->unknowns], form->centre) +
+                          form->b[i]);
         for (int c = 0, i = 0; c < form->cones; i += form->dim[c++]) {
             const int d = form->dim[c];
-            const double inverse = d == 1 ? mu/(e.z[i]*e.z[i]) : mu/cpsi_soc_det(&e.z[i], d);
-            e.s[i] = inverse*e.z[i];
-            for (int r = 1; r < d; r++) e.s[i + r] = -inverse*e.z[i + r];
+            const double inverse = d == 1 ? mu / (e.z[i] * e.z[i]) : mu / cpsi_soc_det(&e.z[i], d);
+            e.s[i] = inverse * e.z[i];
+            for (int r = 1; r < d; r++) e.s[i + r] = -inverse * e.z[i + r];
         }
     }
 }
@@ -194,19 +217,21 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     for (int k = 0; k < shape->count; k++) {
         const Element e = element(shape, k);
         const CpsiShapeForm *form = e.form;
-        const double weight = shape->weight[k], *x = &base->u[3*shape->node[k]];
+        const double weight = shape->weight[k], *x = &base->u[3 * shape->node[k]];
         double u[2];
         tangential(shape, k, x, u);
         for (int a = 0; a < 2; a++) u[a] += shape->offset[k][a];
         lift(form, u, e.r);
         for (int i = 0; i < form->rows; i++)
-            for (int j = 0; j < form->unknowns; j++) e.r[j] -= form->a[i*form->unknowns + j]*e.s[i];
-        for (int j = 0; j < form->unknowns; j++) sums->residual = cpsi_larger(sums->residual, fabs(e.r[j]));
+            for (int j = 0; j < form->unknowns; j++)
+                e.r[j] -= form->a[i * form->unknowns + j] * e.s[i];
+        for (int j = 0; j < form->unknowns; j++)
+            sums->residual = cpsi_larger(sums->residual, fabs(e.r[j]));
         const double phi = cpsi_dot(form->rows, e.s, form->b) - cpsi_dot(2, u, form->origin);
-        sums->weight += weight*form->cones;
-        sums->sz += weight*cpsi_dot(form->rows, e.s, e.z);
-        sums->scale += weight*shape->bound[k]*fabs(phi);
-        sums->bound += weight*shape->bound[k]*form->reach;
+        sums->weight += weight * form->cones;
+        sums->sz += weight * cpsi_dot(form->rows, e.s, e.z);
+        sums->scale += weight * shape->bound[k] * fabs(phi);
+        sums->bound += weight * shape->bound[k] * form->reach;
         push(shape, k, shape->bound[k], e.v, base->residual);
     }
 }
@@ -216,9 +241,9 @@ static bool factor(const Element *e, double *scratch) {
     const CpsiShapeForm *form = e->form;
     double *column = scratch, *image = column + form->rows;
     for (int j = 0; j < form->unknowns; j++) {
-        for (int i = 0; i < form->rows; i++) column[i] = form->a[i*form->unknowns + j];
+        for (int i = 0; i < form->rows; i++) column[i] = form->a[i * form->unknowns + j];
         spread(e, column, image);
-        for (int i = 0; i < e->spread; i++) e->qr[i*form->unknowns + j] = image[i];
+        for (int i = 0; i < e->spread; i++) e->qr[i * form->unknowns + j] = image[i];
     }
     return cpsi_qr_factor(e->spread, form->unknowns, e->qr, e->beta, e->row, e->column);
 }
@@ -232,30 +257,39 @@ static void project(const Element *e, const double *x, double *out, double *scra
 /* Two components from the node's tangents to the turned ones, and back. */
 static void turn_to(const double turn[2], double *x) {
     const double a = x[0], b = x[1];
-    x[0] = turn[0]*a - turn[1]*b, x[1] = turn[1]*a + turn[0]*b;
+    x[0] = turn[0] * a - turn[1] * b;
+    x[1] = turn[1] * a + turn[0] * b;
 }
-static void turn_from(const double turn[2], double *x) { turn_to((const double[2]){turn[0], -turn[1]}, x); }
+static void turn_from(const double turn[2], double *x) {
+    turn_to((const double[2]){turn[0], -turn[1]}, x);
+}
 
 /* G, not turned yet. */
 static void pull(const Element *e, double turn[2]) {
     const int n = e->form->unknowns;
-    for (int a = 0; a < 2; a++) cpsi_qr_solve_transposed(n, e->qr, e->column, e->form->p + a*n, e->pull[a]);
-    turn[0] = 1, turn[1] = 0;
+    for (int a = 0; a < 2; a++)
+        cpsi_qr_solve_transposed(n, e->qr, e->column, e->form->p + a * n, e->pull[a]);
+    turn[0] = 1;
+    turn[1] = 0;
 }
 
-/* G with its columns made orthogonal by a turn of the tangents: Jacobi's rotations from one side, which keep the digits of each column. */
+/* G with its columns made orthogonal by a turn of the tangents: Jacobi's rotations from one side,
+ * which keep the digits of each column. */
 static void orthogonalise(const Element *e, double turn[2]) {
     const int n = e->form->unknowns;
     for (int sweep = 0; sweep < 4; sweep++) {
-        const double one = cpsi_dot(n, e->pull[0], e->pull[0]), two = cpsi_dot(n, e->pull[1], e->pull[1]);
+        const double one = cpsi_dot(n, e->pull[0], e->pull[0]),
+                     two = cpsi_dot(n, e->pull[1], e->pull[1]);
         const double both = cpsi_dot(n, e->pull[0], e->pull[1]);
-        if (!(fabs(both) > DBL_EPSILON*sqrt(one)*sqrt(two))) return;
-        const double zeta = (two - one)/(2*both), tangent = (zeta < 0 ? -1 : 1)/(fabs(zeta) + hypot(1, zeta));
-        const double by[2] = {1/hypot(1, tangent), tangent/hypot(1, tangent)};
+        if (!(fabs(both) > DBL_EPSILON * sqrt(one) * sqrt(two))) return;
+        const double zeta = (two - one) / (2 * both),
+                     tangent = (zeta < 0 ? -1 : 1) / (fabs(zeta) + hypot(1, zeta));
+        const double by[2] = {1 / hypot(1, tangent), tangent / hypot(1, tangent)};
         for (int i = 0; i < n; i++) {
             double pair[2] = {e->pull[0][i], e->pull[1][i]};
             turn_to(by, pair);
-            e->pull[0][i] = pair[0], e->pull[1][i] = pair[1];
+            e->pull[0][i] = pair[0];
+            e->pull[1][i] = pair[1];
         }
         turn_to(by, turn);
     }
@@ -263,22 +297,26 @@ static void orthogonalise(const Element *e, double turn[2]) {
 
 /* The node's block, second direction and axes in the turned tangents. */
 static void turn_node(CpsiMatrix *matrix, int node, const double turn[2], double *frame) {
-    double *diagonal = &matrix->diagonal[6*node];
+    double *diagonal = &matrix->diagonal[6 * node];
     const double c = turn[0], s = turn[1], xx = diagonal[0], xy = diagonal[1], yy = diagonal[2];
-    diagonal[0] = c*c*xx - 2*c*s*xy + s*s*yy;
-    diagonal[1] = c*s*(xx - yy) + (c*c - s*s)*xy;
-    diagonal[2] = s*s*xx + 2*c*s*xy + c*c*yy;
+    diagonal[0] = c * c * xx - 2 * c * s * xy + s * s * yy;
+    diagonal[1] = c * s * (xx - yy) + (c * c - s * s) * xy;
+    diagonal[2] = s * s * xx + 2 * c * s * xy + c * c * yy;
     turn_to(turn, &diagonal[3]);
-    if (matrix->second && node < matrix->n) turn_to(turn, &matrix->second->row[3*node]), turn_to(turn, &matrix->second->column[3*node]);
+    if (matrix->second && node < matrix->n) {
+        turn_to(turn, &matrix->second->row[3 * node]);
+        turn_to(turn, &matrix->second->column[3 * node]);
+    }
     for (int a = 0; a < 3; a++) {
         double pair[2] = {frame[a], frame[3 + a]};
         turn_to(turn, pair);
-        frame[a] = pair[0], frame[3 + a] = pair[1];
+        frame[a] = pair[0];
+        frame[3 + a] = pair[1];
     }
 }
 
-/* The tangents of shape k in the axes of the linear system. A first shape's are those axes; a second shape stands behind the first
- * one of its node, whose turn it takes. */
+/* The tangents of shape k in the axes of the linear system. A first shape's are those axes; a
+ * second shape stands behind the first one of its node, whose turn it takes. */
 static void system_tangents(const CpsiShape *shape, int k, double t[6]) {
     memcpy(t, shape->tangent[k], sizeof shape->tangent[k]);
     if (!shape->second[k] || k == 0 || shape->node[k - 1] != shape->node[k]) return;
@@ -287,12 +325,12 @@ static void system_tangents(const CpsiShape *shape, int k, double t[6]) {
 }
 
 void cpsi_shape_turn(const CpsiShape *shape, double *x) {
-    for (int k = 0; k < shape->count; k++) turn_to(shape->turn[k], &x[3*shape->node[k]]);
+    for (int k = 0; k < shape->count; k++) turn_to(shape->turn[k], &x[3 * shape->node[k]]);
 }
 
 void cpsi_shape_turn_back(CpsiShape *shape, double *du) {
     for (int k = 0; k < shape->count; k++) {
-        double *x = &du[3*shape->node[k]];
+        double *x = &du[3 * shape->node[k]];
         tangential(shape, k, x, shape->du[k]);
         turn_from(shape->turn[k], x);
     }
@@ -302,8 +340,8 @@ static void scale(CpsiProgram *base) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiShape *shape = &program->shape;
     double *scratch = shape->scratch;
-    const size_t places = (size_t)program->n*(program->matrix.share ? 2 : 1);
-    if (shape->count > 0) memcpy(shape->frame, program->frame, 9*places*sizeof *shape->frame);
+    const size_t places = (size_t)program->n * (program->matrix.share ? 2 : 1);
+    if (shape->count > 0) memcpy(shape->frame, program->frame, 9 * places * sizeof *shape->frame);
     for (int k = 0; k < shape->count; k++) {
         const Element e = element(shape, k);
         const CpsiShapeForm *form = e.form;
@@ -313,7 +351,7 @@ static void scale(CpsiProgram *base) {
             e.g[c] = cpsi_cone_scale(&e.w[i], &e.s[i], &e.z[i], form->dim[c]);
         for (int i = 0; i < form->rows; i++) e.q[i] = -e.z[i];
         shape->shift[k] = 0;
-        double *diagonal = &program->matrix.diagonal[6*node], *turn = shape->turn[k], t[6];
+        double *diagonal = &program->matrix.diagonal[6 * node], *turn = shape->turn[k], t[6];
         if (!factor(&e, scratch)) {
             diagonal[0] = NAN; /* the linear system says so */
             continue;
@@ -321,14 +359,15 @@ static void scale(CpsiProgram *base) {
         pull(&e, turn);
         if (!shape->second[k]) {
             orthogonalise(&e, turn);
-            turn_node(&program->matrix, node, turn, &shape->frame[9*node]);
+            turn_node(&program->matrix, node, turn, &shape->frame[9 * node]);
         }
         system_tangents(shape, k, t);
         const double m[3] = {cpsi_dot(n, e.pull[0], e.pull[0]), cpsi_dot(n, e.pull[0], e.pull[1]),
                              cpsi_dot(n, e.pull[1], e.pull[1])};
         cpsi_add_mapped(diagonal, weight, t, m);
         if (!program->rub.follow) continue;
-        double *image = scratch + e.spread, *v = image + e.spread, c[2] = {form->origin[0], form->origin[1]}, here[3];
+        double *image = scratch + e.spread, *v = image + e.spread,
+               c[2] = {form->origin[0], form->origin[1]}, here[3];
         project(&e, form->b, image, scratch);
         cpsi_qr_solve(n, e.qr, e.column, image, v);
         add_force(form, -1, 0, v, c);
@@ -338,18 +377,21 @@ static void scale(CpsiProgram *base) {
     }
 }
 
-/* dv, and Q' sqrt(H) ds in `image` (spread), for the residual keep r and du in the turned tangents (NULL: 0). scratch (2 spread) */
-static void direction(const Element *e, double da, double keep, const double *du, double *image, double *scratch) {
+/* dv, and Q' sqrt(H) ds in `image` (spread), for the residual keep r and du in the turned tangents
+ * (NULL: 0). scratch (2 spread) */
+static void direction(const Element *e, double da, double keep, const double *du, double *image,
+                      double *scratch) {
     const CpsiShapeForm *form = e->form;
     const int n = form->unknowns;
     double *y = scratch, *t = scratch + e->spread;
-    for (int i = 0; i < form->rows; i++) t[i] = e->q[i] - form->b[i]*da;
+    for (int i = 0; i < form->rows; i++) t[i] = e->q[i] - form->b[i] * da;
     project(e, t, image, y);
     cpsi_qr_solve_transposed(n, e->qr, e->column, e->r, t);
     for (int i = 0; i < n; i++) {
         t[i] *= keep;
-        if (du) t[i] += e->pull[0][i]*du[0] + e->pull[1][i]*du[1];
-        y[i] = image[i] - t[i], image[i] = t[i];
+        if (du) t[i] += e->pull[0][i] * du[0] + e->pull[1][i] * du[1];
+        y[i] = image[i] - t[i];
+        image[i] = t[i];
     }
     cpsi_qr_solve(n, e->qr, e->column, y, e->dv);
 }
@@ -363,7 +405,8 @@ static void load(CpsiProgram *base, double keep) {
         const int i = shape->stop[k];
         double da = shape->shift[k], *image = shape->scratch, *rest = image + e.spread;
         if (program->rub.follow)
-            da += shape->friction[k]*(stop->q[i] - stop->z[i]/stop->s[i]*keep*cpsi_stop_residual(program, i));
+            da += shape->friction[k] *
+                  (stop->q[i] - stop->z[i] / stop->s[i] * keep * cpsi_stop_residual(program, i));
         direction(&e, da, keep, NULL, image, rest);
         push(shape, k, da, e.dv, base->du);
     }
@@ -378,15 +421,18 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         const CpsiShapeForm *form = e.form;
         const int n = form->unknowns;
         double *image = shape->scratch, *rest = image + e.spread, *y = rest;
-        const double da = shape->shift[k] + (program->rub.follow ? shape->friction[k]*program->stop.dz[shape->stop[k]] : 0);
+        const double da =
+            shape->shift[k] +
+            (program->rub.follow ? shape->friction[k] * program->stop.dz[shape->stop[k]] : 0);
         direction(&e, da, keep, shape->du[k], image, rest);
         cpsi_qr_from(e.spread, n, e.qr, e.beta, e.row, image, y);
         gather(&e, y, e.ds);
-        for (int i = 0; i < form->rows; i++) e.dz[i] = cpsi_dot(n, &form->a[i*n], e.dv) + form->b[i]*da;
+        for (int i = 0; i < form->rows; i++)
+            e.dz[i] = cpsi_dot(n, &form->a[i * n], e.dv) + form->b[i] * da;
         shape->d_bound[k] = da;
         for (int c = 0, i = 0; c < form->cones; i += form->dim[c++]) {
-            const double step =
-                cpsi_cone_step(form->dim[c], &e.w[i], e.g[c], &e.s[i], &e.z[i], &e.ds[i], &e.dz[i], shape->scratch);
+            const double step = cpsi_cone_step(form->dim[c], &e.w[i], e.g[c], &e.s[i], &e.z[i],
+                                               &e.ds[i], &e.dz[i], shape->scratch);
             sums->inverse_step = cpsi_larger(sums->inverse_step, step);
         }
     }
@@ -398,8 +444,8 @@ static void correct(CpsiProgram *base, double target) {
         const Element e = element(shape, k);
         for (int c = 0, i = 0; c < e.form->cones; i += e.form->dim[c++]) {
             const double aim = e.form->dim[c] > 1 ? cpsi_soc_aim(target, &e.s[i], &e.z[i]) : target;
-            cpsi_cone_correct(&e.q[i], e.form->dim[c], &e.w[i], e.g[c], &e.s[i], &e.z[i], &e.ds[i], &e.dz[i], aim,
-                              shape->scratch);
+            cpsi_cone_correct(&e.q[i], e.form->dim[c], &e.w[i], e.g[c], &e.s[i], &e.z[i], &e.ds[i],
+                              &e.dz[i], aim, shape->scratch);
         }
     }
 }
@@ -418,17 +464,20 @@ static void advance(CpsiProgram *base, double alpha) {
     CpsiShape *shape = &cpsi_chain(base)->shape;
     for (int k = 0; k < shape->count; k++) {
         const Element e = element(shape, k);
-        shape->bound[k] += alpha*shape->d_bound[k];
-        for (int j = 0; j < e.form->unknowns; j++) e.v[j] += alpha*e.dv[j];
-        for (int i = 0; i < e.form->rows; i++) e.s[i] += alpha*e.ds[i], e.z[i] += alpha*e.dz[i];
+        shape->bound[k] += alpha * shape->d_bound[k];
+        for (int j = 0; j < e.form->unknowns; j++) e.v[j] += alpha * e.dv[j];
+        for (int i = 0; i < e.form->rows; i++) {
+            e.s[i] += alpha * e.ds[i];
+            e.z[i] += alpha * e.dz[i];
+        }
     }
 }
 
 void cpsi_shape_foresee(CpsiShape *shape, const CpsiStop *stop) {
     for (int k = 0; k < shape->count; k++) {
         const Element e = element(shape, k);
-        memset(e.q, 0, (size_t)e.form->rows*sizeof *e.q);
-        shape->shift[k] = shape->friction[k]*stop->z[shape->stop[k]] - shape->bound[k];
+        memset(e.q, 0, (size_t)e.form->rows * sizeof *e.q);
+        shape->shift[k] = shape->friction[k] * stop->z[shape->stop[k]] - shape->bound[k];
     }
 }
 

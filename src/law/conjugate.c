@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The other side of resistance laws: phi*(-F), velocities, and how far a pair is from the law.
  *
- * phi* of a sum is the least sum of the terms' conjugates over all ways of sharing F among them (sum.c). Closed forms:
+ * phi* of a sum is the least sum of the terms' conjugates over all ways of sharing F among them
+ * (sum.c). Closed forms:
  *
  *   one term h(g)               h*(gauge of C at F)
  *   viscous                     <F, D^-1 F>/2, V = -D^-1 F
  *   dry                         0 in the sum of the sets, infinite outside
- *   dry, and viscous c |V|^2/2  |F - P|^2/2c, P the projection of F on that sum, V = -(F - P)/c; where P is closed */
+ *   dry, and viscous c |V|^2/2  |F - P|^2/2c, P the projection of F on that sum, V = -(F - P)/c;
+ *                               where P is closed */
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,9 +18,13 @@
 /* A force outside the dry set by less than this part of its length is on its boundary. */
 static const double ON_BOUNDARY = 1e-12;
 
-static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory"); }
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+}
 
-static const CpsSetAnswer NO_VELOCITY = {.outcome = CPS_SET_OUTSIDE, .exact = true, .value = INFINITY};
+static const CpsSetAnswer NO_VELOCITY = {.outcome = CPS_SET_OUTSIDE,
+                                         .exact = true,
+                                         .value = INFINITY};
 
 /* ---- dry and viscous terms ---- */
 
@@ -53,8 +59,9 @@ static double viscosity_of(const CpsResistance *law) {
 }
 
 /* viscosity 0: none; excess (n). Means nothing where the answer is not exact. */
-static CpsStatus closed_conjugate(const CpsSet *dry, int n, double viscosity, const double *force, double *velocity,
-                                  double *excess, CpsSetAnswer *answer, CpsError *err) {
+static CpsStatus closed_conjugate(const CpsSet *dry, int n, double viscosity, const double *force,
+                                  double *velocity, double *excess, CpsSetAnswer *answer,
+                                  CpsError *err) {
     const CpsStatus status = cps_set_project(dry, force, NULL, excess, answer, err);
     if (status != CPS_OK || answer->outcome != CPS_SET_ANSWERED || !answer->exact) return status;
     for (int i = 0; i < n; i++) excess[i] = force[i] - excess[i];
@@ -65,13 +72,14 @@ static CpsStatus closed_conjugate(const CpsSet *dry, int n, double viscosity, co
         return CPS_OK;
     }
     answer->value = inside ? 0 : 0.5 * cpsi_dot(n, excess, excess) / viscosity;
-    for (int i = 0; i < n && velocity; i++) velocity[i] = inside || excess[i] == 0 ? 0 : -excess[i] / viscosity;
+    for (int i = 0; i < n && velocity; i++)
+        velocity[i] = inside || excess[i] == 0 ? 0 : -excess[i] / viscosity;
     return CPS_OK;
 }
 
 /* viscous terms only: D = L L', |L^-1 F|^2/2 */
-static CpsStatus viscous_conjugate(const CpsResistance *law, const double *force, double *velocity, bool *closed,
-                                   CpsSetAnswer *answer, CpsError *err) {
+static CpsStatus viscous_conjugate(const CpsResistance *law, const double *force, double *velocity,
+                                   bool *closed, CpsSetAnswer *answer, CpsError *err) {
     const size_t n = (size_t)law->n, size = n * n;
     double *matrix = calloc(3 * size + n, sizeof *matrix);
     if (!matrix) return out_of_memory(err);
@@ -93,8 +101,9 @@ static CpsStatus viscous_conjugate(const CpsResistance *law, const double *force
 }
 
 /* *closed: was there a closed form?  Else the answer means nothing. */
-static CpsStatus quadratic_conjugate(const CpsResistance *law, const double *force, double *velocity, bool *closed,
-                                     CpsSetAnswer *answer, CpsError *err) {
+static CpsStatus quadratic_conjugate(const CpsResistance *law, const double *force,
+                                     double *velocity, bool *closed, CpsSetAnswer *answer,
+                                     CpsError *err) {
     const double viscosity = viscosity_of(law);
     *closed = false;
     if (viscosity < 0) return CPS_OK;
@@ -102,7 +111,8 @@ static CpsStatus quadratic_conjugate(const CpsResistance *law, const double *for
     if (!excess) return out_of_memory(err);
     CpsSet *dry = NULL;
     CpsStatus status = cpsi_dry_sum(law, &dry, err);
-    if (status == CPS_OK) status = closed_conjugate(dry, law->n, viscosity, force, velocity, excess, answer, err);
+    if (status == CPS_OK)
+        status = closed_conjugate(dry, law->n, viscosity, force, velocity, excess, answer, err);
     *closed = status == CPS_OK && answer->exact;
     cps_set_release(dry);
     free(excess);
@@ -111,8 +121,8 @@ static CpsStatus quadratic_conjugate(const CpsResistance *law, const double *for
 
 /* ---- one term h(g) ---- */
 
-static CpsStatus term_conjugate(const CpsResistance *law, const double *force, double *velocity, CpsSetAnswer *answer,
-                                CpsError *err) {
+static CpsStatus term_conjugate(const CpsResistance *law, const double *force, double *velocity,
+                                CpsSetAnswer *answer, CpsError *err) {
     const CpsiTerm *term = &law->term[0];
     CpsSetAnswer gauge;
     CpsStatus status = cps_set_gauge(term->set, force, &gauge, err);
@@ -148,8 +158,10 @@ CpsStatus cps_resistance_conjugate(const CpsResistance *law, const double *force
     if (status != CPS_OK) return status;
     int dry = 0, viscous = 0;
     bool closed = false;
-    for (int i = 0; i < law->count; i++)
-        dry += law->term[i].kind == CPSI_DRY, viscous += law->term[i].kind == CPSI_VISCOUS;
+    for (int i = 0; i < law->count; i++) {
+        dry += law->term[i].kind == CPSI_DRY;
+        viscous += law->term[i].kind == CPSI_VISCOUS;
+    }
     const bool quadratic = dry + viscous == law->count;
     if (viscous == law->count)
         status = viscous_conjugate(law, force, velocity, &closed, answer, err);
@@ -162,9 +174,11 @@ CpsStatus cps_resistance_conjugate(const CpsResistance *law, const double *force
 
 /* ---- a pair ---- */
 
-CpsStatus cps_resistance_residual(const CpsResistance *law, const double *force, const double *velocity, double *gap,
-                                  double *distance, CpsError *err) {
-    if (!law || !gap || !distance) return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, gap or distance is NULL");
+CpsStatus cps_resistance_residual(const CpsResistance *law, const double *force,
+                                  const double *velocity, double *gap, double *distance,
+                                  CpsError *err) {
+    if (!law || !gap || !distance)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, gap or distance is NULL");
     CpsResistanceValue value;
     CpsSetAnswer conjugate, answer, nearest;
     CpsSet *forces = NULL;
@@ -174,12 +188,14 @@ CpsStatus cps_resistance_residual(const CpsResistance *law, const double *force,
     double *point = status == CPS_OK ? malloc((size_t)law->n * sizeof *point) : NULL;
     if (status == CPS_OK && !point) status = out_of_memory(err);
     double away = forces ? NAN : INFINITY;
-    if (status == CPS_OK && forces) status = cps_set_project(forces, force, NULL, point, &nearest, err);
+    if (status == CPS_OK && forces)
+        status = cps_set_project(forces, force, NULL, point, &nearest, err);
     if (status == CPS_OK && forces && nearest.outcome == CPS_SET_ANSWERED) away = nearest.value;
     free(point);
     cps_set_release(forces);
     if (status != CPS_OK) return status;
-    const bool known = conjugate.outcome == CPS_SET_ANSWERED || conjugate.outcome == CPS_SET_OUTSIDE;
+    const bool known =
+        conjugate.outcome == CPS_SET_ANSWERED || conjugate.outcome == CPS_SET_OUTSIDE;
     *gap = known ? value.potential + conjugate.value + cpsi_dot(law->n, velocity, force) : NAN;
     *distance = away;
     return CPS_OK;

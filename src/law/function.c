@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A user's function h of speed: checked wherever it is evaluated, and its conjugate by bisection.
  *
- * h is convex and increasing from h(0) = 0 when its slopes do not fall and every tangent passes below what is known of
- * it; each evaluation is held against speed 0, and each step of a bisection against both ends of its bracket. */
+ * h is convex and increasing from h(0) = 0 when its slopes do not fall and every tangent passes
+ * below what is known of it; each evaluation is held against speed 0, and each step of a bisection
+ * against both ends of its bracket. */
 #include "base/status.h"
 #include "law/resistance.h"
 
-/* Values and slopes of a function written with care are right to a few ulps, differences of them to more. */
+/* Values and slopes of a function written with care are right to a few ulps, differences of them to
+ * more. */
 static const double SLACK = 1e-9;
 /* Slopes that differ by less are one: the function is straight there. */
 static const double STRAIGHT = 1e-14;
@@ -21,11 +23,12 @@ typedef struct Point {
 } Point;
 
 static CpsStatus falls(double slow, double high, double fast, double low, CpsError *err) {
-    return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                     "the user's function is not convex: its slope falls from %g at speed %g to %g at speed %g; "
-                     "friction that falls with speed is no subdifferential of a convex potential (Moreau 1970, "
-                     "section 7)",
-                     high, slow, low, fast);
+    return cpsi_fail(
+        err, CPS_ERR_ARGUMENT,
+        "the user's function is not convex: its slope falls from %g at speed %g to %g at speed %g; "
+        "friction that falls with speed is no subdifferential of a convex potential (Moreau 1970, "
+        "section 7)",
+        high, slow, low, fast);
 }
 
 /* Is h convex between two points?  h(b) - h(a) lies between the slopes times b - a. */
@@ -33,40 +36,49 @@ static CpsStatus check_between(const Point *a, const Point *b, CpsError *err) {
     if (isinf(b->h)) return CPS_OK;
     if (isinf(a->h) || a->slope > b->slope + SLACK * b->slope + VANISHING)
         return falls(a->g, a->slope, b->g, b->slope, err);
-    const double rise = b->h - a->h, width = b->g - a->g, slack = SLACK * (b->h + a->h + b->slope * width) + VANISHING;
+    const double rise = b->h - a->h, width = b->g - a->g,
+                 slack = SLACK * (b->h + a->h + b->slope * width) + VANISHING;
     if (rise < a->slope * width - slack || rise > b->slope * width + slack)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "the user's function rises by %g from speed %g to %g, expected from %g to %g: its slope falls "
-                         "with speed between, which is no subdifferential of a convex potential (Moreau 1970, section "
-                         "7), or it is not the slope of its values",
-                         rise, a->g, b->g, a->slope * width, b->slope * width);
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "the user's function rises by %g from speed %g to %g, expected from %g to %g: its "
+            "slope falls with speed between, which is no subdifferential of a convex potential "
+            "(Moreau 1970, section 7), or it is not the slope of its values",
+            rise, a->g, b->g, a->slope * width, b->slope * width);
     return CPS_OK;
 }
 
 static CpsStatus evaluate(const CpsiTerm *term, double g, Point *at, CpsError *err) {
     *at = (Point){.g = g};
     if (!term->h(term->user, g, &at->h, &at->slope) || isnan(at->h) || isnan(at->slope))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the user's function has no value and slope at speed %g", g);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the user's function has no value and slope at speed %g", g);
     if (isinf(at->h) || isinf(at->slope)) at->h = at->slope = INFINITY;
     if (at->h < 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "the user's function is %g at speed %g: phi < phi(0) would give power to the motion", at->h,
-                         g);
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "the user's function is %g at speed %g: phi < phi(0) would give power to the motion",
+            at->h, g);
     if (at->slope < 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "the user's function has slope %g at speed %g: it would give power to the motion; slopes are "
-                         "at least 0",
+                         "the user's function has slope %g at speed %g: it would give power to the "
+                         "motion; slopes are at least 0",
                          at->slope, g);
     if (g == 0 && at->h != 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the user's function is %g at speed 0, expected 0", at->h);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the user's function is %g at speed 0, expected 0",
+                         at->h);
     const Point rest = {0};
     return check_between(&rest, at, err);
 }
 
-CpsStatus cpsi_function_at(const CpsiTerm *term, double g, double *h, double *slope, CpsError *err) {
+CpsStatus cpsi_function_at(const CpsiTerm *term, double g, double *h, double *slope,
+                           CpsError *err) {
     Point at;
     const CpsStatus status = evaluate(term, fmin(g, FASTEST), &at, err);
-    if (status == CPS_OK) *h = g > FASTEST ? INFINITY : at.h, *slope = at.slope;
+    if (status == CPS_OK) {
+        *h = g > FASTEST ? INFINITY : at.h;
+        *slope = at.slope;
+    }
     return status;
 }
 
@@ -84,8 +96,8 @@ CpsStatus cpsi_function_check(const CpsiTerm *term, CpsError *err) {
 
 /* ---- conjugate ---- */
 
-/* Bracket (below, above) of neighbouring speeds with slope(below) < s <= slope(above), at or after `below`; above->g
- * INFINITY where no slope reaches s. */
+/* Bracket (below, above) of neighbouring speeds with slope(below) < s <= slope(above), at or after
+ * `below`; above->g INFINITY where no slope reaches s. */
 static CpsStatus find(const CpsiTerm *term, double s, Point *below, Point *above, CpsError *err) {
     CpsStatus status = CPS_OK;
     *above = *below;
@@ -115,15 +127,17 @@ static CpsStatus given_dual(const CpsiTerm *term, double s, CpsiTermDual *dual, 
     double value, g;
     Point at;
     if (!term->conjugate(term->user, s, &value, &g) || isnan(value) || !(g >= 0))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the user's conjugate has no value and speed at slope %g", s);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the user's conjugate has no value and speed at slope %g", s);
     *dual = (CpsiTermDual){INFINITY, INFINITY, INFINITY};
     if (isinf(value) || isinf(g)) return CPS_OK;
     const CpsStatus status = evaluate(term, g, &at, err);
     if (status != CPS_OK) return status;
     if (!(fabs(s * g - at.h - value) <= SLACK * (s * g + at.h)))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "the user's conjugate is %g at slope %g with speed %g, where slope x speed - h is %g", value,
-                         s, g, s * g - at.h);
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "the user's conjugate is %g at slope %g with speed %g, where slope x speed - h is %g",
+            value, s, g, s * g - at.h);
     *dual = (CpsiTermDual){s * g - at.h, g, g};
     return CPS_OK;
 }
@@ -138,7 +152,8 @@ CpsStatus cpsi_function_dual(const CpsiTerm *term, double s, CpsiTermDual *dual,
     *dual = (CpsiTermDual){INFINITY, INFINITY, INFINITY};
     if (isinf(above.g)) return CPS_OK;
 
-    /* the least speed is the right end, unless h is infinite there; the largest where the slope leaves s */
+    /* the least speed is the right end, unless h is infinite there; the largest where the slope
+     * leaves s */
     const Point at = isinf(above.h) ? below : above;
     *dual = (CpsiTermDual){fmax(s * at.g - at.h, 0), at.g, at.g};
     const double leave = s + STRAIGHT * s;

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Friction laws: a set with 0 in it, and the constructions of M77 sections 7, 8 and 10 that keep it so.
+/* Friction laws: a set with 0 in it, and the constructions of M77 sections 7, 8 and 10 that keep it
+ * so.
  *
- * Only cps_law_friction has to look for 0: products, preimages and sums of images of sets that contain 0 contain it. */
+ * Only cps_law_friction has to look for 0: products, preimages and sums of images of sets that
+ * contain 0 contain it. */
 #include "law/law.h"
 
 #include <stdint.h>
@@ -13,19 +15,24 @@
 /* Relative tolerance on which side of a boundary a point lies (composition rule). */
 static const double BOUNDARY_TOLERANCE = 1e-9;
 
-static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory"); }
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+}
 
 CpsStatus cpsi_law_check_vector(const char *what, int n, const double *a, CpsError *err) {
     if (!a) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the %s is NULL", what);
     for (int i = 0; i < n; i++)
         if (!isfinite(a[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "component %d of the %s is %g, expected a finite number", i + 1,
-                             what, a[i]);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "component %d of the %s is %g, expected a finite number", i + 1, what,
+                             a[i]);
     return CPS_OK;
 }
 
-/* A law around a set whose hold it takes over, in every case; factors NULL: the set itself is the one factor. */
-static CpsStatus make_law(CpsSet *set, int factor_count, CpsSet *const *factor, CpsLaw **out, CpsError *err) {
+/* A law around a set whose hold it takes over, in every case; factors NULL: the set itself is the
+ * one factor. */
+static CpsStatus make_law(CpsSet *set, int factor_count, CpsSet *const *factor, CpsLaw **out,
+                          CpsError *err) {
     const int count = factor ? factor_count : 1;
     CpsLaw *law = malloc(sizeof *law + (size_t)count * sizeof law->factor[0]);
     if (!law) {
@@ -59,26 +66,31 @@ CpsStatus cps_law_friction(const CpsSet *set, CpsLaw **out, CpsError *err) {
     if (status != CPS_OK) return status;
     if (facts.outcome == CPS_SET_EMPTY)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "the set of forces is empty: no force goes with any velocity; a friction law contains 0");
+                         "the set of forces is empty: no force goes with any velocity; a friction "
+                         "law contains 0");
 
     /* a user's set is known by its support alone: it is taken at its word */
     const bool known = facts.outcome == CPS_SET_ANSWERED;
     if (!known && facts.outcome != CPS_SET_NOT_AVAILABLE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cannot tell whether the set of forces contains 0: %s",
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "cannot tell whether the set of forces contains 0: %s",
                          cps_set_outcome_sentence(facts.outcome));
     if (known && !facts.has_zero)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "the set of forces does not contain 0, so the law could give power to the motion: a friction "
-                         "law contains 0; a constant load is added to one as a load");
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "the set of forces does not contain 0, so the law could give power to the motion: a "
+            "friction law contains 0; a constant load is added to one as a load");
     return make_law(cps_set_retain(set), 0, NULL, out, err);
 }
 
 CpsStatus cps_law_coulomb(double friction, double load, CpsLaw **out, CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL");
     if (!(friction >= 0) || !isfinite(friction))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the friction coefficient is %g, expected at least 0", friction);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the friction coefficient is %g, expected at least 0", friction);
     if (!(load >= 0) || !isfinite(load))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the normal load is %g N, expected at least 0 (pressing)", load);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the normal load is %g N, expected at least 0 (pressing)", load);
     CpsSet *disc = NULL;
     const CpsStatus status = cps_set_ball(2, NULL, friction * load, &disc, err);
     return status == CPS_OK ? make_law(disc, 0, NULL, out, err) : status;
@@ -87,7 +99,8 @@ CpsStatus cps_law_coulomb(double friction, double load, CpsLaw **out, CpsError *
 CpsStatus cps_law_unit_load(const CpsSet *unit, double load, CpsLaw **out, CpsError *err) {
     if (!unit || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "unit or out is NULL");
     if (!(load >= 0) || !isfinite(load))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the normal load is %g N, expected at least 0 (pressing)", load);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the normal load is %g N, expected at least 0 (pressing)", load);
     CpsLaw *law = NULL;
     CpsSet *set = NULL;
     CpsStatus status = cps_law_friction(unit, &law, err);
@@ -101,7 +114,8 @@ CpsStatus cps_law_unit_load(const CpsSet *unit, double load, CpsLaw **out, CpsEr
 static CpsStatus check_laws(int count, const CpsLaw *const *law, const void *out, CpsError *err) {
     if (!law || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "laws or out is NULL");
     if (count < 1 || count > CPS_SET_MAX_ITEMS)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d laws given, expected from 1 to %d", count, CPS_SET_MAX_ITEMS);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d laws given, expected from 1 to %d", count,
+                         CPS_SET_MAX_ITEMS);
     for (int i = 0; i < count; i++)
         if (!law[i]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "law %d is NULL", i + 1);
     return CPS_OK;
@@ -115,7 +129,8 @@ CpsStatus cps_law_product(int count, const CpsLaw *const *parts, CpsLaw **out, C
     size_t factor_count = 0;
     for (int i = 0; i < count; i++) factor_count += (size_t)parts[i]->factor_count;
     if (factor_count > CPS_SET_MAX_ITEMS)
-        return cpsi_fail(err, CPS_ERR_LIMIT, "%zu factors in a product, at most %d", factor_count, CPS_SET_MAX_ITEMS);
+        return cpsi_fail(err, CPS_ERR_LIMIT, "%zu factors in a product, at most %d", factor_count,
+                         CPS_SET_MAX_ITEMS);
     CpsSet **factor = malloc(factor_count * sizeof *factor), *set = NULL;
     if (!factor) return out_of_memory(err);
     size_t n = 0;
@@ -128,7 +143,8 @@ CpsStatus cps_law_product(int count, const CpsLaw *const *parts, CpsLaw **out, C
 }
 
 /* B* C for a map B of velocities (rows x n) */
-static CpsStatus image_of_contact(int n, const double *map, const CpsSet *set, CpsSet **out, CpsError *err) {
+static CpsStatus image_of_contact(int n, const double *map, const CpsSet *set, CpsSet **out,
+                                  CpsError *err) {
     const size_t rows = (size_t)cps_set_space(set), columns = (size_t)n;
     double *transpose = malloc(rows * columns * sizeof *transpose);
     if (!transpose) return out_of_memory(err);
@@ -139,18 +155,19 @@ static CpsStatus image_of_contact(int n, const double *map, const CpsSet *set, C
     return status;
 }
 
-CpsStatus cps_law_contacts(int n, int count, const CpsLaw *const *contact, const double *const *map, CpsLaw **out,
-                           CpsError *err) {
+CpsStatus cps_law_contacts(int n, int count, const CpsLaw *const *contact, const double *const *map,
+                           CpsLaw **out, CpsError *err) {
     CpsStatus status = check_laws(count, contact, out, err);
     if (status != CPS_OK) return status;
     if (!map || n < 1 || n > CPS_SET_MAX_SPACE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the maps are NULL, or n = %d is not from 1 to %d", n,
-                         CPS_SET_MAX_SPACE);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the maps are NULL, or n = %d is not from 1 to %d",
+                         n, CPS_SET_MAX_SPACE);
     for (int i = 0; i < count; i++) {
         const int rows = cps_law_space(contact[i]);
         const bool finite = map[i] && cpsi_all_finite(rows * n, map[i]);
         if (!finite)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "map %d is NULL or holds a number that is not finite", i + 1);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "map %d is NULL or holds a number that is not finite", i + 1);
     }
 
     CpsSet **image = calloc((unsigned)count, sizeof *image), *sum = NULL;
@@ -166,24 +183,29 @@ CpsStatus cps_law_contacts(int n, int count, const CpsLaw *const *contact, const
 /* ---- the composition rule ---- */
 
 const char *cps_composition_name(CpsComposition composition) {
-    static const char *const NAME[] = {"interior", "relative interior", "polyhedral parts", "not satisfied"};
+    static const char *const NAME[] = {"interior", "relative interior", "polyhedral parts",
+                                       "not satisfied"};
     return (unsigned)composition < 4 ? NAME[composition] : "?";
 }
 
 const char *cps_composition_sentence(CpsComposition composition) {
     static const char *const SENTENCE[] = {
-        "the forces that the map admits meet the interior of the parts' set: the reduced law is exact",
-        "the forces that the map admits meet the relative interior of the parts' set: the reduced law is exact",
-        "the forces that the map admits meet some factors only on the boundary, and those are polyhedral: the reduced "
+        "the forces that the map admits meet the interior of the parts' set: the reduced law is "
+        "exact",
+        "the forces that the map admits meet the relative interior of the parts' set: the reduced "
         "law is exact",
-        "the forces that the map admits meet a curved part only on its boundary: the reduced law may admit velocities "
-        "that no motion of the parts has"};
+        "the forces that the map admits meet some factors only on the boundary, and those are "
+        "polyhedral: the reduced law is exact",
+        "the forces that the map admits meet a curved part only on its boundary: the reduced law "
+        "may admit velocities that no motion of the parts has"};
     return (unsigned)composition < 4 ? SENTENCE[composition] : "?";
 }
 
-/* Where the point lies in one factor: interior, relative interior, or boundary. By the dimension of the normal cone,
- * which is that of the complement of the affine hull exactly on the relative interior. */
-static CpsStatus place_in_factor(const CpsSet *factor, const double *point, CpsComposition *place, CpsError *err) {
+/* Where the point lies in one factor: interior, relative interior, or boundary. By the dimension of
+ * the normal cone, which is that of the complement of the affine hull exactly on the relative
+ * interior. */
+static CpsStatus place_in_factor(const CpsSet *factor, const double *point, CpsComposition *place,
+                                 CpsError *err) {
     CpsSetFacts facts, cone_facts;
     CpsSetAnswer answer;
     CpsSet *cone = NULL;
@@ -204,10 +226,12 @@ static CpsStatus place_in_factor(const CpsSet *factor, const double *point, CpsC
     return status;
 }
 
-/* The worst place of the factors at L x, x in the relative interior of L^-1(C): if any force of range(L) lies in the
- * relative interiors of the factors that need it, so does this one (Rockafellar 6.1 and 6.7). */
-static CpsStatus find_composition(int n, const double *map, const CpsLaw *law, const CpsSet *reduced,
-                                  CpsComposition *composition, CpsError *err) {
+/* The worst place of the factors at L x, x in the relative interior of L^-1(C): if any force of
+ * range(L) lies in the relative interiors of the factors that need it, so does this one
+ * (Rockafellar 6.1 and 6.7). */
+static CpsStatus find_composition(int n, const double *map, const CpsLaw *law,
+                                  const CpsSet *reduced, CpsComposition *composition,
+                                  CpsError *err) {
     const int rows = cps_law_space(law);
     double *center = malloc(((size_t)n + (size_t)rows) * sizeof *center);
     if (!center) return out_of_memory(err);
@@ -215,10 +239,12 @@ static CpsStatus find_composition(int n, const double *map, const CpsLaw *law, c
     CpsSetFacts facts;
     CpsStatus status = cps_set_facts(reduced, 0, &facts, center, NULL, err);
     *composition = CPS_COMPOSE_INTERIOR;
-    if (status == CPS_OK && facts.outcome != CPS_SET_ANSWERED) *composition = CPS_COMPOSE_NOT_SATISFIED;
+    if (status == CPS_OK && facts.outcome != CPS_SET_ANSWERED)
+        *composition = CPS_COMPOSE_NOT_SATISFIED;
     if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED)
         for (int i = 0; i < rows; i++) force[i] = cpsi_dot(n, map + (size_t)i * (size_t)n, center);
-    for (int i = 0, at = 0; i < law->factor_count && status == CPS_OK && facts.outcome == CPS_SET_ANSWERED; i++) {
+    for (int i = 0, at = 0;
+         i < law->factor_count && status == CPS_OK && facts.outcome == CPS_SET_ANSWERED; i++) {
         CpsComposition place;
         status = place_in_factor(law->factor[i], force + at, &place, err);
         if (place > *composition) *composition = place;
@@ -228,13 +254,14 @@ static CpsStatus find_composition(int n, const double *map, const CpsLaw *law, c
     return status;
 }
 
-CpsStatus cps_law_preimage(int n, const double *map, const CpsLaw *law, CpsComposition *composition, CpsLaw **out,
-                           CpsError *err) {
+CpsStatus cps_law_preimage(int n, const double *map, const CpsLaw *law, CpsComposition *composition,
+                           CpsLaw **out, CpsError *err) {
     if (!map || !law || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "map, law or out is NULL");
     CpsSet *reduced = NULL;
     CpsStatus status = cps_set_preimage(n, map, NULL, law->set, &reduced, err);
     CpsComposition found = CPS_COMPOSE_NOT_SATISFIED;
-    if (status == CPS_OK && composition) status = find_composition(n, map, law, reduced, &found, err);
+    if (status == CPS_OK && composition)
+        status = find_composition(n, map, law, reduced, &found, err);
     if (status != CPS_OK) {
         cps_set_release(reduced);
         return status;

@@ -8,7 +8,8 @@
 #include "capstan/law.h"
 #include "linsys/small.h"
 
-/* C, and the factors it is a product of (itself, where it is none): the composition rule looks at each on its own. */
+/* C, and the factors it is a product of (itself, where it is none): the composition rule looks at
+ * each on its own. */
 struct CpsLaw {
     CpsSet *set;
     int factor_count;

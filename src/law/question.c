@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Questions to a friction law or a loaded law: dissipation, forces, velocities, and how far a pair is from the law in
- * the five forms of M77 sections 3-7. */
+/* Questions to a friction law or a loaded law: dissipation, forces, velocities, and how far a pair
+ * is from the law in the five forms of M77 sections 3-7. */
 #include <stdlib.h>
 
 #include "base/status.h"
 #include "law/law.h"
 
-/* A force outside by less than this part of the forces' size is on the boundary: rounding of its components. */
+/* A force outside by less than this part of the forces' size is on the boundary: rounding of its
+ * components. */
 static const double ON_BOUNDARY = 1e-12;
 
-static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory"); }
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+}
 
 /* -V, after the checks that all questions about a velocity share; free *opposite */
 static CpsStatus turn(const CpsSet *set, const double *velocity, double **opposite, CpsError *err) {
@@ -23,8 +26,8 @@ static CpsStatus turn(const CpsSet *set, const double *velocity, double **opposi
     return CPS_OK;
 }
 
-CpsStatus cps_law_dissipation(const CpsSet *set, const double *velocity, double *force, CpsSetAnswer *answer,
-                              CpsError *err) {
+CpsStatus cps_law_dissipation(const CpsSet *set, const double *velocity, double *force,
+                              CpsSetAnswer *answer, CpsError *err) {
     double *opposite = NULL;
     CpsStatus status = turn(set, velocity, &opposite, err);
     if (status == CPS_OK) status = cps_set_support(set, opposite, force, answer, err);
@@ -32,8 +35,8 @@ CpsStatus cps_law_dissipation(const CpsSet *set, const double *velocity, double 
     return status;
 }
 
-CpsStatus cps_law_forces(const CpsSet *set, const double *velocity, double tolerance, CpsSet **forces,
-                         CpsSetAnswer *answer, CpsError *err) {
+CpsStatus cps_law_forces(const CpsSet *set, const double *velocity, double tolerance,
+                         CpsSet **forces, CpsSetAnswer *answer, CpsError *err) {
     double *opposite = NULL;
     CpsStatus status = turn(set, velocity, &opposite, err);
     if (status == CPS_OK) status = cps_set_face(set, opposite, tolerance, forces, answer, err);
@@ -41,9 +44,10 @@ CpsStatus cps_law_forces(const CpsSet *set, const double *velocity, double toler
     return status;
 }
 
-CpsStatus cps_law_velocities(const CpsSet *set, const double *force, double tolerance, CpsSet **velocities,
-                             CpsSetAnswer *answer, CpsError *err) {
-    if (!set || !velocities) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law's set or velocities is NULL");
+CpsStatus cps_law_velocities(const CpsSet *set, const double *force, double tolerance,
+                             CpsSet **velocities, CpsSetAnswer *answer, CpsError *err) {
+    if (!set || !velocities)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law's set or velocities is NULL");
     CpsSet *cone = NULL;
     CpsStatus status = cpsi_law_check_vector("force", cps_set_space(set), force, err);
     if (status == CPS_OK) status = cps_set_normal_cone(set, force, tolerance, &cone, answer, err);
@@ -57,8 +61,8 @@ CpsStatus cps_law_velocities(const CpsSet *set, const double *force, double tole
 /* ---- the five forms ---- */
 
 /* The normal cone form: |F - P_C(F - step V)|, in work (2n). */
-static CpsStatus normal_cone_form(const CpsSet *set, const double *force, const double *velocity, double *work,
-                                  CpsLawResidual *r, CpsError *err) {
+static CpsStatus normal_cone_form(const CpsSet *set, const double *force, const double *velocity,
+                                  double *work, CpsLawResidual *r, CpsError *err) {
     const int n = cps_set_space(set);
     double *trial = work, *nearest = work + n;
     CpsSetAnswer answer;
@@ -76,8 +80,8 @@ static CpsStatus normal_cone_form(const CpsSet *set, const double *force, const 
 }
 
 /* The power forms, from a force P of the law at V. */
-static void power_forms(int n, const double *force, const double *velocity, const double *maximal, double phi,
-                        CpsLawResidual *r) {
+static void power_forms(int n, const double *force, const double *velocity, const double *maximal,
+                        double phi, CpsLawResidual *r) {
     double difference = 0;
     for (int i = 0; i < n; i++) difference += velocity[i] * (force[i] - maximal[i]);
     const double power = cpsi_dot(n, velocity, force);
@@ -87,14 +91,18 @@ static void power_forms(int n, const double *force, const double *velocity, cons
     r->dissipation = phi + power;
     const double size = cpsi_norm(n, force) + cpsi_norm(n, maximal);
     r->scale = cpsi_norm(n, velocity) * size;
-    r->inverse = isnan(r->outside) ? NAN : r->outside <= ON_BOUNDARY * size ? r->dissipation : INFINITY;
+    r->inverse = isnan(r->outside)                  ? NAN
+                 : r->outside <= ON_BOUNDARY * size ? r->dissipation
+                                                    : INFINITY;
 }
 
-CpsStatus cps_law_residual(const CpsSet *set, const double *force, const double *velocity, double step,
-                           CpsLawResidual *residual, CpsError *err) {
-    if (!set || !residual) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law's set or residual is NULL");
+CpsStatus cps_law_residual(const CpsSet *set, const double *force, const double *velocity,
+                           double step, CpsLawResidual *residual, CpsError *err) {
+    if (!set || !residual)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law's set or residual is NULL");
     if (!(step >= 0) || !isfinite(step))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the step is %g, expected a finite number of at least 0", step);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the step is %g, expected a finite number of at least 0", step);
     const int n = cps_set_space(set);
     CpsStatus status = cpsi_law_check_vector("force", n, force, err);
     if (status == CPS_OK) status = cpsi_law_check_vector("velocity", n, velocity, err);
@@ -121,7 +129,8 @@ CpsStatus cps_law_residual(const CpsSet *set, const double *force, const double 
 
         /* a step that makes step V as long as the forces are large */
         const double speed = cpsi_norm(n, velocity);
-        const double largest = fmax(cpsi_norm(n, force), isfinite(phi.value) ? cpsi_norm(n, maximal) : 0);
+        const double largest =
+            fmax(cpsi_norm(n, force), isfinite(phi.value) ? cpsi_norm(n, maximal) : 0);
         if (step == 0) r.step = speed > 0 && largest > 0 ? largest / speed : 1;
         if (!isfinite(r.step)) r.step = 1;
         status = normal_cone_form(set, force, velocity, work, &r, err);

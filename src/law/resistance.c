@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Resistance laws: how they are made and what is refused, potential, power and forces. (M77 section 7, remark 1; M70
- * section 7) */
+/* Resistance laws: how they are made and what is refused, potential, power and forces. (M77 section
+ * 7, remark 1; M70 section 7) */
 #include "law/resistance.h"
 
 #include <stdlib.h>
@@ -8,11 +8,13 @@
 
 #include "base/status.h"
 
-/* Symmetric to this part of the largest entry: decimal input of a symmetric matrix is exactly so, a computed one to
- * rounding. */
+/* Symmetric to this part of the largest entry: decimal input of a symmetric matrix is exactly so, a
+ * computed one to rounding. */
 static const double SYMMETRY = 1e-12;
 
-static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory"); }
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+}
 
 /* ---- making ---- */
 
@@ -71,21 +73,23 @@ static CpsStatus check_symmetric(int n, const double *matrix, CpsError *err) {
     double largest = 0;
     for (size_t i = 0; i < w * w; i++) {
         if (!isfinite(matrix[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "the viscous matrix holds %g, expected finite numbers", matrix[i]);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "the viscous matrix holds %g, expected finite numbers", matrix[i]);
         largest = fmax(largest, fabs(matrix[i]));
     }
     for (size_t i = 0; i < w; i++)
         for (size_t j = 0; j < i; j++)
             if (fabs(matrix[i * w + j] - matrix[j * w + i]) > SYMMETRY * largest)
                 return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                                 "the viscous matrix is not symmetric (%g in row %zu, column %zu, but %g across): its "
-                                 "force is no subdifferential, so no potential gives it (Moreau 1970, section 7)",
+                                 "the viscous matrix is not symmetric (%g in row %zu, column %zu, "
+                                 "but %g across): its force is no subdifferential, so no potential "
+                                 "gives it (Moreau 1970, section 7)",
                                  matrix[i * w + j], i + 1, j + 1, matrix[j * w + i]);
     return CPS_OK;
 }
 
-/* D = L L' with the largest pivot first, L (n, rank) in the first columns of rows of n; false where D has a negative value. What is
- * left below SYMMETRY of D is rounding. */
+/* D = L L' with the largest pivot first, L (n, rank) in the first columns of rows of n; false where
+ * D has a negative value. What is left below SYMMETRY of D is rounding. */
 static bool factor_semidefinite(int n, const double *matrix, double *l, int *rank) {
     const size_t w = (size_t)n;
     double largest = 0;
@@ -93,7 +97,10 @@ static bool factor_semidefinite(int n, const double *matrix, double *l, int *ran
     if (cpsi_cholesky(n, matrix, l)) {
         double least = INFINITY;
         for (size_t i = 0; i < w; i++) least = fmin(least, l[i * w + i]);
-        if (least * least > SYMMETRY * largest) return *rank = n, true;
+        if (least * least > SYMMETRY * largest) {
+            *rank = n;
+            return true;
+        }
     }
     memset(l, 0, w * w * sizeof *l);
     for (*rank = 0; *rank < n; ++*rank) {
@@ -104,11 +111,16 @@ static bool factor_semidefinite(int n, const double *matrix, double *l, int *ran
             for (size_t j = 0; j < w; j++) {
                 const double rest = matrix[i * w + j] - cpsi_dot(*rank, &l[i * w], &l[j * w]);
                 left = fmax(left, fabs(rest));
-                if (i == j && rest > most) most = rest, pivot = (int)i;
+                if (i == j && rest > most) {
+                    most = rest;
+                    pivot = (int)i;
+                }
             }
         if (pivot < 0) return left <= 10 * SYMMETRY * largest;
         for (size_t i = 0; i < w; i++)
-            l[i * w + k] = (matrix[i * w + (size_t)pivot] - cpsi_dot(*rank, &l[i * w], &l[(size_t)pivot * w])) / sqrt(most);
+            l[i * w + k] = (matrix[i * w + (size_t)pivot] -
+                            cpsi_dot(*rank, &l[i * w], &l[(size_t)pivot * w])) /
+                           sqrt(most);
     }
     return true;
 }
@@ -122,12 +134,16 @@ static CpsStatus make_flat(int n, int rank, const double *l, CpsResistance **out
     for (size_t i = 0; i < w; i++)
         for (size_t k = 0; k < r; k++) map[i * r + k] = l[i * w + k];
     CpsStatus status = CPS_OK;
-    if (rank == 0) status = cps_set_ball(n, NULL, 1, &flat, err);
+    if (rank == 0)
+        status = cps_set_ball(n, NULL, 1, &flat, err);
     else {
         status = cps_set_ball(rank, NULL, 1, &ball, err);
         if (status == CPS_OK) status = cps_set_image(n, map, ball, &flat, err);
     }
-    const CpsiTerm term = {.kind = CPSI_POWER, .set = flat, .degree = 2, .factor = rank > 0 ? 1 : 0};
+    const CpsiTerm term = {.kind = CPSI_POWER,
+                           .set = flat,
+                           .degree = 2,
+                           .factor = rank > 0 ? 1 : 0};
     if (status == CPS_OK) status = make_one(n, &term, out, err);
     cps_set_release(ball);
     cps_set_release(flat);
@@ -138,7 +154,8 @@ static CpsStatus make_flat(int n, int rank, const double *l, CpsResistance **out
 CpsStatus cps_resistance_viscous(int n, const double *matrix, CpsResistance **out, CpsError *err) {
     if (!matrix || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "matrix or out is NULL");
     if (n < 1 || n > CPS_SET_MAX_SPACE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "n is %d, expected from 1 to %d", n, CPS_SET_MAX_SPACE);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "n is %d, expected from 1 to %d", n,
+                         CPS_SET_MAX_SPACE);
     CpsStatus status = check_symmetric(n, matrix, err);
     if (status != CPS_OK) return status;
     double *factor = calloc((size_t)n * (size_t)n, sizeof *factor);
@@ -147,9 +164,10 @@ CpsStatus cps_resistance_viscous(int n, const double *matrix, CpsResistance **ou
     const bool semidefinite = factor_semidefinite(n, matrix, factor, &rank);
     if (!semidefinite)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT,
-                           "the viscous matrix is not positive definite, nor semidefinite: for some velocity its force gives "
-                           "power to the motion (phi < phi(0))");
-    else if (rank < n) status = make_flat(n, rank, factor, out, err);
+                           "the viscous matrix is not positive definite, nor semidefinite: for "
+                           "some velocity its force gives power to the motion (phi < phi(0))");
+    else if (rank < n)
+        status = make_flat(n, rank, factor, out, err);
     else {
         /* make_one only copies it */
         const CpsiTerm term = {.kind = CPSI_VISCOUS, .data = (double *)matrix};
@@ -159,21 +177,25 @@ CpsStatus cps_resistance_viscous(int n, const double *matrix, CpsResistance **ou
     return status;
 }
 
-CpsStatus cps_resistance_power(const CpsLaw *law, double degree, double factor, CpsResistance **out, CpsError *err) {
+CpsStatus cps_resistance_power(const CpsLaw *law, double degree, double factor, CpsResistance **out,
+                               CpsError *err) {
     if (!law || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "law or out is NULL");
     if (degree < 1)
-        return cpsi_fail(
-            err, CPS_ERR_ARGUMENT,
-            "degree %g is below 1: friction would fall with speed, which is no subdifferential of a convex "
-            "potential (Moreau 1970, section 7)",
-            degree);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "degree %g is below 1: friction would fall with speed, which is no "
+                         "subdifferential of a convex potential (Moreau 1970, section 7)",
+                         degree);
     if (!(degree > 1) || !isfinite(degree))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the degree is %g, expected more than 1; degree 1 is dry friction",
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the degree is %g, expected more than 1; degree 1 is dry friction",
                          degree);
     if (factor < 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "the factor is %g: phi < phi(0) would give power to the motion; it is at least 0", factor);
-    if (!isfinite(factor)) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the factor is %g, expected a number", factor);
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "the factor is %g: phi < phi(0) would give power to the motion; it is at least 0",
+            factor);
+    if (!isfinite(factor))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the factor is %g, expected a number", factor);
     const CpsiTerm term = {.kind = CPSI_POWER, .set = law->set, .degree = degree, .factor = factor};
     return make_one(cps_law_space(law), &term, out, err);
 }
@@ -181,32 +203,35 @@ CpsStatus cps_resistance_power(const CpsLaw *law, double degree, double factor, 
 static CpsStatus check_table(int count, const double *speed, const double *factor, CpsError *err) {
     for (int i = 0; i < count; i++) {
         if (!isfinite(speed[i]) || !isfinite(factor[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "point %d of the table is (%g, %g), expected finite numbers", i + 1,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "point %d of the table is (%g, %g), expected finite numbers", i + 1,
                              speed[i], factor[i]);
         if (factor[i] < 0)
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "the factor at speed %g is %g: phi < phi(0) would give power to the motion; it is at "
-                             "least 0",
+                             "the factor at speed %g is %g: phi < phi(0) would give power to the "
+                             "motion; it is at least 0",
                              speed[i], factor[i]);
         if (i == 0 ? speed[0] != 0 : !(speed[i] > speed[i - 1]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "speed %d of the table is %g: speeds begin with 0 and increase",
-                             i + 1, speed[i]);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "speed %d of the table is %g: speeds begin with 0 and increase", i + 1,
+                             speed[i]);
         if (i > 0 && factor[i] < factor[i - 1])
             return cpsi_fail(
                 err, CPS_ERR_ARGUMENT,
-                "the factor falls from %g at speed %g to %g at speed %g: friction that falls with speed is "
-                "no subdifferential of a convex potential (Moreau 1970, section 7)",
+                "the factor falls from %g at speed %g to %g at speed %g: friction that falls with "
+                "speed is no subdifferential of a convex potential (Moreau 1970, section 7)",
                 factor[i - 1], speed[i - 1], factor[i], speed[i]);
     }
     return CPS_OK;
 }
 
-CpsStatus cps_resistance_table(const CpsLaw *law, int count, const double *speed, const double *factor,
-                               CpsResistance **out, CpsError *err) {
-    if (!law || !speed || !factor || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, table or out is NULL");
+CpsStatus cps_resistance_table(const CpsLaw *law, int count, const double *speed,
+                               const double *factor, CpsResistance **out, CpsError *err) {
+    if (!law || !speed || !factor || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, table or out is NULL");
     if (count < 1 || count > CPS_SET_MAX_ITEMS)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the table has %d points, expected from 1 to %d", count,
-                         CPS_SET_MAX_ITEMS);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the table has %d points, expected from 1 to %d",
+                         count, CPS_SET_MAX_ITEMS);
     CpsStatus status = check_table(count, speed, factor, err);
     if (status != CPS_OK) return status;
     double *data = malloc(2 * (size_t)count * sizeof *data);
@@ -219,23 +244,27 @@ CpsStatus cps_resistance_table(const CpsLaw *law, int count, const double *speed
     return status;
 }
 
-CpsStatus cps_resistance_function(const CpsLaw *law, CpsSpeedLaw *h, CpsSpeedConjugate *conjugate, void *user,
-                                  CpsResistance **out, CpsError *err) {
+CpsStatus cps_resistance_function(const CpsLaw *law, CpsSpeedLaw *h, CpsSpeedConjugate *conjugate,
+                                  void *user, CpsResistance **out, CpsError *err) {
     if (!law || !h || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, h or out is NULL");
-    const CpsiTerm term = {.kind = CPSI_FUNCTION, .set = law->set, .h = h, .conjugate = conjugate, .user = user};
+    const CpsiTerm term = {
+        .kind = CPSI_FUNCTION, .set = law->set, .h = h, .conjugate = conjugate, .user = user};
     const CpsStatus status = cpsi_function_check(&term, err);
     return status == CPS_OK ? make_one(cps_law_space(law), &term, out, err) : status;
 }
 
-CpsStatus cps_resistance_sum(int count, const CpsResistance *const *parts, CpsResistance **out, CpsError *err) {
+CpsStatus cps_resistance_sum(int count, const CpsResistance *const *parts, CpsResistance **out,
+                             CpsError *err) {
     if (!parts || !out || count < 1 || count > CPS_SET_MAX_ITEMS)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "parts or out is NULL, or %d parts are not from 1 to %d", count,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "parts or out is NULL, or %d parts are not from 1 to %d", count,
                          CPS_SET_MAX_ITEMS);
     size_t terms = 0;
     for (int i = 0; i < count; i++) {
         if (!parts[i]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "part %d is NULL", i + 1);
         if (parts[i]->n != parts[0]->n)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "part %d has %d components, the first %d: all act on one velocity",
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "part %d has %d components, the first %d: all act on one velocity",
                              i + 1, parts[i]->n, parts[0]->n);
         terms += (size_t)parts[i]->count;
     }
@@ -292,8 +321,9 @@ static CpsStatus term_value(int n, const CpsiTerm *term, const double *velocity,
     return status;
 }
 
-CpsStatus cps_resistance_value(const CpsResistance *law, const double *velocity, CpsResistanceValue *whole,
-                               CpsResistanceValue *by_term, CpsError *err) {
+CpsStatus cps_resistance_value(const CpsResistance *law, const double *velocity,
+                               CpsResistanceValue *whole, CpsResistanceValue *by_term,
+                               CpsError *err) {
     if (!law || !whole) return cpsi_fail(err, CPS_ERR_ARGUMENT, "law or whole is NULL");
     CpsStatus status = cpsi_law_check_vector("velocity", law->n, velocity, err);
     if (status != CPS_OK) return status;
@@ -316,8 +346,8 @@ CpsStatus cps_resistance_value(const CpsResistance *law, const double *velocity,
 }
 
 /* the forces of one term: h'(g) times a face, or a point; *forces NULL where there are none */
-static CpsStatus term_forces(int n, const CpsiTerm *term, const double *velocity, double tolerance, CpsSet **forces,
-                             CpsSetAnswer *answer, CpsError *err) {
+static CpsStatus term_forces(int n, const CpsiTerm *term, const double *velocity, double tolerance,
+                             CpsSet **forces, CpsSetAnswer *answer, CpsError *err) {
     if (term->kind == CPSI_VISCOUS) {
         double *force = malloc((size_t)n * sizeof *force);
         if (!force) return out_of_memory(err);
@@ -343,9 +373,10 @@ static CpsStatus term_forces(int n, const CpsiTerm *term, const double *velocity
     return status;
 }
 
-CpsStatus cps_resistance_forces(const CpsResistance *law, const double *velocity, double tolerance, CpsSet **forces,
-                                CpsSetAnswer *answer, CpsError *err) {
-    if (!law || !forces || !answer) return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, forces or answer is NULL");
+CpsStatus cps_resistance_forces(const CpsResistance *law, const double *velocity, double tolerance,
+                                CpsSet **forces, CpsSetAnswer *answer, CpsError *err) {
+    if (!law || !forces || !answer)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, forces or answer is NULL");
     CpsStatus status = cpsi_law_check_vector("velocity", law->n, velocity, err);
     if (status != CPS_OK) return status;
     CpsSet **part = calloc((size_t)law->count, sizeof *part), *sum = NULL;
@@ -357,7 +388,8 @@ CpsStatus cps_resistance_forces(const CpsResistance *law, const double *velocity
         if (status != CPS_OK) break;
         if (all.outcome == CPS_SET_ANSWERED) all.outcome = one.outcome;
         all.exact = all.exact && one.exact;
-        all.value += one.value, all.gap += one.gap;
+        all.value += one.value;
+        all.gap += one.gap;
         all.tolerance = fmax(all.tolerance, one.tolerance);
     }
     if (status == CPS_OK && all.outcome == CPS_SET_ANSWERED && law->count > 1)
@@ -366,6 +398,9 @@ CpsStatus cps_resistance_forces(const CpsResistance *law, const double *velocity
         sum = cps_set_retain(part[0]);
     for (int i = 0; i < law->count; i++) cps_set_release(part[i]);
     free(part);
-    if (status == CPS_OK) *forces = sum, *answer = all;
+    if (status == CPS_OK) {
+        *forces = sum;
+        *answer = all;
+    }
     return status;
 }

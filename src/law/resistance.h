@@ -5,9 +5,16 @@
 
 #include "law/law.h"
 
-typedef enum CpsiTermKind { CPSI_DRY, CPSI_VISCOUS, CPSI_POWER, CPSI_TABLE, CPSI_FUNCTION } CpsiTermKind;
+typedef enum CpsiTermKind {
+    CPSI_DRY,
+    CPSI_VISCOUS,
+    CPSI_POWER,
+    CPSI_TABLE,
+    CPSI_FUNCTION
+} CpsiTermKind;
 
-/* phi = h(g), g the dissipation function of `set`; a viscous term is h = g^2/2 with g^2 = <V, D V>. */
+/* phi = h(g), g the dissipation function of `set`; a viscous term is h = g^2/2 with g^2 = <V, D
+ * V>. */
 typedef struct CpsiTerm {
     CpsiTermKind kind;
     CpsSet *set;           /* a hold; viscous: NULL */
@@ -27,7 +34,8 @@ struct CpsResistance {
 /* h and h' at g >= 0. Fails only for a user's function, with the reason. */
 CpsStatus cpsi_term_at(const CpsiTerm *term, double g, double *h, double *slope, CpsError *err);
 
-/* h*(s) = max over g >= 0 of s g - h(g), and the least and largest g that attain it; all INFINITY where there is none.
+/* h*(s) = max over g >= 0 of s g - h(g), and the least and largest g that attain it; all INFINITY
+ * where there is none.
  */
 typedef struct CpsiTermDual {
     double value, low, high;
@@ -42,17 +50,17 @@ CpsStatus cpsi_function_check(const CpsiTerm *term, CpsError *err);
 /* False for a power without factor and a table of zeros: no force at any speed. */
 bool cpsi_term_resists(const CpsiTerm *term);
 
-/* cps_resistance_conjugate for any sum of terms (sum.c). share (count, n) or NULL: the terms' shares of the force at least
- * cost. */
-CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity, double *share,
-                             CpsSetAnswer *answer, CpsError *err);
+/* cps_resistance_conjugate for any sum of terms (sum.c). share (count, n) or NULL: the terms'
+ * shares of the force at least cost. */
+CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity,
+                             double *share, CpsSetAnswer *answer, CpsError *err);
 
 /* The sum of the dry terms' sets. */
 CpsStatus cpsi_dry_sum(const CpsResistance *law, CpsSet **dry, CpsError *err);
 
-/* The velocities of one term, no viscous one, at its share of the force, known to the share `tolerance` (velocities.c);
- * *out NULL: not known. */
-CpsStatus cpsi_term_velocities(int n, const CpsiTerm *term, const double *force, double tolerance, CpsSet **out,
-                               CpsError *err);
+/* The velocities of one term, no viscous one, at its share of the force, known to the share
+ * `tolerance` (velocities.c); *out NULL: not known. */
+CpsStatus cpsi_term_velocities(int n, const CpsiTerm *term, const double *force, double tolerance,
+                               CpsSet **out, CpsError *err);
 
 #endif

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The conic program of a shared force (split.h).
  *
- * Unknowns y: of each share the v of its set's form and the part of t in each piece; last r, above the quadratic costs.
+ * Unknowns y: of each share the v of its set's form and the part of t in each piece; last r, above
+ * the quadratic costs.
  *
- *     A_i v_i + b_i t_i in K_i        0 <= part <= width        (r + 1/2, r - 1/2, sqrt(curvature) part, ..) in K
+ *     A_i v_i + b_i t_i in K_i        0 <= part <= width
+ *         (r + 1/2, r - 1/2, sqrt(curvature) part, ..) in K
  *     E y = sum over i of (origin_i t_i + P_i v_i) = F
  *
- * The equations are taken in the space that the sets reach beside their lines, and eliminated; their multipliers are
- * minus the velocity. Forces are divided by |F|, v_i by the share's unit, parts by their width, costs by `energy`. */
+ * The equations are taken in the space that the sets reach beside their lines, and eliminated;
+ * their multipliers are minus the velocity. Forces are divided by |F|, v_i by the share's unit,
+ * parts by their width, costs by `energy`. */
 #include "law/split.h"
 
 #include <math.h>
@@ -23,7 +26,8 @@
 static const double SAME = 1e-10;
 /* A force further beside the space of the sets, relative to its length, is not in it. */
 static const double BESIDE = 1e-9;
-/* The caller judges by closed forms; a program that ends worse than this is told from one that ends well by nothing. */
+/* The caller judges by closed forms; a program that ends worse than this is told from one that ends
+ * well by nothing. */
 static const double ACCEPT = 1e-9;
 /* Unknowns, and numbers in one matrix, that a dense solver takes; the same as for a set's form. */
 static const size_t MOST_UNKNOWNS = 2000, MOST_NUMBERS = 32u << 20;
@@ -31,12 +35,12 @@ static const size_t MOST_UNKNOWNS = 2000, MOST_NUMBERS = 32u << 20;
 typedef struct Program {
     int n, unknowns, rows, cones, largest, lines, rank, left;
     double force_unit, energy;
-    double *space;            /* (unknowns + lines, n): rows of lines, then of the space reached */
-    double *column;           /* (n, unknowns + 1): E, and what it lacks to F */
-    double *equation, *rhs;   /* (rank, unknowns) E in the basis of the space */
-    double *basis;            /* (unknowns, unknowns): the equations orthonormal, then what they leave free */
-    double *normal;           /* (3 n n + 2 n) scratch of the normal equations */
-    double *start;            /* (unknowns) */
+    double *space;          /* (unknowns + lines, n): rows of lines, then of the space reached */
+    double *column;         /* (n, unknowns + 1): E, and what it lacks to F */
+    double *equation, *rhs; /* (rank, unknowns) E in the basis of the space */
+    double *basis;  /* (unknowns, unknowns): the equations orthonormal, then what they leave free */
+    double *normal; /* (3 n n + 2 n) scratch of the normal equations */
+    double *start;  /* (unknowns) */
     double *row, *offset;     /* (rows, unknowns) */
     double *cost;             /* (unknowns) */
     double *row_left, *b, *c; /* the same over what is left free */
@@ -61,15 +65,19 @@ static void count_up(Program *p, int count, const CpsiShare *share) {
     for (int i = 0; i < count; i++) {
         const CpsiForm *form = share[i].form;
         p->unknowns += form->unknowns + share[i].pieces;
-        p->rows += form->rows, p->cones += form->cones, p->lines += form->lines;
+        p->rows += form->rows;
+        p->cones += form->cones;
+        p->lines += form->lines;
         if (form->largest_cone > p->largest) p->largest = form->largest_cone;
         for (int k = 0; k < share[i].pieces; k++) {
             const int bounds = isinf(share[i].node[k + 1]) ? 1 : 2;
-            p->rows += bounds, p->cones += bounds;
+            p->rows += bounds;
+            p->cones += bounds;
             quadratic += bend(&share[i], k, p->energy) > 0;
         }
     }
-    p->rows += quadratic, p->cones++;
+    p->rows += quadratic;
+    p->cones++;
     if (quadratic > p->largest) p->largest = quadratic;
 }
 
@@ -104,8 +112,10 @@ static void write_columns(Program *p, int count, const CpsiShare *share, const d
         row[u] = force[a] / p->force_unit;
         for (int i = 0; i < count; i++) {
             const CpsiForm *form = share[i].form;
-            const double unit = share[i].unit / p->force_unit, origin = form->origin[a] / p->force_unit;
-            for (int j = 0; j < form->unknowns; j++) row[at++] = form->p[a * (size_t)form->unknowns + (size_t)j] * unit;
+            const double unit = share[i].unit / p->force_unit,
+                         origin = form->origin[a] / p->force_unit;
+            for (int j = 0; j < form->unknowns; j++)
+                row[at++] = form->p[a * (size_t)form->unknowns + (size_t)j] * unit;
             for (int k = 0; k < share[i].pieces; k++) row[at++] = origin * width_of(&share[i], k);
             row[u] -= origin * share[i].node[0];
         }
@@ -148,7 +158,8 @@ static void write_rows(Program *p, int count, const CpsiShare *share) {
     }
     const size_t first = (size_t)rows;
     p->row[first * u + u - 1] = p->row[(first + 1) * u + u - 1] = 1;
-    p->offset[first] = 0.5, p->offset[first + 1] = -0.5;
+    p->offset[first] = 0.5;
+    p->offset[first + 1] = -0.5;
     p->cost[u - 1] = 1;
     at = 0;
     for (int i = 0; i < count; at += (size_t)share[i].pieces, i++) {
@@ -163,12 +174,14 @@ static void write_rows(Program *p, int count, const CpsiShare *share) {
 
 /* ---- the equations ---- */
 
-/* The equations in an orthonormal basis of the space reached beside lines; false where F is not in it. */
+/* The equations in an orthonormal basis of the space reached beside lines; false where F is not in
+ * it. */
 static bool write_equations(Program *p, int count, const CpsiShare *share) {
     const size_t u = (size_t)p->unknowns, n = (size_t)p->n;
     int lines = 0;
     for (int i = 0; i < count; i++) {
-        memcpy(&p->space[(size_t)lines * n], share[i].form->q, (size_t)share[i].form->lines * n * sizeof *p->space);
+        memcpy(&p->space[(size_t)lines * n], share[i].form->q,
+               (size_t)share[i].form->lines * n * sizeof *p->space);
         lines += share[i].form->lines;
     }
     lines = cpsi_orthonormal_rows(lines, p->n, p->space, NULL, SAME);
@@ -178,12 +191,14 @@ static bool write_equations(Program *p, int count, const CpsiShare *share) {
     for (size_t j = 0; j < u; j++)
         for (int l = 0; l < lines; l++) {
             const double along = cpsi_dot(p->n, &reached[j * n], &p->space[(size_t)l * n]);
-            for (size_t a = 0; a < n; a++) reached[j * n + a] -= along * p->space[(size_t)l * n + a];
+            for (size_t a = 0; a < n; a++)
+                reached[j * n + a] -= along * p->space[(size_t)l * n + a];
         }
     p->rank = cpsi_orthonormal_rows(p->unknowns, p->n, reached, NULL, SAME);
 
     double square = 0, within = 0;
-    for (size_t a = 0; a < n; a++) square += p->column[a * (u + 1) + u] * p->column[a * (u + 1) + u];
+    for (size_t a = 0; a < n; a++)
+        square += p->column[a * (u + 1) + u] * p->column[a * (u + 1) + u];
     for (size_t k = 0; k < (size_t)(lines + p->rank); k++) {
         double sum = 0;
         for (size_t a = 0; a < n; a++) sum += p->space[k * n + a] * p->column[a * (u + 1) + u];
@@ -192,7 +207,8 @@ static bool write_equations(Program *p, int count, const CpsiShare *share) {
         const size_t e = k - (size_t)lines;
         p->rhs[e] = sum;
         for (size_t j = 0; j < u; j++)
-            for (size_t a = 0; a < n; a++) p->equation[e * u + j] += p->space[k * n + a] * p->column[a * (u + 1) + j];
+            for (size_t a = 0; a < n; a++)
+                p->equation[e * u + j] += p->space[k * n + a] * p->column[a * (u + 1) + j];
     }
     p->lines = lines;
     return square - within <= BESIDE * fmax(square, BESIDE);
@@ -216,7 +232,8 @@ static void eliminate(Program *p) {
             p->row_left[i * (size_t)p->left + j] = cpsi_dot(p->unknowns, row, &free_part[j * u]);
         p->b[i] = p->offset[i] + cpsi_dot(p->unknowns, row, p->start);
     }
-    for (size_t j = 0; j < (size_t)p->left; j++) p->c[j] = cpsi_dot(p->unknowns, p->cost, &free_part[j * u]);
+    for (size_t j = 0; j < (size_t)p->left; j++)
+        p->c[j] = cpsi_dot(p->unknowns, p->cost, &free_part[j * u]);
 }
 
 /* ---- reading ---- */
@@ -228,10 +245,12 @@ static void read_forces(const Program *p, int count, CpsiShare *share) {
         const CpsiForm *form = share[i].form;
         const size_t v = (size_t)form->unknowns;
         share[i].t = share[i].node[0];
-        for (int k = 0; k < share[i].pieces; k++) share[i].t += p->y[at + v + (size_t)k] * width_of(&share[i], k);
+        for (int k = 0; k < share[i].pieces; k++)
+            share[i].t += p->y[at + v + (size_t)k] * width_of(&share[i], k);
         for (size_t a = 0; a < n; a++)
-            share[i].force[a] = p->force_unit * cpsi_dot(form->unknowns, &p->column[a * (u + 1) + at], &p->y[at]) +
-                                form->origin[a] * share[i].t;
+            share[i].force[a] =
+                p->force_unit * cpsi_dot(form->unknowns, &p->column[a * (u + 1) + at], &p->y[at]) +
+                form->origin[a] * share[i].t;
         at += v + (size_t)share[i].pieces;
     }
 }
@@ -239,7 +258,8 @@ static void read_forces(const Program *p, int count, CpsiShare *share) {
 /* The multipliers of the equations, from what cost and rows leave: E E' lambda = E (c - A'z). */
 static bool read_velocity(const Program *p, const double *z, double scale, double *velocity) {
     const size_t u = (size_t)p->unknowns, k = (size_t)p->rank;
-    double *square = p->normal, *factor = square + k * k, *inverse = factor + k * k, *pull = inverse + k * k;
+    double *square = p->normal, *factor = square + k * k, *inverse = factor + k * k,
+           *pull = inverse + k * k;
     double *lambda = pull + k;
     memcpy(p->w, p->cost, u * sizeof *p->w);
     for (size_t i = 0; i < (size_t)p->rows; i++)
@@ -257,17 +277,22 @@ static bool read_velocity(const Program *p, const double *z, double scale, doubl
         double sum = 0;
         for (size_t j = i; j < k; j++) sum += inverse[j * k + i] * lambda[j];
         for (size_t a = 0; a < (size_t)p->n; a++)
-            velocity[a] -= sum * p->energy / p->force_unit * p->space[((size_t)p->lines + i) * (size_t)p->n + a];
+            velocity[a] -= sum * p->energy / p->force_unit *
+                           p->space[((size_t)p->lines + i) * (size_t)p->n + a];
     }
     for (int a = 0; a < p->n; a++)
         if (!isfinite(velocity[a])) return false;
     return true;
 }
 
-static CpsSetOutcome solve(Program *p, CpsiConicProgram *conic, int count, CpsiShare *share, double *velocity) {
+static CpsSetOutcome solve(Program *p, CpsiConicProgram *conic, int count, CpsiShare *share,
+                           double *velocity) {
     const double size = cpsi_norm(p->left, p->c), scale = size > 0 ? size : 1;
     for (int j = 0; j < p->left; j++) p->c[j] /= scale;
-    conic->dim = p->dim, conic->a = p->row_left, conic->b = p->b, conic->c = p->c;
+    conic->dim = p->dim;
+    conic->a = p->row_left;
+    conic->b = p->b;
+    conic->c = p->c;
     const CpsiConicResult result = cpsi_conic_solve(conic, ACCEPT);
     if (result.outcome == CPSI_CONIC_INFEASIBLE) return CPS_SET_OUTSIDE;
     if (result.outcome == CPSI_CONIC_UNBOUNDED) return CPS_SET_INACCURATE;
@@ -282,19 +307,20 @@ static CpsSetOutcome solve(Program *p, CpsiConicProgram *conic, int count, CpsiS
     return read_velocity(p, conic->z, scale, velocity) ? CPS_SET_ANSWERED : CPS_SET_INACCURATE;
 }
 
-CpsStatus cpsi_split(int n, int count, CpsiShare *share, const double *force, double energy, double *velocity,
-                     CpsSetOutcome *outcome, CpsError *err) {
+CpsStatus cpsi_split(int n, int count, CpsiShare *share, const double *force, double energy,
+                     double *velocity, CpsSetOutcome *outcome, CpsError *err) {
     CpsiArena arena = {0};
     Program p = {.n = n, .force_unit = cpsi_norm(n, force), .energy = energy};
     count_up(&p, count, share);
     const size_t unknowns = (size_t)p.unknowns, rows = (size_t)p.rows;
     if (unknowns > MOST_UNKNOWNS || rows > MOST_NUMBERS / unknowns)
         return cpsi_fail(err, CPS_ERR_LIMIT,
-                         "sharing the force has %zu unknowns and %zu rows; at most %zu unknowns and %zu numbers are "
-                         "solved for: use fewer terms or simpler sets",
+                         "sharing the force has %zu unknowns and %zu rows; at most %zu unknowns "
+                         "and %zu numbers are solved for: use fewer terms or simpler sets",
                          unknowns, rows, MOST_UNKNOWNS, MOST_NUMBERS);
     lay(&arena, &p);
-    if (!cpsi_arena_allocate(&arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory to share a force");
+    if (!cpsi_arena_allocate(&arena))
+        return cpsi_fail(err, CPS_ERR_MEMORY, "no memory to share a force");
     lay(&arena, &p);
     write_columns(&p, count, share, force);
     write_rows(&p, count, share);
@@ -305,7 +331,8 @@ CpsStatus cpsi_split(int n, int count, CpsiShare *share, const double *force, do
         CpsiArena room = {0};
         (void)cpsi_conic_layout(&room, p.left, p.rows, p.cones, p.largest);
         if (cpsi_arena_allocate(&room))
-            *outcome = solve(&p, cpsi_conic_layout(&room, p.left, p.rows, p.cones, p.largest), count, share, velocity);
+            *outcome = solve(&p, cpsi_conic_layout(&room, p.left, p.rows, p.cones, p.largest),
+                             count, share, velocity);
         else
             status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory to share a force");
         cpsi_arena_free(&room);

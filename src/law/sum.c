@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The conjugate of any sum of terms, with a certificate.
  *
- *     phi*(-F) = min  sum of h_i*(gauge_i(F_i))   over all ways F_1 + F_2 + .. = F of sharing the force
+ *     phi*(-F) = min  sum of h_i*(gauge_i(F_i))
+ *         over all ways F_1 + F_2 + .. = F of sharing the force
  *              = max  - <V, F> - sum of h_i(g_i(V))   over all velocities
  *
- * Any shares give an upper bound and any velocity a lower one, both from the terms' closed forms; their difference is
- * the gap. To find good ones, each h* is replaced by pieces on which its slope is straight, for which the shares are a
- * conic program (split.h) that also gives the velocity. The next pieces lie between two points of each curve h': the
- * gauge of the share found, and where the velocity found meets the curve. The solution is between them but for the
- * error of the chord, so that their distance squares from pass to pass, as in Newton's method; and a chord is convex
+ * Any shares give an upper bound and any velocity a lower one, both from the terms' closed forms;
+ * their difference is the gap. To find good ones, each h* is replaced by pieces on which its slope
+ * is straight, for which the shares are a conic program (split.h) that also gives the velocity. The
+ * next pieces lie between two points of each curve h': the gauge of the share found, and where the
+ * velocity found meets the curve. The solution is between them but for the error of the chord, so
+ * that their distance squares from pass to pass, as in Newton's method; and a chord is convex
  * however long it is, so that the first ones may be. */
 #include <stdlib.h>
 #include <string.h>
@@ -18,23 +20,27 @@
 #include "law/split.h"
 #include "set/node.h"
 
-/* Gaps relative to phi + phi*: at which to stop at once (rounding), at which to stop when a pass gains nothing, and the
- * one promised. A velocity is wrong by the root of its gap, so that the last pass is worth its time. */
+/* Gaps relative to phi + phi*: at which to stop at once (rounding), at which to stop when a pass
+ * gains nothing, and the one promised. A velocity is wrong by the root of its gap, so that the last
+ * pass is worth its time. */
 static const double TARGET = 1e-15, ENOUGH = 1e-11, PROMISE = 1e-9;
-/* A force outside by less than this part of its length is on the boundary: what the conic program leaves. */
+/* A force outside by less than this part of its length is on the boundary: what the conic program
+ * leaves. */
 static const double ON_BOUNDARY = 1e-9;
 /* The gauge of a force that was scaled to its limit. */
 static const double ROUNDING = 1e-14;
 /* Passes at most, and without progress. */
 enum { PASSES = 40, IDLE = 10 };
-/* A bracket is widened by the first share of it on both sides, but not by less than the second share of t: there its
- * chord and curve are one. */
+/* A bracket is widened by the first share of it on both sides, but not by less than the second
+ * share of t: there its chord and curve are one. */
 static const double WIDEN = 0.3, NARROWEST = 1e-8;
 /* Ranges beyond this many times the typical one are without end. */
 static const double WITHOUT_END = 1e9;
-/* The range of a term is where it alone costs this many times the best split: room for better ones. */
+/* The range of a term is where it alone costs this many times the best split: room for better
+ * ones. */
 static const double ROOM = 4;
-/* The speed whose slope stands for the limit, and what keeps a limit that is only approached out of reach by rounding.
+/* The speed whose slope stands for the limit, and what keeps a limit that is only approached out of
+ * reach by rounding.
  */
 static const double FAST = 1e100, SHORT = 1e-12;
 /* A bracket whose speeds have a larger ratio is divided. */
@@ -49,12 +55,13 @@ typedef struct Part {
     CpsiForm *made;
     const CpsiForm *form;
     double limit; /* h' at the highest speeds: no gauge goes beyond */
-    double range; /* what is to be looked at: beyond it the term alone costs more than the best split */
+    double range; /* what is to be looked at: beyond it the term alone costs more than the best
+                     split */
     double t, g;  /* gauge of its share; g(V) */
 } Part;
 
-/* What shares and a velocity prove: phi* is at most `upper`, at least `lower`, but for the error of the terms' own
- * answers. */
+/* What shares and a velocity prove: phi* is at most `upper`, at least `lower`, but for the error of
+ * the terms' own answers. */
 typedef struct Bounds {
     double *velocity; /* (n) */
     double upper, lower, potential, error;
@@ -127,11 +134,14 @@ static CpsStatus sum_make(const CpsResistance *law, const double *force, Sum *su
     sum->share = calloc(count, sizeof *sum->share);
     sum->block = calloc((2 * count + 4) * n + count, sizeof *sum->block);
     sum->place = calloc(count, sizeof *sum->place);
-    if (!sum->part || !sum->share || !sum->block || !sum->place) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    if (!sum->part || !sum->share || !sum->block || !sum->place)
+        return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     double *at = sum->block + count * n; /* after the shares */
     sum->now = (Bounds){.velocity = at};
     sum->best = (Bounds){.velocity = at + n, .upper = INFINITY, .lower = -INFINITY};
-    sum->work = at + 2 * n, sum->cost = at + 4 * n, sum->kept = sum->cost + count;
+    sum->work = at + 2 * n;
+    sum->cost = at + 4 * n;
+    sum->kept = sum->cost + count;
     CpsStatus status = add_viscous(sum, law, err);
     for (int i = 0; i < law->count && status == CPS_OK; i++) {
         const CpsiTerm *term = &law->term[i];
@@ -148,17 +158,19 @@ static CpsStatus sum_make(const CpsResistance *law, const double *force, Sum *su
 
 /* ---- bounds ---- */
 
-/* h*(gauge) of one share, its gauge and the error of that; a gauge beyond the limit by less than `slack` of it is on
- * it.
+/* h*(gauge) of one share, its gauge and the error of that; a gauge beyond the limit by less than
+ * `slack` of it is on it.
  */
-static CpsStatus cost_of_share(const Part *part, const double *force, double slack, double *t, double *cost,
-                               double *error, CpsError *err) {
+static CpsStatus cost_of_share(const Part *part, const double *force, double slack, double *t,
+                               double *cost, double *error, CpsError *err) {
     CpsSetAnswer gauge;
     CpsiTermDual dual;
     CpsStatus status = cpsi_gauge(part->set, force, &gauge, err);
-    *t = *cost = INFINITY, *error = 0;
+    *t = *cost = INFINITY;
+    *error = 0;
     if (status != CPS_OK || gauge.outcome != CPS_SET_ANSWERED) return status;
-    *t = gauge.value > part->limit && gauge.value <= part->limit * (1 + slack) ? part->limit : gauge.value;
+    *t = gauge.value > part->limit && gauge.value <= part->limit * (1 + slack) ? part->limit
+                                                                               : gauge.value;
     status = cpsi_term_dual(&part->term, *t, &dual, err);
     *cost = dual.value;
     if (gauge.gap > 0) *error = gauge.gap * dual.low;
@@ -166,21 +178,27 @@ static CpsStatus cost_of_share(const Part *part, const double *force, double sla
 }
 
 /* the part that bears work (n) beside its share at the least more cost; -1: none */
-static CpsStatus choose_bearer(Sum *sum, double slack, const double *cost, int *bearer, double *more, CpsError *err) {
+static CpsStatus choose_bearer(Sum *sum, double slack, const double *cost, int *bearer,
+                               double *more, CpsError *err) {
     const size_t n = (size_t)sum->n;
     double *trial = sum->work + n, t, with, error;
-    *bearer = -1, *more = INFINITY;
+    *bearer = -1;
+    *more = INFINITY;
     for (int i = 0; i < sum->count; i++) {
         for (size_t a = 0; a < n; a++) trial[a] = sum->share[i].force[a] + sum->work[a];
         const CpsStatus status = cost_of_share(&sum->part[i], trial, slack, &t, &with, &error, err);
         if (status != CPS_OK) return status;
-        if (with - cost[i] < *more) *more = with - cost[i], *bearer = i;
+        if (with - cost[i] < *more) {
+            *more = with - cost[i];
+            *bearer = i;
+        }
     }
     return CPS_OK;
 }
 
-/* The shares are right but for what the conic program leaves. Each is put into its limit, and what then lacks to F is
- * given to the part that bears it best; where none does within its limit but for rounding, F is on the boundary. */
+/* The shares are right but for what the conic program leaves. Each is put into its limit, and what
+ * then lacks to F is given to the part that bears it best; where none does within its limit but for
+ * rounding, F is on the boundary. */
 static CpsStatus bound_above(Sum *sum, CpsError *err) {
     const size_t n = (size_t)sum->n;
     double *lack = sum->work, more, *cost = sum->cost;
@@ -190,21 +208,25 @@ static CpsStatus bound_above(Sum *sum, CpsError *err) {
         double *share = sum->share[i].force, error;
         Part *part = &sum->part[i];
         CpsStatus status = cost_of_share(part, share, 0, &part->t, &cost[i], &error, err);
-        if (status == CPS_OK && part->t > part->limit && part->t <= part->limit * (1 + ON_BOUNDARY)) {
+        if (status == CPS_OK && part->t > part->limit &&
+            part->t <= part->limit * (1 + ON_BOUNDARY)) {
             for (size_t a = 0; a < n; a++) share[a] *= part->limit / part->t;
             status = cost_of_share(part, share, ROUNDING, &part->t, &cost[i], &error, err);
         }
         if (status != CPS_OK) return status;
-        if (isinf(cost[i])) { /* rounding put it beside a cone or a flat set: what is in every set */
+        if (isinf(
+                cost[i])) { /* rounding put it beside a cone or a flat set: what is in every set */
             memset(share, 0, n * sizeof *share);
             cost[i] = part->t = 0;
         }
         for (size_t a = 0; a < n; a++) lack[a] -= share[a];
-        sum->now.upper += cost[i], sum->now.error += error;
+        sum->now.upper += cost[i];
+        sum->now.error += error;
     }
     int bearer;
     CpsStatus status = choose_bearer(sum, ROUNDING, cost, &bearer, &more, err);
-    if (status == CPS_OK && bearer < 0) status = choose_bearer(sum, ON_BOUNDARY, cost, &bearer, &more, err);
+    if (status == CPS_OK && bearer < 0)
+        status = choose_bearer(sum, ON_BOUNDARY, cost, &bearer, &more, err);
     for (size_t a = 0; bearer >= 0 && a < n; a++) sum->share[bearer].force[a] += lack[a];
     sum->now.upper += more;
     return status;
@@ -224,8 +246,9 @@ static CpsStatus bound_below(Sum *sum, CpsError *err) {
         CpsSetAnswer g;
         double h, slope;
         CpsStatus status = cpsi_support(sum->part[i].set, turned, NULL, &g, err);
-        sum->part[i].g =
-            g.outcome == CPS_SET_ANSWERED || g.outcome == CPS_SET_NOT_ATTAINED ? fmax(g.value, 0) : INFINITY;
+        sum->part[i].g = g.outcome == CPS_SET_ANSWERED || g.outcome == CPS_SET_NOT_ATTAINED
+                             ? fmax(g.value, 0)
+                             : INFINITY;
         if (status == CPS_OK && isfinite(sum->part[i].g)) {
             status = cpsi_term_at(&sum->part[i].term, sum->part[i].g, &h, &slope, err);
             sum->now.potential += h;
@@ -250,7 +273,8 @@ static bool keep_best(Sum *sum) {
         memcpy(sum->kept, sum->block, (size_t)sum->count * (size_t)sum->n * sizeof *sum->kept);
     }
     if (now->lower > best->lower) {
-        best->lower = now->lower, best->potential = now->potential;
+        best->lower = now->lower;
+        best->potential = now->potential;
         memcpy(best->velocity, now->velocity, (size_t)sum->n * sizeof *best->velocity);
     }
     return !(best->upper - best->lower > 0.9 * before);
@@ -261,7 +285,8 @@ static double scale_of(const Sum *sum) { return sum->best.potential + sum->best.
 
 /* ---- pieces ---- */
 
-/* The first split: no cost up to h'(0), then one that is the same everywhere for a force as long as F. */
+/* The first split: no cost up to h'(0), then one that is the same everywhere for a force as long as
+ * F. */
 static CpsStatus first_pieces(Sum *sum, CpsError *err) {
     const double length = cpsi_norm(sum->n, sum->force);
     for (int i = 0; i < sum->count; i++) {
@@ -274,7 +299,8 @@ static CpsStatus first_pieces(Sum *sum, CpsError *err) {
         share->unit = fmin(unit, part->limit);
         if (!(share->unit > 0)) share->unit = unit;
         const double end = part->limit > WITHOUT_END * unit ? INFINITY : part->limit;
-        share->pieces = 0, share->node[0] = 0;
+        share->pieces = 0;
+        share->node[0] = 0;
         if (rest > 0) share->node[++share->pieces] = fmin(rest, end);
         if (rest < end) share->node[++share->pieces] = end;
         if (share->pieces == 0) share->node[++share->pieces] = end;
@@ -284,7 +310,8 @@ static CpsStatus first_pieces(Sum *sum, CpsError *err) {
     return CPS_OK;
 }
 
-/* The range of a term: h' where speed x h' - h = h*(h') passes `energy`, to a factor 2^(1/4) of speed. */
+/* The range of a term: h' where speed x h' - h = h*(h') passes `energy`, to a factor 2^(1/4) of
+ * speed. */
 static CpsStatus find_range(Part *part, double energy, CpsError *err) {
     double g = 1, h, slope, factor = 2;
     CpsStatus status = cpsi_term_at(&part->term, g, &h, &slope, err);
@@ -293,7 +320,11 @@ static CpsStatus find_range(Part *part, double energy, CpsError *err) {
         g = above ? g / factor : g * factor;
         status = cpsi_term_at(&part->term, g, &h, &slope, err);
         const bool now = !(g * slope - h < energy);
-        if (now != above) above = now, turns++, factor = sqrt(factor);
+        if (now != above) {
+            above = now;
+            turns++;
+            factor = sqrt(factor);
+        }
     }
     while (status == CPS_OK && g * slope - h < energy && g < 1e150) {
         g *= factor;
@@ -326,9 +357,10 @@ static void add_node(CpsiShare *share, double t) {
     share->node[++share->pieces] = t;
 }
 
-/* A node within a bracket: where the slope of h* jumps at its end `other`; in a wide one, where speed is between those
- * of its ends in ratio; else 0. */
-static CpsStatus middle_node(const Part *part, double other, double low, double high, double *middle, CpsError *err) {
+/* A node within a bracket: where the slope of h* jumps at its end `other`; in a wide one, where
+ * speed is between those of its ends in ratio; else 0. */
+static CpsStatus middle_node(const Part *part, double other, double low, double high,
+                             double *middle, CpsError *err) {
     CpsiTermDual at = {0}, slow = {0}, fast = {0};
     double h;
     *middle = 0;
@@ -342,7 +374,8 @@ static CpsStatus middle_node(const Part *part, double other, double low, double 
     return status;
 }
 
-/* Nodes at 0, round the two points of the curve that the last split found, and at the end of the range. */
+/* Nodes at 0, round the two points of the curve that the last split found, and at the end of the
+ * range. */
 static CpsStatus nodes(Part *part, CpsiShare *share, bool first, CpsError *err) {
     if (first) {
         add_node(share, part->t);
@@ -370,7 +403,8 @@ static CpsStatus next_pieces(Sum *sum, bool first, CpsError *err) {
         status = find_range(part, ROOM * sum->best.upper, err);
         if (status != CPS_OK) break;
         share->unit = part->range > 0 ? part->range : 1;
-        share->pieces = 0, share->node[0] = 0;
+        share->pieces = 0;
+        share->node[0] = 0;
         const bool straight = part->term.kind == CPSI_DRY || part->term.kind == CPSI_VISCOUS;
         if (!straight) status = nodes(part, share, first, err);
         if (share->pieces == 0) share->node[++share->pieces] = share->unit;
@@ -387,7 +421,8 @@ static double beyond_rest(const Sum *sum) {
     for (int i = 0; i < sum->count; i++) {
         const CpsiShare *share = &sum->share[i];
         const int last = share->pieces - 1;
-        if (share->after[last] > 0) cost += fmax(share->t - share->node[last], 0) * share->after[last];
+        if (share->after[last] > 0)
+            cost += fmax(share->t - share->node[last], 0) * share->after[last];
     }
     return cost;
 }
@@ -399,8 +434,8 @@ static CpsStatus refine(Sum *sum, CpsError *err) {
         CpsSetOutcome outcome = CPS_SET_ANSWERED;
         status = next_pieces(sum, pass == 0, err);
         if (status == CPS_OK)
-            status = cpsi_split(sum->n, sum->count, sum->share, sum->force, sum->best.upper, sum->now.velocity,
-                                &outcome, err);
+            status = cpsi_split(sum->n, sum->count, sum->share, sum->force, sum->best.upper,
+                                sum->now.velocity, &outcome, err);
         if (status != CPS_OK || outcome != CPS_SET_ANSWERED) break;
         status = bound_above(sum, err);
         if (status == CPS_OK) status = bound_below(sum, err);
@@ -415,7 +450,8 @@ static CpsStatus conjugate(Sum *sum, double *velocity, CpsSetAnswer *answer, Cps
     CpsSetOutcome outcome;
     CpsStatus status = first_pieces(sum, err);
     if (status == CPS_OK)
-        status = cpsi_split(sum->n, sum->count, sum->share, sum->force, 1, sum->now.velocity, &outcome, err);
+        status = cpsi_split(sum->n, sum->count, sum->share, sum->force, 1, sum->now.velocity,
+                            &outcome, err);
     if (status != CPS_OK) return status;
     const double length = cpsi_norm(sum->n, sum->force);
     *answer = (CpsSetAnswer){.outcome = outcome, .value = INFINITY};
@@ -433,13 +469,14 @@ static CpsStatus conjugate(Sum *sum, double *velocity, CpsSetAnswer *answer, Cps
     if (status != CPS_OK) return status;
     answer->value = sum->best.upper;
     answer->gap = gap_of(sum) + sum->best.error;
-    if (!(answer->gap <= PROMISE * scale_of(sum)) || isinf(answer->gap)) answer->outcome = CPS_SET_INACCURATE;
+    if (!(answer->gap <= PROMISE * scale_of(sum)) || isinf(answer->gap))
+        answer->outcome = CPS_SET_INACCURATE;
     if (velocity) memcpy(velocity, sum->best.velocity, n * sizeof *velocity);
     return CPS_OK;
 }
 
-CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity, double *share,
-                             CpsSetAnswer *answer, CpsError *err) {
+CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity,
+                             double *share, CpsSetAnswer *answer, CpsError *err) {
     Sum sum;
     CpsStatus status = sum_make(law, force, &sum, err);
     if (status == CPS_OK && sum.outcome != CPS_SET_ANSWERED) {

@@ -4,7 +4,8 @@
  * power     h = c g^p/p           h' = c g^(p-1)      h*(s) = s g (1 - 1/p) at g = (s/c)^(1/(p-1))
  * table     h' piecewise linear   h by trapezia       h*(s) = s g - h(g) where h'(g) = s
  * dry       h = g                 h' = 1              h*(s) = 0 for s <= 1, else infinite
- * function  the user's            (function.c)        h*(s) = s g - h(g) where h'(g) = s, found by bisection */
+ * function  the user's            (function.c)
+ *     h*(s) = s g - h(g) where h'(g) = s, found by bisection */
 #include "law/resistance.h"
 
 static const CpsiTermDual NO_SPEED = {INFINITY, INFINITY, INFINITY};
@@ -61,10 +62,12 @@ bool cpsi_term_resists(const CpsiTerm *term) {
 CpsStatus cpsi_term_at(const CpsiTerm *term, double g, double *h, double *slope, CpsError *err) {
     switch (term->kind) {
     case CPSI_DRY:
-        *h = g, *slope = 1;
+        *h = g;
+        *slope = 1;
         return CPS_OK;
     case CPSI_VISCOUS:
-        *h = 0.5 * g * g, *slope = g;
+        *h = 0.5 * g * g;
+        *slope = g;
         return CPS_OK;
     case CPSI_POWER:
         /* without a factor there is no force, however large the power */
@@ -72,10 +75,10 @@ CpsStatus cpsi_term_at(const CpsiTerm *term, double g, double *h, double *slope,
         *h = *slope * g / term->degree;
         return CPS_OK;
     case CPSI_TABLE:
-        *h = table_potential(term, g), *slope = table_slope(term, g);
+        *h = table_potential(term, g);
+        *slope = table_slope(term, g);
         return CPS_OK;
-    case CPSI_FUNCTION:
-        return cpsi_function_at(term, g, h, slope, err);
+    case CPSI_FUNCTION: return cpsi_function_at(term, g, h, slope, err);
     }
     return CPS_ERR_ARGUMENT;
 }
@@ -99,11 +102,8 @@ CpsStatus cpsi_term_dual(const CpsiTerm *term, double s, CpsiTermDual *dual, Cps
         dual->low = dual->high = pow(s / term->factor, 1 / (term->degree - 1));
         dual->value = s * dual->low * (1 - 1 / term->degree);
         return CPS_OK;
-    case CPSI_TABLE:
-        *dual = table_dual(term, fmax(s, 0));
-        return CPS_OK;
-    case CPSI_FUNCTION:
-        return cpsi_function_dual(term, s, dual, err);
+    case CPSI_TABLE: *dual = table_dual(term, fmax(s, 0)); return CPS_OK;
+    case CPSI_FUNCTION: return cpsi_function_dual(term, s, dual, err);
     }
     return CPS_ERR_ARGUMENT;
 }

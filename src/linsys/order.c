@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Minimum degree order on the quotient graph (George and Liu 1989), with approximate degrees and element absorption
- * after Amestoy, Davis and Duff (1996).
+/* Minimum degree order on the quotient graph (George and Liu 1989), with approximate degrees and
+ * element absorption after Amestoy, Davis and Duff (1996).
  *
- * Eliminating p joins all its neighbours to each other. That clique is not written out but kept as one element p
- * with its list of members; a variable's neighbours are the variables on its list and the members of the elements on
- * it. An element whose members all lie in a newer one is absorbed by it. The degree of i is bounded by
+ * Eliminating p joins all its neighbours to each other. That clique is not written out but kept as
+ * one element p with its list of members; a variable's neighbours are the variables on its list and
+ * the members of the elements on it. An element whose members all lie in a newer one is absorbed by
+ * it. The degree of i is bounded by
  *
  *     |variables of i| + |L_p| - 1 + sum over its other elements e of |L_e minus L_p|,
  *
- * which counts common members of the e more than once, and costs one pass over the lists of L_p. Variables with very
- * many neighbours (hubs) are taken out beforehand and ordered last. */
+ * which counts common members of the e more than once, and costs one pass over the lists of L_p.
+ * Variables with very many neighbours (hubs) are taken out beforehand and ordered last. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,16 +24,17 @@ static const int LEAST_HUB = 40;
 typedef enum State { VARIABLE, ELEMENT, GONE } State;
 
 typedef struct Graph {
-    int n, ordered, least;   /* least: no bucket below it is filled */
+    int n, ordered, least; /* least: no bucket below it is filled */
     int *order;
-    unsigned char *state;    /* (n) State */
-    size_t *at;              /* (n) where the list of a variable or element lies */
-    int *elements, *length;  /* (n) of a variable's list: elements first, and all; of an element's: all */
-    int *list, *spare;       /* the lists, and room to pack them into */
+    unsigned char *state; /* (n) State */
+    size_t *at;           /* (n) where the list of a variable or element lies */
+    int *elements,
+        *length;       /* (n) of a variable's list: elements first, and all; of an element's: all */
+    int *list, *spare; /* the lists, and room to pack them into */
     size_t used, room;
     int *degree, *first, *next, *before; /* variables by degree, in rings of buckets; -1 ends */
-    int *mark, stamp;        /* (n) members of the newest element are marked with the stamp */
-    int *seen, *outside;     /* (n) of an element: |L_e minus L_p|, valid where seen is the stamp */
+    int *mark, stamp;    /* (n) members of the newest element are marked with the stamp */
+    int *seen, *outside; /* (n) of an element: |L_e minus L_p|, valid where seen is the stamp */
     void *block;
 } Graph;
 
@@ -48,8 +50,10 @@ static void put(Graph *g, int i, int degree) {
 }
 
 static void take(Graph *g, int i) {
-    if (g->before[i] >= 0) g->next[g->before[i]] = g->next[i];
-    else g->first[g->degree[i]] = g->next[i];
+    if (g->before[i] >= 0)
+        g->next[g->before[i]] = g->next[i];
+    else
+        g->first[g->degree[i]] = g->next[i];
     if (g->next[i] >= 0) g->before[g->next[i]] = g->before[i];
 }
 
@@ -60,15 +64,16 @@ static bool allocate(Graph *g, int n, size_t room) {
     g->n = n;
     g->least = n;
     g->room = room;
-    g->block = calloc(10*w + 2*room + 1, sizeof(int));
+    g->block = calloc(10 * w + 2 * room + 1, sizeof(int));
     g->at = calloc(w + 1, sizeof *g->at);
     g->state = calloc(w + 1, 1);
     if (!g->block || !g->at || !g->state) return false;
-    int **part[] = {&g->elements, &g->length, &g->degree, &g->first, &g->next,
-                    &g->before, &g->mark, &g->seen, &g->outside};
+    int **part[] = {&g->elements, &g->length, &g->degree, &g->first,  &g->next,
+                    &g->before,   &g->mark,   &g->seen,   &g->outside};
     int *at = g->block;
-    for (size_t k = 0; k < sizeof part/sizeof *part; k++, at += w) *part[k] = at;
-    g->list = at, g->spare = at + room;
+    for (size_t k = 0; k < sizeof part / sizeof *part; k++, at += w) *part[k] = at;
+    g->list = at;
+    g->spare = at + room;
     for (int i = 0; i < n; i++) g->first[i] = -1;
     return true;
 }
@@ -84,11 +89,17 @@ static void lay_lists(Graph *g, const CpsiPattern *pattern) {
     const int n = g->n;
     for (int j = 0; j < n; j++)
         for (size_t e = pattern->start[j]; e < pattern->start[j + 1]; e++)
-            if (pattern->index[e] != j) g->length[j]++, g->length[pattern->index[e]]++;
-    const double most = fmax(LEAST_HUB, HUB*sqrt(n));
+            if (pattern->index[e] != j) {
+                g->length[j]++;
+                g->length[pattern->index[e]]++;
+            }
+    const double most = fmax(LEAST_HUB, HUB * sqrt(n));
     int last = n;
     for (int j = 0; j < n; j++)
-        if (g->length[j] > most) g->state[j] = GONE, g->order[--last] = j;
+        if (g->length[j] > most) {
+            g->state[j] = GONE;
+            g->order[--last] = j;
+        }
     for (int j = 0; j < n; j++) {
         g->at[j] = g->used;
         g->used += g->state[j] == VARIABLE ? (size_t)g->length[j] : 0;
@@ -110,12 +121,13 @@ static void pack(Graph *g) {
     size_t used = 0;
     for (int i = 0; i < g->n; i++) {
         if (g->state[i] == GONE) continue;
-        memcpy(&g->spare[used], &g->list[g->at[i]], (size_t)g->length[i]*sizeof *g->list);
+        memcpy(&g->spare[used], &g->list[g->at[i]], (size_t)g->length[i] * sizeof *g->list);
         g->at[i] = used;
         used += (size_t)g->length[i];
     }
     int *old = g->list;
-    g->list = g->spare, g->spare = old;
+    g->list = g->spare;
+    g->spare = old;
     g->used = used;
 }
 
@@ -155,7 +167,10 @@ static void count_outside(Graph *g, const int *member, int count) {
         for (int j = 0; j < g->elements[i]; j++) {
             const int e = list[j];
             if (g->state[e] != ELEMENT) continue;
-            if (g->seen[e] != g->stamp) g->seen[e] = g->stamp, g->outside[e] = g->length[e];
+            if (g->seen[e] != g->stamp) {
+                g->seen[e] = g->stamp;
+                g->outside[e] = g->length[e];
+            }
             g->outside[e]--;
         }
     }
@@ -221,8 +236,8 @@ static void eliminate(Graph *g, int p) {
 
 bool cpsi_sparse_order(const CpsiPattern *pattern, int *order) {
     Graph g = {.order = order};
-    const size_t n = (size_t)pattern->n, neighbours = 2*pattern->start[n];
-    bool done = allocate(&g, pattern->n, neighbours + 2*n + neighbours/4);
+    const size_t n = (size_t)pattern->n, neighbours = 2 * pattern->start[n];
+    bool done = allocate(&g, pattern->n, neighbours + 2 * n + neighbours / 4);
     if (done) {
         lay_lists(&g, pattern);
         int variables = 0;

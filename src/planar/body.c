@@ -8,7 +8,7 @@
 #include "base/status.h"
 #include "planar/planar.h"
 
-static const double TWO_PI = 2*CPSI_PI;
+static const double TWO_PI = 2 * CPSI_PI;
 
 /* A convex polygon may have corners in line to this part of the product of two sides. */
 static const double STRAIGHT = 1e-12;
@@ -17,8 +17,9 @@ CpsStatus cpsi_planar_finite(const char *what, int n, const double *a, CpsError 
     if (!a) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the %s is NULL", what);
     for (int i = 0; i < n; i++)
         if (!isfinite(a[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "component %d of the %s is %g, expected a finite number", i + 1,
-                             what, a[i]);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "component %d of the %s is %g, expected a finite number", i + 1, what,
+                             a[i]);
     return CPS_OK;
 }
 
@@ -29,46 +30,53 @@ static CpsStatus check_tilt(const char *name, const CpsPatch *patch, CpsError *e
     const bool area = patch->kind != CPS_PATCH_POINT && patch->kind != CPS_PATCH_WHEEL;
     const double tilt = hypot(patch->tilt[0], patch->tilt[1]);
     if (tilt != 0 && !area)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the pressure of a point or wheel cannot be tilted", name);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: the pressure of a point or wheel cannot be tilted", name);
     if (patch->tilt[1] != 0 && patch->kind == CPS_PATCH_ROD)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the pressure of a rod cannot be tilted across it", name);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: the pressure of a rod cannot be tilted across it", name);
     if (area && patch->kind != CPS_PATCH_POLYGON && !(tilt * patch->size <= 1))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: with tilt %g 1/m the pressure is negative at an end", name,
-                         tilt);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: with tilt %g 1/m the pressure is negative at an end", name, tilt);
     return CPS_OK;
 }
 
 static CpsStatus check_numbers(const char *name, const CpsPatch *patch, CpsError *err) {
     if ((unsigned)patch->kind > CPS_PATCH_POLYGON)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has kind %d, which is none of CpsPatchKind", name,
-                         (int)patch->kind);
-    const double number[5] = {patch->position[0], patch->position[1], patch->angle, patch->tilt[0], patch->tilt[1]};
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has kind %d, which is none of CpsPatchKind",
+                         name, (int)patch->kind);
+    const double number[5] = {patch->position[0], patch->position[1], patch->angle, patch->tilt[0],
+                              patch->tilt[1]};
     for (int i = 0; i < 5; i++)
         if (!isfinite(number[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: position, angle or tilt is %g, expected a finite number",
-                             name, number[i]);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s: position, angle or tilt is %g, expected a finite number", name,
+                             number[i]);
     if (!(patch->friction >= 0) || !isfinite(patch->friction))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the friction coefficient is %g, expected at least 0", name,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: the friction coefficient is %g, expected at least 0", name,
                          patch->friction);
     if (!(patch->load >= 0) || !isfinite(patch->load))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the load is %g N, expected at least 0 (pressing)", name,
-                         patch->load);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: the load is %g N, expected at least 0 (pressing)", name, patch->load);
     const bool sized = patch->kind != CPS_PATCH_POINT && patch->kind != CPS_PATCH_POLYGON;
     if (sized && (!(patch->size > 0) || !isfinite(patch->size)))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the size is %g m, expected more than 0", name, patch->size);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the size is %g m, expected more than 0", name,
+                         patch->size);
     if (patch->kind == CPS_PATCH_WHEEL && !(patch->brake >= 0))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the brake holds %g N m, expected at least 0", name,
-                         patch->brake);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the brake holds %g N m, expected at least 0",
+                         name, patch->brake);
     return check_tilt(name, patch, err);
 }
 
 static CpsStatus check_law(const char *name, const CpsPatch *patch, CpsError *err) {
     if (!patch->law) return CPS_OK;
     if (patch->kind != CPS_PATCH_POINT)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has a law of its own, which only a point may have", name);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s has a law of its own, which only a point may have", name);
     if (patch->friction != 0 || patch->load != 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has a law, and friction and load too: give one or the other",
-                         name);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s has a law, and friction and load too: give one or the other", name);
     if (cps_law_space(patch->law) != 2)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has a law in %d components, expected 2", name,
                          cps_law_space(patch->law));
@@ -85,7 +93,8 @@ static double cross(const double a[2], const double b[2]) { return a[0] * b[1] -
 static CpsStatus check_convex(const char *name, const CpsPatch *patch, CpsError *err) {
     const int n = patch->corner_count;
     if (n < 3 || n > CPS_PLANAR_MAX_CELLS || !patch->corner)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: a polygon of %d corners, expected from 3 to %d", name, n,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: a polygon of %d corners, expected from 3 to %d", name, n,
                          CPS_PLANAR_MAX_CELLS);
     double turned = 0;
     for (int i = 0; i < n; i++) {
@@ -94,12 +103,12 @@ static CpsStatus check_convex(const char *name, const CpsPatch *patch, CpsError 
         const double a[2] = {q[0] - p[0], q[1] - p[1]}, b[2] = {r[0] - q[0], r[1] - q[1]};
         const double left = cross(a, b), sides = hypot(a[0], a[1]) * hypot(b[0], b[1]);
         if (!isfinite(sides) || !(sides > 0))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: corner %d is not finite, or equal to its neighbour", name,
-                             i);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s: corner %d is not finite, or equal to its neighbour", name, i);
         if (!(left >= -STRAIGHT * sides))
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "%s: the polygon turns right at corner %d, expected a convex one, counterclockwise; "
-                             "cut others into convex patches",
+                             "%s: the polygon turns right at corner %d, expected a convex one, "
+                             "counterclockwise; cut others into convex patches",
                              name, (i + 1) % n);
         turned += atan2(left, a[0] * b[0] + a[1] * b[1]);
     }
@@ -111,7 +120,8 @@ static CpsStatus check_convex(const char *name, const CpsPatch *patch, CpsError 
 static CpsStatus check_patch(const char *name, const CpsPatch *patch, CpsError *err) {
     CpsStatus status = check_numbers(name, patch, err);
     if (status == CPS_OK) status = check_law(name, patch, err);
-    if (status == CPS_OK && patch->kind == CPS_PATCH_POLYGON) status = check_convex(name, patch, err);
+    if (status == CPS_OK && patch->kind == CPS_PATCH_POLYGON)
+        status = check_convex(name, patch, err);
     return status;
 }
 
@@ -124,7 +134,8 @@ static void turn(const double axis[2], const double v[2], double out[2]) {
 }
 
 /* Corners into body axes, about the centroid, which becomes the patch's position. */
-static CpsStatus place_polygon(const char *name, const CpsPatch *patch, double *corner, CpsiPatch *out, CpsError *err) {
+static CpsStatus place_polygon(const char *name, const CpsPatch *patch, double *corner,
+                               CpsiPatch *out, CpsError *err) {
     const int n = patch->corner_count;
     double twice = 0, moment[2] = {0, 0};
     for (int i = 0; i < n; i++) turn(out->axis, patch->corner + 2 * i, corner + 2 * i);
@@ -144,8 +155,8 @@ static CpsStatus place_polygon(const char *name, const CpsPatch *patch, double *
         out->size = fmax(out->size, hypot(corner[2 * i], corner[2 * i + 1]));
         const double pressure = 1 + out->tilt[0] * corner[2 * i] + out->tilt[1] * corner[2 * i + 1];
         if (!(pressure >= -STRAIGHT))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: the tilt makes the pressure negative at corner %d", name,
-                             i);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s: the tilt makes the pressure negative at corner %d", name, i);
     }
     for (int x = 0; x < 2; x++) out->position[x] += centroid[x];
     out->area = twice / 2;
@@ -154,7 +165,8 @@ static CpsStatus place_polygon(const char *name, const CpsPatch *patch, double *
     return CPS_OK;
 }
 
-static CpsStatus place_patch(const char *name, const CpsPatch *patch, double *corner, CpsiPatch *out, CpsError *err) {
+static CpsStatus place_patch(const char *name, const CpsPatch *patch, double *corner,
+                             CpsiPatch *out, CpsError *err) {
     *out = (CpsiPatch){.kind = patch->kind,
                        .position = {patch->position[0], patch->position[1]},
                        .axis = {cos(patch->angle), sin(patch->angle)},
@@ -163,7 +175,8 @@ static CpsStatus place_patch(const char *name, const CpsPatch *patch, double *co
     if (patch->kind == CPS_PATCH_POLYGON) return place_polygon(name, patch, corner, out, err);
     if (patch->kind != CPS_PATCH_POINT) out->size = patch->size;
     if (patch->kind == CPS_PATCH_WHEEL) out->strip = patch->brake / patch->size;
-    if (patch->kind == CPS_PATCH_RING || patch->kind == CPS_PATCH_DISC) turn(out->axis, patch->tilt, out->tilt);
+    if (patch->kind == CPS_PATCH_RING || patch->kind == CPS_PATCH_DISC)
+        turn(out->axis, patch->tilt, out->tilt);
     if (patch->law) out->set = cps_set_retain(cps_law_set(patch->law));
     return CPS_OK;
 }
@@ -174,7 +187,8 @@ static const char *patch_name(const char *alone, int k, char number[32]) {
     return alone ? alone : number;
 }
 
-static CpsStatus create(int count, const CpsPatch *patch, const char *alone, CpsPlanar **out, CpsError *err) {
+static CpsStatus create(int count, const CpsPatch *patch, const char *alone, CpsPlanar **out,
+                        CpsError *err) {
     if (!patch || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch or out is NULL");
     if (count < 1 || count > CPS_PLANAR_MAX_PATCHES)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d patches given, expected from 1 to %d", count,
@@ -185,7 +199,8 @@ static CpsStatus create(int count, const CpsPatch *patch, const char *alone, Cps
     for (int k = 0; k < count && status == CPS_OK; k++) {
         status = check_patch(patch_name(alone, k, name), &patch[k], err);
         if (status != CPS_OK && !alone) cpsi_fail_inside(err, status, "patch[%d]", k + 1);
-        if (status == CPS_OK && patch[k].kind == CPS_PATCH_POLYGON) corners += (size_t)patch[k].corner_count;
+        if (status == CPS_OK && patch[k].kind == CPS_PATCH_POLYGON)
+            corners += (size_t)patch[k].corner_count;
     }
     if (status != CPS_OK) return status;
 
@@ -236,8 +251,8 @@ int cps_planar_patches(const CpsPlanar *body) { return body ? body->count : 0; }
 
 /* ---- the law ---- */
 
-CpsStatus cpsi_planar_rub(const CpsPlanar *body, const double twist[3], double wrench[3], double *by_patch,
-                          CpsSetAnswer *answer, CpsError *err) {
+CpsStatus cpsi_planar_rub(const CpsPlanar *body, const double twist[3], double wrench[3],
+                          double *by_patch, CpsSetAnswer *answer, CpsError *err) {
     double total[3] = {0, 0, 0};
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
     for (int k = 0; k < body->count; k++) {
@@ -253,27 +268,30 @@ CpsStatus cpsi_planar_rub(const CpsPlanar *body, const double twist[3], double w
         answer->gap += rub.gap;
         total[0] += rub.force[0];
         total[1] += rub.force[1];
-        total[2] += rub.torque + patch->position[0] * rub.force[1] - patch->position[1] * rub.force[0];
+        total[2] +=
+            rub.torque + patch->position[0] * rub.force[1] - patch->position[1] * rub.force[0];
         if (by_patch) by_patch[k] = rub.power;
     }
-    if (answer->outcome == CPS_SET_ANSWERED && !isfinite(answer->value)) answer->outcome = CPS_SET_INACCURATE;
+    if (answer->outcome == CPS_SET_ANSWERED && !isfinite(answer->value))
+        answer->outcome = CPS_SET_INACCURATE;
     if (wrench)
         for (int i = 0; i < 3; i++) wrench[i] = total[i];
     return CPS_OK;
 }
 
-CpsStatus cps_planar_dissipation(const CpsPlanar *body, const double twist[3], double wrench[3], double *by_patch,
-                                 CpsSetAnswer *answer, CpsError *err) {
+CpsStatus cps_planar_dissipation(const CpsPlanar *body, const double twist[3], double wrench[3],
+                                 double *by_patch, CpsSetAnswer *answer, CpsError *err) {
     if (!body || !answer) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body or answer is NULL");
     const CpsStatus status = cpsi_planar_finite("twist", 3, twist, err);
     return status == CPS_OK ? cpsi_planar_rub(body, twist, wrench, by_patch, answer, err) : status;
 }
 
-CpsStatus cps_planar_wheel(const CpsPlanar *body, int patch, const double twist[3], CpsWheelMotion *motion,
-                           CpsError *err) {
+CpsStatus cps_planar_wheel(const CpsPlanar *body, int patch, const double twist[3],
+                           CpsWheelMotion *motion, CpsError *err) {
     if (!body || !motion) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body or motion is NULL");
     if (patch < 0 || patch >= body->count || body->patch[patch].kind != CPS_PATCH_WHEEL)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d of %d is not a wheel", patch, body->count);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d of %d is not a wheel", patch,
+                         body->count);
     const CpsStatus status = cpsi_planar_finite("twist", 3, twist, err);
     if (status != CPS_OK) return status;
     double velocity[2];

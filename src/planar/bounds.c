@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Bounds of the dissipation from cells (cells.c), refined until they are near enough.
  *
- * The gap of a cell of width h is of the order of its load x |w| h^2/rho, rho its distance from the centre of rotation,
- * which is integrable: it falls as 1/n^2, and two or three rounds find n. */
+ * The gap of a cell of width h is of the order of its load x |w| h^2/rho, rho its distance from the
+ * centre of rotation, which is integrable: it falls as 1/n^2, and two or three rounds find n. */
 #include <float.h>
 #include <math.h>
 
@@ -11,8 +11,9 @@
 
 static const double TOLERANCE = 1e-6;
 
-/* Places, loads and speeds of cells are a dozen operations each, and their sum is compensated: of the power that the
- * load would take if all of it were as fast as the fastest point of the corners, this part covers the rounding. */
+/* Places, loads and speeds of cells are a dozen operations each, and their sum is compensated: of
+ * the power that the load would take if all of it were as fast as the fastest point of the corners,
+ * this part covers the rounding. */
 static const double ROUNDING = 64 * DBL_EPSILON;
 
 /* sum of strength |v + w x r|; high + low is the sum, compensated (Neumaier) */
@@ -30,16 +31,19 @@ static bool add_cell(void *user, double strength, const double r[2]) {
     return true;
 }
 
-static double add_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, const double velocity[2], double w) {
+static double add_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, const double velocity[2],
+                        double w) {
     Sum sum = {.velocity = {velocity[0], velocity[1]}, .w = w};
     cpsi_cells(patch, side, n, add_cell, &sum);
     return sum.high + sum.low;
 }
 
-/* Lower and upper bound of an area's power, with upper - lower <= tolerance x upper if cells suffice. */
+/* Lower and upper bound of an area's power, with upper - lower <= tolerance x upper if cells
+ * suffice. */
 static bool bound_area(const CpsiPatch *patch, const double velocity[2], double w, double tolerance,
                        CpsPlanarBounds *bounds) {
-    /* speeds are scaled to be near 1, so that no square overflows; corners lie within twice the size */
+    /* speeds are scaled to be near 1, so that no square overflows; corners lie within twice the
+     * size */
     const double fastest = hypot(velocity[0], velocity[1]) + 2 * fabs(w) * patch->size;
     if (!(fastest > 0)) return true;
     if (!isfinite(fastest)) {
@@ -51,7 +55,8 @@ static bool bound_area(const CpsiPatch *patch, const double velocity[2], double 
     for (int n = 8 < most ? 8 : most;;) {
         const double slack = ROUNDING * patch->strength;
         const double lower = fmax(add_cells(patch, CPS_PLANAR_INNER, n, v, turn) - slack, 0);
-        const double upper = add_cells(patch, CPS_PLANAR_OUTER, n, v, turn) + slack, gap = upper - lower;
+        const double upper = add_cells(patch, CPS_PLANAR_OUTER, n, v, turn) + slack,
+                     gap = upper - lower;
         const bool near = gap <= tolerance * upper;
         if (near || n >= most) {
             bounds->lower += lower * fastest;
@@ -64,11 +69,12 @@ static bool bound_area(const CpsiPatch *patch, const double velocity[2], double 
     }
 }
 
-CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double tolerance, CpsPlanarBounds *bounds,
-                            CpsError *err) {
+CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double tolerance,
+                            CpsPlanarBounds *bounds, CpsError *err) {
     if (!body || !bounds) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body or bounds is NULL");
     if (!(tolerance >= 0) || !isfinite(tolerance))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tolerance is %g, expected a number >= 0", tolerance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tolerance is %g, expected a number >= 0",
+                         tolerance);
     CpsStatus status = cpsi_planar_finite("twist", 3, twist, err);
     CpsPlanarBounds found = {.outcome = CPS_SET_ANSWERED};
     for (int k = 0; k < body->count && status == CPS_OK; k++) {
@@ -76,7 +82,8 @@ CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double
         double velocity[2];
         cpsi_patch_velocity(patch, twist, velocity);
         if (cpsi_patch_is_area(patch)) {
-            if (!bound_area(patch, velocity, twist[2], tolerance > 0 ? tolerance : TOLERANCE, &found))
+            if (!bound_area(patch, velocity, twist[2], tolerance > 0 ? tolerance : TOLERANCE,
+                            &found))
                 found.outcome = CPS_SET_INACCURATE;
             continue;
         }

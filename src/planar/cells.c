@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Cells of an area, and the two bounds of an integral of a convex function over each.
  *
- * Inner (Jensen): the load of a cell at its centroid. Outer: every point of the cell is a mean of the corners of a
- * polygon that holds it, so the load is given to these corners in the same proportions. Proportions are linear in the
- * point, or nearly, and integrate in closed form.
+ * Inner (Jensen): the load of a cell at its centroid. Outer: every point of the cell is a mean of
+ * the corners of a polygon that holds it, so the load is given to these corners in the same
+ * proportions. Proportions are linear in the point, or nearly, and integrate in closed form.
  *
  *   rod       pieces; corners are their ends
- *   polygon   triangles (middle, corner, corner), cut into n^2 alike; with pressures p_i at the three corners of area
- *             A, sum s: load A s/3, at barycentric (s + p_i)/(4s); to corner i goes A (s + p_i)/12
- *   sector    r1 < rho < r2, |theta| < h: held by the trapezium between the rays theta = +-h and the lines
- *             x = r1 cos h and x = r2, with corners at r1 and r2/cos h. A point goes to the lines as its x says and to
- *             the rays as y/(x tan h) says. A ring is the case r1 = r2 */
+ *   polygon   triangles (middle, corner, corner), cut into n^2 alike; with pressures p_i at the
+ *             three corners of area A, sum s: load A s/3, at barycentric (s + p_i)/(4s); to corner
+ *             i goes A (s + p_i)/12
+ *   sector    r1 < rho < r2, |theta| < h: held by the trapezium between the rays theta = +-h and
+ *             the lines x = r1 cos h and x = r2, with corners at r1 and r2/cos h. A point goes to
+ *             the lines as its x says and to the rays as y/(x tan h) says. A ring is the case r1 =
+ *             r2 */
 #include "planar/cells.h"
 
 #include <math.h>
@@ -29,12 +31,9 @@ double cpsi_cell_count(const CpsiPatch *patch, int n) {
     case CPS_PATCH_DISC:
         for (int i = 0; i < n; i++) count += sectors(i);
         return count;
-    case CPS_PATCH_POLYGON:
-        return (double)patch->corner_count * n * n;
-    case CPS_PATCH_RING:
-        return n + 3.0;
-    default:
-        return n;
+    case CPS_PATCH_POLYGON: return (double)patch->corner_count * n * n;
+    case CPS_PATCH_RING: return n + 3.0;
+    default: return n;
     }
 }
 
@@ -54,17 +53,22 @@ int cpsi_cell_fineness(const CpsiPatch *patch, double cells) {
 double cpsi_cell_contacts(const CpsiPatch *patch, CpsPlanarSide side, int n) {
     const double cells = cpsi_cell_count(patch, n);
     if (side == CPS_PLANAR_INNER) return cells;
-    return patch->kind == CPS_PATCH_ROD ? cells + 1 : patch->kind == CPS_PATCH_POLYGON ? 3 * cells : 2 * cells;
+    return patch->kind == CPS_PATCH_ROD       ? cells + 1
+           : patch->kind == CPS_PATCH_POLYGON ? 3 * cells
+                                              : 2 * cells;
 }
 
 /* ---- rod ---- */
 
-static bool rod_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCell *visit, void *user) {
+static bool rod_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCell *visit,
+                      void *user) {
     const double h = patch->size / n, tilt = patch->tilt[0];
     double carried = 0; /* by the end that this piece shares with the one before */
     for (int i = 0; i < n; i++) {
-        const double middle = h * (2 * i + 1 - n), pressure = 1 + tilt * middle, load = patch->strength / n * pressure;
-        const double off = pressure > 0 ? tilt * h * h / (3 * pressure) : 0; /* the centroid from the middle */
+        const double middle = h * (2 * i + 1 - n), pressure = 1 + tilt * middle,
+                     load = patch->strength / n * pressure;
+        const double off =
+            pressure > 0 ? tilt * h * h / (3 * pressure) : 0; /* the centroid from the middle */
         const double s = side == CPS_PLANAR_INNER ? middle + off : middle - h;
         const double here = side == CPS_PLANAR_INNER ? load : carried + load * 0.5 * (1 - off / h);
         if (!visit(user, here, (double[2]){s * patch->axis[0], s * patch->axis[1]})) return false;
@@ -76,25 +80,28 @@ static bool rod_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCel
 
 /* ---- ring and disc ---- */
 
-/* A sector of r1 < rho < r2, |theta| <= h, under the load 1 + along x + across y per unit of its mean: means of x, x^2,
- * y^2; radius of the corners on lines 0 and 1; what goes to the left corner of a line is even + along x along + across
- * x across, to the right one even + along x along - across x across. */
+/* A sector of r1 < rho < r2, |theta| <= h, under the load 1 + along x + across y per unit of its
+ * mean: means of x, x^2, y^2; radius of the corners on lines 0 and 1; what goes to the left corner
+ * of a line is even + along x along + across x across, to the right one even + along x along -
+ * across x across. */
 typedef struct Sector {
     double x, xx, yy;
     double radius[2], even[2], along[2], across[2];
 } Sector;
 
 static Sector sector_of(double r1, double r2, int count) {
-    const double h = CPSI_PI / count,
-                 mean = r2 > r1 ? (r1 + r2 * r2 / (r1 + r2)) * 2 / 3 : r1; /* 2/3 (r2^3 - r1^3)/(r2^2 - r1^2) */
-    const double square = 0.5 * (r1 * r1 + r2 * r2), wobble = sin(2 * h) / (4 * h), x1 = r1 * cos(h);
+    const double h = CPSI_PI / count, mean = r2 > r1 ? (r1 + r2 * r2 / (r1 + r2)) * 2 / 3
+                                                     : r1; /* 2/3 (r2^3 - r1^3)/(r2^2 - r1^2) */
+    const double square = 0.5 * (r1 * r1 + r2 * r2), wobble = sin(2 * h) / (4 * h),
+                 x1 = r1 * cos(h);
     const double yy_x = mean * (asinh(tan(h)) - sin(h)) / h; /* mean of y^2/x */
     Sector sector = {.x = mean * sin(h) / h,
                      .xx = square * (0.5 + wobble),
                      .yy = square * (0.5 - wobble),
                      .radius = {r1, r2 / cos(h)}};
 
-    /* means of load x l(x) (1 +- y/(x tan h))/2, with l = zero + slope x being 1 on the line and 0 on the other */
+    /* means of load x l(x) (1 +- y/(x tan h))/2, with l = zero + slope x being 1 on the line and 0
+     * on the other */
     for (int line = 0; line < 2; line++) {
         const double slope = (line ? 1 : -1) / (r2 - x1), zero = (line ? 0 : 1) - x1 * slope;
         sector.even[line] = 0.5 * (zero + slope * sector.x);
@@ -104,16 +111,17 @@ static Sector sector_of(double r1, double r2, int count) {
     return sector;
 }
 
-/* `count` equal sectors of r1 < rho < r2, which carry `load` together under uniform pressure. A ray's corners serve the
- * sectors on both of its sides. */
-static bool sector_cells(const CpsiPatch *patch, double load, double r1, double r2, int count, CpsPlanarSide side,
-                         CpsiCell *visit, void *user) {
+/* `count` equal sectors of r1 < rho < r2, which carry `load` together under uniform pressure. A
+ * ray's corners serve the sectors on both of its sides. */
+static bool sector_cells(const CpsiPatch *patch, double load, double r1, double r2, int count,
+                         CpsPlanarSide side, CpsiCell *visit, void *user) {
     const Sector sector = sector_of(r1, r2, count);
     const double share = load / count, h = CPSI_PI / count;
     double first[2] = {0, 0}, carried[2] = {0, 0};
     for (int i = 0; i < count; i++) {
         const double c = cos(h * (2 * i + 1)), s = sin(h * (2 * i + 1));
-        const double along = patch->tilt[0] * c + patch->tilt[1] * s, across = patch->tilt[1] * c - patch->tilt[0] * s;
+        const double along = patch->tilt[0] * c + patch->tilt[1] * s,
+                     across = patch->tilt[1] * c - patch->tilt[0] * s;
         if (side == CPS_PLANAR_INNER) {
             const double all = 1 + along * sector.x, part = all > 0 ? 1 / all : 0;
             const double x = part * (sector.x + along * sector.xx), y = part * across * sector.yy;
@@ -122,10 +130,12 @@ static bool sector_cells(const CpsiPatch *patch, double load, double r1, double 
         }
         const double ray[2] = {cos(2 * h * i), sin(2 * h * i)};
         for (int line = 0; line < 2; line++) {
-            const double even = sector.even[line] + along * sector.along[line], odd = across * sector.across[line];
+            const double even = sector.even[line] + along * sector.along[line],
+                         odd = across * sector.across[line];
             const double right = share * fmax(even - odd, 0), radius = sector.radius[line];
             if (i == 0) first[line] = right;
-            if (i > 0 && !visit(user, carried[line] + right, (double[2]){radius * ray[0], radius * ray[1]}))
+            if (i > 0 &&
+                !visit(user, carried[line] + right, (double[2]){radius * ray[0], radius * ray[1]}))
                 return false;
             carried[line] = share * fmax(even + odd, 0);
         }
@@ -135,10 +145,11 @@ static bool sector_cells(const CpsiPatch *patch, double load, double r1, double 
            visit(user, carried[1] + first[1], (double[2]){sector.radius[1], 0});
 }
 
-static bool disc_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCell *visit, void *user) {
+static bool disc_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCell *visit,
+                       void *user) {
     for (int i = 0; i < n; i++) {
-        const double load = patch->strength * (2 * i + 1) / ((double)n * n), r1 = patch->size * i / n,
-                     r2 = patch->size * (i + 1) / n;
+        const double load = patch->strength * (2 * i + 1) / ((double)n * n),
+                     r1 = patch->size * i / n, r2 = patch->size * (i + 1) / n;
         if (!sector_cells(patch, load, r1, r2, sectors(i), side, visit, user)) return false;
     }
     return true;
@@ -151,14 +162,16 @@ typedef struct Node {
     double r[2], pressure;
 } Node;
 
-static Node lattice_node(const CpsiPatch *patch, const double *a, const double *b, double i, double j) {
+static Node lattice_node(const CpsiPatch *patch, const double *a, const double *b, double i,
+                         double j) {
     Node node = {.r = {a[0] * i + b[0] * j, a[1] * i + b[1] * j}};
     node.pressure = 1 + patch->tilt[0] * node.r[0] + patch->tilt[1] * node.r[1];
     return node;
 }
 
 /* `strength`: of the triangle under mean pressure */
-static bool triangle_cell(double strength, const Node corner[3], CpsPlanarSide side, CpsiCell *visit, void *user) {
+static bool triangle_cell(double strength, const Node corner[3], CpsPlanarSide side,
+                          CpsiCell *visit, void *user) {
     const double sum = corner[0].pressure + corner[1].pressure + corner[2].pressure;
     double centroid[2] = {0, 0};
     for (int k = 0; k < 3; k++) {
@@ -169,21 +182,25 @@ static bool triangle_cell(double strength, const Node corner[3], CpsPlanarSide s
     return side == CPS_PLANAR_OUTER || visit(user, strength * sum / 3, centroid);
 }
 
-static bool polygon_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCell *visit, void *user) {
+static bool polygon_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCell *visit,
+                          void *user) {
     const double h = 1.0 / n;
     for (int edge = 0; edge < patch->corner_count; edge++) {
         const double *a = patch->corner + 2 * edge;
         const double *b = patch->corner + 2 * ((edge + 1) % patch->corner_count);
-        const double strength = patch->strength * 0.5 * (a[0] * b[1] - a[1] * b[0]) / patch->area * h * h;
+        const double strength =
+            patch->strength * 0.5 * (a[0] * b[1] - a[1] * b[0]) / patch->area * h * h;
         for (int i = 0; i < n; i++)
             for (int j = 0; i + j < n; j++) {
                 const Node right = lattice_node(patch, a, b, h * (i + 1), h * j);
                 const Node left = lattice_node(patch, a, b, h * i, h * (j + 1));
                 const Node near = lattice_node(patch, a, b, h * i, h * j);
-                if (!triangle_cell(strength, (Node[3]){near, right, left}, side, visit, user)) return false;
+                if (!triangle_cell(strength, (Node[3]){near, right, left}, side, visit, user))
+                    return false;
                 if (i + j + 2 > n) continue;
                 const Node far = lattice_node(patch, a, b, h * (i + 1), h * (j + 1));
-                if (!triangle_cell(strength, (Node[3]){right, far, left}, side, visit, user)) return false;
+                if (!triangle_cell(strength, (Node[3]){right, far, left}, side, visit, user))
+                    return false;
             }
     }
     return true;
@@ -191,15 +208,12 @@ static bool polygon_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, Cps
 
 bool cpsi_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCell *visit, void *user) {
     switch (patch->kind) {
-    case CPS_PATCH_ROD:
-        return rod_cells(patch, side, n, visit, user);
+    case CPS_PATCH_ROD: return rod_cells(patch, side, n, visit, user);
     case CPS_PATCH_RING:
-        return sector_cells(patch, patch->strength, patch->size, patch->size, n + 3, side, visit, user);
-    case CPS_PATCH_DISC:
-        return disc_cells(patch, side, n, visit, user);
-    case CPS_PATCH_POLYGON:
-        return polygon_cells(patch, side, n, visit, user);
-    default:
-        return true;
+        return sector_cells(patch, patch->strength, patch->size, patch->size, n + 3, side, visit,
+                            user);
+    case CPS_PATCH_DISC: return disc_cells(patch, side, n, visit, user);
+    case CPS_PATCH_POLYGON: return polygon_cells(patch, side, n, visit, user);
+    default: return true;
     }
 }

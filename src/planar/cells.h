@@ -5,7 +5,8 @@
 
 #include "planar/planar.h"
 
-/* A contact of friction force `strength` at r from the patch's position, in body axes; false stops the walk. */
+/* A contact of friction force `strength` at r from the patch's position, in body axes; false stops
+ * the walk. */
 typedef bool CpsiCell(void *user, double strength, const double r[2]);
 
 /* Cells of an area at fineness n >= 1: about the patch's size/n wide. */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A body as a law of wrenches and as a system: its contacts with their maps from the twist.
  *
- * A contact at r with axes u, v moves with (u, r x u) . twist and (v, r x v) . twist. Areas give the contacts of their
- * cells (cells.c). A wheel is M77 section 9: W = V - omega a j, the contact's law on V and the brake's on omega. */
+ * A contact at r with axes u, v moves with (u, r x u) . twist and (v, r x v) . twist. Areas give
+ * the contacts of their cells (cells.c). A wheel is M77 section 9: W = V - omega a j, the contact's
+ * law on V and the brake's on omega. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,13 +23,16 @@ static void point_map(const double r[2], const double axis[2], double map[6]) {
     velocity_row((double[2]){-axis[1], axis[0]}, r, map + 3);
 }
 
-/* rows along i (right of the rolling direction) and j (the rolling direction), M77 section 9: j = up x i */
+/* rows along i (right of the rolling direction) and j (the rolling direction), M77 section 9: j =
+ * up x i */
 static void wheel_map(const CpsiPatch *patch, double map[6]) {
     velocity_row((double[2]){patch->axis[1], -patch->axis[0]}, patch->position, map);
     velocity_row(patch->axis, patch->position, map + 3);
 }
 
-static bool has_brake(const CpsiPatch *patch) { return patch->kind == CPS_PATCH_WHEEL && isfinite(patch->strip); }
+static bool has_brake(const CpsiPatch *patch) {
+    return patch->kind == CPS_PATCH_WHEEL && isfinite(patch->strip);
+}
 
 static CpsStatus brake_law(const CpsiPatch *patch, CpsLaw **out, CpsError *err) {
     CpsSet *interval = NULL;
@@ -40,7 +44,8 @@ static CpsStatus brake_law(const CpsiPatch *patch, CpsLaw **out, CpsError *err) 
 }
 
 static CpsStatus ground_law(const CpsiPatch *patch, CpsLaw **out, CpsError *err) {
-    return patch->set ? cps_law_friction(patch->set, out, err) : cps_law_coulomb(1, patch->strength, out, err);
+    return patch->set ? cps_law_friction(patch->set, out, err)
+                      : cps_law_coulomb(1, patch->strength, out, err);
 }
 
 /* M77 (26): (h, F) = (-a j.G, G) */
@@ -102,30 +107,35 @@ static CpsStatus visit_contacts(Contacts *self, CpsPlanarSide side, int cells) {
             wheel_map(patch, map);
         else
             point_map(patch->position, patch->axis, map);
-        self->status =
-            has_brake(patch) && !self->system ? wheel_law(patch, &law, self->err) : ground_law(patch, &law, self->err);
+        self->status = has_brake(patch) && !self->system ? wheel_law(patch, &law, self->err)
+                                                         : ground_law(patch, &law, self->err);
         if (self->status == CPS_OK) self->status = self->take(self, k, law, map);
     }
     return self->status;
 }
 
 /* How many contacts there will be; each area needs a cell at least. */
-static CpsStatus count_contacts(const CpsPlanar *body, CpsPlanarSide side, int cells, int *count, CpsError *err) {
+static CpsStatus count_contacts(const CpsPlanar *body, CpsPlanarSide side, int cells, int *count,
+                                CpsError *err) {
     if (side != CPS_PLANAR_INNER && side != CPS_PLANAR_OUTER)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "side is %d, expected CPS_PLANAR_INNER or CPS_PLANAR_OUTER", (int)side);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "side is %d, expected CPS_PLANAR_INNER or CPS_PLANAR_OUTER", (int)side);
     if (cells > CPS_PLANAR_MAX_CELLS)
-        return cpsi_fail(err, CPS_ERR_LIMIT, "%d cells are given for each patch, at most %d", cells, CPS_PLANAR_MAX_CELLS);
+        return cpsi_fail(err, CPS_ERR_LIMIT, "%d cells are given for each patch, at most %d", cells,
+                         CPS_PLANAR_MAX_CELLS);
     double total = 0;
     for (int k = 0; k < body->count; k++) {
         const CpsiPatch *patch = &body->patch[k];
         const int n = cpsi_cell_fineness(patch, cells);
         if (cpsi_patch_is_area(patch) && n < 1)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d cells are given for patch %d, which needs %g at least", cells,
-                             k, cpsi_cell_count(patch, 1));
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%d cells are given for patch %d, which needs %g at least", cells, k,
+                             cpsi_cell_count(patch, 1));
         total += cpsi_patch_is_area(patch) ? cpsi_cell_contacts(patch, side, n) : 1;
     }
     if (!(total <= CPS_SET_MAX_ITEMS))
-        return cpsi_fail(err, CPS_ERR_LIMIT, "%.0f contacts in all, at most %d: ask for fewer cells", total,
+        return cpsi_fail(err, CPS_ERR_LIMIT,
+                         "%.0f contacts in all, at most %d: ask for fewer cells", total,
                          CPS_SET_MAX_ITEMS);
     *count = (int)total;
     return CPS_OK;
@@ -140,7 +150,8 @@ static CpsStatus keep_contact(Contacts *self, int patch, CpsLaw *law, const doub
     return CPS_OK;
 }
 
-CpsStatus cps_planar_law(const CpsPlanar *body, CpsPlanarSide side, int cells, CpsLaw **out, CpsError *err) {
+CpsStatus cps_planar_law(const CpsPlanar *body, CpsPlanarSide side, int cells, CpsLaw **out,
+                         CpsError *err) {
     if (!body || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body or out is NULL");
     int room = 0;
     CpsStatus status = count_contacts(body, side, cells, &room, err);
@@ -152,7 +163,9 @@ CpsStatus cps_planar_law(const CpsPlanar *body, CpsPlanarSide side, int cells, C
     if (self.law && self.map && rows) {
         for (int i = 0; i < room; i++) rows[i] = self.map + 6 * i;
         status = visit_contacts(&self, side, cells);
-        if (status == CPS_OK) status = cps_law_contacts(3, self.count, (const CpsLaw *const *)self.law, rows, out, err);
+        if (status == CPS_OK)
+            status =
+                cps_law_contacts(3, self.count, (const CpsLaw *const *)self.law, rows, out, err);
     } else {
         status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     }
@@ -182,12 +195,14 @@ static CpsStatus add_contact(Contacts *self, int patch, CpsLaw *law, const doubl
     const CpsEntry spin = {0, 3 + self->spins++, 1};
     snprintf(name, sizeof name, "patch %d brake", patch);
     status = brake_law(at, &brake, self->err);
-    if (status == CPS_OK) status = cps_system_add_friction(self->system, name, brake, 1, &spin, self->err);
+    if (status == CPS_OK)
+        status = cps_system_add_friction(self->system, name, brake, 1, &spin, self->err);
     cps_law_destroy(brake);
     return status;
 }
 
-CpsStatus cps_planar_system(const CpsPlanar *body, CpsPlanarSide side, int cells, CpsSystem **out, CpsError *err) {
+CpsStatus cps_planar_system(const CpsPlanar *body, CpsPlanarSide side, int cells, CpsSystem **out,
+                            CpsError *err) {
     if (!body || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body or out is NULL");
     int contacts = 0, parameters = 3;
     CpsStatus status = count_contacts(body, side, cells, &contacts, err);

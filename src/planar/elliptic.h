@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Complete elliptic integrals, as the limit surfaces of ring and disc need them: without cancellation at either end. */
+/* Complete elliptic integrals, as the limit surfaces of ring and disc need them: without
+ * cancellation at either end. */
 #ifndef CAPSTAN_SRC_PLANAR_ELLIPTIC_H
 #define CAPSTAN_SRC_PLANAR_ELLIPTIC_H
 
@@ -12,8 +13,9 @@ typedef struct CpsiElliptic {
     double e, b, c, d;
 } CpsiElliptic;
 
-/* For modulus k, 0 <= k <= 1, with its complement kc = sqrt(1 - k^2) given apart, so that neither is lost by rounding.
- * Relative accuracy 3e-14 (tested against quadrature). C and D grow like log(4/kc); kc counts as at least 1e-16. */
+/* For modulus k, 0 <= k <= 1, with its complement kc = sqrt(1 - k^2) given apart, so that neither
+ * is lost by rounding. Relative accuracy 3e-14 (tested against quadrature). C and D grow like
+ * log(4/kc); kc counts as at least 1e-16. */
 CpsiElliptic cpsi_elliptic(double k, double kc);
 
 #endif

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Closed forms of the dissipation of one patch, with the wrench of friction.
  *
- * Everything is phi(v, w) = integral of q |v + w x r| over the patch, q = friction x pressure, and its gradient. About
- * the instantaneous centre of rotation |v + w x r| = |w| rho, rho the distance from it: rods and polygons then
- * integrate rho along a line, and so do rings and discs in elliptic integrals. Far from the centre the forms would
- * cancel, but the integrand is analytic there and Gauss's rule exact to rounding. */
+ * Everything is phi(v, w) = integral of q |v + w x r| over the patch, q = friction x pressure, and
+ * its gradient. About the instantaneous centre of rotation |v + w x r| = |w| rho, rho the distance
+ * from it: rods and polygons then integrate rho along a line, and so do rings and discs in elliptic
+ * integrals. Far from the centre the forms would cancel, but the integrand is analytic there and
+ * Gauss's rule exact to rounding. */
 #include <float.h>
 #include <math.h>
 
@@ -12,16 +13,19 @@
 #include "planar/elliptic.h"
 #include "planar/planar.h"
 
-/* Where the centre of rotation lies farther than this many sizes from the patch's middle, Gauss's rule with 8 points
- * leaves (4 + sqrt(15))^-16 = 4e-15 of the value (Bernstein's ellipse through the centre). */
+/* Where the centre of rotation lies farther than this many sizes from the patch's middle, Gauss's
+ * rule with 8 points leaves (4 + sqrt(15))^-16 = 4e-15 of the value (Bernstein's ellipse through
+ * the centre). */
 static const double FAR = 4;
 
 enum { GAUSS = 8 };
-static const double GAUSS_NODE[GAUSS] = {-0.9602898564975363, -0.7966664774136267, -0.5255324099163290,
-                                         -0.1834346424956498, 0.1834346424956498,  0.5255324099163290,
+static const double GAUSS_NODE[GAUSS] = {-0.9602898564975363, -0.7966664774136267,
+                                         -0.5255324099163290, -0.1834346424956498,
+                                         0.1834346424956498,  0.5255324099163290,
                                          0.7966664774136267,  0.9602898564975363};
-static const double GAUSS_WEIGHT[GAUSS] = {0.1012285362903763, 0.2223810344533745, 0.3137066458778873,
-                                           0.3626837833783620, 0.3626837833783620, 0.3137066458778873,
+static const double GAUSS_WEIGHT[GAUSS] = {0.1012285362903763, 0.2223810344533745,
+                                           0.3137066458778873, 0.3626837833783620,
+                                           0.3626837833783620, 0.3137066458778873,
                                            0.2223810344533745, 0.1012285362903763};
 
 /* Integrals over y0 < y < y1 at distance d from a point, rho = sqrt(d^2 + y^2). */
@@ -31,7 +35,8 @@ typedef struct Line {
 } Line;
 
 static Line along_line(double d, double y0, double y1) {
-    const double r0 = hypot(d, y0), r1 = hypot(d, y1), far = fmax(fabs(y0), fabs(y1)), near = fabs(d);
+    const double r0 = hypot(d, y0), r1 = hypot(d, y1), far = fmax(fabs(y0), fabs(y1)),
+                 near = fabs(d);
 
     /* j0 is only used times d: below 1e-30 of the length nothing of it is left */
     const double j0 = near > 1e-30 * far ? asinh(y1 / near) - asinh(y0 / near) : 0;
@@ -44,7 +49,8 @@ static Line along_line(double d, double y0, double y1) {
 }
 
 /* Friction of strength q at r, added to the rub. */
-static void add_point(double q, const double r[2], const double velocity[2], double w, CpsiRub *rub) {
+static void add_point(double q, const double r[2], const double velocity[2], double w,
+                      CpsiRub *rub) {
     const double v[2] = {velocity[0] - w * r[1], velocity[1] + w * r[0]}, speed = hypot(v[0], v[1]);
     if (!(speed > 0)) return;
     const double f[2] = {-q * v[0] / speed, -q * v[1] / speed};
@@ -67,7 +73,8 @@ static void from_axis(const CpsiPatch *patch, const double v[2], double out[2]) 
     out[1] = patch->axis[1] * v[0] + patch->axis[0] * v[1];
 }
 
-static CpsStatus rub_law(const CpsiPatch *patch, const double velocity[2], CpsiRub *rub, CpsError *err) {
+static CpsStatus rub_law(const CpsiPatch *patch, const double velocity[2], CpsiRub *rub,
+                         CpsError *err) {
     double local[2], force[2] = {0, 0};
     CpsSetAnswer answer;
     if (velocity[0] == 0 && velocity[1] == 0) return CPS_OK; /* at rest any force will do: 0 */
@@ -92,7 +99,8 @@ CpsWheelMotion cpsi_wheel_motion(const CpsiPatch *patch, const double velocity[2
     CpsWheelMotion motion = {.velocity = {-along[1], along[0]}};
     const double wi = motion.velocity[0], wj = motion.velocity[1];
 
-    /* held by the brake: it drags; else it rolls until friction along j is what the brake holds: Vj/|V| = s/r */
+    /* held by the brake: it drags; else it rolls until friction along j is what the brake holds:
+     * Vj/|V| = s/r */
     const bool held = s >= r || r * fabs(wj) <= s * hypot(wi, wj);
     motion.slip[0] = wi;
     motion.slip[1] = held ? wj : copysign(fabs(wi) * s / half_chord(r, s), wj);
@@ -149,13 +157,15 @@ static void rub_rod(const CpsiPatch *patch, const double velocity[2], double w, 
 
 /* ---- ring and disc ---- */
 
-/* Axes along which a round patch of radius a is solved: e1 from its middle to the centre of rotation, at the distance
- * d, e2 to its left. With u = |w| a, v = |w| d and r at the angle x from e1, the distance from the centre of rotation
- * is
+/* Axes along which a round patch of radius a is solved: e1 from its middle to the centre of
+ * rotation, at the distance d, e2 to its left. With u = |w| a, v = |w| d and r at the angle x from
+ * e1, the distance from the centre of rotation is
  *
- *     rho = sqrt(a^2 + d^2 - 2 a d cos x) = (a + d) sqrt(1 - k^2 sin^2 y),    k^2 = 4 u v/(u + v)^2,   x = pi - 2 y.
+ *     rho = sqrt(a^2 + d^2 - 2 a d cos x) = (a + d) sqrt(1 - k^2 sin^2 y),
+ *         k^2 = 4 u v/(u + v)^2,   x = pi - 2 y.
  *
- * i is the integral of s^2 c^2/d over a quarter turn (elliptic.h), (D - C)/3. Without rotation u = 0, v the speed. */
+ * i is the integral of s^2 c^2/d over a quarter turn (elliptic.h), (D - C)/3. Without rotation u =
+ * 0, v the speed. */
 typedef struct Round {
     double u, v, a;
     double e1[2], e2[2];
@@ -165,8 +175,12 @@ typedef struct Round {
 } Round;
 
 static Round round_axes(const CpsiPatch *patch, const double velocity[2], double w) {
-    Round round = {.u = patch->size * fabs(w), .v = hypot(velocity[0], velocity[1]), .a = patch->size, .e1 = {1, 0}};
-    const double turn = copysign(1, w), sum = round.u + round.v, x = round.u / sum, y = round.v / sum;
+    Round round = {.u = patch->size * fabs(w),
+                   .v = hypot(velocity[0], velocity[1]),
+                   .a = patch->size,
+                   .e1 = {1, 0}};
+    const double turn = copysign(1, w), sum = round.u + round.v, x = round.u / sum,
+                 y = round.v / sum;
     if (round.v > 0) {
         round.e1[0] = -turn * velocity[1] / round.v;
         round.e1[1] = turn * velocity[0] / round.v;
@@ -181,16 +195,17 @@ static Round round_axes(const CpsiPatch *patch, const double velocity[2], double
     return round;
 }
 
-/* The unit vectors away from the centre of rotation add up to (u1, u2): friction is these, turned back by a right
- * angle. */
+/* The unit vectors away from the centre of rotation add up to (u1, u2): friction is these, turned
+ * back by a right angle. */
 static void set_round_force(const Round *round, double u1, double u2, double w, CpsiRub *rub) {
     const double turn = copysign(1, w);
     rub->force[0] = turn * (u1 * round->e1[1] + u2 * round->e2[1]);
     rub->force[1] = -turn * (u1 * round->e1[0] + u2 * round->e2[0]);
 }
 
-/* q = N (1 + tilt . r)/(2 pi): integrals of q rho, q (r - c)/rho and q r.(r - c)/rho round the circle; 4/(u + v) times
- * K, k^2 C and K - 4 i are those of 1/rho with 1, cos x, cos^2 x, in units of |w|. */
+/* q = N (1 + tilt . r)/(2 pi): integrals of q rho, q (r - c)/rho and q r.(r - c)/rho round the
+ * circle; 4/(u + v) times K, k^2 C and K - 4 i are those of 1/rho with 1, cos x, cos^2 x, in units
+ * of |w|. */
 static void rub_ring(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
     if (velocity[0] == 0 && velocity[1] == 0 && w == 0) return;
     const Round r = round_axes(patch, velocity, w);
@@ -199,7 +214,8 @@ static void rub_ring(const CpsiPatch *patch, const double velocity[2], double w,
     rub->power = n * sum * (r.q.e - r.tilt[0] * r.k2 * r.i);
     set_round_force(&r, m * (r.u * cosine - r.v * one + r.tilt[0] * (r.u * square - r.v * cosine)),
                     m * r.tilt[1] * r.u * 4 * r.i, w, rub);
-    rub->torque = -copysign(m * r.a, w) * (r.u * one - r.v * cosine + r.tilt[0] * (r.u * cosine - r.v * square));
+    rub->torque = -copysign(m * r.a, w) *
+                  (r.u * one - r.v * cosine + r.tilt[0] * (r.u * cosine - r.v * square));
 }
 
 /* Circles of Gauss's radii with 24 points each, which leave FAR^-24. */
@@ -210,22 +226,27 @@ static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
             const double t = 0.5 * (1 + GAUSS_NODE[j]), x = 2 * CPSI_PI * i / AROUND;
             const double r[2] = {patch->size * t * cos(x), patch->size * t * sin(x)};
             const double pressure = 1 + patch->tilt[0] * r[0] + patch->tilt[1] * r[1];
-            add_point(patch->strength * GAUSS_WEIGHT[j] * t / AROUND * pressure, r, velocity, w, rub);
+            add_point(patch->strength * GAUSS_WEIGHT[j] * t / AROUND * pressure, r, velocity, w,
+                      rub);
         }
 }
 
-/* q = p (1 + tilt . r), p = N/(pi a^2). With r' = r - c, by the divergence theorem, round the circle with n = r/a,
+/* q = p (1 + tilt . r), p = N/(pi a^2). With r' = r - c, by the divergence theorem, round the
+ * circle with n = r/a,
  *
  *     of q rho      = integral of r'.n (q(c)/3 + grad q . r'/4) rho      over the disc, and
  *     of q r'/rho   = integral of q rho n - grad q x integral of rho     over the disc;
  *
- * rho0, rho1, rho2: integrals of rho with 1, cos x, cos^2 x in units of a^2. (Uniform: Farkas et al. 2003.) */
+ * rho0, rho1, rho2: integrals of rho with 1, cos x, cos^2 x in units of a^2. (Uniform: Farkas et
+ * al. 2003.) */
 static void disc_near(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
     const Round r = round_axes(patch, velocity, w);
     const double d = r.v / r.u, p = patch->strength / CPSI_PI, four = 4 * (1 + d);
     const double sine = four * 4 * (r.i + 0.5 * (r.q.e - r.k2 * r.i)) / 5;
-    const double rho0 = four * r.q.e, rho1 = -four * r.k2 * r.i, rho2 = rho0 - sine, mean = (rho0 - d * rho1) / 3;
-    const double whole = p * (mean * (1 + 0.25 * d * r.tilt[0]) + 0.25 * r.tilt[0] * (rho1 - d * rho2));
+    const double rho0 = four * r.q.e, rho1 = -four * r.k2 * r.i, rho2 = rho0 - sine,
+                 mean = (rho0 - d * rho1) / 3;
+    const double whole =
+        p * (mean * (1 + 0.25 * d * r.tilt[0]) + 0.25 * r.tilt[0] * (rho1 - d * rho2));
     const double u1 = p * (rho1 + r.tilt[0] * (rho2 - mean)), u2 = p * r.tilt[1] * (sine - mean);
     rub->power = r.u * whole;
     set_round_force(&r, u1, u2, w, rub);
@@ -245,35 +266,41 @@ static void rub_disc(const CpsiPatch *patch, const double velocity[2], double w,
 static void polygon_far(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
     const double density = patch->strength / patch->area;
     for (int i = 0; i < patch->corner_count; i++) {
-        const double *a = patch->corner + 2 * i, *b = patch->corner + 2 * ((i + 1) % patch->corner_count);
+        const double *a = patch->corner + 2 * i,
+                     *b = patch->corner + 2 * ((i + 1) % patch->corner_count);
         const double twice = a[0] * b[1] - a[1] * b[0];
         for (int j = 0; j < GAUSS; j++)
             for (int k = 0; k < GAUSS; k++) {
                 const double t = 0.5 * (1 + GAUSS_NODE[j]), u = 0.5 * (1 + GAUSS_NODE[k]);
-                const double r[2] = {t * (a[0] + u * (b[0] - a[0])), t * (a[1] + u * (b[1] - a[1]))};
+                const double r[2] = {t * (a[0] + u * (b[0] - a[0])),
+                                     t * (a[1] + u * (b[1] - a[1]))};
                 const double weight = 0.25 * GAUSS_WEIGHT[j] * GAUSS_WEIGHT[k] * t * twice;
-                add_point(density * weight * (1 + patch->tilt[0] * r[0] + patch->tilt[1] * r[1]), r, velocity, w, rub);
+                add_point(density * weight * (1 + patch->tilt[0] * r[0] + patch->tilt[1] * r[1]), r,
+                          velocity, w, rub);
             }
     }
 }
 
-/* Triangles from the centre of rotation c to each side, in polar coordinates about c: pressure p(c) + g.r, side at
- * distance d along its normal n, with tangent t:
+/* Triangles from the centre of rotation c to each side, in polar coordinates about c: pressure p(c)
+ * + g.r, side at distance d along its normal n, with tangent t:
  *
  *     integral of p rho          = d (p(c)/3 + d g.n/4) i0 + d g.t i1/4
  *     integral of p r/rho (n)    = d^2 (p(c)/2 + d g.n/3) j0 + d^2 g.t j1/3
  *     integral of p r/rho (t)    = d (p(c)/2 + d g.n/3) j1 + d g.t j2/3  */
 static void polygon_near(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
-    const double density = patch->strength / patch->area, c[2] = {-velocity[1] / w, velocity[0] / w};
+    const double density = patch->strength / patch->area,
+                 c[2] = {-velocity[1] / w, velocity[0] / w};
     const double g[2] = {density * patch->tilt[0], density * patch->tilt[1]};
     const double pressure = density + g[0] * c[0] + g[1] * c[1];
     double rho = 0, direction[2] = {0, 0};
     for (int i = 0; i < patch->corner_count; i++) {
-        const double *p = patch->corner + 2 * i, *q = patch->corner + 2 * ((i + 1) % patch->corner_count);
+        const double *p = patch->corner + 2 * i,
+                     *q = patch->corner + 2 * ((i + 1) % patch->corner_count);
         const double a[2] = {p[0] - c[0], p[1] - c[1]}, b[2] = {q[0] - c[0], q[1] - c[1]};
         const double length = hypot(q[0] - p[0], q[1] - p[1]);
         const double t[2] = {(q[0] - p[0]) / length, (q[1] - p[1]) / length}, n[2] = {t[1], -t[0]};
-        const double d = a[0] * n[0] + a[1] * n[1], gn = g[0] * n[0] + g[1] * n[1], gt = g[0] * t[0] + g[1] * t[1];
+        const double d = a[0] * n[0] + a[1] * n[1], gn = g[0] * n[0] + g[1] * n[1],
+                     gt = g[0] * t[0] + g[1] * t[1];
         const Line line = along_line(d, a[0] * t[0] + a[1] * t[1], b[0] * t[0] + b[1] * t[1]);
         const double along_n = d * d * ((pressure / 2 + d * gn / 3) * line.j0 + gt * line.j1 / 3);
         const double along_t = d * ((pressure / 2 + d * gn / 3) * line.j1 + gt * line.j2 / 3);
@@ -294,28 +321,19 @@ static void rub_polygon(const CpsiPatch *patch, const double velocity[2], double
         polygon_near(patch, velocity, w, rub);
 }
 
-CpsStatus cpsi_patch_rub(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub, CpsError *err) {
+CpsStatus cpsi_patch_rub(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub,
+                         CpsError *err) {
     *rub = (CpsiRub){.outcome = CPS_SET_ANSWERED, .exact = true};
     switch (patch->kind) {
     case CPS_PATCH_POINT:
         if (patch->set) return rub_law(patch, velocity, rub, err);
         add_point(patch->strength, (double[2]){0, 0}, velocity, 0, rub);
         break;
-    case CPS_PATCH_WHEEL:
-        rub_wheel(patch, velocity, rub);
-        break;
-    case CPS_PATCH_ROD:
-        rub_rod(patch, velocity, w, rub);
-        break;
-    case CPS_PATCH_RING:
-        rub_ring(patch, velocity, w, rub);
-        break;
-    case CPS_PATCH_DISC:
-        rub_disc(patch, velocity, w, rub);
-        break;
-    case CPS_PATCH_POLYGON:
-        rub_polygon(patch, velocity, w, rub);
-        break;
+    case CPS_PATCH_WHEEL: rub_wheel(patch, velocity, rub); break;
+    case CPS_PATCH_ROD: rub_rod(patch, velocity, w, rub); break;
+    case CPS_PATCH_RING: rub_ring(patch, velocity, w, rub); break;
+    case CPS_PATCH_DISC: rub_disc(patch, velocity, w, rub); break;
+    case CPS_PATCH_POLYGON: rub_polygon(patch, velocity, w, rub); break;
     }
     return CPS_OK;
 }

@@ -11,10 +11,10 @@ typedef struct CpsiPatch {
     double position[2];
     double axis[2];  /* unit vector along the first axis */
     double strength; /* [N] friction x load */
-    double size;     /* half length, radius; polygon: of the circle round the centroid that holds it */
-    double strip;    /* [N] wheel: brake torque/radius */
-    double tilt[2];  /* rod: along it; others: in body axes */
-    double area;     /* polygon */
+    double size;  /* half length, radius; polygon: of the circle round the centroid that holds it */
+    double strip; /* [N] wheel: brake torque/radius */
+    double tilt[2]; /* rod: along it; others: in body axes */
+    double area;    /* polygon */
     int corner_count;
     const double *corner; /* (corner_count, 2), in the body's block */
     CpsSet *set;          /* a point's law, else NULL */
@@ -27,7 +27,8 @@ struct CpsPlanar {
     CpsiPatch patch[]; /* (count) */
 };
 
-/* Power and friction wrench of a patch about its position, in body axes: power = -(force . velocity + torque w). */
+/* Power and friction wrench of a patch about its position, in body axes: power = -(force . velocity
+ * + torque w). */
 typedef struct CpsiRub {
     CpsSetOutcome outcome;
     bool exact;
@@ -36,13 +37,15 @@ typedef struct CpsiRub {
 } CpsiRub;
 
 /* Closed form of a patch whose position moves with `velocity` while it turns with w. */
-CpsStatus cpsi_patch_rub(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub, CpsError *err);
+CpsStatus cpsi_patch_rub(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub,
+                         CpsError *err);
 
 /* M77 section 11 for a wheel whose centre moves with `velocity` (body axes). */
 CpsWheelMotion cpsi_wheel_motion(const CpsiPatch *patch, const double velocity[2]);
 
 /* Velocity of a patch's position. */
-static inline void cpsi_patch_velocity(const CpsiPatch *patch, const double twist[3], double velocity[2]) {
+static inline void cpsi_patch_velocity(const CpsiPatch *patch, const double twist[3],
+                                       double velocity[2]) {
     velocity[0] = twist[0] - twist[2] * patch->position[1];
     velocity[1] = twist[1] + twist[2] * patch->position[0];
 }
@@ -55,7 +58,7 @@ static inline bool cpsi_patch_is_area(const CpsiPatch *patch) {
 CpsStatus cpsi_planar_finite(const char *what, int n, const double *a, CpsError *err);
 
 /* phi and a wrench of the law at a twist. Unchecked. */
-CpsStatus cpsi_planar_rub(const CpsPlanar *body, const double twist[3], double wrench[3], double *by_patch,
-                          CpsSetAnswer *answer, CpsError *err);
+CpsStatus cpsi_planar_rub(const CpsPlanar *body, const double twist[3], double wrench[3],
+                          double *by_patch, CpsSetAnswer *answer, CpsError *err);
 
 #endif

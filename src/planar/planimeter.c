@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Polar planimeter: the area enclosed by a curve from the roll of a wheel that cannot resist rolling (M77 section 10).
+/* Polar planimeter: the area enclosed by a curve from the roll of a wheel that cannot resist
+ * rolling (M77 section 10).
  *
- * The tracer arm sweeps area L (dn + (L/2 - k) dbeta), n the roll of a wheel at k from the hinge, beta the arm's
- * heading; the hinge's circle sweeps p^2/2 dalpha. Round a closed curve
+ * The tracer arm sweeps area L (dn + (L/2 - k) dbeta), n the roll of a wheel at k from the hinge,
+ * beta the arm's heading; the hinge's circle sweeps p^2/2 dalpha. Round a closed curve
  *
  *     area = L n + L (L/2 - k) [beta] + p^2 [alpha]/2,
  *
- * brackets being whole turns: L n alone with the pole outside, and pi (L^2 - 2 L k + p^2) more for each turn round it.
+ * brackets being whole turns: L n alone with the pole outside, and pi (L^2 - 2 L k + p^2) more for
+ * each turn round it.
  *
- * How far the wheel rolls and slips is left to its law, by minimum dissipation: with no brake W = (sideways, rolling)
- * gives spin -W_j/radius and slip W_i, the segment of forces being that of M77 figure 1 with b = 0. */
+ * How far the wheel rolls and slips is left to its law, by minimum dissipation: with no brake W =
+ * (sideways, rolling) gives spin -W_j/radius and slip W_i, the segment of forces being that of M77
+ * figure 1 with b = 0. */
 #include <math.h>
 
 #include "base/math.h"
@@ -19,19 +22,24 @@
 /* Nearness to stretched or folded arms that is refused, relative to the arms. */
 static const double MARGIN = 1e-6;
 
-static CpsStatus check(const CpsPlanimeter *p, int count, const double *point, int steps, CpsError *err) {
-    const double number[7] = {p->pole[0], p->pole[1], p->pole_arm, p->tracer_arm, p->wheel, p->friction, p->load};
+static CpsStatus check(const CpsPlanimeter *p, int count, const double *point, int steps,
+                       CpsError *err) {
+    const double number[7] = {p->pole[0], p->pole[1],  p->pole_arm, p->tracer_arm,
+                              p->wheel,   p->friction, p->load};
     CpsStatus status = cpsi_planar_finite("planimeter", 7, number, err);
     if (status != CPS_OK) return status;
     if (!(p->pole_arm > 0) || !(p->tracer_arm > 0))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the arms are %g m and %g m long, expected more than 0", p->pole_arm,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the arms are %g m and %g m long, expected more than 0", p->pole_arm,
                          p->tracer_arm);
     if (!(p->friction * p->load > 0))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "friction %g and load %g N of the wheel, expected more than 0: what turns it is friction",
+                         "friction %g and load %g N of the wheel, expected more than 0: what turns "
+                         "it is friction",
                          p->friction, p->load);
     if (count < 3 || steps < 1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d points and %d steps, expected at least 3 and 1", count, steps);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d points and %d steps, expected at least 3 and 1",
+                         count, steps);
     for (int i = 0; i < count && point; i++)
         if (!isfinite(point[2 * i]) || !isfinite(point[2 * i + 1]))
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "point %d is not finite", i);
@@ -44,7 +52,8 @@ typedef struct Arms {
     double wheel[2];    /* where its contact is */
 } Arms;
 
-/* Triangle of pole, hinge and tracer: the cosine rule gives the angle at the pole. False: out of reach. */
+/* Triangle of pole, hinge and tracer: the cosine rule gives the angle at the pole. False: out of
+ * reach. */
 static bool place_arms(const CpsPlanimeter *p, const double tracer[2], Arms *arms) {
     const double x = tracer[0] - p->pole[0], y = tracer[1] - p->pole[1], far = hypot(x, y);
     const double a = p->pole_arm, l = p->tracer_arm, margin = MARGIN * (a + l);
@@ -63,11 +72,15 @@ static double cross(const double a[2], const double b[2]) { return a[0] * b[1] -
 
 static double half_turn(double angle) { return remainder(angle, 2 * CPSI_PI); }
 
-/* One step of the arms: roll and slip of the wheel, its axis along the mean heading of the tracer arm. */
-static void roll_wheel(const CpsPlanimeter *p, const Arms *from, const Arms *to, CpsPlanimeterReading *sum) {
+/* One step of the arms: roll and slip of the wheel, its axis along the mean heading of the tracer
+ * arm. */
+static void roll_wheel(const CpsPlanimeter *p, const Arms *from, const Arms *to,
+                       CpsPlanimeterReading *sum) {
     const double turned = half_turn(to->beta - from->beta), heading = from->beta + 0.5 * turned;
-    const CpsiPatch wheel = {
-        .kind = CPS_PATCH_WHEEL, .axis = {-sin(heading), cos(heading)}, .strength = p->friction * p->load, .size = 1};
+    const CpsiPatch wheel = {.kind = CPS_PATCH_WHEEL,
+                             .axis = {-sin(heading), cos(heading)},
+                             .strength = p->friction * p->load,
+                             .size = 1};
     const double moved[2] = {to->wheel[0] - from->wheel[0], to->wheel[1] - from->wheel[1]};
     const CpsWheelMotion motion = cpsi_wheel_motion(&wheel, moved);
     sum->roll -= wheel.size * motion.spin;
@@ -77,9 +90,10 @@ static void roll_wheel(const CpsPlanimeter *p, const Arms *from, const Arms *to,
     sum->arm_turns += turned;
 }
 
-CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count, const double *point, int steps,
-                               CpsPlanimeterReading *reading, CpsError *err) {
-    if (!planimeter || !reading) return cpsi_fail(err, CPS_ERR_ARGUMENT, "planimeter or reading is NULL");
+CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count, const double *point,
+                               int steps, CpsPlanimeterReading *reading, CpsError *err) {
+    if (!planimeter || !reading)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "planimeter or reading is NULL");
     const CpsStatus status = check(planimeter, count, point, steps, err);
     if (status != CPS_OK) return status;
 
@@ -90,14 +104,15 @@ CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count, const
     for (int i = 0; i < count && reached; i++) {
         const double *a = point + 2 * i, *b = point + 2 * ((i + 1) % count);
         for (int s = 1; s <= steps && reached; s++) {
-            const double t = (double)s / steps, tracer[2] = {(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]};
+            const double t = (double)s / steps,
+                         tracer[2] = {(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]};
             reached = place_arms(planimeter, tracer, &next);
             if (!reached)
-                return cpsi_fail(
-                    err, CPS_ERR_ARGUMENT,
-                    "the tracer cannot reach (%g, %g), between points %d and %d: the arms of %g m and %g m are "
-                    "too short or too unequal",
-                    tracer[0], tracer[1], i, (i + 1) % count, planimeter->pole_arm, planimeter->tracer_arm);
+                return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                 "the tracer cannot reach (%g, %g), between points %d and %d: the "
+                                 "arms of %g m and %g m are too short or too unequal",
+                                 tracer[0], tracer[1], i, (i + 1) % count, planimeter->pole_arm,
+                                 planimeter->tracer_arm);
             roll_wheel(planimeter, &arms, &next, &sum);
             arms = next;
         }
@@ -105,13 +120,15 @@ CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count, const
                                  (double[2]){b[0] - origin[0], b[1] - origin[1]});
     }
     if (!reached)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tracer cannot reach the first point (%g, %g)", point[0], point[1]);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tracer cannot reach the first point (%g, %g)",
+                         point[0], point[1]);
 
     /* the angles close: whole turns */
     const double a = planimeter->pole_arm, l = planimeter->tracer_arm;
     sum.pole_turns = round(sum.pole_turns / (2 * CPSI_PI));
     sum.arm_turns = round(sum.arm_turns / (2 * CPSI_PI));
-    sum.area = l * sum.roll + 2 * CPSI_PI * l * (0.5 * l - planimeter->wheel) * sum.arm_turns + CPSI_PI * a * a * sum.pole_turns;
+    sum.area = l * sum.roll + 2 * CPSI_PI * l * (0.5 * l - planimeter->wheel) * sum.arm_turns +
+               CPSI_PI * a * a * sum.pole_turns;
     *reading = sum;
     return CPS_OK;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A rope on a table as a driven system (see rope.h): V the nodes' velocities, -V_k in N(F_k) for a disc of radius
- * resistance x half the length of the neighbouring elements, and -U_i in N(F_i) for the line of all F_i, which says
- * U_i = 0, or where the rope may go slack for the half-line F_i <= 0, which says U_i <= 0, F_i U_i = 0: tension only where an
- * element keeps its length. */
+/* A rope on a table as a driven system (see rope.h): V the nodes' velocities, -V_k in N(F_k) for a
+ * disc of radius resistance x half the length of the neighbouring elements, and -U_i in N(F_i) for
+ * the line of all F_i, which says U_i = 0, or where the rope may go slack for the half-line F_i <=
+ * 0, which says U_i <= 0, F_i U_i = 0: tension only where an element keeps its length. */
 #include "capstan/rope.h"
 
 #include <math.h>
@@ -15,16 +15,20 @@ CpsStatus cps_rope_check(const CpsRope *rope, CpsError *err) {
     if (rope->nodes < 2)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "found %d nodes, expected at least 2", rope->nodes);
     if (rope->nodes > CPS_ROPE_MAX_NODES)
-        return cpsi_fail(err, CPS_ERR_LIMIT, "found %d nodes, at most %d", rope->nodes, CPS_ROPE_MAX_NODES);
+        return cpsi_fail(err, CPS_ERR_LIMIT, "found %d nodes, at most %d", rope->nodes,
+                         CPS_ROPE_MAX_NODES);
     if (!(rope->resistance >= 0) || !isfinite(rope->resistance))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "found resistance %g N/m, expected at least 0", rope->resistance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "found resistance %g N/m, expected at least 0",
+                         rope->resistance);
     for (int i = 0; i + 1 < rope->nodes; i++) {
         const double *x = rope->node + 2 * (size_t)i, length = hypot(x[2] - x[0], x[3] - x[1]);
         if (!(length > 0) || !isfinite(length))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "nodes %d and %d are %g m apart, expected a finite length above 0", i,
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "nodes %d and %d are %g m apart, expected a finite length above 0", i,
                              i + 1, length);
         if (!isfinite(rope->resistance * length))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%g N/m on the %g m between nodes %d and %d are no finite force",
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%g N/m on the %g m between nodes %d and %d are no finite force",
                              rope->resistance, length, i, i + 1);
     }
     return CPS_OK;
@@ -69,7 +73,10 @@ static CpsStatus add_elements(CpsSystem *system, const CpsRope *rope, CpsError *
     for (int i = 0; i + 1 < rope->nodes && status == CPS_OK; i++) {
         const double *x = rope->node + 2 * (size_t)i, length = element_length(rope, i);
         const double tx = (x[2] - x[0]) / length, ty = (x[3] - x[1]) / length;
-        const CpsEntry map[] = {{0, 2 * i, -tx}, {0, 2 * i + 1, -ty}, {0, 2 * i + 2, tx}, {0, 2 * i + 3, ty}};
+        const CpsEntry map[] = {{0, 2 * i, -tx},
+                                {0, 2 * i + 1, -ty},
+                                {0, 2 * i + 2, tx},
+                                {0, 2 * i + 3, ty}};
         snprintf(name, sizeof name, "element %d", i);
         status = cps_system_add_friction(system, name, law, 4, map, err);
     }

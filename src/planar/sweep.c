@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sweeping process of a block on a spring (Moreau's catching-up scheme).
  *
- * Friction F = k (u - X) must lie in C, so u stays in X + C/k, and -du is a normal of it where it moves: u is pushed by
- * the set. One step: u' = the point of X' + C/k nearest to u, that is F' = the point of C nearest to k (u - X').
+ * Friction F = k (u - X) must lie in C, so u stays in X + C/k, and -du is a normal of it where it
+ * moves: u is pushed by the set. One step: u' = the point of X' + C/k nearest to u, that is F' =
+ * the point of C nearest to k (u - X').
  *
- * Ledger: the spring's energy changes by (S + S')/2 . (dX - du) exactly, S = -F. With work (S + S')/2 . dX and
- * dissipation S'. du the defect of a step is (S - S'). du/2, second order; in one component it vanishes where the block
- * slides throughout. */
+ * Ledger: the spring's energy changes by (S + S')/2 . (dX - du) exactly, S = -F. With work (S +
+ * S')/2 . dX and dissipation S'. du the defect of a step is (S - S'). du/2, second order; in one
+ * component it vanishes where the block slides throughout. */
 #include <math.h>
 
 #include "base/status.h"
@@ -14,10 +15,14 @@
 
 enum { MOST = 3 };
 
-CpsStatus cps_sweep_step(const CpsLaw *law, CpsSweep *sweep, const double *end, CpsSweepStep *step, CpsError *err) {
-    if (!law || !sweep || !step) return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, sweep or step is NULL");
+CpsStatus cps_sweep_step(const CpsLaw *law, CpsSweep *sweep, const double *end, CpsSweepStep *step,
+                         CpsError *err) {
+    if (!law || !sweep || !step)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, sweep or step is NULL");
     const int n = cps_law_space(law);
-    if (n > MOST) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law has %d components, expected at most %d", n, MOST);
+    if (n > MOST)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law has %d components, expected at most %d", n,
+                         MOST);
     CpsStatus status = cpsi_planar_finite("end", n, end, err);
     if (status == CPS_OK) status = cpsi_planar_finite("position", n, sweep->position, err);
     if (status == CPS_OK) status = cpsi_planar_finite("last end", n, sweep->end, err);

@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A body towed over the plane: quasi-static steps with finite rotations, and their ledger.
  *
- * In one step the body makes a screw motion: its twist is constant in its own axes, so every contact moves at constant
- * velocity over its patch and the dissipation of the finite motion is phi of the increment, exactly. Turned by theta in
- * all, a point that moves by u in body axes ends displaced by the chord c = sinc(theta/2) R(angle + theta/2) u. The
- * increment is the one of least dissipation whose chord brings the hitch to its target, or to the rope's length from
- * there. With a0, a1 from the hitch, as it is before the step, to the rope's far end before and after,
+ * In one step the body makes a screw motion: its twist is constant in its own axes, so every
+ * contact moves at constant velocity over its patch and the dissipation of the finite motion is phi
+ * of the increment, exactly. Turned by theta in all, a point that moves by u in body axes ends
+ * displaced by the chord c = sinc(theta/2) R(angle + theta/2) u. The increment is the one of least
+ * dissipation whose chord brings the hitch to its target, or to the rope's length from there. With
+ * a0, a1 from the hitch, as it is before the step, to the rope's far end before and after,
  *
  *     |a1 - c|^2 = rope^2   <=>   e.c = e.(a1 - a0) - (rope^2 - |a0|^2)/2,     e = (a0 + a1 - c)/2:
  *
- * e is the rope in the middle of the step, along which it pulls. theta and c on the right are those of the last pass; a
- * pass changes them by the order of the step, so a few settle, and the step is of second order (the first pass: of
- * first). */
+ * e is the rope in the middle of the step, along which it pulls. theta and c on the right are those
+ * of the last pass; a pass changes them by the order of the step, so a few settle, and the step is
+ * of second order (the first pass: of first). */
 #include <math.h>
 
 #include "base/status.h"
 #include "planar/planar.h"
 
-/* Passes that change the motion by no more than this part have settled. Where more are needed, the motion jumps with
- * the orientation, or the step is as long as the body. */
+/* Passes that change the motion by no more than this part have settled. Where more are needed, the
+ * motion jumps with the orientation, or the step is as long as the body. */
 static const double SETTLED = 1e-13;
 enum { PASSES = 25 };
 
@@ -37,7 +38,8 @@ static Middle middle_of(double angle, double turned) {
 
 /* From body axes into the plane, or back with -angle. */
 static void turn(double angle, const double v[2], double out[2]) {
-    const double x = cos(angle) * v[0] - sin(angle) * v[1], y = sin(angle) * v[0] + cos(angle) * v[1];
+    const double x = cos(angle) * v[0] - sin(angle) * v[1],
+                 y = sin(angle) * v[0] + cos(angle) * v[1];
     out[0] = x;
     out[1] = y;
 }
@@ -57,16 +59,19 @@ void cps_planar_move(double pose[3], const double twist[3]) {
 }
 
 static CpsStatus check(const CpsTow *tow, const double target[2], CpsError *err) {
-    const double state[10] = {tow->pose[0], tow->pose[1], tow->pose[2], tow->hitch[0], tow->hitch[1],
-                              tow->rope,    tow->end[0],  tow->end[1],  tow->work,     tow->dissipated};
+    const double state[10] = {tow->pose[0],  tow->pose[1],   tow->pose[2], tow->hitch[0],
+                              tow->hitch[1], tow->rope,      tow->end[0],  tow->end[1],
+                              tow->work,     tow->dissipated};
     CpsStatus status = cpsi_planar_finite("tow", 10, state, err);
     if (status == CPS_OK) status = cpsi_planar_finite("target", 2, target, err);
     if (status == CPS_OK && !(tow->rope >= 0))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the rope is %g m long, expected at least 0", tow->rope);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the rope is %g m long, expected at least 0",
+                         tow->rope);
     return status;
 }
 
-/* From the hitch before the step: to the rope's far end before and after (without a rope: to the target), a0 and a1. */
+/* From the hitch before the step: to the rope's far end before and after (without a rope: to the
+ * target), a0 and a1. */
 typedef struct Way {
     double before[2], after[2];
 } Way;
@@ -80,17 +85,20 @@ static CpsStatus drive_step(const CpsPlanar *body, const CpsTow *tow, const Way 
         const double e[2] = {0.5 * (a0[0] + a1[0] - chord[0]), 0.5 * (a0[1] + a1[1] - chord[1])},
                      length = hypot(e[0], e[1]);
         const double slack = 0.5 * (tow->rope * tow->rope - a0[0] * a0[0] - a0[1] * a0[1]);
-        const double pull = (e[0] * (a1[0] - a0[0]) + e[1] * (a1[1] - a0[1]) - slack) / (length * middle.sinc);
+        const double pull =
+            (e[0] * (a1[0] - a0[0]) + e[1] * (a1[1] - a0[1]) - slack) / (length * middle.sinc);
         turn(-middle.angle, (double[2]){e[0] / length, e[1] / length}, local);
-        return cps_planar_drive(body, 1, (double[3]){local[0], local[1], x * local[1] - y * local[0]}, &pull, motion,
-                                err);
+        return cps_planar_drive(body, 1,
+                                (double[3]){local[0], local[1], x * local[1] - y * local[0]}, &pull,
+                                motion, err);
     }
     turn(-middle.angle, (double[2]){a1[0] / middle.sinc, a1[1] / middle.sinc}, local);
     return cps_planar_drive(body, 2, (double[6]){1, 0, -y, 0, 1, x}, local, motion, err);
 }
 
 /* Passes until motion, middle and chord agree. */
-static CpsStatus settle(const CpsPlanar *body, const CpsTow *tow, const Way *way, CpsTowStep *step, CpsError *err) {
+static CpsStatus settle(const CpsPlanar *body, const CpsTow *tow, const Way *way, CpsTowStep *step,
+                        CpsError *err) {
     const double length = hypot(way->after[0], way->after[1]) + tow->rope;
     double chord[2] = {0, 0};
     Middle middle = middle_of(tow->pose[2], 0);
@@ -118,8 +126,10 @@ static CpsStatus settle(const CpsPlanar *body, const CpsTow *tow, const Way *way
     return CPS_OK;
 }
 
-CpsStatus cps_planar_tow(const CpsPlanar *body, CpsTow *tow, const double target[2], CpsTowStep *step, CpsError *err) {
-    if (!body || !tow || !step) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body, tow or step is NULL");
+CpsStatus cps_planar_tow(const CpsPlanar *body, CpsTow *tow, const double target[2],
+                         CpsTowStep *step, CpsError *err) {
+    if (!body || !tow || !step)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "body, tow or step is NULL");
     CpsStatus status = check(tow, target, err);
     if (status != CPS_OK) return status;
     double arm[2];
@@ -128,7 +138,8 @@ CpsStatus cps_planar_tow(const CpsPlanar *body, CpsTow *tow, const double target
     const Way way = {.before = {tow->end[0] - hitch[0], tow->end[1] - hitch[1]},
                      .after = {target[0] - hitch[0], target[1] - hitch[1]}};
 
-    CpsTowStep out = {.outcome = CPS_SET_ANSWERED, .pulled = hypot(way.after[0], way.after[1]) > tow->rope};
+    CpsTowStep out = {.outcome = CPS_SET_ANSWERED,
+                      .pulled = hypot(way.after[0], way.after[1]) > tow->rope};
     if (out.pulled) status = settle(body, tow, &way, &out, err);
     if (status != CPS_OK) return status;
     if (out.outcome == CPS_SET_ANSWERED) {

@@ -18,8 +18,15 @@ CpsStatus cps_set_conic(const CpsSet *set, CpsSetConic *conic, CpsError *err) {
         cpsi_form_free(form);
         return CPS_OK;
     }
-    *conic = (CpsSetConic){.space = form->n, .unknowns = form->unknowns, .rows = form->rows, .cones = form->cones,
-                           .dim = form->dim, .origin = form->origin, .p = form->p, .a = form->a, .b = form->b,
+    *conic = (CpsSetConic){.space = form->n,
+                           .unknowns = form->unknowns,
+                           .rows = form->rows,
+                           .cones = form->cones,
+                           .dim = form->dim,
+                           .origin = form->origin,
+                           .p = form->p,
+                           .a = form->a,
+                           .b = form->b,
                            .owner = form};
     return CPS_OK;
 }
@@ -29,15 +36,19 @@ CpsStatus cps_set_friction_cone(int n, double friction, CpsSet **out, CpsError *
     if (n < 2 || n > CPS_SET_MAX_SPACE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "n is %d, expected 2 to %d", n, CPS_SET_MAX_SPACE);
     if (!(friction >= 0) || !isfinite(friction))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "friction is %g, expected a finite number >= 0", friction);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "friction is %g, expected a finite number >= 0",
+                         friction);
     CpsiForm *form = cpsi_form_new(n, n, 0, n, 1);
     if (!form) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a cone");
     /* x = (friction v, N), |v| <= N */
     for (int i = 0; i < n; i++) {
-        form->p[(size_t)i*(size_t)n + (size_t)i] = i < n - 1 ? friction : 1;
-        form->a[(size_t)(i < n - 1 ? i + 1 : 0)*(size_t)n + (size_t)i] = 1;
+        form->p[(size_t)i * (size_t)n + (size_t)i] = i < n - 1 ? friction : 1;
+        form->a[(size_t)(i < n - 1 ? i + 1 : 0) * (size_t)n + (size_t)i] = 1;
     }
-    form->dim[0] = n, form->rows = n, form->cones = 1, form->largest_cone = n;
+    form->dim[0] = n;
+    form->rows = n;
+    form->cones = 1;
+    form->largest_cone = n;
     return cpsi_set_from_form(form, out, err);
 }
 

@@ -1,40 +1,53 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The point of an ellipsoid's boundary that is nearest to a given one, from outside and from inside.
+/* The point of an ellipsoid's boundary that is nearest to a given one, from outside and from
+ * inside.
  *
- * In the axes, with half axes e_i and the point at y, the nearest one is x_i = e_i^2 y_i/(e_i^2 + m) for the m that
- * puts it on the boundary: sum of (e_i y_i/(e_i^2 + m))^2 = 1. Of its roots the one with m > -e_1^2, e_1 the least half
- * axis, belongs to the nearest point; m > 0 outside. The unknown is s = m + e_1^2 > 0, in which the sum falls. A point
- * without any component along the shortest axes may have no such root: then s = 0, and those components of x are what is
- * left to 1. */
+ * In the axes, with half axes e_i and the point at y, the nearest one is x_i = e_i^2 y_i/(e_i^2 +
+ * m) for the m that puts it on the boundary: sum of (e_i y_i/(e_i^2 + m))^2 = 1. Of its roots the
+ * one with m > -e_1^2, e_1 the least half axis, belongs to the nearest point; m > 0 outside. The
+ * unknown is s = m + e_1^2 > 0, in which the sum falls. A point without any component along the
+ * shortest axes may have no such root: then s = 0, and those components of x are what is left to
+ * 1. */
 #include <math.h>
 #include <string.h>
 
 #include "linsys/small.h"
 #include "set/node.h"
 
-/* Turn columns j and k of w and of v (n, n) until those of w are normal to each other; false where they were. */
+/* Turn columns j and k of w and of v (n, n) until those of w are normal to each other; false where
+ * they were. */
 static bool turn_columns(int n, int j, int k, double *w, double *v) {
     double jj = 0, kk = 0, jk = 0;
-    for (int i = 0; i < n; i++) jj += w[i*n + j]*w[i*n + j], kk += w[i*n + k]*w[i*n + k], jk += w[i*n + j]*w[i*n + k];
-    if (fabs(jk) <= 1e-16*sqrt(jj)*sqrt(kk)) return false;
-    const double zeta = (kk - jj)/(2*jk), t = copysign(1, zeta)/(fabs(zeta) + hypot(1, zeta)), c = 1/sqrt(1 + t*t),
-                 s = c*t;
     for (int i = 0; i < n; i++) {
-        const double a = w[i*n + j], b = w[i*n + k], p = v[i*n + j], q = v[i*n + k];
-        w[i*n + j] = c*a - s*b, w[i*n + k] = s*a + c*b;
-        v[i*n + j] = c*p - s*q, v[i*n + k] = s*p + c*q;
+        jj += w[i * n + j] * w[i * n + j];
+        kk += w[i * n + k] * w[i * n + k];
+        jk += w[i * n + j] * w[i * n + k];
+    }
+    if (fabs(jk) <= 1e-16 * sqrt(jj) * sqrt(kk)) return false;
+    const double zeta = (kk - jj) / (2 * jk), t = copysign(1, zeta) / (fabs(zeta) + hypot(1, zeta)),
+                 c = 1 / sqrt(1 + t * t), s = c * t;
+    for (int i = 0; i < n; i++) {
+        const double a = w[i * n + j], b = w[i * n + k], p = v[i * n + j], q = v[i * n + k];
+        w[i * n + j] = c * a - s * b;
+        w[i * n + k] = s * a + c * b;
+        v[i * n + j] = c * p - s * q;
+        v[i * n + k] = s * p + c * q;
     }
     return true;
 }
 
-/* Half axes (n) and, as columns of v (n, n), their directions: the singular values of the inverse Cholesky factor by
- * one-sided Jacobi turns, which keep the small ones' digits (Demmel and Veselic 1992). */
+/* Half axes (n) and, as columns of v (n, n), their directions: the singular values of the inverse
+ * Cholesky factor by one-sided Jacobi turns, which keep the small ones' digits (Demmel and Veselic
+ * 1992). */
 static bool find_axes(const CpsSet *set, double *w, double *v, double *half) {
     enum { SWEEPS = 40 };
     const int n = set->n;
     double most = 0;
-    for (int i = 0; i < n*n; i++) most = fmax(most, fabs(set->c[i]));
-    for (int i = 0; i < n*n; i++) w[i] = set->c[i]/most, v[i] = i%(n + 1) == 0;
+    for (int i = 0; i < n * n; i++) most = fmax(most, fabs(set->c[i]));
+    for (int i = 0; i < n * n; i++) {
+        w[i] = set->c[i] / most;
+        v[i] = i % (n + 1) == 0;
+    }
     bool turned = true;
     for (int sweep = 0; turned && sweep < SWEEPS; sweep++) {
         turned = false;
@@ -43,8 +56,8 @@ static bool find_axes(const CpsSet *set, double *w, double *v, double *half) {
     }
     for (int j = 0; j < n; j++) {
         double size = 0;
-        for (int i = 0; i < n; i++) size = hypot(size, w[i*n + j]);
-        half[j] = 1/size/most;
+        for (int i = 0; i < n; i++) size = hypot(size, w[i * n + j]);
+        half[j] = 1 / size / most;
         if (!(half[j] > 0) || !isfinite(half[j])) return false;
     }
     return true;
@@ -54,29 +67,32 @@ static bool find_axes(const CpsSet *set, double *w, double *v, double *half) {
 static double find_root(int n, const double *half, const double *y, double least) {
     double low = 0, high = 0;
     for (int i = 0; i < n; i++) {
-        const double pull = half[i]*fabs(y[i]), above = (half[i] - least)*(half[i] + least);
+        const double pull = half[i] * fabs(y[i]), above = (half[i] - least) * (half[i] + least);
         low = fmax(low, pull - above); /* one term alone is 1 there or more */
         high = hypot(high, pull);      /* all together are 1 there or less */
     }
-    for (int k = 0; k < 2000 && high - low > 2e-16*high; k++) {
-        const double s = low > 0 && high > 4*low ? sqrt(low)*sqrt(high) : 0.5*(low + high);
+    for (int k = 0; k < 2000 && high - low > 2e-16 * high; k++) {
+        const double s = low > 0 && high > 4 * low ? sqrt(low) * sqrt(high) : 0.5 * (low + high);
         double sum = 0;
         for (int i = 0; i < n; i++) {
-            const double term = half[i]*y[i]/((half[i] - least)*(half[i] + least) + s);
-            sum += y[i] != 0 ? term*term : 0;
+            const double term = half[i] * y[i] / ((half[i] - least) * (half[i] + least) + s);
+            sum += y[i] != 0 ? term * term : 0;
         }
         if (s <= low || s >= high) break;
-        if (sum > 1) low = s;
-        else high = s;
+        if (sum > 1)
+            low = s;
+        else
+            high = s;
     }
     return high;
 }
 
-bool cpsi_ellipsoid_nearest(const CpsSet *set, const double *p, double *nearest, double *distance, bool *inside) {
+bool cpsi_ellipsoid_nearest(const CpsSet *set, const double *p, double *nearest, double *distance,
+                            bool *inside) {
     const int n = set->n;
-    const size_t square = (size_t)n*(size_t)n;
+    const size_t square = (size_t)n * (size_t)n;
     CpsiScratch scratch;
-    double *w = cpsi_scratch_take(&scratch, 2*square + 3*(size_t)n), *v = w ? w + square : NULL;
+    double *w = cpsi_scratch_take(&scratch, 2 * square + 3 * (size_t)n), *v = w ? w + square : NULL;
     double *half = w ? v + square : NULL, *y = w ? half + n : NULL, *x = w ? y + n : NULL;
     const bool done = w && find_axes(set, w, v, half);
     if (done) {
@@ -84,23 +100,26 @@ bool cpsi_ellipsoid_nearest(const CpsSet *set, const double *p, double *nearest,
         int shortest = 0;
         for (int j = 0; j < n; j++) {
             y[j] = 0;
-            for (int i = 0; i < n; i++) y[j] += v[i*n + j]*(p[i] - set->a[i]);
-            out = hypot(out, y[j]/half[j]);
-            if (half[j] < least) least = half[j], shortest = j;
+            for (int i = 0; i < n; i++) y[j] += v[i * n + j] * (p[i] - set->a[i]);
+            out = hypot(out, y[j] / half[j]);
+            if (half[j] < least) {
+                least = half[j];
+                shortest = j;
+            }
         }
         *inside = out <= 1;
         const double s = find_root(n, half, y, least);
         for (int j = 0; j < n; j++) {
-            const double above = (half[j] - least)*(half[j] + least) + s;
-            x[j] = above > 0 ? half[j]*(half[j]*y[j]/above) : 0;
-            filled += j != shortest ? x[j]/half[j]*(x[j]/half[j]) : 0;
+            const double above = (half[j] - least) * (half[j] + least) + s;
+            x[j] = above > 0 ? half[j] * (half[j] * y[j] / above) : 0;
+            filled += j != shortest ? x[j] / half[j] * (x[j] / half[j]) : 0;
         }
         /* the component left open, or lost where it is small: to the boundary */
-        if (*inside && fabs(y[shortest]) <= 1e-9*least)
-            x[shortest] = copysign(least*sqrt(fmax(0, 1 - filled)), y[shortest]);
+        if (*inside && fabs(y[shortest]) <= 1e-9 * least)
+            x[shortest] = copysign(least * sqrt(fmax(0, 1 - filled)), y[shortest]);
         *distance = 0;
         for (int j = 0; j < n; j++) *distance = hypot(*distance, x[j] - y[j]);
-        for (int i = 0; i < n; i++) nearest[i] = set->a[i] + cpsi_dot(n, &v[i*n], x);
+        for (int i = 0; i < n; i++) nearest[i] = set->a[i] + cpsi_dot(n, &v[i * n], x);
     }
     cpsi_scratch_give(&scratch);
     return done;

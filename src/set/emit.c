@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* "X in t C" as conic rows, node by node; X and t are affine in the unknowns. With t >= 0 the rows describe the
- * closure of the cone over C x {1} (its perspective), which is what hulls, gauges and polars need; with t = 1 the set
- * itself.
+/* "X in t C" as conic rows, node by node; X and t are affine in the unknowns. With t >= 0 the rows
+ * describe the closure of the cone over C x {1} (its perspective), which is what hulls, gauges and
+ * polars need; with t = 1 the set itself.
  *
  *     product, intersection, preimage, translate, scale     rows of the parts on parts of X
  *     image       X = L y, y in t C                          new unknowns y
- *     sum         X = X_1 + ... + X_k, X_i in t C_i          new unknowns X_2 .. X_k; of an image y_i, X_i = L_i y_i
+ *     sum         X = X_1 + ... + X_k, X_i in t C_i
+ *         new unknowns X_2 .. X_k; of an image y_i, X_i = L_i y_i
  *     hull        the same with X_i in t_i C_i, sum t_i = t, t_i >= 0
  *     polar       h_C(X) <= t by conic duality: with C = {origin + P v + Q'l : A v + b in K},
- *                 Q X = 0,  A'z + P'X = 0,  <origin, X> + b.z <= t,  z in K                                      */
+ *                 Q X = 0,  A'z + P'X = 0,  <origin, X> + b.z <= t,  z in
+ *                           K                                      */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +20,11 @@
 /* How a node is written: as it is made, or by its own form. */
 static CpsiSetKind kind_of(const CpsSet *set) { return set->touching ? CPSI_SET_CONIC : set->kind; }
 
-/* In a sum or hull: is X_k written as L y, so that only y is unknown?  The first is what the others leave. */
-static bool is_carried(const CpsSet *set, int k) { return k > 0 && kind_of(set->part[k]) == CPSI_SET_IMAGE; }
+/* In a sum or hull: is X_k written as L y, so that only y is unknown?  The first is what the others
+ * leave. */
+static bool is_carried(const CpsSet *set, int k) {
+    return k > 0 && kind_of(set->part[k]) == CPSI_SET_IMAGE;
+}
 
 static void count_own(const CpsSet *set, CpsiCount *count) {
     const size_t n = (size_t)set->n, items = (size_t)set->count;
@@ -27,35 +32,60 @@ static void count_own(const CpsSet *set, CpsiCount *count) {
     case CPSI_SET_POINTS:
         if (set->hull) {
             count->equations += n - (size_t)set->hull->dimension;
-            count->rows += (size_t)set->hull->rows, count->cones += (size_t)set->hull->rows;
+            count->rows += (size_t)set->hull->rows;
+            count->cones += (size_t)set->hull->rows;
             break;
         }
         count->equations += n;
         if (items == 1) break;
-        count->equations += 1, count->unknowns += items, count->rows += items, count->cones += items;
+        count->equations += 1;
+        count->unknowns += items;
+        count->rows += items;
+        count->cones += items;
         break;
     case CPSI_SET_BALL:
-    case CPSI_SET_ELLIPSOID: count->rows += n + 1, count->cones += 1; break;
-    case CPSI_SET_BOX: count->rows += 2*n, count->cones += 2*n, count->equations += n; break;
-    case CPSI_SET_INEQUALITIES: count->rows += items, count->cones += items; break;
+    case CPSI_SET_ELLIPSOID:
+        count->rows += n + 1;
+        count->cones += 1;
+        break;
+    case CPSI_SET_BOX:
+        count->rows += 2 * n;
+        count->cones += 2 * n;
+        count->equations += n;
+        break;
+    case CPSI_SET_INEQUALITIES:
+        count->rows += items;
+        count->cones += items;
+        break;
     case CPSI_SET_SUBSPACE: count->equations += n - items; break;
     case CPSI_SET_RAYS:
-        count->unknowns += items, count->rows += items, count->cones += items, count->equations += n;
+        count->unknowns += items;
+        count->rows += items;
+        count->cones += items;
+        count->equations += n;
         break;
     case CPSI_SET_CONIC:
-        count->unknowns += (size_t)(set->form->unknowns + set->form->lines), count->equations += n + 1;
-        count->rows += (size_t)set->form->rows, count->cones += (size_t)set->form->cones;
+        count->unknowns += (size_t)(set->form->unknowns + set->form->lines);
+        count->equations += n + 1;
+        count->rows += (size_t)set->form->rows;
+        count->cones += (size_t)set->form->cones;
         break;
-    case CPSI_SET_IMAGE: count->unknowns += (size_t)set->part[0]->n, count->equations += n; break;
-    case CPSI_SET_SUM: count->unknowns += (items - 1)*n; break;
+    case CPSI_SET_IMAGE:
+        count->unknowns += (size_t)set->part[0]->n;
+        count->equations += n;
+        break;
+    case CPSI_SET_SUM: count->unknowns += (items - 1) * n; break;
     case CPSI_SET_HULL:
-        count->unknowns += (items - 1)*(n + 1), count->rows += items, count->cones += items;
+        count->unknowns += (items - 1) * (n + 1);
+        count->rows += items;
+        count->cones += items;
         break;
     case CPSI_SET_POLAR:
         if (!set->dual) break;
         count->unknowns += (size_t)set->dual->rows;
         count->equations += (size_t)(set->dual->unknowns + set->dual->lines);
-        count->rows += (size_t)set->dual->rows + 1, count->cones += (size_t)set->dual->cones + 1;
+        count->rows += (size_t)set->dual->rows + 1;
+        count->cones += (size_t)set->dual->cones + 1;
         break;
     default: break;
     }
@@ -67,29 +97,34 @@ void cpsi_raw_count(const CpsSet *set, CpsiCount *count) {
     const bool added = set->kind == CPSI_SET_SUM || set->kind == CPSI_SET_HULL;
     for (int k = 0; k < set->count; k++) {
         cpsi_raw_count(set->part[k], count);
-        if (added && is_carried(set, k)) count->unknowns -= (size_t)set->n, count->equations -= (size_t)set->n;
+        if (added && is_carried(set, k)) {
+            count->unknowns -= (size_t)set->n;
+            count->equations -= (size_t)set->n;
+        }
     }
 }
 
 /* ---- rows of primitives ---- */
 
-/* A coefficient that is this small beside the two it is the sum of is their rounding: maps and bases are right to some tens of eps. An
- * equation made of rounding alone would be scaled up to a full one. */
+/* A coefficient that is this small beside the two it is the sum of is their rounding: maps and
+ * bases are right to some tens of eps. An equation made of rounding alone would be scaled up to a
+ * full one. */
 static const double CANCELLED = 1e-14;
 
 /* out += factor in, both affine */
 static void add(const CpsiRaw *raw, double factor, const double *in, double *out) {
     for (int j = 0; j < raw->unknowns; j++) {
-        const double more = factor*in[j], sum = out[j] + more;
-        out[j] = fabs(sum) <= CANCELLED*(fabs(out[j]) + fabs(more)) ? 0 : sum;
+        const double more = factor * in[j], sum = out[j] + more;
+        out[j] = fabs(sum) <= CANCELLED * (fabs(out[j]) + fabs(more)) ? 0 : sum;
     }
-    out[raw->unknowns] += factor*in[raw->unknowns];
+    out[raw->unknowns] += factor * in[raw->unknowns];
 }
 
-/* The same for an equation, whose constants may cancel: the largest tells what is left from rounding. */
+/* The same for an equation, whose constants may cancel: the largest tells what is left from
+ * rounding. */
 static void balance(CpsiRaw *raw, double factor, const double *in, double *equation) {
     add(raw, factor, in, equation);
-    raw->constant = fmax(raw->constant, fabs(factor*in[raw->width - 1]));
+    raw->constant = fmax(raw->constant, fabs(factor * in[raw->width - 1]));
 }
 
 static double *unknown(CpsiRaw *raw, double *affine) {
@@ -98,9 +133,10 @@ static double *unknown(CpsiRaw *raw, double *affine) {
 }
 
 /* out += sum of a_i X_i */
-static void add_product(const CpsiRaw *raw, int n, double factor, const double *a, const double *x, double *out) {
+static void add_product(const CpsiRaw *raw, int n, double factor, const double *a, const double *x,
+                        double *out) {
     for (int i = 0; i < n; i++)
-        if (a[i] != 0) add(raw, factor*a[i], &x[(size_t)i*(size_t)raw->width], out);
+        if (a[i] != 0) add(raw, factor * a[i], &x[(size_t)i * (size_t)raw->width], out);
 }
 
 /* by facets */
@@ -108,12 +144,13 @@ static void emit_hull(CpsiRaw *raw, const CpsiHull *hull, const double *x, const
     const size_t n = (size_t)hull->n;
     for (size_t k = 0; k < n - (size_t)hull->dimension; k++) {
         double *equation = cpsi_raw_equation(raw);
-        for (size_t i = 0; i < n; i++) balance(raw, hull->normal[k*n + i], &x[i*(size_t)raw->width], equation);
+        for (size_t i = 0; i < n; i++)
+            balance(raw, hull->normal[k * n + i], &x[i * (size_t)raw->width], equation);
         balance(raw, -hull->level[k], t, equation);
     }
     for (int k = 0; k < hull->rows; k++) {
         double *row = cpsi_raw_cone(raw, 1);
-        add_product(raw, hull->n, -1, &hull->row[(size_t)k*n], x, row);
+        add_product(raw, hull->n, -1, &hull->row[(size_t)k * n], x, row);
         add(raw, hull->offset[k], t, row);
     }
 }
@@ -128,15 +165,20 @@ static void emit_points(CpsiRaw *raw, const CpsSet *set, const double *x, const 
     double *equation = NULL;
     for (int i = 0; i < n; i++) {
         equation = cpsi_raw_equation(raw);
-        balance(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
-        if (set->count == 1) balance(raw, set->a[i], t, equation);
+        balance(raw, -1, &x[(size_t)i * (size_t)raw->width], equation);
+        if (set->count == 1)
+            balance(raw, set->a[i], t, equation);
         else
-            for (int k = 0; k < set->count; k++) equation[first + k] += set->a[(size_t)k*(size_t)n + (size_t)i];
+            for (int k = 0; k < set->count; k++)
+                equation[first + k] += set->a[(size_t)k * (size_t)n + (size_t)i];
     }
     if (set->count == 1) return;
     equation = cpsi_raw_equation(raw);
     balance(raw, -1, t, equation);
-    for (int k = 0; k < set->count; k++) equation[first + k] += 1, unknown(raw, cpsi_raw_cone(raw, 1));
+    for (int k = 0; k < set->count; k++) {
+        equation[first + k] += 1;
+        unknown(raw, cpsi_raw_cone(raw, 1));
+    }
 }
 
 static void emit_ball(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
@@ -146,30 +188,33 @@ static void emit_ball(CpsiRaw *raw, const CpsSet *set, const double *x, const do
     const bool ball = set->kind == CPSI_SET_BALL;
     add(raw, ball ? set->scalar : 1, t, rows);
     for (int i = 0; i < n; i++) {
-        double *row = &rows[(size_t)(i + 1)*w];
+        double *row = &rows[(size_t)(i + 1) * w];
         for (int j = ball ? i : 0; j <= i; j++) {
-            const double factor = ball ? 1 : set->c[i*n + j];
-            add(raw, factor, &x[(size_t)j*w], row);
-            add(raw, -factor*set->a[j], t, row);
+            const double factor = ball ? 1 : set->c[i * n + j];
+            add(raw, factor, &x[(size_t)j * w], row);
+            add(raw, -factor * set->a[j], t, row);
         }
     }
 }
 
 static void emit_box(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
     for (int i = 0; i < set->n; i++) {
-        const double *xi = &x[(size_t)i*(size_t)raw->width];
+        const double *xi = &x[(size_t)i * (size_t)raw->width];
         if (set->a[i] == set->b[i]) {
             double *equation = cpsi_raw_equation(raw);
-            balance(raw, 1, xi, equation), balance(raw, -set->a[i], t, equation);
+            balance(raw, 1, xi, equation);
+            balance(raw, -set->a[i], t, equation);
             continue;
         }
         if (isfinite(set->a[i])) {
             double *row = cpsi_raw_cone(raw, 1);
-            add(raw, 1, xi, row), add(raw, -set->a[i], t, row);
+            add(raw, 1, xi, row);
+            add(raw, -set->a[i], t, row);
         }
         if (isfinite(set->b[i])) {
             double *row = cpsi_raw_cone(raw, 1);
-            add(raw, -1, xi, row), add(raw, set->b[i], t, row);
+            add(raw, -1, xi, row);
+            add(raw, set->b[i], t, row);
         }
     }
 }
@@ -177,7 +222,7 @@ static void emit_box(CpsiRaw *raw, const CpsSet *set, const double *x, const dou
 static void emit_inequalities(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t) {
     for (int k = 0; k < set->count; k++) {
         double *row = cpsi_raw_cone(raw, 1);
-        add_product(raw, set->n, -1, &set->a[(size_t)k*(size_t)set->n], x, row);
+        add_product(raw, set->n, -1, &set->a[(size_t)k * (size_t)set->n], x, row);
         add(raw, set->b[k], t, row);
     }
 }
@@ -186,7 +231,8 @@ static void emit_subspace(CpsiRaw *raw, const CpsSet *set, const double *x) {
     for (int k = set->count; k < set->n; k++) {
         double *equation = cpsi_raw_equation(raw);
         for (int i = 0; i < set->n; i++)
-            balance(raw, set->a[(size_t)k*(size_t)set->n + (size_t)i], &x[(size_t)i*(size_t)raw->width], equation);
+            balance(raw, set->a[(size_t)k * (size_t)set->n + (size_t)i],
+                    &x[(size_t)i * (size_t)raw->width], equation);
     }
 }
 
@@ -194,8 +240,9 @@ static void emit_rays(CpsiRaw *raw, const CpsSet *set, const double *x) {
     const int n = set->n, first = raw->next;
     for (int i = 0; i < n; i++) {
         double *equation = cpsi_raw_equation(raw);
-        balance(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
-        for (int k = 0; k < set->count; k++) equation[first + k] += set->a[(size_t)k*(size_t)n + (size_t)i];
+        balance(raw, -1, &x[(size_t)i * (size_t)raw->width], equation);
+        for (int k = 0; k < set->count; k++)
+            equation[first + k] += set->a[(size_t)k * (size_t)n + (size_t)i];
     }
     for (int k = 0; k < set->count; k++) unknown(raw, cpsi_raw_cone(raw, 1));
 }
@@ -206,16 +253,18 @@ static void emit_conic(CpsiRaw *raw, const CpsSet *set, const double *x, const d
     raw->next += u + form->lines;
     for (int i = 0; i < n; i++) {
         double *equation = cpsi_raw_equation(raw);
-        balance(raw, -1, &x[(size_t)i*(size_t)raw->width], equation);
+        balance(raw, -1, &x[(size_t)i * (size_t)raw->width], equation);
         balance(raw, form->origin[i], t, equation);
-        for (int j = 0; j < u; j++) equation[first + j] += form->p[(size_t)i*(size_t)u + (size_t)j];
-        for (int l = 0; l < form->lines; l++) equation[first + u + l] += form->q[l*n + i];
+        for (int j = 0; j < u; j++)
+            equation[first + j] += form->p[(size_t)i * (size_t)u + (size_t)j];
+        for (int l = 0; l < form->lines; l++) equation[first + u + l] += form->q[l * n + i];
     }
     if (form->empty) add(raw, 1, t, cpsi_raw_equation(raw)); /* t = 0 has no solution with t = 1 */
     for (int k = 0, i = 0; k < form->cones; k++) {
         double *rows = cpsi_raw_cone(raw, form->dim[k]);
         for (int r = 0; r < form->dim[k]; r++, i++, rows += raw->width) {
-            for (int j = 0; j < u; j++) rows[first + j] += form->a[(size_t)i*(size_t)u + (size_t)j];
+            for (int j = 0; j < u; j++)
+                rows[first + j] += form->a[(size_t)i * (size_t)u + (size_t)j];
             add(raw, form->b[i], t, rows);
         }
     }
@@ -226,17 +275,20 @@ static void emit_polar(CpsiRaw *raw, const CpsSet *set, const double *x, const d
     if (!form || form->empty) return; /* the polar of nothing is everything */
     const int n = set->n, u = form->unknowns, first = raw->next;
     raw->next += form->rows;
-    for (int l = 0; l < form->lines; l++) add_product(raw, n, 1, &form->q[l*n], x, cpsi_raw_equation(raw));
+    for (int l = 0; l < form->lines; l++)
+        add_product(raw, n, 1, &form->q[l * n], x, cpsi_raw_equation(raw));
     for (int j = 0; j < u; j++) {
         double *equation = cpsi_raw_equation(raw);
-        for (int i = 0; i < form->rows; i++) equation[first + i] += form->a[(size_t)i*(size_t)u + (size_t)j];
+        for (int i = 0; i < form->rows; i++)
+            equation[first + i] += form->a[(size_t)i * (size_t)u + (size_t)j];
         for (int i = 0; i < n; i++)
-            add(raw, form->p[(size_t)i*(size_t)u + (size_t)j]/form->size, &x[(size_t)i*(size_t)raw->width], equation);
+            add(raw, form->p[(size_t)i * (size_t)u + (size_t)j] / form->size,
+                &x[(size_t)i * (size_t)raw->width], equation);
     }
     double *row = cpsi_raw_cone(raw, 1);
     add(raw, 1, t, row);
     add_product(raw, n, -1, form->origin, x, row);
-    for (int i = 0; i < form->rows; i++) row[first + i] -= form->size*form->b[i];
+    for (int i = 0; i < form->rows; i++) row[first + i] -= form->size * form->b[i];
     for (int k = 0, i = 0; k < form->cones; k++) {
         double *rows = cpsi_raw_cone(raw, form->dim[k]);
         for (int r = 0; r < form->dim[k]; r++, i++, rows += raw->width) rows[first + i] += 1;
@@ -249,7 +301,7 @@ static bool emit_parts_of(CpsiRaw *raw, const CpsSet *set, const double *x, cons
     const bool product = set->kind == CPSI_SET_PRODUCT;
     for (int k = 0; k < set->count; k++) {
         if (!cpsi_raw_emit(raw, set->part[k], x, t)) return false;
-        if (product) x += (size_t)set->part[k]->n*(size_t)raw->width;
+        if (product) x += (size_t)set->part[k]->n * (size_t)raw->width;
     }
     return true;
 }
@@ -259,24 +311,29 @@ static bool emit_mapped(CpsiRaw *raw, const CpsSet *set, const double *x, const 
     const CpsSet *part = set->part[0];
     const int n = set->n;
     const size_t w = (size_t)raw->width;
-    double *y = calloc((size_t)part->n*w, sizeof *y);
+    double *y = calloc((size_t)part->n * w, sizeof *y);
     if (!y) return false;
     for (int i = 0; i < part->n; i++) {
-        double *yi = &y[(size_t)i*w];
+        double *yi = &y[(size_t)i * w];
         switch (set->kind) {
         case CPSI_SET_PREIMAGE:
-            add_product(raw, n, 1, &set->a[(size_t)i*(size_t)n], x, yi);
+            add_product(raw, n, 1, &set->a[(size_t)i * (size_t)n], x, yi);
             add(raw, set->b[i], t, yi);
             break;
         case CPSI_SET_IMAGE: unknown(raw, yi); break;
-        case CPSI_SET_TRANSLATE: add(raw, 1, &x[(size_t)i*w], yi), add(raw, -set->a[i], t, yi); break;
-        default: add(raw, 1/set->scalar, &x[(size_t)i*w], yi); break; /* scale by a factor other than 0 */
+        case CPSI_SET_TRANSLATE:
+            add(raw, 1, &x[(size_t)i * w], yi);
+            add(raw, -set->a[i], t, yi);
+            break;
+        default:
+            add(raw, 1 / set->scalar, &x[(size_t)i * w], yi);
+            break; /* scale by a factor other than 0 */
         }
     }
     for (int i = 0; set->kind == CPSI_SET_IMAGE && i < n; i++) {
         double *equation = cpsi_raw_equation(raw);
-        balance(raw, -1, &x[(size_t)i*w], equation);
-        add_product(raw, part->n, 1, &set->a[(size_t)i*(size_t)part->n], y, equation);
+        balance(raw, -1, &x[(size_t)i * w], equation);
+        add_product(raw, part->n, 1, &set->a[(size_t)i * (size_t)part->n], y, equation);
     }
     const bool done = cpsi_raw_emit(raw, part, y, t);
     free(y);
@@ -289,30 +346,38 @@ static bool emit_sum(CpsiRaw *raw, const CpsSet *set, const double *x, const dou
     int most = n; /* components of a part */
     for (int k = 1; k < set->count; k++)
         if (is_carried(set, k) && set->part[k]->part[0]->n > most) most = set->part[k]->part[0]->n;
-    const size_t w = (size_t)raw->width, each = ((size_t)most + 1)*w;
-    double *parts = calloc((size_t)set->count*each, sizeof *parts), *last = parts ? parts + (size_t)most*w : NULL;
+    const size_t w = (size_t)raw->width, each = ((size_t)most + 1) * w;
+    double *parts = calloc((size_t)set->count * each, sizeof *parts),
+           *last = parts ? parts + (size_t)most * w : NULL;
     if (!parts) return false;
     /* X_k or y_k, and t_k, are new unknowns but for the first, which is what is left */
-    memcpy(parts, x, (size_t)n*w*sizeof *x);
-    memcpy(last, t, w*sizeof *t);
+    memcpy(parts, x, (size_t)n * w * sizeof *x);
+    memcpy(last, t, w * sizeof *t);
     for (int k = 1; k < set->count; k++) {
-        double *part = &parts[(size_t)k*each], *share = &last[(size_t)k*each];
+        double *part = &parts[(size_t)k * each], *share = &last[(size_t)k * each];
         const CpsSet *of = set->part[k];
         const int m = is_carried(set, k) ? of->part[0]->n : n;
-        for (int i = 0; i < m; i++) unknown(raw, &part[(size_t)i*w]);
+        for (int i = 0; i < m; i++) unknown(raw, &part[(size_t)i * w]);
         for (int i = 0; i < n; i++) {
-            double *rest = &parts[(size_t)i*w];
-            if (is_carried(set, k)) add_product(raw, m, -1, &of->a[(size_t)i*(size_t)m], part, rest);
-            else add(raw, -1, &part[(size_t)i*w], rest);
+            double *rest = &parts[(size_t)i * w];
+            if (is_carried(set, k))
+                add_product(raw, m, -1, &of->a[(size_t)i * (size_t)m], part, rest);
+            else
+                add(raw, -1, &part[(size_t)i * w], rest);
         }
-        if (hull) unknown(raw, share), add(raw, -1, share, last);
-        else add(raw, 1, t, share);
+        if (hull) {
+            unknown(raw, share);
+            add(raw, -1, share, last);
+        } else {
+            add(raw, 1, t, share);
+        }
     }
     bool done = true;
     for (int k = 0; done && k < set->count; k++) {
-        const double *share = &last[(size_t)k*each];
+        const double *share = &last[(size_t)k * each];
         if (hull) add(raw, 1, share, cpsi_raw_cone(raw, 1));
-        done = cpsi_raw_emit(raw, is_carried(set, k) ? set->part[k]->part[0] : set->part[k], &parts[(size_t)k*each], share);
+        done = cpsi_raw_emit(raw, is_carried(set, k) ? set->part[k]->part[0] : set->part[k],
+                             &parts[(size_t)k * each], share);
     }
     free(parts);
     return done;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* From rows to the reduced form (form.h): the equations are eliminated by an orthonormal basis of their null space, the
- * unknowns that no cone sees become lines of the set or vanish, and the rest is brought to size one. */
+/* From rows to the reduced form (form.h): the equations are eliminated by an orthonormal basis of
+ * their null space, the unknowns that no cone sees become lines of the set or vanish, and the rest
+ * is brought to size one. */
 #include "set/form.h"
 
 #include <math.h>
@@ -22,17 +23,21 @@ static const double NOISE = 1e-11;
 
 CpsStatus cpsi_raw_new(CpsiCount count, int used, CpsiRaw **out, CpsError *err) {
     const size_t width = count.unknowns + 1, high = count.equations + count.rows + 1;
-    if (count.unknowns > MOST_UNKNOWNS || high > MOST_NUMBERS/width)
+    if (count.unknowns > MOST_UNKNOWNS || high > MOST_NUMBERS / width)
         return cpsi_fail(err, CPS_ERR_LIMIT,
-                         "the set's conic form has %zu unknowns and %zu rows; at most %zu unknowns and %zu numbers "
-                         "are solved for: use fewer parts or points",
+                         "the set's conic form has %zu unknowns and %zu rows; at most %zu unknowns "
+                         "and %zu numbers are solved for: use fewer parts or points",
                          count.unknowns, high, MOST_UNKNOWNS, MOST_NUMBERS);
     CpsiRaw *raw = calloc(1, sizeof *raw);
     if (!raw) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");
-    *raw = (CpsiRaw){.unknowns = (int)count.unknowns, .width = (int)width, .next = used,
-                     .max_equations = (int)count.equations, .max_rows = (int)count.rows, .max_cones = (int)count.cones};
-    raw->equation = calloc(count.equations*width + 1, sizeof(double));
-    raw->row = calloc(count.rows*width + 1, sizeof(double));
+    *raw = (CpsiRaw){.unknowns = (int)count.unknowns,
+                     .width = (int)width,
+                     .next = used,
+                     .max_equations = (int)count.equations,
+                     .max_rows = (int)count.rows,
+                     .max_cones = (int)count.cones};
+    raw->equation = calloc(count.equations * width + 1, sizeof(double));
+    raw->row = calloc(count.rows * width + 1, sizeof(double));
     raw->dim = calloc(count.cones + 1, sizeof(int));
     if (!raw->equation || !raw->row || !raw->dim) {
         cpsi_raw_free(raw);
@@ -50,10 +55,12 @@ void cpsi_raw_free(CpsiRaw *raw) {
     free(raw);
 }
 
-double *cpsi_raw_equation(CpsiRaw *raw) { return &raw->equation[(size_t)raw->equations++*(size_t)raw->width]; }
+double *cpsi_raw_equation(CpsiRaw *raw) {
+    return &raw->equation[(size_t)raw->equations++ * (size_t)raw->width];
+}
 
 double *cpsi_raw_cone(CpsiRaw *raw, int dim) {
-    double *rows = &raw->row[(size_t)raw->rows*(size_t)raw->width];
+    double *rows = &raw->row[(size_t)raw->rows * (size_t)raw->width];
     raw->dim[raw->cones++] = dim;
     raw->rows += dim;
     return rows;
@@ -65,69 +72,74 @@ double *cpsi_raw_cone(CpsiRaw *raw, int dim) {
 typedef struct Work {
     double *equation, *rhs; /* the equations, made orthonormal, completed (unknowns, unknowns) */
     double *start;          /* (unknowns) a solution of the equations */
-    double *rows, *map;     /* rows and x over what is left, affine (rows, left + 1), (n, left + 1) */
-    double *span;           /* orthonormal basis of what the rows see, completed */
-    double *lines;          /* (lines + left, n) */
-    double *reach;          /* (n) size of the rows of x before */
-    double length;          /* largest constant of a row of size one */
+    double *rows, *map; /* rows and x over what is left, affine (rows, left + 1), (n, left + 1) */
+    double *span;       /* orthonormal basis of what the rows see, completed */
+    double *lines;      /* (lines + left, n) */
+    double *reach;      /* (n) size of the rows of x before */
+    double length;      /* largest constant of a row of size one */
 } Work;
 
 static void lay_work(CpsiArena *arena, Work *work, const CpsiRaw *raw, int n, int lines) {
     const size_t u = (size_t)raw->unknowns, w = u + 1;
     const size_t equations = raw->equations > raw->unknowns ? (size_t)raw->equations : u;
     const size_t rows = raw->rows > raw->unknowns ? (size_t)raw->rows : u;
-    work->equation = CPSI_TAKE(arena, equations*u, double);
+    work->equation = CPSI_TAKE(arena, equations * u, double);
     work->rhs = CPSI_TAKE(arena, equations, double);
     work->start = CPSI_TAKE(arena, u, double);
-    work->rows = CPSI_TAKE(arena, (size_t)raw->rows*w, double);
-    work->map = CPSI_TAKE(arena, (size_t)n*w, double);
+    work->rows = CPSI_TAKE(arena, (size_t)raw->rows * w, double);
+    work->map = CPSI_TAKE(arena, (size_t)n * w, double);
     work->reach = CPSI_TAKE(arena, n, double);
-    work->span = CPSI_TAKE(arena, rows*u, double);
-    work->lines = CPSI_TAKE(arena, ((size_t)lines + u)*(size_t)n, double);
+    work->span = CPSI_TAKE(arena, rows * u, double);
+    work->lines = CPSI_TAKE(arena, ((size_t)lines + u) * (size_t)n, double);
 }
 
-/* Rows (count, from + 1) over v rewritten over t, v = start + basis' t, basis (to, from); basis NULL is the
- * identity. */
-static void substitute(int count, int from, int to, const double *start, const double *basis, const double *in,
-                       double *out) {
+/* Rows (count, from + 1) over v rewritten over t, v = start + basis' t, basis (to, from); basis
+ * NULL is the identity. */
+static void substitute(int count, int from, int to, const double *start, const double *basis,
+                       const double *in, double *out) {
     for (int i = 0; i < count; i++) {
-        const double *row = &in[(size_t)i*((size_t)from + 1)];
-        double *image = &out[(size_t)i*((size_t)to + 1)];
+        const double *row = &in[(size_t)i * ((size_t)from + 1)];
+        double *image = &out[(size_t)i * ((size_t)to + 1)];
         const double constant = row[from] + (start ? cpsi_dot(from, row, start) : 0);
-        for (int j = 0; j < to; j++) image[j] = basis ? cpsi_dot(from, row, &basis[(size_t)j*(size_t)from]) : row[j];
+        for (int j = 0; j < to; j++)
+            image[j] = basis ? cpsi_dot(from, row, &basis[(size_t)j * (size_t)from]) : row[j];
         image[to] = constant;
     }
 }
 
-/* Solve the equations: start, and in the rows from the rank on a basis of what they leave free. Returns the rank, or
- * -1. */
+/* Solve the equations: start, and in the rows from the rank on a basis of what they leave free.
+ * Returns the rank, or -1. */
 static int eliminate(const CpsiRaw *raw, Work *work, double tolerance) {
     const int u = raw->unknowns;
     double largest = 0, noise = 0;
     for (int i = 0; i < raw->equations; i++) {
-        const double *row = &raw->equation[(size_t)i*(size_t)raw->width];
-        memcpy(&work->equation[(size_t)i*(size_t)u], row, (size_t)u*sizeof *row);
+        const double *row = &raw->equation[(size_t)i * (size_t)raw->width];
+        memcpy(&work->equation[(size_t)i * (size_t)u], row, (size_t)u * sizeof *row);
         work->rhs[i] = -row[u];
         const double size = cpsi_norm(u, row);
-        noise = fmax(noise, ROUNDING*raw->constant/(size > 0 ? size : 1));
-        if (size > 0) largest = fmax(largest, fabs(row[u])/size);
-        else if (fabs(row[u]) > noise) return -1;
+        noise = fmax(noise, ROUNDING * raw->constant / (size > 0 ? size : 1));
+        if (size > 0)
+            largest = fmax(largest, fabs(row[u]) / size);
+        else if (fabs(row[u]) > noise)
+            return -1;
     }
     for (int k = 0, i = 0; k < raw->cones; k++) {
         double size = 0, constant = 0;
         for (int r = 0; r < raw->dim[k]; r++, i++) {
-            const double *row = &raw->row[(size_t)i*(size_t)raw->width];
-            size = fmax(size, cpsi_norm(u, row)), constant = fmax(constant, fabs(row[u]));
+            const double *row = &raw->row[(size_t)i * (size_t)raw->width];
+            size = fmax(size, cpsi_norm(u, row));
+            constant = fmax(constant, fabs(row[u]));
         }
-        if (size > 0) largest = fmax(largest, constant/size);
+        if (size > 0) largest = fmax(largest, constant / size);
     }
     work->length = largest;
     const int rank = cpsi_orthonormal_rows(raw->equations, u, work->equation, work->rhs, tolerance);
     for (int i = rank; i < raw->equations; i++)
-        if (fabs(work->rhs[i]) > CONTRADICTION*largest + noise) return -1;
-    memset(work->start, 0, (size_t)u*sizeof *work->start);
+        if (fabs(work->rhs[i]) > CONTRADICTION * largest + noise) return -1;
+    memset(work->start, 0, (size_t)u * sizeof *work->start);
     for (int k = 0; k < rank; k++)
-        for (int j = 0; j < u; j++) work->start[j] += work->rhs[k]*work->equation[(size_t)k*(size_t)u + (size_t)j];
+        for (int j = 0; j < u; j++)
+            work->start[j] += work->rhs[k] * work->equation[(size_t)k * (size_t)u + (size_t)j];
     if (rank > 0) cpsi_complete_rows(rank, u, work->equation);
     return rank;
 }
@@ -138,15 +150,15 @@ CpsiForm *cpsi_form_new(int n, int unknowns, int lines, int rows, int cones) {
     const size_t nn = (size_t)n, u = (size_t)unknowns, m = (size_t)rows;
     *form = (CpsiForm){.n = n, .unknowns = unknowns, .lines = lines, .size = 1};
     form->dim = calloc((size_t)cones + 1, sizeof(int));
-    form->origin = calloc(nn + nn*u + nn*(size_t)lines + m*u + m + 1, sizeof(double));
+    form->origin = calloc(nn + nn * u + nn * (size_t)lines + m * u + m + 1, sizeof(double));
     if (!form->dim || !form->origin) {
         cpsi_form_free(form);
         return NULL;
     }
     form->p = form->origin + n;
-    form->q = form->p + nn*u;
-    form->a = form->q + nn*(size_t)lines;
-    form->b = form->a + m*u;
+    form->q = form->p + nn * u;
+    form->a = form->q + nn * (size_t)lines;
+    form->b = form->a + m * u;
     return form;
 }
 
@@ -161,33 +173,37 @@ void cpsi_form_free(CpsiForm *form) {
 static bool constant_holds(const double *rows, int dim, int left, double slack) {
     const size_t w = (size_t)left + 1;
     double r = 0;
-    for (int i = 1; i < dim; i++) r = hypot(r, rows[(size_t)i*w + (size_t)left]);
+    for (int i = 1; i < dim; i++) r = hypot(r, rows[(size_t)i * w + (size_t)left]);
     return rows[left] - r >= -slack;
 }
 
 /* Copy the cones that see an unknown, each brought to size one, and measure v. */
-static void take_cones(const CpsiRaw *raw, int left, const double *rows, double length, CpsiForm *form) {
+static void take_cones(const CpsiRaw *raw, int left, const double *rows, double length,
+                       CpsiForm *form) {
     const size_t w = (size_t)left + 1;
     double size = 0;
     for (int k = 0, i = 0; k < raw->cones; i += raw->dim[k++]) {
         const int d = raw->dim[k];
         double most = 0, shift = 0, before = 0;
         for (int r = i; r < i + d; r++) {
-            before = fmax(before, cpsi_norm(raw->unknowns, &raw->row[(size_t)r*(size_t)raw->width]));
-            most = fmax(most, cpsi_norm(left, &rows[(size_t)r*w]));
-            shift = fmax(shift, fabs(rows[(size_t)r*w + (size_t)left]));
+            before =
+                fmax(before, cpsi_norm(raw->unknowns, &raw->row[(size_t)r * (size_t)raw->width]));
+            most = fmax(most, cpsi_norm(left, &rows[(size_t)r * w]));
+            shift = fmax(shift, fabs(rows[(size_t)r * w + (size_t)left]));
         }
         /* what elimination leaves of a row beside this is its rounding */
-        if (!(most > NOISE*before)) {
-            if (!constant_holds(&rows[(size_t)i*w], d, left, CONTRADICTION*before*length)) form->empty = true;
+        if (!(most > NOISE * before)) {
+            if (!constant_holds(&rows[(size_t)i * w], d, left, CONTRADICTION * before * length))
+                form->empty = true;
             continue;
         }
         form->dim[form->cones++] = d;
         if (d > form->largest_cone) form->largest_cone = d;
-        size = fmax(size, shift/most);
+        size = fmax(size, shift / most);
         for (int r = i; r < i + d; r++, form->rows++) {
-            for (int j = 0; j < left; j++) form->a[form->rows*left + j] = rows[(size_t)r*w + (size_t)j]/most;
-            form->b[form->rows] = rows[(size_t)r*w + (size_t)left]/most;
+            for (int j = 0; j < left; j++)
+                form->a[form->rows * left + j] = rows[(size_t)r * w + (size_t)j] / most;
+            form->b[form->rows] = rows[(size_t)r * w + (size_t)left] / most;
         }
     }
     form->size = size > 0 ? size : 1;
@@ -195,71 +211,74 @@ static void take_cones(const CpsiRaw *raw, int left, const double *rows, double 
 }
 
 /* The form over the unknowns t that are left, rows and map affine in them. */
-static CpsiForm *assemble(const CpsiRaw *raw, int n, int left, int lines, const double *rows, const double *map,
-                          const double *q, double length) {
+static CpsiForm *assemble(const CpsiRaw *raw, int n, int left, int lines, const double *rows,
+                          const double *map, const double *q, double length) {
     CpsiForm *form = cpsi_form_new(n, left, lines, raw->rows, raw->cones);
     if (!form) return NULL;
     take_cones(raw, left, rows, length, form);
-    memcpy(form->q, q, (size_t)lines*(size_t)n*sizeof *q);
+    memcpy(form->q, q, (size_t)lines * (size_t)n * sizeof *q);
     for (int i = 0; i < n; i++) {
-        form->origin[i] = map[(size_t)i*((size_t)left + 1) + (size_t)left];
-        if (fabs(form->origin[i]) < ROUNDING*raw->constant) form->origin[i] = 0;
+        form->origin[i] = map[(size_t)i * ((size_t)left + 1) + (size_t)left];
+        if (fabs(form->origin[i]) < ROUNDING * raw->constant) form->origin[i] = 0;
         for (int j = 0; j < left; j++)
-            form->p[(size_t)i*(size_t)left + (size_t)j] = map[(size_t)i*((size_t)left + 1) + (size_t)j]*form->size;
+            form->p[(size_t)i * (size_t)left + (size_t)j] =
+                map[(size_t)i * ((size_t)left + 1) + (size_t)j] * form->size;
     }
     /* what moves along a line need not be said twice */
     for (int l = 0; l < lines; l++)
         for (int j = -1; j < left; j++) {
             double *column = j < 0 ? form->origin : &form->p[j], along = 0;
             const size_t step = j < 0 ? 1 : (size_t)left;
-            for (int i = 0; i < n; i++) along += q[l*n + i]*column[(size_t)i*step];
-            for (int i = 0; i < n; i++) column[(size_t)i*step] -= along*q[l*n + i];
+            for (int i = 0; i < n; i++) along += q[l * n + i] * column[(size_t)i * step];
+            for (int i = 0; i < n; i++) column[(size_t)i * step] -= along * q[l * n + i];
         }
     return form;
 }
 
-/* The unknowns that the rows see, as an orthonormal basis in work->span, and the lines of x that the others make.
- * Returns how many are seen; *lines grows. */
+/* The unknowns that the rows see, as an orthonormal basis in work->span, and the lines of x that
+ * the others make. Returns how many are seen; *lines grows. */
 static int split(const CpsiRaw *raw, int n, int left, Work *work, int *lines) {
     const size_t l = (size_t)left, w = l + 1;
     for (int i = 0; i < n; i++) {
-        double *row = &work->map[(size_t)i*w];
-        if (!(cpsi_norm(left, row) > NOISE*work->reach[i])) memset(row, 0, l*sizeof *row);
+        double *row = &work->map[(size_t)i * w];
+        if (!(cpsi_norm(left, row) > NOISE * work->reach[i])) memset(row, 0, l * sizeof *row);
     }
     for (int i = 0; i < raw->rows; i++) {
-        double *row = &work->rows[(size_t)i*w];
-        const double before = cpsi_norm(raw->unknowns, &raw->row[(size_t)i*(size_t)raw->width]);
-        if (!(cpsi_norm(left, row) > NOISE*before)) memset(row, 0, l*sizeof *row);
+        double *row = &work->rows[(size_t)i * w];
+        const double before = cpsi_norm(raw->unknowns, &raw->row[(size_t)i * (size_t)raw->width]);
+        if (!(cpsi_norm(left, row) > NOISE * before)) memset(row, 0, l * sizeof *row);
         /* what a row has left is told from rounding by what it was */
-        for (size_t j = 0; j < l; j++) work->span[(size_t)i*l + j] = before > 0 ? row[j]/before : 0;
+        for (size_t j = 0; j < l; j++)
+            work->span[(size_t)i * l + j] = before > 0 ? row[j] / before : 0;
     }
     const int seen = cpsi_orthonormal_span(raw->rows, left, work->span, NULL, NOISE);
     if (seen == left) return seen;
     cpsi_complete_rows(seen, left, work->span);
     for (int k = seen; k < left; k++) {
-        double *line = &work->lines[(size_t)*lines*(size_t)n];
+        double *line = &work->lines[(size_t)*lines * (size_t)n];
         double most = 0;
         for (int i = 0; i < n; i++) {
-            const double *map = &work->map[(size_t)i*w];
-            line[i] = cpsi_dot(left, map, &work->span[(size_t)k*l]);
+            const double *map = &work->map[(size_t)i * w];
+            line[i] = cpsi_dot(left, map, &work->span[(size_t)k * l]);
             most = fmax(most, cpsi_norm(left, map));
         }
-        if (cpsi_norm(n, line) > NOISE*most) ++*lines;
+        if (cpsi_norm(n, line) > NOISE * most) ++*lines;
     }
     *lines = cpsi_orthonormal_rows(*lines, n, work->lines, NULL, NOISE);
     return seen;
 }
 
-CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines, const double *q, double tolerance,
-                           CpsiForm **out, CpsError *err) {
+CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines, const double *q,
+                           double tolerance, CpsiForm **out, CpsError *err) {
     CpsiArena arena = {0};
     Work work;
     lay_work(&arena, &work, raw, n, lines);
-    if (!cpsi_arena_allocate(&arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");
+    if (!cpsi_arena_allocate(&arena))
+        return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");
     lay_work(&arena, &work, raw, n, lines);
 
     CpsiForm *form;
-    if (lines > 0) memcpy(work.lines, q, (size_t)lines*(size_t)n*sizeof *q);
+    if (lines > 0) memcpy(work.lines, q, (size_t)lines * (size_t)n * sizeof *q);
     const int u = raw->unknowns, rank = eliminate(raw, &work, tolerance);
     if (rank < 0) {
         form = cpsi_form_new(n, 0, 0, 0, 0);
@@ -267,18 +286,21 @@ CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines
     } else {
         /* over what the equations leave free, then over what the cones see of it */
         const int left = u - rank;
-        const double *basis = rank > 0 ? &work.equation[(size_t)rank*(size_t)u] : NULL;
+        const double *basis = rank > 0 ? &work.equation[(size_t)rank * (size_t)u] : NULL;
         substitute(raw->rows, u, left, work.start, basis, raw->row, work.rows);
         substitute(n, u, left, work.start, basis, x, work.map);
-        for (int i = 0; i < n; i++) work.reach[i] = cpsi_norm(u, &x[(size_t)i*(size_t)raw->width]);
+        for (int i = 0; i < n; i++)
+            work.reach[i] = cpsi_norm(u, &x[(size_t)i * (size_t)raw->width]);
         const int seen = split(raw, n, left, &work, &lines);
         if (seen < left) { /* the narrower rows lie before the ones still to be read */
             double *scratch = work.start;
             for (int part = 0; part < 2; part++) {
                 double *rows = part ? work.map : work.rows;
                 for (int i = 0; i < (part ? n : raw->rows); i++) {
-                    substitute(1, left, seen, NULL, work.span, &rows[(size_t)i*((size_t)left + 1)], scratch);
-                    memcpy(&rows[(size_t)i*((size_t)seen + 1)], scratch, ((size_t)seen + 1)*sizeof *rows);
+                    substitute(1, left, seen, NULL, work.span,
+                               &rows[(size_t)i * ((size_t)left + 1)], scratch);
+                    memcpy(&rows[(size_t)i * ((size_t)seen + 1)], scratch,
+                           ((size_t)seen + 1) * sizeof *rows);
                 }
             }
         }

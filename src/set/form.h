@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The conic form of a set and the solver on it.
  *
- * Every expression without user's sets is  { x : exists y, E (x, y) = e, A (x, y) + b in K },  K a product of
- * half-lines and second-order cones, built node by node (emit.c): "X in t C" for affine X and t of the unknowns is a
- * list of rows for each kind of C. Eliminating the equations by an orthonormal basis of their null space leaves the
- * reduced form
+ * Every expression without user's sets is  { x : exists y, E (x, y) = e, A (x, y) + b in K },  K a
+ * product of half-lines and second-order cones, built node by node (emit.c): "X in t C" for affine
+ * X and t of the unknowns is a list of rows for each kind of C. Eliminating the equations by an
+ * orthonormal basis of their null space leaves the reduced form
  *
  *     C = { origin + P v + Q' l :  A v + b in K },     A of full column rank, l free,
  *
@@ -18,9 +18,9 @@
 
 /* Reduced form; one block of memory. */
 typedef struct CpsiForm {
-    int n;          /* of x */
-    int unknowns;   /* of v */
-    int lines;      /* rows of Q: directions in which the set is a line, whatever v */
+    int n;        /* of x */
+    int unknowns; /* of v */
+    int lines;    /* rows of Q: directions in which the set is a line, whatever v */
     int rows, cones, largest_cone;
     bool empty;     /* the equations contradict each other */
     int *dim;       /* (cones) */
@@ -31,16 +31,16 @@ typedef struct CpsiForm {
     double size;    /* v is in units of this length */
 } CpsiForm;
 
-/* Rows over unknowns (x, y), while an expression is being written out. An affine expression is `width` numbers: the
- * coefficients of the unknowns and then the constant. */
+/* Rows over unknowns (x, y), while an expression is being written out. An affine expression is
+ * `width` numbers: the coefficients of the unknowns and then the constant. */
 typedef struct CpsiRaw {
-    int unknowns, width;         /* width = unknowns + 1 */
-    int equations, rows, cones;  /* written so far */
-    int next;                    /* first unknown not yet used */
-    double *equation;            /* (equations, width) = 0 */
-    double *row;                 /* (rows, width) in K */
-    int *dim;                    /* (cones) */
-    double constant;             /* largest one that went into an equation, before others cancelled it */
+    int unknowns, width;        /* width = unknowns + 1 */
+    int equations, rows, cones; /* written so far */
+    int next;                   /* first unknown not yet used */
+    double *equation;           /* (equations, width) = 0 */
+    double *row;                /* (rows, width) in K */
+    int *dim;                   /* (cones) */
+    double constant; /* largest one that went into an equation, before others cancelled it */
     int max_equations, max_rows, max_cones;
 } CpsiRaw;
 
@@ -51,21 +51,22 @@ typedef struct CpsiCount {
 
 /* Add what the rows of a set need. */
 void cpsi_raw_count(const CpsSet *set, CpsiCount *count);
-/* Room for `count`, CPS_ERR_LIMIT where it is beyond what a dense solver should be asked; the first `used` unknowns are
- * the caller's. */
+/* Room for `count`, CPS_ERR_LIMIT where it is beyond what a dense solver should be asked; the first
+ * `used` unknowns are the caller's. */
 CpsStatus cpsi_raw_new(CpsiCount count, int used, CpsiRaw **out, CpsError *err);
 void cpsi_raw_free(CpsiRaw *raw);
 /* The next equation; the next cone's rows, `dim` of them; all zero. */
 double *cpsi_raw_equation(CpsiRaw *raw);
 double *cpsi_raw_cone(CpsiRaw *raw, int dim);
-/* Write "X in t set": X (set's n, width) and t (width) affine; the closure at t = 0. False: no memory. */
+/* Write "X in t set": X (set's n, width) and t (width) affine; the closure at t = 0. False: no
+ * memory. */
 bool cpsi_raw_emit(CpsiRaw *raw, const CpsSet *set, const double *x, const double *t);
 
-/* The reduced form of { x (n, width) : the rows }. A row of the equations counts as dependent when no more than the
- * share `tolerance` of it is left by the others. `lines` more rows q (lines, n) or NULL are directions known to be
- * lines. */
-CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines, const double *q, double tolerance,
-                           CpsiForm **out, CpsError *err);
+/* The reduced form of { x (n, width) : the rows }. A row of the equations counts as dependent when
+ * no more than the share `tolerance` of it is left by the others. `lines` more rows q (lines, n) or
+ * NULL are directions known to be lines. */
+CpsStatus cpsi_form_reduce(const CpsiRaw *raw, int n, const double *x, int lines, const double *q,
+                           double tolerance, CpsiForm **out, CpsError *err);
 /* The reduced form of a set; the caller frees it (form_make.c). */
 CpsStatus cpsi_form_make(const CpsSet *set, CpsiForm **out, CpsError *err);
 /* A form of zeros with room for so many unknowns, lines, rows and cones; NULL: no memory. */
@@ -76,27 +77,31 @@ void cpsi_form_free(CpsiForm *form);
 typedef struct CpsiSolution {
     CpsSetOutcome outcome; /* ANSWERED, EMPTY, UNBOUNDED (x is a ray with <c, x> < 0), INACCURATE */
     double value, gap;
-    double scale;          /* z belongs to the objective c/scale */
-    double *x;             /* (n) */
-    double *v;             /* (unknowns) */
-    double *s, *z;         /* (rows) */
+    double scale;  /* z belongs to the objective c/scale */
+    double *x;     /* (n) */
+    double *v;     /* (unknowns) */
+    double *s, *z; /* (rows) */
     void *block;
 } CpsiSolution;
-CpsStatus cpsi_form_minimise(const CpsiForm *form, const double *c, CpsiSolution *solution, CpsError *err);
+CpsStatus cpsi_form_minimise(const CpsiForm *form, const double *c, CpsiSolution *solution,
+                             CpsError *err);
 void cpsi_solution_free(CpsiSolution *solution);
-/* Make the outcome CPS_SET_NOT_ATTAINED where the point that attains the value is too far away to be one. */
+/* Make the outcome CPS_SET_NOT_ATTAINED where the point that attains the value is too far away to
+ * be one. */
 void cpsi_judge_attained(const CpsiForm *form, const double *c, CpsiSolution *solution);
 
-/* The solver's z are this sure: sqrt of its complementarity. No smaller angle is told from 0 on a conic form. */
+/* The solver's z are this sure: sqrt of its complementarity. No smaller angle is told from 0 on a
+ * conic form. */
 #define CPSI_LEAST_ANGLE 3e-8
-/* Equations of a face that differ by less than this share are one: the directions of z are known that well. */
+/* Equations of a face that differ by less than this share are one: the directions of z are known
+ * that well. */
 #define CPSI_SAME_EQUATION 1e-7
-/* The part of the form on the face of its cones that the multipliers z of `at` select, each known to `angle`, written round the
- * point with s and x (restrict.c). */
-CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, double angle, CpsiForm **out,
-                             CpsError *err);
-/* Replace a form without interior by one over the faces of its cones that it lies in; *touching becomes true then
- * (touching.c). */
+/* The part of the form on the face of its cones that the multipliers z of `at` select, each known
+ * to `angle`, written round the point with s and x (restrict.c). */
+CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, double angle,
+                             CpsiForm **out, CpsError *err);
+/* Replace a form without interior by one over the faces of its cones that it lies in; *touching
+ * becomes true then (touching.c). */
 CpsStatus cpsi_form_deepen(CpsiForm **form, bool *touching, CpsError *err);
 
 #endif

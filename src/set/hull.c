@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The hull of points: its span, then its facets in coordinates of the span (hull.h); projection, margin and gauge from these. */
+/* The hull of points: its span, then its facets in coordinates of the span (hull.h); projection,
+ * margin and gauge from these. */
 #include "set/hull.h"
 
 #include <math.h>
@@ -10,7 +11,8 @@
 
 /* Points nearer to the span of others than this share of the size lie in it. */
 static const double FLAT = 1e-12;
-/* A corner nearer to the line of its neighbours than this share of the size is none: rounding of its coordinates. */
+/* A corner nearer to the line of its neighbours than this share of the size is none: rounding of
+ * its coordinates. */
 static const double STRAIGHT = 4e-15;
 /* Triangles whose corners lie in each other's planes to this share of the size are one facet. */
 static const double ONE_FACET = 1e-11;
@@ -37,9 +39,10 @@ static int chain(int count, const double *c, const int *order, int step, double 
     for (int k = 0; k < count; k++) {
         const int next = order[step > 0 ? k : count - 1 - k];
         for (; top >= 2; top--) {
-            const double *p = &c[2*corner[top - 2]], *q = &c[2*corner[top - 1]], *r = &c[2*next];
+            const double *p = &c[2 * corner[top - 2]], *q = &c[2 * corner[top - 1]],
+                         *r = &c[2 * next];
             const double u[2] = {q[0] - p[0], q[1] - p[1]}, v[2] = {r[0] - p[0], r[1] - p[1]};
-            if (u[0]*v[1] - u[1]*v[0] > STRAIGHT*size*hypot(v[0], v[1])) break;
+            if (u[0] * v[1] - u[1] * v[0] > STRAIGHT * size * hypot(v[0], v[1])) break;
         }
         corner[top++] = next;
     }
@@ -47,9 +50,9 @@ static int chain(int count, const double *c, const int *order, int step, double 
 }
 
 int cpsi_polygon(int count, const double *c, double size, int *order, int *corner) {
-    Sorted *sorted = malloc((size_t)count*sizeof *sorted);
+    Sorted *sorted = malloc((size_t)count * sizeof *sorted);
     if (!sorted) return 0;
-    for (int i = 0; i < count; i++) sorted[i] = (Sorted){c[2*i], c[2*i + 1], i};
+    for (int i = 0; i < count; i++) sorted[i] = (Sorted){c[2 * i], c[2 * i + 1], i};
     qsort(sorted, (size_t)count, sizeof *sorted, by_place);
     for (int i = 0; i < count; i++) order[i] = sorted[i].place;
     free(sorted);
@@ -59,31 +62,35 @@ int cpsi_polygon(int count, const double *c, double size, int *order, int *corne
 
 /* ---- the span ---- */
 
-/* Orthonormal rows of the span of the points, each towards the farthest point left; that point in `start`. More than 3: 4. */
+/* Orthonormal rows of the span of the points, each towards the farthest point left; that point in
+ * `start`. More than 3: 4. */
 static int span(int n, int count, const double *points, double *basis, int start[4], double *size) {
-    double *away = &basis[3*(size_t)n];
+    double *away = &basis[3 * (size_t)n];
     start[0] = 0;
     *size = 0;
     for (int d = 0; d < 4; d++) {
         double most = 0;
         int farthest = -1;
         for (int k = 0; k < count; k++) {
-            for (int i = 0; i < n; i++) away[i] = points[(size_t)k*(size_t)n + (size_t)i] - points[i];
+            for (int i = 0; i < n; i++)
+                away[i] = points[(size_t)k * (size_t)n + (size_t)i] - points[i];
             for (int twice = 0; twice < 2; twice++)
                 for (int j = 0; j < d; j++) {
-                    const double along = cpsi_dot(n, away, &basis[(size_t)j*(size_t)n]);
-                    for (int i = 0; i < n; i++) away[i] -= along*basis[(size_t)j*(size_t)n + (size_t)i];
+                    const double along = cpsi_dot(n, away, &basis[(size_t)j * (size_t)n]);
+                    for (int i = 0; i < n; i++)
+                        away[i] -= along * basis[(size_t)j * (size_t)n + (size_t)i];
                 }
             const double distance = cpsi_norm(n, away);
             if (!(distance > most)) continue;
-            most = distance, farthest = k;
+            most = distance;
+            farthest = k;
             if (d < 3)
-                for (int i = 0; i < n; i++) basis[(size_t)d*(size_t)n + (size_t)i] = away[i];
+                for (int i = 0; i < n; i++) basis[(size_t)d * (size_t)n + (size_t)i] = away[i];
         }
         if (d == 0) *size = most;
-        if (farthest < 0 || !(most > FLAT**size)) return d;
+        if (farthest < 0 || !(most > FLAT * *size)) return d;
         if (d == 3) return 4;
-        for (int i = 0; i < n; i++) basis[(size_t)d*(size_t)n + (size_t)i] /= most;
+        for (int i = 0; i < n; i++) basis[(size_t)d * (size_t)n + (size_t)i] /= most;
         start[d + 1] = farthest;
     }
     return 4;
@@ -93,15 +100,17 @@ static int span(int n, int count, const double *points, double *basis, int start
 
 static CpsiHull *hull_new(int n, int dimension, int rows, int pieces) {
     const size_t w = (size_t)n, d = (size_t)dimension, m = (size_t)rows, normals = w - d;
-    CpsiHull *hull = calloc(1, sizeof *hull + (m*w + m + normals + w*w + w + (size_t)pieces*d*d)*sizeof(double));
+    CpsiHull *hull =
+        calloc(1, sizeof *hull +
+                      (m * w + m + normals + w * w + w + (size_t)pieces * d * d) * sizeof(double));
     if (!hull) return NULL;
     *hull = (CpsiHull){.n = n, .dimension = dimension, .rows = rows, .pieces = pieces};
     hull->row = (double *)(void *)(hull + 1);
-    hull->offset = hull->row + m*w;
+    hull->offset = hull->row + m * w;
     hull->level = hull->offset + m;
     hull->basis = hull->level + normals; /* completed by the normals */
-    hull->normal = hull->basis + d*w;
-    hull->origin = hull->basis + w*w;
+    hull->normal = hull->basis + d * w;
+    hull->origin = hull->basis + w * w;
     hull->piece = hull->origin + w;
     return hull;
 }
@@ -109,24 +118,26 @@ static CpsiHull *hull_new(int n, int dimension, int rows, int pieces) {
 /* The span in place: basis, normals and levels. */
 static void place_span(CpsiHull *hull, const double *points, const double *basis) {
     const size_t n = (size_t)hull->n, d = (size_t)hull->dimension;
-    memcpy(hull->basis, basis, d*n*sizeof *basis);
-    memcpy(hull->origin, points, n*sizeof *points);
+    memcpy(hull->basis, basis, d * n * sizeof *basis);
+    memcpy(hull->origin, points, n * sizeof *points);
     /* a hull that fills the space keeps its axes */
     if (d == n) {
-        memset(hull->basis, 0, n*n*sizeof *basis);
-        for (size_t i = 0; i < n; i++) hull->basis[i*n + i] = 1;
+        memset(hull->basis, 0, n * n * sizeof *basis);
+        for (size_t i = 0; i < n; i++) hull->basis[i * n + i] = 1;
     }
     cpsi_complete_rows(hull->dimension, hull->n, hull->basis);
-    for (size_t i = 0; i < n - d; i++) hull->level[i] = cpsi_dot(hull->n, &hull->normal[i*n], points);
+    for (size_t i = 0; i < n - d; i++)
+        hull->level[i] = cpsi_dot(hull->n, &hull->normal[i * n], points);
 }
 
 /* Row k from a unit normal in coordinates of the span and the largest height of its corners. */
 static void place_row(CpsiHull *hull, int k, const double *normal, double height) {
     const size_t n = (size_t)hull->n;
-    double *row = &hull->row[(size_t)k*n];
+    double *row = &hull->row[(size_t)k * n];
     for (size_t i = 0; i < n; i++) {
         row[i] = 0;
-        for (int j = 0; j < hull->dimension; j++) row[i] += normal[j]*hull->basis[(size_t)j*n + i];
+        for (int j = 0; j < hull->dimension; j++)
+            row[i] += normal[j] * hull->basis[(size_t)j * n + i];
     }
     hull->offset[k] = height + cpsi_dot(hull->n, row, hull->origin);
 }
@@ -138,25 +149,34 @@ static CpsiHull *segment(int n, int count, const double *points, const double *b
     double low = 0, high = 0;
     for (int k = 0; k < count; k++) {
         double along = 0;
-        for (int i = 0; i < n; i++) along += hull->basis[i]*(points[(size_t)k*(size_t)n + (size_t)i] - points[i]);
-        low = fmin(low, along), high = fmax(high, along);
+        for (int i = 0; i < n; i++)
+            along += hull->basis[i] * (points[(size_t)k * (size_t)n + (size_t)i] - points[i]);
+        low = fmin(low, along);
+        high = fmax(high, along);
     }
-    hull->piece[0] = low, hull->piece[1] = high;
-    place_row(hull, 0, (double[]){-1}, -low), place_row(hull, 1, (double[]){1}, high);
+    hull->piece[0] = low;
+    hull->piece[1] = high;
+    place_row(hull, 0, (double[]){-1}, -low);
+    place_row(hull, 1, (double[]){1}, high);
     return hull;
 }
 
 /* Edge by edge. */
-static CpsiHull *polygon(int n, int count, const double *points, const double *basis, const double *c, double size) {
-    int *order = malloc(3*(size_t)count*sizeof *order + 2*sizeof *order), *corner = order ? order + count : NULL;
+static CpsiHull *polygon(int n, int count, const double *points, const double *basis,
+                         const double *c, double size) {
+    int *order = malloc(3 * (size_t)count * sizeof *order + 2 * sizeof *order),
+        *corner = order ? order + count : NULL;
     const int corners = order ? cpsi_polygon(count, c, size, order, corner) : 0;
     CpsiHull *hull = corners > 0 ? hull_new(n, 2, corners, corners) : NULL;
     if (hull) place_span(hull, points, basis);
     for (int k = 0; hull && k < corners; k++) {
-        const double *p = &c[2*corner[k]], *q = &c[2*corner[(k + 1)%corners]], length = hypot(q[0] - p[0], q[1] - p[1]);
-        const double normal[2] = {(q[1] - p[1])/length, (p[0] - q[0])/length};
-        memcpy(&hull->piece[4*k], p, 2*sizeof *p), memcpy(&hull->piece[4*k + 2], q, 2*sizeof *q);
-        place_row(hull, k, normal, fmax(normal[0]*p[0] + normal[1]*p[1], normal[0]*q[0] + normal[1]*q[1]));
+        const double *p = &c[2 * corner[k]], *q = &c[2 * corner[(k + 1) % corners]],
+                     length = hypot(q[0] - p[0], q[1] - p[1]);
+        const double normal[2] = {(q[1] - p[1]) / length, (p[0] - q[0]) / length};
+        memcpy(&hull->piece[4 * k], p, 2 * sizeof *p);
+        memcpy(&hull->piece[4 * k + 2], q, 2 * sizeof *q);
+        place_row(hull, k, normal,
+                  fmax(normal[0] * p[0] + normal[1] * p[1], normal[0] * q[0] + normal[1] * q[1]));
     }
     free(order);
     return hull;
@@ -168,43 +188,53 @@ static int root_of(int *root, int t) {
 }
 
 static double over(const CpsiTriangle *t, const double *x) {
-    return t->normal[0]*x[0] + t->normal[1]*x[1] + t->normal[2]*x[2] - t->offset;
+    return t->normal[0] * x[0] + t->normal[1] * x[1] + t->normal[2] * x[2] - t->offset;
 }
 
 static double area_of(const CpsiTriangle *t, const double *c) {
-    const double *x = &c[3*t->corner[0]], *y = &c[3*t->corner[1]], *z = &c[3*t->corner[2]];
-    const double u[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]}, v[3] = {z[0] - x[0], z[1] - x[1], z[2] - x[2]};
-    return hypot(hypot(u[1]*v[2] - u[2]*v[1], u[2]*v[0] - u[0]*v[2]), u[0]*v[1] - u[1]*v[0]);
+    const double *x = &c[3 * t->corner[0]], *y = &c[3 * t->corner[1]], *z = &c[3 * t->corner[2]];
+    const double u[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]},
+                 v[3] = {z[0] - x[0], z[1] - x[1], z[2] - x[2]};
+    return hypot(hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]),
+                 u[0] * v[1] - u[1] * v[0]);
 }
 
 /* Which triangles make one facet: the root of each is the largest of them. */
-static void join_facets(int triangles, const CpsiTriangle *triangle, const double *c, double size, int *root) {
+static void join_facets(int triangles, const CpsiTriangle *triangle, const double *c, double size,
+                        int *root) {
     for (int t = 0; t < triangles; t++) root[t] = t;
     for (int t = 0; t < triangles; t++)
         for (int e = 0; !triangle[t].gone && e < 3; e++) {
             const CpsiTriangle *one = &triangle[t], *other = &triangle[one->neighbour[e]];
             double off = 0;
             for (int k = 0; k < 3; k++)
-                off = fmax(off, fmax(fabs(over(one, &c[3*other->corner[k]])), fabs(over(other, &c[3*one->corner[k]]))));
+                off = fmax(off, fmax(fabs(over(one, &c[3 * other->corner[k]])),
+                                     fabs(over(other, &c[3 * one->corner[k]]))));
             const int a = root_of(root, t), b = root_of(root, one->neighbour[e]);
-            if (off > ONE_FACET*size || a == b) continue;
-            if (area_of(&triangle[a], c) >= area_of(&triangle[b], c)) root[b] = a;
-            else root[a] = b;
+            if (off > ONE_FACET * size || a == b) continue;
+            if (area_of(&triangle[a], c) >= area_of(&triangle[b], c))
+                root[b] = a;
+            else
+                root[a] = b;
         }
 }
 
-static CpsiHull *polyhedron(int n, const double *points, const double *basis, const double *c, double size,
-                            int triangles, const CpsiTriangle *triangle) {
-    int *root = malloc((size_t)triangles*sizeof *root), rows = 0, pieces = 0;
+static CpsiHull *polyhedron(int n, const double *points, const double *basis, const double *c,
+                            double size, int triangles, const CpsiTriangle *triangle) {
+    int *root = malloc((size_t)triangles * sizeof *root), rows = 0, pieces = 0;
     if (!root) return NULL;
     join_facets(triangles, triangle, c, size, root);
     for (int t = 0; t < triangles; t++)
-        if (!triangle[t].gone) pieces++, rows += root_of(root, t) == t;
+        if (!triangle[t].gone) {
+            pieces++;
+            rows += root_of(root, t) == t;
+        }
     CpsiHull *hull = hull_new(n, 3, rows, pieces);
     if (hull) place_span(hull, points, basis);
     for (int t = 0, piece = 0, row = 0; hull && t < triangles; t++) {
         if (triangle[t].gone) continue;
-        for (int k = 0; k < 3; k++) memcpy(&hull->piece[9*piece + 3*k], &c[3*triangle[t].corner[k]], 3*sizeof *c);
+        for (int k = 0; k < 3; k++)
+            memcpy(&hull->piece[9 * piece + 3 * k], &c[3 * triangle[t].corner[k]], 3 * sizeof *c);
         piece++;
         if (root_of(root, t) == t) place_row(hull, row++, triangle[t].normal, triangle[t].offset);
     }
@@ -214,7 +244,8 @@ static CpsiHull *polyhedron(int n, const double *points, const double *basis, co
 
 CpsiHull *cpsi_hull_new(int n, int count, const double *points, bool *known) {
     const size_t w = (size_t)n;
-    double *basis = malloc((4*w + 3*(size_t)count)*sizeof *basis), *c = basis ? basis + 4*w : NULL, size = 0;
+    double *basis = malloc((4 * w + 3 * (size_t)count) * sizeof *basis),
+           *c = basis ? basis + 4 * w : NULL, size = 0;
     int start[4];
     CpsiHull *hull = NULL;
     *known = true;
@@ -225,8 +256,9 @@ CpsiHull *cpsi_hull_new(int n, int count, const double *points, bool *known) {
         for (int j = 0; j < d; j++) {
             double along = 0;
             for (size_t i = 0; i < w; i++)
-                along += (d == n ? (double)(i == (size_t)j) : basis[(size_t)j*w + i])*(points[(size_t)k*w + i] - points[i]);
-            c[k*d + j] = along;
+                along += (d == n ? (double)(i == (size_t)j) : basis[(size_t)j * w + i]) *
+                         (points[(size_t)k * w + i] - points[i]);
+            c[k * d + j] = along;
         }
     CpsiTriangle *triangle = NULL;
     if (d == 1) hull = segment(n, count, points, basis);
@@ -247,30 +279,35 @@ CpsiHull *cpsi_hull_new(int n, int count, const double *points, bool *known) {
 double cpsi_hull_margin(const CpsiHull *hull, const double *p) {
     double least = INFINITY;
     for (int k = 0; k < hull->rows; k++)
-        least = fmin(least, hull->offset[k] - cpsi_dot(hull->n, &hull->row[(size_t)k*(size_t)hull->n], p));
+        least = fmin(least, hull->offset[k] -
+                                cpsi_dot(hull->n, &hull->row[(size_t)k * (size_t)hull->n], p));
     return least;
 }
 
 double cpsi_hull_gauge(const CpsiHull *hull, const double *p) {
     const size_t n = (size_t)hull->n;
-    const double nothing = THROUGH_ZERO*cpsi_norm(hull->n, p);
+    const double nothing = THROUGH_ZERO * cpsi_norm(hull->n, p);
     double value = 0;
     for (size_t i = 0; i < n - (size_t)hull->dimension; i++)
-        if (fabs(cpsi_dot(hull->n, &hull->normal[i*n], p)) > 1e4*nothing) return INFINITY;
+        if (fabs(cpsi_dot(hull->n, &hull->normal[i * n], p)) > 1e4 * nothing) return INFINITY;
     for (int k = 0; k < hull->rows; k++) {
-        const double along = cpsi_dot(hull->n, &hull->row[(size_t)k*n], p);
-        const double end = hull->offset[k] > THROUGH_ZERO*hull->size ? hull->offset[k] : 0;
-        if (along > nothing) value = fmax(value, along/end);
+        const double along = cpsi_dot(hull->n, &hull->row[(size_t)k * n], p);
+        const double end = hull->offset[k] > THROUGH_ZERO * hull->size ? hull->offset[k] : 0;
+        if (along > nothing) value = fmax(value, along / end);
     }
     return value;
 }
 
 /* The nearest point of a segment in d coordinates. */
-static void nearest_on_edge(int d, const double *a, const double *b, const double *p, double *nearest) {
+static void nearest_on_edge(int d, const double *a, const double *b, const double *p,
+                            double *nearest) {
     double along = 0, square = 0;
-    for (int i = 0; i < d; i++) along += (p[i] - a[i])*(b[i] - a[i]), square += (b[i] - a[i])*(b[i] - a[i]);
-    const double t = square > 0 ? fmin(1, fmax(0, along/square)) : 0;
-    for (int i = 0; i < d; i++) nearest[i] = t < 1 ? a[i] + t*(b[i] - a[i]) : b[i];
+    for (int i = 0; i < d; i++) {
+        along += (p[i] - a[i]) * (b[i] - a[i]);
+        square += (b[i] - a[i]) * (b[i] - a[i]);
+    }
+    const double t = square > 0 ? fmin(1, fmax(0, along / square)) : 0;
+    for (int i = 0; i < d; i++) nearest[i] = t < 1 ? a[i] + t * (b[i] - a[i]) : b[i];
 }
 
 /* Of a triangle: its foot, where that lies inside, else on an edge. */
@@ -278,19 +315,29 @@ static void nearest_on_triangle(const double *corner, const double *p, double *n
     const double *a = corner, *b = corner + 3, *c = corner + 6;
     double u[3], v[3], w[3], best = INFINITY, uu = 0, uv = 0, vv = 0, uw = 0, vw = 0;
     for (int i = 0; i < 3; i++) {
-        u[i] = b[i] - a[i], v[i] = c[i] - a[i], w[i] = p[i] - a[i];
-        uu += u[i]*u[i], uv += u[i]*v[i], vv += v[i]*v[i], uw += u[i]*w[i], vw += v[i]*w[i];
+        u[i] = b[i] - a[i];
+        v[i] = c[i] - a[i];
+        w[i] = p[i] - a[i];
+        uu += u[i] * u[i];
+        uv += u[i] * v[i];
+        vv += v[i] * v[i];
+        uw += u[i] * w[i];
+        vw += v[i] * w[i];
     }
-    const double det = uu*vv - uv*uv, s = (vv*uw - uv*vw)/det, t = (uu*vw - uv*uw)/det;
+    const double det = uu * vv - uv * uv, s = (vv * uw - uv * vw) / det,
+                 t = (uu * vw - uv * uw) / det;
     if (det > 0 && s >= 0 && t >= 0 && s + t <= 1) {
-        for (int i = 0; i < 3; i++) nearest[i] = a[i] + s*u[i] + t*v[i];
+        for (int i = 0; i < 3; i++) nearest[i] = a[i] + s * u[i] + t * v[i];
         return;
     }
     for (int e = 0; e < 3; e++) {
         double x[3], square = 0;
-        nearest_on_edge(3, &corner[3*e], &corner[3*((e + 1)%3)], p, x);
-        for (int i = 0; i < 3; i++) square += (p[i] - x[i])*(p[i] - x[i]);
-        if (square < best) best = square, memcpy(nearest, x, sizeof x);
+        nearest_on_edge(3, &corner[3 * e], &corner[3 * ((e + 1) % 3)], p, x);
+        for (int i = 0; i < 3; i++) square += (p[i] - x[i]) * (p[i] - x[i]);
+        if (square < best) {
+            best = square;
+            memcpy(nearest, x, sizeof x);
+        }
     }
 }
 
@@ -299,23 +346,29 @@ void cpsi_hull_project(const CpsiHull *hull, const double *p, double *nearest) {
     const int d = hull->dimension;
     double c[3] = {0}, best[3] = {0}, x[3], least = INFINITY;
     for (int j = 0; j < d; j++)
-        for (size_t i = 0; i < n; i++) c[j] += hull->basis[(size_t)j*n + i]*(p[i] - hull->origin[i]);
+        for (size_t i = 0; i < n; i++)
+            c[j] += hull->basis[(size_t)j * n + i] * (p[i] - hull->origin[i]);
     bool inside = cpsi_hull_margin(hull, p) >= 0;
     if (inside && d == hull->n) {
-        memcpy(nearest, p, n*sizeof *p);
+        memcpy(nearest, p, n * sizeof *p);
         return;
     }
     if (inside) memcpy(best, c, sizeof best);
     if (d == 1 && !inside) best[0] = fmin(hull->piece[1], fmax(hull->piece[0], c[0]));
     for (int k = 0; d > 1 && !inside && k < hull->pieces; k++) {
-        if (d == 2) nearest_on_edge(2, &hull->piece[4*k], &hull->piece[4*k + 2], c, x);
-        else nearest_on_triangle(&hull->piece[9*k], c, x);
+        if (d == 2)
+            nearest_on_edge(2, &hull->piece[4 * k], &hull->piece[4 * k + 2], c, x);
+        else
+            nearest_on_triangle(&hull->piece[9 * k], c, x);
         double square = 0;
-        for (int i = 0; i < d; i++) square += (c[i] - x[i])*(c[i] - x[i]);
-        if (square < least) least = square, memcpy(best, x, sizeof best);
+        for (int i = 0; i < d; i++) square += (c[i] - x[i]) * (c[i] - x[i]);
+        if (square < least) {
+            least = square;
+            memcpy(best, x, sizeof best);
+        }
     }
     for (size_t i = 0; i < n; i++) {
         nearest[i] = hull->origin[i];
-        for (int j = 0; j < d; j++) nearest[i] += best[j]*hull->basis[(size_t)j*n + i];
+        for (int j = 0; j < d; j++) nearest[i] += best[j] * hull->basis[(size_t)j * n + i];
     }
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The margin of a point: how large a ball round it fits in a set, or minus its distance from it.
  *
- * Closed forms are in closed_margin.c. Inside any other set of the plane, it is the least distance h(w) - <w, p> over
- * unit w, enclosed by bisection of the turn: what was asked bounds it from above, the chords between the points found from below. In more dimensions the
- * least distance is no convex problem; a ball that fits and a distance that is reached enclose it. */
+ * Closed forms are in closed_margin.c. Inside any other set of the plane, it is the least distance
+ * h(w) - <w, p> over unit w, enclosed by bisection of the turn: what was asked bounds it from
+ * above, the chords between the points found from below. In more dimensions the least distance is
+ * no convex problem; a ball that fits and a distance that is reached enclose it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,28 +25,30 @@ typedef struct Sector {
 static double chord_distance(const double x[2], const double y[2]) {
     const double d[2] = {y[0] - x[0], y[1] - x[1]}, size = hypot(d[0], d[1]);
     if (!(size > 0)) return hypot(x[0], x[1]);
-    if (x[0]*d[1] - x[1]*d[0] < 0) return 0; /* the point is between chord and boundary */
-    if (x[0]*d[0] + x[1]*d[1] > 0) return hypot(x[0], x[1]);
-    if (y[0]*d[0] + y[1]*d[1] < 0) return hypot(y[0], y[1]);
-    return (x[0]*d[1] - x[1]*d[0])/size;
+    if (x[0] * d[1] - x[1] * d[0] < 0) return 0; /* the point is between chord and boundary */
+    if (x[0] * d[0] + x[1] * d[1] > 0) return hypot(x[0], x[1]);
+    if (y[0] * d[0] + y[1] * d[1] < 0) return hypot(y[0], y[1]);
+    return (x[0] * d[1] - x[1] * d[0]) / size;
 }
 
 /* Ask at an angle; false where the support has no answer. */
-static bool look(const CpsSet *set, const double *p, double theta, double x[2], double *most, CpsSetAnswer *answer,
-                 CpsStatus *status, CpsError *err) {
+static bool look(const CpsSet *set, const double *p, double theta, double x[2], double *most,
+                 CpsSetAnswer *answer, CpsStatus *status, CpsError *err) {
     const double w[2] = {cos(theta), sin(theta)};
     CpsSetAnswer one;
     *status = cpsi_support(set, w, x, &one, err);
     if (*status || one.outcome != CPS_SET_ANSWERED) return false;
-    x[0] -= p[0], x[1] -= p[1];
-    *most = fmin(*most, one.value - w[0]*p[0] - w[1]*p[1]);
+    x[0] -= p[0];
+    x[1] -= p[1];
+    *most = fmin(*most, one.value - w[0] * p[0] - w[1] * p[1]);
     answer->gap = fmax(answer->gap, one.gap);
     answer->exact = answer->exact && one.exact;
     return true;
 }
 
 /* *found: false where a support has no answer. */
-static CpsStatus planar_margin(const CpsSet *set, const double *p, CpsSetAnswer *answer, bool *found, CpsError *err) {
+static CpsStatus planar_margin(const CpsSet *set, const double *p, CpsSetAnswer *answer,
+                               bool *found, CpsError *err) {
     enum { STARTS = 8, LOOKS = 400 };
     Sector sector[LOOKS];
     double most = INFINITY, least = 0;
@@ -55,27 +58,34 @@ static CpsStatus planar_margin(const CpsSet *set, const double *p, CpsSetAnswer 
     int count = 0, worst = 0;
     *found = true;
     for (; *found && count < STARTS; count++) {
-        sector[count] = (Sector){.from = first + count*TURN/STARTS, .to = first + (count + 1)*TURN/STARTS};
+        sector[count] = (Sector){.from = first + count * TURN / STARTS,
+                                 .to = first + (count + 1) * TURN / STARTS};
         *found = look(set, p, sector[count].from, sector[count].x, &most, &asked, &status, err);
     }
     for (int k = 0; *found && k < STARTS; k++) {
-        memcpy(sector[k].y, sector[(k + 1)%STARTS].x, sizeof sector[k].y);
+        memcpy(sector[k].y, sector[(k + 1) % STARTS].x, sizeof sector[k].y);
         sector[k].least = chord_distance(sector[k].x, sector[k].y);
     }
     for (; *found; count++) {
-        for (int k = worst = 0; k < count; k++) worst = sector[k].least < sector[worst].least ? k : worst;
+        for (int k = worst = 0; k < count; k++)
+            worst = sector[k].least < sector[worst].least ? k : worst;
         least = fmin(sector[worst].least, most);
         Sector *s = &sector[worst];
         /* 1e-15: what rounding leaves of the difference */
-        if (most - least <= 1e-13*most + 1e-15*cpsi_set_size(set) || count == LOOKS || s->to - s->from < 1e-14) break;
+        if (most - least <= 1e-13 * most + 1e-15 * cpsi_set_size(set) || count == LOOKS ||
+            s->to - s->from < 1e-14)
+            break;
         /* the chord's own normal, where an edge lies; for arcs it is as good as the middle */
         double at = atan2(s->x[0] - s->y[0], s->y[1] - s->x[1]), z[2];
-        at += TURN*ceil((s->from - at)/TURN);
-        if (!(at > s->from + 1e-3*(s->to - s->from) && at < s->to - 1e-3*(s->to - s->from)))
-            at = 0.5*(s->from + s->to);
+        at += TURN * ceil((s->from - at) / TURN);
+        if (!(at > s->from + 1e-3 * (s->to - s->from) && at < s->to - 1e-3 * (s->to - s->from)))
+            at = 0.5 * (s->from + s->to);
         *found = look(set, p, at, z, &most, &asked, &status, err);
-        sector[count] = (Sector){at, s->to, {z[0], z[1]}, {s->y[0], s->y[1]}, chord_distance(z, s->y)};
-        s->to = at, memcpy(s->y, z, sizeof z), s->least = chord_distance(s->x, z);
+        sector[count] =
+            (Sector){at, s->to, {z[0], z[1]}, {s->y[0], s->y[1]}, chord_distance(z, s->y)};
+        s->to = at;
+        memcpy(s->y, z, sizeof z);
+        s->least = chord_distance(s->x, z);
     }
     if (!*found || status) return status;
     answer->value = fmax(0, least - asked.gap);
@@ -86,14 +96,15 @@ static CpsStatus planar_margin(const CpsSet *set, const double *p, CpsSetAnswer 
 
 /* ---- inside others ---- */
 
-/* A ball that is certain to fit: the hull of what is reached along the axes holds one of radius 1/|1/t|; no larger one
- * than the least t does. */
-static CpsStatus inscribed(const CpsSet *set, const double *p, CpsSetAnswer *answer, CpsError *err) {
+/* A ball that is certain to fit: the hull of what is reached along the axes holds one of radius
+ * 1/|1/t|; no larger one than the least t does. */
+static CpsStatus inscribed(const CpsSet *set, const double *p, CpsSetAnswer *answer,
+                           CpsError *err) {
     double sum = 0, most = INFINITY;
     CpsiScratch scratch;
     double *d = cpsi_scratch_take(&scratch, (size_t)set->n);
     if (!d) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
-    memset(d, 0, (size_t)set->n*sizeof *d);
+    memset(d, 0, (size_t)set->n * sizeof *d);
     CpsStatus status = CPS_OK;
     for (int i = 0; !status && answer->outcome == CPS_SET_ANSWERED && i < set->n; i++) {
         double least = INFINITY;
@@ -108,16 +119,16 @@ static CpsStatus inscribed(const CpsSet *set, const double *p, CpsSetAnswer *ans
             most = fmin(most, there ? fmax(reach.value + reach.gap, 0) : 0);
         }
         d[i] = 0;
-        sum += 1/(least*least);
+        sum += 1 / (least * least);
     }
-    answer->value = sum > 0 ? 1/sqrt(sum) : INFINITY;
+    answer->value = sum > 0 ? 1 / sqrt(sum) : INFINITY;
     answer->gap = isfinite(most) ? most - answer->value : 0;
     cpsi_scratch_give(&scratch);
     return status;
 }
 
-CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separating, CpsSetAnswer *answer,
-                           CpsError *err) {
+CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separating,
+                           CpsSetAnswer *answer, CpsError *err) {
     CpsStatus status = cpsi_set_check(set, "point", point, answer, err);
     if (status) return status;
     const int n = set->n;
@@ -130,8 +141,9 @@ CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separ
     if (!status && answer->outcome == CPS_SET_ANSWERED) {
         const double distance = answer->value;
         /* the direction of a distance lost in rounding says nothing */
-        const bool outside = distance > fmax(answer->gap, 1e-10*cpsi_set_size(set));
-        for (int i = 0; separating && i < n; i++) separating[i] = outside ? (point[i] - nearest[i])/distance : 0;
+        const bool outside = distance > fmax(answer->gap, 1e-10 * cpsi_set_size(set));
+        for (int i = 0; separating && i < n; i++)
+            separating[i] = outside ? (point[i] - nearest[i]) / distance : 0;
         answer->value = outside ? -distance : 0;
         answer->exact = answer->exact && outside;
         bool found = outside;

@@ -10,7 +10,7 @@
 
 const char *cps_set_outcome_name(CpsSetOutcome outcome) {
     switch (outcome) {
-#define CASE(name, number, sentence)                                                                                   \
+#define CASE(name, number, sentence) \
     case name: return #name;
         CPS_SET_OUTCOME_LIST(CASE)
 #undef CASE
@@ -20,7 +20,7 @@ const char *cps_set_outcome_name(CpsSetOutcome outcome) {
 
 const char *cps_set_outcome_sentence(CpsSetOutcome outcome) {
     switch (outcome) {
-#define CASE(name, number, sentence)                                                                                   \
+#define CASE(name, number, sentence) \
     case name: return sentence;
         CPS_SET_OUTCOME_LIST(CASE)
 #undef CASE
@@ -28,12 +28,14 @@ const char *cps_set_outcome_sentence(CpsSetOutcome outcome) {
     return "unknown outcome";
 }
 
-CpsStatus cpsi_set_new(CpsiSetKind kind, int n, int count, const CpsSet *const *parts, size_t doubles, CpsSet **out,
-                       CpsError *err) {
+CpsStatus cpsi_set_new(CpsiSetKind kind, int n, int count, const CpsSet *const *parts,
+                       size_t doubles, CpsSet **out, CpsError *err) {
     const size_t held = parts ? (size_t)count : 0;
     /* one block: the node, its parts, its numbers; sizes are bounded by CPS_SET_MAX_... */
-    const size_t head = (sizeof(CpsSet) + held*sizeof(CpsSet *) + 15)/16*16;
-    CpsSet *set = doubles < (SIZE_MAX/2 - head)/sizeof(double) ? calloc(1, head + doubles*sizeof(double)) : NULL;
+    const size_t head = (sizeof(CpsSet) + held * sizeof(CpsSet *) + 15) / 16 * 16;
+    CpsSet *set = doubles < (SIZE_MAX / 2 - head) / sizeof(double)
+                      ? calloc(1, head + doubles * sizeof(double))
+                      : NULL;
     if (!set) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set");
     atomic_init(&set->holds, 1);
     set->kind = kind;
@@ -81,8 +83,8 @@ int cps_set_space(const CpsSet *set) { return set ? set->n : 0; }
 CpsStatus cpsi_set_finite(const char *name, size_t count, const double *numbers, CpsError *err) {
     for (size_t i = 0; i < count; i++)
         if (!isfinite(numbers[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s[%zu] is %g, expected a finite number", name, i,
-                             numbers[i]);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s[%zu] is %g, expected a finite number", name,
+                             i, numbers[i]);
     return CPS_OK;
 }
 
@@ -94,8 +96,8 @@ bool cpsi_set_has_user(const CpsSet *set) {
 }
 
 double *cpsi_scratch_take(CpsiScratch *scratch, size_t count) {
-    const size_t few = sizeof scratch->few/sizeof *scratch->few;
-    scratch->many = count > few ? malloc(count*sizeof(double)) : NULL;
+    const size_t few = sizeof scratch->few / sizeof *scratch->few;
+    scratch->many = count > few ? malloc(count * sizeof(double)) : NULL;
     return count > few ? scratch->many : scratch->few;
 }
 
@@ -115,13 +117,14 @@ static double reach(const CpsSet *set) {
     const size_t n = (size_t)set->n, count = (size_t)set->count;
     double most = 0;
     switch (set->kind) {
-    case CPSI_SET_POINTS: return largest(count*n, set->a);
+    case CPSI_SET_POINTS: return largest(count * n, set->a);
     case CPSI_SET_BALL: return set->scalar + largest(n, set->a);
-    case CPSI_SET_ELLIPSOID: return sqrt(largest(n*n, set->b)) + largest(n, set->a);
+    case CPSI_SET_ELLIPSOID: return sqrt(largest(n * n, set->b)) + largest(n, set->a);
     case CPSI_SET_BOX: return fmax(largest(n, set->a), largest(n, set->b));
     case CPSI_SET_INEQUALITIES:
         for (size_t k = 0; k < count; k++)
-            if (isfinite(set->b[k])) most = fmax(most, fabs(set->b[k])/largest(n, &set->a[k*n]));
+            if (isfinite(set->b[k]))
+                most = fmax(most, fabs(set->b[k]) / largest(n, &set->a[k * n]));
         return most;
     case CPSI_SET_CONIC: /* without offsets it is a cone, of no size */
         if (largest((size_t)set->form->rows, set->form->b) > 0) most = set->form->size;
@@ -129,17 +132,17 @@ static double reach(const CpsSet *set) {
     case CPSI_SET_SUBSPACE:
     case CPSI_SET_RAYS:
     case CPSI_SET_USER: return 0;
-    case CPSI_SET_POLAR: most = reach(set->part[0]); return most > 0 ? 1/most : 0;
+    case CPSI_SET_POLAR: most = reach(set->part[0]); return most > 0 ? 1 / most : 0;
     default: break;
     }
     for (size_t k = 0; k < count; k++) most = fmax(most, reach(set->part[k]));
     switch (set->kind) {
     case CPSI_SET_TRANSLATE: return most + largest(n, set->a);
-    case CPSI_SET_SCALE: return most*fabs(set->scalar);
-    case CPSI_SET_IMAGE: return most*largest(n*(size_t)set->part[0]->n, set->a);
+    case CPSI_SET_SCALE: return most * fabs(set->scalar);
+    case CPSI_SET_IMAGE: return most * largest(n * (size_t)set->part[0]->n, set->a);
     case CPSI_SET_PREIMAGE: {
-        const double map = largest(n*(size_t)set->part[0]->n, set->a);
-        return map > 0 ? (most + largest((size_t)set->part[0]->n, set->b))/map : most;
+        const double map = largest(n * (size_t)set->part[0]->n, set->a);
+        return map > 0 ? (most + largest((size_t)set->part[0]->n, set->b)) / map : most;
     }
     default: return most;
     }
@@ -198,28 +201,53 @@ static void put_set(Text *text, const CpsSet *set) {
                strip = set->kind == CPSI_SET_INEQUALITIES && count == 1;
     put(text, "%s(", point ? "point" : strip ? "half_space" : NAME[set->kind]);
     switch (set->kind) {
-    case CPSI_SET_BALL: put_numbers(text, n, set->a), put(text, "; r %.9g", set->scalar); break;
-    case CPSI_SET_ELLIPSOID: put_numbers(text, n, set->a), put(text, "; "), put_numbers(text, n*n, set->b); break;
+    case CPSI_SET_BALL:
+        put_numbers(text, n, set->a);
+        put(text, "; r %.9g", set->scalar);
+        break;
+    case CPSI_SET_ELLIPSOID:
+        put_numbers(text, n, set->a);
+        put(text, "; ");
+        put_numbers(text, n * n, set->b);
+        break;
     case CPSI_SET_BOX:
-        for (size_t i = 0; i < n && i < 8; i++) put(text, "%s%.9g .. %.9g", i ? ", " : "", set->a[i], set->b[i]);
+        for (size_t i = 0; i < n && i < 8; i++)
+            put(text, "%s%.9g .. %.9g", i ? ", " : "", set->a[i], set->b[i]);
         break;
     case CPSI_SET_POINTS:
     case CPSI_SET_RAYS:
     case CPSI_SET_SUBSPACE:
-        for (size_t k = 0; k < count && k < 8; k++) put(text, "%s", k ? "; " : ""), put_numbers(text, n, &set->a[k*n]);
+        for (size_t k = 0; k < count && k < 8; k++) {
+            put(text, "%s", k ? "; " : "");
+            put_numbers(text, n, &set->a[k * n]);
+        }
         break;
     case CPSI_SET_INEQUALITIES:
-        for (size_t k = 0; k < count && k < 8; k++)
-            put(text, "%s", k ? "; " : ""), put_numbers(text, n, &set->a[k*n]), put(text, " <= %.9g", set->b[k]);
+        for (size_t k = 0; k < count && k < 8; k++) {
+            put(text, "%s", k ? "; " : "");
+            put_numbers(text, n, &set->a[k * n]);
+            put(text, " <= %.9g", set->b[k]);
+        }
         break;
-    case CPSI_SET_CONIC: put(text, "%zu; %d unknowns, %d cones", n, set->form->unknowns, set->form->cones); break;
+    case CPSI_SET_CONIC:
+        put(text, "%zu; %d unknowns, %d cones", n, set->form->unknowns, set->form->cones);
+        break;
     case CPSI_SET_SCALE: put(text, "%.9g, ", set->scalar); break;
-    case CPSI_SET_TRANSLATE: put_numbers(text, n, set->a), put(text, ", "); break;
+    case CPSI_SET_TRANSLATE:
+        put_numbers(text, n, set->a);
+        put(text, ", ");
+        break;
     case CPSI_SET_PREIMAGE:
-    case CPSI_SET_IMAGE: put_numbers(text, n*(size_t)set->part[0]->n, set->a), put(text, ", "); break;
+    case CPSI_SET_IMAGE:
+        put_numbers(text, n * (size_t)set->part[0]->n, set->a);
+        put(text, ", ");
+        break;
     default: break;
     }
-    for (size_t k = 0; set->part && k < count; k++) put(text, "%s", k ? ", " : ""), put_set(text, set->part[k]);
+    for (size_t k = 0; set->part && k < count; k++) {
+        put(text, "%s", k ? ", " : "");
+        put_set(text, set->part[k]);
+    }
     put(text, ")");
 }
 

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The normal cone N = {w : <w, x - p> <= 0 for every x of C} as a set of its own.
  *
- * With C = {origin + P v + Q'l : A v + b in K} and a point v of the fibre over p whose s = A v + b lies as far
- * inside K as it can:
+ * With C = {origin + P v + Q'l : A v + b in K} and a point v of the fibre over p whose s = A v + b
+ * lies as far inside K as it can:
  *
- *     N = {w : Q w = 0,  P'w + A'z = 0,  z in K,  z.s = 0}         (Rockafellar 1970, theorem 23.9 and its proof)
+ *     N = {w : Q w = 0,  P'w + A'z = 0,  z in K,  z.s = 0}
+ *         (Rockafellar 1970, theorem 23.9 and its proof)
  *
- * and z.s = 0 says cone by cone: s inside, z = 0; s on the boundary, z on the ray of Js; s = 0, z anywhere in the cone.
- * Products, translates and scales of sets go down to their parts first (M77 §8). */
+ * and z.s = 0 says cone by cone: s inside, z = 0; s on the boundary, z on the ray of Js; s = 0, z
+ * anywhere in the cone. Products, translates and scales of sets go down to their parts first (M77
+ * §8). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,8 +17,8 @@
 #include "linsys/small.h"
 #include "set/node.h"
 
-/* Equations that differ by less than this share are one. A point off by `tolerance` turns a normal by
- * tolerance/radius, for radii down to a hundredth of the set. */
+/* Equations that differ by less than this share are one. A point off by `tolerance` turns a normal
+ * by tolerance/radius, for radii down to a hundredth of the set. */
 static const double SAME_EQUATION = 1e-7, TURN = 100;
 
 /* What each cone of the form does at p. */
@@ -28,14 +30,18 @@ static Touch touch_of(const double *s, int d, double tolerance) {
     return d > 1 && s[0] > tolerance ? RAY : TIP;
 }
 
-/* The fibre over p: v = v0 + (what P does not see), with rows  A v + b + tau e in K. The least tau takes s as far
- * inside as it goes: tau = 0 for p on the boundary, and where rounding has put p beside it the solution is still
- * unique and well conditioned. tau >= -1 ends what has no boundary. Fills s (rows of the form). */
-static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetOutcome *outcome, CpsError *err) {
+/* The fibre over p: v = v0 + (what P does not see), with rows  A v + b + tau e in K. The least tau
+ * takes s as far inside as it goes: tau = 0 for p on the boundary, and where rounding has put p
+ * beside it the solution is still unique and well conditioned. tau >= -1 ends what has no boundary.
+ * Fills s (rows of the form). */
+static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetOutcome *outcome,
+                       CpsError *err) {
     const int n = form->n, u = form->unknowns;
     CpsiRaw *raw = NULL;
     CpsiForm *reduced = NULL;
-    const CpsiCount count = {.unknowns = (size_t)u + 1, .equations = (size_t)n, .rows = (size_t)form->rows + 1,
+    const CpsiCount count = {.unknowns = (size_t)u + 1,
+                             .equations = (size_t)n,
+                             .rows = (size_t)form->rows + 1,
                              .cones = (size_t)form->cones + 1};
     CpsStatus status = cpsi_raw_new(count, u + 1, &raw, err);
     if (status) return status;
@@ -43,24 +49,28 @@ static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetO
         double *row = cpsi_raw_equation(raw), gap = p[i] - form->origin[i];
         /* what p has along the lines does not matter */
         for (int l = 0; l < form->lines; l++)
-            for (int j = 0; j < n; j++) gap -= form->q[l*n + i]*form->q[l*n + j]*(p[j] - form->origin[j]);
-        memcpy(row, &form->p[(size_t)i*(size_t)u], (size_t)u*sizeof *row);
+            for (int j = 0; j < n; j++)
+                gap -= form->q[l * n + i] * form->q[l * n + j] * (p[j] - form->origin[j]);
+        memcpy(row, &form->p[(size_t)i * (size_t)u], (size_t)u * sizeof *row);
         row[u + 1] = -gap;
-        if (cpsi_norm(u, row) <= 1e-12*form->size) raw->equations--, memset(row, 0, ((size_t)u + 2)*sizeof *row);
+        if (cpsi_norm(u, row) <= 1e-12 * form->size) {
+            raw->equations--;
+            memset(row, 0, ((size_t)u + 2) * sizeof *row);
+        }
     }
     for (int k = 0, i = 0; k < form->cones; k++) {
         double *rows = cpsi_raw_cone(raw, form->dim[k]);
         rows[u] = 1;
         for (int r = 0; r < form->dim[k]; r++, i++, rows += raw->width) {
-            memcpy(rows, &form->a[(size_t)i*(size_t)u], (size_t)u*sizeof *rows);
+            memcpy(rows, &form->a[(size_t)i * (size_t)u], (size_t)u * sizeof *rows);
             rows[u + 1] = form->b[i];
         }
     }
     double *last = cpsi_raw_cone(raw, 1);
     last[u] = last[u + 1] = 1;
-    double *map = calloc(((size_t)u + 1)*(size_t)raw->width, sizeof *map);
+    double *map = calloc(((size_t)u + 1) * (size_t)raw->width, sizeof *map);
     if (!map) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
-    for (size_t j = 0; map && j <= (size_t)u; j++) map[j*(size_t)raw->width + j] = 1;
+    for (size_t j = 0; map && j <= (size_t)u; j++) map[j * (size_t)raw->width + j] = 1;
     if (!status) status = cpsi_form_reduce(raw, u + 1, map, 0, NULL, SAME_EQUATION, &reduced, err);
     free(map);
     cpsi_raw_free(raw);
@@ -69,7 +79,8 @@ static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetO
     /* v at the deepest point of the fibre */
     CpsiSolution solution = {.outcome = CPS_SET_INACCURATE};
     double *c = calloc((size_t)u + 1, sizeof *c);
-    if (!c) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
+    if (!c)
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     else {
         c[u] = 1;
         status = cpsi_form_minimise(reduced, c, &solution, err);
@@ -77,7 +88,7 @@ static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetO
     *outcome = solution.outcome;
     if (!status && solution.outcome == CPS_SET_ANSWERED)
         for (int i = 0; i < form->rows; i++)
-            s[i] = cpsi_dot(u, &form->a[(size_t)i*(size_t)u], solution.x) + form->b[i];
+            s[i] = cpsi_dot(u, &form->a[(size_t)i * (size_t)u], solution.x) + form->b[i];
     cpsi_solution_free(&solution);
     cpsi_form_free(reduced);
     free(c);
@@ -88,32 +99,37 @@ static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetO
 static CpsStatus as_rays(CpsiForm *form, CpsSet **out, CpsError *err) {
     const size_t n = (size_t)form->n, u = (size_t)form->unknowns, lines = (size_t)form->lines;
     bool simple = form->rows == form->unknowns && form->largest_cone <= 1;
-    double *inverse = malloc((u*u + u + (u + 2*lines)*n + 1)*sizeof *inverse), *column = inverse ? inverse + u*u : NULL;
-    int *pivot = malloc((u + 1)*sizeof *pivot);
+    double *inverse = malloc((u * u + u + (u + 2 * lines) * n + 1) * sizeof *inverse),
+           *column = inverse ? inverse + u * u : NULL;
+    int *pivot = malloc((u + 1) * sizeof *pivot);
     CpsStatus status = CPS_OK;
-    if (!inverse || !pivot) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone"), simple = false;
+    if (!inverse || !pivot) {
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
+        simple = false;
+    }
     if (simple) {
-        memcpy(inverse, form->a, u*u*sizeof *inverse);
+        memcpy(inverse, form->a, u * u * sizeof *inverse);
         simple = u == 0 || cpsi_lu_factor(form->unknowns, inverse, pivot);
     }
     if (simple) {
         double *rays = column + u;
         for (size_t k = 0; k < u; k++) {
-            memset(column, 0, u*sizeof *column);
+            memset(column, 0, u * sizeof *column);
             column[k] = 1;
             cpsi_lu_solve(form->unknowns, inverse, pivot, column);
-            double *ray = &rays[k*n];
-            for (size_t i = 0; i < n; i++) ray[i] = cpsi_dot(form->unknowns, &form->p[i*u], column);
+            double *ray = &rays[k * n];
+            for (size_t i = 0; i < n; i++)
+                ray[i] = cpsi_dot(form->unknowns, &form->p[i * u], column);
             const double size = cpsi_norm(form->n, ray);
-            for (size_t i = 0; i < n; i++) ray[i] = size > 0 ? ray[i]/size : 0;
+            for (size_t i = 0; i < n; i++) ray[i] = size > 0 ? ray[i] / size : 0;
             simple = simple && size > 0; /* a combination of the unknowns that P does not see */
         }
         for (size_t l = 0; l < lines && simple; l++)
             for (size_t i = 0; i < n; i++) {
-                rays[(u + 2*l)*n + i] = form->q[l*n + i];
-                rays[(u + 2*l + 1)*n + i] = -form->q[l*n + i];
+                rays[(u + 2 * l) * n + i] = form->q[l * n + i];
+                rays[(u + 2 * l + 1) * n + i] = -form->q[l * n + i];
             }
-        if (simple) status = cps_set_cone_of_rays(form->n, (int)(u + 2*lines), rays, out, err);
+        if (simple) status = cps_set_cone_of_rays(form->n, (int)(u + 2 * lines), rays, out, err);
     }
     free(inverse);
     free(pivot);
@@ -123,62 +139,73 @@ static CpsStatus as_rays(CpsiForm *form, CpsSet **out, CpsError *err) {
 }
 
 /* The z of one cone as new unknowns: its part of P'w + A'z = 0, and what keeps it in the cone. */
-static void write_touch(CpsiRaw *raw, const CpsiForm *form, const double *s, int i, int d, Touch touch,
-                        double *equations) {
+static void write_touch(CpsiRaw *raw, const CpsiForm *form, const double *s, int i, int d,
+                        Touch touch, double *equations) {
     const int u = form->unknowns;
     if (touch == FREE) return;
     const int count = touch == RAY || d == 1 ? 1 : d;
     double *rows = cpsi_raw_cone(raw, count);
     const double size = cpsi_norm(d - 1, s + 1);
     for (int k = 0; k < count; k++, raw->next++) {
-        rows[(size_t)k*(size_t)raw->width + (size_t)raw->next] = 1;
+        rows[(size_t)k * (size_t)raw->width + (size_t)raw->next] = 1;
         for (int r = 0; r < d; r++) {
-            const double z = count > 1 || d == 1 ? r == k : r ? -s[r]/size : 1;
+            const double z = count > 1 || d == 1 ? r == k : r ? -s[r] / size : 1;
             for (int j = 0; z != 0 && j < u; j++)
-                equations[(size_t)j*(size_t)raw->width + (size_t)raw->next] +=
-                    z*form->a[(size_t)(i + r)*(size_t)u + (size_t)j];
+                equations[(size_t)j * (size_t)raw->width + (size_t)raw->next] +=
+                    z * form->a[(size_t)(i + r) * (size_t)u + (size_t)j];
         }
     }
 }
 
-static CpsStatus build_cone(const CpsiForm *form, const double *s, double tolerance, double same, CpsSet **out,
-                            CpsError *err) {
+static CpsStatus build_cone(const CpsiForm *form, const double *s, double tolerance, double same,
+                            CpsSet **out, CpsError *err) {
     const int n = form->n, u = form->unknowns;
     CpsiRaw *raw = NULL;
     CpsiForm *reduced = NULL;
-    CpsiCount count = {.unknowns = (size_t)(n + form->rows), .equations = (size_t)(u + form->lines),
-                       .rows = (size_t)form->rows, .cones = (size_t)form->cones};
+    CpsiCount count = {.unknowns = (size_t)(n + form->rows),
+                       .equations = (size_t)(u + form->lines),
+                       .rows = (size_t)form->rows,
+                       .cones = (size_t)form->cones};
     CpsStatus status = cpsi_raw_new(count, n, &raw, err);
     if (status) return status;
     /* P'w + A'z = 0, divided by the length in P */
     double *equations = raw->equation;
     for (int j = 0; j < u; j++) {
         double *row = cpsi_raw_equation(raw);
-        for (int i = 0; i < n; i++) row[i] = form->p[(size_t)i*(size_t)u + (size_t)j]/form->size;
+        for (int i = 0; i < n; i++)
+            row[i] = form->p[(size_t)i * (size_t)u + (size_t)j] / form->size;
     }
-    for (int l = 0; l < form->lines; l++) memcpy(cpsi_raw_equation(raw), &form->q[l*n], (size_t)n*sizeof *form->q);
+    for (int l = 0; l < form->lines; l++)
+        memcpy(cpsi_raw_equation(raw), &form->q[l * n], (size_t)n * sizeof *form->q);
     for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
-        write_touch(raw, form, &s[i], i, form->dim[k], touch_of(&s[i], form->dim[k], tolerance), equations);
+        write_touch(raw, form, &s[i], i, form->dim[k], touch_of(&s[i], form->dim[k], tolerance),
+                    equations);
     /* unknowns that no cone took stay 0 */
     CpsiRaw *whole = NULL;
-    count = (CpsiCount){.unknowns = (size_t)raw->next, .equations = (size_t)raw->equations, .rows = (size_t)raw->rows,
+    count = (CpsiCount){.unknowns = (size_t)raw->next,
+                        .equations = (size_t)raw->equations,
+                        .rows = (size_t)raw->rows,
                         .cones = (size_t)raw->cones};
     status = cpsi_raw_new(count, raw->next, &whole, err);
-    double *map = status ? NULL : calloc((size_t)n*(size_t)whole->width, sizeof *map);
+    double *map = status ? NULL : calloc((size_t)n * (size_t)whole->width, sizeof *map);
     if (!status && !map) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     if (!status) {
         for (int i = 0; i < raw->equations; i++) {
             double *row = cpsi_raw_equation(whole);
-            memcpy(row, &raw->equation[(size_t)i*(size_t)raw->width], (size_t)raw->next*sizeof *row);
-            if (cpsi_norm(raw->next, row) <= 0.01*same)
-                whole->equations--, memset(row, 0, (size_t)raw->next*sizeof *row);
+            memcpy(row, &raw->equation[(size_t)i * (size_t)raw->width],
+                   (size_t)raw->next * sizeof *row);
+            if (cpsi_norm(raw->next, row) <= 0.01 * same) {
+                whole->equations--;
+                memset(row, 0, (size_t)raw->next * sizeof *row);
+            }
         }
         for (int k = 0, i = 0; k < raw->cones; k++) {
             double *rows = cpsi_raw_cone(whole, raw->dim[k]);
             for (int r = 0; r < raw->dim[k]; r++, i++, rows += whole->width)
-                memcpy(rows, &raw->row[(size_t)i*(size_t)raw->width], (size_t)raw->next*sizeof *rows);
+                memcpy(rows, &raw->row[(size_t)i * (size_t)raw->width],
+                       (size_t)raw->next * sizeof *rows);
         }
-        for (int i = 0; i < n; i++) map[(size_t)i*(size_t)whole->width + (size_t)i] = 1;
+        for (int i = 0; i < n; i++) map[(size_t)i * (size_t)whole->width + (size_t)i] = 1;
         status = cpsi_form_reduce(whole, n, map, 0, NULL, same, &reduced, err);
     }
     free(map);
@@ -187,31 +214,34 @@ static CpsStatus build_cone(const CpsiForm *form, const double *s, double tolera
     return status ? status : as_rays(reduced, out, err);
 }
 
-static CpsStatus conic_cone(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
-                            CpsError *err) {
+static CpsStatus conic_cone(const CpsSet *set, const double *p, double tolerance, CpsSet **out,
+                            CpsSetAnswer *answer, CpsError *err) {
     const CpsiForm *form;
     CpsiForm *made;
     CpsStatus status = cpsi_set_form(set, &form, &made, err);
     if (status) return status;
     double *s = calloc((size_t)form->rows + 1, sizeof *s);
-    if (!s) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
-    else status = fibre(form, p, s, &answer->outcome, err);
+    if (!s)
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
+    else
+        status = fibre(form, p, s, &answer->outcome, err);
     if (!status && answer->outcome == CPS_SET_ANSWERED)
-        status = build_cone(form, s, tolerance, fmax(SAME_EQUATION, TURN*tolerance), out, err);
+        status = build_cone(form, s, tolerance, fmax(SAME_EQUATION, TURN * tolerance), out, err);
     free(s);
     cpsi_form_free(made);
     return status;
 }
 
-static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
-                         CpsError *err);
+static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, CpsSet **out,
+                         CpsSetAnswer *answer, CpsError *err);
 
 static CpsStatus cone_of_product(const CpsSet *set, const double *p, double tolerance, CpsSet **out,
                                  CpsSetAnswer *answer, CpsError *err) {
     CpsSet **cone = calloc((size_t)set->count, sizeof(CpsSet *));
     if (!cone) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     CpsStatus status = CPS_OK;
-    for (int k = 0, at = 0; !status && answer->outcome == CPS_SET_ANSWERED && k < set->count; at += set->part[k++]->n)
+    for (int k = 0, at = 0; !status && answer->outcome == CPS_SET_ANSWERED && k < set->count;
+         at += set->part[k++]->n)
         status = cone_at(set->part[k], p + at, tolerance, &cone[k], answer, err);
     if (!status && answer->outcome == CPS_SET_ANSWERED)
         status = cps_set_product(set->count, (const CpsSet *const *)cone, out, err);
@@ -220,18 +250,19 @@ static CpsStatus cone_of_product(const CpsSet *set, const double *p, double tole
     return status;
 }
 
-static CpsStatus cone_of_moved(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
-                               CpsError *err) {
+static CpsStatus cone_of_moved(const CpsSet *set, const double *p, double tolerance, CpsSet **out,
+                               CpsSetAnswer *answer, CpsError *err) {
     const int n = set->n;
     const bool shift = set->kind == CPSI_SET_TRANSLATE;
-    double *y = malloc((size_t)n*sizeof *y);
+    double *y = malloc((size_t)n * sizeof *y);
     if (!y) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
-    for (int i = 0; i < n; i++) y[i] = shift ? p[i] - set->a[i] : p[i]/set->scalar;
+    for (int i = 0; i < n; i++) y[i] = shift ? p[i] - set->a[i] : p[i] / set->scalar;
     CpsSet *cone = NULL;
     CpsStatus status = cone_at(set->part[0], y, tolerance, &cone, answer, err);
     free(y);
     if (status || answer->outcome != CPS_SET_ANSWERED) return status;
-    if (shift || set->scalar > 0) *out = cone;
+    if (shift || set->scalar > 0)
+        *out = cone;
     else {
         status = cps_set_scale(-1, cone, out, err);
         cps_set_release(cone);
@@ -240,27 +271,29 @@ static CpsStatus cone_of_moved(const CpsSet *set, const double *p, double tolera
 }
 
 /* The rays of the facets that p lies on, and the normals of the span both ways. */
-static CpsStatus cone_of_hull(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsError *err) {
+static CpsStatus cone_of_hull(const CpsSet *set, const double *p, double tolerance, CpsSet **out,
+                              CpsError *err) {
     const CpsiHull *hull = set->hull;
     const size_t n = (size_t)set->n, lines = n - (size_t)hull->dimension;
-    double *rays = malloc(((size_t)hull->rows + 2*lines)*n*sizeof *rays);
+    double *rays = malloc(((size_t)hull->rows + 2 * lines) * n * sizeof *rays);
     if (!rays) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
-    const double near = tolerance*cpsi_set_size(set);
+    const double near = tolerance * cpsi_set_size(set);
     size_t count = 0;
     for (int k = 0; k < hull->rows; k++) {
-        const double *row = &hull->row[(size_t)k*n];
+        const double *row = &hull->row[(size_t)k * n];
         if (hull->offset[k] - cpsi_dot(set->n, row, p) <= near)
-            memcpy(&rays[count++*n], row, n*sizeof *rays);
+            memcpy(&rays[count++ * n], row, n * sizeof *rays);
     }
-    for (size_t l = 0; l < 2*lines; l++, count++)
-        for (size_t i = 0; i < n; i++) rays[count*n + i] = (l % 2 ? -1 : 1)*hull->normal[l/2*n + i];
+    for (size_t l = 0; l < 2 * lines; l++, count++)
+        for (size_t i = 0; i < n; i++)
+            rays[count * n + i] = (l % 2 ? -1 : 1) * hull->normal[l / 2 * n + i];
     const CpsStatus status = cps_set_cone_of_rays(set->n, (int)count, rays, out, err);
     free(rays);
     return status;
 }
 
-static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, CpsSet **out, CpsSetAnswer *answer,
-                         CpsError *err) {
+static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, CpsSet **out,
+                         CpsSetAnswer *answer, CpsError *err) {
     if (set->hull) return cone_of_hull(set, p, tolerance, out, err);
     switch (set->kind) {
     case CPSI_SET_PRODUCT: return cone_of_product(set, p, tolerance, out, answer, err);
@@ -270,38 +303,47 @@ static CpsStatus cone_at(const CpsSet *set, const double *p, double tolerance, C
     }
 }
 
-CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tolerance, CpsSet **cone,
-                              CpsSetAnswer *answer, CpsError *err) {
+CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tolerance,
+                              CpsSet **cone, CpsSetAnswer *answer, CpsError *err) {
     if (!set || !point || !cone || !answer)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", !set ? "set" : !point ? "point" : "an answer");
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL",
+                         !set     ? "set"
+                         : !point ? "point"
+                                  : "an answer");
     CpsStatus status = cpsi_set_finite("point", (size_t)set->n, point, err);
     if (status) return status;
     if (!(tolerance >= 0) || tolerance > 0.1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected a share from 0 to 0.1", tolerance);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected a share from 0 to 0.1",
+                         tolerance);
     const double share = tolerance > 0 ? tolerance : 1e-9;
     *cone = NULL;
     *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE, .tolerance = share};
     if (cpsi_set_has_user(set)) return CPS_OK;
 
-    /* how far off is the point?  Of a cone, which has no size, the point's own length is what lengths are
-     * compared with, unless the caller has chosen a tolerance */
-    double *nearest = malloc(2*(size_t)set->n*sizeof *nearest), *asked = nearest ? nearest + set->n : NULL;
+    /* how far off is the point?  Of a cone, which has no size, the point's own length is what
+     * lengths are compared with, unless the caller has chosen a tolerance */
+    double *nearest = malloc(2 * (size_t)set->n * sizeof *nearest),
+           *asked = nearest ? nearest + set->n : NULL;
     if (!nearest) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
-    const double far = tolerance == 0 && cpsi_set_is_cone(set) ? cpsi_norm(set->n, point) : 1, unit = far > 0 ? far : 1;
-    for (int i = 0; i < set->n; i++) asked[i] = point[i]/unit;
+    const double far = tolerance == 0 && cpsi_set_is_cone(set) ? cpsi_norm(set->n, point) : 1,
+                 unit = far > 0 ? far : 1;
+    for (int i = 0; i < set->n; i++) asked[i] = point[i] / unit;
     CpsSet *found = NULL;
     status = cps_set_project(set, asked, NULL, nearest, answer, err);
     const double distance = answer->value, size = cpsi_set_size(set);
     answer->tolerance = share;
-    if (!status && answer->outcome == CPS_SET_ANSWERED && distance > fmax(share, 1e-9)*size)
+    if (!status && answer->outcome == CPS_SET_ANSWERED && distance > fmax(share, 1e-9) * size)
         answer->outcome = CPS_SET_OUTSIDE;
     const double *at = distance > answer->gap ? nearest : asked;
-    if (!status && answer->outcome == CPS_SET_ANSWERED) status = cone_at(set, at, share, &found, answer, err);
+    if (!status && answer->outcome == CPS_SET_ANSWERED)
+        status = cone_at(set, at, share, &found, answer, err);
     free(nearest);
-    answer->value = distance*unit;
+    answer->value = distance * unit;
     answer->exact = false;
     answer->closure = set->closure;
-    if (!status && answer->outcome == CPS_SET_ANSWERED) *cone = found;
-    else cps_set_release(found);
+    if (!status && answer->outcome == CPS_SET_ANSWERED)
+        *cone = found;
+    else
+        cps_set_release(found);
     return status;
 }

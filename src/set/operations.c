@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constructors of the operations: dimensions are checked, parts retained, and the conic form made at once where every
- * question will need it (intersection, preimage, polar have no closed support function in general). */
+/* Constructors of the operations: dimensions are checked, parts retained, and the conic form made
+ * at once where every question will need it (intersection, preimage, polar have no closed support
+ * function in general). */
 #include <math.h>
 #include <string.h>
 
@@ -11,12 +12,16 @@ static CpsStatus check_parts(bool product, int count, const CpsSet *const *parts
                              CpsSet **out, CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the set");
     if (count < 1 || count > CPS_SET_MAX_ITEMS || !parts)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d parts, expected 1 to %d", count, CPS_SET_MAX_ITEMS);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d parts, expected 1 to %d", count,
+                         CPS_SET_MAX_ITEMS);
     *n = 0;
     for (int k = 0; k < count; k++) {
-        if (!parts[k]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "part %d is NULL, expected a set", k);
+        if (!parts[k])
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "part %d is NULL, expected a set", k);
         if (!product && parts[k]->n != parts[0]->n)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "part %d lies in R^%d and part 0 in R^%d, expected one space", k, parts[k]->n, parts[0]->n);
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "part %d lies in R^%d and part 0 in R^%d, expected one space", k,
+                             parts[k]->n, parts[0]->n);
         *n = product ? *n + parts[k]->n : parts[k]->n;
         if (*n > CPS_SET_MAX_SPACE)
             return cpsi_fail(err, CPS_ERR_LIMIT, "the product has more than %d components",
@@ -33,8 +38,10 @@ static CpsStatus finish(CpsSet *set, CpsSet **out, CpsError *err) {
         if (!status) status = cpsi_form_make(set, &set->form, err);
         if (!status) status = cpsi_form_deepen(&set->form, &set->touching, err);
     }
-    if (status) cps_set_release(set);
-    else *out = set;
+    if (status)
+        cps_set_release(set);
+    else
+        *out = set;
     return status;
 }
 
@@ -82,9 +89,9 @@ static bool known_polyhedral(const CpsSet *set) {
     return true;
 }
 
-/* A sum is closed when all parts but one are bounded, or the unbounded ones are polyhedra (Rockafellar 1970, theorem
- * 19.3 and corollary 9.1.2); an image of a bounded set or a polyhedron is; the hull of bounded sets is (theorem
- * 17.2). */
+/* A sum is closed when all parts but one are bounded, or the unbounded ones are polyhedra
+ * (Rockafellar 1970, theorem 19.3 and corollary 9.1.2); an image of a bounded set or a polyhedron
+ * is; the hull of bounded sets is (theorem 17.2). */
 static bool need_not_be_closed(const CpsSet *set) {
     int unbounded = 0, curved = 0;
     for (int k = 0; k < set->count; k++) {
@@ -138,40 +145,41 @@ static CpsStatus check_one(const char *name, const CpsSet *set, size_t count, co
 static CpsStatus check_map(int rows, const double *map, const CpsSet *set, CpsSet **out,
                            CpsError *err) {
     if (rows < 1 || rows > CPS_SET_MAX_SPACE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the space's dimension is %d, expected 1 to %d", rows,
-                         CPS_SET_MAX_SPACE);
-    return check_one("map", set, set ? (size_t)rows*(size_t)set->n : 0, map, out, err);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the space's dimension is %d, expected 1 to %d",
+                         rows, CPS_SET_MAX_SPACE);
+    return check_one("map", set, set ? (size_t)rows * (size_t)set->n : 0, map, out, err);
 }
 
-CpsStatus cps_set_preimage(int n, const double *map, const double *shift, const CpsSet *part, CpsSet **out,
-                           CpsError *err) {
+CpsStatus cps_set_preimage(int n, const double *map, const double *shift, const CpsSet *part,
+                           CpsSet **out, CpsError *err) {
     CpsStatus status = check_map(n, map, part, out, err);
     if (!status && shift) status = cpsi_set_finite("shift", (size_t)part->n, shift, err);
     if (status) return status;
-    const size_t size = (size_t)n*(size_t)part->n;
+    const size_t size = (size_t)n * (size_t)part->n;
     CpsSet *set = NULL;
     status = cpsi_set_new(CPSI_SET_PREIMAGE, n, 1, &part, size + (size_t)part->n, &set, err);
     if (status) return status;
     set->b = set->a + size;
-    memcpy(set->a, map, size*sizeof *map);
-    if (shift) memcpy(set->b, shift, (size_t)part->n*sizeof *shift);
+    memcpy(set->a, map, size * sizeof *map);
+    if (shift) memcpy(set->b, shift, (size_t)part->n * sizeof *shift);
     return finish(set, out, err);
 }
 
 CpsStatus cps_set_image(int m, const double *map, const CpsSet *part, CpsSet **out, CpsError *err) {
     CpsStatus status = check_map(m, map, part, out, err);
     if (status) return status;
-    const size_t size = (size_t)m*(size_t)part->n;
+    const size_t size = (size_t)m * (size_t)part->n;
     status = cpsi_set_new(CPSI_SET_IMAGE, m, 1, &part, size, out, err);
-    if (!status) memcpy((*out)->a, map, size*sizeof *map);
+    if (!status) memcpy((*out)->a, map, size * sizeof *map);
     if (!status) (*out)->closure = (*out)->closure || need_not_be_closed(*out);
     return status;
 }
 
 CpsStatus cps_set_translate(const double *shift, const CpsSet *part, CpsSet **out, CpsError *err) {
     CpsStatus status = check_one("shift", part, part ? (size_t)part->n : 0, shift, out, err);
-    if (!status) status = cpsi_set_new(CPSI_SET_TRANSLATE, part->n, 1, &part, (size_t)part->n, out, err);
-    if (!status) memcpy((*out)->a, shift, (size_t)part->n*sizeof *shift);
+    if (!status)
+        status = cpsi_set_new(CPSI_SET_TRANSLATE, part->n, 1, &part, (size_t)part->n, out, err);
+    if (!status) memcpy((*out)->a, shift, (size_t)part->n * sizeof *shift);
     return status;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Quickhull in space (Barber, Dobkin and Huhdanpaa 1996): each point outside is kept with one triangle that sees it. The farthest
- * point of a triangle replaces all triangles that it sees by those from their common edge, the horizon, to itself. */
+/* Quickhull in space (Barber, Dobkin and Huhdanpaa 1996): each point outside is kept with one
+ * triangle that sees it. The farthest point of a triangle replaces all triangles that it sees by
+ * those from their common edge, the horizon, to itself. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +10,8 @@
 
 /* Points nearer to a plane than this share of the size lie on it. */
 static const double ON_PLANE = 1e-12;
-/* A triangle flatter than this (area by the square of the size) has no normal that rounding does not decide. */
+/* A triangle flatter than this (area by the square of the size) has no normal that rounding does
+ * not decide. */
 static const double NO_AREA = 1e-14;
 
 typedef struct Work {
@@ -26,27 +28,31 @@ typedef struct Work {
 } Work;
 
 static double height(const Work *w, const CpsiTriangle *t, int p) {
-    const double *x = &w->c[3*p];
-    return t->normal[0]*x[0] + t->normal[1]*x[1] + t->normal[2]*x[2] - t->offset;
+    const double *x = &w->c[3 * p];
+    return t->normal[0] * x[0] + t->normal[1] * x[1] + t->normal[2] * x[2] - t->offset;
 }
 
 /* One more triangle; -1: no memory, -2: no area. */
 static int add(Work *w, int a, int b, int c) {
     if (w->triangles == w->room) {
-        const int room = 2*w->room + 64;
-        CpsiTriangle *more = realloc(w->triangle, (size_t)room*sizeof *more);
+        const int room = 2 * w->room + 64;
+        CpsiTriangle *more = realloc(w->triangle, (size_t)room * sizeof *more);
         if (!more) return -1;
-        w->triangle = more, w->room = room;
+        w->triangle = more;
+        w->room = room;
     }
     CpsiTriangle *t = &w->triangle[w->triangles];
-    *t = (CpsiTriangle){.corner = {a, b, c}, .neighbour = {-1, -1, -1}, .first = -1, .farthest = -1};
-    const double *x = &w->c[3*a], *y = &w->c[3*b], *z = &w->c[3*c];
-    const double u[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]}, v[3] = {z[0] - x[0], z[1] - x[1], z[2] - x[2]};
-    const double m[3] = {u[1]*v[2] - u[2]*v[1], u[2]*v[0] - u[0]*v[2], u[0]*v[1] - u[1]*v[0]};
-    const double area = sqrt(m[0]*m[0] + m[1]*m[1] + m[2]*m[2]);
-    if (!(area > NO_AREA*w->size*w->size)) return -2;
-    for (int i = 0; i < 3; i++) t->normal[i] = m[i]/area;
-    t->offset = t->normal[0]*x[0] + t->normal[1]*x[1] + t->normal[2]*x[2];
+    *t =
+        (CpsiTriangle){.corner = {a, b, c}, .neighbour = {-1, -1, -1}, .first = -1, .farthest = -1};
+    const double *x = &w->c[3 * a], *y = &w->c[3 * b], *z = &w->c[3 * c];
+    const double u[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]},
+                 v[3] = {z[0] - x[0], z[1] - x[1], z[2] - x[2]};
+    const double m[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                         u[0] * v[1] - u[1] * v[0]};
+    const double area = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+    if (!(area > NO_AREA * w->size * w->size)) return -2;
+    for (int i = 0; i < 3; i++) t->normal[i] = m[i] / area;
+    t->offset = t->normal[0] * x[0] + t->normal[1] * x[1] + t->normal[2] * x[2];
     return w->triangles++;
 }
 
@@ -54,10 +60,13 @@ static int add(Work *w, int a, int b, int c) {
 static bool take(Work *w, int triangle, int p) {
     CpsiTriangle *t = &w->triangle[triangle];
     const double d = height(w, t, p);
-    if (!(d > ON_PLANE*w->size)) return false;
+    if (!(d > ON_PLANE * w->size)) return false;
     w->next[p] = t->first;
     t->first = p;
-    if (d > t->distance) t->distance = d, t->farthest = p;
+    if (d > t->distance) {
+        t->distance = d;
+        t->farthest = p;
+    }
     return true;
 }
 
@@ -65,7 +74,8 @@ static void link(Work *w, int one, int edge, int other) {
     const int a = w->triangle[one].corner[edge];
     w->triangle[one].neighbour[edge] = other;
     for (int k = 0; k < 3; k++)
-        if (w->triangle[other].corner[(k + 1)%3] == a && w->triangle[other].corner[k] == w->triangle[one].corner[(edge + 1)%3])
+        if (w->triangle[other].corner[(k + 1) % 3] == a &&
+            w->triangle[other].corner[k] == w->triangle[one].corner[(edge + 1) % 3])
             w->triangle[other].neighbour[k] = one;
 }
 
@@ -87,8 +97,8 @@ static int begin(Work *w, const int start[4]) {
         for (int e = 0; e < 3; e++)
             for (int g = 0; g < 4; g++)
                 for (int k = 0; k < 3; k++)
-                    if (w->triangle[g].corner[k] == w->triangle[f].corner[(e + 1)%3] &&
-                        w->triangle[g].corner[(k + 1)%3] == w->triangle[f].corner[e])
+                    if (w->triangle[g].corner[k] == w->triangle[f].corner[(e + 1) % 3] &&
+                        w->triangle[g].corner[(k + 1) % 3] == w->triangle[f].corner[e])
                         w->triangle[f].neighbour[e] = g;
     for (int p = 0; p < w->count; p++)
         for (int f = 0; f < 4; f++)
@@ -99,16 +109,17 @@ static int begin(Work *w, const int start[4]) {
 /* Room for all triangles on the stack and their edges. */
 static bool grow(Work *w) {
     if (w->stack_room >= w->triangles) return true;
-    const int room = 2*w->triangles + 64;
-    int *stack = realloc(w->stack, (size_t)room*sizeof *stack);
+    const int room = 2 * w->triangles + 64;
+    int *stack = realloc(w->stack, (size_t)room * sizeof *stack);
     if (stack) w->stack = stack;
-    int *horizon = realloc(w->horizon, 6*(size_t)room*sizeof *horizon);
+    int *horizon = realloc(w->horizon, 6 * (size_t)room * sizeof *horizon);
     if (horizon) w->horizon = horizon;
     if (stack && horizon) w->stack_room = room;
     return stack && horizon;
 }
 
-/* Triangles that see p, from one of them on; the edges between those and the others. Returns how many edges. */
+/* Triangles that see p, from one of them on; the edges between those and the others. Returns how
+ * many edges. */
 static int look(Work *w, int from, int p, int *seen) {
     int edges = 0;
     *seen = 0;
@@ -119,11 +130,12 @@ static int look(Work *w, int from, int p, int *seen) {
             const int beyond = w->triangle[w->stack[i]].neighbour[e];
             CpsiTriangle *t = &w->triangle[beyond];
             if (t->visible) continue;
-            if (height(w, t, p) > ON_PLANE*w->size) {
+            if (height(w, t, p) > ON_PLANE * w->size) {
                 t->visible = true;
                 w->stack[(*seen)++] = beyond;
             } else {
-                w->horizon[2*edges] = w->stack[i], w->horizon[2*edges + 1] = e;
+                w->horizon[2 * edges] = w->stack[i];
+                w->horizon[2 * edges + 1] = e;
                 edges++;
             }
         }
@@ -136,8 +148,8 @@ static int put(Work *w, int from, int p) {
     int seen, edges = look(w, from, p, &seen);
     const int first = w->triangles;
     for (int k = 0; k < edges; k++) {
-        const int inside = w->horizon[2*k], e = w->horizon[2*k + 1];
-        const int a = w->triangle[inside].corner[e], b = w->triangle[inside].corner[(e + 1)%3],
+        const int inside = w->horizon[2 * k], e = w->horizon[2 * k + 1];
+        const int a = w->triangle[inside].corner[e], b = w->triangle[inside].corner[(e + 1) % 3],
                   beyond = w->triangle[inside].neighbour[e];
         const int made = add(w, a, b, p);
         if (made < 0) return made;
@@ -164,16 +176,21 @@ static int put(Work *w, int from, int p) {
     return 0;
 }
 
-int cpsi_quickhull(int count, const double *c, double size, const int start[4], CpsiTriangle **triangles) {
+int cpsi_quickhull(int count, const double *c, double size, const int start[4],
+                   CpsiTriangle **triangles) {
     Work w = {.count = count, .c = c, .size = size};
-    w.next = malloc((size_t)count*sizeof *w.next);
-    w.at = malloc((size_t)count*sizeof *w.at);
+    w.next = malloc((size_t)count * sizeof *w.next);
+    w.at = malloc((size_t)count * sizeof *w.at);
     int result = w.next && w.at ? 0 : -1;
     for (int i = 0; w.at && i < count; i++) w.at[i] = -1;
     if (result == 0) result = begin(&w, start);
     for (int t = 0; result == 0 && t < w.triangles; t++)
-        if (!w.triangle[t].gone && w.triangle[t].first >= 0) result = put(&w, t, w.triangle[t].farthest);
-    free(w.next), free(w.at), free(w.stack), free(w.horizon);
+        if (!w.triangle[t].gone && w.triangle[t].first >= 0)
+            result = put(&w, t, w.triangle[t].farthest);
+    free(w.next);
+    free(w.at);
+    free(w.stack);
+    free(w.horizon);
     if (result != 0) {
         free(w.triangle);
         return result == -1 ? 0 : -1;

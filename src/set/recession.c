@@ -13,10 +13,13 @@ CpsStatus cpsi_set_recession(const CpsSet *set, CpsSet **out, CpsError *err) {
     bool touching = false;
     CpsStatus status = cpsi_raw_new(count, (int)n, &raw, err);
     if (status) return status;
-    double *x = calloc((n + 1)*(size_t)raw->width, sizeof *x), *t = x ? x + n*(size_t)raw->width : NULL;
-    for (size_t i = 0; x && i < n; i++) x[i*(size_t)raw->width + i] = 1;
-    if (!x || !cpsi_raw_emit(raw, set, x, t)) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a recession cone");
-    else status = cpsi_form_reduce(raw, (int)n, x, 0, NULL, 1e-11, &form, err);
+    double *x = calloc((n + 1) * (size_t)raw->width, sizeof *x),
+           *t = x ? x + n * (size_t)raw->width : NULL;
+    for (size_t i = 0; x && i < n; i++) x[i * (size_t)raw->width + i] = 1;
+    if (!x || !cpsi_raw_emit(raw, set, x, t))
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a recession cone");
+    else
+        status = cpsi_form_reduce(raw, (int)n, x, 0, NULL, 1e-11, &form, err);
     free(x);
     cpsi_raw_free(raw);
     /* of a bounded set 0 alone is left, in no interior */

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A conic form restricted to a face of its cones. The interior-point solution (v, s, z) of a program on the form lies in the relative
- * interior of the optimal set, so z tells the face cone by cone:
+/* A conic form restricted to a face of its cones. The interior-point solution (v, s, z) of a
+ * program on the form lies in the relative interior of the optimal set, so z tells the face cone by
+ * cone:
  *
  *     z = 0                    the cone's rows stay as they are
- *     z on the boundary        s stays on the ray of Jz:  its other components are equations, s along it >= 0
+ *     z on the boundary        s stays on the ray of Jz:  its other components are equations, s
+ *                              along it >= 0
  *     z inside (or z > 0)      s = 0
  *
  * written around the solution found, dv = v - v*, so that rounding cannot make the face empty. */
@@ -19,10 +21,12 @@
 static const double NOISE = 1e-9;
 
 /* Affine row over dv: a'(A dv) + constant, a over d rows of the form from i on. */
-static void combine(const CpsiForm *form, int i, int d, const double *a, double constant, double *row) {
+static void combine(const CpsiForm *form, int i, int d, const double *a, double constant,
+                    double *row) {
     const int u = form->unknowns;
     for (int r = 0; r < d; r++)
-        for (int j = 0; j < u; j++) row[j] += a[r]*form->a[(size_t)(i + r)*(size_t)u + (size_t)j];
+        for (int j = 0; j < u; j++)
+            row[j] += a[r] * form->a[(size_t)(i + r) * (size_t)u + (size_t)j];
     row[u] += constant;
 }
 
@@ -31,19 +35,20 @@ static void equation(CpsiRaw *raw, const CpsiForm *form, int i, int d, const dou
     double *row = cpsi_raw_equation(raw);
     combine(form, i, d, a, 0, row);
     if (cpsi_norm(form->unknowns, row) > NOISE) return;
-    memset(row, 0, (size_t)raw->width*sizeof *row);
+    memset(row, 0, (size_t)raw->width * sizeof *row);
     raw->equations--;
 }
 
 /* The rows of one cone on the face. a (d) is scratch. */
-static void cone_on_face(CpsiRaw *raw, const CpsiForm *form, const CpsiSolution *at, int i, int d, double angle,
-                         double *a) {
+static void cone_on_face(CpsiRaw *raw, const CpsiForm *form, const CpsiSolution *at, int i, int d,
+                         double angle, double *a) {
     const double *s = &at->s[i], *z = &at->z[i];
     double *rows, size = cpsi_norm(d - 1, z + 1);
     if (z[0] <= angle) { /* not pressed */
         rows = cpsi_raw_cone(raw, d);
         for (int r = 0; r < d; r++)
-            combine(form, i + r, 1, (const double[]){1}, s[r], &rows[(size_t)r*(size_t)raw->width]);
+            combine(form, i + r, 1, (const double[]){1}, s[r],
+                    &rows[(size_t)r * (size_t)raw->width]);
         return;
     }
     if (d == 1 || z[0] - size > angle) { /* at the tip */
@@ -53,31 +58,40 @@ static void cone_on_face(CpsiRaw *raw, const CpsiForm *form, const CpsiSolution 
     /* on the ray (1, -z1/|z1|)/sqrt 2 */
     for (int k = 0; k < d; k++) {
         /* component k less its part along the ray */
-        const double along = k ? -z[k]/size : 1;
-        for (int r = 0; r < d; r++) a[r] = (r == k) - 0.5*along*(r ? -z[r]/size : 1);
+        const double along = k ? -z[k] / size : 1;
+        for (int r = 0; r < d; r++) a[r] = (r == k) - 0.5 * along * (r ? -z[r] / size : 1);
         equation(raw, form, i, d, a);
     }
     double pull = s[0];
-    for (int r = 0; r < d; r++) a[r] = r ? -z[r]/size : 1, pull += r ? a[r]*s[r] : 0;
+    for (int r = 0; r < d; r++) {
+        a[r] = r ? -z[r] / size : 1;
+        pull += r ? a[r] * s[r] : 0;
+    }
     combine(form, i, d, a, pull, cpsi_raw_cone(raw, 1));
 }
 
-CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, double angle, CpsiForm **out,
-                             CpsError *err) {
+CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, double angle,
+                             CpsiForm **out, CpsError *err) {
     const int n = form->n, u = form->unknowns;
     CpsiRaw *raw = NULL;
-    const CpsiCount count = {.unknowns = (size_t)u, .equations = (size_t)form->rows + 1, .rows = (size_t)form->rows,
+    const CpsiCount count = {.unknowns = (size_t)u,
+                             .equations = (size_t)form->rows + 1,
+                             .rows = (size_t)form->rows,
                              .cones = (size_t)form->cones};
     CpsStatus status = cpsi_raw_new(count, u, &raw, err);
     if (status) return status;
-    double *map = calloc((size_t)n*(size_t)raw->width + (size_t)form->largest_cone + 1, sizeof *map);
-    if (!map) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a face");
+    double *map =
+        calloc((size_t)n * (size_t)raw->width + (size_t)form->largest_cone + 1, sizeof *map);
+    if (!map)
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a face");
     else {
         for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
-            cone_on_face(raw, form, at, i, form->dim[k], angle, &map[(size_t)n*(size_t)raw->width]);
+            cone_on_face(raw, form, at, i, form->dim[k], angle,
+                         &map[(size_t)n * (size_t)raw->width]);
         for (int i = 0; i < n; i++) {
-            memcpy(&map[(size_t)i*(size_t)raw->width], &form->p[(size_t)i*(size_t)u], (size_t)u*sizeof *map);
-            map[(size_t)i*(size_t)raw->width + (size_t)u] = at->x[i];
+            memcpy(&map[(size_t)i * (size_t)raw->width], &form->p[(size_t)i * (size_t)u],
+                   (size_t)u * sizeof *map);
+            map[(size_t)i * (size_t)raw->width + (size_t)u] = at->x[i];
         }
         status = cpsi_form_reduce(raw, n, map, form->lines, form->q, CPSI_SAME_EQUATION, out, err);
     }

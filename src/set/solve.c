@@ -9,7 +9,8 @@
 #include "linsys/small.h"
 #include "set/node.h"
 
-/* Residuals and gap, relative to data of order one, below which a solution is taken; the answers promise 1e-9. */
+/* Residuals and gap, relative to data of order one, below which a solution is taken; the answers
+ * promise 1e-9. */
 static const double ACCEPT = 1e-9;
 
 /* What an answer may be off by, relative to its value and to the size of the data. */
@@ -26,7 +27,8 @@ typedef struct Layout {
 
 static void lay(CpsiArena *arena, Layout *layout, const CpsiForm *form) {
     const int unknowns = form->unknowns > 0 ? form->unknowns : 1;
-    layout->program = cpsi_conic_layout(arena, unknowns, form->rows, form->cones, form->largest_cone);
+    layout->program =
+        cpsi_conic_layout(arena, unknowns, form->rows, form->cones, form->largest_cone);
     layout->cost = CPSI_TAKE(arena, unknowns, double);
     layout->x = CPSI_TAKE(arena, form->n, double);
 }
@@ -38,10 +40,10 @@ void cpsi_solution_free(CpsiSolution *solution) {
 
 /* A direction along a line of the set in which <c, x> falls: true where there is one. */
 static bool along_lines(const CpsiForm *form, const double *c, double size, double *ray) {
-    double most = 1e-10*size;
+    double most = 1e-10 * size;
     bool found = false;
     for (int l = 0; l < form->lines; l++) {
-        const double *q = &form->q[(size_t)l*(size_t)form->n], slope = cpsi_dot(form->n, c, q);
+        const double *q = &form->q[(size_t)l * (size_t)form->n], slope = cpsi_dot(form->n, c, q);
         if (fabs(slope) <= most) continue;
         most = fabs(slope);
         found = true;
@@ -53,30 +55,33 @@ static bool along_lines(const CpsiForm *form, const double *c, double size, doub
 /* x = origin + P v, or the ray P v. */
 static void place(const CpsiForm *form, const double *v, bool ray, double *x) {
     for (int i = 0; i < form->n; i++)
-        x[i] = (ray ? 0 : form->origin[i]) + cpsi_dot(form->unknowns, &form->p[(size_t)i*(size_t)form->unknowns], v);
+        x[i] = (ray ? 0 : form->origin[i]) +
+               cpsi_dot(form->unknowns, &form->p[(size_t)i * (size_t)form->unknowns], v);
 }
 
 /* Is the set empty?  Where it is, a ray means nothing. */
 static bool is_empty(const CpsiForm *form, const Layout *layout) {
-    memset(layout->cost, 0, (size_t)form->unknowns*sizeof *layout->cost);
+    memset(layout->cost, 0, (size_t)form->unknowns * sizeof *layout->cost);
     return form->unknowns > 0 && form->rows > 0 &&
            cpsi_conic_solve(layout->program, ACCEPT).outcome == CPSI_CONIC_INFEASIBLE;
 }
 
-static void run(const CpsiForm *form, const double *c, const Layout *layout, CpsiSolution *solution) {
+static void run(const CpsiForm *form, const double *c, const Layout *layout,
+                CpsiSolution *solution) {
     const int n = form->n, u = form->unknowns;
     CpsiConicProgram *program = layout->program;
     for (int j = 0; j < u; j++) {
         double sum = 0;
-        for (int i = 0; i < n; i++) sum += c[i]*form->p[(size_t)i*(size_t)u + (size_t)j];
+        for (int i = 0; i < n; i++) sum += c[i] * form->p[(size_t)i * (size_t)u + (size_t)j];
         layout->cost[j] = sum;
     }
-    const double size = cpsi_norm(u, layout->cost), floor = NOISE*form->size*cpsi_norm(n, c);
+    const double size = cpsi_norm(u, layout->cost), floor = NOISE * form->size * cpsi_norm(n, c);
     solution->scale = size > floor ? size : 1;
-    for (int j = 0; j < u; j++) layout->cost[j] = size > floor ? layout->cost[j]/size : 0;
+    for (int j = 0; j < u; j++) layout->cost[j] = size > floor ? layout->cost[j] / size : 0;
 
     const CpsiConicResult result = cpsi_conic_solve(program, ACCEPT);
-    static const CpsSetOutcome OUTCOME[] = {CPS_SET_ANSWERED, CPS_SET_EMPTY, CPS_SET_UNBOUNDED, CPS_SET_INACCURATE};
+    static const CpsSetOutcome OUTCOME[] = {CPS_SET_ANSWERED, CPS_SET_EMPTY, CPS_SET_UNBOUNDED,
+                                            CPS_SET_INACCURATE};
     solution->outcome = OUTCOME[result.outcome];
     solution->v = program->base.u;
     solution->s = program->s;
@@ -85,18 +90,20 @@ static void run(const CpsiForm *form, const double *c, const Layout *layout, Cps
     solution->value = cpsi_dot(n, c, solution->x);
     /* what the complementarity and the residuals leave open */
     const double far = 1 + cpsi_norm(u, solution->v) + cpsi_norm(form->rows, solution->z);
-    solution->gap = solution->scale*(result.gap + result.residual*far);
+    solution->gap = solution->scale * (result.gap + result.residual * far);
     const double least = form->size + cpsi_norm(n, solution->x);
-    if (!(solution->gap <= PROMISE*(fabs(solution->value) + cpsi_norm(n, c)*least)) &&
+    if (!(solution->gap <= PROMISE * (fabs(solution->value) + cpsi_norm(n, c) * least)) &&
         result.outcome == CPSI_CONIC_SOLVED)
         solution->outcome = CPS_SET_INACCURATE;
 }
 
-CpsStatus cpsi_form_minimise(const CpsiForm *form, const double *c, CpsiSolution *solution, CpsError *err) {
+CpsStatus cpsi_form_minimise(const CpsiForm *form, const double *c, CpsiSolution *solution,
+                             CpsError *err) {
     CpsiArena arena = {0};
     Layout layout;
     lay(&arena, &layout, form);
-    if (!cpsi_arena_allocate(&arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory to solve on a set");
+    if (!cpsi_arena_allocate(&arena))
+        return cpsi_fail(err, CPS_ERR_MEMORY, "no memory to solve on a set");
     *solution = (CpsiSolution){.outcome = CPS_SET_ANSWERED, .scale = 1, .block = arena.block};
     lay(&arena, &layout, form);
     layout.program->dim = form->dim;
@@ -105,16 +112,20 @@ CpsStatus cpsi_form_minimise(const CpsiForm *form, const double *c, CpsiSolution
     layout.program->c = layout.cost;
     solution->x = layout.x;
     solution->v = layout.cost;
-    if (form->empty) solution->outcome = CPS_SET_EMPTY;
-    else if (form->rows > 0 && form->unknowns > 0) run(form, c, &layout, solution);
+    if (form->empty)
+        solution->outcome = CPS_SET_EMPTY;
+    else if (form->rows > 0 && form->unknowns > 0)
+        run(form, c, &layout, solution);
     else {
-        memcpy(solution->x, form->origin, (size_t)form->n*sizeof *solution->x);
+        memcpy(solution->x, form->origin, (size_t)form->n * sizeof *solution->x);
         solution->value = cpsi_dot(form->n, c, solution->x);
     }
-    if (solution->outcome == CPS_SET_ANSWERED && along_lines(form, c, cpsi_norm(form->n, c), solution->x)) {
+    if (solution->outcome == CPS_SET_ANSWERED &&
+        along_lines(form, c, cpsi_norm(form->n, c), solution->x)) {
         solution->outcome = CPS_SET_UNBOUNDED;
         solution->value = -INFINITY;
     }
-    if (solution->outcome == CPS_SET_UNBOUNDED && is_empty(form, &layout)) solution->outcome = CPS_SET_EMPTY;
+    if (solution->outcome == CPS_SET_UNBOUNDED && is_empty(form, &layout))
+        solution->outcome = CPS_SET_EMPTY;
     return CPS_OK;
 }

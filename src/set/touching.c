@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sets whose parts touch without a common interior: facial reduction (Borwein and Wolkowicz 1981).
  *
- * The form {v : A v + b in K} has an interior where some v has A v + b - t e in K with t > 0, e the middle of the cones.
- * The largest such t, at most 1, is a program with an interior on both sides:
+ * The form {v : A v + b in K} has an interior where some v has A v + b - t e in K with t > 0, e the
+ * middle of the cones. The largest such t, at most 1, is a program with an interior on both sides:
  *
- *     max t,   A v + b - t e in K,   t <= 1           dual:  A'z = 0,  z in K,  <z, e> = 1,   min b.z
+ *     max t,   A v + b - t e in K,   t <= 1           dual:  A'z = 0,  z in K,  <z, e> = 1,
+ *         min b.z
  *
- * Where it is 0, every v of the form has <z, A v + b> = 0: the form lies in the face of K that z selects, and is written
- * over that face (restrict.c). Each round lowers the dimension, so that there are no more of them than unknowns. Programs on
- * the form that is left have multipliers again. */
+ * Where it is 0, every v of the form has <z, A v + b> = 0: the form lies in the face of K that z
+ * selects, and is written over that face (restrict.c). Each round lowers the dimension, so that
+ * there are no more of them than unknowns. Programs on the form that is left have multipliers
+ * again. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,8 +18,8 @@
 #include "linsys/small.h"
 #include "set/node.h"
 
-/* Parts that overlap, or miss each other, by less than this share of their size touch: what the depth is known to. A lens
- * of this thickness is as wide as its root. */
+/* Parts that overlap, or miss each other, by less than this share of their size touch: what the
+ * depth is known to. A lens of this thickness is as wide as its root. */
 static const double TOUCH = 1e-13;
 /* This share inside, and no more need be asked. */
 static const double CLEAR = 1e-6;
@@ -25,18 +27,21 @@ static const double CLEAR = 1e-6;
 /* The program for the depth as a form of its own, over (v, t). */
 static CpsiForm *depth_form(const CpsiForm *form) {
     const size_t u = (size_t)form->unknowns, w = u + 1, m = (size_t)form->rows;
-    CpsiForm *depth = cpsi_form_new(form->unknowns + 1, form->unknowns + 1, 0, form->rows + 1, form->cones + 1);
+    CpsiForm *depth =
+        cpsi_form_new(form->unknowns + 1, form->unknowns + 1, 0, form->rows + 1, form->cones + 1);
     if (!depth) return NULL;
-    for (size_t i = 0; i < w; i++) depth->p[i*w + i] = 1;
-    for (size_t i = 0; i < m; i++) memcpy(&depth->a[i*w], &form->a[i*u], u*sizeof *depth->a);
-    memcpy(depth->b, form->b, m*sizeof *depth->b);
+    for (size_t i = 0; i < w; i++) depth->p[i * w + i] = 1;
+    for (size_t i = 0; i < m; i++) memcpy(&depth->a[i * w], &form->a[i * u], u * sizeof *depth->a);
+    memcpy(depth->b, form->b, m * sizeof *depth->b);
     for (int k = 0, i = 0; k < form->cones; i += form->dim[k++]) {
-        depth->a[(size_t)i*w + u] = -1;
+        depth->a[(size_t)i * w + u] = -1;
         depth->dim[k] = form->dim[k];
     }
-    depth->a[m*w + u] = -1, depth->b[m] = 1;
+    depth->a[m * w + u] = -1;
+    depth->b[m] = 1;
     depth->dim[form->cones] = 1;
-    depth->rows = form->rows + 1, depth->cones = form->cones + 1;
+    depth->rows = form->rows + 1;
+    depth->cones = form->cones + 1;
     depth->largest_cone = form->largest_cone;
     return depth;
 }
@@ -48,7 +53,8 @@ static bool all_inside(const CpsiForm *form, const double *s) {
     return true;
 }
 
-/* Is an inner point seen at once, at v = 0 or where the solver ends that has nothing to minimise? */
+/* Is an inner point seen at once, at v = 0 or where the solver ends that has nothing to
+ * minimise? */
 static CpsStatus is_clear(const CpsiForm *form, const double *nothing, bool *clear, CpsError *err) {
     *clear = all_inside(form, form->b);
     if (*clear) return CPS_OK;
@@ -59,7 +65,8 @@ static CpsStatus is_clear(const CpsiForm *form, const double *nothing, bool *cle
     return status;
 }
 
-/* One round: *reduced, or NULL where the form has an interior, is empty, or the depth is not known. */
+/* One round: *reduced, or NULL where the form has an interior, is empty, or the depth is not
+ * known. */
 static CpsStatus reduce_once(const CpsiForm *form, CpsiForm **reduced, CpsError *err) {
     const size_t u = (size_t)form->unknowns;
     CpsiSolution at = {.outcome = CPS_SET_INACCURATE};
@@ -77,7 +84,7 @@ static CpsStatus reduce_once(const CpsiForm *form, CpsiForm **reduced, CpsError 
     if (!status && at.outcome == CPS_SET_ANSWERED && fabs(at.value) <= TOUCH) {
         double *x = &cost[u + 1];
         for (int i = 0; i < form->n; i++)
-            x[i] = form->origin[i] + cpsi_dot(form->unknowns, &form->p[(size_t)i*u], at.x);
+            x[i] = form->origin[i] + cpsi_dot(form->unknowns, &form->p[(size_t)i * u], at.x);
         const CpsiSolution touching = {.s = at.s, .z = at.z, .x = x};
         status = cpsi_form_restrict(form, &touching, CPSI_LEAST_ANGLE, reduced, err);
     }
@@ -89,7 +96,8 @@ static CpsStatus reduce_once(const CpsiForm *form, CpsiForm **reduced, CpsError 
 
 CpsStatus cpsi_form_deepen(CpsiForm **form, bool *touching, CpsError *err) {
     CpsStatus status = CPS_OK;
-    for (int round = (*form)->unknowns; !status && round > 0 && (*form)->unknowns > 0 && (*form)->rows > 0; round--) {
+    for (int round = (*form)->unknowns;
+         !status && round > 0 && (*form)->unknowns > 0 && (*form)->rows > 0; round--) {
         CpsiForm *reduced = NULL;
         if ((*form)->empty) break;
         status = reduce_once(*form, &reduced, err);

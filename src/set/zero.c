@@ -6,10 +6,10 @@
 #include "linsys/small.h"
 #include "set/node.h"
 
-/* By a closed margin with a ball round 0; a box or product that is flat in some components has 0 in its relative
- * interior all the same. */
+/* By a closed margin with a ball round 0; a box or product that is flat in some components has 0 in
+ * its relative interior all the same. */
 static CpsiZero known_primitive(const CpsSet *set, const double *zero) {
-    const double least = 1e-7*cpsi_set_size(set);
+    const double least = 1e-7 * cpsi_set_size(set);
     double margin;
     bool relative = true;
     switch (set->kind) {
@@ -19,25 +19,30 @@ static CpsiZero known_primitive(const CpsSet *set, const double *zero) {
     case CPSI_SET_POINTS:
         if (set->hull) {
             for (int i = 0; i < set->n - set->hull->dimension; i++)
-                if (fabs(set->hull->level[i]) > 1e-14*set->hull->size) return CPSI_ZERO_UNKNOWN;
+                if (fabs(set->hull->level[i]) > 1e-14 * set->hull->size) return CPSI_ZERO_UNKNOWN;
             margin = cpsi_hull_margin(set->hull, zero);
-            return margin > least ? CPSI_ZERO_RELATIVE : margin >= 0 ? CPSI_ZERO_INSIDE : CPSI_ZERO_UNKNOWN;
+            return margin > least ? CPSI_ZERO_RELATIVE
+                   : margin >= 0  ? CPSI_ZERO_INSIDE
+                                  : CPSI_ZERO_UNKNOWN;
         }
         if (set->count != 1 || cpsi_norm(set->n, set->a) > 0) return CPSI_ZERO_UNKNOWN;
         return CPSI_ZERO_RELATIVE;
     case CPSI_SET_BOX:
         for (int i = 0; i < set->n; i++) {
             if (set->a[i] > 0 || set->b[i] < 0) return CPSI_ZERO_UNKNOWN;
-            relative = relative && ((set->a[i] == 0 && set->b[i] == 0) || fmin(-set->a[i], set->b[i]) > least);
+            relative = relative &&
+                       ((set->a[i] == 0 && set->b[i] == 0) || fmin(-set->a[i], set->b[i]) > least);
         }
         return relative ? CPSI_ZERO_RELATIVE : CPSI_ZERO_INSIDE;
     case CPSI_SET_ELLIPSOID: {
         double square = 0;
         for (int i = 0; i < set->n; i++) {
-            const double c = cpsi_dot(i + 1, &set->c[(size_t)i*(size_t)set->n], set->a);
-            square += c*c;
+            const double c = cpsi_dot(i + 1, &set->c[(size_t)i * (size_t)set->n], set->a);
+            square += c * c;
         }
-        return square < 1 - 1e-7 ? CPSI_ZERO_RELATIVE : square <= 1 ? CPSI_ZERO_INSIDE : CPSI_ZERO_UNKNOWN;
+        return square < 1 - 1e-7 ? CPSI_ZERO_RELATIVE
+               : square <= 1     ? CPSI_ZERO_INSIDE
+                                 : CPSI_ZERO_UNKNOWN;
     }
     case CPSI_SET_BALL:
         if (set->scalar == 0 && cpsi_norm(set->n, set->a) == 0) return CPSI_ZERO_RELATIVE;
@@ -48,8 +53,8 @@ static CpsiZero known_primitive(const CpsSet *set, const double *zero) {
     return margin > least ? CPSI_ZERO_RELATIVE : CPSI_ZERO_INSIDE;
 }
 
-/* Relative interiors go with sums, products, images, hulls and, where they meet, with intersections and preimages
- * (Rockafellar 1970, 6.4-6.9): what all parts have, the whole has. */
+/* Relative interiors go with sums, products, images, hulls and, where they meet, with intersections
+ * and preimages (Rockafellar 1970, 6.4-6.9): what all parts have, the whole has. */
 static CpsiZero known_zero(const CpsSet *set, const double *zero) {
     CpsiZero least = CPSI_ZERO_RELATIVE;
     switch (set->kind) {
@@ -86,7 +91,7 @@ CpsStatus cpsi_known_zero(const CpsSet *set, CpsiZero *known, CpsError *err) {
     const size_t most = most_components(set);
     double *zero = cpsi_scratch_take(&scratch, most);
     if (!zero) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
-    memset(zero, 0, most*sizeof *zero);
+    memset(zero, 0, most * sizeof *zero);
     *known = known_zero(set, zero);
     cpsi_scratch_give(&scratch);
     return CPS_OK;

@@ -9,7 +9,9 @@
 #include "checker.h"
 
 void case_begin(Case *c, double length, int elements, double weight, double stiffness) {
-    *c = (Case){.scene = cps_scene_default(), .bed = cps_obstacle_default(), .line = cps_line_default()};
+    *c = (Case){.scene = cps_scene_default(),
+                .bed = cps_obstacle_default(),
+                .line = cps_line_default()};
     c->line.name = "line";
     c->line.length = length;
     c->line.elements = elements;
@@ -58,11 +60,16 @@ static void add(Case *c, int steps, CpsEndKind kind, double x, double y, double 
     int s = c->scene.stage_count++;
     assert_true(s < CASE_STAGES);
     c->change[s] = (CpsChange){.end = CPS_END_B, .to = {.kind = kind, .value = {x, y, z}}};
-    c->stage[s] = (CpsStage){.name = "stage", .steps = steps, .change_count = 1, .change = &c->change[s]};
+    c->stage[s] =
+        (CpsStage){.name = "stage", .steps = steps, .change_count = 1, .change = &c->change[s]};
 }
 
-void case_force(Case *c, int steps, double x, double y, double z) { add(c, steps, CPS_END_FREE, x, y, z); }
-void case_move(Case *c, int steps, double x, double y, double z) { add(c, steps, CPS_END_HELD, x, y, z); }
+void case_force(Case *c, int steps, double x, double y, double z) {
+    add(c, steps, CPS_END_FREE, x, y, z);
+}
+void case_move(Case *c, int steps, double x, double y, double z) {
+    add(c, steps, CPS_END_HELD, x, y, z);
+}
 
 static void must(CpsStatus status, const CpsError *err) {
     if (status == CPS_OK) return;
@@ -84,7 +91,8 @@ CpsLineView case_step(Run *run) {
     must(cps_evolution_step(run->evolution, &err), &err);
     must(cps_results_append(run->results, run->evolution, &err), &err);
     CpsStepReport report = cps_evolution_report(run->evolution);
-    if (report.outcome != CPS_SOLVED) print_error("step %d: %s\n", report.index, cps_outcome_sentence(report.outcome));
+    if (report.outcome != CPS_SOLVED)
+        print_error("step %d: %s\n", report.index, cps_outcome_sentence(report.outcome));
     CHECK_INT(report.outcome, CPS_SOLVED);
     run->dissipated += report.dissipated;
     CpsLineView view = cps_evolution_line_view(run->evolution, 0);
@@ -107,7 +115,8 @@ void case_close(Run *run) {
 }
 
 double show(const char *name, const char *figure, double expected, double found) {
-    printf("%-28s | %-30s | %18.11g | %18.11g | %10.2e\n", name, figure, expected, found, found - expected);
+    printf("%-28s | %-30s | %18.11g | %18.11g | %10.2e\n", name, figure, expected, found,
+           found - expected);
     return found - expected;
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One line on a plane bed, its history, and a run of it that the independent checker re-checks at the end. */
+/* One line on a plane bed, its history, and a run of it that the independent checker re-checks at
+ * the end. */
 #ifndef CAPSTAN_TEST_CASES_H
 #define CAPSTAN_TEST_CASES_H
 
@@ -17,8 +18,8 @@ typedef struct Case {
     CpsChange change[CASE_STAGES];
 } Case;
 
-/* A line of length, elements, weight per length and EA; gravity along -z; end A held, end B free. The returned struct
- * points into itself: fill it where it stays. */
+/* A line of length, elements, weight per length and EA; gravity along -z; end A held, end B free.
+ * The returned struct points into itself: fill it where it stays. */
 void case_begin(Case *c, double length, int elements, double weight, double stiffness);
 void case_bed(Case *c, double friction);
 void case_straight(Case *c, double x_from, double x_to);
@@ -38,7 +39,8 @@ typedef struct Run {
     char directory[64];
     double dissipated;    /* [J] since case_open or the last reset by the test */
     double tension_error; /* [N] rms error that the last certificate leaves possible */
-    double motion_error;  /* [m] sum over the steps of c L times that: no node of a line held at A is farther off */
+    double motion_error; /* [m] sum over the steps of c L times that: no node of a line held at A is
+                            farther off */
 } Run;
 
 Run case_open(const Case *c);

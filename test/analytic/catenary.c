@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-/* span and rise of the part that hangs between vertical forces low and high, and their derivatives */
+/* span and rise of the part that hangs between vertical forces low and high, and their
+ * derivatives */
 typedef struct Span {
     double x, z, x_h, x_high, x_low, z_h, z_high, z_low;
 } Span;

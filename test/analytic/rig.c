@@ -5,9 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* small vectors ------------------------------------------------------------------------------------------------- */
+/* small vectors -------------------------------------------------------------------------------- */
 
-static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 static double norm(const double *a) { return sqrt(dot(a, a)); }
 
 static void add(double *out, const double *a, double by, const double *b) {
@@ -15,7 +17,8 @@ static void add(double *out, const double *a, double by, const double *b) {
 }
 
 static void cross(double *out, const double *a, const double *b) {
-    const double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                         a[0] * b[1] - a[1] * b[0]};
     memcpy(out, c, sizeof c);
 }
 
@@ -24,7 +27,7 @@ static void unit(double *a) {
     for (int k = 0; k < 3; k++) a[k] = size > 0 ? a[k] / size : 0;
 }
 
-/* the rig ------------------------------------------------------------------------------------------------------- */
+/* the rig -------------------------------------------------------------------------------------- */
 
 void rig_begin(Rig *rig, int elements, double weight, double stiffness) {
     memset(rig, 0, sizeof *rig);
@@ -67,7 +70,9 @@ void rig_point(Rig *rig, double x, double y, double z) {
     const int k = rig->line.start.point_count++;
     assert_true(k < RIG_POINTS);
     double *p = &rig->point[3 * k];
-    p[0] = x, p[1] = y, p[2] = z;
+    p[0] = x;
+    p[1] = y;
+    p[2] = z;
 }
 
 void rig_end(Rig *rig, int end, CpsEndKind kind, double x, double y, double z) {
@@ -77,7 +82,10 @@ void rig_end(Rig *rig, int end, CpsEndKind kind, double x, double y, double z) {
 void rig_stage(Rig *rig, int steps) {
     const int s = rig->scene.stage_count++;
     assert_true(s < RIG_STAGES);
-    rig->stage[s] = (CpsStage){.name = "stage", .steps = steps, .change = rig->change[s], .turn = &rig->turn[s]};
+    rig->stage[s] = (CpsStage){.name = "stage",
+                               .steps = steps,
+                               .change = rig->change[s],
+                               .turn = &rig->turn[s]};
 }
 
 void rig_change(Rig *rig, int end, CpsEndKind kind, double x, double y, double z) {
@@ -91,7 +99,7 @@ void rig_turn(Rig *rig, int obstacle, double angle) {
     rig->turn[s] = (CpsTurn){.obstacle = obstacle, .angle = angle};
 }
 
-/* the audit ----------------------------------------------------------------------------------------------------- */
+/* the audit ------------------------------------------------------------------------------------ */
 
 /* distance of x from an obstacle and the normal there */
 static double distance(const CpsObstacle *o, const double *x, double *normal) {
@@ -119,11 +127,14 @@ static void turned(const CpsObstacle *o, double angle, const double *x, double *
     add(from, x, -1, o->point);
     cross(side, axis, from);
     const double along = dot(axis, from), c = cos(angle), s = sin(angle);
-    for (int k = 0; k < 3; k++) out[k] = o->point[k] + along * axis[k] + c * (from[k] - along * axis[k]) + s * side[k];
+    for (int k = 0; k < 3; k++)
+        out[k] = o->point[k] + along * axis[k] + c * (from[k] - along * axis[k]) + s * side[k];
 }
 
-/* Way from the foot of one point to that of another, as a tangent at the second, where the normal is n. */
-static void way(const CpsObstacle *o, const double *from, const double *to, const double *n, double *out) {
+/* Way from the foot of one point to that of another, as a tangent at the second, where the normal
+ * is n. */
+static void way(const CpsObstacle *o, const double *from, const double *to, const double *n,
+                double *out) {
     double other[3], step[3], axis[3], straight = 0;
     distance(o, from, other);
     add(step, to, -1, from);
@@ -136,16 +147,19 @@ static void way(const CpsObstacle *o, const double *from, const double *to, cons
     if (o->kind == CPS_OBSTACLE_CYLINDER) straight = dot(step, axis);
     /* the angle between the normals, well conditioned at 0: 2 atan2(|n - m|, |n + m|) */
     double less[3], sum[3], tangent[3];
-    add(less, n, -1, other), add(sum, n, 1, other);
+    add(less, n, -1, other);
+    add(sum, n, 1, other);
     const double angle = 2 * atan2(norm(less), norm(sum));
     add(tangent, less, -dot(less, n), n);
     unit(tangent);
     for (int k = 0; k < 3; k++)
-        out[k] = o->radius * angle * tangent[k] + (o->kind == CPS_OBSTACLE_CYLINDER ? straight * axis[k] : 0);
+        out[k] = o->radius * angle * tangent[k] +
+                 (o->kind == CPS_OBSTACLE_CYLINDER ? straight * axis[k] : 0);
 }
 
 /* two tangents: the grain's or the line's part in the tangent plane, and the one across it */
-static void tangents(const CpsObstacle *o, const double *direction, const double *n, double *first, double *second) {
+static void tangents(const CpsObstacle *o, const double *direction, const double *n, double *first,
+                     double *second) {
     const double *along = norm(o->grain) > 0 ? o->grain : direction;
     add(first, along, -dot(along, n), n);
     unit(first);
@@ -153,7 +167,8 @@ static void tangents(const CpsObstacle *o, const double *direction, const double
 }
 
 static double support(const CpsObstacle *o, double lateral, double reaction, double a, double b) {
-    a *= o->friction, b *= lateral;
+    a *= o->friction;
+    b *= lateral;
     return reaction * (o->friction_shape == CPS_FRICTION_BOX ? fabs(a) + fabs(b) : hypot(a, b));
 }
 
@@ -163,14 +178,16 @@ static double share(double force, double friction, double reaction) {
 }
 
 static double gauge(const CpsObstacle *o, double lateral, double reaction, double a, double b) {
-    a = share(a, o->friction, reaction), b = share(b, lateral, reaction);
+    a = share(a, o->friction, reaction);
+    b = share(b, lateral, reaction);
     return o->friction_shape == CPS_FRICTION_BOX ? fmax(fabs(a), fabs(b)) : hypot(a, b);
 }
 
 /* The depth of x below the nearest surface, over zero. */
 static double depth(const CpsScene *scene, const double *x) {
     double deepest = 0, n[3];
-    for (int k = 0; k < scene->obstacle_count; k++) deepest = fmax(deepest, -distance(&scene->obstacle[k], x, n));
+    for (int k = 0; k < scene->obstacle_count; k++)
+        deepest = fmax(deepest, -distance(&scene->obstacle[k], x, n));
     return deepest;
 }
 
@@ -183,18 +200,20 @@ static double largest(const CpsLineView *v) {
     return most;
 }
 
-/* A node that does not touch keeps a reaction of rounding and friction in no direction: what that leaves, over the
- * largest force times the length. A step is solved to a gap of 1e-13 of its scale. */
+/* A node that does not touch keeps a reaction of rounding and friction in no direction: what that
+ * leaves, over the largest force times the length. A step is solved to a gap of 1e-13 of its
+ * scale. */
 static const double ROUNDING = 1e-14;
 
-/* Where something touches an obstacle, the line's direction there, and the forces of the obstacle on it. */
+/* Where something touches an obstacle, the line's direction there, and the forces of the obstacle
+ * on it. */
 typedef struct Touch {
     double place[3], reference[3], along[3], friction[3], bound, reaction;
 } Touch;
 
 /* Its friction, where the normal is n. */
-static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn, const Touch *touch, const double *n,
-                          double length) {
+static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn,
+                          const Touch *touch, const double *n, double length) {
     double first[3], second[3], from[3], slid[3];
     const double *f = touch->friction, reaction = touch->reaction;
     const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
@@ -203,21 +222,25 @@ static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn
     memcpy(from, touch->reference, sizeof from);
     if (*turn != 0) turned(o, *turn, touch->reference, from);
     way(o, from, touch->place, n, slid);
-    const double f1 = dot(f, first), f2 = dot(f, second), s1 = dot(slid, first), s2 = dot(slid, second);
+    const double f1 = dot(f, first), f2 = dot(f, second), s1 = dot(slid, first),
+                 s2 = dot(slid, second);
     const double phi = support(o, lateral, reaction, s1, s2), law = phi + f1 * s1 + f2 * s2;
     audit->bound += fabs(touch->bound - w);
     audit->bounds += w;
     audit->law += fmax(0, law);
     audit->dissipated += phi;
     if (!(w > 0)) return;
-    audit->outside = fmax(audit->outside, (gauge(o, lateral, reaction, f1, f2) - reaction) / reaction);
+    audit->outside =
+        fmax(audit->outside, (gauge(o, lateral, reaction, f1, f2) - reaction) / reaction);
     audit->outside = fmax(audit->outside, fabs(dot(f, n)) / w);
-    audit->node_law = fmax(audit->node_law, fmax(0, fabs(law) - ROUNDING * audit->scale) / (w * length));
+    audit->node_law =
+        fmax(audit->node_law, fmax(0, fabs(law) - ROUNDING * audit->scale) / (w * length));
 }
 
-/* What touches obstacle k at `touch`, as deep as it may lie there: its reaction, friction and what they do. */
-static void audit_touch(Audit *audit, const CpsScene *scene, const double *turn, const Touch *touch, int k, double depth,
-                        double length, double *sum) {
+/* What touches obstacle k at `touch`, as deep as it may lie there: its reaction, friction and what
+ * they do. */
+static void audit_touch(Audit *audit, const CpsScene *scene, const double *turn, const Touch *touch,
+                        int k, double depth, double length, double *sum) {
     double n[3];
     add(sum, sum, 1, touch->friction);
     if (k < 0) {
@@ -234,20 +257,23 @@ static void audit_touch(Audit *audit, const CpsScene *scene, const double *turn,
 }
 
 /* Contact c of node j. */
-static void audit_contact(Audit *audit, const CpsScene *scene, const double *turn, const CpsLineView *v, int j, int c,
-                          double *sum) {
+static void audit_contact(Audit *audit, const CpsScene *scene, const double *turn,
+                          const CpsLineView *v, int j, int c, double *sum) {
     const int before = j > 0 ? j - 1 : 0, after = j < v->elements ? j + 1 : j;
     Touch touch = {.reaction = v->reaction[c], .bound = v->friction_bound[c]};
     memcpy(touch.friction, &v->friction[3 * c], sizeof touch.friction);
     memcpy(touch.place, &v->position[3 * j], sizeof touch.place);
     memcpy(touch.reference, &v->reference[3 * j], sizeof touch.reference);
     add(touch.along, &v->position[3 * after], -1, &v->position[3 * before]);
-    audit_touch(audit, scene, turn, &touch, v->obstacle ? v->obstacle[c] : scene->obstacle_count - 1, 0,
+    audit_touch(audit, scene, turn, &touch,
+                v->obstacle ? v->obstacle[c] : scene->obstacle_count - 1, 0,
                 v->arc_length[v->elements], sum);
 }
 
-/* The contact of element e, at the point of it that is nearest to the obstacle: what it does in all. */
-static void audit_element(Audit *audit, const CpsScene *scene, const double *turn, const CpsLineView *v, int e, double *sum) {
+/* The contact of element e, at the point of it that is nearest to the obstacle: what it does in
+ * all. */
+static void audit_element(Audit *audit, const CpsScene *scene, const double *turn,
+                          const CpsLineView *v, int e, double *sum) {
     const int k = v->element_obstacle[e];
     const double b = v->element_share[e], l = v->element_length[e];
     Touch touch = {.reaction = v->element_reaction[e], .bound = v->element_friction_bound[e]};
@@ -259,7 +285,8 @@ static void audit_element(Audit *audit, const CpsScene *scene, const double *tur
         sum[i] = 0;
     }
     const double radius = k < 0 ? 1 : scene->obstacle[k].radius;
-    audit_touch(audit, scene, turn, &touch, k, fmin(l * l / radius, radius) / 4, v->arc_length[v->elements], sum);
+    audit_touch(audit, scene, turn, &touch, k, fmin(l * l / radius, radius) / 4,
+                v->arc_length[v->elements], sum);
 }
 
 /* The share of element e's contact on its node j, added to `sum`. */
@@ -280,10 +307,12 @@ Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *v)
         const int end = j == 0 ? CPS_END_A : CPS_END_B;
         if ((j == 0 || j == v->elements) && v->end[end].kind == CPS_END_HELD) continue;
         memcpy(sum, &v->load[3 * j], sizeof sum);
-        for (int c = j; c < v->contacts * nodes; c += nodes) audit_contact(&audit, scene, turn, v, j, c, sum);
+        for (int c = j; c < v->contacts * nodes; c += nodes)
+            audit_contact(&audit, scene, turn, v, j, c, sum);
         if (j > 0) add(sum, sum, -1, &v->segment_force[3 * (j - 1)]);
         if (j < v->elements) add(sum, sum, 1, &v->segment_force[3 * j]);
-        add_element(v, j - 1, j, sum), add_element(v, j, j, sum);
+        add_element(v, j - 1, j, sum);
+        add_element(v, j, j, sum);
         if (force > 0) audit.balance = fmax(audit.balance, norm(sum) / force);
     }
     for (int e = 0; v->element_obstacle && e < v->elements; e++) {
@@ -292,14 +321,15 @@ Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *v)
         audit_element(&audit, scene, turn, v, e, sum);
         /* the normal of the view is the obstacle's there */
         for (int i = 0; i < 3; i++)
-            told[i] = sum[i] - v->element_friction[3 * e + i] - v->element_reaction[e] * v->element_normal[3 * e + i];
+            told[i] = sum[i] - v->element_friction[3 * e + i] -
+                      v->element_reaction[e] * v->element_normal[3 * e + i];
         if (force > 0) audit.balance = fmax(audit.balance, norm(told) / force);
     }
     if (audit.bounds > 0) audit.bound /= audit.bounds;
     return audit;
 }
 
-/* the run ------------------------------------------------------------------------------------------------------- */
+/* the run -------------------------------------------------------------------------------------- */
 
 static void must(CpsStatus status, const CpsError *err) {
     if (status == CPS_OK) return;
@@ -322,13 +352,18 @@ static void turns(RigRun *run, double *turn) {
     if (run->rig->line.start.kind == CPS_START_LAID && run->steps == 0) return;
     if (run->stage >= scene->stage_count) return;
     const CpsStage *stage = &scene->stage[run->stage];
-    for (int k = 0; k < stage->turn_count; k++) turn[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
-    if (++run->part == stage->steps) run->part = 0, run->stage++;
+    for (int k = 0; k < stage->turn_count; k++)
+        turn[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
+    if (++run->part == stage->steps) {
+        run->part = 0;
+        run->stage++;
+    }
 }
 
-/* The limits are those asked for: residuals of the bound and of the law 1e-8, depth 1e-6; forces balance to
- * 1e-9 of the largest, which is what the checker of result.nc asks. Sticking leaves positions that differ from
- * the reference by rounding of the length: up to 1e-13 of w l in the law's sum, of all bounds together. */
+/* The limits are those asked for: residuals of the bound and of the law 1e-8, depth 1e-6; forces
+ * balance to 1e-9 of the largest, which is what the checker of result.nc asks. Sticking leaves
+ * positions that differ from the reference by rounding of the length: up to 1e-13 of w l in the
+ * law's sum, of all bounds together. */
 static void check(RigRun *run, const Audit *audit) {
     const double length = run->rig->line.length;
     run->motion += run->report.certificate.tension_bound * run->view.compliance * length;
@@ -342,8 +377,8 @@ static void check(RigRun *run, const Audit *audit) {
     CHECK_LESS(audit->bound, 1e-8);
     CHECK_LESS(audit->outside, 1e-8);
     CHECK_LESS(audit->node_law, 1e-8);
-    CHECK_LESS(audit->law,
-               1e-8 * audit->dissipated + 1e-12 * audit->bounds * length + ROUNDING * audit->scale + 1e-300);
+    CHECK_LESS(audit->law, 1e-8 * audit->dissipated + 1e-12 * audit->bounds * length +
+                               ROUNDING * audit->scale + 1e-300);
 }
 
 CpsOutcome rig_try(RigRun *run) {
@@ -364,7 +399,8 @@ CpsOutcome rig_try(RigRun *run) {
 
 CpsLineView rig_step(RigRun *run) {
     const CpsOutcome outcome = rig_try(run);
-    if (outcome != CPS_SOLVED) print_error("step %d: %s\n", run->steps, cps_outcome_sentence(outcome));
+    if (outcome != CPS_SOLVED)
+        print_error("step %d: %s\n", run->steps, cps_outcome_sentence(outcome));
     CHECK_INT(outcome, CPS_SOLVED);
     return run->view;
 }
@@ -381,6 +417,7 @@ void rig_close(RigRun *run) { cps_evolution_destroy(run->evolution); }
 double rig_tension(const CpsLineView *view, int e) { return norm(&view->segment_force[3 * e]); }
 
 double rig_show(const char *name, const char *figure, double expected, double found) {
-    printf("%-28s | %-34s | %18.11g | %18.11g | %10.2e\n", name, figure, expected, found, found - expected);
+    printf("%-28s | %-34s | %18.11g | %18.11g | %10.2e\n", name, figure, expected, found,
+           found - expected);
     return found - expected;
 }

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One line on planes, cylinders and spheres with consistent friction, its history, and an audit of every step.
+/* One line on planes, cylinders and spheres with consistent friction, its history, and an audit of
+ * every step.
  *
- * The audit shares no code with the library: it takes the obstacles of the scene, of those that a node is said to touch
- * the distance, the normal and the node's way on it (the reference carried along by an obstacle that turns) and recomputes balance,
- * friction bound, set of forces, phi(s) + <s, F> and depth from the view of the line. */
+ * The audit shares no code with the library: it takes the obstacles of the scene, of those that a
+ * node is said to touch the distance, the normal and the node's way on it (the reference carried
+ * along by an obstacle that turns) and recomputes balance, friction bound, set of forces, phi(s) +
+ * <s, F> and depth from the view of the line. */
 #ifndef CAPSTAN_TEST_RIG_H
 #define CAPSTAN_TEST_RIG_H
 
@@ -22,7 +24,8 @@ typedef struct Rig {
     double point[3 * RIG_POINTS], element_length[RIG_POINTS];
 } Rig;
 
-/* A line; gravity along -z; end A held, end B free. The struct points into itself: fill it where it stays. */
+/* A line; gravity along -z; end A held, end B free. The struct points into itself: fill it where it
+ * stays. */
 void rig_begin(Rig *rig, int elements, double weight, double stiffness);
 /* Its natural length where all elements are alike; else fill element_length and say so. */
 void rig_length(Rig *rig, double length);
@@ -61,8 +64,8 @@ typedef struct RigRun {
     CpsLineView view;
     CpsLineReport report;
     double dissipated, law; /* [J] sums over the steps */
-    double motion; /* [m] sum over the steps of c L times the rms tension error that a certificate leaves possible:
-                      no node of a line held at one end is farther off */
+    double motion; /* [m] sum over the steps of c L times the rms tension error that a certificate
+                      leaves possible: no node of a line held at one end is farther off */
     int steps, solved;
 } RigRun;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* S90 annex 5 and the counter-examples of annex 6, all with K = l = 1, rho0 g = -1, a plane bed z = 0; and the chain of
- * small links of remark 2.3.5. */
+/* S90 annex 5 and the counter-examples of annex 6, all with K = l = 1, rho0 g = -1, a plane bed z =
+ * 0; and the chain of small links of remark 2.3.5. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -21,11 +21,13 @@ static double force(const CpsLineView *view, int element) {
     return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
 }
 
-/* Annex 5: a straight line without tension, mu = 1, its end pushed back by f = -eta e1. P10.1 has no solution; the one
- * of P2.1 (the printed formula is lost) follows from d(T t)/da + phi = 0: near the tip t = -e1 and the line moves
- * along -e1, so that phi = +e1 and T' = 1, T(1) = eta. Hence T = a - abar, abar = 1 - eta, x' = -(1 + T) e1:
+/* Annex 5: a straight line without tension, mu = 1, its end pushed back by f = -eta e1. P10.1 has
+ * no solution; the one of P2.1 (the printed formula is lost) follows from d(T t)/da + phi = 0: near
+ * the tip t = -e1 and the line moves along -e1, so that phi = +e1 and T' = 1, T(1) = eta. Hence T =
+ * a - abar, abar = 1 - eta, x' = -(1 + T) e1:
  *   x = a e1 up to abar,   x = [abar - (a - abar) - (a - abar)^2/2] e1 beyond.
- * In the discrete line the fold lies at a node or inside an element, which misplaces the part beyond by up to 2 h. */
+ * In the discrete line the fold lies at a node or inside an element, which misplaces the part
+ * beyond by up to 2 h. */
 static void annex_5(void **state) {
     (void)state;
     Case c;
@@ -50,13 +52,15 @@ static void annex_5(void **state) {
     CHECK_NEAR(show("annex 5", "friction near the tip [N/m]", 1, friction), 0, 1e-4);
     CHECK_LESS(show("annex 5", "place, part that rests [m]", 0, rest), run.motion_error + 1e-12);
     CHECK_LESS(show("annex 5", "place, part folded back [m]", 0, place), 2 * h);
-    CHECK_LESS(show("annex 5", "tension [N]", 0, tension), run.tension_error * sqrt(ELEMENTS) + 1e-12);
+    CHECK_LESS(show("annex 5", "tension [N]", 0, tension),
+               run.tension_error * sqrt(ELEMENTS) + 1e-12);
     case_close(&run);
 }
 
-/* Example 11.1: the part beyond abar stands upright over the bed, no force; contact as S90 (35), so that it falls
- * through. Printed is T = 0, which cannot carry the hanging part: P2.1 gives T = 1 - a beyond abar, and the tip at
- * -(L + L^2/2), L = 1 - abar. Exact in the lumped line (tension linear, midpoint rule). */
+/* Example 11.1: the part beyond abar stands upright over the bed, no force; contact as S90 (35), so
+ * that it falls through. Printed is T = 0, which cannot carry the hanging part: P2.1 gives T = 1 -
+ * a beyond abar, and the tip at -(L + L^2/2), L = 1 - abar. Exact in the lumped line (tension
+ * linear, midpoint rule). */
 static void example_11_1(void **state) {
     (void)state;
     Case c;
@@ -74,20 +78,29 @@ static void example_11_1(void **state) {
         tension = fmax(tension, fabs(force(&view, i) - (1 - view.arc_length[i] - h / 2)));
     }
     const double *tip = &view.position[3 * ELEMENTS];
-    CHECK_LESS(show("example 11.1", "tension, T = l - a [N]", 0, tension), run.tension_error * sqrt(ELEMENTS) + 1e-12);
-    CHECK_NEAR(show("example 11.1", "height of the tip [m]", -part - part * part / 2, tip[2]), 0, run.motion_error);
-    // what is below touches nothing and stays free: nothing changes, and a pull stretches it on by f L/K
-    view = case_step(&run), tip = &view.position[3 * ELEMENTS];
-    CHECK_NEAR(show("example 11.1, again", "height of the tip [m]", -part - part * part / 2, tip[2]), 0, run.motion_error);
-    view = case_step(&run), tip = &view.position[3 * ELEMENTS];
-    CHECK_NEAR(show("example 11.1, pulled down", "height of the tip [m]", -part - part * part / 2 - 0.5 * part, tip[2]), 0,
+    CHECK_LESS(show("example 11.1", "tension, T = l - a [N]", 0, tension),
+               run.tension_error * sqrt(ELEMENTS) + 1e-12);
+    CHECK_NEAR(show("example 11.1", "height of the tip [m]", -part - part * part / 2, tip[2]), 0,
                run.motion_error);
+    // what is below touches nothing and stays free: nothing changes, and a pull stretches it on by
+    // f L/K
+    view = case_step(&run);
+    tip = &view.position[3 * ELEMENTS];
+    CHECK_NEAR(show("example 11.1, again", "height of the tip [m]", -part - part * part / 2,
+                    tip[2]),
+               0, run.motion_error);
+    view = case_step(&run);
+    tip = &view.position[3 * ELEMENTS];
+    CHECK_NEAR(show("example 11.1, pulled down", "height of the tip [m]",
+                    -part - part * part / 2 - 0.5 * part, tip[2]),
+               0, run.motion_error);
     case_close(&run);
 }
 
-/* Example 11.2: x_R = -a e1 and f = mu e1 + e3 turn the line over: x = [a + mu sec(theta) a^2/2] t, T = mu sec(theta)
- * a, with t = (cos, 0, sin) theta, theta = arctan(1/mu), phi = -mu e1. R = 0 all along and T = 0 at a = 0, where
- * sliding, lifting and slack begin together: the tolerance is what the certificate guarantees, no more. */
+/* Example 11.2: x_R = -a e1 and f = mu e1 + e3 turn the line over: x = [a + mu sec(theta) a^2/2] t,
+ * T = mu sec(theta) a, with t = (cos, 0, sin) theta, theta = arctan(1/mu), phi = -mu e1. R = 0 all
+ * along and T = 0 at a = 0, where sliding, lifting and slack begin together: the tolerance is what
+ * the certificate guarantees, no more. */
 static void example_11_2(void **state) {
     (void)state;
     Case c;
@@ -109,7 +122,8 @@ static void example_11_2(void **state) {
     CHECK_LESS(show("example 11.2", "tension [N]", 0, tension), run.tension_error * sqrt(ELEMENTS));
     CHECK_LESS(show("example 11.2", "place [m]", 0, place), run.motion_error * sqrt(ELEMENTS));
     // R is bounded by the tensions on its two sides
-    CHECK_LESS(show("example 11.2", "reaction [N]", 0, reaction), 2 * run.tension_error * sqrt(ELEMENTS));
+    CHECK_LESS(show("example 11.2", "reaction [N]", 0, reaction),
+               2 * run.tension_error * sqrt(ELEMENTS));
     case_close(&run);
 }
 
@@ -122,11 +136,14 @@ static Record printed_11_3(const CpsLineView *view) {
                 .compliance = 1,
                 .end_kind = {END_HELD, END_FREE},
                 .end_value = {{0, 0, 0}, {0, 0, 1}}};
-    Vector **vector[] = {&r.reference, &r.position, &r.load, &r.normal, &r.friction, &r.slide, &r.segment_force};
+    Vector **vector[] = {&r.reference, &r.position, &r.load,         &r.normal,
+                         &r.friction,  &r.slide,    &r.segment_force};
     double **scalar[] = {&r.element_length, &r.gap, &r.friction_bound, &r.reaction,
                          &r.tension,        &r.mu,  &r.turn,           &r.obstacle};
-    for (size_t k = 0; k < sizeof vector / sizeof *vector; k++) assert_non_null(*vector[k] = calloc(n, sizeof(Vector)));
-    for (size_t k = 0; k < sizeof scalar / sizeof *scalar; k++) assert_non_null(*scalar[k] = calloc(n, sizeof(double)));
+    for (size_t k = 0; k < sizeof vector / sizeof *vector; k++)
+        assert_non_null(*vector[k] = calloc(n, sizeof(Vector)));
+    for (size_t k = 0; k < sizeof scalar / sizeof *scalar; k++)
+        assert_non_null(*scalar[k] = calloc(n, sizeof(double)));
     double h = 1.0 / ELEMENTS;
     for (size_t j = 0; j < n; j++) {
         double a = view->arc_length[j];
@@ -143,9 +160,10 @@ static Record printed_11_3(const CpsLineView *view) {
     return r;
 }
 
-/* Example 11.3: f = e3, x_R = a e1. The true equilibrium x = (a + a^2/2) e3, T = a e3, phi = 0 balances, but slides by
- * u_T = -a e1 against no friction: the law is violated by the work mu a, in all mu/2 (lumping is exact for a
- * linear field). It is refused; the step has another solution, with a lower J + j, which is certified. */
+/* Example 11.3: f = e3, x_R = a e1. The true equilibrium x = (a + a^2/2) e3, T = a e3, phi = 0
+ * balances, but slides by u_T = -a e1 against no friction: the law is violated by the work mu a, in
+ * all mu/2 (lumping is exact for a linear field). It is refused; the step has another solution,
+ * with a lower J + j, which is certified. */
 static void example_11_3(void **state) {
     (void)state;
     Case c;
@@ -169,8 +187,9 @@ static void example_11_3(void **state) {
     case_close(&run);
 }
 
-/* Remark 2.3.5: a chain of small links has T = 0 for |x'| <= 1. Ends at half its length apart on a smooth bed: the
- * relaxed problem is that of the chain, without tension and without energy, at any stretch up to 1. */
+/* Remark 2.3.5: a chain of small links has T = 0 for |x'| <= 1. Ends at half its length apart on a
+ * smooth bed: the relaxed problem is that of the chain, without tension and without energy, at any
+ * stretch up to 1. */
 static void chain_of_small_links(void **state) {
     (void)state;
     Case c;
@@ -186,14 +205,18 @@ static void chain_of_small_links(void **state) {
         stretch = fmax(stretch, length * ELEMENTS - 1);
     }
     CHECK_LESS(show("chain, slack", "tension [N]", 0, tension), run.tension_error * sqrt(ELEMENTS));
-    CHECK_LESS(show("chain, slack", "largest |x'| - 1", 0, stretch), run.tension_error * sqrt(ELEMENTS));
+    CHECK_LESS(show("chain, slack", "largest |x'| - 1", 0, stretch),
+               run.tension_error * sqrt(ELEMENTS));
     case_close(&run);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(annex_5),      cmocka_unit_test(example_11_1),         cmocka_unit_test(example_11_2),
-        cmocka_unit_test(example_11_3), cmocka_unit_test(chain_of_small_links),
+        cmocka_unit_test(annex_5),
+        cmocka_unit_test(example_11_1),
+        cmocka_unit_test(example_11_2),
+        cmocka_unit_test(example_11_3),
+        cmocka_unit_test(chain_of_small_links),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

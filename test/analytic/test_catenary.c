@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Hanging lines: elastic and inextensible catenary between held ends, and a mooring line on a frictionless bed. */
+/* Hanging lines: elastic and inextensible catenary between held ends, and a mooring line on a
+ * frictionless bed. */
 #include <stdio.h>
 
 #include "cases.h"
@@ -10,7 +11,8 @@ static double first_tension(const CpsLineView *view) {
     return hypot(hypot(p[0], p[1]), p[2]);
 }
 
-/* The OC3-Hywind line: 902.2 m, 698.094 N/m, EA 384.243 MN, anchor to fairlead 848.67 m by 250 m. */
+/* The OC3-Hywind line: 902.2 m, 698.094 N/m, EA 384.243 MN, anchor to fairlead 848.67 m by 250
+ * m. */
 static double laid_anchor_tension(int elements) {
     Case c;
     case_begin(&c, 902.2, elements, 698.094, 384.243e6);
@@ -23,13 +25,19 @@ static double laid_anchor_tension(int elements) {
     return tension;
 }
 
-/* Touchdown falls between nodes, so the error stays under C h^2 without falling smoothly; C = 1 for h = 1/N, in units
- * of H, is 1.6 times the largest N^2 |error| that was found. */
+/* Touchdown falls between nodes, so the error stays under C h^2 without falling smoothly; C = 1 for
+ * h = 1/N, in units of H, is 1.6 times the largest N^2 |error| that was found. */
 static void mooring_line_on_the_bed(void **state) {
     (void)state;
-    Catenary exact = {.length = 902.2, .weight = 698.094, .stiffness = 384.243e6, .bed = true, .h = 5e5, .v = 4e5};
+    Catenary exact = {.length = 902.2,
+                      .weight = 698.094,
+                      .stiffness = 384.243e6,
+                      .bed = true,
+                      .h = 5e5,
+                      .v = 4e5};
     assert_true(catenary_solve(&exact, 848.67, 250));
-    CHECK_NEAR(show("OC3 line, laid", "own Newton against 736938.32 N", 736938.32, exact.h), 0, 0.005);
+    CHECK_NEAR(show("OC3 line, laid", "own Newton against 736938.32 N", 736938.32, exact.h), 0,
+               0.005);
     CHECK_NEAR(show("OC3 line, laid", "vertical force [N]", 535727.45, exact.v), 0, 0.005);
     static const int ELEMENTS[] = {50, 100, 200, 400, 800, 1600};
     for (size_t k = 0; k < sizeof ELEMENTS / sizeof *ELEMENTS; k++) {
@@ -43,8 +51,10 @@ static void mooring_line_on_the_bed(void **state) {
     }
 }
 
-/* tension at mid-length (horizontal force) and place of the middle node, errors against the closed form */
-static void hang(int elements, double stiffness, const Catenary *exact, double *tension_error, double *place_error) {
+/* tension at mid-length (horizontal force) and place of the middle node, errors against the closed
+ * form */
+static void hang(int elements, double stiffness, const Catenary *exact, double *tension_error,
+                 double *place_error) {
     Case c;
     case_begin(&c, exact->length, elements, exact->weight, stiffness);
     case_laid(&c, 80, 20);
@@ -58,8 +68,8 @@ static void hang(int elements, double stiffness, const Catenary *exact, double *
     case_close(&run);
 }
 
-/* Lumping the weight at the nodes is exact in the forces and a midpoint rule in the shape: order 2. The ratio of
- * successive meshes is asserted within 0.1 of it. */
+/* Lumping the weight at the nodes is exact in the forces and a midpoint rule in the shape: order 2.
+ * The ratio of successive meshes is asserted within 0.1 of it. */
 static void converges(const char *name, double stiffness) {
     Catenary exact = {.length = 100, .weight = 100, .stiffness = stiffness, .h = 4000, .v = 6000};
     assert_true(catenary_solve(&exact, 80, 20));

@@ -1,29 +1,36 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A node on two obstacles at once.
  *
- * A block of weight W at the end of a string lies in a corner, where two planes (or a plane and a pipe) meet along e.
- * With normals n1, n2 across e and the load p besides the pull f along e, the reactions are those of statics,
+ * A block of weight W at the end of a string lies in a corner, where two planes (or a plane and a
+ * pipe) meet along e. With normals n1, n2 across e and the load p besides the pull f along e, the
+ * reactions are those of statics,
  *
  *     R1 n1 + R2 n2 = -(p - (p.e) e),
  *
- * and while it slides along e each plane rubs by mu_i R_i against e: with F = mu1 R1 + mu2 R2 the string carries
- * T = f + p.e - F and is longer by T L/K. So it rests where the pull f + p.e is less than F. Where it rests, reactions
- * are not unique: friction across e may press the block into the corner, and what it then bears along e grows in the
- * first order while what it spends grows in the second. Hence above F it may slide or rest, and it must slide above the
- * limit G of limit analysis with associated flow, where a motion e + lambda, lambda across e, parts from each plane by
- * mu_i of its slip:
+ * and while it slides along e each plane rubs by mu_i R_i against e: with F = mu1 R1 + mu2 R2 the
+ * string carries T = f + p.e - F and is longer by T L/K. So it rests where the pull f + p.e is less
+ * than F. Where it rests, reactions are not unique: friction across e may press the block into the
+ * corner, and what it then bears along e grows in the first order while what it spends grows in the
+ * second. Hence above F it may slide or rest, and it must slide above the limit G of limit analysis
+ * with associated flow, where a motion e + lambda, lambda across e, parts from each plane by mu_i
+ * of its slip:
  *
- *     G <= lambda.P for lambda.n_i = mu_i sqrt(1 + (lambda.t_i)^2), t_i = n_i x e, P the load across
+ *     G <= lambda.P for lambda.n_i = mu_i sqrt(1 + (lambda.t_i)^2), t_i = n_i x e, P the load
+ *         across
  *     V-groove: G = F/sqrt(1 - mu^2 cot^2 alpha); none where tan(alpha) <= mu: there it may jam
  *
- * by weak duality: sum f_i is at most lambda.P for all f_i^2 + c_i^2 <= mu_i^2 R_i^2 with sum R_i n_i + c_i t_i = P.
+ * by weak duality: sum f_i is at most lambda.P for all f_i^2 + c_i^2 <= mu_i^2 R_i^2 with sum R_i
+ * n_i + c_i t_i = P.
  *
- *     bed and wall         R1 = W, R2 = P, the force across; at 45 degrees f = P: F is reached at P = mu1 W/(1 - mu2)
+ *     bed and wall         R1 = W, R2 = P, the force across; at 45 degrees f = P: F is reached at P
+ *                          = mu1 W/(1 - mu2)
  *     V-groove             half angle alpha, force Q across: R = (W/sin(alpha) -+ Q/cos(alpha))/2
- *     inclined by theta    W cos(theta) for W, and W sin(theta) pulls: F is reached at tan(theta) = mu/sin(alpha)
+ *     inclined by theta    W cos(theta) for W, and W sin(theta) pulls: F is reached at tan(theta) =
+ *                          mu/sin(alpha)
  *     bed and buried pipe  R2 = P/n2y, R1 = W - R2 n2z
  *
- * A string in a corner slides as on a bed that rubs by q = mu1 w1 + mu2 w2 per length: its tip moves by H^2/(2 q K). */
+ * A string in a corner slides as on a bed that rubs by q = mu1 w1 + mu2 w2 per length: its tip
+ * moves by H^2/(2 q K). */
 #include <stdio.h>
 
 #include "rig.h"
@@ -35,7 +42,8 @@ static const double LENGTH = 1, STIFFNESS = 50, WEIGHT = 2; /* W of the block is
 static void block(Rig *rig, const double e[3]) {
     rig_begin(rig, 1, WEIGHT, STIFFNESS);
     rig_length(rig, LENGTH);
-    rig_point(rig, 0, 0, 0), rig_point(rig, LENGTH * e[0], LENGTH * e[1], LENGTH * e[2]);
+    rig_point(rig, 0, 0, 0);
+    rig_point(rig, LENGTH * e[0], LENGTH * e[1], LENGTH * e[2]);
     rig_end(rig, CPS_END_B, CPS_END_FREE, 0, 0, 0);
 }
 
@@ -45,9 +53,12 @@ static CpsObstacle *plane(Rig *rig, const double n[3], double mu) {
     return out;
 }
 
-static double along(const double *v, const double e[3]) { return v[0] * e[0] + v[1] * e[1] + v[2] * e[2]; }
+static double along(const double *v, const double e[3]) {
+    return v[0] * e[0] + v[1] * e[1] + v[2] * e[2];
+}
 
-/* What a case says: normals at the block, the load P that they balance across e, and what they then carry each. */
+/* What a case says: normals at the block, the load P that they balance across e, and what they then
+ * carry each. */
 typedef struct Corner {
     const char *name;
     double e[3], normal[2][3], mu[2], load[3], reaction[2];
@@ -57,15 +68,16 @@ typedef struct Corner {
 static void balance(Corner *corner) {
     const double *n = corner->normal[0], *m = corner->normal[1], c = along(n, m);
     const double a = along(n, corner->load), b = along(m, corner->load);
-    corner->reaction[0] = (a - c * b) / (1 - c * c), corner->reaction[1] = (b - c * a) / (1 - c * c);
+    corner->reaction[0] = (a - c * b) / (1 - c * c);
+    corner->reaction[1] = (b - c * a) / (1 - c * c);
 }
 
 static double limit_of(const Corner *corner) {
     return corner->mu[0] * corner->reaction[0] + corner->mu[1] * corner->reaction[1];
 }
 
-/* The bound of G, lambda by iteration from 0, which grows to it; INFINITY where there is none: it may jam, or lean on
- * one plane alone. */
+/* The bound of G, lambda by iteration from 0, which grows to it; INFINITY where there is none: it
+ * may jam, or lean on one plane alone. */
 static double sure_limit(const Corner *corner) {
     const double *n = corner->normal[0], *m = corner->normal[1], c = along(n, m);
     double lambda[3] = {0}, t[2][3], value = 0;
@@ -76,7 +88,8 @@ static double sure_limit(const Corner *corner) {
     for (int i = 0; i < 10000; i++) {
         const double a = corner->mu[0] * hypot(1, along(lambda, t[0])),
                      b = corner->mu[1] * hypot(1, along(lambda, t[1]));
-        for (int x = 0; x < 3; x++) lambda[x] = ((a - c * b) * n[x] + (b - c * a) * m[x]) / (1 - c * c);
+        for (int x = 0; x < 3; x++)
+            lambda[x] = ((a - c * b) * n[x] + (b - c * a) * m[x]) / (1 - c * c);
         value = along(lambda, corner->load);
         if (value > 1e3 * limit_of(corner)) return INFINITY;
     }
@@ -86,28 +99,29 @@ static double sure_limit(const Corner *corner) {
 /* What must come of it. */
 typedef enum Must { MUST_REST, MAY_REST, MUST_SLIDE } Must;
 
-static void check_slide(const Corner *corner, const CpsLineView *view, double pull, const double moved[3],
-                        double load) {
+static void check_slide(const Corner *corner, const CpsLineView *view, double pull,
+                        const double moved[3], double load) {
     const double tension = pull - limit_of(corner);
-    /* the loop ends at a gap of 1e-13 of its scale, which leaves 3e-7 of forces if they are degenerate; a block that
-     * slides is not, and keeps 1e-8 of them with room */
-    CHECK_NEAR(
-        rig_show(corner->name, "way along the corner [m]", tension * LENGTH / STIFFNESS, along(moved, corner->e)), 0,
-        1e-8 * load * LENGTH / STIFFNESS);
+    /* the loop ends at a gap of 1e-13 of its scale, which leaves 3e-7 of forces if they are
+     * degenerate; a block that slides is not, and keeps 1e-8 of them with room */
+    CHECK_NEAR(rig_show(corner->name, "way along the corner [m]", tension * LENGTH / STIFFNESS,
+                        along(moved, corner->e)),
+               0, 1e-8 * load * LENGTH / STIFFNESS);
     CHECK_NEAR(along(&view->segment_force[0], corner->e), tension, 1e-8 * load);
     for (int k = 0; k < 2; k++) { /* obstacle k, whichever contact it is */
         const int c = view->obstacle[1] == k ? 1 : 3;
         CHECK_INT(view->obstacle[c], k);
-        CHECK_NEAR(rig_show(corner->name, k ? "second reaction [N]" : "first reaction [N]", corner->reaction[k],
-                            view->reaction[c]),
+        CHECK_NEAR(rig_show(corner->name, k ? "second reaction [N]" : "first reaction [N]",
+                            corner->reaction[k], view->reaction[c]),
                    0, 1e-8 * load);
-        CHECK_NEAR(along(&view->friction[3 * c], corner->e), -corner->mu[k] * corner->reaction[k], 1e-8 * load);
+        CHECK_NEAR(along(&view->friction[3 * c], corner->e), -corner->mu[k] * corner->reaction[k],
+                   1e-8 * load);
         if (corner->mu[k] > 0) CHECK_INT(view->state[c], CPS_NODE_SLIP);
     }
 }
 
-/* One load step to the end force `force`, which pulls along e by `pull` together with what the weight does. Returns
- * whether the block slides. */
+/* One load step to the end force `force`, which pulls along e by `pull` together with what the
+ * weight does. Returns whether the block slides. */
 static bool expect(const Corner *corner, Rig *rig, const double force[3], double pull, Must must) {
     rig_stage(rig, 1);
     rig_change(rig, CPS_END_B, CPS_END_FREE, force[0], force[1], force[2]);
@@ -121,7 +135,8 @@ static bool expect(const Corner *corner, Rig *rig, const double force[3], double
     const bool slides = must == MUST_SLIDE || (must == MAY_REST && along(moved, e) > 1e-8 * LENGTH);
     if (slides)
         check_slide(corner, &view, pull, moved, load);
-    else { /* rests to what the certificate says of tensions, which are those of an element not elongated */
+    else { /* rests to what the certificate says of tensions, which are those of an element not
+              elongated */
         const double off = run.report.certificate.tension_bound + 1e-12 * load;
         CHECK_NEAR(along(&view.segment_force[0], e), 0, off);
         CHECK_NEAR(rubs, -pull, off);
@@ -148,11 +163,14 @@ static void bed_and_wall(void **state) {
     for (size_t i = 0; i < sizeof MU / sizeof *MU; i++)
         for (int k = 0; k < 3; k++) {
             Rig rig;
-            Corner corner = {"bed and wall", {1, 0, 0}, {{0, 0, 1}, {0, -1, 0}}, {MU[i][0], MU[i][1]}, {0}, {0}};
-            /* at 45 degrees: the limit F is at press = F, and above it by a thousandth of press F grows by less */
+            Corner corner = {"bed and wall",       {1, 0, 0}, {{0, 0, 1}, {0, -1, 0}},
+                             {MU[i][0], MU[i][1]}, {0},       {0}};
+            /* at 45 degrees: the limit F is at press = F, and above it by a thousandth of press F
+             * grows by less */
             const double limit = MU[i][0] * weight / (1 - MU[i][1]);
             double press = limit > 0 ? (k ? 1.001 : 0.999) * limit : 0.999, pull = press;
-            corner.load[1] = -press, corner.load[2] = weight;
+            corner.load[1] = -press;
+            corner.load[2] = weight;
             balance(&corner);
             Must must = k ? MAY_REST : MUST_REST;
             if (k == 2) pull = side(&corner, 2, &must); /* not at 45 degrees any more */
@@ -164,8 +182,8 @@ static void bed_and_wall(void **state) {
     printf("%d slid\n", slid);
 }
 
-/* A groove along e, `tilt` down from the horizontal, its planes alpha from the plane upright over e; yawed, so that no
- * axis is special. `across` pulls sideways. */
+/* A groove along e, `tilt` down from the horizontal, its planes alpha from the plane upright over
+ * e; yawed, so that no axis is special. `across` pulls sideways. */
 static Corner groove(double alpha, double tilt, double across, const double mu[2]) {
     const double yaw = 0.7, up[3] = {sin(tilt) * cos(yaw), sin(tilt) * sin(yaw), cos(tilt)};
     const double level[3] = {-sin(yaw), cos(yaw), 0};
@@ -173,7 +191,8 @@ static Corner groove(double alpha, double tilt, double across, const double mu[2
                   .e = {cos(tilt) * cos(yaw), cos(tilt) * sin(yaw), -sin(tilt)},
                   .mu = {mu[0], mu[1]}};
     for (int a = 0; a < 3; a++) {
-        for (int k = 0; k < 2; k++) out.normal[k][a] = sin(alpha) * up[a] + (k ? -1 : 1) * cos(alpha) * level[a];
+        for (int k = 0; k < 2; k++)
+            out.normal[k][a] = sin(alpha) * up[a] + (k ? -1 : 1) * cos(alpha) * level[a];
         out.load[a] = WEIGHT * LENGTH / 2 * cos(tilt) * up[a] - across * level[a];
     }
     balance(&out);
@@ -182,7 +201,8 @@ static Corner groove(double alpha, double tilt, double across, const double mu[2
 
 static void v_groove(void **state) {
     (void)state;
-    static const double ALPHA[] = {15, 30, 45, 60, 85}, ACROSS[] = {0, 0.6}, MU[][2] = {{0.3, 0.3}, {0.5, 0.1}};
+    static const double ALPHA[] = {15, 30, 45, 60, 85}, ACROSS[] = {0, 0.6},
+                        MU[][2] = {{0.3, 0.3}, {0.5, 0.1}};
     const double weight = WEIGHT * LENGTH / 2;
     int slid = 0;
     for (size_t i = 0; i < sizeof ALPHA / sizeof *ALPHA; i++)
@@ -191,17 +211,22 @@ static void v_groove(void **state) {
                 for (int k = 0; k < 3; k++) {
                     Rig rig;
                     /* across by a share of what would lift it off one plane */
-                    const double alpha = ALPHA[i] * PI / 180, by = ACROSS[q] * weight / tan(alpha), *mu = MU[m];
+                    const double alpha = ALPHA[i] * PI / 180, by = ACROSS[q] * weight / tan(alpha),
+                                 *mu = MU[m];
                     const Corner corner = groove(alpha, 0, by, mu);
-                    CHECK_RELATIVE(corner.reaction[0], (weight / sin(alpha) - by / cos(alpha)) / 2, 1e-12);
-                    CHECK_RELATIVE(corner.reaction[1], (weight / sin(alpha) + by / cos(alpha)) / 2, 1e-12);
+                    CHECK_RELATIVE(corner.reaction[0], (weight / sin(alpha) - by / cos(alpha)) / 2,
+                                   1e-12);
+                    CHECK_RELATIVE(corner.reaction[1], (weight / sin(alpha) + by / cos(alpha)) / 2,
+                                   1e-12);
                     Must must;
                     const double pull = side(&corner, k, &must), jam = mu[0] / tan(alpha);
                     if (q == 0 && m == 0 && jam < 1)
-                        CHECK_RELATIVE(sure_limit(&corner), limit_of(&corner) / sqrt(1 - jam * jam), 1e-12);
+                        CHECK_RELATIVE(sure_limit(&corner), limit_of(&corner) / sqrt(1 - jam * jam),
+                                       1e-12);
                     if (isinf(pull)) continue;
                     double force[3];
-                    for (int a = 0; a < 3; a++) force[a] = pull * corner.e[a] - corner.load[a] + (a == 2 ? weight : 0);
+                    for (int a = 0; a < 3; a++)
+                        force[a] = pull * corner.e[a] - corner.load[a] + (a == 2 ? weight : 0);
                     block(&rig, corner.e);
                     for (int n = 0; n < 2; n++) plane(&rig, corner.normal[n], mu[n]);
                     slid += expect(&corner, &rig, force, pull, must);
@@ -209,8 +234,8 @@ static void v_groove(void **state) {
     printf("%d slid\n", slid);
 }
 
-/* Its weight alone draws it down: rests below tan(tilt) = mu/sin(alpha), slides above that over sqrt(1 - mu^2 cot^2
- * alpha). */
+/* Its weight alone draws it down: rests below tan(tilt) = mu/sin(alpha), slides above that over
+ * sqrt(1 - mu^2 cot^2 alpha). */
 static void inclined_groove(void **state) {
     (void)state;
     static const double ALPHA[] = {20, 45, 70}, MU[2] = {0.2, 0.2};
@@ -218,11 +243,15 @@ static void inclined_groove(void **state) {
         for (int k = 0; k < 3; k++) {
             Rig rig;
             const double alpha = ALPHA[i] * PI / 180, jam = MU[0] / tan(alpha);
-            const double steep = MU[0] / sin(alpha) * (k == 0 ? 0.999 : k == 1 ? 1.001 : 1.001 / sqrt(1 - jam * jam));
+            const double steep = MU[0] / sin(alpha) *
+                                 (k == 0   ? 0.999
+                                  : k == 1 ? 1.001
+                                           : 1.001 / sqrt(1 - jam * jam));
             const Corner corner = groove(alpha, atan(steep), 0, MU);
             block(&rig, corner.e);
             for (int n = 0; n < 2; n++) plane(&rig, corner.normal[n], MU[n]);
-            expect(&corner, &rig, (double[]){0, 0, 0}, WEIGHT * LENGTH / 2 * sin(atan(steep)), (Must)k);
+            expect(&corner, &rig, (double[]){0, 0, 0}, WEIGHT * LENGTH / 2 * sin(atan(steep)),
+                   (Must)k);
         }
 }
 
@@ -235,15 +264,22 @@ static void bed_and_pipe(void **state) {
         for (int k = 0; k < 3; k++) {
             Rig rig;
             const double height = HEIGHT[i], half = sqrt(radius * radius - height * height);
-            Corner corner = {"bed and pipe", {1, 0, 0},          {{0, 0, 1}, {0, half / radius, -height / radius}},
-                             {MU[0], MU[1]}, {0, press, weight}, {0}};
+            Corner corner = {"bed and pipe",
+                             {1, 0, 0},
+                             {{0, 0, 1}, {0, half / radius, -height / radius}},
+                             {MU[0], MU[1]},
+                             {0, press, weight},
+                             {0}};
             balance(&corner);
             CHECK_RELATIVE(corner.reaction[1], press * radius / half, 1e-12);
             block(&rig, corner.e);
             plane(&rig, corner.normal[0], MU[0]);
             CpsObstacle *pipe = rig_obstacle(&rig, CPS_OBSTACLE_CYLINDER, MU[1]);
-            pipe->radius = radius, pipe->axis[0] = 1, pipe->axis[1] = 0;
-            pipe->point[1] = -half, pipe->point[2] = height;
+            pipe->radius = radius;
+            pipe->axis[0] = 1;
+            pipe->axis[1] = 0;
+            pipe->point[1] = -half;
+            pipe->point[2] = height;
             Must must;
             const double pull = side(&corner, k, &must);
             if (!isinf(pull)) expect(&corner, &rig, (double[]){pull, -press, 0}, pull, must);
@@ -260,18 +296,22 @@ static void string_in_a_corner(void **state) {
         Rig rig;
         rig_begin(&rig, n, weight, stiffness);
         rig_length(&rig, length);
-        rig.scene.gravity[1] = 9.81 * sin(lean), rig.scene.gravity[2] = -9.81 * cos(lean);
-        rig_point(&rig, 0, 0, 0), rig_point(&rig, length, 0, 0);
+        rig.scene.gravity[1] = 9.81 * sin(lean);
+        rig.scene.gravity[2] = -9.81 * cos(lean);
+        rig_point(&rig, 0, 0, 0);
+        rig_point(&rig, length, 0, 0);
         rig_end(&rig, CPS_END_B, CPS_END_FREE, 0, 0, 0);
-        plane(&rig, UP, MU[0]), plane(&rig, ASIDE, MU[1]);
-        rig_stage(&rig, 4), rig_change(&rig, CPS_END_B, CPS_END_FREE, pull, 0, 0);
+        plane(&rig, UP, MU[0]);
+        plane(&rig, ASIDE, MU[1]);
+        rig_stage(&rig, 4);
+        rig_change(&rig, CPS_END_B, CPS_END_FREE, pull, 0, 0);
         RigRun run = rig_open(&rig);
         const CpsLineView view = rig_next(&run);
         const double h = length / n, motion = pull * pull / (2 * q * stiffness);
-        /* forces are exact at the middles of elements; the one in which sliding ends moves the tip by q h^2/(8 K) at
-         * most, and the certified gap leaves what rig.h calls motion */
-        const double error =
-            rig_show("string in a corner", "way of the tip [m]", motion, view.position[3 * n] - length);
+        /* forces are exact at the middles of elements; the one in which sliding ends moves the tip
+         * by q h^2/(8 K) at most, and the certified gap leaves what rig.h calls motion */
+        const double error = rig_show("string in a corner", "way of the tip [m]", motion,
+                                      view.position[3 * n] - length);
         CHECK_LESS(fabs(error), q * h * h / (8 * stiffness) + run.motion);
         for (int j = 1; j < n; j++)
             for (int c = j; c < 2 * (n + 1) && view.state[j] == CPS_NODE_SLIP; c += n + 1)
@@ -294,24 +334,32 @@ static CpsEvolution *solved(const Rig *rig) {
     return out;
 }
 
-/* A line on a bed that is swept against a wall, or against a half-buried pipe, along which it is drawn on. */
+/* A line on a bed that is swept against a wall, or against a half-buried pipe, along which it is
+ * drawn on. */
 static void sweep(Rig *rig, bool pipe, int elements) {
     static const double UP[3] = {0, 0, 1}, ASIDE[3] = {0, -1, 0};
     rig_begin(rig, elements, 20, 1e4);
     rig_length(rig, 10);
     rig->scene.gravity[1] = 4; /* the line leans on what it meets, with all its nodes */
-    rig_point(rig, 0, 0, 0), rig_point(rig, 10, 0, 0);
+    rig_point(rig, 0, 0, 0);
+    rig_point(rig, 10, 0, 0);
     rig_end(rig, CPS_END_B, CPS_END_FREE, 0, 0, 0);
     plane(rig, UP, 0.4)->grain[0] = 1;
     if (pipe) {
         CpsObstacle *round = rig_obstacle(rig, CPS_OBSTACLE_CYLINDER, 0.3);
-        round->radius = 0.4, round->axis[0] = 1, round->axis[1] = 0, round->point[1] = 0.55;
+        round->radius = 0.4;
+        round->axis[0] = 1;
+        round->axis[1] = 0;
+        round->point[1] = 0.55;
     } else {
         plane(rig, ASIDE, 0.3)->point[1] = 0.3;
     }
-    rig->obstacle[1].grain[0] = 1, rig->obstacle[1].grain[1] = 0.5;
-    rig_stage(rig, 4), rig_change(rig, CPS_END_B, CPS_END_FREE, 60, 60, 0);
-    rig_stage(rig, 4), rig_change(rig, CPS_END_B, CPS_END_FREE, 200, 60, 0);
+    rig->obstacle[1].grain[0] = 1;
+    rig->obstacle[1].grain[1] = 0.5;
+    rig_stage(rig, 4);
+    rig_change(rig, CPS_END_B, CPS_END_FREE, 60, 60, 0);
+    rig_stage(rig, 4);
+    rig_change(rig, CPS_END_B, CPS_END_FREE, 200, 60, 0);
 }
 
 static void the_same_set_given_twice(void **state) {
@@ -340,28 +388,34 @@ static void the_same_set_given_twice(void **state) {
             }
             double place = 0, force = 0, pressed = 0, rubbed = 0;
             const int n = view[0].elements + 1;
-            for (int i = 0; i < 3 * n; i++) place = fmax(place, fabs(view[0].position[i] - view[1].position[i]));
-            for (int c = 0; c < 2 * n; c++) { /* which of two is the nearer is rounding where both touch */
+            for (int i = 0; i < 3 * n; i++)
+                place = fmax(place, fabs(view[0].position[i] - view[1].position[i]));
+            for (int c = 0; c < 2 * n;
+                 c++) { /* which of two is the nearer is rounding where both touch */
                 const int j = c % n, d = view[1].obstacle[j] == view[0].obstacle[c] ? j : j + n;
                 CHECK_INT(view[0].obstacle[c], view[1].obstacle[d]);
                 force = fmax(force, fabs(view[0].reaction[c] - view[1].reaction[d]));
                 for (int a = 0; a < 3; a++)
-                    rubbed = fmax(rubbed, fabs(view[0].friction[3 * c + a] - view[1].friction[3 * d + a]));
+                    rubbed = fmax(rubbed,
+                                  fabs(view[0].friction[3 * c + a] - view[1].friction[3 * d + a]));
                 if (c >= n) pressed += fmin(view[0].reaction[c], view[0].reaction[j]);
             }
             const char *name = pipe ? "swept against a pipe" : "swept against a wall";
-            rig_show(name, "places [m]", 0, place), rig_show(name, "reactions [N]", 0, force);
-            rig_show(name, "frictions [N]", 0, rubbed), rig_show(name, "smaller of two reactions, sum [N]", 0, pressed);
+            rig_show(name, "places [m]", 0, place);
+            rig_show(name, "reactions [N]", 0, force);
+            rig_show(name, "frictions [N]", 0, rubbed);
+            rig_show(name, "smaller of two reactions, sum [N]", 0, pressed);
             CHECK_GREATER(pressed, 1);
-            /* the loops end at a relative gap of 1e-13; its root 3e-7 bounds what forces keep that is not strictly
-             * complementary (test_rubbing.c), of the pull of 200 N; places keep the elongation that goes with it,
-             * 200/1e4 of that and 10 m */
+            /* the loops end at a relative gap of 1e-13; its root 3e-7 bounds what forces keep that
+             * is not strictly complementary (test_rubbing.c), of the pull of 200 N; places keep the
+             * elongation that goes with it, 200/1e4 of that and 10 m */
             CHECK_LESS(place, 1e-8 * 10);
             CHECK_LESS(force, 3e-7 * 200);
             CHECK_LESS(rubbed, 3e-7 * 200);
             for (int i = 0; i < 2; i++) cps_evolution_destroy(evolution[i]);
         }
-    cps_set_release(set[0]), cps_set_release(set[1]);
+    cps_set_release(set[0]);
+    cps_set_release(set[1]);
 }
 
 int main(void) {

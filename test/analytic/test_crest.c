@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A weight on a string drawn over the crest of a drum: where it leaves, and that it does not before.
+/* A weight on a string drawn over the crest of a drum: where it leaves, and that it does not
+ * before.
  *
- * One inextensible element of 1 m and 2 N, half of it at B; A moves along x at height 1.2 m, the drum has radius 1 m about the y axis.
- * While B lies on the drum and is drawn, |A - B| = |B| = 1 m put it at the angle
+ * One inextensible element of 1 m and 2 N, half of it at B; A moves along x at height 1.2 m, the
+ * drum has radius 1 m about the y axis. While B lies on the drum and is drawn, |A - B| = |B| = 1 m
+ * put it at the angle
  *
  *     theta = atan(a/h) - acos(sqrt(a^2 + h^2)/2)
  *
- * from the crest, a = x_A. At theta = atan(mu) the weight slides by itself; the string holds it back no more, and B falls to where it
- * hangs, (a, h - 1). That is the only stable place then: to be in equilibrium on the drum beyond it B would have to be pushed. */
+ * from the crest, a = x_A. At theta = atan(mu) the weight slides by itself; the string holds it
+ * back no more, and B falls to where it hangs, (a, h - 1). That is the only stable place then: to
+ * be in equilibrium on the drum beyond it B would have to be pushed. */
 #include "rig.h"
 
 static const double HEIGHT = 1.2, LENGTH = 1, WEIGHT = 1;
@@ -21,7 +24,8 @@ static double a_of(double theta) {
 }
 
 /* Draw A from where B is at `from` to x_A = `to`; `snaps`: jumps that are reported, of `jump`. */
-static void draw(const char *name, double mu, double from, double to, int steps, double path_tolerance, int expected) {
+static void draw(const char *name, double mu, double from, double to, int steps,
+                 double path_tolerance, int expected) {
     static Rig rig;
     const double start = a_of(from), limit = a_of(atan(mu));
     rig_begin(&rig, 1, 2 * WEIGHT, INFINITY);
@@ -41,7 +45,8 @@ static void draw(const char *name, double mu, double from, double to, int steps,
         const double a = start + (to - start) * k / steps, theta = theta_of(a);
         const bool on = a < limit;
         /* the string is taut to rounding, and the surface met to 1e-10 of the length */
-        worst = fmax(worst, fabs(view.position[3] - (on ? sin(theta) : a)) + fabs(view.position[4]));
+        worst =
+            fmax(worst, fabs(view.position[3] - (on ? sin(theta) : a)) + fabs(view.position[4]));
         worst = fmax(worst, fabs(view.position[5] - (on ? cos(theta) : HEIGHT - LENGTH)));
         const CpsStepReport report = cps_evolution_report(run.evolution);
         least = fmin(least, report.ledger.imbalance);
@@ -58,7 +63,8 @@ static void draw(const char *name, double mu, double from, double to, int steps,
     rig_show(name, "worst place [m]", 0, worst);
     rig_show(name, "least imbalance [J]", 0, least);
     CHECK_LESS(worst, 1e-8);
-    /* no energy from nowhere: the ledger is open by the trapezium rule's error, at most (W/2) times the square of a step's way */
+    /* no energy from nowhere: the ledger is open by the trapezium rule's error, at most (W/2) times
+     * the square of a step's way */
     CHECK_GREATER(least, -0.5 * WEIGHT * pow((to - start) / steps, 2) - 1e-12);
     CHECK_INT(snaps, expected);
     rig_close(&run);

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A straight elastic line on a rough bed, pulled along itself: closed forms of drag and of microslip.
+/* A straight elastic line on a rough bed, pulled along itself: closed forms of drag and of
+ * microslip.
  *
- * Pulled by H < mu w L the line slides over the length H/(mu w), the tension falls linearly to 0 there and the tip
- * moves H^2/(2 mu w K); a change of the pull by D after that slides back over D/(2 mu w) and moves the tip D^2/(4 mu w
- * K) (Masing). With everything lumped at the nodes the tension of an element is the exact tension at its middle, so
- * that the tip differs only in the one element where sliding ends: at most mu w h^2/(8 K), whatever the load. */
+ * Pulled by H < mu w L the line slides over the length H/(mu w), the tension falls linearly to 0
+ * there and the tip moves H^2/(2 mu w K); a change of the pull by D after that slides back over
+ * D/(2 mu w) and moves the tip D^2/(4 mu w K) (Masing). With everything lumped at the nodes the
+ * tension of an element is the exact tension at its middle, so that the tip differs only in the one
+ * element where sliding ends: at most mu w h^2/(8 K), whatever the load. */
 #include <stdio.h>
 
 #include "cases.h"
@@ -13,7 +15,8 @@ static const double LENGTH = 100, WEIGHT = 10, FRICTION = 0.5, STIFFNESS = 2e3;
 
 static double tip(const CpsLineView *view) { return view->position[3 * (size_t)view->elements]; }
 
-/* largest difference between the elements' forces and the exact tension at their middles, away from where sliding ends
+/* largest difference between the elements' forces and the exact tension at their middles, away from
+ * where sliding ends
  */
 static double tension_error(const CpsLineView *view, double pull) {
     double worst = 0, density = FRICTION * WEIGHT;
@@ -39,7 +42,8 @@ static void drag(double pull, int elements, int steps) {
 
     // loading
     double density = FRICTION * WEIGHT, h = LENGTH / elements, slip = fmin(LENGTH, pull / density);
-    double motion = (pull * slip - density * slip * slip / 2) / STIFFNESS, end = density * h * h / (8 * STIFFNESS);
+    double motion = (pull * slip - density * slip * slip / 2) / STIFFNESS,
+           end = density * h * h / (8 * STIFFNESS);
     char name[64];
     snprintf(name, sizeof name, "drag %g N, N = %d, %d steps", pull, elements, steps);
     double error = show(name, "tip motion [m]", motion, tip(&view) - LENGTH);
@@ -57,7 +61,8 @@ static void drag(double pull, int elements, int steps) {
         CHECK_LESS(fabs(error), 3 * end + run.motion_error);
         if (steps == 1) {
             slipping = cps_evolution_line_report(run.evolution, 0).slipping;
-            CHECK_NEAR(show(name, "reverse slip length [m]", change / (2 * density), slipping), 0, 1.01 * h);
+            CHECK_NEAR(show(name, "reverse slip length [m]", change / (2 * density), slipping), 0,
+                       1.01 * h);
         }
     }
     case_close(&run);
@@ -71,9 +76,10 @@ static void straight_drag(void **state) {
     drag(620, 97, 1); // beyond mu w L = 500 N: the whole line slides
 }
 
-/* pretension, then cycles of the end force between base - swing and base + swing: the loss of a closed cycle */
-static double cycle(double pretension, double high, double low, int elements, int steps, double *amplitude,
-                    double *loss_error, double *motion_error) {
+/* pretension, then cycles of the end force between base - swing and base + swing: the loss of a
+ * closed cycle */
+static double cycle(double pretension, double high, double low, int elements, int steps,
+                    double *amplitude, double *loss_error, double *motion_error) {
     Case c;
     case_begin(&c, LENGTH, elements, WEIGHT, STIFFNESS);
     case_bed(&c, FRICTION);
@@ -99,25 +105,30 @@ static double cycle(double pretension, double high, double low, int elements, in
     return loss;
 }
 
-/* loss 2F^3/(3 EA mu w) about a pretension, F^3/(12 EA mu w) between 0 and F; the swing of the tip is F^2/(EA mu w)
- * from -F to F and F^2/(4 EA mu w) from 0 to F. Errors come from the element where sliding ends: order 2 in h. */
+/* loss 2F^3/(3 EA mu w) about a pretension, F^3/(12 EA mu w) between 0 and F; the swing of the tip
+ * is F^2/(EA mu w) from -F to F and F^2/(4 EA mu w) from 0 to F. Errors come from the element where
+ * sliding ends: order 2 in h. */
 static void microslip(const char *name, double pretension, double high, double low, double loss) {
-    double density = FRICTION * WEIGHT, swing = high - low, exact = swing * swing / (4 * density * STIFFNESS),
-           amplitude, loss_error, motion_error;
+    double density = FRICTION * WEIGHT, swing = high - low,
+           exact = swing * swing / (4 * density * STIFFNESS), amplitude, loss_error, motion_error;
     for (int steps = 1; steps <= 5; steps += 4) {
         for (int n = 100; n <= 400; n *= 4) {
-            double found = cycle(pretension, high, low, n, steps, &amplitude, &loss_error, &motion_error),
+            double found = cycle(pretension, high, low, n, steps, &amplitude, &loss_error,
+                                 &motion_error),
                    h = LENGTH / n;
             char figure[64];
             snprintf(figure, sizeof figure, "loss, N = %d, %d steps [J]", n, steps);
             double error = show(name, figure, loss, found);
-            /* Relative to the sliding length s = swing/(2 mu w): the sum over nodes is the trapezium rule of (s - x)^2, too large by
-             * (h/s)^2/2 of its integral; where sliding ends within an element nodes slide up to h^2/8 less, in units where s^2/2 is
-             * the tip's way, which takes up to 3 (h/s)^2/4 off again. */
+            /* Relative to the sliding length s = swing/(2 mu w): the sum over nodes is the
+             * trapezium rule of (s - x)^2, too large by (h/s)^2/2 of its integral; where sliding
+             * ends within an element nodes slide up to h^2/8 less, in units where s^2/2 is the
+             * tip's way, which takes up to 3 (h/s)^2/4 off again. */
             double part = h * 2 * density / swing;
-            CHECK_BETWEEN(error, -part * part / 4 * loss - loss_error, part * part / 2 * loss + loss_error);
+            CHECK_BETWEEN(error, -part * part / 4 * loss - loss_error,
+                          part * part / 2 * loss + loss_error);
             snprintf(figure, sizeof figure, "swing, N = %d, %d steps [m]", n, steps);
-            CHECK_LESS(fabs(show(name, figure, exact, amplitude)), part * part / 4 * exact + motion_error);
+            CHECK_LESS(fabs(show(name, figure, exact, amplitude)),
+                       part * part / 4 * exact + motion_error);
         }
     }
 }
@@ -125,7 +136,8 @@ static void microslip(const char *name, double pretension, double high, double l
 static void microslip_under_pretension(void **state) {
     (void)state;
     double force = 213, density = FRICTION * WEIGHT;
-    microslip("microslip, pretension", 300, 300 + force, 300 - force, 2 * pow(force, 3) / (3 * STIFFNESS * density));
+    microslip("microslip, pretension", 300, 300 + force, 300 - force,
+              2 * pow(force, 3) / (3 * STIFFNESS * density));
 }
 
 static void microslip_of_a_slack_line(void **state) {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Force and tension at the ends of a line, against closed forms that count the last half element.
  *
- * On a plane that it rubs on all over, a line of weight w has T' = mu w f(a) with f the factor of its zones. The program's
- * nodes carry the integral over what they stand for, so the tension at a held end is exact for any mesh, down to one
- * element, once that end's half element is counted. On a drum T grows like exp(mu theta), to second order in the mesh. */
+ * On a plane that it rubs on all over, a line of weight w has T' = mu w f(a) with f the factor of
+ * its zones. The program's nodes carry the integral over what they stand for, so the tension at a
+ * held end is exact for any mesh, down to one element, once that end's half element is counted. On
+ * a drum T grows like exp(mu theta), to second order in the mesh. */
 #include <math.h>
 #include <stdio.h>
 
@@ -19,7 +20,8 @@ enum { CASES = 60, ZONES = 3 };
 
 typedef struct Drag {
     int elements, held; /* which end is drawn along, or holds the line */
-    double length, weight, mu, stiffness, resistance; /* mu w times the integral of the factors [N] */
+    double length, weight, mu, stiffness,
+        resistance; /* mu w times the integral of the factors [N] */
     CpsFrictionZone zone[ZONES];
 } Drag;
 
@@ -37,12 +39,15 @@ static Drag make(Rig *rig, int number) {
     d.stiffness = draw(0, 1) < 0.3 ? INFINITY : d.weight * d.length * pow(10, draw(1, 6));
     rig->line.stiffness = d.stiffness;
     rig_obstacle(rig, CPS_OBSTACLE_PLANE, d.mu);
-    rig_point(rig, 0, 0, 0), rig_point(rig, d.length, 0, 0);
+    rig_point(rig, 0, 0, 0);
+    rig_point(rig, d.length, 0, 0);
     d.resistance = d.mu * d.weight * d.length;
     for (double at = 0; draw(0, 1) < 0.6 && rig->line.zone_count < ZONES;) {
-        const double from = at + draw(0, 0.3) * (d.length - at), to = from + draw(0.1, 0.9) * (d.length - from);
+        const double from = at + draw(0, 0.3) * (d.length - at),
+                     to = from + draw(0.1, 0.9) * (d.length - from);
         const double factor = draw(0.1, 2);
-        d.zone[rig->line.zone_count++] = (CpsFrictionZone){.from = from, .to = to, .factor = factor};
+        d.zone[rig->line.zone_count++] =
+            (CpsFrictionZone){.from = from, .to = to, .factor = factor};
         d.resistance += d.mu * d.weight * (factor - 1) * (to - from);
         at = to;
     }
@@ -60,13 +65,14 @@ static CpsLineReport next(CpsEvolution *evolution) {
 static CpsEvolution *begin(const Rig *rig) {
     CpsEvolution *evolution = NULL;
     CpsError err = {0};
-    if (cps_evolution_create(&rig->scene, &evolution, &err) != CPS_OK) print_error("%s\n", err.message);
+    if (cps_evolution_create(&rig->scene, &evolution, &err) != CPS_OK)
+        print_error("%s\n", err.message);
     assert_non_null(evolution);
     return evolution;
 }
 
-/* The end is drawn along by much more than all stretches: the line slides all over. Its ledger closes, and friction
- * dissipates the work that is done at the end. */
+/* The end is drawn along by much more than all stretches: the line slides all over. Its ledger
+ * closes, and friction dissipates the work that is done at the end. */
 static void drawn_along(void **unused) {
     (void)unused;
     double worst = 0;
@@ -74,8 +80,10 @@ static void drawn_along(void **unused) {
         static Rig rig;
         Drag d = make(&rig, i);
         rig.line.zone = d.zone;
-        const double sign = d.held == CPS_END_A ? -1 : 1, start = d.held == CPS_END_A ? 0 : d.length;
-        const double far = d.length * (0.5 + (isinf(d.stiffness) ? 0 : 2 * d.resistance / d.stiffness));
+        const double sign = d.held == CPS_END_A ? -1 : 1,
+                     start = d.held == CPS_END_A ? 0 : d.length;
+        const double far =
+            d.length * (0.5 + (isinf(d.stiffness) ? 0 : 2 * d.resistance / d.stiffness));
         rig_end(&rig, d.held, CPS_END_HELD, start, 0, 0);
         rig_end(&rig, 1 - d.held, CPS_END_FREE, 0, 0, 0);
         for (int k = 1; k <= 3; k++) {
@@ -83,11 +91,13 @@ static void drawn_along(void **unused) {
             rig_change(&rig, d.held, CPS_END_HELD, start + sign * k * far, 0, 0);
         }
         CpsEvolution *run = begin(&rig);
-        next(run), next(run);
+        next(run);
+        next(run);
         const CpsLineReport report = next(run);
         const CpsEndReport *end = &report.end[d.held];
         worst = fmax(worst, fabs(end->tension / d.resistance - 1));
-        CHECK_RELATIVE(end->tension, d.resistance, 1e-11); /* nodes that slip reach their bounds to rounding */
+        CHECK_RELATIVE(end->tension, d.resistance,
+                       1e-11); /* nodes that slip reach their bounds to rounding */
         CHECK_RELATIVE(end->force[0], sign * d.resistance, 1e-11);
         CHECK_INT(report.end[1 - d.held].tension == 0, 1);
         CHECK_RELATIVE(report.dissipated, d.resistance * far, 1e-11);
@@ -97,7 +107,8 @@ static void drawn_along(void **unused) {
     printf("%d lines drawn along: tension within %.1e of mu w L\n", CASES, worst);
 }
 
-/* The free end is pulled by more than friction holds; what is left arrives at the end that is held. */
+/* The free end is pulled by more than friction holds; what is left arrives at the end that is
+ * held. */
 static void holds_the_rest(void **unused) {
     (void)unused;
     double worst = 0;
@@ -105,7 +116,8 @@ static void holds_the_rest(void **unused) {
         static Rig rig;
         Drag d = make(&rig, i);
         rig.line.zone = d.zone;
-        if (isinf(d.stiffness)) rig.line.stiffness = 1e3 * d.weight * d.length; /* else nothing slides */
+        if (isinf(d.stiffness))
+            rig.line.stiffness = 1e3 * d.weight * d.length; /* else nothing slides */
         const double pull = d.resistance * draw(1.2, 5), sign = d.held == CPS_END_A ? 1 : -1;
         rig_end(&rig, d.held, CPS_END_HELD, d.held == CPS_END_A ? 0 : d.length, 0, 0);
         rig_end(&rig, 1 - d.held, CPS_END_FREE, 0, 0, 0);
@@ -131,11 +143,14 @@ static void back_again(void **unused) {
     rig_begin(&rig, 8, weight, 1e4);
     rig_length(&rig, length);
     rig_obstacle(&rig, CPS_OBSTACLE_PLANE, mu);
-    rig_point(&rig, 0, 0, 0), rig_point(&rig, length, 0, 0);
+    rig_point(&rig, 0, 0, 0);
+    rig_point(&rig, length, 0, 0);
     rig_end(&rig, CPS_END_A, CPS_END_FREE, 0, 0, 0);
     rig_end(&rig, CPS_END_B, CPS_END_HELD, length, 0, 0);
-    rig_stage(&rig, 10), rig_change(&rig, CPS_END_B, CPS_END_HELD, length + 1, 0, 0);
-    rig_stage(&rig, 200), rig_change(&rig, CPS_END_B, CPS_END_HELD, length, 0, 0);
+    rig_stage(&rig, 10);
+    rig_change(&rig, CPS_END_B, CPS_END_HELD, length + 1, 0, 0);
+    rig_stage(&rig, 200);
+    rig_change(&rig, CPS_END_B, CPS_END_HELD, length, 0, 0);
     RigRun run = rig_open(&rig);
     for (int k = 0; k < 210; k++) {
         rig_step(&run);
@@ -154,7 +169,8 @@ static void held_in_the_air(void **unused) {
     rig.line.start.kind = CPS_START_LAID;
     rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0.01);
     rig_end(&rig, CPS_END_B, CPS_END_HELD, 9.999, 0, 0.01);
-    rig_stage(&rig, 1), rig_change(&rig, CPS_END_B, CPS_END_HELD, 10.001, 0, 0.01);
+    rig_stage(&rig, 1);
+    rig_change(&rig, CPS_END_B, CPS_END_HELD, 10.001, 0, 0.01);
     RigRun run = rig_open(&rig);
     rig_step(&run);
     const CpsLineView view = rig_step(&run);
@@ -165,7 +181,8 @@ static void held_in_the_air(void **unused) {
     rig_close(&run);
 }
 
-/* A line round a drum from where it is held on it: exp(mu theta) with all of theta, to second order. */
+/* A line round a drum from where it is held on it: exp(mu theta) with all of theta, to second
+ * order. */
 static void held_on_a_drum(void **unused) {
     (void)unused;
     const double theta = 2, mu = 0.4, pull = 10;
@@ -187,15 +204,16 @@ static void held_on_a_drum(void **unused) {
         rig_change(&rig, CPS_END_B, CPS_END_FREE, pull * cos(theta), 0, -pull * sin(theta));
         RigRun run = rig_open(&rig);
         rig_step(&run);
-        error[k] = rig_show("held on a drum, mu 0.4, 2 rad", "tension at the held end [N]", pull * exp(-mu * theta),
-                            run.report.end[CPS_END_A].tension);
+        error[k] = rig_show("held on a drum, mu 0.4, 2 rad", "tension at the held end [N]",
+                            pull * exp(-mu * theta), run.report.end[CPS_END_A].tension);
         rig_close(&run);
     }
     for (int k = 0; k < 2; k++) CHECK_BETWEEN(error[k] / error[k + 1], 3, 5);
 }
 
-/* Grounded length ends between nodes. A free end that is lifted by less than its half element weighs: what the bed does not
- * bear is off it. A line over a drum without weight: as long as the arc between its tangents, wherever nodes fall. */
+/* Grounded length ends between nodes. A free end that is lifted by less than its half element
+ * weighs: what the bed does not bear is off it. A line over a drum without weight: as long as the
+ * arc between its tangents, wherever nodes fall. */
 static void grounded_between_nodes(void **unused) {
     (void)unused;
     for (int i = 0; i < 8; i++) {
@@ -204,7 +222,8 @@ static void grounded_between_nodes(void **unused) {
         rig_begin(&rig, 10, weight, 1e9);
         rig_length(&rig, length);
         rig_obstacle(&rig, CPS_OBSTACLE_PLANE, 0.5);
-        rig_point(&rig, 0, 0, 0), rig_point(&rig, length, 0, 0);
+        rig_point(&rig, 0, 0, 0);
+        rig_point(&rig, length, 0, 0);
         rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
         rig_end(&rig, CPS_END_B, CPS_END_FREE, 30, 0, lift);
         RigRun run = rig_open(&rig);
@@ -216,15 +235,18 @@ static void grounded_between_nodes(void **unused) {
         double worst = 0;
         for (int i = 0; i < 8; i++) {
             static Rig rig;
-            const double half = 0.9 + 0.02 * i, far = 2, radius = 1; /* radians on each side of the top */
+            const double half = 0.9 + 0.02 * i, far = 2,
+                         radius = 1; /* radians on each side of the top */
             rig_begin(&rig, n, 0, 1e4);
             rig_obstacle(&rig, CPS_OBSTACLE_CYLINDER, 0.1);
             const double x = sin(half) + far * cos(half), z = cos(half) - far * sin(half);
             rig_length(&rig, 2 * (radius * half + far) - 0.01);
             /* first along the drum, with room */
             for (int k = 0; k <= 200; k++) {
-                const double s = (2.0 * k / 200 - 1) * (half + far), on = fmin(fabs(s), half), off = fabs(s) - on;
-                rig_point(&rig, copysign(sin(on) + off * cos(on), s), 0, cos(on) - off * sin(on) + 2e-3);
+                const double s = (2.0 * k / 200 - 1) * (half + far), on = fmin(fabs(s), half),
+                             off = fabs(s) - on;
+                rig_point(&rig, copysign(sin(on) + off * cos(on), s), 0,
+                          cos(on) - off * sin(on) + 2e-3);
             }
             rig_end(&rig, CPS_END_A, CPS_END_HELD, -x, 0, z + 2e-3);
             rig_end(&rig, CPS_END_B, CPS_END_HELD, x, 0, z + 2e-3);
@@ -233,21 +255,24 @@ static void grounded_between_nodes(void **unused) {
             rig_change(&rig, CPS_END_B, CPS_END_HELD, x, 0, z - 1e-4);
             RigRun run = rig_open(&rig);
             rig_step(&run);
-            const double strain = 0.5 * (run.report.end[0].tension + run.report.end[1].tension) / 1e4;
+            const double strain =
+                0.5 * (run.report.end[0].tension + run.report.end[1].tension) / 1e4;
             worst = fmax(worst, fabs(run.report.grounded * (1 + strain) - 2 * half * radius));
             rig_close(&run);
         }
         printf("over a drum, %d elements: grounded within %.1e of 2 R times the angle\n", n, worst);
-        /* h^2/4 of h = 5.8/n; the ends' last 1e-4 m turn each tangent by as much, and friction leaves the strain uneven by
-         * 0.1 of itself, 3e-4 on the arc; nodes alone would leave up to h */
+        /* h^2/4 of h = 5.8/n; the ends' last 1e-4 m turn each tangent by as much, and friction
+         * leaves the strain uneven by 0.1 of itself, 3e-4 on the arc; nodes alone would leave up to
+         * h */
         CHECK_LESS(worst, 8.4 / n / n + 4e-4);
     }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(drawn_along),     cmocka_unit_test(holds_the_rest), cmocka_unit_test(back_again),
-        cmocka_unit_test(held_in_the_air), cmocka_unit_test(held_on_a_drum), cmocka_unit_test(grounded_between_nodes),
+        cmocka_unit_test(drawn_along),    cmocka_unit_test(holds_the_rest),
+        cmocka_unit_test(back_again),     cmocka_unit_test(held_in_the_air),
+        cmocka_unit_test(held_on_a_drum), cmocka_unit_test(grounded_between_nodes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

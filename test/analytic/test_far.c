@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scenes far from the origin of their coordinates: random ones, shifted by up to 1e7 lengths, are answered as where they were.
+/* Scenes far from the origin of their coordinates: random ones, shifted by up to 1e7 lengths, are
+ * answered as where they were.
  *
- * Coordinates are multiples of 2^-20 of the length and shifts of 2^-6, so that the shifted data are exact: what differs is the program's. */
+ * Coordinates are multiples of 2^-20 of the length and shifts of 2^-6, so that the shifted data are
+ * exact: what differs is the program's. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,18 +25,24 @@ static double chance(double low, double high) {
 /* a coordinate of 20 binary digits */
 static double place(double low, double high) { return floor(chance(low, high) * 0x1p20) * 0x1p-20; }
 
-/* A line of length 1 over a bed and, in two of three, a cylinder or a ball on it; its end B is moved about above them. */
+/* A line of length 1 over a bed and, in two of three, a cylinder or a ball on it; its end B is
+ * moved about above them. */
 static void build(Rig *rig, uint64_t seed, const double at[3]) {
     state_of_chance = seed;
     rig_begin(rig, ELEMENTS, 1, pow(10, chance(1, 3.5)));
     rig_length(rig, 1);
     CpsObstacle *bed = rig_obstacle(rig, CPS_OBSTACLE_PLANE, chance(0.1, 0.8));
-    bed->normal[0] = chance(-0.1, 0.1), bed->normal[2] = 1;
+    bed->normal[0] = chance(-0.1, 0.1);
+    bed->normal[2] = 1;
     for (int a = 0; a < 3; a++) bed->point[a] = at[a];
     if (seed % 3) {
-        CpsObstacle *o = rig_obstacle(rig, seed % 3 == 1 ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE, chance(0.1, 0.5));
+        CpsObstacle *o =
+            rig_obstacle(rig, seed % 3 == 1 ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE,
+                         chance(0.1, 0.5));
         o->radius = chance(0.1, 0.2);
-        o->point[0] = at[0] + place(0.4, 0.5), o->point[1] = at[1], o->point[2] = at[2];
+        o->point[0] = at[0] + place(0.4, 0.5);
+        o->point[1] = at[1];
+        o->point[2] = at[2];
     }
     rig->line.start.kind = CPS_START_LAID;
     rig_end(rig, CPS_END_A, CPS_END_HELD, at[0], at[1], at[2] + 0.25);
@@ -66,16 +74,19 @@ static void solve(uint64_t seed, const double at[3], Answer *out) {
         const CpsLineView view = cps_evolution_line_view(evolution, 0);
         const CpsLineReport report = cps_evolution_line_report(evolution, 0);
         const int s = out->steps;
-        for (int i = 0; i < 3 * NODES; i++) out->position[s][i] = view.position[i] + (view.origin[i % 3] - at[i % 3]);
+        for (int i = 0; i < 3 * NODES; i++)
+            out->position[s][i] = view.position[i] + (view.origin[i % 3] - at[i % 3]);
         memcpy(out->tension[s], view.tension, sizeof out->tension[s]);
         memcpy(out->origin, view.origin, sizeof out->origin);
         out->largest[s] = report.certificate.largest_force;
-        out->bound[s] = (s > 0 ? out->bound[s - 1] : 0) + sqrt(ELEMENTS) * fmax(0, report.certificate.tension_bound); /* NaN: 0 */
+        out->bound[s] = (s > 0 ? out->bound[s - 1] : 0) +
+                        sqrt(ELEMENTS) * fmax(0, report.certificate.tension_bound); /* NaN: 0 */
         out->outcome[s] = report.outcome;
         out->solved += report.outcome == CPS_SOLVED;
         /* the report is in the coordinates of the scene */
         for (int a = 0; a < 3; a++)
-            CHECK_NEAR(report.end[CPS_END_B].position[a], view.origin[a] + view.position[3 * ELEMENTS + a], 0);
+            CHECK_NEAR(report.end[CPS_END_B].position[a],
+                       view.origin[a] + view.position[3 * ELEMENTS + a], 0);
         CHECK_VECTOR(report.end[CPS_END_A].position, rig.line.end[CPS_END_A].value, 0);
     }
     cps_evolution_destroy(evolution);
@@ -91,25 +102,34 @@ static void shifted_scenes_agree(void **state) {
         solve(seed, (double[3]){0, 0, 0}, &here);
         CHECK_VECTOR(here.origin, ((double[3]){0, 0, 0}), 0);
         for (int f = 0; f < 9; f++) {
-            /* along one axis, two, or all, and by a broken number, so that the local origin is not where it was */
-            const double s = FAR[f / 3] + 0.3125, at[3] = {f % 3 == 1 ? 0 : s, f % 3 == 0 ? 0 : -0.75 * s, f % 3 == 2 ? 0.5 * s : 0};
+            /* along one axis, two, or all, and by a broken number, so that the local origin is not
+             * where it was */
+            const double s = FAR[f / 3] + 0.3125,
+                         at[3] = {f % 3 == 1 ? 0 : s, f % 3 == 0 ? 0 : -0.75 * s,
+                                  f % 3 == 2 ? 0.5 * s : 0};
             solve(seed, at, &there);
-            for (int a = 0; a < 3; a++) CHECK_NEAR(there.origin[a], at[a], 10); /* in round numbers */
+            for (int a = 0; a < 3; a++)
+                CHECK_NEAR(there.origin[a], at[a], 10); /* in round numbers */
             CHECK_INT(there.steps, here.steps);
             for (int k = 0; k < here.steps; k++) {
                 CHECK_INT(there.outcome[k], here.outcome[k]);
                 if (here.outcome[k] != CPS_SOLVED) continue;
                 steps++;
-                for (int i = 0; i < 3 * NODES; i++) way = fmax(way, fabs(there.position[k][i] - here.position[k][i]));
+                for (int i = 0; i < 3 * NODES; i++)
+                    way = fmax(way, fabs(there.position[k][i] - here.position[k][i]));
                 for (int i = 0; i < ELEMENTS; i++)
-                    tension = fmax(tension, fabs(there.tension[k][i] - here.tension[k][i]) /
-                                                (here.bound[k] + there.bound[k] + 1e-6 * here.largest[k]));
+                    tension = fmax(tension,
+                                   fabs(there.tension[k][i] - here.tension[k][i]) /
+                                       (here.bound[k] + there.bound[k] + 1e-6 * here.largest[k]));
             }
         }
     }
-    printf("%d steps, places differ by %.1e of the length, tensions by %.1e of what certificates leave open\n", steps, way, tension);
+    printf("%d steps, places differ by %.1e of the length, tensions by %.1e of what certificates "
+           "leave open\n",
+           steps, way, tension);
     CHECK_GREATER(steps, 20 * SCENES);
-    /* the loop ends at a relative gap of 1e-13; its root 3e-7 bounds what forces and places of a step keep of it, and steps add up */
+    /* the loop ends at a relative gap of 1e-13; its root 3e-7 bounds what forces and places of a
+     * step keep of it, and steps add up */
     CHECK_LESS(way, 1e-6);
     CHECK_LESS(tension, 1);
 }
@@ -126,7 +146,8 @@ static void near_scenes_keep_their_origin(void **state) {
 static void saved_far_away(void **state) {
     (void)state;
     Rig rig, other;
-    build(&rig, 2, (double[3]){5e5, 6e6, 0}), build(&other, 2, (double[3]){5e5, 6.1e6, 0});
+    build(&rig, 2, (double[3]){5e5, 6e6, 0});
+    build(&other, 2, (double[3]){5e5, 6.1e6, 0});
     CpsError err = {0};
     CpsEvolution *a, *b, *c;
     CHECK_INT(cps_evolution_create(&rig.scene, &a, &err), CPS_OK);
@@ -146,11 +167,14 @@ static void saved_far_away(void **state) {
     const CpsLineView x = cps_evolution_line_view(a, 0), y = cps_evolution_line_view(b, 0);
     CHECK_INT(memcmp(x.position, y.position, 3 * NODES * sizeof *x.position), 0);
     free(saved);
-    cps_evolution_destroy(a), cps_evolution_destroy(b), cps_evolution_destroy(c);
+    cps_evolution_destroy(a);
+    cps_evolution_destroy(b);
+    cps_evolution_destroy(c);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(shifted_scenes_agree), cmocka_unit_test(near_scenes_keep_their_origin),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shifted_scenes_agree),
+                                       cmocka_unit_test(near_scenes_keep_their_origin),
                                        cmocka_unit_test(saved_far_away)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

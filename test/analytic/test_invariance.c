@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The same scene in other words: turned and shifted, in other units, told from the other end.
  *
- * A heavy elastic line lies over a half-buried pipe and along a bed, both with different friction along and across the
- * line, one end is lifted and drawn aside; another one is wound around a drum that turns. Positions per length and
- * forces per force must agree. Turned, shifted or scaled, the same iteration runs on the same numbers but for rounding,
- * 1e-16 and amplified by the conditioning of steps that are solved to 1e-13 of their scale: 1e-9. From the other end
- * another elimination leads elsewhere inside that gap, and the gap is quadratic in places along which the energy is
+ * A heavy elastic line lies over a half-buried pipe and along a bed, both with different friction
+ * along and across the line, one end is lifted and drawn aside; another one is wound around a drum
+ * that turns. Positions per length and forces per force must agree. Turned, shifted or scaled, the
+ * same iteration runs on the same numbers but for rounding, 1e-16 and amplified by the conditioning
+ * of steps that are solved to 1e-13 of their scale: 1e-9. From the other end another elimination
+ * leads elsewhere inside that gap, and the gap is quadratic in places along which the energy is
  * flat: 1e-7. */
 #include <stdio.h>
 #include <string.h>
@@ -31,11 +32,13 @@ static void turn_to(const View *view, const double x[3], bool place, double out[
 static void turn_back(const View *view, const double x[3], double out[3]) {
     for (int a = 0; a < 3; a++) {
         out[a] = 0;
-        for (int b = 0; b < 3; b++) out[a] += view->q[3 * b + a] * (x[b] - view->shift[b]) / view->scale;
+        for (int b = 0; b < 3; b++)
+            out[a] += view->q[3 * b + a] * (x[b] - view->shift[b]) / view->scale;
     }
 }
 
-static void set_end(Rig *rig, const View *view, bool change, int end, CpsEndKind kind, double x, double y, double z) {
+static void set_end(Rig *rig, const View *view, bool change, int end, CpsEndKind kind, double x,
+                    double y, double z) {
     double to[3];
     turn_to(view, (const double[]){x, y, z}, kind == CPS_END_HELD, to);
     if (kind == CPS_END_FREE)
@@ -52,8 +55,9 @@ static void begin(Rig *rig, const View *view, double weight, double stiffness) {
     turn_to(view, (const double[]){0, 0, -9.81}, false, rig->scene.gravity);
 }
 
-static CpsObstacle *obstacle(Rig *rig, const View *view, CpsObstacleKind kind, const double point[3],
-                             const double axis[3], double radius, double friction, double lateral) {
+static CpsObstacle *obstacle(Rig *rig, const View *view, CpsObstacleKind kind,
+                             const double point[3], const double axis[3], double radius,
+                             double friction, double lateral) {
     CpsObstacle *o = rig_obstacle(rig, kind, friction);
     turn_to(view, point, true, o->point);
     turn_to(view, axis, false, kind == CPS_OBSTACLE_PLANE ? o->normal : o->axis);
@@ -65,8 +69,10 @@ static CpsObstacle *obstacle(Rig *rig, const View *view, CpsObstacleKind kind, c
 /* Over the pipe. */
 static void pipe_scene(Rig *rig, const View *view) {
     begin(rig, view, 10, 1e4);
-    obstacle(rig, view, CPS_OBSTACLE_PLANE, (const double[]){0, 0, 0}, (const double[]){0, 0, 1}, 1, 0.5, 0.8);
-    obstacle(rig, view, CPS_OBSTACLE_CYLINDER, (const double[]){3, 0, 0}, (const double[]){0, 1, 0}, 1, 0.3, 0.2)
+    obstacle(rig, view, CPS_OBSTACLE_PLANE, (const double[]){0, 0, 0}, (const double[]){0, 0, 1}, 1,
+             0.5, 0.8);
+    obstacle(rig, view, CPS_OBSTACLE_CYLINDER, (const double[]){3, 0, 0}, (const double[]){0, 1, 0},
+             1, 0.3, 0.2)
         ->friction_shape = CPS_FRICTION_BOX;
     rig->line.start.kind = CPS_START_LAID;
     rig_length(rig, 7.2 * view->scale);
@@ -76,15 +82,18 @@ static void pipe_scene(Rig *rig, const View *view) {
     set_end(rig, view, true, CPS_END_B, CPS_END_HELD, 6.1, 1, 0.6);
 }
 
-/* Around the drum: half a turn, heavy, held at one end, pulled at the other; the drum turns and turns back. */
+/* Around the drum: half a turn, heavy, held at one end, pulled at the other; the drum turns and
+ * turns back. */
 static void drum_scene(Rig *rig, const View *view) {
     begin(rig, view, 1, 1e4);
-    obstacle(rig, view, CPS_OBSTACLE_CYLINDER, (const double[]){0, 0, 0}, (const double[]){0, 1, 0}, 1, 0.3, 0.5);
+    obstacle(rig, view, CPS_OBSTACLE_CYLINDER, (const double[]){0, 0, 0}, (const double[]){0, 1, 0},
+             1, 0.3, 0.5);
     const double from = -1.2, d = 2.2 / N;
     for (int j = 0; j <= N; j++) {
         const double phi = from + (view->reversed ? N - j : j) * d;
         double x[3];
-        turn_to(view, (const double[]){sin(phi), 0.05 * (view->reversed ? N - j : j) / N, cos(phi)}, true, x);
+        turn_to(view, (const double[]){sin(phi), 0.05 * (view->reversed ? N - j : j) / N, cos(phi)},
+                true, x);
         rig_point(rig, x[0], x[1], x[2]);
     }
     double chord = hypot(2 * sin(d / 2), 0.05 / N);
@@ -132,7 +141,8 @@ static void compare(const char *name, void (*make)(Rig *, const View *)) {
         run_it(make, &view[k], k ? &other : &first);
         if (k == 0) continue;
         double place = 0, tension = 0, most = 0;
-        for (int i = 0; i < 3 * (N + 1); i++) place = fmax(place, fabs(other.place[i] - first.place[i]));
+        for (int i = 0; i < 3 * (N + 1); i++)
+            place = fmax(place, fabs(other.place[i] - first.place[i]));
         for (int e = 0; e < N; e++) {
             tension = fmax(tension, fabs(other.tension[e] - first.tension[e]));
             most = fmax(most, first.tension[e]);

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Friction and resistance laws with closed forms: the braked wheel (M77 sections 9-10), dry and viscous friction
- * (Bingham), limit surfaces of ring, disc and rod as sums over contacts, the bipod whose force set is a whole disc. */
+/* Friction and resistance laws with closed forms: the braked wheel (M77 sections 9-10), dry and
+ * viscous friction (Bingham), limit surfaces of ring, disc and rod as sums over contacts, the bipod
+ * whose force set is a whole disc. */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "capstan/law.h"
 #include "check.h"
 
-/* Closed forms in a handful of operations: rounding of the values, 1e-10 with room for the conic solver's 1e-9 gap
- * being met far better than promised. */
+/* Closed forms in a handful of operations: rounding of the values, 1e-10 with room for the conic
+ * solver's 1e-9 gap being met far better than promised. */
 static const double EXACT = 1e-10;
 
 static const double PI = 3.14159265358979323846;
@@ -54,9 +55,12 @@ static CpsLaw *wheel(double brake, CpsComposition *composition) {
 static void wheel_dissipation(void **state) {
     (void)state;
     /* phi = r|W| where the wheel stays locked, else s|Wj| + c|Wi| */
-    static const double CASE[][3] = {
-        {1, 0, 500}, {1, 0.3, 522.0153254455275}, {1, 1, 658.257569495584}, {0.5, 2, 629.128784747792},
-        {0, 1, 200}, {-1, -1, 658.257569495584}};
+    static const double CASE[][3] = {{1, 0, 500},
+                                     {1, 0.3, 522.0153254455275},
+                                     {1, 1, 658.257569495584},
+                                     {0.5, 2, 629.128784747792},
+                                     {0, 1, 200},
+                                     {-1, -1, 658.257569495584}};
     CpsComposition composition;
     CpsLaw *law = wheel(60, &composition);
     assert_int_equal(composition, CPS_COMPOSE_INTERIOR);
@@ -107,11 +111,13 @@ static void wheel_corner_velocities(void **state) {
     const double corner[2] = {-sqrt(500.0 * 500 - 200.0 * 200), -200};
     double ray[8];
     int count = 0;
-    assert_int_equal(cps_law_velocities(cps_law_set(law), corner, 0, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_law_velocities(cps_law_set(law), corner, 0, &velocities, &answer, NULL),
+                     CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
     assert_int_equal(cps_set_rays(velocities, 0, 4, ray, &count, &answer, NULL), CPS_OK);
     CHECK_INT(count, 2);
-    const double sine = fabs(ray[0] * ray[3] - ray[1] * ray[2]), cosine = ray[0] * ray[2] + ray[1] * ray[3];
+    const double sine = fabs(ray[0] * ray[3] - ray[1] * ray[2]),
+                 cosine = ray[0] * ray[2] + ray[1] * ray[3];
     CHECK_RELATIVE(atan2(sine, cosine), acos(0.4), EXACT);
     /* one bounding velocity is along the axis j, the other along the radius */
     const int strip = fabs(ray[0]) < fabs(ray[2]) ? 0 : 2;
@@ -123,11 +129,13 @@ static void wheel_corner_velocities(void **state) {
     /* inside: only at rest; outside: none */
     const double inside[2] = {100, 50}, outside[2] = {0, 201};
     CpsSetFacts facts;
-    assert_int_equal(cps_law_velocities(cps_law_set(law), inside, 0, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_law_velocities(cps_law_set(law), inside, 0, &velocities, &answer, NULL),
+                     CPS_OK);
     assert_int_equal(cps_set_facts(velocities, 0, &facts, NULL, NULL, NULL), CPS_OK);
     CHECK_INT(facts.dimension, 0);
     cps_set_release(velocities);
-    assert_int_equal(cps_law_velocities(cps_law_set(law), outside, 0, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_law_velocities(cps_law_set(law), outside, 0, &velocities, &answer, NULL),
+                     CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
     assert_null(velocities);
     cps_law_destroy(law);
@@ -168,7 +176,8 @@ static void composition_on_a_boundary(void **state) {
     /* G -> (0, G): meets [0, 5] at its end only, the disc inside; the interval is polyhedral */
     const double beside[3][2] = {{0, 0}, {1, 0}, {0, 1}};
     assert_int_equal(cps_set_interval(0, 5, &half, NULL), CPS_OK);
-    part[0] = set_law(half), part[1] = disc_law(3);
+    part[0] = set_law(half);
+    part[1] = disc_law(3);
     assert_int_equal(cps_law_product(2, (const CpsLaw *const *)part, &both, NULL), CPS_OK);
     assert_int_equal(cps_law_preimage(2, beside[0], both, &composition, &law, NULL), CPS_OK);
     assert_int_equal(composition, CPS_COMPOSE_POLYHEDRAL);
@@ -176,8 +185,8 @@ static void composition_on_a_boundary(void **state) {
     cps_law_destroy(both);
     cps_law_destroy(law);
 
-    /* G -> (0, G) touches a disc round (5, 0) at 0 alone: the reduced law {0} resists every W, the disc none but along
-     * it */
+    /* G -> (0, G) touches a disc round (5, 0) at 0 alone: the reduced law {0} resists every W, the
+     * disc none but along it */
     const double tangent[2] = {0, 1}, center[2] = {5, 0};
     assert_int_equal(cps_set_ball(2, center, 5, &ball, NULL), CPS_OK);
     part[0] = set_law(ball);
@@ -242,7 +251,8 @@ static const double SHARED = 1e-11, SHARED_VELOCITY = 3e-6;
 
 static CpsResistance *sum_of(int count, CpsResistance **part) {
     CpsResistance *sum = NULL;
-    assert_int_equal(cps_resistance_sum(count, (const CpsResistance *const *)part, &sum, NULL), CPS_OK);
+    assert_int_equal(cps_resistance_sum(count, (const CpsResistance *const *)part, &sum, NULL),
+                     CPS_OK);
     for (int i = 0; i < count; i++) cps_resistance_destroy(part[i]);
     return sum;
 }
@@ -273,8 +283,9 @@ static void dry_and_power(void **state) {
     }
 }
 
-/* Two powers of one component, phi = a v^2/2 + b v^3/3: a v + b v^2 = f. Then each axis on its own, phi = sum of c_i
- * |V_i|^p_i/p_i from sets that are segments: V_i = (F_i/c_i)^(1/(p_i-1)), phi* the sum of the parts'. */
+/* Two powers of one component, phi = a v^2/2 + b v^3/3: a v + b v^2 = f. Then each axis on its own,
+ * phi = sum of c_i |V_i|^p_i/p_i from sets that are segments: V_i = (F_i/c_i)^(1/(p_i-1)), phi* the
+ * sum of the parts'. */
 static void powers_side_by_side(void **state) {
     (void)state;
     const double a = 2, b = 5, f = 7, v = (sqrt(a * a + 4 * b * f) - a) / (2 * b);
@@ -300,11 +311,13 @@ static void powers_side_by_side(void **state) {
     for (int i = 0; i < 3; i++) {
         double end[3] = {0}, other[3] = {0};
         CpsSet *segment = NULL;
-        end[i] = 1, other[i] = -1;
+        end[i] = 1;
+        other[i] = -1;
         assert_int_equal(cps_set_segment(3, other, end, &segment, NULL), CPS_OK);
         assert_int_equal(cps_law_friction(segment, &law, NULL), CPS_OK);
         assert_int_equal(cps_resistance_power(law, degree[i], factor[i], &part[i], NULL), CPS_OK);
-        expected += fabs(force[i]) * pow(fabs(force[i]) / factor[i], 1 / (degree[i] - 1)) * (1 - 1 / degree[i]);
+        expected += fabs(force[i]) * pow(fabs(force[i]) / factor[i], 1 / (degree[i] - 1)) *
+                    (1 - 1 / degree[i]);
         cps_law_destroy(law);
         cps_set_release(segment);
     }
@@ -312,12 +325,14 @@ static void powers_side_by_side(void **state) {
     assert_int_equal(cps_resistance_conjugate(sum, force, found, &answer, NULL), CPS_OK);
     CHECK_RELATIVE(answer.value, expected, SHARED * 5);
     for (int i = 0; i < 3; i++)
-        CHECK_RELATIVE(found[i], -copysign(pow(fabs(force[i]) / factor[i], 1 / (degree[i] - 1)), force[i]),
+        CHECK_RELATIVE(found[i],
+                       -copysign(pow(fabs(force[i]) / factor[i], 1 / (degree[i] - 1)), force[i]),
                        SHARED_VELOCITY * 10);
     cps_resistance_destroy(sum);
 }
 
-/* ---- limit surfaces: contacts k at (x, y) with share w of the load, unit friction; twist (vx, vy, omega) ---- */
+/* ---- limit surfaces: contacts k at (x, y) with share w of the load, unit friction; twist (vx, vy,
+ * omega) ---- */
 
 typedef struct Place {
     double x, y, share;
@@ -333,7 +348,8 @@ static CpsLaw *footprint(int count, const Place *place) {
         maps[i] = map[i];
         disc[i] = disc_law(place[i].share);
     }
-    assert_int_equal(cps_law_contacts(3, count, (const CpsLaw *const *)disc, maps, &law, NULL), CPS_OK);
+    assert_int_equal(cps_law_contacts(3, count, (const CpsLaw *const *)disc, maps, &law, NULL),
+                     CPS_OK);
     for (int i = 0; i < count; i++) cps_law_destroy(disc[i]);
     free(map);
     free(maps);
@@ -356,17 +372,20 @@ static double ring(int count, const double *twist) {
 
 static void ring_surface(void **state) {
     (void)state;
-    /* the integrand is analytic round the ring unless the centre of rotation lies on it, at (0, 1): then order 2, as
-     * long as it falls in the same place between contacts (half way, for multiples of 4) */
+    /* the integrand is analytic round the ring unless the centre of rotation lies on it, at (0, 1):
+     * then order 2, as long as it falls in the same place between contacts (half way, for multiples
+     * of 4) */
     const double smooth[3] = {1, 0, 0.5}, on_ring[3] = {1, 0, 1};
     CHECK_RELATIVE(ring(64, smooth), 1.0635444099733649, EXACT);
-    const double exact = 4 / PI, coarse = ring(52, on_ring) - exact, fine = ring(104, on_ring) - exact;
-    CHECK_BETWEEN(coarse / fine, 3.9, 4.1); /* 4 for order 2; the next term of the expansion is 1/count^2 smaller */
+    const double exact = 4 / PI, coarse = ring(52, on_ring) - exact,
+                 fine = ring(104, on_ring) - exact;
+    CHECK_BETWEEN(coarse / fine, 3.9,
+                  4.1); /* 4 for order 2; the next term of the expansion is 1/count^2 smaller */
     CHECK_NEAR(fine, 0, 2e-4);
 }
 
-/* rings of contacts at the middles of `rings` bands of equal width, uniform pressure; phi, and force and torque at (v,
- * 0, 1) */
+/* rings of contacts at the middles of `rings` bands of equal width, uniform pressure; phi, and
+ * force and torque at (v, 0, 1) */
 static double disc(int rings, double v, double *force) {
     const int round = 6 * rings;
     Place *place = calloc((size_t)rings * (size_t)round, sizeof *place);
@@ -393,7 +412,8 @@ static void disc_surface(void **state) {
         double coarse[3], fine[3];
         const double v = CASE[i][0], exact = v * CASE[i][1] + CASE[i][2];
         const double first = disc(10, v, coarse) - exact, second = disc(20, v, fine) - exact;
-        /* bands of width h: order 2, with a factor for the point where the sliding velocity vanishes (e < 1) */
+        /* bands of width h: order 2, with a factor for the point where the sliding velocity
+         * vanishes (e < 1) */
         CHECK_LESS(fabs(second), fabs(first) / 3);
         CHECK_NEAR(second, 0, 1e-3);
         CHECK_NEAR(-fine[1], CASE[i][1], 2e-3);
@@ -454,36 +474,42 @@ static int velocity_rays(const CpsSet *set, const double *force, double *ray) {
     return count;
 }
 
-/* Is one of `count` rays the unit vector along (x, y)?  Bounding rays are right to the square root of rounding where a conic
- * projection finds them. */
+/* Is one of `count` rays the unit vector along (x, y)?  Bounding rays are right to the square root
+ * of rounding where a conic projection finds them. */
 static bool has_ray(const double *ray, int count, double x, double y) {
     const double size = hypot(x, y);
     for (int i = 0; i < count; i++)
-        if (hypot(ray[2*i] - x/size, ray[2*i + 1] - y/size) <= 1e-7) return true;
+        if (hypot(ray[2 * i] - x / size, ray[2 * i + 1] - y / size) <= 1e-7) return true;
     return false;
 }
 
-/* At a corner of a polygon -N lies between the inward normals of its two edges. Corners of random convex polygons on an ellipse, with
- * further points inside that are no corners, as hull of points and as image of another polygon. */
+/* At a corner of a polygon -N lies between the inward normals of its two edges. Corners of random
+ * convex polygons on an ellipse, with further points inside that are no corners, as hull of points
+ * and as image of another polygon. */
 static void polygon_corners(void **state) {
     (void)state;
     enum { MOST = 9 };
     srand(7);
     for (int k = 0; k < 300; k++) {
         const int corners = 3 + rand() % 4, inside = rand() % 3, at = rand() % corners;
-        double p[2*MOST], twice[2*MOST], ray[8], turn = rand() % 628*0.01, a = 1 + rand() % 9, b = 1 + rand() % 9;
+        double p[2 * MOST], twice[2 * MOST], ray[8], turn = rand() % 628 * 0.01, a = 1 + rand() % 9,
+                                                     b = 1 + rand() % 9;
         for (int i = 0; i < corners; i++) {
-            const double t = turn + (i + rand() % 50*0.01)*2*PI/corners;
-            p[2*i] = a*cos(t), p[2*i + 1] = b*sin(t);
+            const double t = turn + (i + rand() % 50 * 0.01) * 2 * PI / corners;
+            p[2 * i] = a * cos(t);
+            p[2 * i + 1] = b * sin(t);
         }
         for (int i = corners; i < corners + inside; i++) /* between two corners, and drawn in */
-            for (int c = 0; c < 2; c++) p[2*i + c] = 0.3*p[2*(i - corners) + c] + 0.2*p[2*(corners - 1) + c];
-        for (int i = 0; i < 2*(corners + inside); i++) twice[i] = 2*p[i];
+            for (int c = 0; c < 2; c++)
+                p[2 * i + c] = 0.3 * p[2 * (i - corners) + c] + 0.2 * p[2 * (corners - 1) + c];
+        for (int i = 0; i < 2 * (corners + inside); i++) twice[i] = 2 * p[i];
         CpsSet *hull = NULL, *half = NULL, *image = NULL;
         assert_int_equal(cps_set_hull_of_points(2, corners + inside, p, &hull, NULL), CPS_OK);
         assert_int_equal(cps_set_hull_of_points(2, corners + inside, twice, &half, NULL), CPS_OK);
-        assert_int_equal(cps_set_image(2, (const double[]){0.5, 0, 0, 0.5}, half, &image, NULL), CPS_OK);
-        const double *here = &p[2*at], *next = &p[2*((at + 1) % corners)], *last = &p[2*((at + corners - 1) % corners)];
+        assert_int_equal(cps_set_image(2, (const double[]){0.5, 0, 0, 0.5}, half, &image, NULL),
+                         CPS_OK);
+        const double *here = &p[2 * at], *next = &p[2 * ((at + 1) % corners)],
+                     *last = &p[2 * ((at + corners - 1) % corners)];
         for (int form = 0; form < 2; form++) {
             const int count = velocity_rays(form ? image : hull, here, ray);
             assert_int_equal(count, 2);
@@ -491,61 +517,92 @@ static void polygon_corners(void **state) {
             assert_true(has_ray(ray, count, here[1] - next[1], next[0] - here[0]));
             assert_true(has_ray(ray, count, last[1] - here[1], here[0] - last[0]));
         }
-        cps_set_release(hull), cps_set_release(half), cps_set_release(image);
+        cps_set_release(hull);
+        cps_set_release(half);
+        cps_set_release(image);
     }
 }
 
-/* A segment of forces lets its law slide freely across: along a line inside the segment, in a half-plane at its end. A law without
- * force moves anywhere. Laws in any position: every cone is turned by the same angle. */
-/* The velocities of a resistance law at F = -s (cos, sin): along -F between two speeds, low and high. */
+/* A segment of forces lets its law slide freely across: along a line inside the segment, in a
+ * half-plane at its end. A law without force moves anywhere. Laws in any position: every cone is
+ * turned by the same angle. */
+/* The velocities of a resistance law at F = -s (cos, sin): along -F between two speeds, low and
+ * high. */
 static void speeds_at(const CpsResistance *law, double s, double low, double high) {
     for (int k = 0; k < 12; k++) {
-        const double n[2] = {cos(0.6*k), sin(0.6*k)}, across[2] = {-n[1], n[0]};
+        const double n[2] = {cos(0.6 * k), sin(0.6 * k)}, across[2] = {-n[1], n[0]};
         CpsSet *velocities = NULL;
         CpsSetAnswer answer;
         CpsSetExtent extent;
-        assert_int_equal(cps_resistance_velocities(law, (double[]){s*n[0], s*n[1]}, &velocities, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_resistance_velocities(law, (double[]){s * n[0], s * n[1]}, &velocities,
+                                                   &answer, NULL),
+                         CPS_OK);
         CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
-        assert_int_equal(cps_set_extent(velocities, (double[]){-n[0], -n[1]}, &extent, NULL), CPS_OK);
+        assert_int_equal(cps_set_extent(velocities, (double[]){-n[0], -n[1]}, &extent, NULL),
+                         CPS_OK);
         CHECK_NEAR(extent.low, low, 1e-7);
-        if (isinf(high)) assert_true(isinf(extent.high));
-        else CHECK_NEAR(extent.high, high, 1e-7);
+        if (isinf(high))
+            assert_true(isinf(extent.high));
+        else
+            CHECK_NEAR(extent.high, high, 1e-7);
         assert_int_equal(cps_set_extent(velocities, across, &extent, NULL), CPS_OK);
-        if (!isinf(high)) CHECK_NEAR(extent.low, 0, 1e-7), CHECK_NEAR(extent.high, 0, 1e-7);
+        if (!isinf(high)) {
+            CHECK_NEAR(extent.low, 0, 1e-7);
+            CHECK_NEAR(extent.high, 0, 1e-7);
+        }
         cps_set_release(velocities);
     }
 }
 
-/* Resistance laws are set-valued both ways: dry friction at its limit, flat pieces of a table and what lies beyond its end, also in
- * a sum, and the power of a segment, which leaves the velocity across it free. */
+/* Resistance laws are set-valued both ways: dry friction at its limit, flat pieces of a table and
+ * what lies beyond its end, also in a sum, and the power of a segment, which leaves the velocity
+ * across it free. */
 static void velocities_of_resistances(void **state) {
     (void)state;
     CpsLaw *unit = disc_law(1), *three = disc_law(3);
     CpsResistance *dry = NULL, *table = NULL, *sum = NULL, *power = NULL;
     assert_int_equal(cps_resistance_dry(three, &dry, NULL), CPS_OK);
-    assert_int_equal(cps_resistance_table(unit, 4, (double[]){0, 1, 3, 4}, (double[]){1, 2, 2, 5}, &table, NULL), CPS_OK);
-    assert_int_equal(cps_resistance_sum(2, (const CpsResistance *const[]){dry, table}, &sum, NULL), CPS_OK);
-    speeds_at(dry, 3, 0, INFINITY), speeds_at(dry, 2, 0, 0);
-    speeds_at(table, 1, 0, 0), speeds_at(table, 1.5, 0.5, 0.5), speeds_at(table, 2, 1, 3), speeds_at(table, 5, 4, INFINITY);
-    speeds_at(sum, 4, 0, 0), speeds_at(sum, 4.5, 0.5, 0.5), speeds_at(sum, 5, 1, 3), speeds_at(sum, 8, 4, INFINITY);
+    assert_int_equal(cps_resistance_table(unit, 4, (double[]){0, 1, 3, 4}, (double[]){1, 2, 2, 5},
+                                          &table, NULL),
+                     CPS_OK);
+    assert_int_equal(cps_resistance_sum(2, (const CpsResistance *const[]){dry, table}, &sum, NULL),
+                     CPS_OK);
+    speeds_at(dry, 3, 0, INFINITY);
+    speeds_at(dry, 2, 0, 0);
+    speeds_at(table, 1, 0, 0);
+    speeds_at(table, 1.5, 0.5, 0.5);
+    speeds_at(table, 2, 1, 3);
+    speeds_at(table, 5, 4, INFINITY);
+    speeds_at(sum, 4, 0, 0);
+    speeds_at(sum, 4.5, 0.5, 0.5);
+    speeds_at(sum, 5, 1, 3);
+    speeds_at(sum, 8, 4, INFINITY);
     CpsSet *segment = NULL, *velocities = NULL;
-    assert_int_equal(cps_set_segment(2, (double[]){-1, 0}, (double[]){1, 0}, &segment, NULL), CPS_OK);
+    assert_int_equal(cps_set_segment(2, (double[]){-1, 0}, (double[]){1, 0}, &segment, NULL),
+                     CPS_OK);
     CpsLaw *flat = set_law(segment);
     assert_int_equal(cps_resistance_power(flat, 3, 1, &power, NULL), CPS_OK);
     CpsSetAnswer answer;
     CpsSetExtent extent;
-    assert_int_equal(cps_resistance_velocities(power, (double[]){4, 0}, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_resistance_velocities(power, (double[]){4, 0}, &velocities, &answer, NULL),
+                     CPS_OK);
     assert_int_equal(cps_set_extent(velocities, (double[]){1, 0}, &extent, NULL), CPS_OK);
-    CHECK_NEAR(extent.low, -2, 1e-8), CHECK_NEAR(extent.high, -2, 1e-8); /* h' = g^2 */
+    CHECK_NEAR(extent.low, -2, 1e-8);
+    CHECK_NEAR(extent.high, -2, 1e-8); /* h' = g^2 */
     assert_int_equal(cps_set_extent(velocities, (double[]){0, 1}, &extent, NULL), CPS_OK);
     assert_true(isinf(extent.low) && isinf(extent.high));
     cps_set_release(velocities);
-    cps_resistance_destroy(dry), cps_resistance_destroy(table), cps_resistance_destroy(sum), cps_resistance_destroy(power);
-    cps_law_destroy(unit), cps_law_destroy(three), cps_law_destroy(flat);
+    cps_resistance_destroy(dry);
+    cps_resistance_destroy(table);
+    cps_resistance_destroy(sum);
+    cps_resistance_destroy(power);
+    cps_law_destroy(unit);
+    cps_law_destroy(three);
+    cps_law_destroy(flat);
 }
 
-/* D = a a' with a = (1, 2): phi = <a, V>^2/2; a force along a has a line of velocities, any other none. A matrix with a negative value is
- * refused, one of zeros resists nothing. */
+/* D = a a' with a = (1, 2): phi = <a, V>^2/2; a force along a has a line of velocities, any other
+ * none. A matrix with a negative value is refused, one of zeros resists nothing. */
 static void semidefinite_viscosity(void **state) {
     (void)state;
     CpsResistance *law = NULL, *none = NULL;
@@ -555,26 +612,32 @@ static void semidefinite_viscosity(void **state) {
     CpsSetExtent extent;
     assert_int_equal(cps_resistance_viscous(2, (double[]){1, 2, 2, 4}, &law, NULL), CPS_OK);
     assert_int_equal(cps_resistance_value(law, (double[]){3, -1}, &value, NULL, NULL), CPS_OK);
-    CHECK_NEAR(value.potential, 0.5, EXACT), CHECK_NEAR(value.power, 1, EXACT);
+    CHECK_NEAR(value.potential, 0.5, EXACT);
+    CHECK_NEAR(value.power, 1, EXACT);
     assert_int_equal(cps_resistance_value(law, (double[]){2, -1}, &value, NULL, NULL), CPS_OK);
     CHECK_NEAR(value.potential, 0, EXACT);
-    assert_int_equal(cps_resistance_velocities(law, (double[]){-2, -4}, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_resistance_velocities(law, (double[]){-2, -4}, &velocities, &answer, NULL),
+                     CPS_OK);
     assert_int_equal(cps_set_extent(velocities, (double[]){1, 2}, &extent, NULL), CPS_OK);
-    CHECK_NEAR(extent.low, 2, 1e-8), CHECK_NEAR(extent.high, 2, 1e-8);
+    CHECK_NEAR(extent.low, 2, 1e-8);
+    CHECK_NEAR(extent.high, 2, 1e-8);
     assert_int_equal(cps_set_extent(velocities, (double[]){2, -1}, &extent, NULL), CPS_OK);
     assert_true(isinf(extent.low) && isinf(extent.high));
     cps_set_release(velocities);
-    assert_int_equal(cps_resistance_velocities(law, (double[]){1, 0}, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_resistance_velocities(law, (double[]){1, 0}, &velocities, &answer, NULL),
+                     CPS_OK);
     CHECK_INT(answer.outcome, CPS_SET_OUTSIDE);
-    assert_int_equal(cps_resistance_viscous(2, (double[]){1, 2, 2, 3.9}, &none, NULL), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_resistance_viscous(2, (double[]){1, 2, 2, 3.9}, &none, NULL),
+                     CPS_ERR_ARGUMENT);
     assert_int_equal(cps_resistance_viscous(2, (double[]){0, 0, 0, 0}, &none, NULL), CPS_OK);
     assert_int_equal(cps_resistance_value(none, (double[]){3, -1}, &value, NULL, NULL), CPS_OK);
     CHECK_NEAR(value.potential, 0, 0);
-    cps_resistance_destroy(law), cps_resistance_destroy(none);
+    cps_resistance_destroy(law);
+    cps_resistance_destroy(none);
 }
 
-/* {|F| <= f N}: finite phi, which is 0, for N's velocity v >= f |V| only; on the boundary one ray of velocities, at the tip those of the
- * polar cone. */
+/* {|F| <= f N}: finite phi, which is 0, for N's velocity v >= f |V| only; on the boundary one ray
+ * of velocities, at the tip those of the polar cone. */
 static void friction_cone(void **state) {
     (void)state;
     const double f = 0.5;
@@ -582,10 +645,12 @@ static void friction_cone(void **state) {
     CpsSetAnswer answer;
     assert_int_equal(cps_set_friction_cone(3, f, &cone, NULL), CPS_OK);
     for (int k = 0; k < 24; k++) {
-        const double a = 0.3*k, v[3] = {cos(a), sin(a), f*(k % 2 ? 1.001 : 0.999)}, tip[3] = {0, 0, 0};
+        const double a = 0.3 * k, v[3] = {cos(a), sin(a), f * (k % 2 ? 1.001 : 0.999)},
+                     tip[3] = {0, 0, 0};
         assert_int_equal(cps_law_dissipation(cone, v, NULL, &answer, NULL), CPS_OK);
         CHECK_INT(answer.outcome, k % 2 ? CPS_SET_ANSWERED : CPS_SET_UNBOUNDED);
-        const double force[3] = {2*f*cos(a), 2*f*sin(a), 2}, along[3] = {-cos(a), -sin(a), f};
+        const double force[3] = {2 * f * cos(a), 2 * f * sin(a), 2},
+                     along[3] = {-cos(a), -sin(a), f};
         assert_int_equal(cps_law_velocities(cone, force, 0, &velocities, &answer, NULL), CPS_OK);
         CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
         double nearest[3];
@@ -594,8 +659,10 @@ static void friction_cone(void **state) {
         cps_set_release(velocities);
         assert_int_equal(cps_law_velocities(cone, tip, 0, &velocities, &answer, NULL), CPS_OK);
         assert_int_equal(cps_set_project(velocities, v, NULL, nearest, &answer, NULL), CPS_OK);
-        if (k % 2) CHECK_NEAR(answer.value, 0, 1e-8);
-        else CHECK_GREATER(answer.value, 1e-4);
+        if (k % 2)
+            CHECK_NEAR(answer.value, 0, 1e-8);
+        else
+            CHECK_GREATER(answer.value, 1e-4);
         cps_set_release(velocities);
     }
     cps_set_release(cone);
@@ -604,8 +671,8 @@ static void friction_cone(void **state) {
 static void cones_with_lines(void **state) {
     (void)state;
     for (int k = 0; k < 24; k++) {
-        const double t = 0.3 + k*2*PI/24, c = cos(t), s = sin(t), far = 500, zero[2] = {0, 0};
-        const double ends[4] = {-far*c, -far*s, far*c, far*s};
+        const double t = 0.3 + k * 2 * PI / 24, c = cos(t), s = sin(t), far = 500, zero[2] = {0, 0};
+        const double ends[4] = {-far * c, -far * s, far * c, far * s};
         double ray[8];
         CpsSet *segment = NULL, *nothing = NULL;
         assert_int_equal(cps_set_hull_of_points(2, 2, ends, &segment, NULL), CPS_OK);
@@ -615,12 +682,14 @@ static void cones_with_lines(void **state) {
         count = velocity_rays(segment, &ends[2], ray);
         assert_int_equal(count, 3);
         assert_true(has_ray(ray, count, -s, c) && has_ray(ray, count, s, -c));
-        for (int i = 0; i < count; i++) assert_true(ray[2*i]*c + ray[2*i + 1]*s <= 1e-7);
+        for (int i = 0; i < count; i++) assert_true(ray[2 * i] * c + ray[2 * i + 1] * s <= 1e-7);
         assert_int_equal(cps_set_ball(2, zero, 0, &nothing, NULL), CPS_OK);
         count = velocity_rays(nothing, zero, ray);
         assert_int_equal(count, 4);
-        for (int i = 0; i < count; i++) assert_true(has_ray(ray, count, -ray[2*i], -ray[2*i + 1]));
-        cps_set_release(segment), cps_set_release(nothing);
+        for (int i = 0; i < count; i++)
+            assert_true(has_ray(ray, count, -ray[2 * i], -ray[2 * i + 1]));
+        cps_set_release(segment);
+        cps_set_release(nothing);
     }
 }
 

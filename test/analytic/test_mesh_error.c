@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The mesh estimate of the tension against what a mesh 16 times as fine finds: random hanging lines, and moorings on a bed
- * without and with friction, laid, and drawn out or paid back afterwards. Within a factor of 3 it is honest. */
+/* The mesh estimate of the tension against what a mesh 16 times as fine finds: random hanging
+ * lines, and moorings on a bed without and with friction, laid, and drawn out or paid back
+ * afterwards. Within a factor of 3 it is honest. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,8 +15,9 @@ static double draw(double low, double high) {
 }
 
 typedef struct Mooring {
-    double length, weight, stiffness, height, span, mu, shift; /* shift: what the upper end is moved by after laying, or 0 */
-    double grading[2];                                          /* ends of the line against each other, 1: even */
+    double length, weight, stiffness, height, span, mu,
+        shift;         /* shift: what the upper end is moved by after laying, or 0 */
+    double grading[2]; /* ends of the line against each other, 1: even */
     bool bed;
 } Mooring;
 
@@ -25,7 +27,8 @@ static Mooring make(bool bed, bool friction) {
     m.length = pow(10, draw(1, 3));
     m.height = m.length * draw(0.1, 0.6);
     m.stiffness = m.weight * m.length * pow(10, draw(2, 5));
-    const double taut = sqrt(m.length * m.length - m.height * m.height), loose = m.length - m.height;
+    const double taut = sqrt(m.length * m.length - m.height * m.height),
+                 loose = m.length - m.height;
     m.span = bed ? loose + draw(0.3, 0.9) * (taut - loose) : taut * draw(0.5, 0.98);
     m.mu = friction ? draw(0.2, 1) : 0;
     m.shift = friction ? draw(-0.005, 0.005) * m.length : 0;
@@ -49,7 +52,10 @@ static double solve(const Mooring *m, int elements, double tension[2]) {
     rig.line.start.kind = CPS_START_LAID;
     rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
     rig_end(&rig, CPS_END_B, CPS_END_HELD, m->span, 0, m->height);
-    if (m->shift != 0) rig_stage(&rig, 10), rig_change(&rig, CPS_END_B, CPS_END_HELD, m->span + m->shift, 0, m->height);
+    if (m->shift != 0) {
+        rig_stage(&rig, 10);
+        rig_change(&rig, CPS_END_B, CPS_END_HELD, m->span + m->shift, 0, m->height);
+    }
     RigRun run = rig_open(&rig);
     rig_step(&run);
     if (m->shift != 0) rig_next(&run);
@@ -64,7 +70,8 @@ static int by_size(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Ratios of error to estimate; at most `allowed` of the cases are off by more than a factor of 3. */
+/* Ratios of error to estimate; at most `allowed` of the cases are off by more than a factor of
+ * 3. */
 static void compare(const char *name, bool bed, bool friction, int allowed) {
     enum { CASES = 40 };
     double ratio[CASES];
@@ -77,13 +84,15 @@ static void compare(const char *name, bool bed, bool friction, int allowed) {
         solve(&m, 16 * n, fine);
         for (int e = 0; e < 2; e++) error = fmax(error, fabs(coarse[e] - fine[e]));
         const double step = m.weight * m.length / n / fmin(fine[0], fine[1]);
-        CHECK_INT(isfinite(estimate) || step > 0.5, 1); /* no estimate only where elements weigh about as much as they are tight */
+        CHECK_INT(isfinite(estimate) || step > 0.5,
+                  1); /* no estimate only where elements weigh about as much as they are tight */
         ratio[i] = isfinite(estimate) ? error / estimate : 1;
         beyond += ratio[i] > 3 || ratio[i] < 1 / 3.0;
     }
     qsort(ratio, CASES, sizeof *ratio, by_size);
-    printf("%-24s error over estimate: least %.2f, 5 %% %.2f, median %.2f, 95 %% %.2f, largest %.2f\n", name, ratio[0], ratio[2],
-           ratio[CASES / 2], ratio[CASES - 3], ratio[CASES - 1]);
+    printf(
+        "%-24s error over estimate: least %.2f, 5 %% %.2f, median %.2f, 95 %% %.2f, largest %.2f\n",
+        name, ratio[0], ratio[2], ratio[CASES / 2], ratio[CASES - 3], ratio[CASES - 1]);
     CHECK_BETWEEN(beyond, 0, allowed);
 }
 
@@ -99,7 +108,8 @@ static void laid(void **unused) {
 
 static void rubbing(void **unused) {
     (void)unused;
-    /* it is of the step: what earlier steps have left in the friction of another mesh is not in it */
+    /* it is of the step: what earlier steps have left in the friction of another mesh is not in
+     * it */
     compare("moved with friction", true, true, 8);
 }
 

@@ -1,25 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The OC3-Hywind line (902.2 m, 698.094 N/m, EA 384.243 MN, fairlead 250 m above the anchor) on a bed with consistent
- * friction.
+/* The OC3-Hywind line (902.2 m, 698.094 N/m, EA 384.243 MN, fairlead 250 m above the anchor) on a
+ * bed with consistent friction.
  *
- * The elastic catenary with bed friction (Jonkman 2007) takes the line on the bed, L_B = L - V/w, to slide all over
- * towards the fairlead: the tension falls by mu w per length towards the anchor. With mu < 0 it slides towards the
- * anchor. A line laid nearer and pulled out slides like that if its anchor's tension ends above the one it was laid
- * with; paid back from a place where all of it hung, it slides the other way. Else the anchor keeps what it was laid
- * with. */
+ * The elastic catenary with bed friction (Jonkman 2007) takes the line on the bed, L_B = L - V/w,
+ * to slide all over towards the fairlead: the tension falls by mu w per length towards the anchor.
+ * With mu < 0 it slides towards the anchor. A line laid nearer and pulled out slides like that if
+ * its anchor's tension ends above the one it was laid with; paid back from a place where all of it
+ * hung, it slides the other way. Else the anchor keeps what it was laid with. */
 #include <stdio.h>
 
 #include "rig.h"
 
-static const double LENGTH = 902.2, WEIGHT = 698.094, STIFFNESS = 384.243e6, HEIGHT = 250, MIDDLE = 848.67;
+static const double LENGTH = 902.2, WEIGHT = 698.094, STIFFNESS = 384.243e6, HEIGHT = 250,
+                    MIDDLE = 848.67;
 
-/* the closed form ----------------------------------------------------------------------------------------------- */
+/* the closed form ------------------------------------------------------------------------------ */
 
 /* x and z of the fairlead for its force (h, v), v < w L:
- *   x = L_B + (h/w) asinh(v/h) + h L/EA - mu w/(2 EA) [L_B^2 - max(L_B - h/(mu w), 0)^2],   the bracket L_B^2 for mu <
+ *   x = L_B + (h/w) asinh(v/h) + h L/EA - mu w/(2 EA) [L_B^2 - max(L_B - h/(mu w), 0)^2],
+ *       the bracket L_B^2 for mu <
  * 0 z = (h/w) (sqrt(1 + (v/h)^2) - 1) + v^2/(2 EA w) */
 static void place(double mu, double h, double v, double *x, double *z) {
-    const double on_bed = LENGTH - v / WEIGHT, slack = mu > 0 ? fmax(on_bed - h / (mu * WEIGHT), 0) : 0;
+    const double on_bed = LENGTH - v / WEIGHT,
+                 slack = mu > 0 ? fmax(on_bed - h / (mu * WEIGHT), 0) : 0;
     *x = on_bed + h / WEIGHT * asinh(v / h) + h * LENGTH / STIFFNESS -
          mu * WEIGHT / (2 * STIFFNESS) * (on_bed * on_bed - slack * slack);
     *z = h / WEIGHT * (sqrt(1 + v / h * (v / h)) - 1) + v * v / (2 * STIFFNESS * WEIGHT);
@@ -38,14 +41,16 @@ static Catenary solve(double mu, double x) {
         place(mu, h, v, &at[0], &at[1]);
         place(mu, h + step, v, &by_h[0], &by_h[1]);
         place(mu, h, v + step, &by_v[0], &by_v[1]);
-        const double a = by_h[0] - at[0], b = by_v[0] - at[0], c = by_h[1] - at[1], d = by_v[1] - at[1];
+        const double a = by_h[0] - at[0], b = by_v[0] - at[0], c = by_h[1] - at[1],
+                     d = by_v[1] - at[1];
         const double rx = x - at[0], rz = HEIGHT - at[1], det = a * d - b * c;
-        h += (d * rx - b * rz) / det, v += (a * rz - c * rx) / det;
+        h += (d * rx - b * rz) / det;
+        v += (a * rz - c * rx) / det;
     }
     return (Catenary){h, v, fmax(h - mu * WEIGHT * (LENGTH - v / WEIGHT), 0)};
 }
 
-/* the line ------------------------------------------------------------------------------------------------------ */
+/* the line ------------------------------------------------------------------------------------- */
 
 static void mooring(Rig *rig, int elements, double mu, double laid) {
     rig_begin(rig, elements, WEIGHT, STIFFNESS);
@@ -61,9 +66,10 @@ static void move(Rig *rig, int steps, double x, double y) {
     rig_change(rig, CPS_END_B, CPS_END_HELD, x, y, HEIGHT);
 }
 
-/* Lay at `from`, go over `by` to `to`; horizontal force and anchor tension against the closed form. Touchdown falls
- * between nodes: errors under C h^2, C = 1 for h = 1/N in units of H as for the line without friction; 4 times that at
- * the anchor, which is pulled over a part of the bed that is longer or shorter by up to h/2 of friction near touchdown.
+/* Lay at `from`, go over `by` to `to`; horizontal force and anchor tension against the closed form.
+ * Touchdown falls between nodes: errors under C h^2, C = 1 for h = 1/N in units of H as for the
+ * line without friction; 4 times that at the anchor, which is pulled over a part of the bed that is
+ * longer or shorter by up to h/2 of friction near touchdown.
  */
 static void against(const char *name, double mu, double sign, double from, double by, double to) {
     const Catenary exact = solve(sign * mu, to);
@@ -77,12 +83,16 @@ static void against(const char *name, double mu, double sign, double from, doubl
         while (cps_evolution_remaining(run.evolution) > 0) rig_step(&run);
         char figure[48];
         snprintf(figure, sizeof figure, "horizontal force, N = %d [N]", n);
-        const double h = rig_show(name, figure, exact.h, run.report.end[CPS_END_B].force[0]) / exact.h;
+        const double h =
+            rig_show(name, figure, exact.h, run.report.end[CPS_END_B].force[0]) / exact.h;
         snprintf(figure, sizeof figure, "anchor tension, N = %d [N]", n);
-        const double a = rig_show(name, figure, exact.anchor, run.report.end[CPS_END_A].tension) / exact.h;
+        const double a =
+            rig_show(name, figure, exact.anchor, run.report.end[CPS_END_A].tension) / exact.h;
         snprintf(figure, sizeof figure, "grounded, N = %d [m]", n);
-        const double on_bed = LENGTH - exact.v / WEIGHT, ground = rig_show(name, figure, on_bed, run.report.grounded);
-        /* as the vertical force is off, which is w times it, and no more than the last node's share in any case */
+        const double on_bed = LENGTH - exact.v / WEIGHT,
+                     ground = rig_show(name, figure, on_bed, run.report.grounded);
+        /* as the vertical force is off, which is w times it, and no more than the last node's share
+         * in any case */
         CHECK_LESS(fabs(ground) * WEIGHT / exact.v, 8.0 / n / n);
         CHECK_LESS(fabs(h), 1.0 / n / n);
         CHECK_LESS(fabs(a), 4.0 / n / n);
@@ -119,8 +129,9 @@ static void paid_back(void **state) {
     against("OC3, paid back, mu 0.5", 0.5, -1, 848.67, 858.67, MIDDLE);
 }
 
-/* Where the closed form does not hold. Laid 1 m nearer and pulled out, friction spends itself before it reaches the
- * anchor, which keeps what it was laid with; laid where it is, nothing slides at all. */
+/* Where the closed form does not hold. Laid 1 m nearer and pulled out, friction spends itself
+ * before it reaches the anchor, which keeps what it was laid with; laid where it is, nothing slides
+ * at all. */
 static void not_all_sliding(void **state) {
     (void)state;
     static const double LAID[] = {847.67, 848.67};
@@ -142,7 +153,8 @@ static void not_all_sliding(void **state) {
     }
 }
 
-/* Held sway, 20 m, mu = 1: the lateral force of a line that keeps what friction gives, and goes on keeping it. */
+/* Held sway, 20 m, mu = 1: the lateral force of a line that keeps what friction gives, and goes on
+ * keeping it. */
 static void held_sway(void **state) {
     (void)state;
     for (int n = 50; n <= 200; n *= 2) {
@@ -156,11 +168,13 @@ static void held_sway(void **state) {
         const double force = run.report.end[CPS_END_B].force[1];
         char figure[48];
         snprintf(figure, sizeof figure, "lateral force, N = %d [N]", n);
-        CHECK_BETWEEN(rig_show("OC3, held sway of 20 m", figure, 20250, force) + 20250, 20100, 20400);
+        CHECK_BETWEEN(rig_show("OC3, held sway of 20 m", figure, 20250, force) + 20250, 20100,
+                      20400);
         run.dissipated = 0;
         for (int k = 0; k < 10; k++) {
             rig_step(&run);
-            /* nodes at their limit creep by the root of the sharpened products: 1e-8 of the tension, 7 mN, in a step */
+            /* nodes at their limit creep by the root of the sharpened products: 1e-8 of the
+             * tension, 7 mN, in a step */
             CHECK_NEAR(run.report.end[CPS_END_B].force[1], force, 0.007);
             CHECK_INT(run.report.slipping > 0, 0);
         }
@@ -170,15 +184,16 @@ static void held_sway(void **state) {
     }
 }
 
-/* loops --------------------------------------------------------------------------------------------------------- */
+/* loops ---------------------------------------------------------------------------------------- */
 
-/* A closed cycle of the fairlead after a first one: force at the middle going out and coming back, area, dissipated. */
+/* A closed cycle of the fairlead after a first one: force at the middle going out and coming back,
+ * area, dissipated. */
 typedef struct Loop {
     double out, back, area, lost;
 } Loop;
 
-/* Over x or y, by `swing` to both sides, in 4 times `steps` load steps; the force is that at the fairlead, or the
- * tension at the anchor for the two in the middle of a surge cycle. */
+/* Over x or y, by `swing` to both sides, in 4 times `steps` load steps; the force is that at the
+ * fairlead, or the tension at the anchor for the two in the middle of a surge cycle. */
 static Loop cycle(int elements, int steps, double swing, bool sway) {
     Rig rig;
     mooring(&rig, elements, 1, MIDDLE);
@@ -197,9 +212,11 @@ static Loop cycle(int elements, int steps, double swing, bool sway) {
             const CpsEndReport before = run.report.end[CPS_END_B];
             rig_step(&run);
             const CpsEndReport *now = &run.report.end[CPS_END_B];
-            loop.area += 0.5 * (before.force[axis] + now->force[axis]) * (now->position[axis] - before.position[axis]);
+            loop.area += 0.5 * (before.force[axis] + now->force[axis]) *
+                         (now->position[axis] - before.position[axis]);
         }
-        const double found = sway ? run.report.end[CPS_END_B].force[1] : run.report.end[CPS_END_A].tension;
+        const double found =
+            sway ? run.report.end[CPS_END_B].force[1] : run.report.end[CPS_END_A].tension;
         if (k == 5) loop.back = found;
         if (k == 7) loop.out = found;
     }
@@ -208,10 +225,10 @@ static Loop cycle(int elements, int steps, double swing, bool sway) {
     return loop;
 }
 
-/* Surge of 10 m to both sides lifts all of the line once per cycle. On the way back all of it slides to the anchor, as
- * far as the inner end; on the way out friction is spent before it reaches the anchor, which keeps the tension of the
- * inner end. So the anchor's tension at the middle differs by less than the full-slip estimate, which lets all slide
- * both ways. */
+/* Surge of 10 m to both sides lifts all of the line once per cycle. On the way back all of it
+ * slides to the anchor, as far as the inner end; on the way out friction is spent before it reaches
+ * the anchor, which keeps the tension of the inner end. So the anchor's tension at the middle
+ * differs by less than the full-slip estimate, which lets all slide both ways. */
 static void surge_loop(void **state) {
     (void)state;
     const double estimate = solve(1, MIDDLE).anchor - solve(-1, MIDDLE).anchor;
@@ -221,7 +238,8 @@ static void surge_loop(void **state) {
         const Loop loop = cycle(200, steps, 10, false);
         char name[48];
         snprintf(name, sizeof name, "OC3, surge +-10 m, %d steps", 4 * steps);
-        const double error = rig_show(name, "anchor, out less back [N]", closed, loop.out - loop.back);
+        const double error =
+            rig_show(name, "anchor, out less back [N]", closed, loop.out - loop.back);
         CHECK_LESS(fabs(error), 8 * 737375.0 / 200 / 200); /* C h^2 as above, of each */
         /* more steps creep no more: 1e-6 of the tension in all */
         if (steps == 10) coarse = loop.out - loop.back;
@@ -231,8 +249,8 @@ static void surge_loop(void **state) {
     }
 }
 
-/* Sway of 20 m to both sides: what is dissipated is the area, to first order in the steps; out and back are mirror
- * images. */
+/* Sway of 20 m to both sides: what is dissipated is the area, to first order in the steps; out and
+ * back are mirror images. */
 static void sway_loop(void **state) {
     (void)state;
     double off[3], area[3];
@@ -252,8 +270,9 @@ static void sway_loop(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table),           cmocka_unit_test(pulled_out), cmocka_unit_test(paid_back),
-        cmocka_unit_test(not_all_sliding), cmocka_unit_test(held_sway),  cmocka_unit_test(surge_loop),
+        cmocka_unit_test(table),     cmocka_unit_test(pulled_out),
+        cmocka_unit_test(paid_back), cmocka_unit_test(not_all_sliding),
+        cmocka_unit_test(held_sway), cmocka_unit_test(surge_loop),
         cmocka_unit_test(sway_loop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

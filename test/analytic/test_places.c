@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where nothing holds a line it goes no farther than it must: of all places that go with the forces that of least sum h |x - x_R|^2.
+/* Where nothing holds a line it goes no farther than it must: of all places that go with the forces
+ * that of least sum h |x - x_R|^2.
  *
- * Closed forms first: lines that nothing loads, a rope at rest and a rope dropped on a smooth floor, an end that goes straight back. Then
- * slack lines with both ends moved at random, against Dykstra's alternating projections, which find the nearest point of an intersection
- * of convex sets from their projections alone. Ends named the other way round, and turned axes, give the same places. */
+ * Closed forms first: lines that nothing loads, a rope at rest and a rope dropped on a smooth
+ * floor, an end that goes straight back. Then slack lines with both ends moved at random, against
+ * Dykstra's alternating projections, which find the nearest point of an intersection of convex sets
+ * from their projections alone. Ends named the other way round, and turned axes, give the same
+ * places. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +15,8 @@
 
 static double largest_move(const CpsLineView *v) {
     double most = 0;
-    for (int i = 0; i < 3 * (v->elements + 1); i++) most = fmax(most, fabs(v->position[i] - v->reference[i]));
+    for (int i = 0; i < 3 * (v->elements + 1); i++)
+        most = fmax(most, fabs(v->position[i] - v->reference[i]));
     return most;
 }
 
@@ -24,9 +28,12 @@ static void hold(Case *c, int steps) {
     c->stage[c->scene.stage_count++] = (CpsStage){.name = "nothing", .steps = steps};
 }
 
-static CpsPlaces places(const Run *run) { return cps_evolution_line_report(run->evolution, 0).places; }
+static CpsPlaces places(const Run *run) {
+    return cps_evolution_line_report(run->evolution, 0).places;
+}
 
-/* No weight, no force: u = 0 and T = 0, with one end held or none, over a bed or not; elements of any stiffness. */
+/* No weight, no force: u = 0 and T = 0, with one end held or none, over a bed or not; elements of
+ * any stiffness. */
 static void nothing_loads_the_line(void **state) {
     (void)state;
     for (int k = 0; k < 12; k++) {
@@ -47,7 +54,8 @@ static void nothing_loads_the_line(void **state) {
     }
 }
 
-/* On a smooth floor every shape that the elements allow has the same energy: the rope stays as it lies. */
+/* On a smooth floor every shape that the elements allow has the same energy: the rope stays as it
+ * lies. */
 static void rest_on_a_smooth_floor(void **state) {
     (void)state;
     for (int inextensible = 0; inextensible < 2; inextensible++) {
@@ -67,7 +75,8 @@ static void rest_on_a_smooth_floor(void **state) {
     }
 }
 
-/* Let fall on a smooth floor, beside a wall or not: straight down, though floor and wall leave all else open. */
+/* Let fall on a smooth floor, beside a wall or not: straight down, though floor and wall leave all
+ * else open. */
 static void dropped_beside_a_wall(void **state) {
     (void)state;
     for (int wall = 0; wall < 2; wall++) {
@@ -82,7 +91,8 @@ static void dropped_beside_a_wall(void **state) {
         both[0] = both[1] = c.bed;
         both[1].name = "wall";
         const double at[3] = {0, -0.1, 0}, normal[3] = {0, 1, 0};
-        memcpy(both[1].point, at, sizeof at), memcpy(both[1].normal, normal, sizeof normal);
+        memcpy(both[1].point, at, sizeof at);
+        memcpy(both[1].normal, normal, sizeof normal);
         c.scene.obstacle = both;
         c.scene.obstacle_count = 1 + wall;
         Run run = case_open(&c);
@@ -97,8 +107,9 @@ static void dropped_beside_a_wall(void **state) {
     }
 }
 
-/* B goes straight back by d on a smooth floor: sum h u^2 is least where a <= L - d/2 stays and the rest is folded back,
- * x = 2 L - d - a: the nearest of all x with |x'| <= 1 to x_R = a with that end. */
+/* B goes straight back by d on a smooth floor: sum h u^2 is least where a <= L - d/2 stays and the
+ * rest is folded back, x = 2 L - d - a: the nearest of all x with |x'| <= 1 to x_R = a with that
+ * end. */
 static void end_goes_back(void **state) {
     (void)state;
     for (int inextensible = 0; inextensible < 2; inextensible++) {
@@ -132,7 +143,10 @@ static double random_between(uint64_t *seed, double from, double to) {
 /* The nearest of a pair of nodes of weights w0, w1 whose distance is at most l. */
 static void shorten(double *x0, double *x1, double w0, double w1, double l) {
     double d[3], size = 0;
-    for (int a = 0; a < 3; a++) d[a] = x1[a] - x0[a], size += d[a] * d[a];
+    for (int a = 0; a < 3; a++) {
+        d[a] = x1[a] - x0[a];
+        size += d[a] * d[a];
+    }
     size = sqrt(size);
     if (size <= l) return;
     for (int a = 0; a < 3; a++) {
@@ -142,16 +156,21 @@ static void shorten(double *x0, double *x1, double w0, double w1, double l) {
     }
 }
 
-/* Dykstra: the nearest to x, by weights h, of the places with elements at most l long, ends as they are, and z >= 0 or z = 0. */
+/* Dykstra: the nearest to x, by weights h, of the places with elements at most l long, ends as they
+ * are, and z >= 0 or z = 0. */
 static void dykstra(int n, double *x, const double *l, int flat, int floor) {
     double kept[N][6] = {{0}}, up[N] = {0}, h[N];
     for (int j = 0; j < n; j++) h[j] = 0.5 * ((j > 0 ? l[j] : 0) + (j + 1 < n ? l[j + 1] : 0));
-    for (int j = 1; flat && j + 1 < n; j++) x[3 * j + 2] = 0; /* a subspace: once, all else moves in it */
+    for (int j = 1; flat && j + 1 < n; j++)
+        x[3 * j + 2] = 0; /* a subspace: once, all else moves in it */
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         double moved = 0;
         for (int i = 1; i < n; i++) {
             double pair[6], *x0 = &x[3 * (i - 1)], *x1 = &x[3 * i];
-            for (int a = 0; a < 3; a++) pair[a] = x0[a] + kept[i][a], pair[3 + a] = x1[a] + kept[i][3 + a];
+            for (int a = 0; a < 3; a++) {
+                pair[a] = x0[a] + kept[i][a];
+                pair[3 + a] = x1[a] + kept[i][3 + a];
+            }
             double from[6];
             memcpy(from, pair, sizeof from);
             /* ends are held: of infinite weight */
@@ -173,7 +192,8 @@ static void dykstra(int n, double *x, const double *l, int flat, int floor) {
     }
 }
 
-/* Slack lines between ends that move at random: without weight in the air or over a floor, with weight on a smooth floor. */
+/* Slack lines between ends that move at random: without weight in the air or over a floor, with
+ * weight on a smooth floor. */
 static void nearest_by_projections(void **state) {
     (void)state;
     uint64_t seed = 20260807;
@@ -183,7 +203,10 @@ static void nearest_by_projections(void **state) {
         Case c;
         const int kind = run % 3, n = 3 + run % (N - 2);
         double l[N] = {0}, length = 0, element[N];
-        for (int i = 1; i < n; i++) l[i] = element[i - 1] = random_between(&seed, 0.2, 1), length += l[i];
+        for (int i = 1; i < n; i++) {
+            l[i] = element[i - 1] = random_between(&seed, 0.2, 1);
+            length += l[i];
+        }
         case_begin(&c, length, n - 1, kind == 2 ? 1 : 0, run & 1 ? INFINITY : 100);
         c.line.element_length = element;
         if (kind > 0) case_bed(&c, 0);
@@ -192,9 +215,12 @@ static void nearest_by_projections(void **state) {
         c.line.end[CPS_END_B].value[0] = length;
         double to[2][3];
         for (int m = 0; m < 2; m++) {
-            const double reach = random_between(&seed, 0.1, 0.9) * length, turn = random_between(&seed, -2, 2);
+            const double reach = random_between(&seed, 0.1, 0.9) * length,
+                         turn = random_between(&seed, -2, 2);
             const double lift = kind == 2 ? 0 : random_between(&seed, 0, 0.5);
-            to[m][0] = reach * cos(turn) * cos(lift), to[m][1] = reach * sin(turn) * cos(lift), to[m][2] = reach * sin(lift);
+            to[m][0] = reach * cos(turn) * cos(lift);
+            to[m][1] = reach * sin(turn) * cos(lift);
+            to[m][2] = reach * sin(lift);
             case_move(&c, 1, to[m][0], to[m][1], to[m][2]);
         }
         hold(&c, 2);
@@ -228,28 +254,36 @@ static void nearest_by_projections(void **state) {
     CHECK_GREATER(compared, 200);
 }
 
-/* The same scene with its ends named the other way round, mirrored, and turned about the vertical: the same places. */
+/* The same scene with its ends named the other way round, mirrored, and turned about the vertical:
+ * the same places. */
 static void the_other_way_round(void **state) {
     (void)state;
     uint64_t seed = 7;
     double worst = 0;
     for (int run = 0; run < 40; run++) {
         double place[4][3 * 13], to[3], turn = random_between(&seed, 0, 6);
-        const double reach = random_between(&seed, 0.2, 0.9), about = random_between(&seed, -1.5, 1.5);
-        to[0] = reach * cos(about), to[1] = reach * sin(about), to[2] = 0;
+        const double reach = random_between(&seed, 0.2, 0.9),
+                     about = random_between(&seed, -1.5, 1.5);
+        to[0] = reach * cos(about);
+        to[1] = reach * sin(about);
+        to[2] = 0;
         for (int way = 0; way < 4; way++) {
             Case c;
-            const double cosine = way == 3 ? cos(turn) : 1, sine = way == 3 ? sin(turn) : 0, mirror = way == 2 ? -1 : 1;
+            const double cosine = way == 3 ? cos(turn) : 1, sine = way == 3 ? sin(turn) : 0,
+                         mirror = way == 2 ? -1 : 1;
             case_begin(&c, 1, 12, 1, run & 1 ? INFINITY : 50);
             case_bed(&c, run % 4 < 2 ? 0 : 0.3);
             case_straight(&c, 0, 0);
-            const int far = way == 1 ? 0 : 1; /* the point of the start at which the moving end is */
-            c.point[3 * far] = cosine, c.point[3 * far + 1] = sine;
+            const int far =
+                way == 1 ? 0 : 1; /* the point of the start at which the moving end is */
+            c.point[3 * far] = cosine;
+            c.point[3 * far + 1] = sine;
             for (int e = 0; e < 2; e++) {
                 c.line.end[e].kind = CPS_END_HELD;
                 memcpy(c.line.end[e].value, &c.point[3 * e], sizeof c.line.end[e].value);
             }
-            case_move(&c, 1, cosine * to[0] - sine * mirror * to[1], sine * to[0] + cosine * mirror * to[1], 0);
+            case_move(&c, 1, cosine * to[0] - sine * mirror * to[1],
+                      sine * to[0] + cosine * mirror * to[1], 0);
             if (way == 1) c.change[0].end = CPS_END_A;
             Run r = case_open(&c);
             const CpsLineView v = case_step(&r);

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies sliding on a plane, with closed forms.
  *
- * Limit surfaces: ring phi = (2/pi)(|v| + R|w|) E(m); disc by Farkas et al. (PRL 90, 248302, 2003); rod by integrating
- * hypot(vx, vy + w s); square in pure rotation (sqrt2 + asinh 1)/6. Every value is also proved by sums from below and
- * above. Driven bodies: centre of rotation and gamma of rod, disc and ring. Vehicles: the sum of four wheels of M77
- * (26). */
+ * Limit surfaces: ring phi = (2/pi)(|v| + R|w|) E(m); disc by Farkas et al. (PRL 90, 248302, 2003);
+ * rod by integrating hypot(vx, vy + w s); square in pure rotation (sqrt2 + asinh 1)/6. Every value
+ * is also proved by sums from below and above. Driven bodies: centre of rotation and gamma of rod,
+ * disc and ring. Vehicles: the sum of four wheels of M77 (26). */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "capstan/planar.h"
 #include "check.h"
 
-/* A closed form in some tens of operations, near log singularities of elliptic integrals in some hundreds. */
+/* A closed form in some tens of operations, near log singularities of elliptic integrals in some
+ * hundreds. */
 static const double EXACT = 1e-13;
 
-/* What the brackets of a search leave: rounding over the slope's steepness, which is of order one in these cases. */
+/* What the brackets of a search leave: rounding over the slope's steepness, which is of order one
+ * in these cases. */
 static const double FOUND = 1e-11;
 
 /* Published numbers that are printed to this many places. */
@@ -47,13 +49,15 @@ static CpsPlanar *square_body(double tilt_x, double tilt_y) {
 
 static double power(const CpsPlanar *body, double vx, double vy, double w, double wrench[3]) {
     CpsSetAnswer answer;
-    assert_int_equal(cps_planar_dissipation(body, (double[3]){vx, vy, w}, wrench, NULL, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_planar_dissipation(body, (double[3]){vx, vy, w}, wrench, NULL, &answer,
+                                            NULL),
+                     CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
     return answer.value;
 }
 
-/* The closed form lies between the certified sums, which are 1e-6 apart; the wrench takes that power, and no other
- * wrench of the law met here takes more (it lies in C). */
+/* The closed form lies between the certified sums, which are 1e-6 apart; the wrench takes that
+ * power, and no other wrench of the law met here takes more (it lies in C). */
 static void prove(const CpsPlanar *body, double vx, double vy, double w) {
     double wrench[3];
     const double twist[3] = {vx, vy, w}, value = power(body, vx, vy, w, wrench);
@@ -67,7 +71,8 @@ static void prove(const CpsPlanar *body, double vx, double vy, double w) {
         const double a = 2 * PI * i / 24, b = PI * (i % 5 - 2) / 5;
         const double other[3] = {cos(a) * cos(b), sin(a) * cos(b), sin(b)};
         const double most = power(body, other[0], other[1], other[2], NULL);
-        CHECK_LESS(-(wrench[0] * other[0] + wrench[1] * other[1] + wrench[2] * other[2]), most + EXACT);
+        CHECK_LESS(-(wrench[0] * other[0] + wrench[1] * other[1] + wrench[2] * other[2]),
+                   most + EXACT);
     }
 }
 
@@ -84,8 +89,13 @@ static void ring(void **state) {
     prove(body, 0.1, 0, 2);
     cps_planar_destroy(body);
 
-    /* under linear pressure, which in pure rotation takes as much and in translation has its centre off the middle */
-    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_RING, .friction = 1, .load = 1, .size = 2, .tilt = {0.3, 0.4}});
+    /* under linear pressure, which in pure rotation takes as much and in translation has its centre
+     * off the middle */
+    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_RING,
+                                  .friction = 1,
+                                  .load = 1,
+                                  .size = 2,
+                                  .tilt = {0.3, 0.4}});
     double wrench[3];
     CHECK_RELATIVE(power(body, 0, 0, 1, NULL), 2, EXACT);
     power(body, 1, 0, 0, wrench);
@@ -115,7 +125,8 @@ static void disc(void **state) {
     power(body, 0, 0, -1, wrench);
     CHECK_RELATIVE(wrench[2], 2.0 / 3, EXACT);
 
-    /* near translation T = (R w/v)/4, near rotation F = v/(R w): small parts keep what digits the whole has, or more */
+    /* near translation T = (R w/v)/4, near rotation F = v/(R w): small parts keep what digits the
+     * whole has, or more */
     power(body, 1e7, 0, 1, wrench);
     CHECK_NEAR(-wrench[2], 0.25e-7, 1e-15);
     power(body, 1e-7, 0, 1, wrench);
@@ -124,8 +135,13 @@ static void disc(void **state) {
     prove(body, 4.001, 0, 1);
     cps_planar_destroy(body);
 
-    /* under linear pressure: the force of a pure rotation is tilt a/3, the torque of a translation tilt a^2/4 */
-    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_DISC, .friction = 1, .load = 1, .size = 2, .tilt = {0.3, 0.4}});
+    /* under linear pressure: the force of a pure rotation is tilt a/3, the torque of a translation
+     * tilt a^2/4 */
+    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_DISC,
+                                  .friction = 1,
+                                  .load = 1,
+                                  .size = 2,
+                                  .tilt = {0.3, 0.4}});
     power(body, 0, 0, 1, wrench);
     CHECK_RELATIVE(wrench[2], -4.0 / 3, EXACT);
     CHECK_RELATIVE(wrench[0], 0.4 * 2 / 3, EXACT);
@@ -139,7 +155,8 @@ static void disc(void **state) {
     cps_planar_destroy(body);
 }
 
-/* Along the ray from the centre, where does the exact surface lie in the ellipsoid (1, 1, 2/3) of robotics codes? */
+/* Along the ray from the centre, where does the exact surface lie in the ellipsoid (1, 1, 2/3) of
+ * robotics codes? */
 static void disc_against_ellipsoid(void **state) {
     (void)state;
     CpsPlanar *body = unit_body(CPS_PATCH_DISC);
@@ -148,13 +165,17 @@ static void disc_against_ellipsoid(void **state) {
         const double e = 0.001 * i;
         power(body, e, 0, 1, wrench);
         const double part = hypot(wrench[0], 1.5 * wrench[2]);
-        if (part < least) least = part, where = e;
+        if (part < least) {
+            least = part;
+            where = e;
+        }
     }
     CHECK_NEAR(1 - least, 0.066, 5e-4); /* "6.6 %" */
     CHECK_NEAR(least, 0.93420517, 5e-9);
     CHECK_NEAR(where, 0.766, 1e-3); /* a flat minimum, on a grid of 1e-3 */
     power(body, 0.763, 0, 1, wrench);
-    CHECK_NEAR(hypot(wrench[0], 1.5 * wrench[2]), 0.934209, 1e-6); /* known elsewhere by a quadrature good to 1e-6 */
+    CHECK_NEAR(hypot(wrench[0], 1.5 * wrench[2]), 0.934209,
+               1e-6); /* known elsewhere by a quadrature good to 1e-6 */
     cps_planar_destroy(body);
 }
 
@@ -163,14 +184,20 @@ static void rod(void **state) {
     CpsPlanar *body = unit_body(CPS_PATCH_ROD);
     CHECK_RELATIVE(power(body, 1, 0.5, 0.7, NULL), 1.17610140974653, EXACT);
     CHECK_RELATIVE(power(body, 0, 0, 3, NULL), 1.5, EXACT);
-    CHECK_RELATIVE(power(body, 0, 0.5, 1, NULL), 0.625, EXACT); /* (1 + 1/4)/2, centre of rotation on the rod */
+    CHECK_RELATIVE(power(body, 0, 0.5, 1, NULL), 0.625,
+                   EXACT); /* (1 + 1/4)/2, centre of rotation on the rod */
     prove(body, 1, 0.5, 0.7);
     prove(body, 0, 0.5, 1);
     cps_planar_destroy(body);
 
-    /* pressure that falls to 0 at one end, in pure rotation: integral of (1 + s)|s|/2 = 1/2, at any heading */
-    body = body_of(
-        1, &(CpsPatch){.kind = CPS_PATCH_ROD, .friction = 0.5, .load = 2, .size = 1, .angle = 0.6, .tilt = {1}});
+    /* pressure that falls to 0 at one end, in pure rotation: integral of (1 + s)|s|/2 = 1/2, at any
+     * heading */
+    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_ROD,
+                                  .friction = 0.5,
+                                  .load = 2,
+                                  .size = 1,
+                                  .angle = 0.6,
+                                  .tilt = {1}});
     CHECK_RELATIVE(power(body, 0, 0, 1, NULL), 0.5, EXACT);
     prove(body, 1, 0.5, 0.7);
     prove(body, 1, 0.5, 0.27949); /* on both sides of where the closed form changes */
@@ -188,7 +215,8 @@ static void polygon(void **state) {
     prove(body, 0.1, 0.2, 1);
     prove(body, 0.5, 0, 1);   /* the centre of rotation on a side */
     prove(body, 0.5, 0.5, 1); /* on a corner */
-    prove(body, 2, 2, 1);     /* on both sides of where the closed form changes: |v| = 4 x half diagonal */
+    prove(body, 2, 2,
+          1); /* on both sides of where the closed form changes: |v| = 4 x half diagonal */
     prove(body, 2, 2.000001, 1);
     cps_planar_destroy(body);
 
@@ -206,13 +234,19 @@ static void polygon(void **state) {
     prove(body, 3, 0.1, -1);
     cps_planar_destroy(body);
 
-    /* a regular polygon of 3000 corners is the disc, to the share of its area: 2 pi^2/(3 n^2) = 7e-7 */
+    /* a regular polygon of 3000 corners is the disc, to the share of its area: 2 pi^2/(3 n^2) =
+     * 7e-7 */
     enum { CORNERS = 3000 };
     double *corner = malloc(2 * CORNERS * sizeof *corner);
-    for (int i = 0; i < CORNERS; i++)
-        corner[2 * i] = cos(2 * PI * i / CORNERS), corner[2 * i + 1] = sin(2 * PI * i / CORNERS);
-    body = body_of(
-        1, &(CpsPatch){.kind = CPS_PATCH_POLYGON, .friction = 1, .load = 1, .corner_count = CORNERS, .corner = corner});
+    for (int i = 0; i < CORNERS; i++) {
+        corner[2 * i] = cos(2 * PI * i / CORNERS);
+        corner[2 * i + 1] = sin(2 * PI * i / CORNERS);
+    }
+    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_POLYGON,
+                                  .friction = 1,
+                                  .load = 1,
+                                  .corner_count = CORNERS,
+                                  .corner = corner});
     CpsPlanar *round = unit_body(CPS_PATCH_DISC);
     CHECK_RELATIVE(power(body, 0.7, 0.2, 1, NULL), power(round, 0.7, 0.2, 1, NULL), 8e-7);
     cps_planar_destroy(round);
@@ -220,11 +254,13 @@ static void polygon(void **state) {
     free(corner);
 }
 
-/* Laws inside and outside: their values enclose the closed form, and approach it as 1/cells in the plane. */
+/* Laws inside and outside: their values enclose the closed form, and approach it as 1/cells in the
+ * plane. */
 static void inner_and_outer_laws(void **state) {
     (void)state;
     static const double TWIST[3] = {0.3, 0.2, 1};
-    CpsPlanar *body[3] = {unit_body(CPS_PATCH_DISC), square_body(0.5, 0.9), unit_body(CPS_PATCH_RING)};
+    CpsPlanar *body[3] = {unit_body(CPS_PATCH_DISC), square_body(0.5, 0.9),
+                          unit_body(CPS_PATCH_RING)};
     for (int k = 0; k < 3; k++) {
         const double value = power(body[k], TWIST[0], TWIST[1], TWIST[2], NULL);
         double width[2];
@@ -233,23 +269,27 @@ static void inner_and_outer_laws(void **state) {
             for (int side = 0; side < 2; side++) {
                 CpsLaw *law = NULL;
                 CpsSetAnswer answer;
-                assert_int_equal(
-                    cps_planar_law(body[k], side ? CPS_PLANAR_OUTER : CPS_PLANAR_INNER, fine ? 1600 : 400, &law, NULL),
-                    CPS_OK);
-                assert_int_equal(cps_law_dissipation(cps_law_set(law), TWIST, NULL, &answer, NULL), CPS_OK);
+                assert_int_equal(cps_planar_law(body[k], side ? CPS_PLANAR_OUTER : CPS_PLANAR_INNER,
+                                                fine ? 1600 : 400, &law, NULL),
+                                 CPS_OK);
+                assert_int_equal(cps_law_dissipation(cps_law_set(law), TWIST, NULL, &answer, NULL),
+                                 CPS_OK);
                 end[side] = answer.value;
                 cps_law_destroy(law);
             }
             CHECK_BETWEEN(value, end[0], end[1]);
             width[fine] = end[1] - end[0];
         }
-        /* four times the cells: a quarter in the plane, a sixteenth on the line; whole rows make the counts uneven */
+        /* four times the cells: a quarter in the plane, a sixteenth on the line; whole rows make
+         * the counts uneven */
         if (k < 2)
             CHECK_BETWEEN(width[0] / width[1], 3.3, 4.8);
         else
             CHECK_BETWEEN(width[0] / width[1], 14.5, 16.5);
-        CHECK_LESS(width[1],
-                   2.0 / 1600 * value); /* load x h^2/rho, cells of h^2 = area/cells: 1.6/cells at most here */
+        CHECK_LESS(
+            width[1],
+            2.0 / 1600 *
+                value); /* load x h^2/rho, cells of h^2 = area/cells: 1.6/cells at most here */
         cps_planar_destroy(body[k]);
     }
 }
@@ -257,11 +297,14 @@ static void inner_and_outer_laws(void **state) {
 /* ---- driven bodies ---- */
 
 /* Both components of a point imposed, then only the one across: by symmetry the same motion. */
-static void drive_end(const CpsPlanar *body, double gamma, double turning, double center, double tolerance) {
+static void drive_end(const CpsPlanar *body, double gamma, double turning, double center,
+                      double tolerance) {
     const double map[6] = {1, 0, 0, 0, 1, 1}, velocity[2] = {0, 1};
     for (int rows = 1; rows <= 2; rows++) {
         CpsPlanarMotion motion;
-        assert_int_equal(cps_planar_drive(body, rows, map + 6 - 3 * rows, velocity + 2 - rows, &motion, NULL), CPS_OK);
+        assert_int_equal(cps_planar_drive(body, rows, map + 6 - 3 * rows, velocity + 2 - rows,
+                                          &motion, NULL),
+                         CPS_OK);
         assert_int_equal(motion.outcome, CPS_SET_ANSWERED);
         CHECK_NEAR(motion.lower, gamma, tolerance);
         CHECK_NEAR(motion.upper, gamma, tolerance);
@@ -299,7 +342,8 @@ static void driven_disc_by_cells(void **state) {
     for (int side = 0; side < 2; side++) {
         CpsSystem *system = NULL;
         CpsMotion *motion = NULL;
-        assert_int_equal(cps_planar_system(body, side ? CPS_PLANAR_OUTER : CPS_PLANAR_INNER, 400, &system, NULL),
+        assert_int_equal(cps_planar_system(body, side ? CPS_PLANAR_OUTER : CPS_PLANAR_INNER, 400,
+                                           &system, NULL),
                          CPS_OK);
         const CpsEntry rim[3] = {{0, 0, 1}, {1, 1, 1}, {1, 2, 1}};
         assert_int_equal(cps_system_set_drive(system, 2, 3, rim, NULL), CPS_OK);
@@ -318,13 +362,14 @@ static void driven_disc_by_cells(void **state) {
 /* ---- two supports: motions and forces that are not unique ---- */
 
 static CpsPlanar *bipod(void) {
-    const CpsPatch patch[2] = {{.kind = CPS_PATCH_POINT, .position = {-1, 0}, .friction = 1, .load = 0.5},
-                               {.kind = CPS_PATCH_POINT, .position = {1, 0}, .friction = 1, .load = 0.5}};
+    const CpsPatch patch[2] = {
+        {.kind = CPS_PATCH_POINT, .position = {-1, 0}, .friction = 1, .load = 0.5},
+        {.kind = CPS_PATCH_POINT, .position = {1, 0}, .friction = 1, .load = 0.5}};
     return body_of(2, patch);
 }
 
-/* Pushed in the middle, across: phi = (|1 - w| + |1 + w|)/2 = 1 for every |w| <= 1, from turning about one support to
- * turning about the other. */
+/* Pushed in the middle, across: phi = (|1 - w| + |1 + w|)/2 = 1 for every |w| <= 1, from turning
+ * about one support to turning about the other. */
 static void bipod_motions(void **state) {
     (void)state;
     static const double MAP[6] = {1, 0, 0, 0, 1, 0}, PUSH[2] = {0, 1};
@@ -352,7 +397,8 @@ static void bipod_motions(void **state) {
     CpsMotion *solved = NULL;
     CpsSolutionSet all;
     assert_int_equal(cps_planar_system(body, CPS_PLANAR_INNER, 1, &system, NULL), CPS_OK);
-    assert_int_equal(cps_system_set_drive(system, 2, 2, (CpsEntry[]){{0, 0, 1}, {1, 1, 1}}, NULL), CPS_OK);
+    assert_int_equal(cps_system_set_drive(system, 2, 2, (CpsEntry[]){{0, 0, 1}, {1, 1, 1}}, NULL),
+                     CPS_OK);
     assert_int_equal(cps_system_solve(system, PUSH, NULL, &solved, NULL), CPS_OK);
     assert_int_equal(cps_motion_velocities(solved, 0, &all, low, high, NULL), CPS_OK);
     assert_int_equal(all.outcome, CPS_SET_ANSWERED);
@@ -365,7 +411,8 @@ static void bipod_motions(void **state) {
     cps_planar_destroy(body);
 }
 
-/* Turning about one support leaves that support's force open: a disc of wrenches, of dimension 2. */
+/* Turning about one support leaves that support's force open: a disc of wrenches, of dimension
+ * 2. */
 static void bipod_forces(void **state) {
     (void)state;
     CpsPlanar *body = bipod();
@@ -374,9 +421,12 @@ static void bipod_forces(void **state) {
     CpsSetAnswer answer;
     CpsSetFacts facts;
     assert_int_equal(cps_planar_law(body, CPS_PLANAR_OUTER, 1, &law, NULL), CPS_OK);
-    assert_int_equal(cps_law_forces(cps_law_set(law), (double[3]){0, 1, 1}, 0, &forces, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_law_forces(cps_law_set(law), (double[3]){0, 1, 1}, 0, &forces, &answer,
+                                    NULL),
+                     CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
-    CHECK_NEAR(answer.value, 1, 1e-10); /* the sum of two closed forms, found through a set's answer */
+    CHECK_NEAR(answer.value, 1,
+               1e-10); /* the sum of two closed forms, found through a set's answer */
     assert_int_equal(cps_set_facts(forces, 0, &facts, NULL, NULL, NULL), CPS_OK);
     CHECK_INT(facts.dimension, 2);
     cps_set_release(forces);
@@ -426,7 +476,8 @@ static double car_by_hand(const double twist[3]) {
 
 static void vehicle_law(void **state) {
     (void)state;
-    static const double TWIST[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0.3, 0.4}, {5, 0, -0.2}, {-1, 2, 3}};
+    static const double TWIST[][3] = {{1, 0, 0},     {0, 1, 0},    {0, 0, 1},
+                                      {5, 0.3, 0.4}, {5, 0, -0.2}, {-1, 2, 3}};
     CpsPlanar *body = car_body();
     CpsSystem *system = NULL;
     CpsLaw *sum = NULL, *eliminated = NULL;
@@ -441,9 +492,12 @@ static void vehicle_law(void **state) {
         const double expected = car_by_hand(TWIST[i]);
         CHECK_RELATIVE(power(body, TWIST[i][0], TWIST[i][1], TWIST[i][2], NULL), expected, EXACT);
         /* wheel by wheel, then all spins at once: both by conic programs that promise 1e-9 */
-        assert_int_equal(cps_law_dissipation(cps_law_set(sum), TWIST[i], NULL, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_law_dissipation(cps_law_set(sum), TWIST[i], NULL, &answer, NULL),
+                         CPS_OK);
         CHECK_RELATIVE(answer.value, expected, 1e-9);
-        assert_int_equal(cps_law_dissipation(cps_law_set(eliminated), TWIST[i], NULL, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_law_dissipation(cps_law_set(eliminated), TWIST[i], NULL, &answer,
+                                             NULL),
+                         CPS_OK);
         CHECK_RELATIVE(answer.value, expected, 1e-9);
     }
 
@@ -453,7 +507,8 @@ static void vehicle_law(void **state) {
     for (int k = 0; k < 4; k++) {
         CpsWheelMotion wheel;
         assert_int_equal(cps_planar_wheel(body, k, TWIST[3], &wheel, NULL), CPS_OK);
-        /* the minimum is sharp in the spin where the wheel is held or at a corner; 1e-8 is the promised gap */
+        /* the minimum is sharp in the spin where the wheel is held or at a corner; 1e-8 is the
+         * promised gap */
         CHECK_NEAR(cps_motion_velocity(motion)[3 + k], wheel.spin, 1e-4);
         CHECK_NEAR(wheel.slip[1], wheel.velocity[1] + wheel.spin * CAR[k].radius, EXACT);
     }

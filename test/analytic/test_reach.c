@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inextensible lines round a cylinder or a ball whose end B is drawn away until the line is too short to reach it.
+/* Inextensible lines round a cylinder or a ball whose end B is drawn away until the line is too
+ * short to reach it.
  *
- * The shortest way from A to B is a helix between two tangents: unrolled, t_A + t_B + R (turn - acos(R/r_A) - acos(R/r_B)) across the axis and the rise
- * along it. A line at least as long as that round the obstacle can be laid there: its nodes on the way, its elements chords no deeper than
- * they may be. A line shorter than the way round the obstacle shrunk by what elements may cut in, min(l^2/(4 R), R/4), cannot. */
+ * The shortest way from A to B is a helix between two tangents: unrolled, t_A + t_B + R (turn -
+ * acos(R/r_A) - acos(R/r_B)) across the axis and the rise along it. A line at least as long as that
+ * round the obstacle can be laid there: its nodes on the way, its elements chords no deeper than
+ * they may be. A line shorter than the way round the obstacle shrunk by what elements may cut in,
+ * min(l^2/(4 R), R/4), cannot. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +17,8 @@
 
 typedef struct Case {
     CpsObstacleKind kind;
-    double radius, turn, pitch, lift, scale, axis[3][3], point[3], way[3]; /* lift: of the start above the surface; way: of B, in the axes */
+    double radius, turn, pitch, lift, scale, axis[3][3], point[3],
+        way[3]; /* lift: of the start above the surface; way: of B, in the axes */
     int elements;
     bool graded, elastic;
 } Case;
@@ -30,7 +34,8 @@ static void unit(double *v) {
 }
 
 static void cross(const double *a, const double *b, double *out) {
-    for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
 static Case random_case(uint64_t *seed) {
@@ -44,12 +49,20 @@ static Case random_case(uint64_t *seed) {
     c.elements = (int)fmin(60, ceil(fabs(c.turn) / pow(10, draw(seed, -1.3, 0))));
     c.graded = draw(seed, 0, 1) < 0.3;
     c.elastic = draw(seed, 0, 1) < 0.04;
-    for (int k = 0; k < 3; k++) c.axis[0][k] = draw(seed, -1, 1), c.axis[2][k] = draw(seed, -1, 1);
-    unit(c.axis[2]), cross(c.axis[2], c.axis[0], c.axis[1]), unit(c.axis[1]), cross(c.axis[1], c.axis[2], c.axis[0]);
+    for (int k = 0; k < 3; k++) {
+        c.axis[0][k] = draw(seed, -1, 1);
+        c.axis[2][k] = draw(seed, -1, 1);
+    }
+    unit(c.axis[2]);
+    cross(c.axis[2], c.axis[0], c.axis[1]);
+    unit(c.axis[1]);
+    cross(c.axis[1], c.axis[2], c.axis[0]);
     const double off = draw(seed, 0, 1) < 0.5 ? 0 : c.scale * pow(10, draw(seed, 0, 5));
     for (int k = 0; k < 3; k++) c.point[k] = off * draw(seed, -1, 1);
     /* outwards, on, along the axis */
-    c.way[0] = draw(seed, 0.01, 0.5), c.way[1] = 1, c.way[2] = draw(seed, 0, 1) < 0.3 ? 0 : draw(seed, -1, 1);
+    c.way[0] = draw(seed, 0.01, 0.5);
+    c.way[1] = 1;
+    c.way[2] = draw(seed, 0, 1) < 0.3 ? 0 : draw(seed, -1, 1);
     return c;
 }
 
@@ -57,20 +70,25 @@ static Case random_case(uint64_t *seed) {
 static void place(const Case *c, double r, double phi, double rise, double s, double *out) {
     const double sense = c->turn < 0 ? -1 : 1;
     for (int k = 0; k < 3; k++) {
-        const double radial = cos(phi) * c->axis[0][k] + sin(phi) * c->axis[1][k], onward = sense * (cos(phi) * c->axis[1][k] - sin(phi) * c->axis[0][k]);
-        out[k] = c->point[k] + r * radial + rise * c->axis[2][k] + s * (c->way[0] * radial + c->way[1] * onward + c->way[2] * c->axis[2][k]);
+        const double radial = cos(phi) * c->axis[0][k] + sin(phi) * c->axis[1][k],
+                     onward = sense * (cos(phi) * c->axis[1][k] - sin(phi) * c->axis[0][k]);
+        out[k] = c->point[k] + r * radial + rise * c->axis[2][k] +
+                 s * (c->way[0] * radial + c->way[1] * onward + c->way[2] * c->axis[2][k]);
     }
 }
 
 static double rise_of(const Case *c, double share) { return c->pitch * fabs(c->turn) * share; }
 
-/* The way round an obstacle of radius R once B has gone by s: A is at the angle 0 and B was at the angle `turn`. */
+/* The way round an obstacle of radius R once B has gone by s: A is at the angle 0 and B was at the
+ * angle `turn`. */
 static double way_round(const Case *c, double R, double s) {
-    const double r = c->radius * (1 + c->lift), x = r + s * c->way[0], y = s * c->way[1], z = rise_of(c, 1) + s * c->way[2];
+    const double r = c->radius * (1 + c->lift), x = r + s * c->way[0], y = s * c->way[1],
+                 z = rise_of(c, 1) + s * c->way[2];
     double turn = fabs(c->turn) + atan2(y, x), far = hypot(x, y), up = z;
     if (c->kind == CPS_OBSTACLE_SPHERE) { /* the angle at the centre between the two ends */
         turn = acos((x * cos(c->turn) - y * sin(c->turn)) / hypot(far, z));
-        far = hypot(far, z), up = 0;
+        far = hypot(far, z);
+        up = 0;
     }
     const double arc = turn - acos(R / r) - acos(R / far);
     return arc > 0 ? hypot(sqrt(r * r - R * R) + sqrt(far * far - R * R) + R * arc, up) : 0;
@@ -81,19 +99,24 @@ static void lay(Rig *rig, const Case *c, uint64_t *seed) {
     rig_begin(rig, c->elements, 1, c->elastic ? 1e3 * c->scale : INFINITY);
     CpsObstacle *o = rig_obstacle(rig, c->kind, 0.3);
     o->radius = c->radius;
-    memcpy(o->point, c->point, sizeof o->point), memcpy(o->axis, c->axis[2], sizeof o->axis);
-    for (int j = 1; j <= c->elements; j++) share[j] = share[j - 1] + (c->graded ? draw(seed, 0.3, 1) : 1);
+    memcpy(o->point, c->point, sizeof o->point);
+    memcpy(o->axis, c->axis[2], sizeof o->axis);
+    for (int j = 1; j <= c->elements; j++)
+        share[j] = share[j - 1] + (c->graded ? draw(seed, 0.3, 1) : 1);
     for (int j = 0; j <= c->elements; j++) {
         double x[3];
-        place(c, c->radius * (1 + c->lift), c->turn * share[j] / share[c->elements], rise_of(c, share[j] / share[c->elements]), 0, x);
+        place(c, c->radius * (1 + c->lift), c->turn * share[j] / share[c->elements],
+              rise_of(c, share[j] / share[c->elements]), 0, x);
         rig_point(rig, x[0], x[1], x[2]);
     }
     for (int j = 0; j < c->elements; j++) {
         const double *p = &rig->point[3 * j];
-        rig->element_length[j] = sqrt(pow(p[3] - p[0], 2) + pow(p[4] - p[1], 2) + pow(p[5] - p[2], 2));
+        rig->element_length[j] =
+            sqrt(pow(p[3] - p[0], 2) + pow(p[4] - p[1], 2) + pow(p[5] - p[2], 2));
         total += rig->element_length[j];
     }
-    rig_graded(rig), rig_length(rig, total);
+    rig_graded(rig);
+    rig_length(rig, total);
 }
 
 static double longest_of(const Rig *rig) {
@@ -102,24 +125,29 @@ static double longest_of(const Rig *rig) {
     return longest;
 }
 
-/* How far B goes until the way round an obstacle of radius R is so long; NAN where it never gets so long or the obstacle is not in the way. */
+/* How far B goes until the way round an obstacle of radius R is so long; NAN where it never gets so
+ * long or the obstacle is not in the way. */
 static double way_of_end(const Case *c, double R, double length) {
     double low = 0, high = 10 * length;
     if (!(way_round(c, R, 0) < length && way_round(c, R, 0) > 0)) return NAN;
     for (int i = 0; i < 200; i++) {
         const double s = (low + high) / 2;
-        if (way_round(c, R, s) > length || way_round(c, R, s) == 0) high = s;
-        else low = s;
+        if (way_round(c, R, s) > length || way_round(c, R, s) == 0)
+            high = s;
+        else
+            low = s;
     }
     return fabs(way_round(c, R, low) - length) < 1e-9 * length ? low : NAN;
 }
 
 /* The outcome where the way round the obstacle of radius R is `length` in the end. */
-static bool outcome(const Case *c, uint64_t seed, bool shrunk, double share, CpsOutcome *out, CpsLineReport *report) {
+static bool outcome(const Case *c, uint64_t seed, bool shrunk, double share, CpsOutcome *out,
+                    CpsLineReport *report) {
     Rig *rig = malloc(sizeof *rig);
     assert_non_null(rig);
     lay(rig, c, &seed);
-    const double l = longest_of(rig), R = c->radius - (shrunk ? fmin(l * l / (4 * c->radius), c->radius / 4) : 0);
+    const double l = longest_of(rig),
+                 R = c->radius - (shrunk ? fmin(l * l / (4 * c->radius), c->radius / 4) : 0);
     const double s = way_of_end(c, R, rig->line.length * (1 + share));
     double to[3];
     place(c, c->radius * (1 + c->lift), c->turn, rise_of(c, 1), s, to);
@@ -128,7 +156,8 @@ static bool outcome(const Case *c, uint64_t seed, bool shrunk, double share, Cps
     rig_end(rig, CPS_END_B, CPS_END_HELD, last[0], last[1], last[2]);
     rig_stage(rig, 1);
     rig_change(rig, CPS_END_B, CPS_END_HELD, to[0], to[1], to[2]);
-    rig->scene.solver.halvings = 0, rig->scene.solver.max_iterations = 2; /* whether it is solved is not asked */
+    rig->scene.solver.halvings = 0;
+    rig->scene.solver.max_iterations = 2; /* whether it is solved is not asked */
     bool taken = isfinite(s);
     if (taken) {
         CpsError err;
@@ -152,30 +181,45 @@ static void short_of_the_way(void **state) {
     for (int i = 0; i < cases; i++) {
         uint64_t seed = 7000 + 1000 * (uint64_t)i;
         const Case c = random_case(&seed);
-        const double far = sqrt(c.point[0] * c.point[0] + c.point[1] * c.point[1] + c.point[2] * c.point[2]);
+        const double far =
+            sqrt(c.point[0] * c.point[0] + c.point[1] * c.point[1] + c.point[2] * c.point[2]);
         /* beside what places so far from the origin are known to */
         const double slack = pow(10, draw(&seed, -11, -3)) + 1e-14 * far / c.scale * 10;
         CpsLineReport report;
         CpsOutcome found;
         const int ball = c.kind == CPS_OBSTACLE_SPHERE;
-        Case few = c; /* a step that is solved takes long: few elements, and a start beside the surface, so that there is way to go */
-        few.lift = fmax(c.lift, 0.05), few.elements = (int)ceil(fabs(c.turn) / 0.8);
-        if (i % 4 == 0 && fabs(c.turn) < 8 && outcome(&few, seed, false, -slack, &found, &report)) { /* a step that is solved takes long */
+        Case few = c; /* a step that is solved takes long: few elements, and a start beside the
+                         surface, so that there is way to go */
+        few.lift = fmax(c.lift, 0.05);
+        few.elements = (int)ceil(fabs(c.turn) / 0.8);
+        if (i % 4 == 0 && fabs(c.turn) < 8 &&
+            outcome(&few, seed, false, -slack, &found,
+                    &report)) { /* a step that is solved takes long */
             tried[ball][0]++;
-            if (found == CPS_INFEASIBLE) print_error("case %d: longer by %g of its length, yet infeasible by %g m\n", i, slack, report.proof_value);
+            if (found == CPS_INFEASIBLE)
+                print_error("case %d: longer by %g of its length, yet infeasible by %g m\n", i,
+                            slack, report.proof_value);
             assert_true(found != CPS_INFEASIBLE);
         }
         if (outcome(&c, seed, true, slack, &found, &report)) {
-            tried[ball][1]++, proved[ball] += found == CPS_INFEASIBLE;
-            if ((found == CPS_INFEASIBLE) == c.elastic) print_error("case %d: shorter by %g of its length, yet %s\n", i, slack, cps_outcome_key(found));
+            tried[ball][1]++;
+            proved[ball] += found == CPS_INFEASIBLE;
+            if ((found == CPS_INFEASIBLE) == c.elastic)
+                print_error("case %d: shorter by %g of its length, yet %s\n", i, slack,
+                            cps_outcome_key(found));
             assert_true((found == CPS_INFEASIBLE) != c.elastic);
             if (c.elastic) continue;
             assert_true(report.proof_value > 0);
             assert_true(report.proof_obstacle == 0 || report.proof_obstacle == -1);
-            straight[ball] += report.proof_obstacle < 0; /* the obstacle is hardly in the way: the ends alone are too far apart */
+            straight[ball] +=
+                report.proof_obstacle <
+                0; /* the obstacle is hardly in the way: the ends alone are too far apart */
         }
     }
-    for (int k = 0; k < 2; k++) printf("%s: %d long enough, none infeasible; %d too short, %d proved, %d of them by the straight way, the others elastic\n", k ? "ball" : "cylinder", tried[k][0], tried[k][1], proved[k], straight[k]);
+    for (int k = 0; k < 2; k++)
+        printf("%s: %d long enough, none infeasible; %d too short, %d proved, %d of them by the "
+               "straight way, the others elastic\n",
+               k ? "ball" : "cylinder", tried[k][0], tried[k][1], proved[k], straight[k]);
     CHECK_LESS(straight[0] + straight[1], cases / 20);
     CHECK_GREATER(tried[0][1], cases / 4);
     CHECK_GREATER(tried[1][1], cases / 20);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A rope on a table (M77, remark of section 11) against closed forms.
  *
- * Straight rope of length L pulled at an angle psi < 90 degrees: all but the end follow along themselves with
- * W cos(psi), so gamma = f w W [ (L - h/2) cos(psi) + h/2 ] with elements of length h: the end node's friction, f w
- * h/2, moves with W. Rope in an arc of radius R and angle theta <= pi/2, at rest or sliding: T'^2 + (T/R)^2 <= (f w)^2,
- * so the tension is at most f w R sin(theta). */
+ * Straight rope of length L pulled at an angle psi < 90 degrees: all but the end follow along
+ * themselves with W cos(psi), so gamma = f w W [ (L - h/2) cos(psi) + h/2 ] with elements of length
+ * h: the end node's friction, f w h/2, moves with W. Rope in an arc of radius R and angle theta <=
+ * pi/2, at rest or sliding: T'^2 + (T/R)^2 <= (f w)^2, so the tension is at most f w R
+ * sin(theta). */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -22,7 +23,8 @@ typedef struct Case {
 } Case;
 
 static Case make(int elements, bool held, bool slack) {
-    Case c = {.rope = {.nodes = elements + 1, .resistance = 1, .driven = {held, true}, .slack = slack}};
+    Case c = {
+        .rope = {.nodes = elements + 1, .resistance = 1, .driven = {held, true}, .slack = slack}};
     c.node = malloc(2 * ((size_t)elements + 1) * sizeof *c.node);
     assert_non_null(c.node);
     c.rope.node = c.node;
@@ -30,13 +32,17 @@ static Case make(int elements, bool held, bool slack) {
 }
 
 static void straight(Case *c, double length) {
-    for (int i = 0; i < c->rope.nodes; i++) c->node[2 * i] = length * i / (c->rope.nodes - 1), c->node[2 * i + 1] = 0;
+    for (int i = 0; i < c->rope.nodes; i++) {
+        c->node[2 * i] = length * i / (c->rope.nodes - 1);
+        c->node[2 * i + 1] = 0;
+    }
 }
 
 static void arc(Case *c, double radius, double angle) {
     for (int i = 0; i < c->rope.nodes; i++) {
         const double a = angle * i / (c->rope.nodes - 1);
-        c->node[2 * i] = radius * cos(a), c->node[2 * i + 1] = radius * sin(a);
+        c->node[2 * i] = radius * cos(a);
+        c->node[2 * i + 1] = radius * sin(a);
     }
 }
 
@@ -45,7 +51,8 @@ static const CpsMotionReport *solve(Case *c, const double *driving) {
     CpsMotionOptions options = cps_motion_options_default();
     options.composition = false;
     if (cps_rope_system(&c->rope, &c->system, &err) != CPS_OK) fail_msg("%s", err.message);
-    if (cps_system_solve(c->system, driving, &options, &c->motion, &err) != CPS_OK) fail_msg("%s", err.message);
+    if (cps_system_solve(c->system, driving, &options, &c->motion, &err) != CPS_OK)
+        fail_msg("%s", err.message);
     return cps_motion_report(c->motion);
 }
 
@@ -78,7 +85,8 @@ static void pulled_aslant(void **state) {
         straight(&c, 1);
         const double h = 1.0 / elements;
         const CpsMotionReport *r = solve(&c, (double[]){cos(psi), sin(psi)});
-        print_message("straight, %d elements: gamma %.12g, gap %.1e\n", elements, r->value, r->upper - r->lower);
+        print_message("straight, %d elements: gamma %.12g, gap %.1e\n", elements, r->value,
+                      r->upper - r->lower);
         CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
         /* the solver's own bound, 1e-8 of a scale of about 1 */
         CHECK_NEAR(r->value, (1 - 0.5 * h) * cos(psi) + 0.5 * h, 1e-8);
@@ -104,7 +112,8 @@ static void arc_bound(void **state) {
         arc(&c, 1, theta);
         const CpsMotionReport *r = solve(&c, (double[]){-sin(theta), cos(theta)});
         const double last = tension(&c, elements - 1), h = theta / elements;
-        print_message("arc, %d elements: largest tension %.9g, bound %.9g\n", elements, last, sin(theta));
+        print_message("arc, %d elements: largest tension %.9g, bound %.9g\n", elements, last,
+                      sin(theta));
         CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
         /* it is reached up to the half element of friction at the end, T' = cos(theta) */
         CHECK_NEAR(last, sin(theta) - 0.5 * h * cos(theta), 0.5 * h * h + 1e-7);
@@ -114,7 +123,8 @@ static void arc_bound(void **state) {
     }
 }
 
-/* both ends apart: no velocity agrees with an inextensible rope, and the forces that prove it pull it apart */
+/* both ends apart: no velocity agrees with an inextensible rope, and the forces that prove it pull
+ * it apart */
 static void pulled_apart(void **state) {
     (void)state;
     Case c = make(20, true, true);
@@ -135,8 +145,9 @@ static void pulled_apart(void **state) {
     finish(&c);
 }
 
-/* M77's rope keeps its length: pushed at its end along itself a straight one moves as a whole, gamma = f w L W, with the
- * tension -f w (s + h/2) in the element whose middle is s from the free end; both ends towards each other: no velocity agrees. */
+/* M77's rope keeps its length: pushed at its end along itself a straight one moves as a whole,
+ * gamma = f w L W, with the tension -f w (s + h/2) in the element whose middle is s from the free
+ * end; both ends towards each other: no velocity agrees. */
 static void inextensible(void **state) {
     (void)state;
     for (int elements = 10; elements <= 1000; elements *= 10) {
@@ -145,20 +156,23 @@ static void inextensible(void **state) {
         const CpsMotionReport *r = solve(&c, (double[]){-1, 0});
         CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
         CHECK_NEAR(r->value, 2, 1e-8); /* the solver's own bound, of a scale of 2 */
-        for (int i = 0; i < elements; i++) CHECK_NEAR(tension(&c, i), -(i + 0.5)*2/elements, 1e-6);
+        for (int i = 0; i < elements; i++)
+            CHECK_NEAR(tension(&c, i), -(i + 0.5) * 2 / elements, 1e-6);
         finish(&c);
     }
-    /* an arc pushed back along its end's tangent: no element changes its length, which is dearer than to go slack */
+    /* an arc pushed back along its end's tangent: no element changes its length, which is dearer
+     * than to go slack */
     double value[2];
     for (int slack = 0; slack < 2; slack++) {
         Case c = make(100, false, slack);
         arc(&c, 1, 1);
         value[slack] = solve(&c, (double[]){sin(1), -cos(1)})->value;
         for (int i = 0; i < 100 && !slack; i++)
-            CHECK_NEAR(cps_motion_law_velocity(c.motion, c.rope.nodes + i)[0], 0, 1e-9); /* linear residual */
+            CHECK_NEAR(cps_motion_law_velocity(c.motion, c.rope.nodes + i)[0], 0,
+                       1e-9); /* linear residual */
         finish(&c);
     }
-    CHECK_GREATER(value[0], 10*value[1]);
+    CHECK_GREATER(value[0], 10 * value[1]);
     Case c = make(20, true, false);
     straight(&c, 1);
     CHECK_INT(solve(&c, (double[]){1, 0, -1, 0})->outcome, CPS_MOTION_BLOCKED);
@@ -185,10 +199,8 @@ static void refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pulled_aslant),
-        cmocka_unit_test(arc_bound),
-        cmocka_unit_test(pulled_apart),
-        cmocka_unit_test(inextensible),
+        cmocka_unit_test(pulled_aslant), cmocka_unit_test(arc_bound),
+        cmocka_unit_test(pulled_apart),  cmocka_unit_test(inextensible),
         cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Closed forms of sets: elementary sets, the braked wheel's set disc ∩ strip (M77 §11), limit surfaces of area contact
- * as Minkowski sums over contacts. Tolerance of closed forms: 1e-10 of the expected value, unless said. */
+/* Closed forms of sets: elementary sets, the braked wheel's set disc ∩ strip (M77 §11), limit
+ * surfaces of area contact as Minkowski sums over contacts. Tolerance of closed forms: 1e-10 of the
+ * expected value, unless said. */
 #include "check.h"
 
 #include <stdio.h>
@@ -27,7 +28,8 @@ static double support(const CpsSet *set, double a, double b) {
     return answer.value;
 }
 
-/* disc of radius 500 ∩ {|j.G| <= 200}, j the second axis; or the same as a preimage of interval x disc */
+/* disc of radius 500 ∩ {|j.G| <= 200}, j the second axis; or the same as a preimage of interval x
+ * disc */
 static CpsSet *wheel(bool preimage) {
     static const double AXIS[2] = {0, 1}, MAP[6] = {0, -0.3, 1, 0, 0, 1};
     CpsSet *part[2], *product, *set;
@@ -41,13 +43,15 @@ static CpsSet *wheel(bool preimage) {
         DO(cps_set_strip(2, AXIS, -200, 200, &part[0], &err));
         DO(cps_set_intersection(2, (const CpsSet *const *)part, &set, &err));
     }
-    cps_set_release(part[0]), cps_set_release(part[1]);
+    cps_set_release(part[0]);
+    cps_set_release(part[1]);
     return set;
 }
 
 static void elementary_sets(void **state) {
     (void)state;
-    static const double SHAPE[4] = {9, 0, 0, 1}, LOW[2] = {-3, -1}, HIGH[2] = {3, 1}, SHIFT[2] = {2, -1};
+    static const double SHAPE[4] = {9, 0, 0, 1}, LOW[2] = {-3, -1}, HIGH[2] = {3, 1},
+                        SHIFT[2] = {2, -1};
     CpsSet *ellipse, *box, *disc, *polar, *moved;
     CpsSetMeasure measure;
     DO(cps_set_ellipsoid(2, NULL, SHAPE, &ellipse, &err));
@@ -55,36 +59,48 @@ static void elementary_sets(void **state) {
     DO(cps_set_ball(2, NULL, 4, &disc, &err));
     DO(cps_set_polar(disc, &polar, &err));
     DO(cps_set_translate(SHIFT, ellipse, &moved, &err));
-    CHECK_RELATIVE(show("ellipse 3, 1 along (0.6, 0.8)", 1.9697715603592207, support(ellipse, 0.6, 0.8)),
+    CHECK_RELATIVE(show("ellipse 3, 1 along (0.6, 0.8)", 1.9697715603592207,
+                        support(ellipse, 0.6, 0.8)),
                    1.9697715603592207, 1e-15);
     CHECK_RELATIVE(support(moved, 0.6, 0.8), 1.9697715603592207 + 0.4, 1e-15);
     CHECK_RELATIVE(support(box, 0.6, 0.8), 2.6, 1e-15);
-    CHECK_RELATIVE(show("polar of the disc of radius 4", 0.25, support(polar, 0.6, 0.8)), 0.25, 1e-10);
+    CHECK_RELATIVE(show("polar of the disc of radius 4", 0.25, support(polar, 0.6, 0.8)), 0.25,
+                   1e-10);
     DO(cps_set_measure(ellipse, &measure, &err));
     CHECK_RELATIVE(show("area of the ellipse", 3 * PI, measure.area), 3 * PI, 1e-10);
     /* perimeter 4 a E(e), a = 3, e^2 = 8/9 */
-    CHECK_RELATIVE(show("perimeter of the ellipse", 13.364893220555258, measure.perimeter), 13.364893220555258, 1e-10);
+    CHECK_RELATIVE(show("perimeter of the ellipse", 13.364893220555258, measure.perimeter),
+                   13.364893220555258, 1e-10);
     DO(cps_set_measure(box, &measure, &err));
     CHECK_RELATIVE(measure.area, 12, 1e-14);
     CHECK_RELATIVE(measure.perimeter, 16, 1e-14);
-    cps_set_release(ellipse), cps_set_release(box), cps_set_release(disc), cps_set_release(polar),
-        cps_set_release(moved);
+    cps_set_release(ellipse);
+    cps_set_release(box);
+    cps_set_release(disc);
+    cps_set_release(polar);
+    cps_set_release(moved);
 }
 
 static void wheel_support_area_and_corners(void **state) {
     (void)state;
-    static const double CASE[5][3] = {
-        {1, 0, 500}, {1, 0.3, 522.0153254455275}, {1, 1, 658.257569495584}, {0.5, 2, 629.128784747792}, {0, 1, 200}};
+    static const double CASE[5][3] = {{1, 0, 500},
+                                      {1, 0.3, 522.0153254455275},
+                                      {1, 1, 658.257569495584},
+                                      {0.5, 2, 629.128784747792},
+                                      {0, 1, 200}};
     static const double CORNER = 458.257569495584;
     for (int form = 0; form < 2; form++) {
         CpsSet *set = wheel(form == 1);
         for (int k = 0; k < 5; k++)
-            CHECK_RELATIVE(show("wheel, dissipation", CASE[k][2], support(set, CASE[k][0], CASE[k][1])), CASE[k][2],
-                           1e-12);
+            CHECK_RELATIVE(show("wheel, dissipation", CASE[k][2],
+                                support(set, CASE[k][0], CASE[k][1])),
+                           CASE[k][2], 1e-12);
         CpsSetMeasure measure;
         DO(cps_set_measure(set, &measure, &err));
-        CHECK_RELATIVE(show("wheel, area", 389061.45083197765, measure.area), 389061.45083197765, 1e-10);
-        CHECK_RELATIVE(show("wheel, perimeter", 2656.0639701173122, measure.perimeter), 2656.0639701173122, 1e-10);
+        CHECK_RELATIVE(show("wheel, area", 389061.45083197765, measure.area), 389061.45083197765,
+                       1e-10);
+        CHECK_RELATIVE(show("wheel, perimeter", 2656.0639701173122, measure.perimeter),
+                       2656.0639701173122, 1e-10);
         double corner[8];
         int count;
         CpsSetAnswer answer;
@@ -108,7 +124,8 @@ static void wheel_support_area_and_corners(void **state) {
     }
 }
 
-/* W along j answers an edge, W inside a corner's sector the corner, W along i one point of the arc. */
+/* W along j answers an edge, W inside a corner's sector the corner, W along i one point of the
+ * arc. */
 static void wheel_faces(void **state) {
     (void)state;
     static const double CORNER = 458.257569495584;
@@ -137,8 +154,8 @@ static void wheel_faces(void **state) {
     cps_set_release(set);
 }
 
-/* Two discs of radius 1, their centres 2 sin(a/2) apart: two corners, whose cones open by a, however little that is.
- * Discs joined smoothly have none. */
+/* Two discs of radius 1, their centres 2 sin(a/2) apart: two corners, whose cones open by a,
+ * however little that is. Discs joined smoothly have none. */
 static void corners_between_arcs(void **state) {
     (void)state;
     CpsSet *disc, *moved, *set, *box;
@@ -152,14 +169,16 @@ static void corners_between_arcs(void **state) {
         DO(cps_set_intersection(2, (const CpsSet *[]){disc, moved}, &set, &err));
         DO(cps_set_vertices(set, 0, 8, corner, &count, &answer, &err));
         CHECK_INT(count, 2);
-        /* over the angle a point moves by a^2/8, which 1e-9 of the size tells from 0 within 1e-9/a */
+        /* over the angle a point moves by a^2/8, which 1e-9 of the size tells from 0 within
+         * 1e-9/a */
         CHECK_NEAR(corner[0], sin(angle / 2), 1e-9);
         CHECK_NEAR(fabs(corner[1]), cos(angle / 2), 1e-9);
         DO(cps_set_measure(set, &measure, &err));
-        CHECK_RELATIVE(show("lens of two discs, area", PI - angle - sin(angle), measure.area), PI - angle - sin(angle),
-                       1e-8);
+        CHECK_RELATIVE(show("lens of two discs, area", PI - angle - sin(angle), measure.area),
+                       PI - angle - sin(angle), 1e-8);
         CHECK_RELATIVE(measure.perimeter, 2 * (PI - angle), 1e-8);
-        cps_set_release(moved), cps_set_release(set);
+        cps_set_release(moved);
+        cps_set_release(set);
     }
     DO(cps_set_box(2, (const double[]){-1, -2}, (const double[]){1, 2}, &box, &err));
     DO(cps_set_sum(2, (const CpsSet *[]){box, disc}, &set, &err));
@@ -168,10 +187,13 @@ static void corners_between_arcs(void **state) {
     DO(cps_set_measure(set, &measure, &err)); /* Steiner: 8 + 12 + pi, 12 + 2 pi */
     CHECK_RELATIVE(show("box and disc, area", 20 + PI, measure.area), 20 + PI, 1e-10);
     CHECK_RELATIVE(measure.perimeter, 12 + 2 * PI, 1e-10);
-    cps_set_release(disc), cps_set_release(box), cps_set_release(set);
+    cps_set_release(disc);
+    cps_set_release(box);
+    cps_set_release(set);
 }
 
-static void measured(const char *what, const CpsSet *set, double area, double perimeter, double tolerance) {
+static void measured(const char *what, const CpsSet *set, double area, double perimeter,
+                     double tolerance) {
     CpsSetMeasure measure;
     DO(cps_set_measure(set, &measure, &err));
     assert_int_equal(measure.outcome, CPS_SET_ANSWERED);
@@ -182,7 +204,8 @@ static void measured(const char *what, const CpsSet *set, double area, double pe
     CHECK_LESS(fabs(measure.perimeter - perimeter), measure.perimeter_gap + 1e-14 * perimeter);
 }
 
-/* Ellipses of any aspect, in closed form and along the outline, turned and scaled: pi a b, 4 a E(e). */
+/* Ellipses of any aspect, in closed form and along the outline, turned and scaled: pi a b, 4 a
+ * E(e). */
 static void thin_ellipses(void **state) {
     (void)state;
     static const double AXES[][3] = {{3, 1, 13.364893220555258},
@@ -205,18 +228,23 @@ static void thin_ellipses(void **state) {
             measured("ellipse along its outline, area", sum, PI * a * b, AXES[k][2], 1e-12);
             cps_set_release(sum);
         }
-        cps_set_release(ellipse), cps_set_release(point), cps_set_release(turned), cps_set_release(moved),
-            cps_set_release(scaled);
+        cps_set_release(ellipse);
+        cps_set_release(point);
+        cps_set_release(turned);
+        cps_set_release(moved);
+        cps_set_release(scaled);
     }
 }
 
-/* N ellipses of half axes a > b about one centre, turned by pi/N from one to the next. In each direction the nearest
- * short axis decides: at the angle t from it r(t) = a b/hypot(a cos t, b sin t), |t| <= pi/(2 N), so that there are 2 N
- * corners, at r(pi/(2 N)), and the area is 2 N a b atan(b/a tan(pi/(2 N))). */
+/* N ellipses of half axes a > b about one centre, turned by pi/N from one to the next. In each
+ * direction the nearest short axis decides: at the angle t from it r(t) = a b/hypot(a cos t, b sin
+ * t), |t| <= pi/(2 N), so that there are 2 N corners, at r(pi/(2 N)), and the area is 2 N a b
+ * atan(b/a tan(pi/(2 N))). */
 static void rosette(void **state) {
     (void)state;
     enum { N = 15 };
-    const double a = 3, b = 1, half = PI / (2 * N), corner = a * b / hypot(a * cos(half), b * sin(half));
+    const double a = 3, b = 1, half = PI / (2 * N),
+                 corner = a * b / hypot(a * cos(half), b * sin(half));
     const double area = 2 * N * a * b * atan(b / a * tan(half));
     CpsSet *part[N], *set;
     CpsSetMeasure measure;
@@ -225,7 +253,8 @@ static void rosette(void **state) {
     int count;
     for (int k = 0; k < N; k++) {
         const double c = cos(2 * half * k), s = sin(2 * half * k), both = (a * a - b * b) * c * s;
-        const double shape[4] = {a * a * c * c + b * b * s * s, both, both, a * a * s * s + b * b * c * c};
+        const double shape[4] = {a * a * c * c + b * b * s * s, both, both,
+                                 a * a * s * s + b * b * c * c};
         DO(cps_set_ellipsoid(2, NULL, shape, &part[k], &err));
     }
     DO(cps_set_intersection(N, (const CpsSet *const *)part, &set, &err));
@@ -235,8 +264,10 @@ static void rosette(void **state) {
     DO(cps_set_vertices(set, 0, 4 * N, vertex, &count, &answer, &err));
     CHECK_INT(count, 2 * N);
     /* a corner's place is what its supports leave, whose gap is 1e-9 of the size at most */
-    for (int k = 0; k < count; k++) CHECK_RELATIVE(hypot(vertex[2 * k], vertex[2 * k + 1]), corner, 1e-8);
-    CHECK_RELATIVE(show("  support at a corner", corner, support(set, -sin(half), cos(half))), corner, 1e-10);
+    for (int k = 0; k < count; k++)
+        CHECK_RELATIVE(hypot(vertex[2 * k], vertex[2 * k + 1]), corner, 1e-8);
+    CHECK_RELATIVE(show("  support at a corner", corner, support(set, -sin(half), cos(half))),
+                   corner, 1e-10);
     for (int k = 0; k < N; k++) cps_set_release(part[k]);
     cps_set_release(set);
 }
@@ -244,11 +275,14 @@ static void rosette(void **state) {
 /* Polygons by points and by inequalities, a disc cut by lines, the flat and the far. */
 static void polygons_and_cut_discs(void **state) {
     (void)state;
-    const double corner[10] = {0, 0, 1e6, 1, 1e6, -1e-6, 5e5, 0.1, 0, 0}, up[2] = {0, 2}, place[2] = {3, -1};
-    const double row[8] = {1, 0, -1, 0, 0, 1, 0, -1}, offset[4] = {1e6, 1e6, 1, 1}, ends[4] = {3, -1, 3, 1};
+    const double corner[10] = {0, 0, 1e6, 1, 1e6, -1e-6, 5e5, 0.1, 0, 0}, up[2] = {0, 2},
+                 place[2] = {3, -1};
+    const double row[8] = {1, 0, -1, 0, 0, 1, 0, -1}, offset[4] = {1e6, 1e6, 1, 1},
+                 ends[4] = {3, -1, 3, 1};
     CpsSet *polygon, *disc, *half, *strip, *cut, *segment, *sum;
     DO(cps_set_hull_of_points(2, 5, corner, &polygon, &err));
-    measured("thin triangle, area", polygon, 5e5 + 0.5, 1e6 + 1.000001 + hypot(1e6, 1) + 5e-19, 1e-15);
+    measured("thin triangle, area", polygon, 5e5 + 0.5, 1e6 + 1.000001 + hypot(1e6, 1) + 5e-19,
+             1e-15);
     cps_set_release(polygon);
     DO(cps_set_inequalities(2, 4, row, offset, &polygon, &err));
     measured("thin box by inequalities, area", polygon, 4e6, 4e6 + 4, 1e-9);
@@ -259,7 +293,8 @@ static void polygons_and_cut_discs(void **state) {
     cps_set_release(cut);
     DO(cps_set_strip(2, up, -4, 0, &strip, &err)); /* lines at 1 on both sides of the centre */
     DO(cps_set_intersection(2, (const CpsSet *[]){disc, strip}, &cut, &err));
-    measured("disc between lines, area", cut, 4 * (PI / 3 + sqrt(0.75)), 4 * PI / 3 + 4 * sqrt(3), 1e-15);
+    measured("disc between lines, area", cut, 4 * (PI / 3 + sqrt(0.75)), 4 * PI / 3 + 4 * sqrt(3),
+             1e-15);
     DO(cps_set_hull_of_points(2, 2, ends, &segment, &err));
     DO(cps_set_sum(2, (const CpsSet *[]){segment, segment}, &sum, &err));
     measured("upright segment, area", sum, 0, 8, 1e-15);
@@ -269,8 +304,13 @@ static void polygons_and_cut_discs(void **state) {
     DO(cps_set_vertices(sum, 0, 2, vertex, &count, &answer, &err));
     CHECK_INT(count, 2);
     CHECK_NEAR(fabs(vertex[3] - vertex[1]), 4, 1e-14);
-    cps_set_release(polygon), cps_set_release(disc), cps_set_release(half), cps_set_release(strip),
-        cps_set_release(cut), cps_set_release(segment), cps_set_release(sum);
+    cps_set_release(polygon);
+    cps_set_release(disc);
+    cps_set_release(half);
+    cps_set_release(strip);
+    cps_set_release(cut);
+    cps_set_release(segment);
+    cps_set_release(sum);
 }
 
 static void margin(const CpsSet *set, double x, double y, double want, bool exact) {
@@ -282,11 +322,12 @@ static void margin(const CpsSet *set, double x, double y, double want, bool exac
     assert_int_equal(answer.exact, exact);
 }
 
-/* Margins inside: the ellipse 3, 1, whose nearest point from (x, 0) is (9x/8, ..) up to x = 8/3 and then its end; sums
- * with a disc; similar images and preimages; polars; others by enclosure. */
+/* Margins inside: the ellipse 3, 1, whose nearest point from (x, 0) is (9x/8, ..) up to x = 8/3 and
+ * then its end; sums with a disc; similar images and preimages; polars; others by enclosure. */
 static void margins_inside(void **state) {
     (void)state;
-    const double shape[4] = {9, 0, 0, 1}, turn[4] = {1.2, -1.6, 1.6, 1.2}, low[2] = {-1, -2}, high[2] = {1, 2};
+    const double shape[4] = {9, 0, 0, 1}, turn[4] = {1.2, -1.6, 1.6, 1.2}, low[2] = {-1, -2},
+                 high[2] = {1, 2};
     CpsSet *ellipse, *disc, *box, *sum, *image, *preimage, *cross, *polar, *hull;
     DO(cps_set_ellipsoid(2, NULL, shape, &ellipse, &err));
     margin(ellipse, 0, 0, 1, true);
@@ -311,15 +352,23 @@ static void margins_inside(void **state) {
     DO(cps_set_box(2, low, high, &box, &err));
     DO(cps_set_hull(2, (const CpsSet *[]){box, disc}, &hull, &err));
     margin(hull, 0.25, 0, 0.75, false);
-    cps_set_release(sum), cps_set_release(hull);
+    cps_set_release(sum);
+    cps_set_release(hull);
     DO(cps_set_sum(2, (const CpsSet *[]){box, ellipse}, &sum, &err));
     margin(sum, 0, 0, 3, false);
     margin(sum, 3.5, 2, sqrt(1 - 2.5 * 2.5 / 8), false); /* the arc about the corner */
-    cps_set_release(ellipse), cps_set_release(disc), cps_set_release(box), cps_set_release(sum), cps_set_release(image),
-        cps_set_release(preimage), cps_set_release(cross), cps_set_release(polar);
+    cps_set_release(ellipse);
+    cps_set_release(disc);
+    cps_set_release(box);
+    cps_set_release(sum);
+    cps_set_release(image);
+    cps_set_release(preimage);
+    cps_set_release(cross);
+    cps_set_release(polar);
 }
 
-/* ---- limit surfaces: C = sum over contacts of B' D, B' f = (f, x f_y - y f_x), D the disc of the contact's share ----
+/* ---- limit surfaces: C = sum over contacts of B' D, B' f = (f, x f_y - y f_x), D the disc of the
+ * contact's share ----
  */
 
 static CpsSet *contacts(int count, const double *place, const double *share) {
@@ -349,7 +398,8 @@ static double place[2 * MOST], share[MOST];
 
 static double ring(int count, double v, double w) {
     for (int k = 0; k < count; k++) {
-        place[2 * k] = cos(2 * PI * k / count), place[2 * k + 1] = sin(2 * PI * k / count);
+        place[2 * k] = cos(2 * PI * k / count);
+        place[2 * k + 1] = sin(2 * PI * k / count);
         share[k] = 1.0 / count;
     }
     CpsSet *set = contacts(count, place, share);
@@ -358,12 +408,12 @@ static double ring(int count, double v, double w) {
     return value;
 }
 
-/* phi = (2/pi)(|v| + |w|) E(m): periodic and smooth at (1, 0.5), so the sum converges faster than any power; with the
- * centre of rotation on the ring (1, 1) at second order. */
+/* phi = (2/pi)(|v| + |w|) E(m): periodic and smooth at (1, 0.5), so the sum converges faster than
+ * any power; with the centre of rotation on the ring (1, 1) at second order. */
 static void ring_limit_surface(void **state) {
     (void)state;
-    CHECK_RELATIVE(show("ring, 128 contacts, (1, 0.5)", 1.0635444099733649, ring(128, 1, 0.5)), 1.0635444099733649,
-                   1e-12);
+    CHECK_RELATIVE(show("ring, 128 contacts, (1, 0.5)", 1.0635444099733649, ring(128, 1, 0.5)),
+                   1.0635444099733649, 1e-12);
     double before = 0;
     for (int count = 64; count <= 1024; count *= 4) {
         const double off = fabs(show("ring, (1, 1)", 4 / PI, ring(count, 1, 1)) - 4 / PI);
@@ -372,7 +422,8 @@ static void ring_limit_surface(void **state) {
     }
 }
 
-/* uniform disc: midpoint rule in the radius, spectral in the angle: second order; phi = e F(e) + T(e) at v = e, w = 1
+/* uniform disc: midpoint rule in the radius, spectral in the angle: second order; phi = e F(e) +
+ * T(e) at v = e, w = 1
  */
 static void disc_limit_surface(void **state) {
     (void)state;
@@ -384,13 +435,14 @@ static void disc_limit_surface(void **state) {
             for (int k = 0; k < around; k++) {
                 const int at = i * around + k;
                 const double r = (i + 0.5) / rings;
-                place[2 * at] = r * cos(2 * PI * (k + 0.5) / around),
-                          place[2 * at + 1] = r * sin(2 * PI * (k + 0.5) / around);
+                place[2 * at] = r * cos(2 * PI * (k + 0.5) / around);
+                place[2 * at + 1] = r * sin(2 * PI * (k + 0.5) / around);
                 share[at] = 2 * r / rings / around;
             }
         CpsSet *set = contacts(rings * around, place, share);
         const double off = fabs(show("disc, e = 0.25", want, twist(set, 0.25, 0, 1)) - want);
-        /* the kink at the centre of rotation disturbs the order a little; the printed constants have 11 digits */
+        /* the kink at the centre of rotation disturbs the order a little; the printed constants
+         * have 11 digits */
         if (before > 0) CHECK_BETWEEN(before / off, 10, 25);
         before = off;
         cps_set_release(set);
@@ -404,7 +456,8 @@ static void rod_limit_surface(void **state) {
     double before = 0;
     for (int count = 16; count <= 1024; count *= 4) {
         for (int k = 0; k < count; k++) {
-            place[2 * k] = -1 + (2 * k + 1.0) / count, place[2 * k + 1] = 0;
+            place[2 * k] = -1 + (2 * k + 1.0) / count;
+            place[2 * k + 1] = 0;
             share[k] = 1.0 / count;
         }
         CpsSet *set = contacts(count, place, share);
@@ -415,68 +468,88 @@ static void rod_limit_surface(void **state) {
     }
 }
 
-/* Two supports at +-1: turning about one of them leaves its whole disc free, a face of dimension 2. */
-/* Sets that touch: two discs, a ball and a plane, a line and a disc as a preimage. What they have in common is one point, its
- * normals all directions; the discs' directions do not have exact sines, so that rounding decides whether they meet. */
+/* Two supports at +-1: turning about one of them leaves its whole disc free, a face of dimension
+ * 2. */
+/* Sets that touch: two discs, a ball and a plane, a line and a disc as a preimage. What they have
+ * in common is one point, its normals all directions; the discs' directions do not have exact
+ * sines, so that rounding decides whether they meet. */
 static void touching_sets(void **state) {
     (void)state;
     for (int k = 0; k < 60; k++) {
-        const double a = 0.1*k, r = 0.5 + 0.05*k, n[2] = {cos(a), sin(a)};
+        const double a = 0.1 * k, r = 0.5 + 0.05 * k, n[2] = {cos(a), sin(a)};
         CpsSet *part[2], *both = NULL, *cone = NULL;
         CpsSetAnswer answer;
         CpsSetFacts facts;
         double point[2];
         assert_int_equal(cps_set_ball(2, (double[]){n[0], n[1]}, 1, &part[0], NULL), CPS_OK);
-        assert_int_equal(cps_set_ball(2, (double[]){-r*n[0], -r*n[1]}, r, &part[1], NULL), CPS_OK);
+        assert_int_equal(cps_set_ball(2, (double[]){-r * n[0], -r * n[1]}, r, &part[1], NULL),
+                         CPS_OK);
         assert_int_equal(cps_set_intersection(2, (const CpsSet *const *)part, &both, NULL), CPS_OK);
-        assert_int_equal(cps_set_support(both, (double[]){-n[1], n[0]}, point, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_set_support(both, (double[]){-n[1], n[0]}, point, &answer, NULL),
+                         CPS_OK);
         CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
-        CHECK_NEAR(point[0], 0, 1e-7), CHECK_NEAR(point[1], 0, 1e-7); /* the root of what rounding lets them overlap */
+        CHECK_NEAR(point[0], 0, 1e-7);
+        CHECK_NEAR(point[1], 0, 1e-7); /* the root of what rounding lets them overlap */
         assert_int_equal(cps_set_facts(both, 0, &facts, NULL, NULL, NULL), CPS_OK);
         CHECK_INT(facts.dimension, 0);
-        assert_int_equal(cps_set_normal_cone(both, (double[]){0, 0}, 1e-6, &cone, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_set_normal_cone(both, (double[]){0, 0}, 1e-6, &cone, &answer, NULL),
+                         CPS_OK);
         assert_int_equal(cps_set_facts(cone, 0, &facts, NULL, NULL, NULL), CPS_OK);
         CHECK_INT(facts.dimension, 2);
         assert_true(facts.zero_interior);
-        cps_set_release(cone), cps_set_release(both), cps_set_release(part[0]), cps_set_release(part[1]);
+        cps_set_release(cone);
+        cps_set_release(both);
+        cps_set_release(part[0]);
+        cps_set_release(part[1]);
     }
     /* {(x, y) : (x, y, 1) in the unit ball} = {0}, and a ball on a plane of its own height */
     CpsSet *ball = NULL, *touch = NULL, *half = NULL;
     CpsSetAnswer answer;
     double nearest[3];
     assert_int_equal(cps_set_ball(3, NULL, 1, &ball, NULL), CPS_OK);
-    assert_int_equal(
-        cps_set_preimage(2, (double[]){1, 0, 0, 1, 0, 0}, (double[]){0, 0, 1}, ball, &touch, NULL), CPS_OK);
-    assert_int_equal(cps_set_project(touch, (double[]){3, 4}, NULL, nearest, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_preimage(2, (double[]){1, 0, 0, 1, 0, 0}, (double[]){0, 0, 1}, ball,
+                                      &touch, NULL),
+                     CPS_OK);
+    assert_int_equal(cps_set_project(touch, (double[]){3, 4}, NULL, nearest, &answer, NULL),
+                     CPS_OK);
     CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
     CHECK_NEAR(answer.value, 5, 1e-9);
     cps_set_release(touch);
     assert_int_equal(cps_set_half_space(3, (double[]){0, 0, -1}, -1, &half, NULL), CPS_OK);
-    assert_int_equal(cps_set_intersection(2, (const CpsSet *const[]){ball, half}, &touch, NULL), CPS_OK);
-    assert_int_equal(cps_set_project(touch, (double[]){3, 4, 1}, NULL, nearest, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_intersection(2, (const CpsSet *const[]){ball, half}, &touch, NULL),
+                     CPS_OK);
+    assert_int_equal(cps_set_project(touch, (double[]){3, 4, 1}, NULL, nearest, &answer, NULL),
+                     CPS_OK);
     CHECK_NEAR(answer.value, 5, 1e-9);
     CHECK_NEAR(nearest[2], 1, 1e-12);
-    cps_set_release(touch), cps_set_release(half), cps_set_release(ball);
+    cps_set_release(touch);
+    cps_set_release(half);
+    cps_set_release(ball);
 }
 
-/* The gauge of a ball with 0 on its boundary, in directions of which some have no multiple of it: |x|^2/2<c, x>. */
+/* The gauge of a ball with 0 on its boundary, in directions of which some have no multiple of it:
+ * |x|^2/2<c, x>. */
 static void gauge_through_zero(void **state) {
     (void)state;
     for (int k = 0; k < 48; k++) {
-        const double a = 0.13*k, r = 1 + 0.25*k, c[2] = {r*cos(1.7*k), r*sin(1.7*k)}, x[2] = {3*cos(a), 3*sin(a)};
-        const double along = c[0]*x[0] + c[1]*x[1];
+        const double a = 0.13 * k, r = 1 + 0.25 * k, c[2] = {r * cos(1.7 * k), r * sin(1.7 * k)},
+                     x[2] = {3 * cos(a), 3 * sin(a)};
+        const double along = c[0] * x[0] + c[1] * x[1];
         CpsSet *ball = NULL;
         CpsSetAnswer answer;
         assert_int_equal(cps_set_ball(2, c, r, &ball, NULL), CPS_OK);
         assert_int_equal(cps_set_gauge(ball, x, &answer, NULL), CPS_OK);
         CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
-        if (along > 0) CHECK_RELATIVE(answer.value, 9/(2*along), 1e-12);
-        else assert_true(isinf(answer.value));
+        if (along > 0)
+            CHECK_RELATIVE(answer.value, 9 / (2 * along), 1e-12);
+        else
+            assert_true(isinf(answer.value));
         cps_set_release(ball);
     }
 }
 
-/* The hull of a disc and a half-plane below it is, closed, the half-plane up to the disc's top: its face there is the whole line. */
+/* The hull of a disc and a half-plane below it is, closed, the half-plane up to the disc's top: its
+ * face there is the whole line. */
 static void face_of_an_unbounded_hull(void **state) {
     (void)state;
     CpsSet *part[2], *hull = NULL, *face = NULL;
@@ -490,8 +563,12 @@ static void face_of_an_unbounded_hull(void **state) {
     assert_int_equal(cps_set_extent(face, (double[]){1, 0}, &extent, NULL), CPS_OK);
     assert_true(isinf(extent.low) && isinf(extent.high));
     assert_int_equal(cps_set_extent(face, (double[]){0, 1}, &extent, NULL), CPS_OK);
-    CHECK_NEAR(extent.low, 1, 1e-9), CHECK_NEAR(extent.high, 1, 1e-9);
-    cps_set_release(face), cps_set_release(hull), cps_set_release(part[0]), cps_set_release(part[1]);
+    CHECK_NEAR(extent.low, 1, 1e-9);
+    CHECK_NEAR(extent.high, 1, 1e-9);
+    cps_set_release(face);
+    cps_set_release(hull);
+    cps_set_release(part[0]);
+    cps_set_release(part[1]);
 }
 
 static void bipod_face(void **state) {
@@ -508,20 +585,27 @@ static void bipod_face(void **state) {
     DO(cps_set_extent(face, (const double[]){1, 0, 0}, &extent, &err));
     CHECK_NEAR(extent.low, -0.5, 1e-12);
     CHECK_NEAR(extent.high, 0.5, 1e-12);
-    cps_set_release(set), cps_set_release(face);
+    cps_set_release(set);
+    cps_set_release(face);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elementary_sets),    cmocka_unit_test(wheel_support_area_and_corners),
-        cmocka_unit_test(wheel_faces),        cmocka_unit_test(corners_between_arcs),
-        cmocka_unit_test(ring_limit_surface), cmocka_unit_test(disc_limit_surface),
-        cmocka_unit_test(rod_limit_surface),  cmocka_unit_test(bipod_face),
+        cmocka_unit_test(elementary_sets),
+        cmocka_unit_test(wheel_support_area_and_corners),
+        cmocka_unit_test(wheel_faces),
+        cmocka_unit_test(corners_between_arcs),
+        cmocka_unit_test(ring_limit_surface),
+        cmocka_unit_test(disc_limit_surface),
+        cmocka_unit_test(rod_limit_surface),
+        cmocka_unit_test(bipod_face),
         cmocka_unit_test(gauge_through_zero),
         cmocka_unit_test(touching_sets),
         cmocka_unit_test(face_of_an_unbounded_hull),
-        cmocka_unit_test(thin_ellipses),      cmocka_unit_test(polygons_and_cut_discs),
-        cmocka_unit_test(margins_inside),     cmocka_unit_test(rosette),
+        cmocka_unit_test(thin_ellipses),
+        cmocka_unit_test(polygons_and_cut_discs),
+        cmocka_unit_test(margins_inside),
+        cmocka_unit_test(rosette),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A line that slides over a drum without end: beyond the capstan limit there is no equilibrium, and the step says so with its proof.
+/* A line that slides over a drum without end: beyond the capstan limit there is no equilibrium, and
+ * the step says so with its proof.
  *
- * A weightless line is laid round a cylinder by n nodes that turn it by d each, pulled by F_A and F_B along straight leads. It can be in
- * equilibrium for k^-n <= F_B/F_A <= k^n, k = (1 + mu tan(d/2))/(1 - mu tan(d/2)). Beyond, the velocity that keeps every element as long as
- * it is and leaves the drum as fast as friction asks, mu per speed along it, falls by k from node to node. With speed 1 in the lead that
- * follows it is k^-n in the lead that pulls, so the loads have the power F_B k^-n - F_A. The fastest node is the one of the lead that lies on the
- * drum before the line turns: it leaves the chord by d/2 and moves at sqrt(1 + mu^2)/(cos(d/2) - mu sin(d/2)). Further along its way the trailing force helps: e^(-mu a)(cos a + mu sin a) falls with the angle a. */
+ * A weightless line is laid round a cylinder by n nodes that turn it by d each, pulled by F_A and
+ * F_B along straight leads. It can be in equilibrium for k^-n <= F_B/F_A <= k^n, k = (1 + mu
+ * tan(d/2))/(1 - mu tan(d/2)). Beyond, the velocity that keeps every element as long as it is and
+ * leaves the drum as fast as friction asks, mu per speed along it, falls by k from node to node.
+ * With speed 1 in the lead that follows it is k^-n in the lead that pulls, so the loads have the
+ * power F_B k^-n - F_A. The fastest node is the one of the lead that lies on the drum before the
+ * line turns: it leaves the chord by d/2 and moves at sqrt(1 + mu^2)/(cos(d/2) - mu sin(d/2)).
+ * Further along its way the trailing force helps: e^(-mu a)(cos a + mu sin a) falls with the angle
+ * a. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,7 +30,8 @@ static double limit_of(const Case *c) {
     return pow((1 + t) / (1 - t), c->nodes);
 }
 
-/* Elements in a lead, each as long as the chords: on its way the line then has nodes where others were. */
+/* Elements in a lead, each as long as the chords: on its way the line then has nodes where others
+ * were. */
 static int lead_of(const Case *c) { return (int)ceil(1 / (2 * sin(c->theta / c->nodes / 2))); }
 
 /* The line round the drum with its leads, which are a little longer than the radius. */
@@ -35,7 +41,10 @@ static void lay_round(Rig *rig, const Case *c) {
     rig_begin(rig, last + 2 * lead, 0, 1e6 * c->force);
     rig_obstacle(rig, CPS_OBSTACLE_CYLINDER, c->mu)->radius = R;
     for (int k = -lead; k <= last + lead; k++) {
-        const int on = k < 0 ? 0 : k > last ? last : k, next = k < 0 ? -1 : last + 1, by = abs(k - on);
+        const int on = k < 0      ? 0
+                       : k > last ? last
+                                  : k,
+                  next = k < 0 ? -1 : last + 1, by = abs(k - on);
         const double x = cos(on * d), z = -sin(on * d);
         rig_point(rig, R * (x + by * (cos(next * d) - x)), 0, R * (z + by * (-sin(next * d) - z)));
     }
@@ -45,7 +54,8 @@ static void lay_round(Rig *rig, const Case *c) {
 /* A force of size `force` along the lead of an end, outwards. */
 static void pull(const Rig *rig, int end, double force, double out[3]) {
     const int n = rig->line.elements;
-    const double *tip = &rig->point[end == CPS_END_A ? 0 : 3 * n], *next = &rig->point[end == CPS_END_A ? 3 : 3 * (n - 1)];
+    const double *tip = &rig->point[end == CPS_END_A ? 0 : 3 * n],
+                 *next = &rig->point[end == CPS_END_A ? 3 : 3 * (n - 1)];
     const double size = hypot(tip[0] - next[0], tip[2] - next[2]);
     for (int a = 0; a < 3; a++) out[a] = force * (tip[a] - next[a]) / size;
 }
@@ -90,11 +100,14 @@ static void beyond_the_limit(void **state) {
         uint64_t seed = 1000 + (uint64_t)i;
         Case c = {.mu = splitmix(&seed, 0.03, 0.8), .theta = splitmix(&seed, 0.4, 1.8 * PI)};
         c.nodes = 8 + (int)(40 * splitmix(&seed, 0, 1));
-        c.radius = pow(10, splitmix(&seed, -2, 2)), c.force = pow(10, splitmix(&seed, -2, 4));
-        const double k = limit_of(&c), d = c.theta / c.nodes, fastest = sqrt(1 + c.mu * c.mu) / (cos(d / 2) - c.mu * sin(d / 2));
+        c.radius = pow(10, splitmix(&seed, -2, 2));
+        c.force = pow(10, splitmix(&seed, -2, 4));
+        const double k = limit_of(&c), d = c.theta / c.nodes,
+                     fastest = sqrt(1 + c.mu * c.mu) / (cos(d / 2) - c.mu * sin(d / 2));
         const double over = 1 + pow(10, splitmix(&seed, -2, 0));
         double power;
-        printf("seed %d: mu %.3g, theta %.3g, %d nodes, limit %.4g, beyond by %.3g\n", 1000 + i, c.mu, c.theta, c.nodes, k, over);
+        printf("seed %d: mu %.3g, theta %.3g, %d nodes, limit %.4g, beyond by %.3g\n", 1000 + i,
+               c.mu, c.theta, c.nodes, k, over);
         CHECK_INT(outcome(&c, over * k, &power), CPS_SLIDES);
         /* elongations of 1e-6 times the ratio of forces turn the polygon by as much */
         const double expected = c.force * (over - 1) / fastest, slack = 1e-5 * over * k * c.force;
@@ -107,7 +120,8 @@ static void beyond_the_limit(void **state) {
     CHECK_LESS(worst, 1);
 }
 
-/* What stops it: an end that is held, and a plane that its straight way on leads to. Frozen friction has no limit in the tension. */
+/* What stops it: an end that is held, and a plane that its straight way on leads to. Frozen
+ * friction has no limit in the tension. */
 static void what_does_not_slide(void **state) {
     (void)state;
     const Case c = {.mu = 0.3, .theta = PI, .radius = 1, .force = 1, .nodes = 20};
@@ -115,8 +129,11 @@ static void what_does_not_slide(void **state) {
         Rig rig;
         lay_round(&rig, &c);
         if (kind == 0) {
-            CpsObstacle *ceiling = rig_obstacle(&rig, CPS_OBSTACLE_PLANE, 0.5); /* the leads go up to 1.1 */
-            ceiling->normal[0] = 0, ceiling->normal[1] = 0, ceiling->normal[2] = -1;
+            CpsObstacle *ceiling =
+                rig_obstacle(&rig, CPS_OBSTACLE_PLANE, 0.5); /* the leads go up to 1.1 */
+            ceiling->normal[0] = 0;
+            ceiling->normal[1] = 0;
+            ceiling->normal[2] = -1;
             ceiling->point[2] = 2.5;
         }
         pull_both(&rig, &c, 1.5 * limit_of(&c));
@@ -126,7 +143,11 @@ static void what_does_not_slide(void **state) {
         CpsError err; /* not rig_try: its audit is of consistent friction */
         CHECK_INT(cps_evolution_step(run.evolution, &err), CPS_OK);
         const CpsOutcome found = cps_evolution_report(run.evolution).outcome;
-        printf("%s: %s\n", kind == 0 ? "a ceiling in its way" : kind == 1 ? "end A held" : "frozen friction", cps_outcome_key(found));
+        printf("%s: %s\n",
+               kind == 0   ? "a ceiling in its way"
+               : kind == 1 ? "end A held"
+                           : "frozen friction",
+               cps_outcome_key(found));
         assert_true(found != CPS_SLIDES);
         if (kind == 1) CHECK_INT(found, CPS_SOLVED);
         rig_close(&run);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* S90 results 4.3 and 4.4, theorem 6.3, corollary 6.4 and formula (55): configurations judged with known energies, and
- * slack laid out. */
+/* S90 results 4.3 and 4.4, theorem 6.3, corollary 6.4 and formula (55): configurations judged with
+ * known energies, and slack laid out. */
 #include <stdio.h>
 #include <string.h>
 
@@ -21,7 +21,8 @@ typedef struct Bench {
 static CpsJudgementReport judge(Bench *b) {
     CpsJudgementReport report;
     CpsError err = {0};
-    if (cps_solution_judge(&b->view, b->position, TOLERANCE, &report, &err) != CPS_OK) fail_msg("%s", err.message);
+    if (cps_solution_judge(&b->view, b->position, TOLERANCE, &report, &err) != CPS_OK)
+        fail_msg("%s", err.message);
     // the three gaps are never negative: they are sums of squares
     CHECK_BETWEEN(report.tension, 0, INFINITY);
     CHECK_BETWEEN(report.contact, 0, INFINITY);
@@ -32,7 +33,8 @@ static CpsJudgementReport judge(Bench *b) {
 static CpsSlackReport complete(Bench *b, CpsCompletion how) {
     CpsSlackReport report;
     CpsError err = {0};
-    if (cps_solution_complete(&b->view, how, b->position, &report, &err) != CPS_OK) fail_msg("%s", err.message);
+    if (cps_solution_complete(&b->view, how, b->position, &report, &err) != CPS_OK)
+        fail_msg("%s", err.message);
     return report;
 }
 
@@ -52,8 +54,9 @@ static void solve_bench(Bench *b) {
     take_own(b);
 }
 
-/* A slack line on a smooth bed, its ends at half its length: the chain of least motion is outside Kin, near B, which has gone aside; the tent
- * and the meander are in it, solve P3.1, and have no more energy. All of it is loose. */
+/* A slack line on a smooth bed, its ends at half its length: the chain of least motion is outside
+ * Kin, near B, which has gone aside; the tent and the meander are in it, solve P3.1, and have no
+ * more energy. All of it is loose. */
 static void slack_on_a_smooth_bed(void **state) {
     (void)state;
     for (int inextensible = 0; inextensible < 2; inextensible++) {
@@ -78,7 +81,8 @@ static void slack_on_a_smooth_bed(void **state) {
             assert_int_equal(laid.judgement, CPS_JUDGED_SOLUTION);
             // positions of order 1 to rounding, over elements of 0.01
             CHECK_LESS(show("slack laid out", "1 - |x'|", 0, laid.shortening), 1e-12);
-            CHECK_LESS(show("slack laid out", "energy above the minimum [J]", 0, laid.energy), 1e-9);
+            CHECK_LESS(show("slack laid out", "energy above the minimum [J]", 0, laid.energy),
+                       1e-9);
         }
         case_close(&b.run);
     }
@@ -103,7 +107,8 @@ static void slack_between_ends_that_meet(void **state) {
     case_close(&b.run);
 }
 
-/* Laid out in each shape, by the program: C, |x'| and the place of the ends are looked at node by node, on the bed z = 0. */
+/* Laid out in each shape, by the program: C, |x'| and the place of the ends are looked at node by
+ * node, on the bed z = 0. */
 static void check_laid(Bench *b, bool closes) {
     for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
         CpsSlackReport slack = complete(b, how);
@@ -125,7 +130,8 @@ static void check_laid(Bench *b, bool closes) {
     }
 }
 
-/* An end held above a smooth bed: by less than an element, which comes down without tension, and by so much that some hang. */
+/* An end held above a smooth bed: by less than an element, which comes down without tension, and by
+ * so much that some hang. */
 static void slack_below_a_lifted_end(void **state) {
     (void)state;
     const double height[] = {0.005, 0.0099, 0.3};
@@ -139,11 +145,14 @@ static void slack_below_a_lifted_end(void **state) {
     }
 }
 
-/* Elements of uneven length: two sides need not close, three do; and where one element is longer than all others and the chord nothing does. */
+/* Elements of uneven length: two sides need not close, three do; and where one element is longer
+ * than all others and the chord nothing does. */
 static void slack_of_uneven_elements(void **state) {
     (void)state;
-    static const double MESH[][6] = {{0.3, 0.01, 0.29, 0.1, 0.25, 0.05}, {0.02, 0.04, 0.08, 0.16, 0.32, 0.38},
-                                     {0.08, 0.08, 0.08, 0.1, 0.12, 0.54}, {0.1, 0.02, 0.62, 0.06, 0.1, 0.1}};
+    static const double MESH[][6] = {{0.3, 0.01, 0.29, 0.1, 0.25, 0.05},
+                                     {0.02, 0.04, 0.08, 0.16, 0.32, 0.38},
+                                     {0.08, 0.08, 0.08, 0.1, 0.12, 0.54},
+                                     {0.1, 0.02, 0.62, 0.06, 0.1, 0.1}};
     const double chord[] = {0.003, 0.001, 0.52, 0.2};
     for (int k = 0; k < 4; k++) {
         Bench b;
@@ -157,7 +166,8 @@ static void slack_of_uneven_elements(void **state) {
     }
 }
 
-/* Straight at its length between two held ends on a smooth bed: without tension, and nothing can move. */
+/* Straight at its length between two held ends on a smooth bed: without tension, and nothing can
+ * move. */
 static void straight_slack(void **state) {
     (void)state;
     Bench b;
@@ -182,15 +192,17 @@ static void scale_of_a_judgement(void **state) {
     case_close(&b.run);
 }
 
-/* The same with one node lifted: the tensions are still those of the solution, its own (55), but the bed pushed there.
- * The energy is the weight's, R z. Proposition 7.4 as printed would let it pass. */
+/* The same with one node lifted: the tensions are still those of the solution, its own (55), but
+ * the bed pushed there. The energy is the weight's, R z. Proposition 7.4 as printed would let it
+ * pass. */
 static void lifted_loop(void **state) {
     (void)state;
     Bench b;
     open_bench(&b, 0, 1);
     case_move(&b.c, 1, 0.5, 0, 0);
     solve_bench(&b);
-    for (int j = 0; j <= ELEMENTS; j++) b.position[3 * j] = 0.5 * j / ELEMENTS; /* a chain, evenly shortened */
+    for (int j = 0; j <= ELEMENTS; j++)
+        b.position[3 * j] = 0.5 * j / ELEMENTS; /* a chain, evenly shortened */
     const double z = 0.004; /* less than slack elements of 0.01 over 0.005 can reach: no tension */
     const int node = 3 * 40;
     b.position[node + 2] += z;
@@ -202,8 +214,9 @@ static void lifted_loop(void **state) {
     case_close(&b.run);
 }
 
-/* S90 annex 5: T = 0 up to abar and still only one solution, for |phi| < A holds it (against "unique only if T > 0",
- * result 4.4 (ii)). Moved aside it costs A |u|; and there is nothing to lay out. */
+/* S90 annex 5: T = 0 up to abar and still only one solution, for |phi| < A holds it (against
+ * "unique only if T > 0", result 4.4 (ii)). Moved aside it costs A |u|; and there is nothing to lay
+ * out. */
 static void slack_held_by_friction(void **state) {
     (void)state;
     Bench b;
@@ -223,7 +236,8 @@ static void slack_held_by_friction(void **state) {
     CHECK_INT(slack.parts, 0);
 
     assert_true(part.rubs && !part.sliding && part.grounded);
-    // a made-up friction force at its bound: the elements beside it are straight at their length, and hold node 30
+    // a made-up friction force at its bound: the elements beside it are straight at their length,
+    // and hold node 30
     static double rub[COORDINATES], shorter[COORDINATES];
     memcpy(rub, b.view.friction, sizeof rub);
     rub[3 * 30 + 1] = b.view.friction_bound[30];
@@ -237,7 +251,8 @@ static void slack_held_by_friction(void **state) {
     CHECK_INT(cps_solution_slack(&made_up, 1, &part), 1);
     assert_true(part.sliding);
 
-    // node 30 along the line by a thousandth: the elements beside it stay below their length or stretch by 0.1
+    // node 30 along the line by a thousandth: the elements beside it stay below their length or
+    // stretch by 0.1
     const double u = 1e-6;
     take_own(&b);
     b.position[3 * 30 + 1] += u;
@@ -251,8 +266,8 @@ static void slack_held_by_friction(void **state) {
     case_close(&b.run);
 }
 
-/* Other tensions, in energies known: pulled along the bed by H with T = K e = H (mu = 0), shortened by a part s
- * everywhere: J rises by l (K/2) s^2. The lumped tension is constant. */
+/* Other tensions, in energies known: pulled along the bed by H with T = K e = H (mu = 0), shortened
+ * by a part s everywhere: J rises by l (K/2) s^2. The lumped tension is constant. */
 static void other_tensions(void **state) {
     (void)state;
     Bench b;
@@ -276,7 +291,9 @@ static void other_tensions(void **state) {
     }
     report = judge(&b);
     assert_int_equal(report.judgement, CPS_JUDGED_TENSION);
-    CHECK_NEAR(show("turned", "energy, F L (1 - cos) [J]", 0.5 * 1.5 * (1 - cos(angle)), report.energy), 0, 1e-8);
+    CHECK_NEAR(show("turned", "energy, F L (1 - cos) [J]", 0.5 * 1.5 * (1 - cos(angle)),
+                    report.energy),
+               0, 1e-8);
     case_close(&b.run);
 }
 
@@ -300,8 +317,8 @@ static void outside_the_constraints(void **state) {
     case_close(&b.run);
 }
 
-/* The sum of gaps is J** + j at y less the minimum, whatever y in C (3): against the energies themselves, at a made-up
- * y. */
+/* The sum of gaps is J** + j at y less the minimum, whatever y in C (3): against the energies
+ * themselves, at a made-up y. */
 static void gaps_are_the_energy(void **state) {
     (void)state;
     Bench b;
@@ -311,26 +328,32 @@ static void gaps_are_the_energy(void **state) {
     double energy = -cps_evolution_report(b.run.evolution).certificate.primal;
     for (int j = 1; j <= ELEMENTS; j++) {
         double *x = &b.position[3 * j];
-        x[0] += 0.02 * sin(1.7 * j), x[1] += 0.02 * cos(0.9 * j), x[2] += 0.01 * (1 + sin(j));
+        x[0] += 0.02 * sin(1.7 * j);
+        x[1] += 0.02 * cos(0.9 * j);
+        x[2] += 0.01 * (1 + sin(j));
     }
     for (int i = 0; i < ELEMENTS; i++) {
         const double *x = &b.position[3 * i];
-        double stretch = sqrt(pow(x[3] - x[0], 2) + pow(x[4] - x[1], 2) + pow(x[5] - x[2], 2)) * ELEMENTS;
+        double stretch =
+            sqrt(pow(x[3] - x[0], 2) + pow(x[4] - x[1], 2) + pow(x[5] - x[2], 2)) * ELEMENTS;
         energy += pow(fmax(0, stretch - 1), 2) / 2 / ELEMENTS;
     }
     for (int j = 0; j <= ELEMENTS; j++) {
-        const double *x = &b.position[3 * j], *r = &b.view.reference[3 * j], *f = &b.view.load[3 * j];
-        energy += b.view.friction_bound[j] * hypot(x[0] - r[0], x[1] - r[1]) - f[0] * x[0] - f[1] * x[1] - f[2] * x[2];
+        const double *x = &b.position[3 * j], *r = &b.view.reference[3 * j],
+                     *f = &b.view.load[3 * j];
+        energy += b.view.friction_bound[j] * hypot(x[0] - r[0], x[1] - r[1]) - f[0] * x[0] -
+                  f[1] * x[1] - f[2] * x[2];
     }
     CpsJudgementReport report = judge(&b);
     assert_int_not_equal(report.judgement, CPS_JUDGED_SOLUTION);
     // the step's own gap, at most 1e-8 of its scale
-    CHECK_NEAR(show("gaps and energy", "J** + j above the minimum [J]", energy, report.energy), 0, 1e-8);
+    CHECK_NEAR(show("gaps and energy", "J** + j above the minimum [J]", energy, report.energy), 0,
+               1e-8);
     case_close(&b.run);
 }
 
-/* The three shapes: to and fro stays on the chord, by less than an element; straight pieces are straight, half the
- * length each; and a meander goes to both sides. */
+/* The three shapes: to and fro stays on the chord, by less than an element; straight pieces are
+ * straight, half the length each; and a meander goes to both sides. */
 static void shapes_of_completion(void **state) {
     (void)state;
     Bench b;
@@ -350,11 +373,13 @@ static void shapes_of_completion(void **state) {
     CHECK_NEAR(b.position[3 * 25], 0.15, 1e-12);
     // one element up by 0.8 h, one down, all the way
     complete(&b, CPS_COMPLETION_MEANDER);
-    for (int j = 0; j <= ELEMENTS; j++) CHECK_NEAR(fabs(b.position[3 * j + 1]), j % 2 ? 0.8 * h : 0, 1e-12);
+    for (int j = 0; j <= ELEMENTS; j++)
+        CHECK_NEAR(fabs(b.position[3 * j + 1]), j % 2 ? 0.8 * h : 0, 1e-12);
     case_close(&b.run);
 }
 
-/* Pulled taut on a smooth bed, then let go: nothing holds the end. "Straight" lays the line on from A at its length. */
+/* Pulled taut on a smooth bed, then let go: nothing holds the end. "Straight" lays the line on from
+ * A at its length. */
 static void loose_end(void **state) {
     (void)state;
     Bench b;
@@ -375,9 +400,10 @@ static void loose_end(void **state) {
     case_close(&b.run);
 }
 
-/* Remark 7.10.1, K infinite: P4.2 has |x'| <= 1 and the tension is its multiplier. The configuration, here straight at
- * rest, may be unique and the tension field not (against result 4.4 (i) carried over): pulled by 0.4 N on a bed that
- * can hold 1 N/m, friction may take it near the tip or evenly all along. Both fields balance, and both prove x. */
+/* Remark 7.10.1, K infinite: P4.2 has |x'| <= 1 and the tension is its multiplier. The
+ * configuration, here straight at rest, may be unique and the tension field not (against result 4.4
+ * (i) carried over): pulled by 0.4 N on a bed that can hold 1 N/m, friction may take it near the
+ * tip or evenly all along. Both fields balance, and both prove x. */
 static void inextensible_tensions(void **state) {
     (void)state;
     Bench b;
@@ -400,7 +426,9 @@ static void inextensible_tensions(void **state) {
         CpsJudgementReport report = judge(&b);
         assert_int_equal(report.judgement, CPS_JUDGED_SOLUTION);
         // at 0.5 m: 0, or 0.4 N less 0.4 of the half of the line beyond
-        CHECK_NEAR(show("K infinite, two fields", "tension at 0.5 m [N]", field ? 0.2 : 0, force[3 * 50]), 0, 0.005);
+        CHECK_NEAR(show("K infinite, two fields", "tension at 0.5 m [N]", field ? 0.2 : 0,
+                        force[3 * 50]),
+                   0, 0.005);
         CHECK_LESS(show("K infinite, two fields", "gap of x [J]", 0, report.energy), 1e-9);
     }
     case_close(&b.run);
@@ -418,8 +446,9 @@ static CpsOutcome outcome_of(const Case *c, double *proof) {
     return line.outcome;
 }
 
-/* Remark 7.5.3: what is coercive has a minimum, and the rest is told apart. Elastic and held at A: always. No end held
- * and pulled by more than friction bears: unbounded. Inextensible and held too far apart: nothing to minimise over. */
+/* Remark 7.5.3: what is coercive has a minimum, and the rest is told apart. Elastic and held at A:
+ * always. No end held and pulled by more than friction bears: unbounded. Inextensible and held too
+ * far apart: nothing to minimise over. */
 static void existence(void **state) {
     (void)state;
     double proof;
@@ -451,9 +480,11 @@ static void refused(void **state) {
     assert_int_equal(cps_solution_judge(&b.view, b.position, 0, &report, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_solution_judge(&b.view, NULL, 1e-8, &report, &err), CPS_ERR_ARGUMENT);
     b.position[7] = NAN;
-    assert_int_equal(cps_solution_judge(&b.view, b.position, 1e-8, &report, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_solution_judge(&b.view, b.position, 1e-8, &report, &err),
+                     CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "node 2"));
-    assert_int_equal(cps_solution_complete(&b.view, (CpsCompletion)7, b.position, NULL, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_solution_complete(&b.view, (CpsCompletion)7, b.position, NULL, &err),
+                     CPS_ERR_ARGUMENT);
     case_close(&b.run);
 }
 

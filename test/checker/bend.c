@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bends (bend.h). Two forces of a line and the action of a contact make a triangle. On the verge of slipping the action
- * is the angle of friction phi = atan(mu) away from the normal, and a line that turns by d evenly to both sides of it
- * meets it under 90 degrees less d/2 - phi on one side and less d/2 + phi on the other, so that by the law of sines the
- * forces are as cos(d/2 - phi) to cos(d/2 + phi). From 90 degrees on they may have any ratio. */
+/* Bends (bend.h). Two forces of a line and the action of a contact make a triangle. On the verge of
+ * slipping the action is the angle of friction phi = atan(mu) away from the normal, and a line that
+ * turns by d evenly to both sides of it meets it under 90 degrees less d/2 - phi on one side and
+ * less d/2 + phi on the other, so that by the law of sines the forces are as cos(d/2 - phi) to
+ * cos(d/2 + phi). From 90 degrees on they may have any ratio. */
 #include "bend.h"
 
 #include <math.h>
@@ -27,16 +28,18 @@ static Real above(const Real *e, const Real *n) {
     return atan2l(rise, sqrtl(dot(flat, flat)));
 }
 
-/* The larger coefficient for a slip along the line, this way or that: what friction does against a slip of 1 under a
- * reaction of 1. */
-static Real friction_along(const Surface *surface, const Real *n, const Real *line, const Real *chord, Real factor) {
+/* The larger coefficient for a slip along the line, this way or that: what friction does against a
+ * slip of 1 under a reaction of 1. */
+static Real friction_along(const Surface *surface, const Real *n, const Real *line,
+                           const Real *chord, Real factor) {
     Real axes[2][3], way[2], most = 0, phi;
     static const Real none[2] = {0, 0};
     if (!surface_axes(surface, n, chord, axes)) return 0;
     for (int a = 0; a < 2; a++) way[a] = dot(line, axes[a]);
     Real size = hypotl(way[0], way[1]);
     for (int sign = -1; sign <= 1; sign += 2) {
-        const Real slip[2] = {size > 0 ? sign * way[0] / size : sign, size > 0 ? sign * way[1] / size : 0};
+        const Real slip[2] = {size > 0 ? sign * way[0] / size : sign,
+                              size > 0 ? sign * way[1] / size : 0};
         surface_gap(surface, factor * surface_friction(surface), none, slip, &phi);
         most = fmaxl(most, phi);
     }
@@ -48,9 +51,10 @@ static Real ratio_of(Real turn, Real friction) {
     return low > 0 ? cosl(turn / 2 - phi) / low : INFINITY;
 }
 
-/* turn and coefficient at contact c of node j; no turn where nothing rubs, or the obstacle is flat */
-static void bend_at(const Source *source, const Record *r, bool reached, size_t j, size_t c, Real least, Real *turn,
-                    Real *friction) {
+/* turn and coefficient at contact c of node j; no turn where nothing rubs, or the obstacle is
+ * flat */
+static void bend_at(const Source *source, const Record *r, bool reached, size_t j, size_t c,
+                    Real least, Real *turn, Real *friction) {
     *turn = *friction = 0;
     if (j == 0 || j == r->elements || !(r->reaction[c] > 0) || !(r->friction_bound[c] > 0)) return;
     const Surface *surface = &source->surface[source->surfaces > 1 ? (size_t)r->obstacle[c] : 0];
@@ -67,12 +71,15 @@ static void bend_at(const Source *source, const Record *r, bool reached, size_t 
     }
     surface_normal(surface, here, plane);
     *turn = fmaxl(0, above(before, n) - above(after, n));
-    if (*turn > 0) *friction = friction_along(surface, plane, line, chord, r->factor ? r->factor[j] : 1);
+    if (*turn > 0)
+        *friction = friction_along(surface, plane, line, chord, r->factor ? r->factor[j] : 1);
 }
 
-/* The same of the contact of element i. Its action is shared by the element's nodes, where the line turns: with the force of the element and
- * the two parts of the action the triangle is the one of a node. */
-static void bend_on(const Source *source, const Record *r, bool reached, size_t i, Real least, Real *turn, Real *friction) {
+/* The same of the contact of element i. Its action is shared by the element's nodes, where the line
+ * turns: with the force of the element and the two parts of the action the triangle is the one of a
+ * node. */
+static void bend_on(const Source *source, const Record *r, bool reached, size_t i, Real least,
+                    Real *turn, Real *friction) {
     const size_t c = r->contacts * r->nodes + i;
     *turn = *friction = 0;
     if (!(r->obstacle[c] >= 0) || !(r->reaction[c] > 0) || !(r->friction_bound[c] > 0)) return;
@@ -91,19 +98,23 @@ static void bend_on(const Source *source, const Record *r, bool reached, size_t 
     for (int k = 0; k < 3; k++) line[k] = before[k] + after[k];
     measure_element_plane(r, surface, i, !reached, t, place, plane, chord);
     *turn = fmaxl(0, above(before, n) - above(after, n));
-    const double factor = r->factor ? (1 - (double)t) * r->factor[i] + (double)t * r->factor[i + 1] : 1;
+    const double factor =
+        r->factor ? (1 - (double)t) * r->factor[i] + (double)t * r->factor[i + 1] : 1;
     if (*turn > 0) *friction = friction_along(surface, plane, line, chord, factor);
 }
 
 /* Is this bend, at `arc` of the line, the worst so far? */
-static void take_bend(const Record *r, Real turn, Real friction, Real arc, Real length, Real *worst, Bend *bend) {
+static void take_bend(const Record *r, Real turn, Real friction, Real arc, Real length, Real *worst,
+                      Bend *bend) {
     if (fabsl(arc - r->bend_at) <= 1e-12L * length) bend->there = fmax(bend->there, (double)turn);
     Real ratio = ratio_of(turn, friction), off = logl(ratio) - friction * turn;
     // what locks counts before what is only far off
     if (isfinite(off) && ratio >= 19) off += 1e6L;
     if (!(off > *worst)) return;
     *worst = off;
-    bend->turn = (double)turn, bend->friction = (double)friction, bend->ratio = (double)ratio;
+    bend->turn = (double)turn;
+    bend->friction = (double)friction;
+    bend->ratio = (double)ratio;
 }
 
 Bend bend_of_record(const Source *source, const Record *r, bool reached, double largest_force) {
@@ -119,7 +130,8 @@ Bend bend_of_record(const Source *source, const Record *r, bool reached, double 
         if (!r->has_elements || j >= r->elements) continue;
         Real turn, friction;
         bend_on(source, r, reached, j, 1e-9L * largest_force, &turn, &friction);
-        take_bend(r, turn, friction, arc + (Real)r->share_of[j] * r->element_length[j], length, &worst, &bend);
+        take_bend(r, turn, friction, arc + (Real)r->share_of[j] * r->element_length[j], length,
+                  &worst, &bend);
     }
     return bend;
 }

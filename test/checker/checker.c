@@ -7,17 +7,18 @@
 #include <string.h>
 
 #include "ends.h"
-#include "ranges.h"
-#include "reach.h"
 #include "measure.h"
 #include "motion.h"
+#include "ranges.h"
+#include "reach.h"
 
-/* A balance is accepted when no node is off by more than this part of the largest force: rounding leaves 1e-16 per
- * operation, and a drag over thousands of nodes must not hide in it. The same for friction above its bound, friction
- * off the tangent plane and forces where nothing can carry them. */
+/* A balance is accepted when no node is off by more than this part of the largest force: rounding
+ * leaves 1e-16 per operation, and a drag over thousands of nodes must not hide in it. The same for
+ * friction above its bound, friction off the tangent plane and forces where nothing can carry
+ * them. */
 static const double FORCE_TOLERANCE = 1e-9;
-/* Positions (held ends, depth below the obstacle) per length of the line, and strains: what rounding of the
- * coordinates leaves is taken off first. */
+/* Positions (held ends, depth below the obstacle) per length of the line, and strains: what
+ * rounding of the coordinates leaves is taken off first. */
 static const double PLACE_TOLERANCE = 1e-9;
 /* An imposed position is copied, not computed. */
 static const double COPY_TOLERANCE = 1e-12;
@@ -25,18 +26,21 @@ static const double COPY_TOLERANCE = 1e-12;
 static const double CLAIM_TOLERANCE = 1e-6;
 /* below these parts of the scale or of the largest force they are rounding and no figure at all. */
 static const double ENERGY_FLOOR = 1e-12, FORCE_FLOOR = 1e-12;
-/* Below this, in newtons or joules, there is no load at all (a line without weight that nobody pulls). */
+/* Below this, in newtons or joules, there is no load at all (a line without weight that nobody
+ * pulls). */
 static const double NOTHING = 1e-200;
-/* Angles of forces and coefficients, recomputed; and a ratio of tensions that is neither here nor there. */
+/* Angles of forces and coefficients, recomputed; and a ratio of tensions that is neither here nor
+ * there. */
 static const double BEND_TOLERANCE = 1e-9;
-/* From mu tan(d/2) = 0.9 on a bend locks: (1 + 0.9)/(1 - 0.9) is the ratio of tensions that it holds then. */
+/* From mu tan(d/2) = 0.9 on a bend locks: (1 + 0.9)/(1 - 0.9) is the ratio of tensions that it
+ * holds then. */
 static const double LOCKING_RATIO = 19;
 /* Taut: the distance of the ends equals the length within this part of it. */
 static const double TAUT_TOLERANCE = 1e-12;
 
-/* Ways are the shorter ones round. They are those that were gone where an obstacle turns by a quarter of a turn at most
- * in a part of a step, and a node goes round it by no more: this much is rounding of a quarter that is asked for, and of
- * a node that is carried along by it. */
+/* Ways are the shorter ones round. They are those that were gone where an obstacle turns by a
+ * quarter of a turn at most in a part of a step, and a node goes round it by no more: this much is
+ * rounding of a quarter that is asked for, and of a node that is carried along by it. */
 static const double TURN_ROUNDING = 1e-9, GONE_ROUNDING = 2e-6;
 
 typedef struct Judge {
@@ -70,7 +74,8 @@ static void same(Judge *judge, const char *what, double claimed, double found, d
 
 /* Does the file call the step certified, or without a solution? */
 static bool claims_something(const Record *r) {
-    return r->outcome != OUTCOME_STALLED && r->outcome != OUTCOME_LIMIT && r->outcome != OUTCOME_COARSE;
+    return r->outcome != OUTCOME_STALLED && r->outcome != OUTCOME_LIMIT &&
+           r->outcome != OUTCOME_COARSE;
 }
 
 /* A step without friction has no bounds to be compared with the reactions. */
@@ -80,8 +85,8 @@ static double claimed_residual(const Record *r, const Measures *m) {
     return r->claim[CLAIM_FRICTION_RESIDUAL] == 0 ? 0 : m->bound_residual;
 }
 
-/* [J] A line on which no force acts at all has no scale, and what rounding makes of its strain, a part of 1e-12 and of its coordinates,
- * would be energy. */
+/* [J] A line on which no force acts at all has no scale, and what rounding makes of its strain, a
+ * part of 1e-12 and of its coordinates, would be energy. */
 static double strain_energy_of_rounding(const Record *r, const Measures *m) {
     if (m->largest_force > 0 || !(r->compliance > 0)) return 0;
     double shortest = r->element_length[0];
@@ -90,29 +95,36 @@ static double strain_energy_of_rounding(const Record *r, const Measures *m) {
     return m->length * strain * strain / (2 * r->compliance);
 }
 
-/* A step in one part that makes energy, more than 5 % of what it dissipates and of the positive work in it and more than
- * places known to 1e-9 leave of it, says how much; one that does not says 0. */
+/* A step in one part that makes energy, more than 5 % of what it dissipates and of the positive
+ * work in it and more than places known to 1e-9 leave of it, says how much; one that does not says
+ * 0. */
 static void judge_unaccounted(Judge *judge, const Record *r, const Measures *m) {
     static const double MUCH = 0.05;
     const double *entry = r->ledger, made = -entry[LEDGER_IMBALANCE];
     double beside = r->dissipated + fmax(0, entry[LEDGER_ENDS]) + fmax(0, entry[LEDGER_OBSTACLES]) +
                     fmax(0, -entry[LEDGER_ELASTIC]) + fmax(0, -entry[LEDGER_GRAVITY]);
-    double least = fmax(MUCH * beside, m->gap + PLACE_TOLERANCE * m->largest_force * m->length + strain_energy_of_rounding(r, m));
+    double least = fmax(MUCH * beside, m->gap + PLACE_TOLERANCE * m->largest_force * m->length +
+                                           strain_energy_of_rounding(r, m));
     if (r->unaccounted != 0) same(judge, "unaccounted", r->unaccounted, made, 0);
     if (made > (1 + CLAIM_TOLERANCE) * least && r->unaccounted == 0)
-        find(judge, "energy of %.6g J is made beside %.6g J, and not said to be unaccounted", made, beside);
+        find(judge, "energy of %.6g J is made beside %.6g J, and not said to be unaccounted", made,
+             beside);
     if (made < (1 - CLAIM_TOLERANCE) * least && r->unaccounted != 0)
-        find(judge, "energy of %.6g J is said to be unaccounted beside %.6g J", r->unaccounted, beside);
+        find(judge, "energy of %.6g J is said to be unaccounted beside %.6g J", r->unaccounted,
+             beside);
 }
 
-/* The ledger closes, whatever it says; of a step taken in one part its entries are those of the arrays, but for the
- * work of the ends, which needs the forces before. */
-static void judge_ledger(Judge *judge, const Record *r, const Measures *m, double ends_carried, double floor) {
+/* The ledger closes, whatever it says; of a step taken in one part its entries are those of the
+ * arrays, but for the work of the ends, which needs the forces before. */
+static void judge_ledger(Judge *judge, const Record *r, const Measures *m, double ends_carried,
+                         double floor) {
     const double *entry = r->ledger;
-    double spent = entry[LEDGER_ELASTIC] + entry[LEDGER_GRAVITY] + r->dissipated + entry[LEDGER_IMBALANCE],
+    double spent = entry[LEDGER_ELASTIC] + entry[LEDGER_GRAVITY] + r->dissipated +
+                   entry[LEDGER_IMBALANCE],
            sizes = r->dissipated;
     for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(entry[k]);
-    at_most(judge, "ledger: ends + obstacles - all else", fabs(entry[LEDGER_ENDS] + entry[LEDGER_OBSTACLES] - spent),
+    at_most(judge, "ledger: ends + obstacles - all else",
+            fabs(entry[LEDGER_ENDS] + entry[LEDGER_OBSTACLES] - spent),
             COPY_TOLERANCE * sizes + NOTHING);
     if (r->parts > 1) return;
     judge_unaccounted(judge, r, m);
@@ -121,10 +133,10 @@ static void judge_ledger(Judge *judge, const Record *r, const Measures *m, doubl
     same(judge, "ledger_obstacles", entry[LEDGER_OBSTACLES], m->carried + ends_carried, floor);
 }
 
-/* Forces, tensions and friction of the half elements at the ends; the sums of their dissipation and of their work on the
- * way of obstacles that turn. */
-static void judge_ends(Judge *judge, const Source *source, const Record *r, const Measures *m, double *slid,
-                       double *carried) {
+/* Forces, tensions and friction of the half elements at the ends; the sums of their dissipation and
+ * of their work on the way of obstacles that turn. */
+static void judge_ends(Judge *judge, const Source *source, const Record *r, const Measures *m,
+                       double *slid, double *carried) {
     const double force = FORCE_TOLERANCE * m->largest_force + NOTHING;
     *slid = *carried = 0;
     for (int e = 0; e < 2; e++) {
@@ -132,14 +144,16 @@ static void judge_ends(Judge *judge, const Source *source, const Record *r, cons
         const double *said = r->end_force[e];
         double off = 0, rubs = 0;
         for (int k = 0; k < 3; k++) off = fmax(off, fabs(said[k] - (double)end.force[k]));
-        for (int k = 0; k < 3; k++) rubs = fmax(rubs, fabs(r->end_friction[e][k] - (double)end.friction[k]));
+        for (int k = 0; k < 3; k++)
+            rubs = fmax(rubs, fabs(r->end_friction[e][k] - (double)end.friction[k]));
         at_most(judge, "end_force against the half element's balance", off, force);
         at_most(judge, "end_friction against the neighbour's per length", rubs, force);
         at_most(judge, "end_tension against the size of end_force",
                 fabs(r->end_tension[e] - hypot(hypot(said[0], said[1]), said[2])), force / 1000);
         at_most(judge, "reaction on a held end against what presses there",
                 fabs(r->reaction[e ? r->elements : 0] - (double)end.reaction), force);
-        *slid += (double)end.slid, *carried += (double)end.carried;
+        *slid += (double)end.slid;
+        *carried += (double)end.carried;
     }
 }
 
@@ -157,10 +171,12 @@ static bool is_laid(const Record *r) {
     return blank && without_friction(r);
 }
 
-/* the figures of the certificate; `ends`: what friction dissipates on the half elements at held ends */
+/* the figures of the certificate; `ends`: what friction dissipates on the half elements at held
+ * ends */
 static void judge_claims(Judge *judge, const Record *r, const Measures *m, double ends) {
     const double *claim = r->claim;
-    double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent + strain_energy_of_rounding(r, m);
+    double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent +
+                    strain_energy_of_rounding(r, m);
     double force = FORCE_FLOOR * m->largest_force;
     bool certified = claims_something(r) || r->outcome == OUTCOME_COARSE;
     same(judge, "primal", claim[CLAIM_PRIMAL], m->primal, energy);
@@ -171,16 +187,19 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     same(judge, "tension_estimate", claim[CLAIM_TENSION_ESTIMATE], m->tension_estimate, force);
     // what friction dissipates is -F.u_T; w |u_T| differs from it by the law residual
     if (r->parts == 1) same(judge, "dissipated", r->dissipated, m->slid + ends, energy + m->law);
-    same(judge, "friction_residual", claim[CLAIM_FRICTION_RESIDUAL], claimed_residual(r, m), force * (double)r->nodes);
-    same(judge, "penetration", claim[CLAIM_PENETRATION], m->depth, COPY_TOLERANCE * (m->length + m->reach));
+    same(judge, "friction_residual", claim[CLAIM_FRICTION_RESIDUAL], claimed_residual(r, m),
+         force * (double)r->nodes);
+    same(judge, "penetration", claim[CLAIM_PENETRATION], m->depth,
+         COPY_TOLERANCE * (m->length + m->reach));
     same(judge, "element_penetration", claim[CLAIM_ELEMENT_PENETRATION], m->pierced,
          COPY_TOLERANCE * (m->length + m->reach));
-    // what lies outside its set, a force or a place, makes a gap larger here and not everywhere: where that is no more
-    // than rounding there must be agreement
+    // what lies outside its set, a force or a place, makes a gap larger here and not everywhere:
+    // where that is no more than rounding there must be agreement
     if (!certified) return;
     same(judge, "gap", claim[CLAIM_GAP], m->gap, energy + m->overlong + m->beyond);
     same(judge, "element_push", claim[CLAIM_ELEMENT_PUSH], m->push, force);
-    // last bits of the coordinates over the shortest element; an element without any force may be longer by 1e-12, which is none
+    // last bits of the coordinates over the shortest element; an element without any force may be
+    // longer by 1e-12, which is none
     same(judge, "elongation_residual", claim[CLAIM_ELONGATION_RESIDUAL], m->elongation,
          1e-15 * m->extent * (double)r->nodes / m->length + (m->largest_force > 0 ? 1e-14 : 1e-12));
     same(judge, "law_residual", claim[CLAIM_LAW_RESIDUAL], m->law, energy + m->beyond);
@@ -189,7 +208,8 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     double noise = sqrt(2 * (energy + m->beyond + NOTHING) / (r->compliance * m->length));
     if (r->compliance > 0 && isnan(claim[CLAIM_TENSION_BOUND])) {
         // no bound is claimed where it would exceed every force
-        at_most(judge, "largest force, without a bound", m->largest_force, m->tension_bound + noise);
+        at_most(judge, "largest force, without a bound", m->largest_force,
+                m->tension_bound + noise);
     } else if (r->compliance > 0) {
         same(judge, "tension_bound", claim[CLAIM_TENSION_BOUND], m->tension_bound, noise);
     } else {
@@ -199,15 +219,21 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
 }
 
 /* a solved step: admissible configuration, admissible forces, balance, gap */
-static void judge_solved(Judge *judge, const Source *source, const Record *r, const Measures *m, bool laid) {
-    /* on curved ground elongations are those of the last round and as good as the certified gap says: no element's
-     * share (d - c |p|)^2 l/(2 c) exceeds it */
+static void judge_solved(Judge *judge, const Source *source, const Record *r, const Measures *m,
+                         bool laid) {
+    /* on curved ground elongations are those of the last round and as good as the certified gap
+     * says: no element's share (d - c |p|)^2 l/(2 c) exceeds it */
     double tolerance = source->tolerance, element = m->length / (double)r->elements;
-    double strain = PLACE_TOLERANCE + (source->follows ? sqrt(2 * r->compliance * m->gap / element) : 0);
-    double force = FORCE_TOLERANCE * m->largest_force + NOTHING, place = PLACE_TOLERANCE * m->length;
-    at_most(judge, "sum of local gaps", m->gap, tolerance * m->scale + strain_energy_of_rounding(r, m) + NOTHING);
-    at_most(judge, "primal - dual against the local gaps", fabs(m->identity), m->identity_noise + NOTHING);
-    // an element that pushes with P costs 2 P l of the gap, one too long by x only l x^2/(2c): the tolerance, and its root
+    double strain =
+        PLACE_TOLERANCE + (source->follows ? sqrt(2 * r->compliance * m->gap / element) : 0);
+    double force = FORCE_TOLERANCE * m->largest_force + NOTHING,
+           place = PLACE_TOLERANCE * m->length;
+    at_most(judge, "sum of local gaps", m->gap,
+            tolerance * m->scale + strain_energy_of_rounding(r, m) + NOTHING);
+    at_most(judge, "primal - dual against the local gaps", fabs(m->identity),
+            m->identity_noise + NOTHING);
+    // an element that pushes with P costs 2 P l of the gap, one too long by x only l x^2/(2c): the
+    // tolerance, and its root
     at_most(judge, "elements that push", m->push, tolerance * m->largest_force + NOTHING);
     at_most(judge, "elongation that no force explains", m->elongation, sqrt(tolerance));
     at_most(judge, "imbalance of forces", m->force, force);
@@ -219,46 +245,57 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     at_most(judge, "depth below the obstacle", m->penetration, place);
     // strict contact keeps out only what the reference touches
     if (!source->strict) at_most(judge, "depth below an obstacle", m->sunk, place);
-    if (!source->strict) at_most(judge, "depth of an element inside an obstacle", m->pierced, place);
+    if (!source->strict)
+        at_most(judge, "depth of an element inside an obstacle", m->pierced, place);
     at_most(judge, "contacts that are not with the nearest obstacles", m->misplaced, 0);
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
     at_most(judge, "place of an element's contact against the nearest", m->share_error,
             COPY_TOLERANCE * (m->length + m->reach));
-    at_most(judge, "slide against the way from the reference", m->slide_error, COPY_TOLERANCE * (m->length + m->reach));
+    at_most(judge, "slide against the way from the reference", m->slide_error,
+            COPY_TOLERANCE * (m->length + m->reach));
     at_most(judge, "quarters of a turn of an obstacle in one part", m->quarters, 1 + TURN_ROUNDING);
-    at_most(judge, "quarters of a turn of an obstacle by the number of parts", m->quarters / (r->share * r->parts),
-            1 + TURN_ROUNDING);
-    at_most(judge, "quarters of a turn that a node with friction went", m->gone_quarters, 1 + GONE_ROUNDING);
-    at_most(judge, "contact_gap against the distance", m->gap_error, COPY_TOLERANCE * (m->length + m->reach));
+    at_most(judge, "quarters of a turn of an obstacle by the number of parts",
+            m->quarters / (r->share * r->parts), 1 + TURN_ROUNDING);
+    at_most(judge, "quarters of a turn that a node with friction went", m->gone_quarters,
+            1 + GONE_ROUNDING);
+    at_most(judge, "contact_gap against the distance", m->gap_error,
+            COPY_TOLERANCE * (m->length + m->reach));
     // statics keeps a line out of everything, with strict contact as well
     if (!(laid && source->strict)) at_most(judge, "contacts not looked for", m->unwatched, 0);
     at_most(judge, "elongation beyond the tension", m->strain_error, strain);
-    at_most(judge, "distance of a held end", m->held_error, COPY_TOLERANCE * (m->length + m->extent));
+    at_most(judge, "distance of a held end", m->held_error,
+            COPY_TOLERANCE * (m->length + m->extent));
     for (int e = 0; e < 2; e++) {
         char text[160];
-        if (range_is_wrong(source, r, e, m->largest_force, text, sizeof text)) find(judge, "%s", text);
+        if (range_is_wrong(source, r, e, m->largest_force, text, sizeof text))
+            find(judge, "%s", text);
     }
     double slid, carried;
     judge_ends(judge, source, r, m, &slid, &carried);
     judge_claims(judge, r, m, slid);
     if (!laid)
         judge_ledger(judge, r, m, carried,
-                     ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->reach + strain_energy_of_rounding(r, m));
+                     ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->reach +
+                         strain_energy_of_rounding(r, m));
 }
 
 static void judge_taut(Judge *judge, const Record *r, const Measures *m) {
-    if (r->compliance != 0) find(judge, "taut, but the line is elastic (compliance %.3g)", r->compliance);
+    if (r->compliance != 0)
+        find(judge, "taut, but the line is elastic (compliance %.3g)", r->compliance);
     at_most(judge, "distance of the ends - length", fabs(m->ends_distance - m->length),
             TAUT_TOLERANCE * m->length + 1e-15 * m->extent);
     at_most(judge, "stretch", m->strain_error, PLACE_TOLERANCE);
-    at_most(judge, "distance of a held end", m->held_error, COPY_TOLERANCE * (m->length + m->extent));
+    at_most(judge, "distance of a held end", m->held_error,
+            COPY_TOLERANCE * (m->length + m->extent));
     at_most(judge, "depth below the obstacle", m->penetration, PLACE_TOLERANCE * m->length);
 }
 
 /* the ends are near enough to each other, but an obstacle is between them */
-static void judge_reach(Judge *judge, const Source *source, const Record *r, const Measures *m, bool statics) {
+static void judge_reach(Judge *judge, const Source *source, const Record *r, const Measures *m,
+                        bool statics) {
     double missing, off;
-    if (r->compliance != 0) find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
+    if (r->compliance != 0)
+        find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
     const char *what = reach_contradiction(source, r, statics, &missing, &off);
     if (what) {
         find(judge, "infeasible, but %s", what);
@@ -268,28 +305,35 @@ static void judge_reach(Judge *judge, const Source *source, const Record *r, con
     double size = m->length + m->extent + (double)source->surface[r->proof_obstacle].radius;
     same(judge, "proof_value", r->proof_value, missing, COPY_TOLERANCE * size);
     at_most(judge, "proof vector off the shortest way", off, CLAIM_TOLERANCE);
-    at_most(judge, "length of the proof vector - 1", fabs(hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1), COPY_TOLERANCE);
+    at_most(judge, "length of the proof vector - 1",
+            fabs(hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1), COPY_TOLERANCE);
 }
 
-/* a constant force along the unit vector from A to B has the dual value t (distance - length), unbounded in t */
+/* a constant force along the unit vector from A to B has the dual value t (distance - length),
+ * unbounded in t */
 static void judge_infeasible(Judge *judge, const Record *r, const Measures *m) {
-    if (r->compliance != 0) find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
+    if (r->compliance != 0)
+        find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
     if (!(m->ends_distance > m->length)) {
-        find(judge, "infeasible, but the ends are %.17g apart and the length is %.17g", m->ends_distance, m->length);
+        find(judge, "infeasible, but the ends are %.17g apart and the length is %.17g",
+             m->ends_distance, m->length);
     }
     double excess = m->ends_distance - m->length, along = 0;
     for (int k = 0; k < 3; k++) along += r->proof[k] * (r->end_value[1][k] - r->end_value[0][k]);
     same(judge, "proof_value", r->proof_value, excess, COPY_TOLERANCE * (m->length + m->extent));
-    at_most(judge, "proof vector off the line of the ends", m->ends_distance - along, PLACE_TOLERANCE * m->length);
-    at_most(judge, "proof vector longer than 1", hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1,
-            COPY_TOLERANCE);
+    at_most(judge, "proof vector off the line of the ends", m->ends_distance - along,
+            PLACE_TOLERANCE * m->length);
+    at_most(judge, "proof vector longer than 1",
+            hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1, COPY_TOLERANCE);
 }
 
 static void judge_unbounded(Judge *judge, const Record *r, const Measures *m) {
-    if (r->end_kind[0] != END_FREE || r->end_kind[1] != END_FREE) find(judge, "unbounded, but an end is held");
+    if (r->end_kind[0] != END_FREE || r->end_kind[1] != END_FREE)
+        find(judge, "unbounded, but an end is held");
     double size = hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]);
     at_most(judge, "length of the rigid motion - 1", fabs(size - 1), PLACE_TOLERANCE);
-    if (!(m->rigid_fall > 0)) find(judge, "unbounded, but the energy falls by %.3g N along the proof", m->rigid_fall);
+    if (!(m->rigid_fall > 0))
+        find(judge, "unbounded, but the energy falls by %.3g N along the proof", m->rigid_fall);
     if (m->meets) find(judge, "unbounded, but the line meets an obstacle on its way");
     at_most(judge, "rigid motion into the obstacle", -m->rigid_rise_least, COPY_TOLERANCE);
     same(judge, "proof_value", r->proof_value, m->rigid_fall, FORCE_FLOOR * m->largest_force);
@@ -298,37 +342,46 @@ static void judge_unbounded(Judge *judge, const Record *r, const Measures *m) {
 static void judge_slides(Judge *judge, const Source *source, const Record *r) {
     double power;
     const char *what = motion_contradiction(source, r, &power);
-    if (what) find(judge, "slides without end, but %s", what);
-    else same(judge, "proof_value", r->proof_value, power, 0);
+    if (what)
+        find(judge, "slides without end, but %s", what);
+    else
+        same(judge, "proof_value", r->proof_value, power, 0);
 }
 
-/* Contact is seen from where the nodes end up, but from the reference on one plane, where it is the same, and where friction is frozen and contact
- * strict; frozen friction itself always from the reference, but in a line laid by statics. */
+/* Contact is seen from where the nodes end up, but from the reference on one plane, where it is the
+ * same, and where friction is frozen and contact strict; frozen friction itself always from the
+ * reference, but in a line laid by statics. */
 static Measures measure_where(const Source *source, const Record *r, size_t step) {
     const Sight frozen = source->strict ? SIGHT_REFERENCE : SIGHT_FROZEN;
-    Measures m = measure(source, r, !source->follows ? SIGHT_REFERENCE : source->consistent ? SIGHT_REACHED : frozen);
+    Measures m = measure(source, r,
+                         !source->follows     ? SIGHT_REFERENCE
+                         : source->consistent ? SIGHT_REACHED
+                                              : frozen);
     if (source->consistent || !source->follows || !source->laid || step > 0) return m;
     Measures laid = measure(source, r, SIGHT_REACHED);
     return laid.normal_error <= m.normal_error && laid.slide_error <= m.slide_error ? laid : m;
 }
 
-/* The sharpest bend, and whether the mesh is too coarse for it. Of a step in several parts the sharpest may have been in
- * an earlier one. */
+/* The sharpest bend, and whether the mesh is too coarse for it. Of a step in several parts the
+ * sharpest may have been in an earlier one. */
 static void judge_bend(Judge *judge, const Record *r, const Measures *m) {
     const Bend *bend = &m->bend;
     bool coarse = r->outcome == OUTCOME_COARSE, whole = r->parts == 1;
     if (!coarse && bend->ratio > LOCKING_RATIO * (1 + BEND_TOLERANCE))
-        find(judge, "certified, but friction at one contact holds tensions in the ratio %.6g", bend->ratio);
+        find(judge, "certified, but friction at one contact holds tensions in the ratio %.6g",
+             bend->ratio);
     if (!whole) return;
     if (coarse && bend->ratio < LOCKING_RATIO * (1 - BEND_TOLERANCE))
-        find(judge, "mesh too coarse, but friction at one contact holds tensions in the ratio %.6g only", bend->ratio);
+        find(judge,
+             "mesh too coarse, but friction at one contact holds tensions in the ratio %.6g only",
+             bend->ratio);
     same(judge, "bend_turn", r->bend_turn, bend->turn, BEND_TOLERANCE);
     same(judge, "bend_friction", r->bend_friction, bend->friction, BEND_TOLERANCE);
     same(judge, "turn at bend_at", r->bend_turn, bend->there, BEND_TOLERANCE);
 }
 
-static void judge_record(const Source *source, const Record *r, const char *line, size_t step, FILE *log,
-                         CheckerReport *report) {
+static void judge_record(const Source *source, const Record *r, const char *line, size_t step,
+                         FILE *log, CheckerReport *report) {
     Judge judge = {log, line, step, 0};
     Measures m = measure_where(source, r, step);
     report->records++;
@@ -343,21 +396,18 @@ static void judge_record(const Source *source, const Record *r, const char *line
             judge_solved(&judge, source, r, &m, source->laid && step == 0 && is_laid(r));
             judge_bend(&judge, r, &m);
             break;
-        case OUTCOME_TAUT:
-            judge_taut(&judge, r, &m);
-            break;
+        case OUTCOME_TAUT: judge_taut(&judge, r, &m); break;
         case OUTCOME_INFEASIBLE:
-            if (r->proof_obstacle >= 0) judge_reach(&judge, source, r, &m, source->laid && step == 0);
-            else judge_infeasible(&judge, r, &m);
+            if (r->proof_obstacle >= 0)
+                judge_reach(&judge, source, r, &m, source->laid && step == 0);
+            else
+                judge_infeasible(&judge, r, &m);
             break;
-        case OUTCOME_UNBOUNDED:
-            judge_unbounded(&judge, r, &m);
-            break;
-        case OUTCOME_SLIDES:
-            judge_slides(&judge, source, r);
-            break;
+        case OUTCOME_UNBOUNDED: judge_unbounded(&judge, r, &m); break;
+        case OUTCOME_SLIDES: judge_slides(&judge, source, r); break;
         default:
-            judge_claims(&judge, r, &m, (double)(end_measure(source, r, 0).slid + end_measure(source, r, 1).slid));
+            judge_claims(&judge, r, &m,
+                         (double)(end_measure(source, r, 0).slid + end_measure(source, r, 1).slid));
             break;
         }
     }
@@ -386,12 +436,15 @@ static void judge_work(const Record *r, const Record *before, const Source *sour
          ENERGY_FLOOR * m.scale + 1e-13 * m.largest_force * m.reach);
 }
 
-/* The weight before a step in one part is that after the one before, by the load of any node that no end force acts on. */
+/* The weight before a step in one part is that after the one before, by the load of any node that
+ * no end force acts on. */
 static void judge_weight(const Record *r, const Record *before, Judge *judge) {
-    if (!r->has_weight_before || r->parts != 1 || r->nodes < 3 || before->outcome > OUTCOME_TAUT) return;
+    if (!r->has_weight_before || r->parts != 1 || r->nodes < 3 || before->outcome > OUTCOME_TAUT)
+        return;
     const double share = (r->element_length[0] + r->element_length[1]) / 2;
     for (int k = 0; k < 3; k++)
-        if (!(fabs(share * r->weight_before[k] - before->load[1][k]) <= 1e-14 * fabs(before->load[1][k]))) {
+        if (!(fabs(share * r->weight_before[k] - before->load[1][k]) <=
+              1e-14 * fabs(before->load[1][k]))) {
             find(judge, "weight_before is not the weight of the step before");
             return;
         }
@@ -405,37 +458,48 @@ static double reaction_on(const Record *r, size_t j, double obstacle) {
 }
 
 /* The same of an element's contact, which has no other place where its reaction may have been. */
-static void judge_element_bound(const Record *r, const Record *before, size_t c, double largest, double shared, bool all,
-                                Judge *judge) {
-    const double w = r->friction_bound[c], R = before->obstacle[c] == r->obstacle[c] ? before->reaction[c] : 0;
-    const double expected = before->mu[c] * R; // with the zone's factor at the point where that reaction was
+static void judge_element_bound(const Record *r, const Record *before, size_t c, double largest,
+                                double shared, bool all, Judge *judge) {
+    const double w = r->friction_bound[c],
+                 R = before->obstacle[c] == r->obstacle[c] ? before->reaction[c] : 0;
+    const double expected =
+        before->mu[c] * R; // with the zone's factor at the point where that reaction was
     if (r->obstacle[c] < 0 || (w == 0 && !all && R <= 1e-3 * largest + NOTHING)) return;
     // the mean of two factors, and as of a node
     const size_t i = c - r->contacts * r->nodes;
-    double noise = r->factor_noise ? fmax(r->factor_noise[i], r->factor_noise[i + 1]) * R * fmax(1, r->mu[c]) : 0;
-    // rounds leave the point where they found it to 1e-10 of the element, the factor changes along that
-    if (r != before && r->factor) noise += 1e-9 * fabs(r->factor[i + 1] - r->factor[i]) * R * fmax(1, r->mu[c]);
+    double noise = r->factor_noise
+                       ? fmax(r->factor_noise[i], r->factor_noise[i + 1]) * R * fmax(1, r->mu[c])
+                       : 0;
+    // rounds leave the point where they found it to 1e-10 of the element, the factor changes along
+    // that
+    if (r != before && r->factor)
+        noise += 1e-9 * fabs(r->factor[i + 1] - r->factor[i]) * R * fmax(1, r->mu[c]);
     if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared))
         find(judge, "friction bound %.9g on element %zu, expected %.9g times the reaction %.9g", w,
              i, r->mu[c], R);
 }
 
-/* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step before (frozen
- * friction) or of the step itself (consistent friction), which is `before`. Frozen friction takes nodes that carry less
- * than 1e-3 of the largest load or reaction, or 1e-7 of the largest tension, for free, if it likes; a held node has no
- * friction, nor one that no contact is looked for. */
-static void judge_bounds(const Source *source, const Record *r, const Record *before, Judge *judge) {
+/* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step
+ * before (frozen friction) or of the step itself (consistent friction), which is `before`. Frozen
+ * friction takes nodes that carry less than 1e-3 of the largest load or reaction, or 1e-7 of the
+ * largest tension, for free, if it likes; a held node has no friction, nor one that no contact is
+ * looked for. */
+static void judge_bounds(const Source *source, const Record *r, const Record *before,
+                         Judge *judge) {
     const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
     double largest = 0;
     for (size_t c = 0; c < contacts; c++) {
         const double *b = before->load[c % r->nodes];
         largest = fmax(largest, fmax(before->reaction[c], hypot(hypot(b[0], b[1]), b[2])));
     }
-    // where nothing has weight: a node that only just touches has a reaction and a distance of about the root of the loop's 1e-13 each
-    for (size_t i = 0; i < r->elements && !source->consistent; i++) largest = fmax(largest, 1e-4 * before->tension[i]);
+    // where nothing has weight: a node that only just touches has a reaction and a distance of
+    // about the root of the loop's 1e-13 each
+    for (size_t i = 0; i < r->elements && !source->consistent; i++)
+        largest = fmax(largest, 1e-4 * before->tension[i]);
     // which nodes a step that is not certified left free is no claim of it either
     const bool known = claims_something(before) || before->outcome == OUTCOME_COARSE;
-    // what is not certified claims nothing; where nothing is found, the reactions are still those of the step before
+    // what is not certified claims nothing; where nothing is found, the reactions are still those
+    // of the step before
     if (!claims_something(r) && r->outcome != OUTCOME_COARSE) return;
     bool solved = r->outcome <= OUTCOME_TAUT || r->outcome == OUTCOME_COARSE;
     // a line free at both ends balances its forces by a last correction of its reactions
@@ -447,17 +511,21 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
             continue;
         }
         size_t j = c % r->nodes;
-        bool held = (j == 0 && r->end_kind[0] == END_HELD) || (j == r->elements && r->end_kind[1] == END_HELD);
-        bool was_held =
-            (j == 0 && before->end_kind[0] == END_HELD) || (j == r->elements && before->end_kind[1] == END_HELD);
-        double w = r->friction_bound[c], R = reaction_on(before, j, r->obstacle[c]), expected = r->mu[c] * R;
+        bool held = (j == 0 && r->end_kind[0] == END_HELD) ||
+                    (j == r->elements && r->end_kind[1] == END_HELD);
+        bool was_held = (j == 0 && before->end_kind[0] == END_HELD) ||
+                        (j == r->elements && before->end_kind[1] == END_HELD);
+        double w = r->friction_bound[c], R = reaction_on(before, j, r->obstacle[c]),
+               expected = r->mu[c] * R;
         bool free = was_held || !known || R <= 1e-3 * largest + NOTHING;
         if (held || (w == 0 && isinf(r->gap[c]))) continue;
         if (w == 0 && free && !(source->consistent && solved)) continue;
-        // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes with both
+        // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes
+        // with both
         double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[c]) : 0;
         if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared)) {
-            find(judge, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g", w, j, r->mu[c], R);
+            find(judge, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g", w,
+                 j, r->mu[c], R);
             return;
         }
     }
@@ -465,7 +533,8 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
 
 static int check_line(const Source *source, const char *line, FILE *log, CheckerReport *report) {
     Record record = {0}, previous = {0};
-    int bad = record_create(source, line, &record, log) || record_create(source, line, &previous, log);
+    int bad =
+        record_create(source, line, &record, log) || record_create(source, line, &previous, log);
     for (size_t step = 0; step < source->steps && !bad; step++) {
         bad = record_read(source, line, step, &record, log);
         if (bad) break;
@@ -476,7 +545,8 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
             find(&judge, "the reference is not the position of the step before");
         if (step > 0) judge_work(&record, &previous, source, &judge);
         if (step > 0) judge_weight(&record, &previous, &judge);
-        // with frozen friction the reactions before a first step, or before the last part of one, are not known
+        // with frozen friction the reactions before a first step, or before the last part of one,
+        // are not known
         bool statics = step == 0 && source->laid && without_friction(&record);
         if (!statics && (source->consistent || (step > 0 && record.parts == 1)))
             judge_bounds(source, &record, source->consistent ? &record : &previous, &judge);
@@ -497,7 +567,8 @@ int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     int bad = source_open(path, &source, log);
     report->steps = bad ? 0 : (int)source.steps;
     if (!bad && source.steps == 0 && log) fprintf(log, "%s holds no step\n", path);
-    for (size_t i = 0; i < source.lines && !bad; i++) bad = check_line(&source, source.line_name[i], log, report);
+    for (size_t i = 0; i < source.lines && !bad; i++)
+        bad = check_line(&source, source.line_name[i], log, report);
     source_close(&source);
     if (bad) report->refuted++;
     if (bad) return 2;

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The independent checker: reads a result.nc and recomputes every residual of every step of every line.
+/* The independent checker: reads a result.nc and recomputes every residual of every step of every
+ * line.
  *
- * It shares no code and no header with the solver or the writer: own reader, own arithmetic (long double,
- * compensated sums). What it knows is docs/formats.md (the file) and docs/theory.md (the step problem). */
+ * It shares no code and no header with the solver or the writer: own reader, own arithmetic (long
+ * double, compensated sums). What it knows is docs/formats.md (the file) and docs/theory.md (the
+ * step problem). */
 #ifndef CAPSTAN_CHECKER_H
 #define CAPSTAN_CHECKER_H
 
@@ -28,8 +30,8 @@ typedef struct CheckerReport {
  *   worst   NULL accepted
  *   log     one sentence per finding; NULL accepted
  *
- * Returns 0 when nothing is refuted and all is certified, 1 when a record is refuted or not certified,
- * 2 when the file cannot be read as a result file (worst->refuted is 1 then). */
+ * Returns 0 when nothing is refuted and all is certified, 1 when a record is refuted or not
+ * certified, 2 when the file cannot be read as a result file (worst->refuted is 1 then). */
 int checker_file(const char *path, CheckerReport *worst, FILE *log);
 
 #endif

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Small conic programs by the primal barrier method (conic.h): minimise <c, v> over A v + b in K.
  *
- * For a growing weight t the minimum of t <c, v> - sum log z (half-lines) - sum log(z_1^2 - z_2^2 - ..) (cones), with z
- * = A v + b, is found by Newton's method with an exact search along each step. Where the Newton decrement is lambda <
- * 1, <c, v> exceeds the minimum by no more than (nu + lambda sqrt(nu)/(1 - lambda))/t, nu being 1 for a half-line and 2
- * for a cone (Nesterov and Nemirovskii 1994): a bound that needs nothing but a point inside. */
+ * For a growing weight t the minimum of t <c, v> - sum log z (half-lines) - sum log(z_1^2 - z_2^2 -
+ * ..) (cones), with z = A v + b, is found by Newton's method with an exact search along each step.
+ * Where the Newton decrement is lambda < 1, <c, v> exceeds the minimum by no more than (nu + lambda
+ * sqrt(nu)/(1 - lambda))/t, nu being 1 for a half-line and 2 for a cone (Nesterov and Nemirovskii
+ * 1994): a bound that needs nothing but a point inside. */
 #include "conic.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* What a value is found to, of data of order one; 64-bit mantissas leave 1e-19. Where multipliers are large, as those of shallow angles, cones
- * shrink below that rounding before the weight is as large as this asks: then the last weight that was settled counts, if it leaves no more
- * than ENOUGH. */
+/* What a value is found to, of data of order one; 64-bit mantissas leave 1e-19. Where multipliers
+ * are large, as those of shallow angles, cones shrink below that rounding before the weight is as
+ * large as this asks: then the last weight that was settled counts, if it leaves no more than
+ * ENOUGH. */
 static const Real ACCURACY = 1e-14L, ENOUGH = 1e-10L;
 /* Cones that leave less room than LEAST_ROOM, of rows of order one, are widened by WIDER. */
 static const Real LEAST_ROOM = 1e-9L, WIDER = 1e-13L;
@@ -43,7 +45,9 @@ static Real det(size_t size, const Real *z) {
 }
 
 /* <x, Jy> */
-static Real form(size_t size, const Real *x, const Real *y) { return x[0] * y[0] - dot(size - 1, x + 1, y + 1); }
+static Real form(size_t size, const Real *x, const Real *y) {
+    return x[0] * y[0] - dot(size - 1, x + 1, y + 1);
+}
 
 static Real degree(size_t size) { return size == 1 ? 1 : 2; }
 
@@ -60,9 +64,10 @@ static bool slope(const Program *p, Real by, Real *growth) {
     return true;
 }
 
-/* z, and the gradient of t <c, v> and the barrier at v; in the rows of `root` the columns of a matrix M with M'M = the
- * barrier's Hessian: those of A over z for a half-line, of sqrt 2 (2 y y' - det(y) J) A with y = z^(-1/2) for a cone.
- * Its condition is the root of the Hessian's, which near a face is that of t^2. */
+/* z, and the gradient of t <c, v> and the barrier at v; in the rows of `root` the columns of a
+ * matrix M with M'M = the barrier's Hessian: those of A over z for a half-line, of sqrt 2 (2 y y' -
+ * det(y) J) A with y = z^(-1/2) for a cone. Its condition is the root of the Hessian's, which near
+ * a face is that of t^2. */
 static void differentiate(const Program *p, Real t) {
     size_t n = p->n, m = p->m;
     for (size_t i = 0; i < m; i++) p->z[i] = dot(n, &p->a[i * n], p->v) + p->b[i];
@@ -70,8 +75,10 @@ static void differentiate(const Program *p, Real t) {
     for (size_t i = 0; i < m; i += p->cone[i]) {
         size_t size = p->cone[i];
         const Real *a = &p->a[i * n], *z = &p->z[i];
-        Real tail = sqrtl(dot(size - 1, z + 1, z + 1)), d = (z[0] - tail) * (z[0] + tail), *y = p->dz;
-        Real low = 1 / sqrtl(z[0] + tail), high = 1 / sqrtl(z[0] - tail), root = sqrtl(degree(size));
+        Real tail = sqrtl(dot(size - 1, z + 1, z + 1)), d = (z[0] - tail) * (z[0] + tail),
+             *y = p->dz;
+        Real low = 1 / sqrtl(z[0] + tail), high = 1 / sqrtl(z[0] - tail),
+             root = sqrtl(degree(size));
         y[0] = (low + high) / 2;
         for (size_t r = 1; r < size; r++) y[r] = tail > 0 ? (low - high) / 2 * z[r] / tail : 0;
         for (size_t j = 0; j < n; j++) {
@@ -80,13 +87,14 @@ static void differentiate(const Program *p, Real t) {
             for (size_t r = 0; r < size; r++) along += y[r] * a[r * n + j];
             p->gradient[j] -= degree(size) * jz / d;
             for (size_t r = 0; r < size; r++)
-                column[r] = root * (2 * y[r] * along - (r > 0 ? -1 : 1) * low * high * a[r * n + j]);
+                column[r] =
+                    root * (2 * y[r] * along - (r > 0 ? -1 : 1) * low * high * a[r * n + j]);
         }
     }
 }
 
-/* step = -(M'M)^-1 gradient, by R of M = Q R (modified Gram and Schmidt); returns the decrement, NAN where M is
- * singular. */
+/* step = -(M'M)^-1 gradient, by R of M = Q R (modified Gram and Schmidt); returns the decrement,
+ * NAN where M is singular. */
 static Real newton(const Program *p) {
     size_t n = p->n, m = p->m;
     Real *x = p->step, decrement = 0;
@@ -113,14 +121,16 @@ static Real newton(const Program *p) {
     return sqrtl(decrement);
 }
 
-/* From v inside to the minimum for the weight t; returns the decrement that is left, NAN where Newton's method fails.
+/* From v inside to the minimum for the weight t; returns the decrement that is left, NAN where
+ * Newton's method fails.
  */
 static Real settle(const Program *p, Real t, Real wanted) {
     Real last = INFINITY;
     for (int round = 0; round < MOST_NEWTON; round++) {
         differentiate(p, t);
         Real left = newton(p), growth, by = 1, low = 0;
-        if (!(left > wanted) || (left < 0.1L && !(left < last))) return left; // rounding stops it below wanted or never
+        if (!(left > wanted) || (left < 0.1L && !(left < last)))
+            return left; // rounding stops it below wanted or never
         last = left;
         for (size_t i = 0; i < p->m; i++) p->dz[i] = dot(p->n, &p->a[i * p->n], p->step);
         Real pull = t * dot(p->n, p->c, p->step);
@@ -159,9 +169,18 @@ static bool minimise(const Program *p, Real *gap) {
 /* Scratch for n unknowns and m rows, in one block that begins at v. */
 static bool take(Program *p, size_t n, size_t m) {
     Real *block = calloc(5 * n + 3 * m + n * m + n * n + 1, sizeof *block);
-    p->n = n, p->m = m;
-    p->v = block, p->gradient = block + n, p->step = block + 2 * n, p->cost = block + 3 * n;
-    p->settled = block + 4 * n, p->z = block + 5 * n, p->dz = p->z + m, p->at = p->dz + m, p->root = p->at + m, p->r = p->root + n * m;
+    p->n = n;
+    p->m = m;
+    p->v = block;
+    p->gradient = block + n;
+    p->step = block + 2 * n;
+    p->cost = block + 3 * n;
+    p->settled = block + 4 * n;
+    p->z = block + 5 * n;
+    p->dz = p->z + m;
+    p->at = p->dz + m;
+    p->root = p->at + m;
+    p->r = p->root + n * m;
     p->c = p->cost;
     return block != NULL;
 }
@@ -172,17 +191,25 @@ Conic *conic_create(size_t unknowns, size_t rows) {
     *set = (Conic){.unknowns = unknowns, .rows = rows};
     set->cone = calloc(rows + 1, sizeof *set->cone);
     set->a = calloc(rows * unknowns + rows + 3 * unknowns + 1, sizeof *set->a);
-    if (!set->cone || !set->a) return conic_free(set), NULL;
-    set->b = set->a + rows * unknowns, set->map = set->b + rows, set->centre = set->map + 2 * unknowns;
+    if (!set->cone || !set->a) {
+        conic_free(set);
+        return NULL;
+    }
+    set->b = set->a + rows * unknowns;
+    set->map = set->b + rows;
+    set->centre = set->map + 2 * unknowns;
     return set;
 }
 
 void conic_free(Conic *set) {
     if (!set) return;
-    free(set->cone), free(set->a), free(set);
+    free(set->cone);
+    free(set->a);
+    free(set);
 }
 
-/* The largest room r <= 1 with A v + b - r e in K, e the first axes of the cones, as a program in (v, -r). */
+/* The largest room r <= 1 with A v + b - r e in K, e the first axes of the cones, as a program in
+ * (v, -r). */
 static Real find_room(Conic *set) {
     size_t n = set->unknowns, m = set->rows;
     Program p;
@@ -191,14 +218,20 @@ static Real find_room(Conic *set) {
     if (!wider) return NAN;
     for (size_t i = 0; i < m; i++) {
         memcpy(&wider->a[i * (n + 1)], &set->a[i * n], n * sizeof *set->a);
-        wider->b[i] = set->b[i], wider->cone[i] = set->cone[i];
+        wider->b[i] = set->b[i];
+        wider->cone[i] = set->cone[i];
         wider->a[i * (n + 1) + n] = set->cone[i] > 0;
         most += fabsl(set->b[i]);
     }
-    wider->a[m * (n + 1) + n] = 1, wider->b[m] = 1, wider->cone[m] = 1;
+    wider->a[m * (n + 1) + n] = 1;
+    wider->b[m] = 1;
+    wider->cone[m] = 1;
     if (take(&p, n + 1, m + 1)) {
-        p.cone = wider->cone, p.a = wider->a, p.b = wider->b;
-        p.cost[n] = 1, p.v[n] = 2 * most;
+        p.cone = wider->cone;
+        p.a = wider->a;
+        p.b = wider->b;
+        p.cost[n] = 1;
+        p.v[n] = 2 * most;
         if (minimise(&p, &gap)) room = -p.v[n];
         memcpy(set->centre, p.v, n * sizeof *p.v);
     }
@@ -219,7 +252,9 @@ bool conic_prepare(Conic *set) {
     Program p;
     bool found = take(&p, set->unknowns, set->rows);
     if (found) {
-        p.cone = set->cone, p.a = set->a, p.b = set->b;
+        p.cone = set->cone;
+        p.a = set->a;
+        p.b = set->b;
         memcpy(p.v, set->centre, set->unknowns * sizeof *p.v);
         found = settle(&p, 0, LAST_DECREMENT) < 0.5L;
         memcpy(set->centre, p.v, set->unknowns * sizeof *p.v);
@@ -239,7 +274,9 @@ Real conic_support(const Conic *set, const Real d[2]) {
     }
     if (size > 0) {
         for (size_t j = 0; j < n; j++) p.cost[j] /= size;
-        p.cone = set->cone, p.a = set->a, p.b = set->b;
+        p.cone = set->cone;
+        p.a = set->a;
+        p.b = set->b;
         memcpy(p.v, set->centre, n * sizeof *p.v);
         value = minimise(&p, &gap) ? value + size * (gap - dot(n, p.cost, p.v)) : NAN;
     }
@@ -258,20 +295,26 @@ Real conic_distance(const Conic *set, const Real F[2]) {
         size_t w = n + 1;
         for (size_t i = 0; i < m; i++) {
             memcpy(&all->a[i * w], &set->a[i * n], n * sizeof *all->a);
-            all->b[i] = set->b[i], all->cone[i] = set->cone[i];
+            all->b[i] = set->b[i];
+            all->cone[i] = set->cone[i];
         }
-        all->cone[m] = 3, all->a[m * w + n] = p.cost[n] = 1;
+        all->cone[m] = 3;
+        all->a[m * w + n] = p.cost[n] = 1;
         for (size_t k = 0; k < 2; k++) {
-            for (size_t j = 0; j < n; j++) all->a[(m + 1 + k) * w + j] = set->map[k * n + j] / set->reach;
+            for (size_t j = 0; j < n; j++)
+                all->a[(m + 1 + k) * w + j] = set->map[k * n + j] / set->reach;
             all->b[m + 1 + k] = off[k] / set->reach;
         }
-        p.cone = all->cone, p.a = all->a, p.b = all->b;
+        p.cone = all->cone;
+        p.a = all->a;
+        p.b = all->b;
         memcpy(p.v, set->centre, n * sizeof *p.v);
         for (size_t k = 0; k < 2; k++) off[k] += dot(n, &set->map[k * n], p.v);
         p.v[n] = 1 + hypotl(off[0], off[1]) / set->reach;
         // the point found is one of the set, whatever the bound says
         if (minimise(&p, &gap)) {
-            for (size_t k = 0; k < 2; k++) off[k] = set->origin[k] - F[k] + dot(n, &set->map[k * n], p.v);
+            for (size_t k = 0; k < 2; k++)
+                off[k] = set->origin[k] - F[k] + dot(n, &set->map[k * n], p.v);
             distance = hypotl(off[0], off[1]);
         }
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Planar sets {origin + P v : A v + b in K}, K a product of half-lines and second-order cones, in long double: support
- * and distance, with bounds of their own. */
+/* Planar sets {origin + P v : A v + b in K}, K a product of half-lines and second-order cones, in
+ * long double: support and distance, with bounds of their own. */
 #ifndef CAPSTAN_CHECKER_CONIC_H
 #define CAPSTAN_CHECKER_CONIC_H
 
@@ -22,11 +22,12 @@ typedef struct Conic {
 Conic *conic_create(size_t unknowns, size_t rows);
 void conic_free(Conic *set);
 
-/* Find a point inside; where the cones leave no room, they are widened by 1e-13 of their data. False: there is none, or
- * no memory. */
+/* Find a point inside; where the cones leave no room, they are widened by 1e-13 of their data.
+ * False: there is none, or no memory. */
 bool conic_prepare(Conic *set);
 
-/* An upper bound of max <d, F> over the set, above it by no more than 1e-14 of reach |d|; where rounding stops before, 1e-10. NAN: not found. */
+/* An upper bound of max <d, F> over the set, above it by no more than 1e-14 of reach |d|; where
+ * rounding stops before, 1e-10. NAN: not found. */
 Real conic_support(const Conic *set, const Real d[2]);
 /* An upper bound of the distance of F from the set, as tight. NAN: no memory. */
 Real conic_distance(const Conic *set, const Real F[2]);

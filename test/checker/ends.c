@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The line's force at an end (ends.h).
  *
- * The element beside an end pulls with p, the force in its middle. Between there and the end lies half an element of
- * length h/2, which has its weight and, where a held end lies on an obstacle, a reaction R n and friction F. All of it
- * is in balance with the support's force f:
+ * The element beside an end pulls with p, the force in its middle. Between there and the end lies
+ * half an element of length h/2, which has its weight and, where a held end lies on an obstacle, a
+ * reaction R n and friction F. All of it is in balance with the support's force f:
  *
  *     f + (pull) + weight + R n + F = 0,        R = what presses on the obstacle
  *
- * F is not an unknown of the step. Friction per length is that of the node beside the end, whose own share of the line
- * is half of both its elements; it goes with the tangent plane and with the zones of friction. It is no larger part of
- * mu R than the neighbour's friction is of its bound, and where the end is drawn along it does not push. */
+ * F is not an unknown of the step. Friction per length is that of the node beside the end, whose
+ * own share of the line is half of both its elements; it goes with the tangent plane and with the
+ * zones of friction. It is no larger part of mu R than the neighbour's friction is of its bound,
+ * and where the end is drawn along it does not push. */
 #include "ends.h"
 
 #include <math.h>
 
 typedef Real Triple[3];
 
-/* An end lies on an obstacle when it is as near as this per length; within a factor of two nobody is held to it. */
+/* An end lies on an obstacle when it is as near as this per length; within a factor of two nobody
+ * is held to it. */
 static const Real TOUCH = 1e-9L;
 
 static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -27,7 +29,8 @@ static void widen(const double *a, Real *out) {
 
 /* v turned about the axis that takes the unit vector a to b (Rodrigues) */
 static void turn_with(const Real *a, const Real *b, Real *v) {
-    const Triple axis = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const Triple axis = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                         a[0] * b[1] - a[1] * b[0]};
     const Real cosine = dot(a, b), along = dot(axis, v) / (1 + cosine);
     const Triple across = {axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2],
                            axis[0] * v[1] - axis[1] * v[0]};
@@ -41,20 +44,23 @@ static Real share(const Record *r, size_t j) {
 }
 
 /* friction of the half element on obstacle k, with its normal n and the end's reaction */
-static void rub(const Source *source, const Record *r, size_t j, size_t next, size_t k, const Real *n, Real reaction,
-                const Real *slide, Real *out) {
+static void rub(const Source *source, const Record *r, size_t j, size_t next, size_t k,
+                const Real *n, Real reaction, const Real *slide, Real *out) {
     Real length = 0;
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
     for (size_t c = next; c < r->contacts * r->nodes; c += r->nodes) {
         if ((size_t)r->obstacle[c] != k || !(r->friction_bound[c] > 0)) continue;
         const Real zone = r->factor ? r->factor[j] : 1, other = r->factor ? r->factor[next] : 1;
         Triple from, reference;
-        widen(r->normal[c], from), widen(r->friction[c], out), widen(r->reference[next], reference);
+        widen(r->normal[c], from);
+        widen(r->friction[c], out);
+        widen(r->reference[next], reference);
         // frozen friction lies in the tangent plane of the reference
         if (!source->consistent) surface_normal(&source->surface[k], reference, from);
         turn_with(from, n, out);
         const Real per_length = share(r, j) / share(r, next) * zone / other;
-        const Real of_bound = zone * surface_friction(&source->surface[k]) * reaction / r->friction_bound[c];
+        const Real of_bound =
+            zone * surface_friction(&source->surface[k]) * reaction / r->friction_bound[c];
         const bool pushes = dot(out, slide) > 0 && size(slide) > TOUCH * length;
         for (int i = 0; i < 3; i++) out[i] *= pushes ? 0 : fminl(per_length, of_bound);
         return;
@@ -65,20 +71,25 @@ static void rub(const Source *source, const Record *r, size_t j, size_t next, si
 static End on_obstacle(const Source *source, const Record *r, int e, size_t k, bool none) {
     const size_t j = e ? r->elements : 0, next = e ? j - 1 : 1, element = e ? j - 1 : 0;
     End end = {.reaction = 0};
-    for (int i = 0; i < 3; i++) end.force[i] = (e ? 1 : -1) * (Real)r->segment_force[element][i] - r->load[j][i];
+    for (int i = 0; i < 3; i++)
+        end.force[i] = (e ? 1 : -1) * (Real)r->segment_force[element][i] - r->load[j][i];
     Triple others = {0, 0, 0};
     record_element_forces(r, j, others);
     for (int i = 0; i < 3; i++) end.force[i] -= others[i];
     if (none) return end;
     const Surface *surface = &source->surface[k];
     Triple x, reference, carried, n, slide, own;
-    widen(r->position[j], x), widen(r->reference[j], reference);
+    widen(r->position[j], x);
+    widen(r->reference[j], reference);
     surface_normal(surface, x, n);
     surface_carry(surface, reference, (Real)r->share * r->turn[k], carried);
-    surface_way(surface, carried, x, slide), surface_way(surface, reference, x, own);
+    surface_way(surface, carried, x, slide);
+    surface_way(surface, reference, x, own);
     end.reaction = fmaxl(0, dot(n, end.force));
-    const bool neighbour_held = (next == 0 && r->end_kind[0] == END_HELD) || (next == r->elements && r->end_kind[1] == END_HELD);
-    if (end.reaction > 0 && !neighbour_held) rub(source, r, j, next, k, n, end.reaction, slide, end.friction);
+    const bool neighbour_held = (next == 0 && r->end_kind[0] == END_HELD) ||
+                                (next == r->elements && r->end_kind[1] == END_HELD);
+    if (end.reaction > 0 && !neighbour_held)
+        rub(source, r, j, next, k, n, end.reaction, slide, end.friction);
     for (int i = 0; i < 3; i++) end.force[i] -= end.reaction * n[i] + end.friction[i];
     end.slid = -dot(end.friction, slide);
     end.carried = r->turn[k] != 0 ? dot(end.friction, own) - dot(end.friction, slide) : 0;
@@ -89,7 +100,8 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
 static Real apart(const Record *r, int e, const End *end) {
     Real sum = fabsl(end->reaction - r->reaction[e ? r->elements : 0]);
     for (int i = 0; i < 3; i++)
-        sum += fabsl(end->force[i] - r->end_force[e][i]) + fabsl(end->friction[i] - r->end_friction[e][i]);
+        sum += fabsl(end->force[i] - r->end_force[e][i]) +
+               fabsl(end->friction[i] - r->end_friction[e][i]);
     return sum;
 }
 
@@ -104,7 +116,8 @@ End end_measure(const Source *source, const Record *r, int e) {
     Triple x;
     widen(r->position[j], x);
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
-    for (size_t k = 0; k < source->surfaces; k++) nearest = fminl(nearest, surface_distance(&source->surface[k], x));
+    for (size_t k = 0; k < source->surfaces; k++)
+        nearest = fminl(nearest, surface_distance(&source->surface[k], x));
     End best = on_obstacle(source, r, e, 0, true);
     bool found = !(nearest <= TOUCH / 2 * length);
     for (size_t k = 0; k < source->surfaces; k++) {
@@ -120,10 +133,13 @@ Real ends_work(const Record *r, const Record *before) {
     Real work = 0;
     for (int e = 0; e < 2; e++) {
         const size_t j = e ? r->elements : 0;
-        const bool free = r->end_kind[e] == END_FREE; // let go from the force it carried, all of it the end's
+        const bool free =
+            r->end_kind[e] == END_FREE; // let go from the force it carried, all of it the end's
         for (int i = 0; i < 3; i++) {
-            const Real after = (Real)r->end_force[e][i] + r->end_friction[e][i], rubbed = r->end_friction[e][i];
-            const Real first = (Real)before->end_force[e][i] + (free ? 0 : before->end_friction[e][i]);
+            const Real after = (Real)r->end_force[e][i] + r->end_friction[e][i],
+                       rubbed = r->end_friction[e][i];
+            const Real first =
+                (Real)before->end_force[e][i] + (free ? 0 : before->end_friction[e][i]);
             work += ((first + after) / 2 - rubbed) * ((Real)r->position[j][i] - r->reference[j][i]);
         }
     }

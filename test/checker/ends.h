@@ -13,12 +13,12 @@ typedef struct End {
     Real carried;     /* [J] its work on the way of an obstacle that turns */
 } End;
 
-/* End e (0: A, 1: B). A held end that touches several obstacles may lie on each of them: of these answers, the one that
- * is nearest to what the file says. */
+/* End e (0: A, 1: B). A held end that touches several obstacles may lie on each of them: of these
+ * answers, the one that is nearest to what the file says. */
 End end_measure(const Source *source, const Record *record, int e);
 
-/* [J] Work of both ends since the record before, by the trapezium rule; friction of half elements works with the force
- * after. */
+/* [J] Work of both ends since the record before, by the trapezium rule; friction of half elements
+ * works with the force after. */
 Real ends_work(const Record *record, const Record *before);
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The way of a falling line, by a search: the distance of a straight element from a convex obstacle is a convex function of the place on the
- * element, and its least over the element a convex function of the way fallen. So both are found by sections, out to a thousand times the
- * extent of the scene; and where the distance still grows there it does for ever. */
+/* The way of a falling line, by a search: the distance of a straight element from a convex obstacle
+ * is a convex function of the place on the element, and its least over the element a convex
+ * function of the way fallen. So both are found by sections, out to a thousand times the extent of
+ * the scene; and where the distance still grows there it does for ever. */
 #include "fall.h"
 
 #include <math.h>
@@ -13,33 +14,45 @@ static const Real FAR = 1000;
 static const int SECTIONS = 200;
 
 /* Element i, fallen by s along v, at the share t. */
-static Real distance_at(const Surface *surface, const Record *r, size_t i, const Real *v, Real s, Real t) {
+static Real distance_at(const Surface *surface, const Record *r, size_t i, const Real *v, Real s,
+                        Real t) {
     Real x[3];
-    for (int k = 0; k < 3; k++) x[k] = (1 - t) * r->reference[i][k] + t * r->reference[i + 1][k] + s * v[k];
+    for (int k = 0; k < 3; k++)
+        x[k] = (1 - t) * r->reference[i][k] + t * r->reference[i + 1][k] + s * v[k];
     return surface_distance(surface, x);
 }
 
-static Real element_distance(const Surface *surface, const Record *r, size_t i, const Real *v, Real s) {
+static Real element_distance(const Surface *surface, const Record *r, size_t i, const Real *v,
+                             Real s) {
     Real low = 0, high = 1;
     for (int n = 0; n < SECTIONS; n++) {
         const Real a = low + (high - low) / 3, b = high - (high - low) / 3;
-        if (distance_at(surface, r, i, v, s, a) < distance_at(surface, r, i, v, s, b)) high = b;
-        else low = a;
+        if (distance_at(surface, r, i, v, s, a) < distance_at(surface, r, i, v, s, b))
+            high = b;
+        else
+            low = a;
     }
-    const Real ends = fminl(distance_at(surface, r, i, v, s, 0), distance_at(surface, r, i, v, s, 1));
+    const Real ends =
+        fminl(distance_at(surface, r, i, v, s, 0), distance_at(surface, r, i, v, s, 1));
     return fminl(ends, distance_at(surface, r, i, v, s, low));
 }
 
-static bool is_met(const Surface *surface, const Record *r, size_t i, const Real *v, Real length, Real far) {
+static bool is_met(const Surface *surface, const Record *r, size_t i, const Real *v, Real length,
+                   Real far) {
     Real low = 0, high = far;
     for (int n = 0; n < SECTIONS; n++) {
         const Real a = low + (high - low) / 3, b = high - (high - low) / 3;
-        if (element_distance(surface, r, i, v, a) < element_distance(surface, r, i, v, b)) high = b;
-        else low = a;
+        if (element_distance(surface, r, i, v, a) < element_distance(surface, r, i, v, b))
+            high = b;
+        else
+            low = a;
     }
-    if (!(element_distance(surface, r, i, v, 0) > TOUCH * length && element_distance(surface, r, i, v, low) > TOUCH * length)) return true;
+    if (!(element_distance(surface, r, i, v, 0) > TOUCH * length &&
+          element_distance(surface, r, i, v, low) > TOUCH * length))
+        return true;
     // a wall or a drum along the way stays as far as it is, but for rounding
-    const Real last = element_distance(surface, r, i, v, far), before = element_distance(surface, r, i, v, far / 2);
+    const Real last = element_distance(surface, r, i, v, far),
+               before = element_distance(surface, r, i, v, far / 2);
     return !(last >= before - 1e-15L * far);
 }
 
@@ -50,7 +63,8 @@ bool falls_clear(const Source *source, const Record *r, const Real *v) {
         const Surface *surface = &source->surface[k];
         Real apart[3];
         for (int a = 0; a < 3; a++) apart[a] = surface->point[a] - (Real)r->reference[0][a];
-        extent = fmaxl(extent, surface->radius + sqrtl(apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]));
+        extent = fmaxl(extent, surface->radius + sqrtl(apart[0] * apart[0] + apart[1] * apart[1] +
+                                                       apart[2] * apart[2]));
     }
     for (size_t k = 0; k < source->surfaces; k++)
         for (size_t i = 0; i < r->elements; i++)

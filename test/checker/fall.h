@@ -7,7 +7,8 @@
 
 #include "record.h"
 
-/* Does the line, at its reference and from there on along v for ever, touch no obstacle of the file? */
+/* Does the line, at its reference and from there on along v for ever, touch no obstacle of the
+ * file? */
 bool falls_clear(const Source *source, const Record *r, const Real *v);
 
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Scene against file (given.h).
  *
- * A stage takes an end from where it is to the stage's value in equal steps. Where it is: the value imposed before; where
- * the kind of the end changes, the place that it had reached, or the force that it carried. These two are results, and
- * taken from the file's step before; before the first step an end is where the start shape puts it. */
+ * A stage takes an end from where it is to the stage's value in equal steps. Where it is: the value
+ * imposed before; where the kind of the end changes, the place that it had reached, or the force
+ * that it carried. These two are results, and taken from the file's step before; before the first
+ * step an end is where the start shape puts it. */
 #include "given.h"
 
 #include <math.h>
@@ -13,7 +14,8 @@
 
 #include "record.h"
 
-/* Numbers of the scene are copied; a share of a stage, a weight vector and a load are a few products and sums of them. */
+/* Numbers of the scene are copied; a share of a stage, a weight vector and a load are a few
+ * products and sums of them. */
 static const double COPIED = 1e-14, COMPUTED = 1e-12;
 
 typedef struct Compare {
@@ -37,8 +39,8 @@ __attribute__((format(printf, 2, 3))) static void find(Compare *compare, const c
 static double size(const double *v) { return hypot(hypot(v[0], v[1]), v[2]); }
 
 /* count numbers equal to within `noise` of the largest, else a finding */
-static void same(Compare *compare, const char *what, const char *of, const double *file, const double *scene,
-                 size_t count, double noise) {
+static void same(Compare *compare, const char *what, const char *of, const double *file,
+                 const double *scene, size_t count, double noise) {
     double most = 0;
     for (size_t i = 0; i < count; i++) most = fmax(most, fabs(scene[i]));
     for (size_t i = 0; i < count; i++)
@@ -48,7 +50,8 @@ static void same(Compare *compare, const char *what, const char *of, const doubl
         }
 }
 
-static void same_number(Compare *compare, const char *what, const char *of, double file, double scene) {
+static void same_number(Compare *compare, const char *what, const char *of, double file,
+                        double scene) {
     same(compare, what, of, &file, &scene, 1, COPIED);
 }
 
@@ -60,11 +63,13 @@ static void compare_sets(Compare *compare, const CpsObstacle *o, const Surface *
     for (int i = 0; i < DIRECTIONS; i++) {
         const double angle = 6.283185307179586 * i / DIRECTIONS, d[2] = {cos(angle), sin(angle)};
         CpsSetAnswer answer;
-        if (cps_set_support(o->friction_set, d, NULL, &answer, NULL) != CPS_OK || answer.outcome != CPS_SET_ANSWERED) return;
+        if (cps_set_support(o->friction_set, d, NULL, &answer, NULL) != CPS_OK ||
+            answer.outcome != CPS_SET_ANSWERED)
+            return;
         const double file = (double)conic_support(s->set, (Real[]){d[0], d[1]});
         if (fabs(file - answer.value) <= answer.gap + 1e-9 * (double)s->set->reach) continue;
-        find(compare, "friction set of %s reaches %.17g along (%.3g, %.3g), in the scene %.17g", o->name, file, d[0], d[1],
-             answer.value);
+        find(compare, "friction set of %s reaches %.17g along (%.3g, %.3g), in the scene %.17g",
+             o->name, file, d[0], d[1], answer.value);
         return;
     }
 }
@@ -75,21 +80,25 @@ static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surfa
     double axis[3], point[3], there[3], grain[3], unit[3];
     for (int k = 0; k < 3; k++) {
         there[k] = o->point[k] - compare->source.origin[k];
-        axis[k] = (double)s->axis[k], point[k] = (double)s->point[k], grain[k] = (double)s->grain[k];
+        axis[k] = (double)s->axis[k];
+        point[k] = (double)s->point[k];
+        grain[k] = (double)s->grain[k];
         unit[k] = given[k] / length;
     }
     same_number(compare, "kind", o->name, s->kind, o->kind);
     same(compare, "point", o->name, point, there, 3, COPIED);
     same(compare, "axis", o->name, axis, unit, 3, COMPUTED);
     same_number(compare, "radius", o->name, (double)s->radius, plane ? 0 : o->radius);
-    if ((s->set != NULL) != (o->friction_set != NULL)) find(compare, "friction set of %s: one of the two has none", o->name);
+    if ((s->set != NULL) != (o->friction_set != NULL))
+        find(compare, "friction set of %s: one of the two has none", o->name);
     if (s->set && o->friction_set) compare_sets(compare, o, s);
     same(compare, "grain", o->name, grain, o->grain, 3, COPIED);
     if (s->set || o->friction_set) return;
     same_number(compare, "axial coefficient", o->name, (double)s->mu[0], o->friction);
     same_number(compare, "lateral coefficient", o->name, (double)s->mu[1],
                 o->friction_lateral >= 0 ? o->friction_lateral : o->friction);
-    same_number(compare, "shape of friction", o->name, s->box, o->friction_shape == CPS_FRICTION_BOX);
+    same_number(compare, "shape of friction", o->name, s->box,
+                o->friction_shape == CPS_FRICTION_BOX);
 }
 
 static void compare_run(Compare *compare) {
@@ -97,8 +106,10 @@ static void compare_run(Compare *compare) {
     const Source *source = &compare->source;
     same_number(compare, "tolerance", "the run", source->tolerance, scene->solver.tolerance);
     same(compare, "gravity", "the run", source->gravity, scene->gravity, 3, COPIED);
-    if (source->consistent != (scene->friction == CPS_FRICTION_CONSISTENT)) find(compare, "friction: frozen or consistent");
-    if (source->strict != (scene->contact == CPS_CONTACT_STRICT)) find(compare, "contact: strict or gained");
+    if (source->consistent != (scene->friction == CPS_FRICTION_CONSISTENT))
+        find(compare, "friction: frozen or consistent");
+    if (source->strict != (scene->contact == CPS_CONTACT_STRICT))
+        find(compare, "contact: strict or gained");
     if (source->surfaces != (size_t)scene->obstacle_count) {
         find(compare, "%zu obstacles, in the scene %d", source->surfaces, scene->obstacle_count);
         return;
@@ -109,37 +120,48 @@ static void compare_run(Compare *compare) {
 
 static void compare_line(Compare *compare, const CpsLine *line, const Record *r) {
     if (r->elements != (size_t)line->elements) {
-        find(compare, "%zu elements of %s, in the scene %d", r->elements, line->name, line->elements);
+        find(compare, "%zu elements of %s, in the scene %d", r->elements, line->name,
+             line->elements);
         return;
     }
     for (size_t i = 0; i < r->elements; i++) {
-        const double given = line->element_length ? line->element_length[i] : line->length / line->elements;
+        const double given =
+            line->element_length ? line->element_length[i] : line->length / line->elements;
         if (fabs(r->element_length[i] - given) <= COPIED * given) continue;
-        find(compare, "element_length of %s is %.17g, in the scene %.17g", line->name, r->element_length[i], given);
+        find(compare, "element_length of %s is %.17g, in the scene %.17g", line->name,
+             r->element_length[i], given);
         return;
     }
-    same_number(compare, "compliance", line->name, r->compliance, isinf(line->stiffness) ? 0 : 1 / line->stiffness);
+    same_number(compare, "compliance", line->name, r->compliance,
+                isinf(line->stiffness) ? 0 : 1 / line->stiffness);
     /* what zones do is in the mean factors, which the reader has made of those in the file */
     double at = 0;
     for (size_t j = 0; j < r->nodes; j++) {
-        const double before = j > 0 ? r->element_length[j - 1] : 0, after = j < r->elements ? r->element_length[j] : 0;
+        const double before = j > 0 ? r->element_length[j - 1] : 0,
+                     after = j < r->elements ? r->element_length[j] : 0;
         at += before;
         double sum = (before + after) / 2, most = 1;
         for (int k = 0; k < line->zone_count; k++) {
             const CpsFrictionZone *zone = &line->zone[k];
-            const double common = fmin(at + after / 2, zone->to) - fmax(at - before / 2, zone->from);
-            if (common > 0) sum += (zone->factor - 1) * common, most = fmax(most, zone->factor);
+            const double common =
+                fmin(at + after / 2, zone->to) - fmax(at - before / 2, zone->from);
+            if (common > 0) {
+                sum += (zone->factor - 1) * common;
+                most = fmax(most, zone->factor);
+            }
         }
         const double factor = sum / ((before + after) / 2), file = r->factor ? r->factor[j] : 1;
         if (fabs(file - factor) <= COMPUTED * most * line->length / (before + after)) continue;
-        find(compare, "friction_zones of %s: factor %.17g at node %zu, in the scene %.17g", line->name, file, j, factor);
+        find(compare, "friction_zones of %s: factor %.17g at node %zu, in the scene %.17g",
+             line->name, file, j, factor);
         return;
     }
 }
 
 /* ---- steps ---- */
 
-/* The stage and its part that a step is; false: the statics of lines laid, or a scene without stages. */
+/* The stage and its part that a step is; false: the statics of lines laid, or a scene without
+ * stages. */
 static bool stage_of(const Compare *compare, size_t step, int *stage, int *part) {
     if (compare->source.laid && step-- == 0) return false;
     for (*stage = 0; *stage < compare->scene->stage_count; ++*stage) {
@@ -154,7 +176,8 @@ static bool stage_of(const Compare *compare, size_t step, int *stage, int *part)
 static size_t planned(const Compare *compare) {
     size_t steps = 0;
     bool laid = false;
-    for (int i = 0; i < compare->scene->stage_count; i++) steps += (size_t)compare->scene->stage[i].steps;
+    for (int i = 0; i < compare->scene->stage_count; i++)
+        steps += (size_t)compare->scene->stage[i].steps;
     for (int i = 0; i < compare->scene->line_count; i++)
         laid = laid || compare->scene->line[i].start.kind == CPS_START_LAID;
     return steps + laid > 0 ? steps + laid : 1;
@@ -172,25 +195,35 @@ static CpsEnd about(const Source *source, CpsEnd end) {
     return end;
 }
 
-/* End B of an arc: elements are chords of the circle about the axis through the centre, one after the other from A. */
+/* End B of an arc: elements are chords of the circle about the axis through the centre, one after
+ * the other from A. */
 static void arc_end(const CpsLine *line, const Record *r, double place[3]) {
-    const double *from = line->start.point, *centre = &line->start.point[3], *axis = line->start.axis;
+    const double *from = line->start.point, *centre = &line->start.point[3],
+                 *axis = line->start.axis;
     const double length = size(axis);
     double unit[3], spoke[3], along = 0, angle = 0;
-    for (int k = 0; k < 3; k++) unit[k] = axis[k] / length, along += (from[k] - centre[k]) * unit[k];
+    for (int k = 0; k < 3; k++) {
+        unit[k] = axis[k] / length;
+        along += (from[k] - centre[k]) * unit[k];
+    }
     for (int k = 0; k < 3; k++) spoke[k] = from[k] - centre[k] - along * unit[k];
-    for (size_t i = 0; i < r->elements; i++) angle += 2 * asin(r->element_length[i] / (2 * size(spoke)));
+    for (size_t i = 0; i < r->elements; i++)
+        angle += 2 * asin(r->element_length[i] / (2 * size(spoke)));
     for (int k = 0; k < 3; k++) {
         const int a = (k + 1) % 3, b = (k + 2) % 3;
-        place[k] = centre[k] + along * unit[k] + cos(angle) * spoke[k] + sin(angle) * (unit[a] * spoke[b] - unit[b] * spoke[a]);
+        place[k] = centre[k] + along * unit[k] + cos(angle) * spoke[k] +
+                   sin(angle) * (unit[a] * spoke[b] - unit[b] * spoke[a]);
     }
 }
 
-/* Where the start puts an end. The first record has it as well, but only where the step was taken in one part. */
-static void start_place(const Source *source, const CpsLine *line, int e, const Record *r, double place[3]) {
+/* Where the start puts an end. The first record has it as well, but only where the step was taken
+ * in one part. */
+static void start_place(const Source *source, const CpsLine *line, int e, const Record *r,
+                        double place[3]) {
     const CpsStart *start = &line->start;
     const bool arc = start->kind == CPS_START_ARC, drawn = start->kind != CPS_START_LAID;
-    const double *point = drawn ? &start->point[e && !arc ? 3 * (start->point_count - 1) : 0] : r->reference[e ? r->elements : 0];
+    const double *point = drawn ? &start->point[e && !arc ? 3 * (start->point_count - 1) : 0]
+                                : r->reference[e ? r->elements : 0];
     memcpy(place, point, 3 * sizeof *place);
     if (arc && e) arc_end(line, r, place);
     for (int k = 0; k < 3 && drawn; k++) place[k] -= source->origin[k];
@@ -206,9 +239,10 @@ static CpsEnd first_end(const Source *source, const CpsLine *line, int e, const 
     return end;
 }
 
-/* The end at part k of a stage that changes it; `before`: the step before, NULL for the first; `start`: where it starts. */
-static void impose(const Source *source, Imposed *end, const CpsStage *stage, int part, int line, int e, const Record *before,
-                   const double start[3]) {
+/* The end at part k of a stage that changes it; `before`: the step before, NULL for the first;
+ * `start`: where it starts. */
+static void impose(const Source *source, Imposed *end, const CpsStage *stage, int part, int line,
+                   int e, const Record *before, const double start[3]) {
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
         if (change->line != line || change->end != e) continue;
@@ -216,17 +250,22 @@ static void impose(const Source *source, Imposed *end, const CpsStage *stage, in
         const double *place = before ? before->position[e ? before->elements : 0] : start;
         if (part == 1 && before) end->noise = COPIED;
         for (int k = 0; k < 3 && part == 1 && change->to.kind != end->now.kind; k++)
-            end->from.value[k] = change->to.kind == CPS_END_HELD ? place[k] : before ? before->end_force[e][k] : 0;
+            end->from.value[k] = change->to.kind == CPS_END_HELD ? place[k]
+                                 : before                        ? before->end_force[e][k]
+                                                                 : 0;
         const double share = (double)part / stage->steps;
         const CpsEnd to = about(source, change->to);
         end->now.kind = to.kind;
         for (int k = 0; k < 3; k++)
-            end->now.value[k] = part == stage->steps ? to.value[k] : end->from.value[k] + share * (to.value[k] - end->from.value[k]);
+            end->now.value[k] =
+                part == stage->steps
+                    ? to.value[k]
+                    : end->from.value[k] + share * (to.value[k] - end->from.value[k]);
     }
 }
 
-static void compare_end(Compare *compare, const CpsLine *line, int e, const Imposed *end, const CpsEnd *was, size_t step,
-                        const Record *r) {
+static void compare_end(Compare *compare, const CpsLine *line, int e, const Imposed *end,
+                        const CpsEnd *was, size_t step, const Record *r) {
     char of[300];
     snprintf(of, sizeof of, "%.200s, end %c, step %zu", line->name, e ? 'B' : 'A', step);
     if (r->end_kind[e] != (end->now.kind == CPS_END_FREE)) {
@@ -234,12 +273,14 @@ static void compare_end(Compare *compare, const CpsLine *line, int e, const Impo
         return;
     }
     // where a part of a step has no equilibrium, the file has the end on its way
-    const bool ended = r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE || r->outcome == OUTCOME_SLIDES;
+    const bool ended = r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
+                       r->outcome == OUTCOME_SLIDES;
     if (ended && (r->parts > 1 || r->share < 1)) return;
     const double most = fmax(size(end->now.value), size(was->value));
     for (int k = 0; k < 3; k++)
         if (!(fabs(r->end_value[e][k] - end->now.value[k]) <= end->noise * most))
-            find(compare, "end_value of %s is %.17g, in the scene %.17g", of, r->end_value[e][k], end->now.value[k]);
+            find(compare, "end_value of %s is %.17g, in the scene %.17g", of, r->end_value[e][k],
+                 end->now.value[k]);
 }
 
 /* Gravity of the scene after so many steps of a stage, or without one that of its beginning. */
@@ -248,25 +289,33 @@ static void gravity_at(const Compare *compare, bool staged, int stage, int part,
     memcpy(g, scene->gravity, 3 * sizeof *g);
     for (int s = 0; staged && s <= stage; s++) {
         const double share = s < stage ? 1 : (double)part / scene->stage[s].steps;
-        for (int k = 0; scene->stage[s].gravity_changes && k < 3; k++) g[k] += share * (scene->stage[s].gravity[k] - g[k]);
+        for (int k = 0; scene->stage[s].gravity_changes && k < 3; k++)
+            g[k] += share * (scene->stage[s].gravity[k] - g[k]);
     }
 }
 
-/* Weight, half of each element to each of its nodes, and the forces at free ends; and the weight before the step. What has no equilibrium
- * may be on its way. */
+/* Weight, half of each element to each of its nodes, and the forces at free ends; and the weight
+ * before the step. What has no equilibrium may be on its way. */
 static void compare_loads(Compare *compare, const CpsLine *line, size_t step, const Record *r) {
     int stage = 0, part = 0;
     double g[3], was[3];
     const bool staged = stage_of(compare, step, &stage, &part);
-    gravity_at(compare, staged, stage, part, g), gravity_at(compare, staged, stage, part - 1, was);
-    if ((r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE || r->outcome == OUTCOME_SLIDES) && memcmp(g, was, sizeof g) != 0) return;
-    const double pull = size(compare->scene->gravity), weight = pull > 0 ? line->weight / pull : 0, most = weight * fmax(size(g), size(was));
+    gravity_at(compare, staged, stage, part, g);
+    gravity_at(compare, staged, stage, part - 1, was);
+    if ((r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
+         r->outcome == OUTCOME_SLIDES) &&
+        memcmp(g, was, sizeof g) != 0)
+        return;
+    const double pull = size(compare->scene->gravity), weight = pull > 0 ? line->weight / pull : 0,
+                 most = weight * fmax(size(g), size(was));
     for (int k = 0; k < 3 && r->has_weight_before && r->parts == 1; k++)
         if (!(fabs(r->weight_before[k] - weight * was[k]) <= COPIED * most))
-            find(compare, "weight_before of %s, step %zu, is %.17g, in the scene %.17g", line->name, step, r->weight_before[k], weight * was[k]);
+            find(compare, "weight_before of %s, step %zu, is %.17g, in the scene %.17g", line->name,
+                 step, r->weight_before[k], weight * was[k]);
     for (size_t j = 0; j < r->nodes; j++) {
-        const double share =
-            ((j > 0 ? r->element_length[j - 1] : 0) + (j < r->elements ? r->element_length[j] : 0)) / 2;
+        const double share = ((j > 0 ? r->element_length[j - 1] : 0) +
+                              (j < r->elements ? r->element_length[j] : 0)) /
+                             2;
         double load[3], noise = share * most;
         for (int k = 0; k < 3; k++) load[k] = share * weight * g[k];
         for (int e = 0; e < 2; e++) {
@@ -276,40 +325,53 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
         }
         for (int k = 0; k < 3; k++)
             if (!(fabs(r->load[j][k] - load[k]) <= COPIED * noise)) {
-                find(compare, "load of %s at node %zu, step %zu, is %.17g, in the scene %.17g", line->name, j, step,
-                     r->load[j][k], load[k]);
+                find(compare, "load of %s at node %zu, step %zu, is %.17g, in the scene %.17g",
+                     line->name, j, step, r->load[j][k], load[k]);
                 return;
             }
     }
 }
 
-/* The larger coefficient of whatever the node touches, by its obstacle in the file; of a given set 1. */
+/* The larger coefficient of whatever the node touches, by its obstacle in the file; of a given set
+ * 1. */
 static double coefficient(const Compare *compare, const Record *r, size_t j) {
-    const int k = r->obstacle[j] >= 0 && r->obstacle[j] < compare->scene->obstacle_count ? (int)r->obstacle[j] : 0;
+    const int k = r->obstacle[j] >= 0 && r->obstacle[j] < compare->scene->obstacle_count
+                      ? (int)r->obstacle[j]
+                      : 0;
     const CpsObstacle *o = &compare->scene->obstacle[k];
-    return (r->factor ? r->factor[j] : 1) * (o->friction_set ? 1 : fmax(o->friction, o->friction_lateral));
+    return (r->factor ? r->factor[j] : 1) *
+           (o->friction_set ? 1 : fmax(o->friction, o->friction_lateral));
 }
 
-/* A start from nodes: the first step begins there, and frozen friction has the bounds that are given, A = mu R, but where they are small
- * beside the largest and count for none. A step in several parts has the reference of the last of them. */
+/* A start from nodes: the first step begins there, and frozen friction has the bounds that are
+ * given, A = mu R, but where they are small beside the largest and count for none. A step in
+ * several parts has the reference of the last of them. */
 static void compare_nodes(Compare *compare, const CpsLine *line, const Record *r) {
     const CpsStart *start = &line->start;
     if (start->kind != CPS_START_NODES || r->parts != 1) return;
     for (size_t j = 0; j < r->nodes; j++) {
         double place[3];
-        for (int k = 0; k < 3; k++) place[k] = start->point[3 * j + (size_t)k] - compare->source.origin[k];
+        for (int k = 0; k < 3; k++)
+            place[k] = start->point[3 * j + (size_t)k] - compare->source.origin[k];
         same(compare, "first reference", line->name, r->reference[j], place, 3, COPIED);
     }
     const double *force = start->friction_bound ? start->friction_bound : start->reaction;
     if (!force || compare->source.consistent || compare->scene->obstacle_count == 0) return;
     double largest = 0;
-    for (size_t j = 0; j < r->nodes; j++) largest = fmax(largest, force[j] * (start->friction_bound ? 1 : coefficient(compare, r, j)));
+    for (size_t j = 0; j < r->nodes; j++)
+        largest =
+            fmax(largest, force[j] * (start->friction_bound ? 1 : coefficient(compare, r, j)));
     for (size_t j = 0; j < r->nodes; j++) {
-        const bool held = (j == 0 && r->end_kind[0] == END_HELD) || (j == r->elements && r->end_kind[1] == END_HELD);
-        const double given = force[j] * (start->friction_bound ? 1 : coefficient(compare, r, j)), found = r->friction_bound[j];
+        const bool held = (j == 0 && r->end_kind[0] == END_HELD) ||
+                          (j == r->elements && r->end_kind[1] == END_HELD);
+        const double given = force[j] * (start->friction_bound ? 1 : coefficient(compare, r, j)),
+                     found = r->friction_bound[j];
         if (held || (found == 0 && given <= 1e-3 * largest)) continue;
-        if (fabs(found - given) <= COMPUTED * given + 1e-12 * largest) continue; /* a factor is a mean of sums of abscissae */
-        find(compare, "friction bound of %s at node %zu in the first step is %.17g, in the scene %.17g", line->name, j, found, given);
+        if (fabs(found - given) <= COMPUTED * given + 1e-12 * largest)
+            continue; /* a factor is a mean of sums of abscissae */
+        find(compare,
+             "friction bound of %s at node %zu in the first step is %.17g, in the scene %.17g",
+             line->name, j, found, given);
         return;
     }
 }
@@ -324,8 +386,8 @@ static void compare_turns(Compare *compare, size_t step, const Record *r) {
             if (turn->obstacle == k) angle = turn->angle / compare->scene->stage[stage].steps;
         }
         if (!(fabs(r->turn[k] - angle) <= COPIED * fabs(angle)))
-            find(compare, "obstacle_turn of %s, step %zu, is %.17g, in the scene %.17g", compare->scene->obstacle[k].name,
-                 step, r->turn[k], angle);
+            find(compare, "obstacle_turn of %s, step %zu, is %.17g, in the scene %.17g",
+                 compare->scene->obstacle[k].name, step, r->turn[k], angle);
     }
 }
 
@@ -348,7 +410,8 @@ static int compare_steps(Compare *compare, int index) {
             double start[3];
             start_place(&compare->source, line, e, &now, start);
             if (stage_of(compare, step, &stage, &part))
-                impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e, step > 0 ? &before : NULL, start);
+                impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e,
+                       step > 0 ? &before : NULL, start);
             compare_end(compare, line, e, &end[e], &was, step, &now);
         }
         if (!bad && step == 0) compare_nodes(compare, line, &now);
@@ -375,7 +438,8 @@ int given_file(const char *path, const CpsScene *scene, FILE *log) {
         if (strcmp(compare.source.line_name[i], scene->line[i].name) == 0)
             bad = compare_steps(&compare, i);
         else
-            find(&compare, "line %s, in the scene %s", compare.source.line_name[i], scene->line[i].name);
+            find(&compare, "line %s, in the scene %s", compare.source.line_name[i],
+                 scene->line[i].name);
     }
     source_close(&compare.source);
     return bad ? -1 : compare.findings;

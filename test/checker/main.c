@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan-checker FILE.nc [SCENE.yaml] [-v]: recompute every residual of a result file and say whether its claims hold; with the
- * scene also whether what the file takes from it is the scene's. capstan-checker SUMMARY.json: are the files beside it those that it lists? */
+/* capstan-checker FILE.nc [SCENE.yaml] [-v]: recompute every residual of a result file and say
+ * whether its claims hold; with the scene also whether what the file takes from it is the scene's.
+ * capstan-checker SUMMARY.json: are the files beside it those that it lists? */
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -37,9 +38,11 @@ int main(int argc, char **argv) {
     const int findings = operands > 1 && result != 2 ? against_scene(argv[1], argv[2]) : 0;
     const int foreign = whole_file(argv[1], stderr);
     if (verbose || result != 0 || findings != 0) {
-        printf("records %d, certified %d, not certified %d, refuted %d, not finite %d\n", report.records,
-               report.certified, report.uncertified, report.refuted, report.not_finite);
-        printf("worst gap / scale %.3g, imbalance / largest force %.3g, stretch %.3g, depth / length %.3g\n",
+        printf("records %d, certified %d, not certified %d, refuted %d, not finite %d\n",
+               report.records, report.certified, report.uncertified, report.refuted,
+               report.not_finite);
+        printf("worst gap / scale %.3g, imbalance / largest force %.3g, stretch %.3g, depth / "
+               "length %.3g\n",
                report.gap, report.force, report.stretch, report.penetration);
         if (operands > 1) printf("against the scene: %d findings\n", findings);
     }

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arithmetic of the checker: long double, compensated sums, no quantity formed as a difference of large ones.
+/* Arithmetic of the checker: long double, compensated sums, no quantity formed as a difference of
+ * large ones.
  *
- * With e the stretch vector of an element (x_i - x_{i-1}) / l, d = (|e| - 1)^+ and W*(p) = |p| + c |p|^2 / 2, the local
- * gaps are sums of non-negative terms (docs/theory.md):
+ * With e the stretch vector of an element (x_i - x_{i-1}) / l, d = (|e| - 1)^+ and W*(p) = |p| + c
+ * |p|^2 / 2, the local gaps are sums of non-negative terms (docs/theory.md):
  *
  *     segment, c > 0   W(e) + W*(p) - p.e = (d - c|p|)^2 / (2 c) + |p| (1 - |e|)^+ + |p||e| - p.e
  *     segment, c = 0   |p| (1 - |e|) + |p||e| - p.e
  *     friction         phi(s) + F.s, s the way on the obstacle (surface.c)
  *     contact          R (n.u + gap)
  *
- * where |a||b| - a.b = |a||b| |a/|a| - b/|b||^2 / 2. Normals, ways and the axes of friction are recomputed from
- * positions, at the configuration reached or at the reference. Absolute values are added, so that a configuration or a
- * force slightly outside its set makes the gap larger and never smaller. */
+ * where |a||b| - a.b = |a||b| |a/|a| - b/|b||^2 / 2. Normals, ways and the axes of friction are
+ * recomputed from positions, at the configuration reached or at the reference. Absolute values are
+ * added, so that a configuration or a force slightly outside its set makes the gap larger and never
+ * smaller. */
 #include "measure.h"
 
 #include "fall.h"
@@ -27,7 +29,8 @@ typedef struct Sum {
 
 static void add(Sum *sum, Real term) {
     Real total = sum->value + term;
-    sum->rest += fabsl(sum->value) >= fabsl(term) ? (sum->value - total) + term : (term - total) + sum->value;
+    sum->rest += fabsl(sum->value) >= fabsl(term) ? (sum->value - total) + term
+                                                  : (term - total) + sum->value;
     sum->value = total;
 }
 
@@ -47,7 +50,8 @@ static const Real PLACE_MARGIN = 1e-9L;
 
 /* [rad] of a turn */
 static const Real QUARTER = 1.57079632679489661923L;
-/* [rad] So near to half a turn rounding of places takes more than the tolerance of a way's direction. */
+/* [rad] So near to half a turn rounding of places takes more than the tolerance of a way's
+ * direction. */
 static const Real HALF_ROUND = 1e-2L;
 
 /* maximum that keeps a NaN */
@@ -71,8 +75,8 @@ static bool all_within(const double *value, size_t count, double low, double hig
     return true;
 }
 
-/* The first variable with a value that cannot be. Infinite may be: the gap to an obstacle that is not looked for; NaN
- * may be: the rms bound, where it says nothing. */
+/* The first variable with a value that cannot be. Infinite may be: the gap to an obstacle that is
+ * not looked for; NaN may be: the rms bound, where it says nothing. */
 static const char *missing_variable(const Record *r) {
     const double most = 1.7976931348623157e308, tiny = 4.9e-324;
     size_t n = r->nodes, m = r->elements, all = r->contacts * n + (r->has_elements ? m : 0);
@@ -111,7 +115,8 @@ static const char *missing_variable(const Record *r) {
         {"ledger", r->ledger, LEDGER_ENTRIES, -most, most},
     };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
-        if (!all_within(table[k].value, table[k].count, table[k].low, table[k].high)) return table[k].name;
+        if (!all_within(table[k].value, table[k].count, table[k].low, table[k].high))
+            return table[k].name;
     }
     for (int k = 0; k < CLAIMS; k++) {
         bool may_miss = k == CLAIM_TENSION_BOUND && isnan(r->claim[k]);
@@ -122,12 +127,13 @@ static const char *missing_variable(const Record *r) {
 
 /* running sums of a record */
 typedef struct Sums {
-    Sum primal, dual, signed_gap, gap, scale, work, moment, loads, slid, law, contact, bound_residual, imbalance_work, magnitude, length,
-        elastic, gravity, carried;
+    Sum primal, dual, signed_gap, gap, scale, work, moment, loads, slid, law, contact,
+        bound_residual, imbalance_work, magnitude, length, elastic, gravity, carried;
 } Sums;
 
 static bool held(const Record *r, size_t j) {
-    return (j == 0 && r->end_kind[0] == END_HELD) || (j == r->elements && r->end_kind[1] == END_HELD);
+    return (j == 0 && r->end_kind[0] == END_HELD) ||
+           (j == r->elements && r->end_kind[1] == END_HELD);
 }
 
 static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
@@ -159,7 +165,8 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     if (slack < 0) m->overlong -= (double)(l * slack);
     // coordinates are doubles: their last bits over l are no strain
     Triple here, there;
-    widen(r->position[i], here), widen(r->position[i + 1], there);
+    widen(r->position[i], here);
+    widen(r->position[i + 1], there);
     raise_to(&m->strain_error, stretch - 1 - c * T - 2 * 0x1p-53L * (size(here) + size(there)) / l);
     if (stretch > 0) raise_to(&m->push, -dot(p, e) / stretch);
     if (c > 0) raise_to(&m->elongation, stretch - 1 - c * force);
@@ -173,26 +180,28 @@ typedef struct Where {
     const Source *source;
     Vector *place;
     bool reached, frozen; /* frozen: friction is that of the reference whatever place */
-    Real reach; /* [m] largest coordinate, radius and obstacle coordinate: what rounding goes with */
+    /* [m] largest coordinate, radius and obstacle coordinate: what rounding goes with */
+    Real reach;
 } Where;
 
 /* What a contact sees of its obstacle. */
 typedef struct Seat {
-    const Surface *surface;    /* NULL without any */
-    Triple normal, plane;      /* of the contact, and of the plane in which friction acts */
-    Triple slide, own;         /* own: the node's way, not less that of an obstacle that turns */
-    Real gap;                  /* what contact_gap must be */
+    const Surface *surface; /* NULL without any */
+    Triple normal, plane;   /* of the contact, and of the plane in which friction acts */
+    Triple slide, own;      /* own: the node's way, not less that of an obstacle that turns */
+    Real gap;               /* what contact_gap must be */
     Real axes[2][3];
     bool has_axes;
 } Seat;
 
-/* Where the contacts of node j are seen from: a held end on which an obstacle pushes is where it came to. */
+/* Where the contacts of node j are seen from: a held end on which an obstacle pushes is where it
+ * came to. */
 static void place_of(const Where *where, const Record *r, size_t j, Triple x) {
     widen(held(r, j) && r->reaction[j] > 0 ? r->position[j] : where->place[j], x);
 }
 
-/* The obstacle of contact c of node j, which the file says where there are several; a held node's may be that of either
- * place, so it is the nearest here. */
+/* The obstacle of contact c of node j, which the file says where there are several; a held node's
+ * may be that of either place, so it is the nearest here. */
 static const Surface *surface_of(const Where *where, const Record *r, size_t j, size_t c) {
     const Source *source = where->source;
     if (source->surfaces == 0) return NULL;
@@ -201,19 +210,20 @@ static const Surface *surface_of(const Where *where, const Record *r, size_t j, 
     place_of(where, r, j, x);
     size_t best = 0;
     for (size_t k = 1; k < source->surfaces; k++)
-        if (surface_distance(&source->surface[k], x) < surface_distance(&source->surface[best], x)) best = k;
+        if (surface_distance(&source->surface[k], x) < surface_distance(&source->surface[best], x))
+            best = k;
     return &source->surface[best];
 }
 
-/* Does contact c stay with its obstacle through the step, whichever are near where it ends? Frozen friction does, and what strict contact
- * keeps out. */
+/* Does contact c stay with its obstacle through the step, whichever are near where it ends? Frozen
+ * friction does, and what strict contact keeps out. */
 static bool stays(const Where *where, const Record *r, size_t c) {
     if (where->source->strict) return where->reached && isfinite(r->gap[c]);
     return where->frozen && r->friction_bound[c] > 0;
 }
 
-/* Is the obstacle of contact c the nearest but for those before it, within a margin? One that stays is so at the reference, and the other
- * contact of its node is with the nearest of the rest. */
+/* Is the obstacle of contact c the nearest but for those before it, within a margin? One that stays
+ * is so at the reference, and the other contact of its node is with the nearest of the rest. */
 static bool in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
     const Source *source = where->source;
     const size_t mine = (size_t)r->obstacle[c], first = (size_t)r->obstacle[j];
@@ -234,8 +244,10 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     Seat seat = {.surface = surface_of(where, r, j, c), .gap = INFINITY};
     if (!seat.surface) return seat;
     Triple x, reference, place, carried, u, along;
-    Vector *nodes = where->frozen ? r->reference : where->place; /* whose direction friction takes */
-    widen(r->position[j], x), widen(r->reference[j], reference);
+    Vector *nodes =
+        where->frozen ? r->reference : where->place; /* whose direction friction takes */
+    widen(r->position[j], x);
+    widen(r->reference[j], reference);
     place_of(where, r, j, place);
     subtract(r->position[j], r->reference[j], u);
     surface_normal(seat.surface, place, seat.normal);
@@ -261,12 +273,19 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
 }
 
 /* normal, way and gap on file against those recomputed, and depth below whatever obstacle */
-static void measure_seat(const Where *where, const Record *r, size_t j, size_t c, const Seat *seat, Real margin,
-                         Measures *m) {
+static void measure_seat(const Where *where, const Record *r, size_t j, size_t c, const Seat *seat,
+                         Real margin, Measures *m) {
     Triple n, slide, x;
-    widen(r->normal[c], n), widen(r->slide[c], slide), widen(r->position[j], x);
-    r->mu[c] = seat->surface ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface) : 0;
-    for (int k = 0; k < 3; k++) n[k] -= seat->normal[k], slide[k] -= seat->slide[k];
+    widen(r->normal[c], n);
+    widen(r->slide[c], slide);
+    widen(r->position[j], x);
+    r->mu[c] = seat->surface
+                   ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface)
+                   : 0;
+    for (int k = 0; k < 3; k++) {
+        n[k] -= seat->normal[k];
+        slide[k] -= seat->slide[k];
+    }
     bool round = seat->surface && seat->surface->kind != SURFACE_PLANE;
     raise_to(&m->normal_error, size(n) / (1 + (round ? where->reach / seat->surface->radius : 0)));
     raise_to(&m->slide_error, size(slide));
@@ -284,15 +303,18 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     if (r->contacts > 1 && !in_place(where, r, j, c, margin)) m->misplaced++;
     // a second obstacle that is round is looked for up to half its radius away
     Triple place, reference;
-    widen(where->place[j], place), widen(r->reference[j], reference);
-    bool far = c != j && round && surface_distance(seat->surface, place) > (0.5L - 1e-9L) * seat->surface->radius;
+    widen(where->place[j], place);
+    widen(r->reference[j], reference);
+    bool far = c != j && round &&
+               surface_distance(seat->surface, place) > (0.5L - 1e-9L) * seat->surface->radius;
     if (isfinite(r->gap[c])) raise_to(&m->gap_error, fabsl((Real)r->gap[c] - seat->gap));
     if (!where->source->strict) {
         m->unwatched += !isfinite(r->gap[c]) && !far;
         return;
     }
     // strict: what the reference touches, neither more nor less, but for rounding
-    Real apart = fabsl(surface_distance(seat->surface, reference)), rounding = 4 * 0x1p-53L * where->reach;
+    Real apart = fabsl(surface_distance(seat->surface, reference)),
+         rounding = 4 * 0x1p-53L * where->reach;
     if (isfinite(r->gap[c]) ? apart > margin + rounding : apart < margin - rounding) m->unwatched++;
 }
 
@@ -304,15 +326,24 @@ static void measure_friction(const Record *r, size_t c, const Seat *seat, Measur
     Real w = r->friction_bound[c], force[2] = {0, 0}, way[2] = {0, 0}, phi;
     const Surface *surface = seat->surface ? seat->surface : &none;
     if (seat->has_axes)
-        for (int a = 0; a < 2; a++) force[a] = dot(F, seat->axes[a]), way[a] = dot(seat->slide, seat->axes[a]);
+        for (int a = 0; a < 2; a++) {
+            force[a] = dot(F, seat->axes[a]);
+            way[a] = dot(seat->slide, seat->axes[a]);
+        }
     else { /* no direction: nothing but the size can be judged */
         if (surface->set) w *= surface->set->reach;
-        surface = &none, force[0] = size(F), way[0] = force[0] > 0 ? dot(seat->slide, F) / force[0] : 0;
+        surface = &none;
+        force[0] = size(F);
+        way[0] = force[0] > 0 ? dot(seat->slide, F) / force[0] : 0;
     }
     Real gap = surface_gap(surface, w, force, way, &phi);
-    add(&s->primal, phi), add(&s->scale, phi), add(&s->slid, phi);
-    add(&s->signed_gap, phi), add(&s->signed_gap, dot(F, seat->slide));
-    add(&s->gap, gap), add(&s->law, gap);
+    add(&s->primal, phi);
+    add(&s->scale, phi);
+    add(&s->slid, phi);
+    add(&s->signed_gap, phi);
+    add(&s->signed_gap, dot(F, seat->slide));
+    add(&s->gap, gap);
+    add(&s->law, gap);
     if (surface->set) m->beyond += fmax(0, -(double)(phi + force[0] * way[0] + force[1] * way[1]));
     add(&s->bound_residual, fabsl(r->friction_bound[c] - (Real)r->mu[c] * r->reaction[c]));
     add(&s->magnitude, phi + size(F) * size(seat->slide));
@@ -323,10 +354,13 @@ static void measure_friction(const Record *r, size_t c, const Seat *seat, Measur
 }
 
 /* contact c of node j and its friction; `pull` gathers the forces on the node */
-static void measure_contact(const Where *where, const Record *r, size_t j, size_t c, Triple pull, Measures *m,
-                            Sums *s) {
+static void measure_contact(const Where *where, const Record *r, size_t j, size_t c, Triple pull,
+                            Measures *m, Sums *s) {
     Triple n, F, u, x, reference;
-    widen(r->normal[c], n), widen(r->friction[c], F), widen(r->reference[j], reference), widen(r->position[j], x);
+    widen(r->normal[c], n);
+    widen(r->friction[c], F);
+    widen(r->reference[j], reference);
+    widen(r->position[j], x);
     subtract(r->position[j], r->reference[j], u);
     Real R = r->reaction[c], gap = r->gap[c], force = size(F), has_normal = size(n);
     bool active = !held(r, j);
@@ -364,19 +398,22 @@ static void point_of(Vector *place, size_t i, Real t, Triple out) {
     for (int k = 0; k < 3; k++) out[k] = (1 - t) * place[i][k] + t * place[i + 1][k];
 }
 
-void measure_element_plane(const Record *r, const Surface *on, size_t i, bool frozen, Real t, const Real *x, Real *plane, Real *along) {
+void measure_element_plane(const Record *r, const Surface *on, size_t i, bool frozen, Real t,
+                           const Real *x, Real *plane, Real *along) {
     Vector *nodes = frozen ? r->reference : r->position;
     Triple a, b, from;
     subtract(nodes[i + 1], nodes[i], along);
-    widen(nodes[i], a), widen(nodes[i + 1], b);
+    widen(nodes[i], a);
+    widen(nodes[i + 1], b);
     const Real facing = surface_facing(on, a, b);
     point_of(nodes, i, facing > 0 && facing < 1 ? facing : t, from);
     surface_normal(on, frozen ? from : x, plane);
 }
 
-/* What the point x of element i at the share t, with its reference, sees of surface `on`, in which it may lie by `depth`. */
-static Seat element_seat(const Where *where, const Record *r, const Surface *on, size_t i, Real t, const Real *x, const Real *reference,
-                         Real depth) {
+/* What the point x of element i at the share t, with its reference, sees of surface `on`, in which
+ * it may lie by `depth`. */
+static Seat element_seat(const Where *where, const Record *r, const Surface *on, size_t i, Real t,
+                         const Real *x, const Real *reference, Real depth) {
     Seat seat = {.surface = on};
     Triple carried, u, along;
     const Real turn = (Real)r->share * r->turn[on - where->source->surface];
@@ -384,7 +421,8 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     surface_normal(on, x, seat.normal);
     measure_element_plane(r, on, i, where->frozen, t, x, seat.plane, along);
     surface_carry(on, reference, turn, carried);
-    // the point goes round at its own depth: what friction works on is shorter than the way of its foot
+    // the point goes round at its own depth: what friction works on is shorter than the way of its
+    // foot
     Surface within = *on;
     within.radius -= depth;
     surface_way(&within, carried, x, seat.slide);
@@ -401,7 +439,8 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
 }
 
 /* Contact of element i: the laws of a node's contact, for its point. */
-static void measure_element_contact(const Where *where, const Record *r, size_t i, Measures *m, Sums *s) {
+static void measure_element_contact(const Where *where, const Record *r, size_t i, Measures *m,
+                                    Sums *s) {
     const size_t c = r->contacts * r->nodes + i;
     if (!r->has_elements) return;
     r->mu[c] = 0;
@@ -414,10 +453,16 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     const Surface *on = &where->source->surface[(size_t)r->obstacle[c]];
     const Real t = r->share_of[i], R = r->reaction[c], gap = r->gap[c];
     Triple x, reference, along, a, b, n, F, slide, start;
-    point_of(r->position, i, t, x), point_of(r->reference, i, t, reference);
-    widen(r->position[i], a), widen(r->position[i + 1], b), subtract(r->position[i + 1], r->position[i], along);
-    widen(r->normal[c], n), widen(r->friction[c], F), widen(r->slide[c], slide);
-    const Seat seat = element_seat(where, r, on, i, t, x, reference, surface_allowance(on, r->element_length[i]));
+    point_of(r->position, i, t, x);
+    point_of(r->reference, i, t, reference);
+    widen(r->position[i], a);
+    widen(r->position[i + 1], b);
+    subtract(r->position[i + 1], r->position[i], along);
+    widen(r->normal[c], n);
+    widen(r->friction[c], F);
+    widen(r->slide[c], slide);
+    const Seat seat =
+        element_seat(where, r, on, i, t, x, reference, surface_allowance(on, r->element_length[i]));
     const Real factor = r->factor ? (1 - t) * r->factor[i] + t * r->factor[i + 1] : 1;
     r->mu[c] = (double)(factor * surface_friction(on));
     // where it is, against what it says
@@ -425,11 +470,17 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     // frozen friction acts on what has left the surface as well, where it last was
     const Real facing = surface_facing(on, a, b);
     const bool left = where->frozen && R == 0;
-    if (!left || (facing > 0 && facing < 1)) raise_to(&m->share_error, fabsl(facing - t) * size(along));
-    for (int k = 0; k < 3; k++) n[k] -= seat.normal[k], slide[k] -= seat.slide[k], start[k] = x[k] - seat.slide[k];
+    if (!left || (facing > 0 && facing < 1))
+        raise_to(&m->share_error, fabsl(facing - t) * size(along));
+    for (int k = 0; k < 3; k++) {
+        n[k] -= seat.normal[k];
+        slide[k] -= seat.slide[k];
+        start[k] = x[k] - seat.slide[k];
+    }
     raise_to(&m->normal_error, size(n) / (1 + where->reach / on->radius));
     raise_to(&m->slide_error, size(slide));
-    if (r->friction_bound[c] > 0 && !left) raise_to(&m->gone_quarters, surface_angle(on, reference, x) / QUARTER);
+    if (r->friction_bound[c] > 0 && !left)
+        raise_to(&m->gone_quarters, surface_angle(on, reference, x) / QUARTER);
     if (isfinite(r->gap[c])) raise_to(&m->gap_error, fabsl(gap - seat.gap));
     // what it does
     widen(r->normal[c], n);
@@ -460,15 +511,20 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
         for (int k = 0; k < 3 && j == (e ? r->elements : 0) && r->end_kind[e] == END_FREE; k++)
             weight[k] -= r->end_value[e][k];
     // where gravity changes the weight works with the mean of what it was and what it is
-    const Real share = ((j > 0 ? (Real)r->element_length[j - 1] : 0) + (j < r->elements ? (Real)r->element_length[j] : 0)) / 2;
-    for (int k = 0; k < 3 && r->has_weight_before; k++) weight[k] = (weight[k] + share * r->weight_before[k]) / 2;
+    const Real share = ((j > 0 ? (Real)r->element_length[j - 1] : 0) +
+                        (j < r->elements ? (Real)r->element_length[j] : 0)) /
+                       2;
+    for (int k = 0; k < 3 && r->has_weight_before; k++)
+        weight[k] = (weight[k] + share * r->weight_before[k]) / 2;
     add(&s->gravity, -dot(weight, u));
 }
 
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
-    widen(r->load[j], b), widen(r->load[j], pull), widen(r->position[j], x);
+    widen(r->load[j], b);
+    widen(r->load[j], pull);
+    widen(r->position[j], x);
     subtract(r->position[j], r->position[0], arm);
     subtract(r->position[j], r->reference[j], u);
     for (int k = 0; k < 3; k++) {
@@ -478,13 +534,16 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     }
     add(&s->primal, -dot(b, x));
     add(&s->work, fabsl(dot(b, u)));
-    add(&s->moment, size(b) * size(arm)), add(&s->loads, size(b));
+    add(&s->moment, size(b) * size(arm));
+    add(&s->loads, size(b));
     add(&s->magnitude, size(b) * size(x) + size(pull) * size(x));
     raise_to(&m->largest_force, size(b));
-    for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) measure_contact(where, r, j, c, pull, m, s);
+    for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
+        measure_contact(where, r, j, c, pull, m, s);
     record_element_forces(r, j, pull);
 
-    // a held node: the dual pairs the force of the support with the imposed position; a free one must balance
+    // a held node: the dual pairs the force of the support with the imposed position; a free one
+    // must balance
     if (held(r, j)) {
         Triple imposed, off;
         widen(r->end_value[j == 0 ? 0 : 1], imposed);
@@ -498,9 +557,10 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     }
 }
 
-/* What proves that nothing can balance: distance of the ends, or the fall of the energy along a rigid motion v,
- * sum b.v - sum w |v_T|, which must not lead into the obstacle. Where bounds follow the reactions, these carry the
- * normal part of the loads and sum w is at most the largest mu times it. */
+/* What proves that nothing can balance: distance of the ends, or the fall of the energy along a
+ * rigid motion v, sum b.v - sum w |v_T|, which must not lead into the obstacle. Where bounds follow
+ * the reactions, these carry the normal part of the loads and sum w is at most the largest mu times
+ * it. */
 static void measure_proof(const Source *source, const Record *r, Measures *m) {
     m->ends_distance = m->rigid_fall = NAN;
     m->rigid_rise_least = INFINITY;
@@ -523,10 +583,13 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
             Real rise = dot(n, v);
             for (int k = 0; k < 3; k++) tangential[k] = v[k] - rise * n[k];
             if (!source->consistent) add(&fall, -(Real)r->friction_bound[c] * size(tangential));
-            if (c == j) add(&press, -dot(b, n)); // reactions beside each other may exceed the load: no proof then
+            if (c == j)
+                add(&press,
+                    -dot(b, n)); // reactions beside each other may exceed the load: no proof then
             steepest = fmaxl(steepest, c == j ? r->mu[c] : INFINITY);
             across = size(tangential);
-            if (isfinite(r->gap[c]) && (double)rise < m->rigid_rise_least) m->rigid_rise_least = (double)rise;
+            if (isfinite(r->gap[c]) && (double)rise < m->rigid_rise_least)
+                m->rigid_rise_least = (double)rise;
         }
     }
     if (source->consistent) add(&fall, -steepest * fmaxl(0, total(&press)) * across);
@@ -547,7 +610,8 @@ static Real reach_of(const Source *source, const Record *r) {
     Real reach = 0;
     for (size_t j = 0; j < r->nodes; j++)
         for (int k = 0; k < 3; k++)
-            reach = fmaxl(reach, fmaxl(fabsl((Real)r->position[j][k]), fabsl((Real)r->reference[j][k])));
+            reach = fmaxl(reach,
+                          fmaxl(fabsl((Real)r->position[j][k]), fabsl((Real)r->reference[j][k])));
     for (size_t k = 0; k < source->surfaces; k++)
         reach = fmaxl(reach, size(source->surface[k].point) + source->surface[k].radius);
     return reach;
@@ -557,9 +621,11 @@ static Real reach_of(const Source *source, const Record *r) {
 static void measure_pierced(const Source *source, const Record *r, Measures *m) {
     for (size_t i = 0; i < r->elements; i++) {
         Triple a, b;
-        widen(r->position[i], a), widen(r->position[i + 1], b);
+        widen(r->position[i], a);
+        widen(r->position[i + 1], b);
         for (size_t k = 0; k < source->surfaces; k++)
-            raise_to(&m->pierced, surface_pierced(&source->surface[k], a, b, (Real)r->element_length[i]));
+            raise_to(&m->pierced,
+                     surface_pierced(&source->surface[k], a, b, (Real)r->element_length[i]));
     }
 }
 
@@ -568,10 +634,12 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     m.friction_excess = m.tension_least = -INFINITY;
     Sums s = {0};
     const bool reached = sight != SIGHT_REFERENCE;
-    const Where where = {source, reached ? r->position : r->reference, reached, sight == SIGHT_FROZEN, reach_of(source, r)};
+    const Where where = {source, reached ? r->position : r->reference, reached,
+                         sight == SIGHT_FROZEN, reach_of(source, r)};
     for (size_t i = 0; i < r->elements; i++) measure_segment(r, i, &m, &s);
     for (size_t j = 0; j < r->nodes; j++) measure_node(&where, r, j, &m, &s);
-    for (size_t k = 0; k < source->surfaces; k++) raise_to(&m.quarters, fabsl(r->share * (Real)r->turn[k]) / QUARTER);
+    for (size_t k = 0; k < source->surfaces; k++)
+        raise_to(&m.quarters, fabsl(r->share * (Real)r->turn[k]) / QUARTER);
     for (size_t i = 0; i < r->elements; i++) measure_element_contact(&where, r, i, &m, &s);
     measure_proof(source, r, &m);
     measure_pierced(source, r, &m);
@@ -581,24 +649,29 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     m.primal = (double)total(&s.primal);
     m.dual = (double)total(&s.dual);
     m.gap = (double)total(&s.gap);
-    // the loads' part of S: what they work in the step and a floor, but no more than their moments about end A
+    // the loads' part of S: what they work in the step and a floor, but no more than their moments
+    // about end A
     Real force = fmaxl((Real)m.largest_force, total(&s.loads));
     Real work = total(&s.work) + 1e-12L * force * total(&s.length) / (Real)source->tolerance;
     m.scale = (double)(total(&s.scale) + fminl(work, total(&s.moment)));
     m.slid = (double)total(&s.slid);
     m.law = (double)total(&s.law);
     m.contact = (double)total(&s.contact);
-    m.elastic = (double)total(&s.elastic), m.gravity = (double)total(&s.gravity);
+    m.elastic = (double)total(&s.elastic);
+    m.gravity = (double)total(&s.gravity);
     m.carried = (double)total(&s.carried);
     m.bound_residual = (double)total(&s.bound_residual);
     m.tension_least = -m.tension_least;
 
-    /* primal - dual = sum of local gaps - sum over nodes of imbalance.x, an identity of the exact record;
-     * what is left is rounding of 64-bit mantissas */
+    /* primal - dual = sum of local gaps - sum over nodes of imbalance.x, an identity of the exact
+     * record; what is left is rounding of 64-bit mantissas */
     Sum identity = s.primal;
-    add(&identity, -s.dual.value), add(&identity, -s.dual.rest);
-    add(&identity, -s.signed_gap.value), add(&identity, -s.signed_gap.rest);
-    add(&identity, s.imbalance_work.value), add(&identity, s.imbalance_work.rest);
+    add(&identity, -s.dual.value);
+    add(&identity, -s.dual.rest);
+    add(&identity, -s.signed_gap.value);
+    add(&identity, -s.signed_gap.rest);
+    add(&identity, s.imbalance_work.value);
+    add(&identity, s.imbalance_work.rest);
     m.identity = (double)total(&identity);
     m.identity_noise = (double)(1024 * 0x1p-63L * total(&s.magnitude));
     m.bend = bend_of_record(source, r, sight == SIGHT_REACHED, m.largest_force);

@@ -5,7 +5,8 @@
 
 #include "record.h"
 
-/* What contradicts the claim, or NULL; *power is the least power that nothing can take, as far as it was found [N]. */
+/* What contradicts the claim, or NULL; *power is the least power that nothing can take, as far as
+ * it was found [N]. */
 const char *motion_contradiction(const Source *source, const Record *record, double *power);
 
 #endif

@@ -9,7 +9,8 @@
 
 /* Values of a loop that stops at 1e-7 of the largest force. */
 static const double FOUND = 1e-6;
-/* Ways and missing lengths below the first are none, above the second they are some; between them places leave it open. */
+/* Ways and missing lengths below the first are none, above the second they are some; between them
+ * places leave it open. */
 static const double NONE = 1e-9, SOME = 1e-6;
 /* The rest program is dense. */
 enum { MOST_ELEMENTS = 16 };
@@ -24,27 +25,31 @@ static bool taut_in_doubt(const Record *r, double force) {
         Real dx[3];
         for (int k = 0; k < 3; k++) dx[k] = (Real)r->position[i + 1][k] - r->position[i][k];
         const double missing = (double)(1 - norm(dx) / r->element_length[i]);
-        if (missing > NONE && (missing < SOME || length_of(r->segment_force[i]) > NONE * force)) return true;
+        if (missing > NONE && (missing < SOME || length_of(r->segment_force[i]) > NONE * force))
+            return true;
     }
     return false;
 }
 
 /* The contacts of the record for the program; false where they are not of its kind, or in doubt. */
-static bool contacts_of(const Source *source, const Record *r, double length, double force, RestContact *contact, double *friction) {
+static bool contacts_of(const Source *source, const Record *r, double length, double force,
+                        RestContact *contact, double *friction) {
     bool rubs = false;
     for (size_t c = 0; c < r->contacts * r->nodes; c++) rubs = rubs || r->friction_bound[c] > 0;
     for (size_t c = 0; c < r->contacts * r->nodes; c++) {
         const size_t j = c % r->nodes;
         double open = r->gap[c];
         contact[c] = REST_APART;
-        for (int k = 0; k < 3; k++) open += r->normal[c][k] * (r->position[j][k] - r->reference[j][k]);
+        for (int k = 0; k < 3; k++)
+            open += r->normal[c][k] * (r->position[j][k] - r->reference[j][k]);
         if (!(open <= NONE * length)) {
             if (open < SOME * length || r->friction_bound[c] > NONE * force) return false;
             continue;
         }
         const Surface *surface = &source->surface[(size_t)r->obstacle[c]];
         if (surface->set || surface->mu[0] != surface->mu[1]) return false;
-        if (!source->consistent && surface->kind != SURFACE_PLANE) return false; // friction keeps the plane of the reference
+        if (!source->consistent && surface->kind != SURFACE_PLANE)
+            return false; // friction keeps the plane of the reference
         friction[c] = !rubs ? 0 : source->consistent ? r->mu[c] : r->friction_bound[c];
         const double way = length_of(r->slide[c]);
         if (friction[c] > 0 && way > NONE * length && way < SOME * length) return false;
@@ -53,9 +58,10 @@ static bool contacts_of(const Source *source, const Record *r, double length, do
     return true;
 }
 
-/* Is the claimed value, the least by sign -1, wrong?  It is that of rest.c; where places are not exact it may be farther out, but no farther than
- * they are known. */
-static bool value_is_wrong(const RestLine *line, size_t element, int sign, double claimed, double close, double *found) {
+/* Is the claimed value, the least by sign -1, wrong?  It is that of rest.c; where places are not
+ * exact it may be farther out, but no farther than they are known. */
+static bool value_is_wrong(const RestLine *line, size_t element, int sign, double claimed,
+                           double close, double *found) {
     *found = rest_tension(line, element, sign);
     if (isnan(*found) || claimed == *found || fabs(claimed - *found) <= close) return false;
     if (!(sign * (claimed - *found) > 0)) return true;
@@ -63,12 +69,14 @@ static bool value_is_wrong(const RestLine *line, size_t element, int sign, doubl
 }
 
 /* Do the values by rest.c say otherwise?  False where they are not asked or not found. */
-static bool is_other(const Source *source, const Record *r, size_t element, double force, const double claimed[2], double found[2]) {
+static bool is_other(const Source *source, const Record *r, size_t element, double force,
+                     const double claimed[2], double found[2]) {
     const size_t all = r->contacts * r->nodes;
     RestContact *contact = calloc(all, sizeof *contact);
     double *friction = calloc(all, sizeof *friction), length = 0;
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
-    bool wrong = contact && friction && r->elements <= MOST_ELEMENTS && force > 0 && !taut_in_doubt(r, force) &&
+    bool wrong = contact && friction && r->elements <= MOST_ELEMENTS && force > 0 &&
+                 !taut_in_doubt(r, force) &&
                  contacts_of(source, r, length, force, contact, friction);
     if (wrong) {
         const RestLine line = {.elements = r->elements,
@@ -86,28 +94,44 @@ static bool is_other(const Source *source, const Record *r, size_t element, doub
         const bool low = value_is_wrong(&line, element, -1, claimed[0], FOUND * force, &found[0]);
         wrong = value_is_wrong(&line, element, 1, claimed[1], FOUND * force, &found[1]) || low;
     }
-    free(contact), free(friction);
+    free(contact);
+    free(friction);
     return wrong;
 }
 
-bool range_is_wrong(const Source *source, const Record *r, int e, double force, char *text, size_t size) {
+bool range_is_wrong(const Source *source, const Record *r, int e, double force, char *text,
+                    size_t size) {
     double said[RANGES];
     int missing = 0;
     for (int k = 0; k < RANGES; k++) missing += isnan(said[k] = r->end_range[k][e]);
     if (missing == RANGES) return false;
     const size_t element = e == 0 ? 0 : r->elements - 1;
-    const double least = said[RANGE_LEAST], greatest = said[RANGE_GREATEST], tension = length_of(r->segment_force[element]);
-    if (missing > 0) return snprintf(text, size, "the range of an end's tension is not whole"), true;
-    if (r->compliance > 0) return snprintf(text, size, "a range of tensions of an elastic line"), true;
+    const double least = said[RANGE_LEAST], greatest = said[RANGE_GREATEST],
+                 tension = length_of(r->segment_force[element]);
+    if (missing > 0) {
+        snprintf(text, size, "the range of an end's tension is not whole");
+        return true;
+    }
+    if (r->compliance > 0) {
+        snprintf(text, size, "a range of tensions of an elastic line");
+        return true;
+    }
     if (!(least >= 0 && fabs(least - said[RANGE_LEAST_BOUND]) <= FOUND * force) ||
-        !(greatest == said[RANGE_GREATEST_BOUND] || fabs(greatest - said[RANGE_GREATEST_BOUND]) <= FOUND * force))
-        return snprintf(text, size, "a least or greatest tension and its bound differ"), true;
-    if (!(tension >= least - FOUND * force && tension <= greatest + FOUND * force))
-        return snprintf(text, size, "the tension %.9g of the end's element is not in its range", tension), true;
+        !(greatest == said[RANGE_GREATEST_BOUND] ||
+          fabs(greatest - said[RANGE_GREATEST_BOUND]) <= FOUND * force)) {
+        snprintf(text, size, "a least or greatest tension and its bound differ");
+        return true;
+    }
+    if (!(tension >= least - FOUND * force && tension <= greatest + FOUND * force)) {
+        snprintf(text, size, "the tension %.9g of the end's element is not in its range", tension);
+        return true;
+    }
     const double claimed[2] = {least, greatest};
     double found[2];
-    if (is_other(source, r, element, force, claimed, found))
-        return snprintf(text, size, "claimed range of tensions %.9g to %.9g, recomputed %.9g to %.9g", least, greatest, found[0], found[1]),
-               true;
+    if (is_other(source, r, element, force, claimed, found)) {
+        snprintf(text, size, "claimed range of tensions %.9g to %.9g, recomputed %.9g to %.9g",
+                 least, greatest, found[0], found[1]);
+        return true;
+    }
     return false;
 }

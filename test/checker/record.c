@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reader of result.nc for the checker, on the C interface of netCDF. Every variable's shape is compared with the
- * dimensions before a byte of it is read, and every size is bounded before anything is allocated. */
+/* Reader of result.nc for the checker, on the C interface of netCDF. Every variable's shape is
+ * compared with the dimensions before a byte of it is read, and every size is bounded before
+ * anything is allocated. */
 #include "record.h"
 
 #include <math.h>
@@ -8,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const RANGE_NAME[RANGES] = {"end_tension_least", "end_tension_least_bound", "end_tension_greatest",
-                                        "end_tension_greatest_bound"};
+const char *const RANGE_NAME[RANGES] = {"end_tension_least", "end_tension_least_bound",
+                                        "end_tension_greatest", "end_tension_greatest_bound"};
 const char *const CLAIM_NAME[CLAIMS] = {"primal",
                                         "dual",
                                         "gap",
@@ -28,11 +29,19 @@ const char *const CLAIM_NAME[CLAIMS] = {"primal",
                                         "elongation_residual"};
 
 /* more than any result of this project holds; keeps sizes far from overflow */
-enum { MAX_NODES = 20000000, MAX_LINES = 100000, MAX_SURFACES = 100000, MAX_SET = 1000, MAX_NAME = 256, MAX_RANK = 3 };
+enum {
+    MAX_NODES = 20000000,
+    MAX_LINES = 100000,
+    MAX_SURFACES = 100000,
+    MAX_SET = 1000,
+    MAX_NAME = 256,
+    MAX_RANK = 3
+};
 
 static int complain(FILE *log, const char *what, const char *name, int status) {
     if (log) {
-        fprintf(log, "%s '%s'%s%s\n", what, name, status ? ": " : "", status ? nc_strerror(status) : "");
+        fprintf(log, "%s '%s'%s%s\n", what, name, status ? ": " : "",
+                status ? nc_strerror(status) : "");
     }
     return -1;
 }
@@ -41,7 +50,8 @@ static int complain(FILE *log, const char *what, const char *name, int status) {
 static int split_names(char *text, Source *source, FILE *log) {
     size_t count = 0;
     for (const char *c = text; *c; c++) count += *c != ' ' && (c == text || c[-1] == ' ');
-    if (count == 0 || count > MAX_LINES) return complain(log, "no lines, or too many, in attribute", "lines", 0);
+    if (count == 0 || count > MAX_LINES)
+        return complain(log, "no lines, or too many, in attribute", "lines", 0);
     source->line_name = calloc(count, sizeof *source->line_name);
     if (!source->line_name) return complain(log, "out of memory for", "lines", 0);
     char *rest = NULL;
@@ -70,19 +80,22 @@ static bool first_step_is_laid(const Source *source) {
     const size_t start[2] = {0}, count[2] = {1, sizeof name};
     if (source->steps == 0 || nc_inq_varid(source->nc, "step_name", &id) != NC_NOERR) return false;
     if (nc_inq_varndims(source->nc, id, &rank) != NC_NOERR || rank != 2) return false;
-    return nc_get_vara_text(source->nc, id, start, count, name) == NC_NOERR && memcmp(name, "laid", 5) == 0;
+    return nc_get_vara_text(source->nc, id, start, count, name) == NC_NOERR &&
+           memcmp(name, "laid", 5) == 0;
 }
 
 /* numbers of one variable of the obstacles, `columns` for each, into surface by surface */
-static int read_surface_numbers(const Source *source, const char *name, size_t columns, size_t k, double *value,
-                                FILE *log) {
+static int read_surface_numbers(const Source *source, const char *name, size_t columns, size_t k,
+                                double *value, FILE *log) {
     int id, rank = 0, dimension[2];
     size_t length[2] = {0, 0}, start[2] = {k, 0}, count[2] = {1, columns};
     int status = nc_inq_varid(source->nc, name, &id);
     if (!status) status = nc_inq_varndims(source->nc, id, &rank);
-    if (status || rank != 1 + (columns > 1)) return complain(log, "missing or misshapen variable", name, status);
+    if (status || rank != 1 + (columns > 1))
+        return complain(log, "missing or misshapen variable", name, status);
     status = nc_inq_vardimid(source->nc, id, dimension);
-    for (int d = 0; d < rank && !status; d++) status = nc_inq_dimlen(source->nc, dimension[d], &length[d]);
+    for (int d = 0; d < rank && !status; d++)
+        status = nc_inq_dimlen(source->nc, dimension[d], &length[d]);
     if (status || length[0] != source->surfaces || (rank == 2 && length[1] != columns))
         return complain(log, "wrong shape of variable", name, status);
     status = nc_get_vara_double(source->nc, id, start, count, value);
@@ -100,24 +113,28 @@ static int read_length(const Source *source, const char *name, size_t *length, F
 }
 
 /* A variable (obstacle, rows, columns) of obstacle k, columns 0: (obstacle, rows). */
-static int read_matrix(const Source *source, const char *name, size_t k, size_t rows, size_t columns, double *value,
-                       FILE *log) {
+static int read_matrix(const Source *source, const char *name, size_t k, size_t rows,
+                       size_t columns, double *value, FILE *log) {
     int id, rank = 0, dimension[3];
     size_t length[3] = {0}, start[3] = {k, 0, 0}, count[3] = {1, rows, columns};
     int status = nc_inq_varid(source->nc, name, &id);
     if (!status) status = nc_inq_varndims(source->nc, id, &rank);
-    if (status || rank != 2 + (columns > 0)) return complain(log, "missing or misshapen variable", name, status);
+    if (status || rank != 2 + (columns > 0))
+        return complain(log, "missing or misshapen variable", name, status);
     status = nc_inq_vardimid(source->nc, id, dimension);
-    for (int d = 0; d < rank && !status; d++) status = nc_inq_dimlen(source->nc, dimension[d], &length[d]);
+    for (int d = 0; d < rank && !status; d++)
+        status = nc_inq_dimlen(source->nc, dimension[d], &length[d]);
     if (status || length[0] != source->surfaces || length[1] != rows || length[2] != columns)
         return complain(log, "wrong shape of variable", name, status);
     status = nc_get_vara_double(source->nc, id, start, count, value);
-    for (size_t i = 0; i < rows * (columns ? columns : 1); i++) status = isfinite(value[i]) ? status : NC_ERANGE;
+    for (size_t i = 0; i < rows * (columns ? columns : 1); i++)
+        status = isfinite(value[i]) ? status : NC_ERANGE;
     return status ? complain(log, "cannot read variable", name, status) : 0;
 }
 
 /* The size of a set on file, padded with zeros: rows that cones take, and columns in use. */
-static bool set_size(size_t rows, size_t unknowns, const double *cone, const double *a, size_t *m, size_t *n) {
+static bool set_size(size_t rows, size_t unknowns, const double *cone, const double *a, size_t *m,
+                     size_t *n) {
     for (*m = 0; *m < rows && cone[*m] > 0; *m += (size_t)cone[*m])
         if (!(cone[*m] == floor(cone[*m]) && cone[*m] <= (double)(rows - *m))) return false;
     for (size_t i = 0; i < rows; i++) {
@@ -128,7 +145,8 @@ static bool set_size(size_t rows, size_t unknowns, const double *cone, const dou
     return true;
 }
 
-static int fill_set(size_t rows, size_t unknowns, const double *all, const double origin[2], Conic **out) {
+static int fill_set(size_t rows, size_t unknowns, const double *all, const double origin[2],
+                    Conic **out) {
     const double *cone = all, *b = all + rows, *a = b + rows, *map = a + rows * unknowns;
     size_t m = 0, n = 0;
     if (!set_size(rows, unknowns, cone, a, &m, &n)) return -1;
@@ -150,16 +168,20 @@ static int fill_set(size_t rows, size_t unknowns, const double *all, const doubl
 static int read_set(const Source *source, size_t k, Conic **out, FILE *log) {
     size_t rows, unknowns;
     double origin[2];
-    if (read_length(source, "set_row", &rows, log) || read_length(source, "set_unknown", &unknowns, log)) return -1;
+    if (read_length(source, "set_row", &rows, log) ||
+        read_length(source, "set_unknown", &unknowns, log))
+        return -1;
     double *all = calloc((rows + 2) * (unknowns + 2), sizeof *all);
     if (!all) return complain(log, "out of memory for", "obstacle_set_rows", 0);
     int bad = read_matrix(source, "obstacle_set_origin", k, 2, 0, origin, log);
     bad |= read_matrix(source, "obstacle_set_cone", k, rows, 0, all, log);
     bad |= read_matrix(source, "obstacle_set_offset", k, rows, 0, all + rows, log);
     bad |= read_matrix(source, "obstacle_set_rows", k, rows, unknowns, all + 2 * rows, log);
-    bad |= read_matrix(source, "obstacle_set_map", k, 2, unknowns, all + (2 + unknowns) * rows, log);
+    bad |=
+        read_matrix(source, "obstacle_set_map", k, 2, unknowns, all + (2 + unknowns) * rows, log);
     if (!bad && fill_set(rows, unknowns, all, origin, out))
-        bad = complain(log, "no bounded set with points inside its cones in", "obstacle_set_rows and the like", 0);
+        bad = complain(log, "no bounded set with points inside its cones in",
+                       "obstacle_set_rows and the like", 0);
     free(all);
     return bad;
 }
@@ -180,7 +202,11 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
         !(mu[0] >= 0 && mu[1] >= 0) || !(length > 0) || (kind > SURFACE_PLANE && !(radius > 0)))
         return complain(log, "senseless obstacle in", "obstacle_kind and the like", 0);
     *out = (Surface){.kind = (int)kind, .box = shape == 1, .radius = radius, .mu = {mu[0], mu[1]}};
-    for (int i = 0; i < 3; i++) out->point[i] = point[i], out->axis[i] = axis[i] / length, out->grain[i] = grain[i];
+    for (int i = 0; i < 3; i++) {
+        out->point[i] = point[i];
+        out->axis[i] = axis[i] / length;
+        out->grain[i] = grain[i];
+    }
     out->grained = grain[0] != 0 || grain[1] != 0 || grain[2] != 0;
     return shape == 2 ? read_set(source, k, &out->set, log) : 0;
 }
@@ -190,12 +216,14 @@ static int read_surfaces(Source *source, FILE *log) {
     int dimension;
     if (nc_inq_dimid(source->nc, "obstacle", &dimension) != NC_NOERR) return 0;
     int status = nc_inq_dimlen(source->nc, dimension, &source->surfaces);
-    if (status || source->surfaces > MAX_SURFACES) return complain(log, "senseless dimension", "obstacle", status);
+    if (status || source->surfaces > MAX_SURFACES)
+        return complain(log, "senseless dimension", "obstacle", status);
     source->surface = calloc(source->surfaces + 1, sizeof *source->surface);
     if (!source->surface) return complain(log, "out of memory for", "obstacle", 0);
     for (size_t k = 0; k < source->surfaces; k++)
         if (read_surface(source, k, &source->surface[k], log)) return -1;
-    source->follows = source->surfaces > 1 || (source->surfaces == 1 && surface_follows(source->surface));
+    source->follows =
+        source->surfaces > 1 || (source->surfaces == 1 && surface_follows(source->surface));
     return 0;
 }
 
@@ -220,7 +248,8 @@ int source_open(const char *path, Source *source, FILE *log) {
     status = nc_inq_attlen(source->nc, NC_GLOBAL, "origin", &numbers);
     if (!status && numbers != 3) status = NC_EBADDIM;
     if (!status) status = nc_get_att_double(source->nc, NC_GLOBAL, "origin", source->origin);
-    if (status && status != NC_ENOTATT) return complain(log, "cannot read attribute", "origin", status);
+    if (status && status != NC_ENOTATT)
+        return complain(log, "cannot read attribute", "origin", status);
     source->consistent = attribute_is(source, "friction", "consistent");
     source->strict = attribute_is(source, "contact", "strict");
     source->laid = first_step_is_laid(source);
@@ -234,7 +263,8 @@ int source_open(const char *path, Source *source, FILE *log) {
     char *text = calloc(bytes + 1, 1);
     if (!text) return complain(log, "out of memory for", "lines", 0);
     status = nc_get_att_text(source->nc, NC_GLOBAL, "lines", text);
-    int result = status ? complain(log, "cannot read attribute", "lines", status) : split_names(text, source, log);
+    int result = status ? complain(log, "cannot read attribute", "lines", status)
+                        : split_names(text, source, log);
     free(text);
     return result;
 }
@@ -242,33 +272,36 @@ int source_open(const char *path, Source *source, FILE *log) {
 void source_close(Source *source) {
     for (size_t i = 0; i < source->lines; i++) free(source->line_name[i]);
     free(source->line_name);
-    for (size_t k = 0; k < source->surfaces && source->surface; k++) conic_free(source->surface[k].set);
+    for (size_t k = 0; k < source->surfaces && source->surface; k++)
+        conic_free(source->surface[k].set);
     free(source->surface);
     if (source->line_name || source->nc >= 0) nc_close(source->nc);
     *source = (Source){.nc = -1};
 }
 
 /* Find variable <line>_<what> and compare its shape with `length` (rank entries, slowest first). */
-static int find(const Source *source, const char *line, const char *what, size_t rank, const size_t *length, int *id,
-                FILE *log) {
+static int find(const Source *source, const char *line, const char *what, size_t rank,
+                const size_t *length, int *id, FILE *log) {
     char name[2 * MAX_NAME];
     snprintf(name, sizeof name, "%s_%s", line, what);
     int status = nc_inq_varid(source->nc, name, id), found_rank, dimension[MAX_RANK];
     if (status) return complain(log, "missing variable", name, status);
     status = nc_inq_varndims(source->nc, *id, &found_rank);
-    if (status || (size_t)found_rank != rank) return complain(log, "wrong number of dimensions of", name, status);
+    if (status || (size_t)found_rank != rank)
+        return complain(log, "wrong number of dimensions of", name, status);
     status = nc_inq_vardimid(source->nc, *id, dimension);
     if (status) return complain(log, "cannot read the dimensions of", name, status);
     for (size_t k = 0; k < rank; k++) {
         size_t found;
         status = nc_inq_dimlen(source->nc, dimension[k], &found);
-        if (status || found != length[k]) return complain(log, "wrong length of a dimension of", name, status);
+        if (status || found != length[k])
+            return complain(log, "wrong length of a dimension of", name, status);
     }
     return 0;
 }
 
-static int read_static(const Source *source, const char *line, const char *what, size_t length, double *value,
-                       FILE *log) {
+static int read_static(const Source *source, const char *line, const char *what, size_t length,
+                       double *value, FILE *log) {
     int id;
     if (find(source, line, what, length ? 1 : 0, &length, &id, log)) return -1;
     int status = nc_get_var_double(source->nc, id, value);
@@ -276,18 +309,26 @@ static int read_static(const Source *source, const char *line, const char *what,
 }
 
 /* one step of a variable (step, rows, columns); rows or columns 0: that dimension is absent */
-static int read_step(const Source *source, const char *line, const char *what, size_t step, size_t rows, size_t columns,
-                     double *value, FILE *log) {
-    size_t shape[MAX_RANK] = {source->steps}, start[MAX_RANK] = {step}, count[MAX_RANK] = {1}, rank = 1;
-    if (rows) shape[rank] = count[rank] = rows, rank++;
-    if (columns) shape[rank] = count[rank] = columns, rank++;
+static int read_step(const Source *source, const char *line, const char *what, size_t step,
+                     size_t rows, size_t columns, double *value, FILE *log) {
+    size_t shape[MAX_RANK] = {source->steps}, start[MAX_RANK] = {step}, count[MAX_RANK] = {1},
+           rank = 1;
+    if (rows) {
+        shape[rank] = count[rank] = rows;
+        rank++;
+    }
+    if (columns) {
+        shape[rank] = count[rank] = columns;
+        rank++;
+    }
     int id;
     if (find(source, line, what, rank, shape, &id, log)) return -1;
     int status = nc_get_vara_double(source->nc, id, start, count, value);
     return status ? complain(log, "cannot read variable", what, status) : 0;
 }
 
-static int read_dimension(const Source *source, const char *line, const char *what, size_t *length, FILE *log) {
+static int read_dimension(const Source *source, const char *line, const char *what, size_t *length,
+                          FILE *log) {
     char name[2 * MAX_NAME];
     snprintf(name, sizeof name, "%s_%s", line, what);
     int id, status = nc_inq_dimid(source->nc, name, &id);
@@ -297,8 +338,10 @@ static int read_dimension(const Source *source, const char *line, const char *wh
     return 0;
 }
 
-/* The mean factor of the friction zones over half of each element beside a node, 1 outside of them. */
-static void mean_factors(Record *record, size_t zones, const double *from, const double *to, const double *factor) {
+/* The mean factor of the friction zones over half of each element beside a node, 1 outside of
+ * them. */
+static void mean_factors(Record *record, size_t zones, const double *from, const double *to,
+                         const double *factor) {
     Real at = 0, length = 0;
     for (size_t i = 0; i < record->elements; i++) length += record->element_length[i];
     for (size_t j = 0; j < record->nodes; j++) {
@@ -308,7 +351,10 @@ static void mean_factors(Record *record, size_t zones, const double *from, const
         Real low = at - before / 2, high = at + after / 2, sum = high - low, most = 1;
         for (size_t k = 0; k < zones; k++) {
             Real common = fminl(high, to[k]) - fmaxl(low, from[k]);
-            if (common > 0) sum += (factor[k] - 1) * common, most = fmaxl(most, factor[k]);
+            if (common > 0) {
+                sum += (factor[k] - 1) * common;
+                most = fmaxl(most, factor[k]);
+            }
         }
         record->factor[j] = (double)(sum / (high - low));
         // abscissas are doubles up to the length; a handful of them make the mean
@@ -323,7 +369,8 @@ static int read_zones(const Source *source, const char *line, Record *record, FI
     snprintf(name, sizeof name, "%s_zone", line);
     if (nc_inq_dimid(source->nc, name, &id) != NC_NOERR) return 0;
     if (read_dimension(source, line, "zone", &zones, log)) return -1;
-    double *all = calloc(3 * zones, sizeof *all), *from = all, *to = all + zones, *factor = all + 2 * zones;
+    double *all = calloc(3 * zones, sizeof *all), *from = all, *to = all + zones,
+           *factor = all + 2 * zones;
     record->factor = calloc(record->nodes, sizeof(double));
     record->factor_noise = calloc(record->nodes, sizeof(double));
     if (!all || !record->factor || !record->factor_noise) {
@@ -347,14 +394,17 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     *record = (Record){0};
     if (read_dimension(source, line, "node", &record->nodes, log)) return -1;
     if (read_dimension(source, line, "element", &record->elements, log)) return -1;
-    if (record->nodes != record->elements + 1) return complain(log, "nodes are not elements + 1 in line", line, 0);
+    if (record->nodes != record->elements + 1)
+        return complain(log, "nodes are not elements + 1 in line", line, 0);
 
     record->contacts = source->surfaces > 1 ? 2 : 1;
     size_t n = record->contacts * record->nodes + record->elements;
-    Vector **vectors[] = {&record->reference, &record->position, &record->load,         &record->normal,
-                          &record->friction,  &record->slide,    &record->segment_force, &record->motion};
-    double **scalars[] = {&record->element_length, &record->gap, &record->friction_bound, &record->reaction,
-                          &record->tension,        &record->mu,  &record->obstacle,       &record->share_of};
+    Vector **vectors[] = {&record->reference,     &record->position, &record->load,
+                          &record->normal,        &record->friction, &record->slide,
+                          &record->segment_force, &record->motion};
+    double **scalars[] = {&record->element_length, &record->gap,     &record->friction_bound,
+                          &record->reaction,       &record->tension, &record->mu,
+                          &record->obstacle,       &record->share_of};
     int missing = (record->turn = calloc(source->surfaces + 1, sizeof(double))) == NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
         missing |= (*vectors[k] = calloc(n, sizeof(Vector))) == NULL;
@@ -363,17 +413,32 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
         missing |= (*scalars[k] = calloc(n, sizeof(double))) == NULL;
     }
     if (missing) return complain(log, "out of memory for line", line, 0);
-    if (read_static(source, line, "element_length", record->elements, record->element_length, log)) return -1;
+    if (read_static(source, line, "element_length", record->elements, record->element_length, log))
+        return -1;
     if (read_static(source, line, "compliance", 0, &record->compliance, log)) return -1;
     return read_zones(source, line, record, log);
 }
 
 void record_destroy(Record *record) {
-    free(record->reference), free(record->position), free(record->load);
-    free(record->normal), free(record->friction), free(record->segment_force);
-    free(record->element_length), free(record->gap), free(record->friction_bound);
-    free(record->reaction), free(record->tension), free(record->slide), free(record->motion);
-    free(record->share_of), free(record->turn), free(record->mu), free(record->obstacle), free(record->factor), free(record->factor_noise);
+    free(record->reference);
+    free(record->position);
+    free(record->load);
+    free(record->normal);
+    free(record->friction);
+    free(record->segment_force);
+    free(record->element_length);
+    free(record->gap);
+    free(record->friction_bound);
+    free(record->reaction);
+    free(record->tension);
+    free(record->slide);
+    free(record->motion);
+    free(record->share_of);
+    free(record->turn);
+    free(record->mu);
+    free(record->obstacle);
+    free(record->factor);
+    free(record->factor_noise);
     *record = (Record){0};
 }
 
@@ -387,7 +452,8 @@ void record_element_forces(const Record *r, size_t j, Real *sum) {
 }
 
 /* numbers that stand alone in a step */
-static int read_scalars(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+static int read_scalars(const Source *source, const char *line, size_t step, Record *record,
+                        FILE *log) {
     double outcome, iterations, parts, kind[2];
     int bad = read_step(source, line, "outcome", step, 0, 0, &outcome, log);
     bad |= read_step(source, line, "iterations", step, 0, 0, &iterations, log);
@@ -405,20 +471,28 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "bend_turn", step, 0, 0, &record->bend_turn, log);
     bad |= read_step(source, line, "bend_friction", step, 0, 0, &record->bend_friction, log);
     bad |= read_step(source, line, "bend_at", step, 0, 0, &record->bend_at, log);
-    static const char *const ENTRY[LEDGER_ENTRIES] = {"ledger_ends", "ledger_obstacles", "ledger_elastic",
-                                                      "ledger_gravity", "ledger_imbalance"};
+    static const char *const ENTRY[LEDGER_ENTRIES] = {"ledger_ends", "ledger_obstacles",
+                                                      "ledger_elastic", "ledger_gravity",
+                                                      "ledger_imbalance"};
     for (int k = 0; k < LEDGER_ENTRIES; k++)
         bad |= read_step(source, line, ENTRY[k], step, 0, 0, &record->ledger[k], log);
-    for (int k = 0; k < RANGES; k++) bad |= read_step(source, line, RANGE_NAME[k], step, 2, 0, record->end_range[k], log);
-    for (int k = 0; k < CLAIMS; k++) bad |= read_step(source, line, CLAIM_NAME[k], step, 0, 0, &record->claim[k], log);
+    for (int k = 0; k < RANGES; k++)
+        bad |= read_step(source, line, RANGE_NAME[k], step, 2, 0, record->end_range[k], log);
+    for (int k = 0; k < CLAIMS; k++)
+        bad |= read_step(source, line, CLAIM_NAME[k], step, 0, 0, &record->claim[k], log);
     if (bad) return -1;
 
-    if (!(outcome >= 0 && outcome < OUTCOMES)) return complain(log, "unknown outcome in line", line, 0);
-    if (!(parts >= 1 && parts < 1e9)) return complain(log, "senseless number of parts in line", line, 0);
-    if (!(record->share > 0 && record->share <= 1)) return complain(log, "senseless share of a step in line", line, 0);
-    if (!(fabs(iterations) < 1e9)) return complain(log, "senseless number of iterations in line", line, 0);
+    if (!(outcome >= 0 && outcome < OUTCOMES))
+        return complain(log, "unknown outcome in line", line, 0);
+    if (!(parts >= 1 && parts < 1e9))
+        return complain(log, "senseless number of parts in line", line, 0);
+    if (!(record->share > 0 && record->share <= 1))
+        return complain(log, "senseless share of a step in line", line, 0);
+    if (!(fabs(iterations) < 1e9))
+        return complain(log, "senseless number of iterations in line", line, 0);
     for (int e = 0; e < 2; e++) {
-        if (kind[e] != END_HELD && kind[e] != END_FREE) return complain(log, "unknown kind of end in line", line, 0);
+        if (kind[e] != END_HELD && kind[e] != END_FREE)
+            return complain(log, "unknown kind of end in line", line, 0);
         record->end_kind[e] = (int)kind[e];
     }
     record->outcome = (int)outcome;
@@ -428,31 +502,40 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
 }
 
 /* what belongs to the first contact of each node, or to the second */
-static int read_contact(const Source *source, const char *line, size_t step, bool second, Record *record, FILE *log) {
-    static const char *const NAME[2][7] = {
-        {"normal", "friction", "slide", "contact_gap", "friction_bound", "reaction", "obstacle"},
-        {"normal_second", "friction_second", "slide_second", "contact_gap_second", "friction_bound_second",
-         "reaction_second", "obstacle_second"}};
+static int read_contact(const Source *source, const char *line, size_t step, bool second,
+                        Record *record, FILE *log) {
+    static const char *const NAME[2][7] = {{"normal", "friction", "slide", "contact_gap",
+                                            "friction_bound", "reaction", "obstacle"},
+                                           {"normal_second", "friction_second", "slide_second",
+                                            "contact_gap_second", "friction_bound_second",
+                                            "reaction_second", "obstacle_second"}};
     size_t n = record->nodes, from = second ? n : 0, known = record->contacts > 1 ? 7 : 6;
-    double *to[7] = {record->normal[from],          record->friction[from],  record->slide[from],    record->gap + from,
-                     record->friction_bound + from, record->reaction + from, record->obstacle + from};
+    double *to[7] = {record->normal[from],   record->friction[from],        record->slide[from],
+                     record->gap + from,     record->friction_bound + from, record->reaction + from,
+                     record->obstacle + from};
     int bad = 0;
     for (size_t k = 0; k < known; k++)
         bad |= read_step(source, line, NAME[second][k], step, n, k < 3 ? 3 : 0, to[k], log);
     for (size_t c = from; c < from + n && !bad; c++)
-        if (record->contacts > 1 && !(record->obstacle[c] >= 0 && record->obstacle[c] < (double)source->surfaces))
+        if (record->contacts > 1 &&
+            !(record->obstacle[c] >= 0 && record->obstacle[c] < (double)source->surfaces))
             bad = complain(log, "unknown obstacle in", NAME[second][6], 0);
     return bad;
 }
 
-/* what belongs to the contacts of elements: where an obstacle is round, friction consistent and contact gained */
-static int read_elements(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
-    static const char *const NAME[8] = {
-        "element_normal",         "element_friction", "element_slide",    "element_contact_gap",
-        "element_friction_bound", "element_reaction", "element_obstacle", "element_share"};
+/* what belongs to the contacts of elements: where an obstacle is round, friction consistent and
+ * contact gained */
+static int read_elements(const Source *source, const char *line, size_t step, Record *record,
+                         FILE *log) {
+    static const char *const NAME[8] = {"element_normal",         "element_friction",
+                                        "element_slide",          "element_contact_gap",
+                                        "element_friction_bound", "element_reaction",
+                                        "element_obstacle",       "element_share"};
     const size_t n = record->elements, from = record->contacts * record->nodes;
-    double *to[8] = {record->normal[from],          record->friction[from],  record->slide[from],    record->gap + from,
-                     record->friction_bound + from, record->reaction + from, record->obstacle + from, record->share_of};
+    double *to[8] = {record->normal[from],          record->friction[from],
+                     record->slide[from],           record->gap + from,
+                     record->friction_bound + from, record->reaction + from,
+                     record->obstacle + from,       record->share_of};
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
         record->has_elements |= source->surface[k].kind != SURFACE_PLANE && !source->strict;
@@ -460,15 +543,18 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
         bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);
     for (size_t i = from; i < from + n && !bad; i++) {
         const double obstacle = record->obstacle[i];
-        if (!record->has_elements) record->obstacle[i] = -1;
-        else if (!(obstacle >= -1 && obstacle < (double)source->surfaces && obstacle == floor(obstacle)))
+        if (!record->has_elements)
+            record->obstacle[i] = -1;
+        else if (!(obstacle >= -1 && obstacle < (double)source->surfaces &&
+                   obstacle == floor(obstacle)))
             bad = complain(log, "unknown obstacle in", NAME[6], 0);
     }
     return bad;
 }
 
 /* Files from before lines slid have none. */
-static int read_proof_obstacle(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+static int read_proof_obstacle(const Source *source, const char *line, size_t step, Record *record,
+                               FILE *log) {
     char name[512];
     double value;
     int id;
@@ -476,12 +562,14 @@ static int read_proof_obstacle(const Source *source, const char *line, size_t st
     snprintf(name, sizeof name, "%s_proof_obstacle", line);
     if (nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
     if (read_step(source, line, "proof_obstacle", step, 0, 0, &value, log)) return -1;
-    if (!(value >= -1 && value < (double)source->surfaces)) return complain(log, "unknown obstacle of the proof in line", line, 0);
+    if (!(value >= -1 && value < (double)source->surfaces))
+        return complain(log, "unknown obstacle of the proof in line", line, 0);
     record->proof_obstacle = (int)value;
     return 0;
 }
 
-static int read_motion(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+static int read_motion(const Source *source, const char *line, size_t step, Record *record,
+                       FILE *log) {
     char name[2 * MAX_NAME];
     int id;
     snprintf(name, sizeof name, "%s_motion", line);
@@ -490,12 +578,15 @@ static int read_motion(const Source *source, const char *line, size_t step, Reco
 }
 
 /* Files from before gravity could change have none. */
-static int read_weight_before(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+static int read_weight_before(const Source *source, const char *line, size_t step, Record *record,
+                              FILE *log) {
     char name[2 * MAX_NAME];
     int id;
     snprintf(name, sizeof name, "%s_weight_before", line);
     record->has_weight_before = nc_inq_varid(source->nc, name, &id) == NC_NOERR;
-    return record->has_weight_before ? read_step(source, line, "weight_before", step, 3, 0, record->weight_before, log) : 0;
+    return record->has_weight_before
+               ? read_step(source, line, "weight_before", step, 3, 0, record->weight_before, log)
+               : 0;
 }
 
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
@@ -503,11 +594,13 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     int bad = read_step(source, line, "reference", step, n, 3, record->reference[0], log);
     bad |= read_step(source, line, "position", step, n, 3, record->position[0], log);
     bad |= read_step(source, line, "load", step, n, 3, record->load[0], log);
-    for (size_t k = 0; k < record->contacts; k++) bad |= read_contact(source, line, step, k > 0, record, log);
+    for (size_t k = 0; k < record->contacts; k++)
+        bad |= read_contact(source, line, step, k > 0, record, log);
     bad |= read_elements(source, line, step, record, log);
     if (source->surfaces > 0)
         bad |= read_step(source, "obstacle", "turn", step, source->surfaces, 0, record->turn, log);
-    bad |= read_step(source, line, "segment_force", step, elements, 3, record->segment_force[0], log);
+    bad |=
+        read_step(source, line, "segment_force", step, elements, 3, record->segment_force[0], log);
     bad |= read_step(source, line, "tension", step, elements, 0, record->tension, log);
     bad |= read_motion(source, line, step, record, log);
     bad |= read_proof_obstacle(source, line, step, record, log);

@@ -10,8 +10,17 @@
 #include "surface.h"
 
 /* flag values of the file, by docs/formats.md */
-enum { OUTCOME_SOLVED, OUTCOME_TAUT, OUTCOME_STALLED, OUTCOME_LIMIT, OUTCOME_UNBOUNDED, OUTCOME_INFEASIBLE,
-       OUTCOME_COARSE, OUTCOME_SLIDES, OUTCOMES };
+enum {
+    OUTCOME_SOLVED,
+    OUTCOME_TAUT,
+    OUTCOME_STALLED,
+    OUTCOME_LIMIT,
+    OUTCOME_UNBOUNDED,
+    OUTCOME_INFEASIBLE,
+    OUTCOME_COARSE,
+    OUTCOME_SLIDES,
+    OUTCOMES
+};
 enum { END_HELD, END_FREE };
 
 /* the claimed certificate: index here, name of the variable in CLAIM_NAME */
@@ -40,29 +49,40 @@ extern const char *const CLAIM_NAME[CLAIMS];
 enum { RANGE_LEAST, RANGE_LEAST_BOUND, RANGE_GREATEST, RANGE_GREATEST_BOUND, RANGES };
 extern const char *const RANGE_NAME[RANGES];
 
-/* where the energy of a step went, by the file: ends + obstacles = elastic + gravity + dissipated + imbalance */
-enum { LEDGER_ENDS, LEDGER_OBSTACLES, LEDGER_ELASTIC, LEDGER_GRAVITY, LEDGER_IMBALANCE, LEDGER_ENTRIES };
+/* where the energy of a step went, by the file: ends + obstacles = elastic + gravity + dissipated +
+ * imbalance */
+enum {
+    LEDGER_ENDS,
+    LEDGER_OBSTACLES,
+    LEDGER_ELASTIC,
+    LEDGER_GRAVITY,
+    LEDGER_IMBALANCE,
+    LEDGER_ENTRIES
+};
 
 typedef double Vector[3];
 
-/* nodes 0..elements; element i joins node i and i + 1 here. Contact c is the first of node c, or the second of node
- * c - nodes; where elements have contacts, contact contacts nodes + i is that of element i. */
+/* nodes 0..elements; element i joins node i and i + 1 here. Contact c is the first of node c, or
+ * the second of node c - nodes; where elements have contacts, contact contacts nodes + i is that of
+ * element i. */
 typedef struct Record {
     size_t nodes, elements, contacts; /* contacts: 1 or 2 for each node */
     double *element_length, compliance;
     Vector *reference, *position, *load, *segment_force;
-    bool has_weight_before; /* [N/m] per natural length, where the step began; else it is that of the loads */
+    bool has_weight_before; /* [N/m] per natural length, where the step began; else it is that of
+                               the loads */
     Vector weight_before;
     Vector *motion;                          /* of a line that slides without end, else 0 */
     Vector *normal, *friction, *slide;       /* (contacts, nodes) */
     double *gap, *friction_bound, *reaction; /* the same */
-    double *obstacle;                        /* the same: its number, by the file; where there is one contact, 0 */
+    double *obstacle;  /* the same: its number, by the file; where there is one contact, 0 */
     double *share_of;  /* (elements) where on its way element i touches */
     bool has_elements; /* the file has contacts of elements; obstacle -1: none */
-    double *turn;                            /* of each obstacle in the step [rad] */
-    double *mu; /* (contacts, nodes) not read: factor times the larger coefficient of the obstacle, by measure.h */
-    /* of friction at a node, the mean over the length that it stands for, and what rounding of the abscissas may leave
-     * of it in 64 bits; NULL without friction zones: 1 */
+    double *turn;      /* of each obstacle in the step [rad] */
+    double *mu; /* (contacts, nodes) not read: factor times the larger coefficient of the obstacle,
+                   by measure.h */
+    /* of friction at a node, the mean over the length that it stands for, and what rounding of the
+     * abscissas may leave of it in 64 bits; NULL without friction zones: 1 */
     double *factor, *factor_noise;
     double *tension;
     int end_kind[2], outcome, iterations;
@@ -70,7 +90,8 @@ typedef struct Record {
     double share; /* which is so much of the step */
     Vector end_value[2], end_force[2], end_friction[2], proof;
     double end_tension[2], end_range[RANGES][2];
-    double bend_turn, bend_friction, bend_at; /* [rad], [-], [m] of the sharpest bend round an obstacle */
+    double bend_turn, bend_friction,
+        bend_at;        /* [rad], [-], [m] of the sharpest bend round an obstacle */
     int proof_obstacle; /* -1: none, or the file does not say */
     double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES], unaccounted;
 } Record;
@@ -81,11 +102,13 @@ typedef struct Source {
     size_t steps, lines;
     char **line_name;
     double tolerance, gravity[3];
-    double origin[3]; /* [m] from which the places of the file are measured, in the scene's coordinates; 0 0 0 unless it says so */
-    bool consistent; /* friction bounds follow the reactions of the same step */
-    bool strict;     /* only what touches at the reference is kept out */
-    bool laid;       /* the first step is statics without friction, of the lines laid */
-    bool follows;    /* normals are those of where the nodes end up: not one plane with one coefficient */
+    double origin[3]; /* [m] from which the places of the file are measured, in the scene's
+                         coordinates; 0 0 0 unless it says so */
+    bool consistent;  /* friction bounds follow the reactions of the same step */
+    bool strict;      /* only what touches at the reference is kept out */
+    bool laid;        /* the first step is statics without friction, of the lines laid */
+    bool follows; /* normals are those of where the nodes end up: not one plane with one coefficient
+                   */
     size_t surfaces;
     Surface *surface;
 } Source;

@@ -7,18 +7,21 @@
 
 /* Elements shorter than their length by less are taut, as docs/theory.md has it. */
 static const double TAUT = 1e-9;
-/* Room across a ray or a point that a force must lie on, in units of the force: where no forces are found the next is tried. Places are known
- * to about KNOWN. */
+/* Room across a ray or a point that a force must lie on, in units of the force: where no forces are
+ * found the next is tried. Places are known to about KNOWN. */
 static const double ROOMS[] = {1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7}, KNOWN = 1e-9;
 
 static size_t nodes_of(const RestLine *line) { return line->elements + 1; }
 
-static bool held(const RestLine *line, size_t j) { return (j == 0 && line->held[0]) || (j == line->elements && line->held[1]); }
+static bool held(const RestLine *line, size_t j) {
+    return (j == 0 && line->held[0]) || (j == line->elements && line->held[1]);
+}
 
 static size_t touching(const RestLine *line, size_t j, size_t which[2]) {
     size_t count = 0;
     for (size_t k = 0; k < line->contacts; k++)
-        if (line->contact[k * nodes_of(line) + j] != REST_APART) which[count++] = k * nodes_of(line) + j;
+        if (line->contact[k * nodes_of(line) + j] != REST_APART)
+            which[count++] = k * nodes_of(line) + j;
     return count;
 }
 
@@ -35,12 +38,15 @@ static void put(Conic *set, size_t row, size_t cone, const Force *f, const Real 
     set->b[row] = more;
     for (size_t a = 0; a < 3; a++) {
         set->b[row] += w[a] * f->b[a];
-        for (size_t j = 0; j < set->unknowns; j++) set->a[row * set->unknowns + j] += w[a] * f->a[a][j];
+        for (size_t j = 0; j < set->unknowns; j++)
+            set->a[row * set->unknowns + j] += w[a] * f->a[a][j];
     }
 }
 
-/* The force lies in the cone of contact c; c beyond all contacts: it vanishes. Returns the rows used. */
-static size_t bind(const RestLine *line, Conic *set, size_t row, size_t c, const Force *f, Real room) {
+/* The force lies in the cone of contact c; c beyond all contacts: it vanishes. Returns the rows
+ * used. */
+static size_t bind(const RestLine *line, Conic *set, size_t row, size_t c, const Force *f,
+                   Real room) {
     static const Real axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, none[3] = {0, 0, 0};
     if (c >= line->contacts * nodes_of(line)) {
         put(set, row, 4, f, none, room);
@@ -55,9 +61,12 @@ static size_t bind(const RestLine *line, Conic *set, size_t row, size_t c, const
     /* along the normal, R; across, F less what slipping makes of it */
     Real bound[3], shift = 0;
     for (size_t a = 0; a < 3; a++) bound[a] = slips || line->frozen ? 0 : mu * normal[a];
-    if (slips) shift = room;
-    else if (line->frozen) shift = mu / line->force + room;
-    else shift = room;
+    if (slips)
+        shift = room;
+    else if (line->frozen)
+        shift = mu / line->force + room;
+    else
+        shift = room;
     put(set, row, 4, f, bound, shift);
     for (size_t a = 0; a < 3; a++) {
         Real w[3];
@@ -110,22 +119,33 @@ static double extreme(const RestLine *line, size_t element, int sign, double roo
         size_t which[2], count = touching(line, j, which);
         if (held(line, j)) continue;
         rows += count == 0 ? 4 : 5 * count;
-        if (count == 2) unknowns += 3, rows += 4;
+        if (count == 2) {
+            unknowns += 3;
+            rows += 4;
+        }
     }
     Conic *set = conic_create(unknowns, rows);
     if (!set) return NAN;
     size_t row = 0, own = n;
     for (size_t i = 0; i < n; i++) {
         const bool taut = tangent(line, i, t[i]) <= TAUT;
-        set->cone[row] = 1, set->a[row * unknowns + i] = 1, set->b[row++] = room; /* T >= 0 */
-        set->cone[row] = 1, set->a[row * unknowns + i] = -1, set->b[row++] = taut ? REST_MOST : room;
+        set->cone[row] = 1;
+        set->a[row * unknowns + i] = 1;
+        set->b[row++] = room; /* T >= 0 */
+        set->cone[row] = 1;
+        set->a[row * unknowns + i] = -1;
+        set->b[row++] = taut ? REST_MOST : room;
     }
     for (size_t j = 0; j <= n; j++) {
         size_t which[2], count = touching(line, j, which);
         if (held(line, j)) continue;
         memset(entries, 0, sizeof entries);
         Force whole, first;
-        for (size_t a = 0; a < 3; a++) whole.a[a] = entries[0][a], first.a[a] = entries[1][a], first.b[a] = 0;
+        for (size_t a = 0; a < 3; a++) {
+            whole.a[a] = entries[0][a];
+            first.a[a] = entries[1][a];
+            first.b[a] = 0;
+        }
         missing(line, j, (const Real(*)[3])t, &whole);
         if (count == 2) {
             for (size_t a = 0; a < 3; a++) first.a[a][own++] = 1;
@@ -145,20 +165,28 @@ static double extreme(const RestLine *line, size_t element, int sign, double roo
     return (double)(sign * value * line->force);
 }
 
-/* By the smallest room from `least` on with which there are forces; `taken_off`: less what it adds in proportion. */
-static double with_room(const RestLine *line, size_t element, int sign, double least, bool taken_off) {
+/* By the smallest room from `least` on with which there are forces; `taken_off`: less what it adds
+ * in proportion. */
+static double with_room(const RestLine *line, size_t element, int sign, double least,
+                        bool taken_off) {
     for (size_t k = 0; k < sizeof ROOMS / sizeof *ROOMS; k++) {
         const double value = ROOMS[k] >= least ? extreme(line, element, sign, ROOMS[k]) : NAN;
         if (isnan(value)) continue;
-        return isinf(value) || !taken_off ? value : 2 * value - extreme(line, element, sign, 2 * ROOMS[k]);
+        return isinf(value) || !taken_off ? value
+                                          : 2 * value - extreme(line, element, sign, 2 * ROOMS[k]);
     }
     return NAN;
 }
 
-/* The room widens a range: a node that turns the line by a shallow angle holds it back by its tension times that angle, so room over angle is
- * added to the tension; where friction stands at its limit all along, the root of the room. The greatest value is a concave function v of the
- * room, as that of any convex program is of what bounds it, so that 2 v(r) - v(2 r) lies between v(0) and v(r): what the room adds in
- * proportion is gone. So with the least one. */
-double rest_tension(const RestLine *line, size_t element, int sign) { return with_room(line, element, sign, 0, true); }
+/* The room widens a range: a node that turns the line by a shallow angle holds it back by its
+ * tension times that angle, so room over angle is added to the tension; where friction stands at
+ * its limit all along, the root of the room. The greatest value is a concave function v of the
+ * room, as that of any convex program is of what bounds it, so that 2 v(r) - v(2 r) lies between
+ * v(0) and v(r): what the room adds in proportion is gone. So with the least one. */
+double rest_tension(const RestLine *line, size_t element, int sign) {
+    return with_room(line, element, sign, 0, true);
+}
 
-double rest_tension_about(const RestLine *line, size_t element, int sign) { return with_room(line, element, sign, KNOWN, false); }
+double rest_tension_about(const RestLine *line, size_t element, int sign) {
+    return with_room(line, element, sign, KNOWN, false);
+}

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Least and greatest tension of an inextensible line that is held where it is, by the conic solver of the checker.
+/* Least and greatest tension of an inextensible line that is held where it is, by the conic solver
+ * of the checker.
  *
- * Unknown are the tensions of all taut elements alone. What is then missing at a node is what its contacts do together,
+ * Unknown are the tensions of all taut elements alone. What is then missing at a node is what its
+ * contacts do together,
  *
  *     c_j = T_j t_j - T_j+1 t_j+1 - b_j,
  *
- * and must lie in their cone: nothing at a free node, R n + F with |F| <= mu R where it rests, R (n - mu u/|u|) where it slips. At a node
- * with two contacts the force of the first is unknown too. */
+ * and must lie in their cone: nothing at a free node, R n + F with |F| <= mu R where it rests, R (n
+ * - mu u/|u|) where it slips. At a node with two contacts the force of the first is unknown too. */
 #ifndef CAPSTAN_CHECKER_REST_H
 #define CAPSTAN_CHECKER_REST_H
 
@@ -22,19 +24,21 @@ typedef struct RestLine {
     size_t elements, contacts;
     const double *element_length, (*position)[3], (*load)[3];
     const double (*normal)[3], (*slide)[3]; /* (contacts, nodes) */
-    const double *friction;                 /* (contacts, nodes) mu, or the bound [N] where frozen */
-    const RestContact *contact;             /* (contacts, nodes) */
+    const double *friction;     /* (contacts, nodes) mu, or the bound [N] where frozen */
+    const RestContact *contact; /* (contacts, nodes) */
     bool frozen, held[2];
-    double force;                           /* [N] of the size of the largest */
+    double force; /* [N] of the size of the largest */
 } RestLine;
 
 /* Tensions above so many times the force are not looked at: "unbounded". */
 #define REST_MOST 1e2
 
-/* The least (sign -1) or greatest (1) tension of an element [N]; NAN: not found, INFINITY: unbounded. */
+/* The least (sign -1) or greatest (1) tension of an element [N]; NAN: not found, INFINITY:
+ * unbounded. */
 double rest_tension(const RestLine *line, size_t element, int sign);
 
-/* The same with forces that need to balance no better than places are known: no range of the line is wider. */
+/* The same with forces that need to balance no better than places are known: no range of the line
+ * is wider. */
 double rest_tension_about(const RestLine *line, size_t element, int sign);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Geometry and friction sets of obstacles (surface.h).
  *
- * Ways: on a cylinder the helix, an angle about the axis and a shift along it; on a ball the great circle, whose angle
- * comes from the chord of the two normals. */
+ * Ways: on a cylinder the helix, an angle about the axis and a shift along it; on a ball the great
+ * circle, whose angle comes from the chord of the two normals. */
 #include "surface.h"
 
 #include <math.h>
@@ -11,7 +11,8 @@ static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1]
 static Real size(const Real *a) { return sqrtl(dot(a, a)); }
 
 static void cross(const Real *a, const Real *b, Real *out) {
-    for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
 /* from the plane's point, the axis or the centre */
@@ -36,7 +37,8 @@ void surface_normal(const Surface *s, const Real *x, Real *n) {
 Real surface_pierced(const Surface *s, const Real *a, const Real *b, Real l) {
     Real from[3], to[3], way[3], moment[3];
     if (s->kind == SURFACE_PLANE) return -INFINITY;
-    arm(s, a, from), arm(s, b, to);
+    arm(s, a, from);
+    arm(s, b, to);
     for (int k = 0; k < 3; k++) way[k] = to[k] - from[k];
     /* coming nearer at the start and going away at the end */
     if (!(dot(from, way) < 0 && dot(to, way) > 0)) return -INFINITY;
@@ -48,7 +50,8 @@ Real surface_allowance(const Surface *s, Real l) { return fminl(l * l / s->radiu
 
 Real surface_facing(const Surface *s, const Real *a, const Real *b) {
     Real from[3], to[3], way[3];
-    arm(s, a, from), arm(s, b, to);
+    arm(s, a, from);
+    arm(s, b, to);
     for (int k = 0; k < 3; k++) way[k] = to[k] - from[k];
     return (dot(from, from) - dot(from, to)) / dot(way, way);
 }
@@ -59,19 +62,22 @@ void surface_carry(const Surface *s, const Real *x, Real angle, Real *out) {
     cross(s->axis, v, around);
     /* 1 - cos without cancellation */
     Real along = dot(s->axis, v), half = sinl(angle / 2), versine = 2 * half * half;
-    for (int k = 0; k < 3; k++) out[k] = x[k] + sinl(angle) * around[k] - versine * (v[k] - along * s->axis[k]);
+    for (int k = 0; k < 3; k++)
+        out[k] = x[k] + sinl(angle) * around[k] - versine * (v[k] - along * s->axis[k]);
 }
 
 void surface_way(const Surface *s, const Real *from, const Real *to, Real *out) {
     Real n0[3], n1[3], shift[3];
-    surface_normal(s, from, n0), surface_normal(s, to, n1);
+    surface_normal(s, from, n0);
+    surface_normal(s, to, n1);
     for (int k = 0; k < 3; k++) shift[k] = to[k] - from[k];
     if (s->kind == SURFACE_PLANE) {
         Real rise = dot(shift, s->axis);
         for (int k = 0; k < 3; k++) out[k] = shift[k] - rise * s->axis[k];
     } else if (s->kind == SURFACE_CYLINDER) {
         Real turn[3], tangent[3];
-        cross(n0, n1, turn), cross(s->axis, n1, tangent);
+        cross(n0, n1, turn);
+        cross(s->axis, n1, tangent);
         Real angle = atan2l(dot(turn, s->axis), dot(n0, n1)), along = dot(shift, s->axis);
         for (int k = 0; k < 3; k++) out[k] = s->radius * angle * tangent[k] + along * s->axis[k];
     } else {
@@ -80,15 +86,20 @@ void surface_way(const Surface *s, const Real *from, const Real *to, Real *out) 
         Real normal = dot(chord, n1), angle = 2 * asinl(fminl(1, size(chord) / 2));
         for (int k = 0; k < 3; k++) tangent[k] = chord[k] - normal * n1[k];
         Real length = size(tangent);
-        for (int k = 0; k < 3; k++) out[k] = length > 0 ? s->radius * angle * tangent[k] / length : 0;
+        for (int k = 0; k < 3; k++)
+            out[k] = length > 0 ? s->radius * angle * tangent[k] / length : 0;
     }
 }
 
 Real surface_angle(const Surface *s, const Real *a, const Real *b) {
     Real n[3], m[3], less[3], sum[3];
     if (s->kind == SURFACE_PLANE) return 0;
-    surface_normal(s, a, n), surface_normal(s, b, m);
-    for (int k = 0; k < 3; k++) less[k] = n[k] - m[k], sum[k] = n[k] + m[k];
+    surface_normal(s, a, n);
+    surface_normal(s, b, m);
+    for (int k = 0; k < 3; k++) {
+        less[k] = n[k] - m[k];
+        sum[k] = n[k] + m[k];
+    }
     return 2 * atan2l(size(less), size(sum));
 }
 
@@ -97,7 +108,8 @@ bool surface_axes(const Surface *s, const Real *n, const Real *along, Real axes[
     Real rise = dot(wanted, n);
     for (int k = 0; k < 3; k++) axes[0][k] = wanted[k] - rise * n[k];
     Real length = size(axes[0]);
-    if (!(length > 1e-9L * size(wanted))) return false; // what rounding leaves of a direction along the normal
+    if (!(length > 1e-9L * size(wanted)))
+        return false; // what rounding leaves of a direction along the normal
     for (int k = 0; k < 3; k++) axes[0][k] /= length;
     cross(n, axes[0], axes[1]);
     return true;
@@ -105,16 +117,21 @@ bool surface_axes(const Surface *s, const Real *n, const Real *along, Real axes[
 
 Real surface_friction(const Surface *s) { return s->set ? 1 : fmaxl(s->mu[0], s->mu[1]); }
 
-bool surface_follows(const Surface *s) { return s->kind != SURFACE_PLANE || s->set || s->box || s->mu[0] != s->mu[1]; }
+bool surface_follows(const Surface *s) {
+    return s->kind != SURFACE_PLANE || s->set || s->box || s->mu[0] != s->mu[1];
+}
 
 /* half-axes of the set for a bound of 1 */
 static void half_axes(const Surface *s, Real ratio[2]) {
-    for (int a = 0; a < 2; a++) ratio[a] = surface_friction(s) > 0 ? s->mu[a] / surface_friction(s) : 1;
+    for (int a = 0; a < 2; a++)
+        ratio[a] = surface_friction(s) > 0 ? s->mu[a] / surface_friction(s) : 1;
 }
 
 Real surface_excess(const Surface *s, Real w, const Real F[2]) {
     Real ratio[2], gauge[2], flat = 0;
-    if (s->set) return w > 0 ? w * conic_distance(s->set, (Real[2]){F[0] / w, F[1] / w}) : hypotl(F[0], F[1]);
+    if (s->set)
+        return w > 0 ? w * conic_distance(s->set, (Real[2]){F[0] / w, F[1] / w})
+                     : hypotl(F[0], F[1]);
     half_axes(s, ratio);
     for (int a = 0; a < 2; a++) {
         gauge[a] = ratio[a] > 0 ? fabsl(F[a]) / ratio[a] : 0;
@@ -126,8 +143,8 @@ Real surface_excess(const Surface *s, Real w, const Real F[2]) {
     return fmaxl(beyond, flat);
 }
 
-/* (w - |f|)|u| + |f||u| + f.u >= 0, the second part from the angle between f and -u; absolute values, so that a force
- * outside its set makes it larger */
+/* (w - |f|)|u| + |f||u| + f.u >= 0, the second part from the angle between f and -u; absolute
+ * values, so that a force outside its set makes it larger */
 static Real disc_gap(Real w, const Real f[2], const Real u[2]) {
     Real force = hypotl(f[0], f[1]), way = hypotl(u[0], u[1]);
     if (force == 0 || way == 0) return fabsl(w - force) * way;
@@ -139,7 +156,9 @@ Real surface_gap(const Surface *s, Real w, const Real F[2], const Real way[2], R
     Real ratio[2], f[2], u[2], gap = 0;
     if (s->set) { // phi is max -F.s
         Real size = hypotl(way[0], way[1]);
-        *phi = w > 0 && size > 0 ? w * size * conic_support(s->set, (Real[2]){-way[0] / size, -way[1] / size}) : 0;
+        *phi = w > 0 && size > 0
+                   ? w * size * conic_support(s->set, (Real[2]){-way[0] / size, -way[1] / size})
+                   : 0;
         return fabsl(*phi + F[0] * way[0] + F[1] * way[1]);
     }
     half_axes(s, ratio);

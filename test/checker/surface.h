@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Obstacles as the checker sees them: planes, cylinders and balls in long double, written from docs/theory.md. */
+/* Obstacles as the checker sees them: planes, cylinders and balls in long double, written from
+ * docs/theory.md. */
 #ifndef CAPSTAN_CHECKER_SURFACE_H
 #define CAPSTAN_CHECKER_SURFACE_H
 
@@ -15,36 +16,40 @@ typedef struct Surface {
     bool box, grained;
     Real point[3], axis[3], radius; /* axis of length 1 */
     Real mu[2], grain[3];           /* along the line or the grain, and across */
-    Conic *set;                     /* forces per unit normal force in place of the coefficients, or NULL */
+    Conic *set; /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
 /* [m] above the surface, negative below it. */
 Real surface_distance(const Surface *surface, const Real *x);
-/* How deep an element of natural length l may lie in a round obstacle: its chord cuts in, min(l^2/(4 R), R/4). */
+/* How deep an element of natural length l may lie in a round obstacle: its chord cuts in,
+ * min(l^2/(4 R), R/4). */
 Real surface_allowance(const Surface *surface, Real l);
-/* Where between its ends a (0) and b (1) an element is nearest to the axis or centre, if anywhere. */
+/* Where between its ends a (0) and b (1) an element is nearest to the axis or centre, if
+ * anywhere. */
 Real surface_facing(const Surface *surface, const Real *a, const Real *b);
 /* [m] How much deeper than its natural length l allows the straight element from a to b lies in a
- * round obstacle between its ends; negative where it does not, -INFINITY where an end is nearest to the middle. */
+ * round obstacle between its ends; negative where it does not, -INFINITY where an end is nearest to
+ * the middle. */
 Real surface_pierced(const Surface *surface, const Real *a, const Real *b, Real l);
 /* Unit normal at the foot of x. */
 void surface_normal(const Surface *surface, const Real *x, Real *n);
 /* x carried along by a turn of the surface. */
 void surface_carry(const Surface *surface, const Real *x, Real angle, Real *out);
-/* The shorter geodesic between the feet of two points, as the tangent vector of its length with which it arrives. */
+/* The shorter geodesic between the feet of two points, as the tangent vector of its length with
+ * which it arrives. */
 void surface_way(const Surface *surface, const Real *from, const Real *to, Real *out);
 /* [rad] Between the normals of a round surface at two points, 0 to pi. 0 of a plane. */
 Real surface_angle(const Surface *surface, const Real *a, const Real *b);
-/* The tangent plane's axes where the normal is n: the grain, or the direction `along`, and across. False where that
- * direction has no tangent part. */
+/* The tangent plane's axes where the normal is n: the grain, or the direction `along`, and across.
+ * False where that direction has no tangent part. */
 bool surface_axes(const Surface *surface, const Real *n, const Real *along, Real axes[2][3]);
 /* The larger coefficient; 1 where a set is given. */
 Real surface_friction(const Surface *surface);
 /* Does what a node sees of it change with the node's place or the line's direction? */
 bool surface_follows(const Surface *surface);
 
-/* Friction forces F1, F2 with the bound w of the larger coefficient, or w times the set: how far outside the set [N],
- * and phi(s) + F.s of a way s [J], whose dissipation is *phi. */
+/* Friction forces F1, F2 with the bound w of the larger coefficient, or w times the set: how far
+ * outside the set [N], and phi(s) + F.s of a way s [J], whose dissipation is *phi. */
 Real surface_excess(const Surface *surface, Real w, const Real F[2]);
 Real surface_gap(const Surface *surface, Real w, const Real F[2], const Real s[2], Real *phi);
 

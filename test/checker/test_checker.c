@@ -159,10 +159,13 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_bend_friction", 0, 0.25, "claimed bend_friction"},
     {"wound_bend_at", 0, 0, "claimed turn at bend_at"},
     {"wound_bend_turn", 1, NAN, "bend_turn holds a value that cannot be"},
-    {"wound_outcome", 0, 6, "mesh too coarse, but friction at one contact holds tensions in the ratio 1.13"},
-    {"obstacle_axial", 0, 7.3, "certified, but friction at one contact holds tensions in the ratio 23"},
+    {"wound_outcome", 0, 6,
+     "mesh too coarse, but friction at one contact holds tensions in the ratio 1.13"},
+    {"obstacle_axial", 0, 7.3,
+     "certified, but friction at one contact holds tensions in the ratio 23"},
     {"obstacle_turn", 1, -0.2, "slide against the way"},
-    {"obstacle_turn", 1, -0.125 - 2 * 3.14159265358979323846, "quarters of a turn of an obstacle in one part"},
+    {"obstacle_turn", 1, -0.125 - 2 * 3.14159265358979323846,
+     "quarters of a turn of an obstacle in one part"},
     {"wound_reference", 8, -1.75, "quarters of a turn that a node with friction went"},
     {"obstacle_kind", 0, 2, "normal against the obstacle's"},
     {"obstacle_kind", 0, 0, "normal against the obstacle's"},
@@ -176,8 +179,8 @@ static const Tamper DRUM_TAMPER[] = {
     {"obstacle_grain", 1, 1, "friction above its bound"},
 };
 
-/* the same with a set and zones: 0.4 by 0.2 and the factor 1.25; the boundary of the zones lies in the share of node 1
- * or 2 */
+/* the same with a set and zones: 0.4 by 0.2 and the factor 1.25; the boundary of the zones lies in
+ * the share of node 1 or 2 */
 static const Tamper SET_TAMPER[] = {
     {"obstacle_set_map", 0, 0.41, "claimed primal"},
     {"obstacle_set_map", 0, 0.39, "friction above its bound"},
@@ -290,10 +293,12 @@ static const Tamper FALL_TAMPER[] = {
     {"fall_proof_value", 0, 4.9, "proof_value"},
     {"fall_load", 8, 1, "proof_value"},
     {"fall_end_kind", 0, 0, "unbounded, but an end is held"},
-    {"fall_reference", 8, -1, "unbounded, but the line meets an obstacle"},  // it touches
-    {"fall_reference", 8, 1.5, "unbounded, but the line meets an obstacle"}, // an element goes through the drum
-    {"fall_reference", 5, 50, "unbounded, but the line meets an obstacle"},  // ... will go
-    {"obstacle_point", 2, -3, "unbounded, but the line meets an obstacle"},  // the drum is in the way
+    {"fall_reference", 8, -1, "unbounded, but the line meets an obstacle"}, // it touches
+    {"fall_reference", 8, 1.5,
+     "unbounded, but the line meets an obstacle"}, // an element goes through the drum
+    {"fall_reference", 5, 50, "unbounded, but the line meets an obstacle"}, // ... will go
+    {"obstacle_point", 2, -3,
+     "unbounded, but the line meets an obstacle"}, // the drum is in the way
     {"obstacle_point", 2, -3e3, "unbounded, but the line meets an obstacle"},
     {"obstacle_radius", 0, 1.6, "unbounded, but the line meets an obstacle"},
 };
@@ -327,8 +332,9 @@ static void refuse_each(int (*write)(const char *), const Tamper *tamper, size_t
         int result = checker_file(path, NULL, log);
         fclose(log);
         if (result == 0 || !strstr(text, tamper[i].finding)) {
-            print_error("%s[%zu] = %g: result %d, expected a finding with \"%s\", got:\n%s", tamper[i].variable,
-                        tamper[i].index, tamper[i].value, result, tamper[i].finding, text);
+            print_error("%s[%zu] = %g: result %d, expected a finding with \"%s\", got:\n%s",
+                        tamper[i].variable, tamper[i].index, tamper[i].value, result,
+                        tamper[i].finding, text);
             fail();
         }
         free(text);
@@ -398,19 +404,27 @@ static void corner_is_certified(void **state) {
     CHECK_NEAR(report.force, 0, 1e-30);
 }
 
-/* Triangle (0.3, 0), (0, 0.2), (-0.1, -0.4) as weights of its corners, and a half disc of radius 2 above its diameter:
- * support and distance against what a ruler says, to the accuracy promised of reach 1 and 2. */
+/* Triangle (0.3, 0), (0, 0.2), (-0.1, -0.4) as weights of its corners, and a half disc of radius 2
+ * above its diameter: support and distance against what a ruler says, to the accuracy promised of
+ * reach 1 and 2. */
 static void supports_and_distances(void **state) {
     (void)state;
     static const Real CORNER[3][2] = {{0.3L, 0}, {0, 0.2L}, {-0.1L, -0.4L}};
     Conic *triangle = conic_create(2, 3), *half = conic_create(2, 4);
     for (size_t i = 0; i < 2; i++) {
-        triangle->cone[i] = 1, triangle->a[2 * i + i] = 1, triangle->a[4 + i] = -1; // weights u, v and 1 - u - v
+        triangle->cone[i] = 1;
+        triangle->a[2 * i + i] = 1;
+        triangle->a[4 + i] = -1; // weights u, v and 1 - u - v
         for (size_t k = 0; k < 2; k++) triangle->map[2 * k + i] = CORNER[i][k] - CORNER[2][k];
         triangle->origin[i] = CORNER[2][i];
     }
-    triangle->cone[2] = 1, triangle->b[2] = 1;
-    half->cone[0] = 3, half->cone[3] = 1, half->b[0] = 1, half->a[2] = half->a[5] = 1, half->a[7] = 1;
+    triangle->cone[2] = 1;
+    triangle->b[2] = 1;
+    half->cone[0] = 3;
+    half->cone[3] = 1;
+    half->b[0] = 1;
+    half->a[2] = half->a[5] = 1;
+    half->a[7] = 1;
     half->map[0] = half->map[3] = 2;
     assert_true(conic_prepare(triangle) && conic_prepare(half));
     for (int i = 0; i < 720; i++) { // faces and corners are among the directions
@@ -418,14 +432,19 @@ static void supports_and_distances(void **state) {
         Real best = -INFINITY;
         for (int k = 0; k < 3; k++) best = fmaxl(best, d[0] * CORNER[k][0] + d[1] * CORNER[k][1]);
         CHECK_BETWEEN((double)(conic_support(triangle, d) - best), -1e-18, 1e-14);
-        CHECK_BETWEEN((double)(conic_support(half, d) - (d[1] > 0 ? 2 : 2 * fabsl(d[0]))), -1e-18, 5e-14);
-        CHECK_BETWEEN((double)(conic_distance(half, (Real[2]){3 * d[0], 3 * fabsl(d[1])}) - 1), -1e-18, 5e-14);
-        CHECK_BETWEEN((double)conic_distance(half, (Real[2]){1.9L * d[0], 1.9L * fabsl(d[1])}), 0, 5e-14);
-        CHECK_BETWEEN((double)(conic_distance(half, (Real[2]){1.9L * d[0], -0.5L}) - 0.5L), -1e-18, 5e-14);
+        CHECK_BETWEEN((double)(conic_support(half, d) - (d[1] > 0 ? 2 : 2 * fabsl(d[0]))), -1e-18,
+                      5e-14);
+        CHECK_BETWEEN((double)(conic_distance(half, (Real[2]){3 * d[0], 3 * fabsl(d[1])}) - 1),
+                      -1e-18, 5e-14);
+        CHECK_BETWEEN((double)conic_distance(half, (Real[2]){1.9L * d[0], 1.9L * fabsl(d[1])}), 0,
+                      5e-14);
+        CHECK_BETWEEN((double)(conic_distance(half, (Real[2]){1.9L * d[0], -0.5L}) - 0.5L), -1e-18,
+                      5e-14);
     }
     const Real face[2] = {2, 3}; // normal of the face from (0.3, 0) to (0, 0.2)
     CHECK_BETWEEN((double)(conic_support(triangle, face) - 0.6L), -1e-18, 4e-14);
-    conic_free(triangle), conic_free(half);
+    conic_free(triangle);
+    conic_free(half);
 }
 
 /* a quarter of a great circle, a quarter of a helix, and a plane's own vector */
@@ -438,14 +457,17 @@ static void ways_are_geodesics(void **state) {
     const Real east[3] = {3, 0, 0}, north[3] = {1, 2, 0}, higher[3] = {1, 2.5L, 5};
     Real way[3], carried[3];
     surface_way(&ball, east, north, way);
-    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}), ((double[]){-pi, 0, 0}), 1e-15);
+    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}),
+                 ((double[]){-pi, 0, 0}), 1e-15);
     surface_way(&pipe, east, higher, way);
-    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}), ((double[]){-pi, 0, 5}), 1e-15);
+    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}),
+                 ((double[]){-pi, 0, 5}), 1e-15);
     surface_way(&bed, east, higher, way);
-    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}), ((double[]){-2, 2.5, 0}), 1e-15);
+    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}),
+                 ((double[]){-2, 2.5, 0}), 1e-15);
     surface_carry(&pipe, east, pi / 2, carried);
-    CHECK_VECTOR(((double[]){(double)carried[0], (double)carried[1], (double)carried[2]}), ((double[]){1, 2, 0}),
-                 1e-15);
+    CHECK_VECTOR(((double[]){(double)carried[0], (double)carried[1], (double)carried[2]}),
+                 ((double[]){1, 2, 0}), 1e-15);
     CHECK_NEAR((double)surface_distance(&pipe, higher), 0.5, 1e-15);
     CHECK_NEAR((double)surface_distance(&ball, higher), sqrt(2.5 * 2.5 + 25) - 2, 1e-15);
 }
@@ -457,9 +479,11 @@ static void sets_are_ellipse_and_box(void **state) {
     const Real inside[2] = {2.4L, 1.6L}, corner[2] = {4, 2}, way[2] = {-3, -8};
     Real phi;
     CHECK_NEAR((double)surface_excess(&ellipse, 4, inside), 0, 1e-15); // (0.6, 0.8) on its edge
-    CHECK_GREATER((double)surface_excess(&ellipse, 4, corner), 1.3);   // sqrt(20) (1 - 1/sqrt 2) = 1.31
+    CHECK_GREATER((double)surface_excess(&ellipse, 4, corner),
+                  1.3); // sqrt(20) (1 - 1/sqrt 2) = 1.31
     CHECK_NEAR((double)surface_excess(&box, 4, corner), 0, 1e-15);
-    CHECK_NEAR((double)surface_gap(&ellipse, 4, (Real[2]){2.4L, 1.6L}, (Real[2]){-3, -8}, &phi), 0, 1e-15);
+    CHECK_NEAR((double)surface_gap(&ellipse, 4, (Real[2]){2.4L, 1.6L}, (Real[2]){-3, -8}, &phi), 0,
+               1e-15);
     CHECK_NEAR((double)phi, 20, 1e-15); // sqrt((4 3)^2 + (2 8)^2), and F.way = -7.2 - 12.8
     CHECK_NEAR((double)surface_gap(&box, 4, corner, way, &phi), 0, 1e-15);
     CHECK_NEAR((double)phi, 28, 1e-15);
@@ -482,11 +506,17 @@ static void what_is_no_result_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reel_is_certified), cmocka_unit_test(exact_solution_is_certified), cmocka_unit_test(drum_is_certified),
-        cmocka_unit_test(spill_is_certified),          cmocka_unit_test(corner_is_certified),
-        cmocka_unit_test(post_is_certified),           cmocka_unit_test(every_change_is_refuted),
-        cmocka_unit_test(ways_are_geodesics),          cmocka_unit_test(sets_are_ellipse_and_box),
-        cmocka_unit_test(supports_and_distances),      cmocka_unit_test(what_is_no_result_is_refused),
+        cmocka_unit_test(reel_is_certified),
+        cmocka_unit_test(exact_solution_is_certified),
+        cmocka_unit_test(drum_is_certified),
+        cmocka_unit_test(spill_is_certified),
+        cmocka_unit_test(corner_is_certified),
+        cmocka_unit_test(post_is_certified),
+        cmocka_unit_test(every_change_is_refuted),
+        cmocka_unit_test(ways_are_geodesics),
+        cmocka_unit_test(sets_are_ellipse_and_box),
+        cmocka_unit_test(supports_and_distances),
+        cmocka_unit_test(what_is_no_result_is_refused),
     };
     return cmocka_run_group_tests(tests, make_path, drop_path);
 }

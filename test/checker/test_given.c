@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Copies of a sound file that are sound records of another scene: the checker passes them by themselves, and refuses them
- * beside their scene. */
+/* Copies of a sound file that are sound records of another scene: the checker passes them by
+ * themselves, and refuses them beside their scene. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,14 +12,17 @@
 #include "given.h"
 #include "sample.h"
 
-/* Ends held, moved, pulled, let go and grabbed; zones, a graded mesh, a set of friction forces, something that turns. */
+/* Ends held, moved, pulled, let go and grabbed; zones, a graded mesh, a set of friction forces,
+ * something that turns. */
 static const char SCENE[] =
     "capstan: 1\n"
     "gravity: [0, 0, -10]\n"
     "obstacles:\n"
     "  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
-    "  drum: {cylinder: {point: [0, 30, 1], axis: [0, 1, 0], radius: 1}, friction: {axial: 0.3, lateral: 0.2}}\n"
-    "  mat: {plane: {point: [0, 0, -9], normal: [0, 0, 1]}, friction: {set: {ellipse: [0.4, 0.2]}}}\n"
+    "  drum: {cylinder: {point: [0, 30, 1], axis: [0, 1, 0], radius: 1}, friction: {axial: 0.3, "
+    "lateral: 0.2}}\n"
+    "  mat: {plane: {point: [0, 0, -9], normal: [0, 0, 1]}, friction: {set: {ellipse: [0.4, "
+    "0.2]}}}\n"
     "lines:\n"
     "  rope:\n"
     "    length: 4\n"
@@ -57,7 +60,8 @@ static int run(const char *text, const char *where, CpsSceneFile **read, int *pa
     CpsStatus status = cps_scene_read(yaml, NULL, read, &err);
     if (!status) status = cps_evolution_create(cps_scene_file_scene(*read), &evolution, &err);
     if (!status) status = cps_results_prepare(where, true, &err); /* the scene lies there */
-    if (!status) status = cps_results_open(where, cps_scene_file_scene(*read), evolution, &results, &err);
+    if (!status)
+        status = cps_results_open(where, cps_scene_file_scene(*read), evolution, &results, &err);
     for (bool first = true; !status && cps_evolution_remaining(evolution) > 0; first = false) {
         status = cps_evolution_step(evolution, &err);
         if (!status) status = cps_results_append(results, evolution, &err);
@@ -115,8 +119,12 @@ typedef struct Falsified {
 static const Falsified FALSIFIED[] = {
     {"end_value of rope, end B, step 1", false, {{"rope_end_value", 6 + 3, 31}}},
     {"end_value of rope, end B, step 1", false, {{"rope_end_value", 6 + 4, 1}}},
-    {"end_value of rope, end B, step 1", true, {{"rope_end_value", 6 + 5, 1e-8}, {"rope_end_force", 6 + 5, 1e-8}}},
-    {"end_value of wire, end B, step 2", true, {{"wire_end_value", 12 + 4, 1e-8}, {"wire_end_force", 12 + 4, 1e-8}}},
+    {"end_value of rope, end B, step 1",
+     true,
+     {{"rope_end_value", 6 + 5, 1e-8}, {"rope_end_force", 6 + 5, 1e-8}}},
+    {"end_value of wire, end B, step 2",
+     true,
+     {{"wire_end_value", 12 + 4, 1e-8}, {"wire_end_force", 12 + 4, 1e-8}}},
     {"end_value of rope, end B, step 3", false, {{"rope_end_value", 18 + 4, 0.6}}},
     {"end_value of rope, end A, step 5", true, {{"rope_end_value", 30, 1e-13}}},
     {"end_value of wire, end A, step 0", true, {{"wire_end_value", 2, 1e-13}}},
@@ -149,7 +157,8 @@ static void falsified_copies_are_refused(void **state) {
         const Falsified *f = &FALSIFIED[i];
         copy_result();
         for (int k = 0; k < POKES && f->poke[k].variable; k++)
-            CHECK_INT(sample_poke(copy, f->poke[k].variable, f->poke[k].index, f->poke[k].value), 0);
+            CHECK_INT(sample_poke(copy, f->poke[k].variable, f->poke[k].index, f->poke[k].value),
+                      0);
         const int by_itself = checker_file(copy, NULL, NULL);
         alone += by_itself == 0;
         char *text = NULL;
@@ -158,13 +167,14 @@ static void falsified_copies_are_refused(void **state) {
         const int found = given_file(copy, cps_scene_file_scene(scene), log);
         fclose(log);
         if (found <= 0 || !strstr(text, f->finding) || (by_itself == 0) != f->alone) {
-            print_error("%s[%zu]: by itself %d, beside the scene %d, expected \"%s\", got:\n%s", f->poke[0].variable,
-                        f->poke[0].index, by_itself, found, f->finding, text);
+            print_error("%s[%zu]: by itself %d, beside the scene %d, expected \"%s\", got:\n%s",
+                        f->poke[0].variable, f->poke[0].index, by_itself, found, f->finding, text);
             fail();
         }
         free(text);
     }
-    printf("%zu falsified copies refused; %d of them are sound by themselves\n", sizeof FALSIFIED / sizeof *FALSIFIED, alone);
+    printf("%zu falsified copies refused; %d of them are sound by themselves\n",
+           sizeof FALSIFIED / sizeof *FALSIFIED, alone);
 }
 
 /* A tolerance, a mode or a gravity of another scene. */
@@ -173,40 +183,53 @@ static void other_scenes_are_refused(void **state) {
     CpsScene other = *cps_scene_file_scene(scene);
     other.solver.tolerance = 1e-6;
     CHECK_INT(given_file(result, &other, NULL), 1);
-    other = *cps_scene_file_scene(scene), other.friction = CPS_FRICTION_FROZEN;
+    other = *cps_scene_file_scene(scene);
+    other.friction = CPS_FRICTION_FROZEN;
     CHECK_INT(given_file(result, &other, NULL), 1);
-    other = *cps_scene_file_scene(scene), other.contact = CPS_CONTACT_STRICT;
+    other = *cps_scene_file_scene(scene);
+    other.contact = CPS_CONTACT_STRICT;
     CHECK_INT(given_file(result, &other, NULL), 1);
-    other = *cps_scene_file_scene(scene), other.gravity[2] = -9;
+    other = *cps_scene_file_scene(scene);
+    other.gravity[2] = -9;
     CHECK_INT(given_file(result, &other, NULL), 1);
-    other = *cps_scene_file_scene(scene), other.stage_count = 1;
+    other = *cps_scene_file_scene(scene);
+    other.stage_count = 1;
     CHECK_INT(given_file(result, &other, NULL), 1); /* more steps than in the history */
-    other = *cps_scene_file_scene(scene), other.line_count = 1;
+    other = *cps_scene_file_scene(scene);
+    other.line_count = 1;
     CHECK_INT(given_file(result, &other, NULL), 1);
-    other = *cps_scene_file_scene(scene), other.obstacle_count = 1;
+    other = *cps_scene_file_scene(scene);
+    other.obstacle_count = 1;
     CHECK_GREATER(given_file(result, &other, NULL), 0);
     CHECK_INT(given_file("no-such-file.nc", cps_scene_file_scene(scene), NULL), -1);
 }
 
-/* An end that is grabbed, or moved, in the first step starts from where the start shape puts it, also where the step is taken in parts and
- * the record's reference is that of the last of them; far from the origin of the coordinates as well. */
+/* An end that is grabbed, or moved, in the first step starts from where the start shape puts it,
+ * also where the step is taken in parts and the record's reference is that of the last of them; far
+ * from the origin of the coordinates as well. */
 static void first_step_in_parts(void **state) {
     (void)state;
     for (int k = 0; k < 12; k++) {
         const double x = k % 2 ? 5e5 : 0;
         char start[160], text[1200], where[] = "capstan-first-XXXXXX", path[64];
-        if (k / 2 % 3 == 0) snprintf(start, sizeof start, "straight: {from: [%.9g, 0, 0], to: [%.9g, 0, 0]}", x, x + 4);
+        if (k / 2 % 3 == 0)
+            snprintf(start, sizeof start, "straight: {from: [%.9g, 0, 0], to: [%.9g, 0, 0]}", x,
+                     x + 4);
         if (k / 2 % 3 == 1)
-            snprintf(start, sizeof start, "polyline: [[%.9g, 0, 0], [%.9g, 1, 0], [%.9g, 2, 0]]", x, x + 1.75, x + 3.5);
+            snprintf(start, sizeof start, "polyline: [[%.9g, 0, 0], [%.9g, 1, 0], [%.9g, 2, 0]]", x,
+                     x + 1.75, x + 3.5);
         if (k / 2 % 3 == 2)
-            snprintf(start, sizeof start, "arc: {from: [%.9g, 0, 0], center: [%.9g, 0.5, 3], axis: [0, 0, -2]}", x, x + 1);
-        snprintf(text, sizeof text,
-                 "capstan: 1\ngravity: [0, 0, -10]\nsolver: {path_tolerance: 1e-3, halvings: 4}\n"
-                 "obstacles:\n  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
-                 "lines:\n  rope:\n    length: 4\n    elements: 8\n    weight: 8\n    stiffness: 1000\n"
-                 "    start: {%s}\n    ends: {A: %s, B: %s}\n"
-                 "history:\n  - {name: grab, steps: 2, rope.B: {position: [%.9g, 1.5, 0.7]}}\n",
-                 start, k < 6 ? "fixed" : "free", k < 6 ? "free" : "fixed", x + 3);
+            snprintf(start, sizeof start,
+                     "arc: {from: [%.9g, 0, 0], center: [%.9g, 0.5, 3], axis: [0, 0, -2]}", x,
+                     x + 1);
+        snprintf(
+            text, sizeof text,
+            "capstan: 1\ngravity: [0, 0, -10]\nsolver: {path_tolerance: 1e-3, halvings: 4}\n"
+            "obstacles:\n  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
+            "lines:\n  rope:\n    length: 4\n    elements: 8\n    weight: 8\n    stiffness: 1000\n"
+            "    start: {%s}\n    ends: {A: %s, B: %s}\n"
+            "history:\n  - {name: grab, steps: 2, rope.B: {position: [%.9g, 1.5, 0.7]}}\n",
+            start, k < 6 ? "fixed" : "free", k < 6 ? "free" : "fixed", x + 3);
         assert_non_null(mkdtemp(where));
         CpsSceneFile *file = NULL;
         int parts = 0;
@@ -254,10 +277,8 @@ static void first_step_of_nodes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sound_file_is_the_scenes),
-        cmocka_unit_test(falsified_copies_are_refused),
-        cmocka_unit_test(other_scenes_are_refused),
-        cmocka_unit_test(first_step_in_parts),
+        cmocka_unit_test(sound_file_is_the_scenes), cmocka_unit_test(falsified_copies_are_refused),
+        cmocka_unit_test(other_scenes_are_refused), cmocka_unit_test(first_step_in_parts),
         cmocka_unit_test(first_step_of_nodes),
     };
     return cmocka_run_group_tests(tests, solve, clean);

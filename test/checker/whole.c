@@ -10,17 +10,21 @@
 static FILE *open_beside(const char *path, const char *name) {
     char full[4096];
     const char *slash = strrchr(path, '/');
-    const int length = snprintf(full, sizeof full, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path, name);
+    const int length =
+        snprintf(full, sizeof full, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path, name);
     return length > 0 && (size_t)length < sizeof full ? fopen(full, "rb") : NULL;
 }
 
-/* Does .capstan say that files were being replaced, and is the summary `wanted` missing, which comes last? */
+/* Does .capstan say that files were being replaced, and is the summary `wanted` missing, which
+ * comes last? */
 static int is_interrupted(const char *path, const char *wanted) {
     char line[512], last[512];
     int interrupted = 0;
     FILE *marker = open_beside(path, ".capstan");
     while (marker && fgets(line, sizeof line, marker)) {
-        if (strncmp(line, "x ", 2) != 0 || sscanf(line + 2, "%511s", last) != 1 || strcmp(last, wanted) != 0) continue;
+        if (strncmp(line, "x ", 2) != 0 || sscanf(line + 2, "%511s", last) != 1 ||
+            strcmp(last, wanted) != 0)
+            continue;
         FILE *there = open_beside(path, last);
         if (there) fclose(there);
         interrupted = interrupted || !there;
@@ -41,7 +45,10 @@ static uint32_t crc_of(FILE *file, uint64_t *bytes) {
 }
 
 static int of_two_runs(const char *path, FILE *out) {
-    fprintf(out, "%s: the files beside it are of two runs, because replacing them was interrupted: run again into this directory\n", path);
+    fprintf(out,
+            "%s: the files beside it are of two runs, because replacing them was interrupted: run "
+            "again into this directory\n",
+            path);
     return 1;
 }
 
@@ -54,24 +61,33 @@ typedef struct Entry {
 
 static int read_entry(const char *line, Entry *entry) {
     const char *at = strstr(line, "{\"name\": \"");
-    return at && sscanf(at, "{\"name\": \"%511[^\"]\", \"bytes\": %" SCNu64 ", \"crc32\": \"%" SCNx32, entry->name, &entry->bytes, &entry->crc) == 3;
+    return at &&
+           sscanf(at, "{\"name\": \"%511[^\"]\", \"bytes\": %" SCNu64 ", \"crc32\": \"%" SCNx32,
+                  entry->name, &entry->bytes, &entry->crc) == 3;
 }
 
 /* A file against its entry; 1 after a finding. */
 static int differs(const char *path, const Entry *entry, FILE *out) {
     uint64_t bytes;
     FILE *file = open_beside(path, entry->name);
-    if (!file) return fprintf(out, "%s: %s is listed and cannot be read\n", path, entry->name), 1;
+    if (!file) {
+        fprintf(out, "%s: %s is listed and cannot be read\n", path, entry->name);
+        return 1;
+    }
     const uint32_t crc = crc_of(file, &bytes);
     fclose(file);
     if (bytes == entry->bytes && crc == entry->crc) return 0;
-    fprintf(out, "%s: %s: %" PRIu64 " bytes, crc32 %08" PRIx32 "; the summary beside it lists %" PRIu64 " bytes, crc32 %08" PRIx32 ": not of its run\n",
+    fprintf(out,
+            "%s: %s: %" PRIu64 " bytes, crc32 %08" PRIx32 "; the summary beside it lists %" PRIu64
+            " bytes, crc32 %08" PRIx32 ": not of its run\n",
             path, entry->name, bytes, crc, entry->bytes, entry->crc);
     return 1;
 }
 
-/* Findings about the files that a summary lists, all or the one of that name; *listed: how many these are. */
-static int against_list(const char *path, const char *summary, const char *name, int *listed, FILE *out) {
+/* Findings about the files that a summary lists, all or the one of that name; *listed: how many
+ * these are. */
+static int against_list(const char *path, const char *summary, const char *name, int *listed,
+                        FILE *out) {
     char line[4096];
     Entry entry;
     int findings = 0;

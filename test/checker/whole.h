@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is a result file one of the set that it lies in?  Two runs into one directory, the second interrupted while it put its files in place, leave
- * files of both. */
+/* Is a result file one of the set that it lies in?  Two runs into one directory, the second
+ * interrupted while it put its files in place, leave files of both. */
 #ifndef CAPSTAN_TEST_CHECKER_WHOLE_H
 #define CAPSTAN_TEST_CHECKER_WHOLE_H
 
 #include <stdio.h>
 
-/* Findings about the file beside its .capstan and summary.json, told to `out`; 0 where neither is there. */
+/* Findings about the file beside its .capstan and summary.json, told to `out`; 0 where neither is
+ * there. */
 int whole_file(const char *path, FILE *out);
 
 /* Findings about all the files that the summary `path` lists. */

@@ -1,35 +1,42 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory runs out at the k-th allocation of `capstan law`, for every k: reading a law, asking it in all ways, drawing
- * it. The command ends with EXIT_LIMIT and says why, everything allocated is given back, and no part of a picture
- * stays. Allocations are counted by wrapping them at link time. */
+/* Memory runs out at the k-th allocation of `capstan law`, for every k: reading a law, asking it in
+ * all ways, drawing it. The command ends with EXIT_LIMIT and says why, everything allocated is
+ * given back, and no part of a picture stays. Allocations are counted by wrapping them at link
+ * time. */
 
 #include "refuse_command.h"
 
 /* allocations: a read file, its sets or systems and answers take this many at the very least */
 enum { LEAST = 50 };
 
-/* Two files: a wheel on an ellipse, which needs the solver, and a body with every kind of list; and a resistance law.
+/* Two files: a wheel on an ellipse, which needs the solver, and a body with every kind of list; and
+ * a resistance law.
  */
-static const char WHEEL[] = "memory-wheel.yaml", BODY[] = "memory-body.yaml", GREASE[] = "memory-grease.yaml",
-                  PICTURE[] = "memory-law.svg";
-static const char WHEEL_TEXT[] =
-    "capstan: 1\ntitle: Wheel\nload: [1, 0]\n"
-    "law: {preimage: {map: [[0, -0.3], [1, 0], [0, 1]], of: {product: [{interval: 60}, {ellipse: [500, 400]}]}}}\n";
+static const char WHEEL[] = "memory-wheel.yaml", BODY[] = "memory-body.yaml",
+                  GREASE[] = "memory-grease.yaml", PICTURE[] = "memory-law.svg";
+static const char WHEEL_TEXT[] = "capstan: 1\ntitle: Wheel\nload: [1, 0]\n"
+                                 "law: {preimage: {map: [[0, -0.3], [1, 0], [0, 1]], of: {product: "
+                                 "[{interval: 60}, {ellipse: [500, 400]}]}}}\n";
 static const char BODY_TEXT[] =
     "capstan: 1\nlaw:\n  contacts:\n"
-    "    - {map: [[1, 0, 0], [0, 1, 1]], of: {unit_load: {load: 50, of: {ball: {radius: 0.4, dimension: 2}}}}}\n"
+    "    - {map: [[1, 0, 0], [0, 1, 1]], of: {unit_load: {load: 50, of: {ball: {radius: 0.4, "
+    "dimension: 2}}}}}\n"
     "    - {map: [[1, 0, 0], [0, 1, -1]], of: {polytope: [[1, 0], [0, 1], [-1, -1]]}}\n"
     "    - {map: [[0, 0, 1]], of: {translate: {by: [0.5], of: {box: [[-1, 2]]}}}}\n";
-static const char GREASE_TEXT[] = "capstan: 1\nresistance:\n  - {dry: {disc: 3}}\n  - {viscous: [[2, 0], [0, 2]]}\n";
+static const char GREASE_TEXT[] =
+    "capstan: 1\nresistance:\n  - {dry: {disc: 3}}\n  - {viscous: [[2, 0], [0, 2]]}\n";
 
-#define REFUSE_EACH(argv, draws) refuse_each(cmd_law, PICTURE, LEAST, (int)(sizeof(argv) / sizeof *(argv)), argv, draws)
+#define REFUSE_EACH(argv, draws) \
+    refuse_each(cmd_law, PICTURE, LEAST, (int)(sizeof(argv) / sizeof *(argv)), argv, draws)
 
 static void planar_law(void **state) {
     (void)state;
     write_file(WHEEL, WHEEL_TEXT);
-    static const char *const ASK[] = {"law", WHEEL,     "--json",  "--velocity", "1,1", "--velocity",
-                                      "0,1", "--force", "400,200", "--force",    "1,0"};
-    static const char *const DRAW[] = {"law", WHEEL, "--velocity", "0,1", "--force", "1,0", "--plot", PICTURE};
+    static const char *const ASK[] = {"law",     WHEEL,        "--json", "--velocity",
+                                      "1,1",     "--velocity", "0,1",    "--force",
+                                      "400,200", "--force",    "1,0"};
+    static const char *const DRAW[] = {"law",     WHEEL, "--velocity", "0,1",
+                                       "--force", "1,0", "--plot",     PICTURE};
     REFUSE_EACH(ASK, false);
     REFUSE_EACH(DRAW, true);
     remove(WHEEL);
@@ -40,7 +47,8 @@ static void law_in_space(void **state) {
     write_file(BODY, BODY_TEXT);
     static const char *const ASK[] = {"law",        BODY,    "--velocity", "1,1,0",
                                       "--velocity", "0,0,0", "--force",    "0.1,0.2,0.3"};
-    static const char *const DRAW[] = {"law", BODY, "--velocity", "0,0,1", "--plot", PICTURE, "--axes", "1,3"};
+    static const char *const DRAW[] = {"law",    BODY,    "--velocity", "0,0,1",
+                                       "--plot", PICTURE, "--axes",     "1,3"};
     REFUSE_EACH(ASK, false);
     REFUSE_EACH(DRAW, true);
     remove(BODY);
@@ -49,7 +57,8 @@ static void law_in_space(void **state) {
 static void resistance_law(void **state) {
     (void)state;
     write_file(GREASE, GREASE_TEXT);
-    static const char *const ASK[] = {"law", GREASE, "--json", "--velocity", "1,1", "--force", "0,-5"};
+    static const char *const ASK[] = {"law", GREASE,    "--json", "--velocity",
+                                      "1,1", "--force", "0,-5"};
     REFUSE_EACH(ASK, false);
     remove(GREASE);
 }

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Run a program and let one of its system calls fail: the K-th after it has begun of those that write, or that one and all behind it.
+/* Run a program and let one of its system calls fail: the K-th after it has begun of those that
+ * write, or that one and all behind it.
  *
  *     refuse_calls K once|on ERRNO COUNT_FILE PROGRAM ARGUMENTS..
  *
- * Calls are counted from the program's first fcntl, with which capstan begins, so that those of the dynamic linker are not among them. The
- * number of calls counted goes to COUNT_FILE; the exit code is the program's, 128 + the signal that ended it, or 77 where programs cannot be
- * traced. Unlike functions of a library, what libc itself calls is reached, too. */
+ * Calls are counted from the program's first fcntl, with which capstan begins, so that those of the
+ * dynamic linker are not among them. The number of calls counted goes to COUNT_FILE; the exit code
+ * is the program's, 128 + the signal that ended it, or 77 where programs cannot be traced. Unlike
+ * functions of a library, what libc itself calls is reached, too. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <signal.h>
@@ -22,8 +24,11 @@
 #ifdef __x86_64__
 
 static bool is_counted(long call) {
-    static const long COUNTED[] = {SYS_open,   SYS_openat,   SYS_write,  SYS_pwrite64, SYS_writev, SYS_fsync, SYS_fdatasync, SYS_rename,
-                                   SYS_renameat, SYS_renameat2, SYS_unlink, SYS_unlinkat, SYS_mkdir,  SYS_mkdirat, SYS_close,  SYS_ftruncate, SYS_lseek};
+    static const long COUNTED[] = {SYS_open,     SYS_openat,    SYS_write,     SYS_pwrite64,
+                                   SYS_writev,   SYS_fsync,     SYS_fdatasync, SYS_rename,
+                                   SYS_renameat, SYS_renameat2, SYS_unlink,    SYS_unlinkat,
+                                   SYS_mkdir,    SYS_mkdirat,   SYS_close,     SYS_ftruncate,
+                                   SYS_lseek};
     for (size_t i = 0; i < sizeof COUNTED / sizeof *COUNTED; i++)
         if (COUNTED[i] == call) return true;
     return false;
@@ -36,7 +41,8 @@ static int trace(pid_t child, long k, bool on, long code, long *count) {
     if (waitpid(child, &status, 0) != child || !WIFSTOPPED(status)) return 77;
     ptrace(PTRACE_SETOPTIONS, child, 0, PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL);
     for (int pass = 0;;) {
-        if (ptrace(PTRACE_SYSCALL, child, 0, pass) != 0 || waitpid(child, &status, 0) != child) return 77;
+        if (ptrace(PTRACE_SYSCALL, child, 0, pass) != 0 || waitpid(child, &status, 0) != child)
+            return 77;
         pass = 0;
         if (WIFEXITED(status)) return WEXITSTATUS(status);
         if (WIFSIGNALED(status)) return 128 + WTERMSIG(status);
@@ -51,14 +57,19 @@ static int trace(pid_t child, long k, bool on, long code, long *count) {
             const long call = (long)regs.orig_rax;
             begun = begun || call == SYS_fcntl;
             refused = false;
-            const bool told = call == SYS_write && regs.rdi == STDERR_FILENO; /* what went wrong shall be read */
+            const bool told =
+                call == SYS_write && regs.rdi == STDERR_FILENO; /* what went wrong shall be read */
             if (begun && !told && is_counted(call)) {
                 ++*count;
                 refused = *count == k || (on && *count > k && k > 0);
             }
-            if (refused) regs.orig_rax = (unsigned long long)-1, ptrace(PTRACE_SETREGS, child, 0, &regs);
+            if (refused) {
+                regs.orig_rax = (unsigned long long)-1;
+                ptrace(PTRACE_SETREGS, child, 0, &regs);
+            }
         } else if (refused) {
-            regs.rax = (unsigned long long)-code, ptrace(PTRACE_SETREGS, child, 0, &regs);
+            regs.rax = (unsigned long long)-code;
+            ptrace(PTRACE_SETREGS, child, 0, &regs);
         }
     }
 }
@@ -73,7 +84,8 @@ int main(int argc, char **argv) {
         _exit(77);
     }
     long count = 0;
-    const int code = trace(child, strtol(argv[1], NULL, 10), strcmp(argv[2], "on") == 0, strtol(argv[3], NULL, 10), &count);
+    const int code = trace(child, strtol(argv[1], NULL, 10), strcmp(argv[2], "on") == 0,
+                           strtol(argv[3], NULL, 10), &count);
     FILE *out = fopen(argv[4], "w");
     if (!out || fprintf(out, "%ld\n", count) < 0 || fclose(out) != 0) return 2;
     return code;

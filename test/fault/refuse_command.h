@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A whole command of cli/ with each of its allocations refused in turn: it ends in the exit code of memory or makes the
- * failure good, loses no block, and leaves a picture only where it ends well. For one file of a test program that links
- * the command without main.c. */
+/* A whole command of cli/ with each of its allocations refused in turn: it ends in the exit code of
+ * memory or makes the failure good, loses no block, and leaves a picture only where it ends well.
+ * For one file of a test program that links the command without main.c. */
 #ifndef CAPSTAN_TEST_FAULT_REFUSE_COMMAND_H
 #define CAPSTAN_TEST_FAULT_REFUSE_COMMAND_H
 
@@ -36,25 +36,32 @@ static void write_file(const char *path, const char *text) {
     assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
 }
 
-/* The command with its k-th allocation refused; what it prints goes nowhere. *reached: there are so many. */
+/* The command with its k-th allocation refused; what it prints goes nowhere. *reached: there are so
+ * many. */
 static int command(Command *run, long k, int argc, const char *const *argv, bool *reached) {
     reported = (CpsError){.status = CPS_OK};
     fflush(NULL);
-    const int out = dup(STDOUT_FILENO), err = dup(STDERR_FILENO), nowhere = open("/dev/null", O_WRONLY);
+    const int out = dup(STDOUT_FILENO), err = dup(STDERR_FILENO),
+              nowhere = open("/dev/null", O_WRONLY);
     assert_true(out >= 0 && err >= 0 && nowhere >= 0);
-    dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
     allowed = k;
     const int code = run(argc, (char **)(uintptr_t)argv);
     *reached = allowed < 0;
     allowed = -1;
     fflush(NULL);
-    dup2(out, STDOUT_FILENO), dup2(err, STDERR_FILENO);
-    close(nowhere), close(out), close(err);
+    dup2(out, STDOUT_FILENO);
+    dup2(err, STDERR_FILENO);
+    close(nowhere);
+    close(out);
+    close(err);
     return code;
 }
 
-/* Which allocations are refused, by the word after the program's name: `all`; `many`: the first 3000, and one in 100 of those
- * behind; without a word the first 300 and, of those behind, which repeat the same questions, ever fewer. */
+/* Which allocations are refused, by the word after the program's name: `all`; `many`: the first
+ * 3000, and one in 100 of those behind; without a word the first 300 and, of those behind, which
+ * repeat the same questions, ever fewer. */
 static const char *which = "";
 
 static long next_refused(long k) {
@@ -63,8 +70,10 @@ static long next_refused(long k) {
     return k < 300 ? k + 1 : k + k / 10;
 }
 
-/* Refuse allocations in turn. `picture`: what the command writes where it ends well, if it draws. */
-static void refuse_each(Command *run, const char *picture, long least, int argc, const char *const *argv, bool draws) {
+/* Refuse allocations in turn. `picture`: what the command writes where it ends well, if it
+ * draws. */
+static void refuse_each(Command *run, const char *picture, long least, int argc,
+                        const char *const *argv, bool draws) {
     bool reached = true;
     long k = 0, tried = 0;
     for (; reached; k = next_refused(k), tried++) {
@@ -72,13 +81,16 @@ static void refuse_each(Command *run, const char *picture, long least, int argc,
         remove(picture);
         const int code = command(run, k, argc, argv, &reached);
         if (live != before) fail_msg("allocation %ld: %ld blocks lost", k, live - before);
-        /* a closed form without room for its scratch hands over to the solver, so a failure may be made good */
+        /* a closed form without room for its scratch hands over to the solver, so a failure may be
+         * made good */
         if (code != EXIT_OK && !(reached && code == EXIT_LIMIT))
             fail_msg("allocation %ld: exit %d: %s", k, code, reported.message);
         if (reported.status != CPS_OK && reported.status != CPS_ERR_MEMORY)
-            fail_msg("allocation %ld: %s: %s", k, cps_status_name(reported.status), reported.message);
+            fail_msg("allocation %ld: %s: %s", k, cps_status_name(reported.status),
+                     reported.message);
         if ((access(picture, F_OK) == 0) != (draws && code == EXIT_OK))
-            fail_msg("allocation %ld: exit %d, and the picture is %s", k, code, draws ? "not there" : "there");
+            fail_msg("allocation %ld: exit %d, and the picture is %s", k, code,
+                     draws ? "not there" : "there");
     }
     remove(picture);
     print_message("%ld allocations, %ld refused\n", k, tried - 1);

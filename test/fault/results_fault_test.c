@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Results that cannot be written: too little room for any one of the files, a full file system, directories that
- * cannot be made or written, a target that cannot be replaced. Each time the call fails with CPS_ERR_IO and says
- * why, no temporary file stays, and the results of an earlier run are as they were. */
+/* Results that cannot be written: too little room for any one of the files, a full file system,
+ * directories that cannot be made or written, a target that cannot be replaced. Each time the call
+ * fails with CPS_ERR_IO and says why, no temporary file stays, and the results of an earlier run
+ * are as they were. */
 #define _GNU_SOURCE /* unshare, mount flags, seteuid */
 
 #include <dirent.h>
@@ -70,7 +71,8 @@ static void assert_io_error(const char *directory, const char *reason) {
     CpsError err = {0};
     const CpsStatus status = small_run(directory, ELEMENTS, &err);
     if (status != CPS_ERR_IO)
-        fail_msg("%s: %s, expected CPS_ERR_IO: %s", directory, cps_status_name(status), err.message);
+        fail_msg("%s: %s, expected CPS_ERR_IO: %s", directory, cps_status_name(status),
+                 err.message);
     if (!strstr(err.message, reason)) fail_msg("'%s' does not say '%s'", err.message, reason);
 }
 
@@ -102,7 +104,8 @@ static void no_room_for_one_file(void **state) {
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &whole), 0);
         if (over != CPS_ERR_IO || first != CPS_ERR_IO)
             fail_msg("room for %ld bytes was enough", (long)good.size[i] - 1);
-        if (!strstr(reason.message, "File too large")) fail_msg("'%s' gives no reason", reason.message);
+        if (!strstr(reason.message, "File too large"))
+            fail_msg("'%s' gives no reason", reason.message);
         assert_unchanged("fault-room", &good);
         assert_int_not_equal(access("fault-room-new", F_OK), 0);
     }
@@ -114,7 +117,13 @@ static void no_room_for_one_file(void **state) {
 }
 
 /* runs `elements` elements in a file system of 256 kB of its own; exit codes of the child */
-enum { CHILD_OK = 0, CHILD_CANNOT = 77, CHILD_WRONG_STATUS = 1, CHILD_WRONG_MESSAGE = 2, CHILD_LEFTOVER = 3 };
+enum {
+    CHILD_OK = 0,
+    CHILD_CANNOT = 77,
+    CHILD_WRONG_STATUS = 1,
+    CHILD_WRONG_MESSAGE = 2,
+    CHILD_LEFTOVER = 3
+};
 
 static int in_small_file_system(void) {
     if (mkdir("fault-disk", 0777) != 0 && errno != EEXIST) return CHILD_CANNOT;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory runs out at the k-th allocation of a run, for every k: the call says so, nothing is left behind, nothing
- * leaks (the sanitizers look). Allocations are counted by wrapping them at link time, which reaches the static
- * libraries; built as shared libraries they cannot be reached, and the test is skipped. */
+/* Memory runs out at the k-th allocation of a run, for every k: the call says so, nothing is left
+ * behind, nothing leaks (the sanitizers look). Allocations are counted by wrapping them at link
+ * time, which reaches the static libraries; built as shared libraries they cannot be reached, and
+ * the test is skipped. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -29,8 +30,12 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size);
 char *__wrap_strdup(const char *text);
 
 void *__wrap_malloc(size_t size) { return refuse() ? NULL : __real_malloc(size); }
-void *__wrap_calloc(size_t count, size_t size) { return refuse() ? NULL : __real_calloc(count, size); }
-void *__wrap_realloc(void *block, size_t size) { return refuse() ? NULL : __real_realloc(block, size); }
+void *__wrap_calloc(size_t count, size_t size) {
+    return refuse() ? NULL : __real_calloc(count, size);
+}
+void *__wrap_realloc(void *block, size_t size) {
+    return refuse() ? NULL : __real_realloc(block, size);
+}
 void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return refuse() ? NULL : __real_aligned_alloc(alignment, size);
 }
@@ -49,8 +54,10 @@ static void every_allocation_may_fail(void **state) {
             assert_int_equal(status, CPS_OK);
             break;
         }
-        if (status != CPS_ERR_MEMORY) fail_msg("allocation %ld: %s: %s", k, cps_status_name(status), err.message);
-        if (access("memory-out", F_OK) == 0) fail_msg("allocation %ld failed and left something behind", k);
+        if (status != CPS_ERR_MEMORY)
+            fail_msg("allocation %ld: %s: %s", k, cps_status_name(status), err.message);
+        if (access("memory-out", F_OK) == 0)
+            fail_msg("allocation %ld failed and left something behind", k);
     }
     if (k == 0) skip();
     print_message("%ld allocations, each refused once\n", k);

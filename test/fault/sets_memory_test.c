@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory runs out at the k-th allocation of a round of questions about sets, for every k: the call says so, and
- * everything allocated is given back. Allocations are counted by wrapping them at link time. */
+/* Memory runs out at the k-th allocation of a round of questions about sets, for every k: the call
+ * says so, and everything allocated is given back. Allocations are counted by wrapping them at link
+ * time. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -11,9 +12,11 @@
 #include "capstan/set.h"
 #include "refuse.h"
 
-/* (disc ∩ strip) + box, its hull with a point, an image of its polar; every question; the first failure ends it. */
+/* (disc ∩ strip) + box, its hull with a point, an image of its polar; every question; the first
+ * failure ends it. */
 static CpsStatus questions(void) {
-    static const double AXIS[2] = {0, 1}, LOW[2] = {-1, -1}, HIGH[2] = {1, 1}, FAR[2] = {7, 2}, MAP[4] = {1, 1, 0, 2};
+    static const double AXIS[2] = {0, 1}, LOW[2] = {-1, -1}, HIGH[2] = {1, 1}, FAR[2] = {7, 2},
+                        MAP[4] = {1, 1, 0, 2};
     CpsSet *set[12] = {NULL};
     CpsSetAnswer answer;
     CpsSetFacts facts;
@@ -40,7 +43,8 @@ static CpsStatus questions(void) {
         if (!status) status = cps_set_facts(set[k], 0, &facts, x, NULL, NULL);
         if (!status && k == 2) status = cps_set_vertices(set[k], 0.5, 8, x, &count, &answer, NULL);
         if (!status && k == 2) status = cps_set_measure(set[3], &measure, NULL);
-        cps_set_release(face), cps_set_release(cone);
+        cps_set_release(face);
+        cps_set_release(cone);
     }
     for (int k = 0; k < 12; k++) cps_set_release(set[k]);
     return status;
@@ -56,8 +60,10 @@ static void every_allocation_may_fail(void **state) {
         const int reached = allowed < 0;
         allowed = -1;
         if (live != before) fail_msg("allocation %ld: %ld blocks lost", k, live - before);
-        /* a closed form without room for its scratch hands over to the solver, so a failure may be made good */
-        if (status != CPS_OK && status != CPS_ERR_MEMORY) fail_msg("allocation %ld: %s", k, cps_status_name(status));
+        /* a closed form without room for its scratch hands over to the solver, so a failure may be
+         * made good */
+        if (status != CPS_OK && status != CPS_ERR_MEMORY)
+            fail_msg("allocation %ld: %s", k, cps_status_name(status));
         if (!reached) {
             assert_int_equal(status, CPS_OK);
             break;

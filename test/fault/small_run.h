@@ -6,14 +6,15 @@
 #include "capstan/capstan.h"
 #include "capstan/io.h"
 
-/* Write the results of that run with `elements` elements into `directory`; whatever fails is cleaned up as a
- * program would do it. */
+/* Write the results of that run with `elements` elements into `directory`; whatever fails is
+ * cleaned up as a program would do it. */
 static CpsStatus small_run(const char *directory, int elements, CpsError *err) {
     const double point[6] = {0, 0, 0, 6, 0, 0};
     const CpsChange change[2] = {{0, CPS_END_B, {CPS_END_HELD, {5.9, 0.2, 0}}},
                                  {0, CPS_END_B, {CPS_END_HELD, {6, 0, 0}}}};
-    const CpsStage stage[2] = {{.name = "there", .steps = 2, .change_count = 1, .change = &change[0]},
-                               {.name = "back", .steps = 2, .change_count = 1, .change = &change[1]}};
+    const CpsStage stage[2] = {
+        {.name = "there", .steps = 2, .change_count = 1, .change = &change[0]},
+        {.name = "back", .steps = 2, .change_count = 1, .change = &change[1]}};
     CpsObstacle bed = cps_obstacle_default();
     bed.name = "bed";
     bed.friction = 0.3;
@@ -23,7 +24,8 @@ static CpsStatus small_run(const char *directory, int elements, CpsError *err) {
     line.elements = elements;
     line.weight = 10;
     line.stiffness = 1e4;
-    line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 0, 1}};
+    line.start =
+        (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 0, 1}};
     CpsScene scene = cps_scene_default();
     scene.title = "a run that something happens to";
     scene.obstacle_count = 1;

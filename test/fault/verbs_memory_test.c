@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory runs out at the k-th allocation of `capstan run`, `study`, `check` and `schema`, for every k that is ours (libfyaml and libnetcdf end the
- * process, docs/validation.md). The command ends with EXIT_LIMIT and says why, everything allocated is given back, no file stays under a temporary
- * name, and once nothing is refused the same command ends well in the directory that the others have left. */
+/* Memory runs out at the k-th allocation of `capstan run`, `study`, `check` and `schema`, for every
+ * k that is ours (libfyaml and libnetcdf end the process, docs/validation.md). The command ends
+ * with EXIT_LIMIT and says why, everything allocated is given back, no file stays under a temporary
+ * name, and once nothing is refused the same command ends well in the directory that the others
+ * have left. */
 #define REFUSE_TEXT
 #include <dirent.h>
 
@@ -10,17 +12,23 @@
 /* allocations: reading a scene takes this many at the very least */
 enum { LEAST = 5 };
 
-static const char SCENE[] = "memory-verbs.yaml", LAID[] = "memory-verbs-laid", NODES[] = "memory-verbs-laid/completed.csv", OUT[] = "memory-verbs-out", PICTURE[] = "memory-verbs-out/plan.svg.none";
+static const char SCENE[] = "memory-verbs.yaml", LAID[] = "memory-verbs-laid",
+                  NODES[] = "memory-verbs-laid/completed.csv", OUT[] = "memory-verbs-out",
+                  PICTURE[] = "memory-verbs-out/plan.svg.none";
 static const char TEXT[] =
-    "capstan: 1\ntitle: without memory\nfriction: frozen\nobstacles:\n  bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}\nlines:\n"
-    "  rope: {length: 1, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: fixed}}\n"
+    "capstan: 1\ntitle: without memory\nfriction: frozen\nobstacles:\n  bed: {plane: {normal: [0, "
+    "0, 1]}, friction: 0.5}\nlines:\n"
+    "  rope: {length: 1, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, "
+    "0], to: [1, 0, 0]}}, ends: {A: fixed, B: fixed}}\n"
     "history:\n  - {name: out, rope.B: {position: [1.1, 0, 0]}, steps: 2}\n";
 
 /* Is there a file in the directory that only a run which goes on may have? */
 static bool has_temporary(void) {
     DIR *listing = opendir(OUT);
     bool found = false;
-    for (struct dirent *entry; listing && (entry = readdir(listing)) != NULL;) found = found || strstr(entry->d_name, ".part") || strcmp(entry->d_name, ".capstan.run") == 0;
+    for (struct dirent *entry; listing && (entry = readdir(listing)) != NULL;)
+        found =
+            found || strstr(entry->d_name, ".part") || strcmp(entry->d_name, ".capstan.run") == 0;
     if (listing) closedir(listing);
     return found;
 }
@@ -31,10 +39,10 @@ static void refuse_into_directory(Command *run, int argc, const char *const *arg
     assert_false(has_temporary());
 }
 
-#define INTO_DIRECTORY(run, ...)                                                                       \
-    do {                                                                                               \
-        static const char *const WORDS[] = {__VA_ARGS__};                                              \
-        refuse_into_directory(run, (int)(sizeof WORDS / sizeof *WORDS), WORDS);                        \
+#define INTO_DIRECTORY(run, ...)                                                \
+    do {                                                                        \
+        static const char *const WORDS[] = {__VA_ARGS__};                       \
+        refuse_into_directory(run, (int)(sizeof WORDS / sizeof *WORDS), WORDS); \
     } while (0)
 
 static void runs(void **state) {
@@ -50,7 +58,11 @@ static void studies(void **state) {
     INTO_DIRECTORY(cmd_study, "study", SCENE, "-q", "-o", OUT, "--history");
     INTO_DIRECTORY(cmd_study, "study", SCENE, "-q", "-o", OUT, "--complete", "meander");
     bool reached;
-    assert_int_equal(command(cmd_study, -1, 7, (const char *const[]){"study", SCENE, "-q", "-o", LAID, "--complete", "straight"}, &reached), EXIT_OK);
+    assert_int_equal(command(cmd_study, -1, 7,
+                             (const char *const[]){"study", SCENE, "-q", "-o", LAID, "--complete",
+                                                   "straight"},
+                             &reached),
+                     EXIT_OK);
     INTO_DIRECTORY(cmd_study, "study", SCENE, "-q", "-o", OUT, "--judge", NODES);
 }
 
@@ -61,14 +73,18 @@ static void others(void **state) {
     for (int i = 0; i < 3; ++i) {
         bool reached;
         const long before = live;
-        const int code = command(cmd_schema, 0, 2, (const char *const[]){"schema", WHAT[i]}, &reached);
-        assert_true(code == (reached ? EXIT_LIMIT : EXIT_OK)); /* what it writes needs little or no memory of ours */
+        const int code =
+            command(cmd_schema, 0, 2, (const char *const[]){"schema", WHAT[i]}, &reached);
+        assert_true(code == (reached
+                                 ? EXIT_LIMIT
+                                 : EXIT_OK)); /* what it writes needs little or no memory of ours */
         assert_int_equal(live, before);
     }
 }
 
 int main(int argc, char **argv) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(runs), cmocka_unit_test(studies), cmocka_unit_test(others)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(runs), cmocka_unit_test(studies),
+                                       cmocka_unit_test(others)};
     if (argc > 1) which = argv[1];
     write_file(SCENE, TEXT);
     const int failed = cmocka_run_group_tests_name("verbs without memory", tests, NULL, NULL);

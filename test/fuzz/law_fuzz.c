@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fuzzing the law reader: any bytes give a law that answers what it is asked, or an error with a sentence; and every
- * number of an answer is one.
+/* Fuzzing the law reader: any bytes give a law that answers what it is asked, or an error with a
+ * sentence; and every number of an answer is one.
  *
- *   cmake --preset dev -B build/fuzz -DCMAKE_C_COMPILER=clang -DCAPSTAN_FUZZ=ON -DCAPSTAN_SANITIZE=address,undefined \
+ *   cmake --preset dev -B build/fuzz -DCMAKE_C_COMPILER=clang -DCAPSTAN_FUZZ=ON
+ *       -DCAPSTAN_SANITIZE=address,undefined \
  *     -DCMAKE_C_FLAGS=-fsanitize=fuzzer-no-link
- *   cmake --build build/fuzz --target law_fuzz && mkdir corpus bad && python3 test/cli/bad_laws.py --write bad
+ *   cmake --build build/fuzz --target law_fuzz && mkdir corpus bad && python3 test/cli/bad_laws.py
+ *       --write bad
  *   ASAN_OPTIONS=detect_leaks=0 build/fuzz/test/fuzz/law_fuzz -max_total_time=300 -timeout=60 \
  *     -max_len=1500 -dict=test/fuzz/law.dict corpus examples/laws bad
  *
@@ -24,7 +26,8 @@ enum { MOST_ASKED = 4 };
 
 /* only what is said to be answered must be finite */
 static void expect_number(const CpsSetAnswer *answer) {
-    if (answer->outcome == CPS_SET_ANSWERED && (!isfinite(answer->value) || isnan(answer->gap))) abort();
+    if (answer->outcome == CPS_SET_ANSWERED && (!isfinite(answer->value) || isnan(answer->gap)))
+        abort();
 }
 
 static void ask_friction(const CpsSet *set) {
@@ -49,7 +52,8 @@ static void ask_resistance(const CpsResistance *law) {
     CpsResistanceValue value;
     CpsSetAnswer answer;
     CpsStatus status = cps_resistance_value(law, velocity, &value, NULL, NULL);
-    if (status == CPS_OK && value.outcome == CPS_SET_ANSWERED && (isnan(value.potential) || isnan(value.power)))
+    if (status == CPS_OK && value.outcome == CPS_SET_ANSWERED &&
+        (isnan(value.potential) || isnan(value.power)))
         abort();
     if (status == CPS_OK) status = cps_resistance_conjugate(law, velocity, found, &answer, NULL);
     if (status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && isnan(answer.value)) abort();

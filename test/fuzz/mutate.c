@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A fuzzer for where libFuzzer is not: mutates the files given and hands them to the reader that this is linked with.
+/* A fuzzer for where libFuzzer is not: mutates the files given and hands them to the reader that
+ * this is linked with.
  *
  *     mutate SECONDS SEED FINDING [FILE..]
  *
- * It knows nothing of coverage; its inputs are cuts, copies, splices, flips, words of YAML and CSV in what is there, and words repeated up to 1 MiB. An input that crashes
- * the reader, or takes more than 2 s of processor time, is written to FINDING, and the exit code is not 0. */
+ * It knows nothing of coverage; its inputs are cuts, copies, splices, flips, words of YAML and CSV
+ * in what is there, and words repeated up to 1 MiB. An input that crashes the reader, or takes more
+ * than 2 s of processor time, is written to FINDING, and the exit code is not 0. */
 #define _POSIX_C_SOURCE 200809L
 #include <fcntl.h>
 #include <signal.h>
@@ -26,7 +28,9 @@ static const char *finding;
 static uint64_t chance;
 
 static uint64_t next(void) { /* xorshift64* */
-    chance ^= chance >> 12, chance ^= chance << 25, chance ^= chance >> 27;
+    chance ^= chance >> 12;
+    chance ^= chance << 25;
+    chance ^= chance >> 27;
     return chance * 2685821657736338717u;
 }
 
@@ -46,11 +50,56 @@ static void put(size_t at, const void *bytes, size_t count) {
     length += count;
 }
 
-static const char *const WORD[] = {":", "- ", "[", "]", "{", "}", ",", "\n", "\n  ", " ", "'", "\"", "#", "%", "|\n", ">\n", "&a", "*a", "!", "?", "\t", "\r",
-                                   "---\n", "...\n", ".inf", "-.inf", ".nan", "1e308", "-1", "0", "1e-320", "99999999999", "0x7fffffff", "null", "true", "~",
-                                   "\\", "\\x1b", "\xef\xbb\xbf", "\xc2\x85", "\xff", "\x01", "fixed", "free", "../", "/", "-"};
+static const char *const WORD[] = {":",
+                                   "- ",
+                                   "[",
+                                   "]",
+                                   "{",
+                                   "}",
+                                   ",",
+                                   "\n",
+                                   "\n  ",
+                                   " ",
+                                   "'",
+                                   "\"",
+                                   "#",
+                                   "%",
+                                   "|\n",
+                                   ">\n",
+                                   "&a",
+                                   "*a",
+                                   "!",
+                                   "?",
+                                   "\t",
+                                   "\r",
+                                   "---\n",
+                                   "...\n",
+                                   ".inf",
+                                   "-.inf",
+                                   ".nan",
+                                   "1e308",
+                                   "-1",
+                                   "0",
+                                   "1e-320",
+                                   "99999999999",
+                                   "0x7fffffff",
+                                   "null",
+                                   "true",
+                                   "~",
+                                   "\\",
+                                   "\\x1b",
+                                   "\xef\xbb\xbf",
+                                   "\xc2\x85",
+                                   "\xff",
+                                   "\x01",
+                                   "fixed",
+                                   "free",
+                                   "../",
+                                   "/",
+                                   "-"};
 
-/* One to three words over and over, behind some of what is there: what takes more than linear time shows. */
+/* One to three words over and over, behind some of what is there: what takes more than linear time
+ * shows. */
 static void repeat(void) {
     const char *word[3];
     const size_t words = 1 + below(3), room = below(ROOM - 100);
@@ -63,19 +112,57 @@ static void mutate(uint8_t *const *file, const size_t *size, int files) {
     const size_t at = below(length + 1), more = below(16) ? below(8) : below(400);
     uint8_t byte = (uint8_t)next();
     switch (below(8)) {
-    case 0: if (at < length) input[at] ^= (uint8_t)(1u << below(8)); break;
-    case 1: if (at < length) input[at] = byte; break;
+    case 0:
+        if (at < length) input[at] ^= (uint8_t)(1u << below(8));
+        break;
+    case 1:
+        if (at < length) input[at] = byte;
+        break;
     case 2: put(at, &byte, 1); break;
-    case 3: { const char *word = WORD[below(sizeof WORD / sizeof *WORD)]; put(at, word, strlen(word)); break; }
-    case 4: { const size_t cut = at + more < length ? more : length - at; memmove(input + at, input + at + cut, length - at - cut); length -= cut; break; }
-    case 5: { uint8_t copy[400]; const size_t from = below(length), n = from + more < length ? more : length - from; memcpy(copy, input + from, n); put(at, copy, n); break; }
-    case 6: if (files > 0) { const int other = (int)below((size_t)files); const size_t from = below(size[other]), n = from + more < size[other] ? more : size[other] - from; put(at, file[other] + from, n); } break;
-    default: { uint8_t some[6] = {(uint8_t)next(), (uint8_t)below(4), byte, (uint8_t)(below(2) * next()), (uint8_t)(below(2) * next()), (uint8_t)(below(2) * next())}; put(length - length % 6, some, 6); break; }
+    case 3: {
+        const char *word = WORD[below(sizeof WORD / sizeof *WORD)];
+        put(at, word, strlen(word));
+        break;
+    }
+    case 4: {
+        const size_t cut = at + more < length ? more : length - at;
+        memmove(input + at, input + at + cut, length - at - cut);
+        length -= cut;
+        break;
+    }
+    case 5: {
+        uint8_t copy[400];
+        const size_t from = below(length), n = from + more < length ? more : length - from;
+        memcpy(copy, input + from, n);
+        put(at, copy, n);
+        break;
+    }
+    case 6:
+        if (files > 0) {
+            const int other = (int)below((size_t)files);
+            const size_t from = below(size[other]),
+                         n = from + more < size[other] ? more : size[other] - from;
+            put(at, file[other] + from, n);
+        }
+        break;
+    default: {
+        uint8_t some[6] = {(uint8_t)next(),
+                           (uint8_t)below(4),
+                           byte,
+                           (uint8_t)(below(2) * next()),
+                           (uint8_t)(below(2) * next()),
+                           (uint8_t)(below(2) * next())};
+        put(length - length % 6, some, 6);
+        break;
+    }
     }
 }
 
 int main(int argc, char **argv) {
-    if (argc < 4) return fprintf(stderr, "usage: mutate SECONDS SEED FINDING [FILE..]\n"), 2;
+    if (argc < 4) {
+        fprintf(stderr, "usage: mutate SECONDS SEED FINDING [FILE..]\n");
+        return 2;
+    }
     static uint8_t *file[FILES];
     static size_t size[FILES];
     int files = 0;
@@ -95,7 +182,10 @@ int main(int argc, char **argv) {
     long long runs = 0;
     for (; time(NULL) < end; ++runs) {
         length = 0;
-        if (files > 0) { const int which = (int)below((size_t)files); memcpy(input, file[which], length = size[which]); }
+        if (files > 0) {
+            const int which = (int)below((size_t)files);
+            memcpy(input, file[which], length = size[which]);
+        }
         for (size_t n = 1 + below(6); n > 0; --n) mutate(file, size, files);
         if (below(300) == 0) repeat();
         const struct itimerval slow = {.it_value = {SLOW_SECONDS, 0}}, never = {0};
@@ -103,6 +193,8 @@ int main(int argc, char **argv) {
         LLVMFuzzerTestOneInput(input, length);
         setitimer(ITIMER_VIRTUAL, &never, NULL);
     }
-    if (told) fprintf(told, "%lld inputs, seed %s: no crash, none over %d s\n", runs, argv[2], (int)SLOW_SECONDS);
+    if (told)
+        fprintf(told, "%lld inputs, seed %s: no crash, none over %d s\n", runs, argv[2],
+                (int)SLOW_SECONDS);
     return 0;
 }

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fuzzing a reader: any bytes give what the reader promises, or an error with a sentence. READER, set when this is compiled, is one of
+/* Fuzzing a reader: any bytes give what the reader promises, or an error with a sentence. READER,
+ * set when this is compiled, is one of
  *
  *     scene law drive     a file of that kind
  *     curve               the file that a planimeter names
  *     judge rows          a table to judge; rows that are asked of a law on standard input
- *     state journal       edits (place, 4 bytes) of a saved state and of a journal, whose checksums are mended: what a checksum finds is no test
+ *     state journal       edits (place, 4 bytes) of a saved state and of a journal, whose checksums
+ *                         are mended: what a checksum finds is no test
  *
- * An input below 1 MiB that takes more than 2 s is a finding. It is the reader alone that is run, with what it checks; of the states that it accepts one in 8192 takes a step as well. Files are in memory, or in
- * a directory in memory. scripts/fuzz runs it with libFuzzer or with mutate.c. libfyaml leaks on some broken keys. */
+ * An input below 1 MiB that takes more than 2 s is a finding. It is the reader alone that is run,
+ * with what it checks; of the states that it accepts one in 8192 takes a step as well. Files are in
+ * memory, or in a directory in memory. scripts/fuzz runs it with libFuzzer or with mutate.c.
+ * libfyaml leaks on some broken keys. */
 #define _GNU_SOURCE /* memfd_create */
 #include <fcntl.h>
 #include <math.h>
@@ -40,7 +44,8 @@ static void must(bool holds) {
 int cli_report(const CpsError *err) { return err->status == CPS_OK ? EXIT_OK : EXIT_INPUT; }
 
 static void write_all(int file, const void *data, size_t size) {
-    must(ftruncate(file, 0) == 0 && pwrite(file, data, size, 0) == (ssize_t)size && lseek(file, 0, SEEK_SET) == 0);
+    must(ftruncate(file, 0) == 0 && pwrite(file, data, size, 0) == (ssize_t)size &&
+         lseek(file, 0, SEEK_SET) == 0);
 }
 
 /* The bytes as a file without a name; the path to it. */
@@ -60,7 +65,10 @@ static char own_folder[64];
 static void clear(void) {
     static const char *const NAME[] = {"drive.yaml", "curve.csv", "law.yaml", ".journal"};
     char path[128];
-    for (size_t i = 0; i < sizeof NAME / sizeof *NAME; ++i) snprintf(path, sizeof path, "%s/%s", own_folder, NAME[i]), unlink(path);
+    for (size_t i = 0; i < sizeof NAME / sizeof *NAME; ++i) {
+        snprintf(path, sizeof path, "%s/%s", own_folder, NAME[i]);
+        unlink(path);
+    }
     rmdir(own_folder);
 }
 
@@ -69,7 +77,8 @@ static const char *folder(void) {
     if (*path) return path;
     struct stat found;
     atexit(clear);
-    snprintf(path, sizeof own_folder, "%s/capstan-fuzz-XXXXXX", stat("/dev/shm", &found) == 0 ? "/dev/shm" : "/tmp");
+    snprintf(path, sizeof own_folder, "%s/capstan-fuzz-XXXXXX",
+             stat("/dev/shm", &found) == 0 ? "/dev/shm" : "/tmp");
     must(mkdtemp(path) != NULL);
     return path;
 }
@@ -88,7 +97,7 @@ static void expect(CpsStatus status, const void *made, const CpsError *err) {
     must(status == CPS_OK || (err->status == status && err->message[0]));
 }
 
-/* files of YAML -------------------------------------------------------------------------------------------------- */
+/* files of YAML -------------------------------------------------------------------------------- */
 
 static void read_scene(const uint8_t *data, size_t size) {
     CpsSceneFile *file = NULL;
@@ -116,8 +125,9 @@ static void read_drive(const char *path) {
 }
 
 static void read_curve(const uint8_t *data, size_t size) {
-    static const char PLANIMETER[] = "capstan: 1\nplanimeter: {pole: [0, 0], pole_arm: 1, tracer_arm: 1.3, wheel: 0.4, friction: 0.2, load: 1, "
-                                     "curve: {file: curve.csv}}\n";
+    static const char PLANIMETER[] =
+        "capstan: 1\nplanimeter: {pole: [0, 0], pole_arm: 1, tracer_arm: 1.3, wheel: 0.4, "
+        "friction: 0.2, load: 1, curve: {file: curve.csv}}\n";
     static char path[128];
     if (!*path) {
         snprintf(path, sizeof path, "%s/drive.yaml", folder());
@@ -127,17 +137,22 @@ static void read_curve(const uint8_t *data, size_t size) {
     read_drive(path);
 }
 
-/* tables --------------------------------------------------------------------------------------------------------- */
+/* tables --------------------------------------------------------------------------------------- */
 
 /* A run of two steps that the tables and states are about. */
 static const CpsScene *small_scene(void) {
     static const char TEXT[] =
-        "capstan: 1\nobstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}, post: {cylinder: {point: [1, 1, 0], axis: [0, 0, 1], radius: 0.5}, "
-        "friction: 0.1}}\nlines:\n  rope: {length: 2, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [2, 0, 0]}}, ends: {A: "
-        "fixed, B: free}}\n  wire: {length: 1, elements: 2, weight: 1, stiffness: .inf, start: {straight: {from: [0, -1, 0], to: [1, -1, 0]}}, ends: {A: "
-        "fixed, B: fixed}}\nhistory: [{name: a, steps: 2, rope.B: {force: [1, 0.5, 0]}}, {name: b, wire.B: {position: [0.9, -1, 0]}}]\n";
+        "capstan: 1\nobstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}, post: "
+        "{cylinder: {point: [1, 1, 0], axis: [0, 0, 1], radius: 0.5}, friction: 0.1}}\nlines:\n  "
+        "rope: {length: 2, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, "
+        "0], to: [2, 0, 0]}}, ends: {A: fixed, B: free}}\n  wire: {length: 1, elements: 2, weight: "
+        "1, stiffness: .inf, start: {straight: {from: [0, -1, 0], to: [1, -1, 0]}}, ends: {A: "
+        "fixed, B: fixed}}\nhistory: [{name: a, steps: 2, rope.B: {force: [1, 0.5, 0]}}, {name: b, "
+        "wire.B: {position: [0.9, -1, 0]}}]\n";
     static CpsSceneFile *file;
-    if (!file) must(cps_scene_read(file_of((const uint8_t *)TEXT, sizeof TEXT - 1), NULL, &file, NULL) == CPS_OK);
+    if (!file)
+        must(cps_scene_read(file_of((const uint8_t *)TEXT, sizeof TEXT - 1), NULL, &file, NULL) ==
+             CPS_OK);
     return cps_scene_file_scene(file);
 }
 
@@ -179,10 +194,11 @@ static void read_rows(const uint8_t *data, size_t size) {
     free(list.row);
 }
 
-/* states --------------------------------------------------------------------------------------------------------- */
+/* states --------------------------------------------------------------------------------------- */
 
 /* Places and values, six bytes each, counted from `first`. */
-static void edit(unsigned char *bytes, size_t room, size_t first, const uint8_t *data, size_t size) {
+static void edit(unsigned char *bytes, size_t room, size_t first, const uint8_t *data,
+                 size_t size) {
     for (; size >= 6; data += 6, size -= 6) {
         const size_t at = first + ((size_t)data[0] | (size_t)data[1] << 8) % (room - first - 3);
         memcpy(bytes + at, data + 2, 4);
@@ -202,7 +218,9 @@ static uint64_t checksum(uint64_t hash, const unsigned char *byte, size_t size) 
 static const uint64_t CHECKSUM_BEGINS = 14695981039346656037u;
 
 /* Does this input take a step?  The same one always does. */
-static bool steps_on(const uint8_t *data, size_t size) { return (checksum(CHECKSUM_BEGINS, data, size) >> 32) % 8192 == 0; }
+static bool steps_on(const uint8_t *data, size_t size) {
+    return (checksum(CHECKSUM_BEGINS, data, size) >> 32) % 8192 == 0;
+}
 
 /* Everything that a step or a writer would look at; then perhaps a step from there. */
 static void go_on(CpsEvolution *evolution, bool step) {
@@ -211,9 +229,11 @@ static void go_on(CpsEvolution *evolution, bool step) {
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport report = cps_evolution_line_report(evolution, i);
-        must(cps_outcome_key(report.outcome)[0] && report.bend.obstacle < of->obstacle_count && report.pierced < of->obstacle_count);
+        must(cps_outcome_key(report.outcome)[0] && report.bend.obstacle < of->obstacle_count &&
+             report.pierced < of->obstacle_count);
         for (int j = 0; j < 3 * (view.elements + 1); ++j) sum += view.position[j];
-        for (int c = 0; view.obstacle && c < view.contacts * (view.elements + 1); ++c) must(view.obstacle[c] < of->obstacle_count && view.state[c] <= 2);
+        for (int c = 0; view.obstacle && c < view.contacts * (view.elements + 1); ++c)
+            must(view.obstacle[c] < of->obstacle_count && view.state[c] <= 2);
     }
     must(isfinite(sum) || isinf(sum));
     if (step && cps_evolution_remaining(evolution) > 0) (void)cps_evolution_step(evolution, NULL);
@@ -226,9 +246,11 @@ static void read_state(const uint8_t *data, size_t size) {
     static unsigned char *good, *bytes;
     static size_t room;
     if (!saved) {
-        saved = evolution_at(2), loaded = evolution_at(0);
+        saved = evolution_at(2);
+        loaded = evolution_at(0);
         room = cps_evolution_state_size(saved);
-        good = malloc(room), bytes = malloc(room);
+        good = malloc(room);
+        bytes = malloc(room);
         must(good && bytes);
         cps_evolution_save(saved, good);
     }
@@ -245,7 +267,8 @@ enum { JOURNAL_HEAD = 104, RECORD_HEAD = 16, RECORDS = 3 };
 /* What a journal is edited from, and an evolution that is put back to its start each time. */
 typedef struct Journaled {
     CpsEvolution *evolution;
-    unsigned char *start, *good, *bytes; /* its state at the start; a journal of RECORDS steps; that one, edited */
+    unsigned char *start, *good,
+        *bytes; /* its state at the start; a journal of RECORDS steps; that one, edited */
     size_t state, record, room;
 } Journaled;
 
@@ -255,13 +278,17 @@ static Journaled make_journaled(void) {
     char path[128];
     snprintf(path, sizeof path, "%s/.journal", folder());
     made.state = cps_evolution_state_size(made.evolution);
-    made.record = RECORD_HEAD + made.state, made.room = JOURNAL_HEAD + RECORDS * made.record;
-    made.start = malloc(made.state), made.good = malloc(made.room), made.bytes = malloc(made.room);
+    made.record = RECORD_HEAD + made.state;
+    made.room = JOURNAL_HEAD + RECORDS * made.record;
+    made.start = malloc(made.state);
+    made.good = malloc(made.room);
+    made.bytes = malloc(made.room);
     must(made.start && made.good && made.bytes);
     cps_evolution_save(made.evolution, made.start);
     must(cps_journal_open(folder(), made.evolution, CPS_JOURNAL_NEW, &written, NULL) == CPS_OK);
     for (int i = 0; i < RECORDS; ++i)
-        must(cps_evolution_step(made.evolution, NULL) == CPS_OK && cps_journal_append(written, made.evolution, NULL) == CPS_OK);
+        must(cps_evolution_step(made.evolution, NULL) == CPS_OK &&
+             cps_journal_append(written, made.evolution, NULL) == CPS_OK);
     const int file = open(path, O_RDONLY | O_CLOEXEC);
     must(file >= 0 && pread(file, made.good, made.room, 0) == (ssize_t)made.room);
     close(file);
@@ -275,12 +302,14 @@ static void mend(const Journaled *made) {
     memcpy(made->bytes + JOURNAL_HEAD - 8, &head, sizeof head);
     for (int i = 0; i < RECORDS; ++i) {
         unsigned char *at = made->bytes + JOURNAL_HEAD + (size_t)i * made->record;
-        const uint64_t sum = checksum(checksum(CHECKSUM_BEGINS, at, 8), at + RECORD_HEAD, made->state);
+        const uint64_t sum =
+            checksum(checksum(CHECKSUM_BEGINS, at, 8), at + RECORD_HEAD, made->state);
         memcpy(at + 8, &sum, sizeof sum);
     }
 }
 
-/* An odd first byte: the checksums fit what has been edited; of the even ones each second journal is cut short. */
+/* An odd first byte: the checksums fit what has been edited; of the even ones each second journal
+ * is cut short. */
 static void read_journal(const uint8_t *data, size_t size) {
     static Journaled made;
     if (!made.good) made = make_journaled();
@@ -288,7 +317,8 @@ static void read_journal(const uint8_t *data, size_t size) {
     memcpy(made.bytes, made.good, made.room);
     if (size > 0) edit(made.bytes, made.room, 0, data + 1, size - 1);
     if (size > 0 && data[0] % 2 == 1) mend(&made);
-    put_file(".journal", made.bytes, size > 0 && data[0] % 4 == 2 ? made.room / 256 * data[0] : made.room);
+    put_file(".journal", made.bytes,
+             size > 0 && data[0] % 4 == 2 ? made.room / 256 * data[0] : made.room);
     CpsJournal *read = NULL;
     CpsError err;
     CpsStatus status = cps_journal_open(folder(), made.evolution, CPS_JOURNAL_RESUME, &read, &err);

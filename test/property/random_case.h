@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random numbers of a case (splitmix.h), and calls that must work, for the property tests of laws and systems. */
+/* Random numbers of a case (splitmix.h), and calls that must work, for the property tests of laws
+ * and systems. */
 #ifndef CAPSTAN_TEST_RANDOM_CASE_H
 #define CAPSTAN_TEST_RANDOM_CASE_H
 
@@ -18,7 +19,7 @@ static inline double uniform(double low, double high) { return splitmix(&state, 
 static inline int below(int bound) { return (int)uniform(0, bound); }
 
 /* from -most to most */
-static inline int digit(int most) { return below(2*most + 1) - most; }
+static inline int digit(int most) { return below(2 * most + 1) - most; }
 
 static CpsError err;
 

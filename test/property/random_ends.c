@@ -3,10 +3,13 @@
  *
  *   random_ends [--share S] [--class C --seed K]
  *
- * Nothing in the physics knows which end is A. Where a problem has one solution both histories lead through the same places, to 1e-6 of
- * the line's length, or what the certificates so far leave open; where they part the program has to say why, in one of the two at least: a step is not certified, a line jumps, or
- * energy is not accounted for; or part of a line is slack, whose places are not unique (docs/theory.md, 2). A history is compared up to
- * the first step of which this is so. Every scene is run as it is and with each stage in one load step. Each pair prints its class and seed with a complaint. */
+ * Nothing in the physics knows which end is A. Where a problem has one solution both histories lead
+ * through the same places, to 1e-6 of the line's length, or what the certificates so far leave
+ * open; where they part the program has to say why, in one of the two at least: a step is not
+ * certified, a line jumps, or energy is not accounted for; or part of a line is slack, whose places
+ * are not unique (docs/theory.md, 2). A history is compared up to the first step of which this is
+ * so. Every scene is run as it is and with each stage in one load step. Each pair prints its class
+ * and seed with a complaint. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,9 +31,11 @@ static bool by_nodes(RandomScene *s, Nodes nodes, bool backwards) {
         CpsLine *line = &s->line[i];
         if (line->start.kind != CPS_START_ARC) continue;
         for (int j = 0; j <= view.elements; j++)
-            memcpy(&nodes[i][3 * (backwards ? view.elements - j : j)], &view.position[3 * j], 3 * sizeof(double));
+            memcpy(&nodes[i][3 * (backwards ? view.elements - j : j)], &view.position[3 * j],
+                   3 * sizeof(double));
         line->start.kind = CPS_START_POLYLINE;
-        line->start.point = nodes[i], line->start.point_count = view.elements + 1;
+        line->start.point = nodes[i];
+        line->start.point_count = view.elements + 1;
     }
     cps_evolution_destroy(start);
     return true;
@@ -40,7 +45,8 @@ static void turn_round(double *point, int count) {
     for (int k = 0, last = count - 1; k < last - k; k++)
         for (int a = 0; a < 3; a++) {
             const double keep = point[3 * k + a];
-            point[3 * k + a] = point[3 * (last - k) + a], point[3 * (last - k) + a] = keep;
+            point[3 * k + a] = point[3 * (last - k) + a];
+            point[3 * (last - k) + a] = keep;
         }
 }
 
@@ -49,16 +55,21 @@ static void exchange(RandomScene *s) {
     for (int i = 0; i < s->scene.line_count; i++) {
         CpsLine *line = &s->line[i];
         const CpsEnd a = line->end[CPS_END_A];
-        line->end[CPS_END_A] = line->end[CPS_END_B], line->end[CPS_END_B] = a;
-        if (line->start.point == s->point[i]) turn_round(s->point[i], line->start.kind == CPS_START_STRAIGHT ? 2 : line->start.point_count);
+        line->end[CPS_END_A] = line->end[CPS_END_B];
+        line->end[CPS_END_B] = a;
+        if (line->start.point == s->point[i])
+            turn_round(s->point[i],
+                       line->start.kind == CPS_START_STRAIGHT ? 2 : line->start.point_count);
         double *length = s->element_length[i];
         for (int k = 0, last = line->elements - 1; line->element_length && k < last - k; k++) {
             const double keep = length[k];
-            length[k] = length[last - k], length[last - k] = keep;
+            length[k] = length[last - k];
+            length[last - k] = keep;
         }
     }
     for (int k = 0; k < s->scene.stage_count; k++)
-        for (int i = 0; i < s->stage[k].change_count; i++) s->change[k][i].end = 1 - s->change[k][i].end;
+        for (int i = 0; i < s->stage[k].change_count; i++)
+            s->change[k][i].end = 1 - s->change[k][i].end;
 }
 
 /* [-] The farthest node of a line from that of the other, over the length. */
@@ -71,14 +82,16 @@ static double apart(const CpsLineView *one, const CpsLineView *other) {
     return most / one->arc_length[one->elements];
 }
 
-/* [-] How far the certificate lets a node be off, over the length: the strain that its bound of the tension's error leaves. */
+/* [-] How far the certificate lets a node be off, over the length: the strain that its bound of the
+ * tension's error leaves. */
 static double left(const CpsLineView *view, const CpsLineReport *report) {
     const double bound = view->compliance * report->certificate.tension_bound;
     return bound > 0 ? bound : 0;
 }
 
 static bool says_so(const CpsLineReport *report) {
-    return !cps_outcome_is_certified(report->outcome) || report->snaps > 0 || report->unaccounted > 0 || report->slack > 0;
+    return !cps_outcome_is_certified(report->outcome) || report->snaps > 0 ||
+           report->unaccounted > 0 || report->slack > 0;
 }
 
 typedef struct Count {
@@ -92,9 +105,12 @@ static bool compare(Count *count, CpsEvolution *const run[2], int class_index, i
     bool goes_on = true;
     count->steps++;
     for (int i = 0; i < cps_evolution_line_count(run[0]); i++) {
-        const CpsLineView view[2] = {cps_evolution_line_view(run[0], i), cps_evolution_line_view(run[1], i)};
-        const CpsLineReport report[2] = {cps_evolution_line_report(run[0], i), cps_evolution_line_report(run[1], i)};
-        if (cps_outcome_is_final(report[0].outcome) && report[0].outcome == report[1].outcome) return false;
+        const CpsLineView view[2] = {cps_evolution_line_view(run[0], i),
+                                     cps_evolution_line_view(run[1], i)};
+        const CpsLineReport report[2] = {cps_evolution_line_report(run[0], i),
+                                         cps_evolution_line_report(run[1], i)};
+        if (cps_outcome_is_final(report[0].outcome) && report[0].outcome == report[1].outcome)
+            return false;
         const double distance = apart(&view[0], &view[1]);
         count->left[i] += left(&view[0], &report[0]) + left(&view[1], &report[1]);
         if (says_so(&report[0]) || says_so(&report[1])) {
@@ -103,9 +119,10 @@ static bool compare(Count *count, CpsEvolution *const run[2], int class_index, i
             goes_on = false;
         } else if (!(distance <= fmax(SAME, count->left[i]))) {
             const CpsLedger l[2] = {report[0].ledger, report[1].ledger};
-            printf("%s, seed %d, step %d, line %d: %.1e of the length apart; imbalance %.2e and %.2e J, dissipated %.2e and %.2e J\n",
-                   random_scene_class_name(class_index), seed, cps_evolution_report(run[0]).index, i, distance, l[0].imbalance,
-                   l[1].imbalance, l[0].dissipated, l[1].dissipated);
+            printf("%s, seed %d, step %d, line %d: %.1e of the length apart; imbalance %.2e and "
+                   "%.2e J, dissipated %.2e and %.2e J\n",
+                   random_scene_class_name(class_index), seed, cps_evolution_report(run[0]).index,
+                   i, distance, l[0].imbalance, l[1].imbalance, l[0].dissipated, l[1].dissipated);
             count->silent++;
             goes_on = false;
         } else {
@@ -122,10 +139,12 @@ static void run_pair(Count *count, int class_index, int seed, bool coarse) {
     CpsEvolution *run[2] = {NULL, NULL};
     CpsError err = {0};
     for (int k = 0; k < 2; k++) random_scene_make(class_index, (uint64_t)seed, &scene[k]);
-    for (int k = 0; k < scene[0].scene.stage_count && coarse; k++) scene[0].stage[k].steps = scene[1].stage[k].steps = 1;
+    for (int k = 0; k < scene[0].scene.stage_count && coarse; k++)
+        scene[0].stage[k].steps = scene[1].stage[k].steps = 1;
     bool open = by_nodes(&scene[0], nodes[0], false) && by_nodes(&scene[1], nodes[1], true);
     exchange(&scene[1]);
-    for (int k = 0; k < 2; k++) open = open && cps_evolution_create(&scene[k].scene, &run[k], &err) == CPS_OK;
+    for (int k = 0; k < 2; k++)
+        open = open && cps_evolution_create(&scene[k].scene, &run[k], &err) == CPS_OK;
     if (!open) {
         printf("%s, seed %d: %s\n", random_scene_class_name(class_index), seed, err.message);
         count->silent++;
@@ -154,8 +173,8 @@ int main(int argc, char **argv) {
         for (int s = 0; s < SEEDS; s++, number++)
             if (only >= 0 ? k == only && (seed < 0 || s == seed) : number % every == 0)
                 for (int coarse = 0; coarse < 2; coarse++) run_pair(&count, k, s, coarse);
-    printf("%d pairs, %d steps: largest distance of those that agree %.1e of the length; %d said why they may differ, %d of "
-           "them do; %d differ and did not say so\n",
+    printf("%d pairs, %d steps: largest distance of those that agree %.1e of the length; %d said "
+           "why they may differ, %d of them do; %d differ and did not say so\n",
            count.pairs, count.steps, count.worst, count.said, count.apart, count.silent);
     return count.silent > 0 || count.pairs == 0;
 }

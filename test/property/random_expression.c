@@ -52,15 +52,23 @@ bool invert(int n, const double *matrix, double least, double *out) {
             if (fabs(a[i * n + k]) > fabs(a[best * n + k])) best = i;
         for (int j = 0; j < n; j++) {
             const double keep = a[k * n + j], kept = out[k * n + j];
-            a[k * n + j] = a[best * n + j], a[best * n + j] = keep;
-            out[k * n + j] = out[best * n + j], out[best * n + j] = kept;
+            a[k * n + j] = a[best * n + j];
+            a[best * n + j] = keep;
+            out[k * n + j] = out[best * n + j];
+            out[best * n + j] = kept;
         }
         const double d = a[k * n + k];
         if (!(fabs(d) > least * size)) return false;
-        for (int j = 0; j < n; j++) a[k * n + j] /= d, out[k * n + j] /= d;
+        for (int j = 0; j < n; j++) {
+            a[k * n + j] /= d;
+            out[k * n + j] /= d;
+        }
         for (int i = 0; i < n; i++) {
             const double f = i == k ? 0 : a[i * n + k];
-            for (int j = 0; j < n; j++) a[i * n + j] -= f * a[k * n + j], out[i * n + j] -= f * out[k * n + j];
+            for (int j = 0; j < n; j++) {
+                a[i * n + j] -= f * a[k * n + j];
+                out[i * n + j] -= f * out[k * n + j];
+            }
         }
     }
     return true;
@@ -82,7 +90,8 @@ static CpsSet *polyhedron(int n) {
     const int count = 2 * n + below(4);
     fill(count * n, 1, rows);
     for (int i = 0; i < 2 * n; i++)
-        for (int j = 0; j < n; j++) rows[i * n + j] = (i / 2 == j) * (i & 1 ? -1 : 1) + 0.3 * rows[i * n + j];
+        for (int j = 0; j < n; j++)
+            rows[i * n + j] = (i / 2 == j) * (i & 1 ? -1 : 1) + 0.3 * rows[i * n + j];
     for (int i = 0; i < count; i++) offsets[i] = uniform(0.2, 2);
     CpsSet *set;
     DO(cps_set_inequalities(n, count, rows, offsets, &set, &err));
@@ -107,7 +116,8 @@ static CpsSet *ellipsoid(int n, const double *center) {
     CpsSet *set;
     fill(n * n, 1, factor);
     for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) shape[i * n + j] = dot(n, &factor[i * n], &factor[j * n]) + (i == j) * 0.2;
+        for (int j = 0; j < n; j++)
+            shape[i * n + j] = dot(n, &factor[i * n], &factor[j * n]) + (i == j) * 0.2;
     DO(cps_set_ellipsoid(n, center, shape, &set, &err));
     return set;
 }
@@ -120,38 +130,29 @@ Sample random_primitive(int n, bool bounded) {
     fill(n, 0.3, inside);
     fill(n * n, 1, b);
     switch (kind) {
-    case 0:
-        DO(cps_set_ball(n, inside, uniform(0.3, 2), &sample.set, &err));
-        break;
-    case 1:
-        sample.set = ellipsoid(n, inside);
-        break;
+    case 0: DO(cps_set_ball(n, inside, uniform(0.3, 2), &sample.set, &err)); break;
+    case 1: sample.set = ellipsoid(n, inside); break;
     case 2: /* one side in ten is flat */
         for (int i = 0; i < n; i++) {
             const double half = below(10) ? uniform(0.1, 1) : 0;
-            a[i] = inside[i] - half, b[i] = inside[i] + half;
+            a[i] = inside[i] - half;
+            b[i] = inside[i] + half;
         }
         DO(cps_set_box(n, a, b, &sample.set, &err));
         break;
-    case 3:
-        sample.set = polytope(n, 1 + below(8), inside);
-        break;
-    case 4:
-        sample.set = polytope(n, 2, inside);
-        break;
+    case 3: sample.set = polytope(n, 1 + below(8), inside); break;
+    case 4: sample.set = polytope(n, 2, inside); break;
     case 5:
         memset(inside, 0, (size_t)n * sizeof *inside);
         sample.set = polyhedron(n);
         break;
-    case 6:
-        DO(cps_set_point(n, inside, &sample.set, &err));
-        break;
+    case 6: DO(cps_set_point(n, inside, &sample.set, &err)); break;
     case 7:
         DO(cps_set_half_space(n, b, dot(n, b, inside) + uniform(0.1, 1), &sample.set, &err));
         break;
     case 8:
-        DO(cps_set_strip(n, b, dot(n, b, inside) - uniform(0.1, 1), dot(n, b, inside) + uniform(0.1, 1), &sample.set,
-                         &err));
+        DO(cps_set_strip(n, b, dot(n, b, inside) - uniform(0.1, 1),
+                         dot(n, b, inside) + uniform(0.1, 1), &sample.set, &err));
         break;
     default: /* the sum of its rays lies inside a cone */
         memset(inside, 0, (size_t)n * sizeof *inside);
@@ -194,7 +195,8 @@ static Sample random_product(int n, int depth, bool bounded) {
     Sample out;
     DO(cps_set_product(2, (const CpsSet *[]){one.set, two.set}, &out.set, &err));
     for (int i = 0; i < n; i++) out.inside[i] = i < first ? one.inside[i] : two.inside[i - first];
-    cps_set_release(one.set), cps_set_release(two.set);
+    cps_set_release(one.set);
+    cps_set_release(two.set);
     return out;
 }
 
@@ -209,7 +211,8 @@ static Sample random_join(Join *join, int n, int depth, bool bounded) {
         part[k] = random_expression(n, depth - 1, bounded || closed);
         if (join == cps_set_intersection && k > 0) move_to(part[0].inside, &part[k]);
         parts[k] = part[k].set;
-        for (int i = 0; i < n; i++) out.inside[i] += part[k].inside[i] / (join == cps_set_sum ? 1 : count);
+        for (int i = 0; i < n; i++)
+            out.inside[i] += part[k].inside[i] / (join == cps_set_sum ? 1 : count);
     }
     DO(join(count, (const CpsSet *const *)parts, &out.set, &err));
     for (int k = 0; k < count; k++) cps_set_release(parts[k]);
@@ -253,18 +256,12 @@ Sample random_expression(int n, int depth, bool bounded) {
     case 0:
         if (n > 1) return random_product(n, depth, bounded);
         return random_expression(n, depth - 1, bounded);
-    case 1:
-        return random_join(cps_set_intersection, n, depth, bounded);
-    case 2:
-        return random_join(cps_set_sum, n, depth, bounded);
-    case 3:
-        return random_join(cps_set_hull, n, depth, bounded);
-    case 4:
-        return random_map(n, depth, bounded, false);
-    case 5:
-        return random_map(n, depth, bounded, true);
-    case 6:
-        return random_polar(n, depth, bounded);
+    case 1: return random_join(cps_set_intersection, n, depth, bounded);
+    case 2: return random_join(cps_set_sum, n, depth, bounded);
+    case 3: return random_join(cps_set_hull, n, depth, bounded);
+    case 4: return random_map(n, depth, bounded, false);
+    case 5: return random_map(n, depth, bounded, true);
+    case 6: return random_polar(n, depth, bounded);
     case 7:
         out = random_expression(n, depth - 1, bounded);
         fill(n, 0.5, shift);
@@ -290,7 +287,8 @@ CpsSet *random_round_zero(int n, int depth) {
     CpsSet *ball, *sum;
     DO(cps_set_ball(n, NULL, uniform(0.1, 0.5), &ball, &err));
     DO(cps_set_sum(2, (const CpsSet *[]){part.set, ball}, &sum, &err));
-    cps_set_release(part.set), cps_set_release(ball);
+    cps_set_release(part.set);
+    cps_set_release(ball);
     return sum;
 }
 

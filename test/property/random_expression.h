@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random set expressions with a known point, for the property tests; and the random numbers they are made of. */
+/* Random set expressions with a known point, for the property tests; and the random numbers they
+ * are made of. */
 #ifndef CAPSTAN_TEST_RANDOM_EXPRESSION_H
 #define CAPSTAN_TEST_RANDOM_EXPRESSION_H
 
@@ -23,8 +24,8 @@ double dot(int n, const double *a, const double *b);
 double norm(int n, const double *a);
 /* out = L x (sign 1), L (rows x columns); L'x (sign -1) */
 void times(int rows, int columns, const double *map, int sign, const double *x, double *out);
-/* The inverse of a (n x n) by Gauss and Jordan with row exchanges; false where a pivot is not above the share `least`
- * of a's size. */
+/* The inverse of a (n x n) by Gauss and Jordan with row exchanges; false where a pivot is not above
+ * the share `least` of a's size. */
 bool invert(int n, const double *a, double least, double *out);
 
 /* A call that must work: ends the test with the message where it does not. */
@@ -40,13 +41,14 @@ typedef struct Sample {
     double inside[MAX_SPACE];
 } Sample;
 
-/* A primitive in R^n: ball, ellipsoid, box, polytopes by points and by inequalities, segment, point; where it need not
- * be bounded also half-space, strip, subspace, cone of rays. */
+/* A primitive in R^n: ball, ellipsoid, box, polytopes by points and by inequalities, segment,
+ * point; where it need not be bounded also half-space, strip, subspace, cone of rays. */
 Sample random_primitive(int n, bool bounded);
 
-/* An expression of at most `depth` operations above each other: products, intersections, sums, images, translates,
- * scales, hulls, preimages, polars. The parts of an intersection share a point of their relative interiors, so that
- * none is empty. Where it is to be bounded, what need not be is cut with a ball. */
+/* An expression of at most `depth` operations above each other: products, intersections, sums,
+ * images, translates, scales, hulls, preimages, polars. The parts of an intersection share a point
+ * of their relative interiors, so that none is empty. Where it is to be bounded, what need not be
+ * is cut with a ball. */
 Sample random_expression(int n, int depth, bool bounded);
 
 /* A bounded one with 0 well inside: a ball round 0 is added. */
@@ -54,7 +56,8 @@ CpsSet *random_round_zero(int n, int depth);
 
 /* ---- answers ---- */
 
-/* A case ends answered and right; refused for the reason that was due; open (CPS_SET_INACCURATE); or wrong. */
+/* A case ends answered and right; refused for the reason that was due; open (CPS_SET_INACCURATE);
+ * or wrong. */
 typedef enum Verdict { ANSWERED, REFUSED, OPEN, WRONG } Verdict;
 
 /* "--seed S" or "--cases N" from the command line; false where it is neither. */

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random histories of lines on a bed, a half-buried pipe and a boulder with consistent friction, each step audited.
+/* Random histories of lines on a bed, a half-buried pipe and a boulder with consistent friction,
+ * each step audited.
  *
  *   random_histories [--share S] [--class C] [--seed K] [--halvings H]
  *
- * Lines of 5 to 500 m, EA from 10 to 1e6 times their weight or none, are laid over the obstacles and moved, pulled, let
- * go and grabbed at one end while the pipe may turn. Friction of each obstacle: one coefficient or two, ellipse or box,
- * along the line or in a grain. At least 99.5 % of all load steps must converge; what does not says so, and what claims
- * to be solved must pass the audit of test/analytic/rig.h. A step whose law is broken by more than 1e-8 of what it
- * dissipates, though within its certificate, is loose: none may be. The seed of a history is printed with its complaint;
- * --seed K runs that one alone, --class the histories of one class. */
+ * Lines of 5 to 500 m, EA from 10 to 1e6 times their weight or none, are laid over the obstacles
+ * and moved, pulled, let go and grabbed at one end while the pipe may turn. Friction of each
+ * obstacle: one coefficient or two, ellipse or box, along the line or in a grain. At least 99.5 %
+ * of all load steps must converge; what does not says so, and what claims to be solved must pass
+ * the audit of test/analytic/rig.h. A step whose law is broken by more than 1e-8 of what it
+ * dissipates, though within its certificate, is loose: none may be. The seed of a history is
+ * printed with its complaint; --seed K runs that one alone, --class the histories of one class. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,13 +29,16 @@ static double uniform(double low, double high) { return splitmix(&state, low, hi
 static double decades(double low, double high) { return pow(10, uniform(low, high)); }
 static bool chance(double probability) { return uniform(0, 1) < probability; }
 
-/* the scene ----------------------------------------------------------------------------------------------------- */
+/* the scene ------------------------------------------------------------------------------------ */
 
 static void rubbing(CpsObstacle *o) {
     o->friction = uniform(0.05, 1);
     if (chance(0.5)) o->friction_lateral = uniform(0.05, 1);
     if (chance(0.3)) o->friction_shape = CPS_FRICTION_BOX;
-    if (chance(0.2)) o->grain[0] = uniform(-1, 1), o->grain[1] = uniform(-1, 1);
+    if (chance(0.2)) {
+        o->grain[0] = uniform(-1, 1);
+        o->grain[1] = uniform(-1, 1);
+    }
 }
 
 /* A pipe or a boulder, buried to its middle or a little less, between 0.35 and 0.65 of the way. */
@@ -44,15 +49,20 @@ static void curved(Rig *rig, CpsObstacleKind kind, double span) {
     o->point[0] = uniform(0.35, 0.65) * span;
     o->point[2] = -uniform(0, 0.5) * o->radius;
     if (kind == CPS_OBSTACLE_SPHERE) o->point[1] = uniform(-0.3, 0.3) * o->radius;
-    o->axis[0] = uniform(-0.3, 0.3), o->axis[1] = 1, o->axis[2] = 0;
+    o->axis[0] = uniform(-0.3, 0.3);
+    o->axis[1] = 1;
+    o->axis[2] = 0;
 }
 
-/* Somewhere the end can be: within reach of end A at the origin, above the bed, clear of the obstacles. */
+/* Somewhere the end can be: within reach of end A at the origin, above the bed, clear of the
+ * obstacles. */
 static void somewhere(double reach, double to[3]) {
-    const double far = uniform(0.75, 0.9) * reach, up = uniform(-0.2, 0.7), aside = uniform(-0.6, 0.6);
+    const double far = uniform(0.75, 0.9) * reach, up = uniform(-0.2, 0.7),
+                 aside = uniform(-0.6, 0.6);
     to[2] = up > 0 ? far * sin(up) : 0;
     const double flat = sqrt(far * far - to[2] * to[2]);
-    to[0] = flat * cos(aside), to[1] = flat * sin(aside);
+    to[0] = flat * cos(aside);
+    to[1] = flat * sin(aside);
 }
 
 /* The next stage: a move, a force, or a turn of the pipe. */
@@ -73,11 +83,12 @@ static void stage(Rig *rig, double from[3], double length, double force, int pip
     }
 }
 
-/* A line around a drum of radius 1, up to a turn and a half, with leads; end A pulled, end B held. The drum turns, the
- * pull changes, end B moves. */
+/* A line around a drum of radius 1, up to a turn and a half, with leads; end A pulled, end B held.
+ * The drum turns, the pull changes, end B moves. */
 static void wound(Rig *rig) {
     const int n = 20 + (int)uniform(0, 60), lead = 3 + (int)uniform(0, 10);
-    const double angle = uniform(0.5, 9), d = angle / n, pitch = uniform(0, 0.05), chord = hypot(2 * sin(d / 2), pitch);
+    const double angle = uniform(0.5, 9), d = angle / n, pitch = uniform(0, 0.05),
+                 chord = hypot(2 * sin(d / 2), pitch);
     const double pull = decades(-1, 4);
     rig_begin(rig, n + 2 * lead, chance(0.5) ? 0 : pull * decades(-3, 0),
               chance(0.3) ? INFINITY : pull * decades(2, 6));
@@ -100,12 +111,13 @@ static void wound(Rig *rig) {
         /* B stays clear of the drum */
         for (int a = 0; a < 3 && what < 0.2; a++) x[a] += uniform(-0.1, 0.1);
         const double out = fmax(1, 1.001 / hypot(x[0], x[2]));
-        x[0] *= out, x[2] *= out;
+        x[0] *= out;
+        x[2] *= out;
         if (what < 0.2)
             rig_change(rig, CPS_END_B, CPS_END_HELD, x[0], x[1], x[2]);
         else if (what < 0.5)
-            rig_change(rig, CPS_END_A, CPS_END_FREE, -pull * uniform(0.3, 3), pull * uniform(-0.1, 0.1),
-                       pull * uniform(-0.2, 0.2));
+            rig_change(rig, CPS_END_A, CPS_END_FREE, -pull * uniform(0.3, 3),
+                       pull * uniform(-0.1, 0.1), pull * uniform(-0.2, 0.2));
         else
             rig_turn(rig, 0, uniform(-0.5, 0.5));
     }
@@ -119,7 +131,8 @@ static void make(Rig *rig, uint64_t seed) {
     }
     const double length = decades(0.7, 2.7), weight = decades(-1, 3), heavy = length * weight;
     const bool inextensible = chance(0.2);
-    rig_begin(rig, 20 + (int)uniform(0, 80), weight, inextensible ? INFINITY : heavy * decades(1, 6));
+    rig_begin(rig, 20 + (int)uniform(0, 80), weight,
+              inextensible ? INFINITY : heavy * decades(1, 6));
     rig_length(rig, length);
     rig->line.start.kind = CPS_START_LAID;
     double at[3];
@@ -127,7 +140,10 @@ static void make(Rig *rig, uint64_t seed) {
     rubbing(rig_obstacle(rig, CPS_OBSTACLE_PLANE, 0));
     int pipe = -1;
     const double span = hypot(at[0], at[1]);
-    if (chance(0.6)) pipe = rig->scene.obstacle_count, curved(rig, CPS_OBSTACLE_CYLINDER, span);
+    if (chance(0.6)) {
+        pipe = rig->scene.obstacle_count;
+        curved(rig, CPS_OBSTACLE_CYLINDER, span);
+    }
     if (chance(0.3)) curved(rig, CPS_OBSTACLE_SPHERE, span);
     rig_end(rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
     rig_end(rig, CPS_END_B, CPS_END_HELD, at[0], at[1], at[2]);
@@ -135,18 +151,20 @@ static void make(Rig *rig, uint64_t seed) {
     for (int k = 0; k < stages; k++) stage(rig, at, length, heavy, pipe);
 }
 
-/* the run ------------------------------------------------------------------------------------------------------- */
+/* the run -------------------------------------------------------------------------------------- */
 
 /* What a history rubs on. */
 enum { ISOTROPIC, ANISOTROPIC, PIPE, BOULDER, DRUM, CLASSES };
-static const char *const CLASS[CLASSES] = {"a bed, one coefficient", "a bed, two", "a bed and a pipe", "a boulder too",
-                                           "a drum"};
+static const char *const CLASS[CLASSES] = {"a bed, one coefficient", "a bed, two",
+                                           "a bed and a pipe", "a boulder too", "a drum"};
 
 static int class_of(const Rig *rig) {
     const CpsObstacle *bed = &rig->obstacle[0];
     if (bed->kind != CPS_OBSTACLE_PLANE) return DRUM;
     if (rig->scene.obstacle_count == 1)
-        return bed->friction_lateral == -1 && bed->friction_shape == CPS_FRICTION_ELLIPSE ? ISOTROPIC : ANISOTROPIC;
+        return bed->friction_lateral == -1 && bed->friction_shape == CPS_FRICTION_ELLIPSE
+                   ? ISOTROPIC
+                   : ANISOTROPIC;
     for (int k = 1; k < rig->scene.obstacle_count; k++)
         if (rig->obstacle[k].kind == CPS_OBSTACLE_SPHERE) return BOULDER;
     return PIPE;
@@ -157,16 +175,17 @@ typedef struct Count {
     Audit worst;
 } Count;
 
-/* What a certified step promises: forces that balance, in their sets, bounds that follow, nothing below the surface,
- * and a law that is broken by no more than the certificate's gap. */
+/* What a certified step promises: forces that balance, in their sets, bounds that follow, nothing
+ * below the surface, and a law that is broken by no more than the certificate's gap. */
 static bool right(const Audit *a, const CpsCertificate *c) {
-    return a->balance <= 1e-9 && a->penetration <= 1e-6 && a->open <= 1e-8 && a->bound <= 1e-8 && a->outside <= 1e-8 &&
-           a->law <= c->gap + 1e-12 * a->scale && c->gap <= 1e-8 * c->scale;
+    return a->balance <= 1e-9 && a->penetration <= 1e-6 && a->open <= 1e-8 && a->bound <= 1e-8 &&
+           a->outside <= 1e-8 && a->law <= c->gap + 1e-12 * a->scale && c->gap <= 1e-8 * c->scale;
 }
 
 /* What is asked for: 1e-8 of the dissipation in sum and of w l at a node. */
 static bool tight(const Audit *a, double length) {
-    return a->node_law <= 1e-8 && a->law <= 1e-8 * a->dissipated + 1e-12 * a->bounds * length + 1e-14 * a->scale;
+    return a->node_law <= 1e-8 &&
+           a->law <= 1e-8 * a->dissipated + 1e-12 * a->bounds * length + 1e-14 * a->scale;
 }
 
 static void keep_worst(Audit *worst, const Audit *a) {
@@ -178,15 +197,17 @@ static void keep_worst(Audit *worst, const Audit *a) {
 }
 
 /* One step that has been taken: counted, audited. */
-static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, const double *turn, uint64_t seed,
-                  bool first) {
+static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, const double *turn,
+                  uint64_t seed, bool first) {
     const CpsLineReport report = cps_evolution_line_report(evolution, 0);
     const CpsStepReport step = cps_evolution_report(evolution);
     count->steps++;
-    count->parts += report.parts, count->cut += report.parts > 1;
+    count->parts += report.parts;
+    count->cut += report.parts > 1;
     if (!cps_outcome_is_certified(report.outcome)) {
         count->refused++;
-        printf("seed %llu, step %d: %s\n", (unsigned long long)seed, step.index, cps_outcome_key(report.outcome));
+        printf("seed %llu, step %d: %s\n", (unsigned long long)seed, step.index,
+               cps_outcome_key(report.outcome));
         return;
     }
     count->converged++;
@@ -199,10 +220,10 @@ static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, c
     if (!tight(&audit, rig->line.length)) count->loose++;
     if (right(&audit, &report.certificate)) return;
     count->wrong++;
-    printf("seed %llu, step %d: WRONG: balance %.1e, depth %.1e, open %.1e, bound %.1e, outside %.1e, law %.1e of %.1e J, a node "
-           "%.1e\n",
-           (unsigned long long)seed, step.index, audit.balance, audit.penetration, audit.open, audit.bound, audit.outside,
-           audit.law, audit.dissipated, audit.node_law);
+    printf("seed %llu, step %d: WRONG: balance %.1e, depth %.1e, open %.1e, bound %.1e, outside "
+           "%.1e, law %.1e of %.1e J, a node %.1e\n",
+           (unsigned long long)seed, step.index, audit.balance, audit.penetration, audit.open,
+           audit.bound, audit.outside, audit.law, audit.dissipated, audit.node_law);
 }
 
 static void run_one(Count *counts, uint64_t seed, int halvings, int class) {
@@ -235,16 +256,19 @@ int main(int argc, char **argv) {
     long seed = 0;
     int halvings = -1, class = -1;
     for (int i = 1; i + 1 < argc; i += 2) {
-        if (strcmp(argv[i], "--share") == 0)
+        if (strcmp(argv[i], "--share") == 0) {
             share = strtod(argv[i + 1], NULL);
-        else if (strcmp(argv[i], "--seed") == 0)
+        } else if (strcmp(argv[i], "--seed") == 0) {
             seed = strtol(argv[i + 1], NULL, 10);
-        else if (strcmp(argv[i], "--halvings") == 0)
+        } else if (strcmp(argv[i], "--halvings") == 0) {
             halvings = (int)strtol(argv[i + 1], NULL, 10);
-        else if (strcmp(argv[i], "--class") == 0)
+        } else if (strcmp(argv[i], "--class") == 0) {
             class = (int)strtol(argv[i + 1], NULL, 10);
-        else
-            return fprintf(stderr, "usage: random_histories [--share S] [--class C] [--seed K] [--halvings H]\n"), 2;
+        } else {
+            fprintf(stderr,
+                    "usage: random_histories [--share S] [--class C] [--seed K] [--halvings H]\n");
+            return 2;
+        }
     }
     Count count[CLASSES + 1] = {0}, *all = &count[CLASSES];
     const int histories = (int)(HISTORIES * share);
@@ -253,17 +277,23 @@ int main(int argc, char **argv) {
     for (int c = 0; c <= CLASSES; c++) {
         const Count *one = &count[c];
         if (c < CLASSES && one->steps == 0) continue;
-        printf(
-            "%-24s %6d load steps, %6d converged (%.2f %%), %d refused, %d wrong, %d loose; %d cut, %.2f parts each\n",
-            c < CLASSES ? CLASS[c] : "all", one->steps, one->converged, 100.0 * one->converged / one->steps,
-            one->refused, one->wrong, one->loose, one->cut, (double)one->parts / one->steps);
+        printf("%-24s %6d load steps, %6d converged (%.2f %%), %d refused, %d wrong, %d loose; %d "
+               "cut, %.2f parts each\n",
+               c < CLASSES ? CLASS[c] : "all", one->steps, one->converged,
+               100.0 * one->converged / one->steps, one->refused, one->wrong, one->loose, one->cut,
+               (double)one->parts / one->steps);
         if (c == CLASSES) break;
-        all->steps += one->steps, all->converged += one->converged, all->refused += one->refused,
-            all->wrong += one->wrong;
-        all->parts += one->parts, all->loose += one->loose, all->cut += one->cut;
+        all->steps += one->steps;
+        all->converged += one->converged;
+        all->refused += one->refused;
+        all->wrong += one->wrong;
+        all->parts += one->parts;
+        all->loose += one->loose;
+        all->cut += one->cut;
         keep_worst(&all->worst, &one->worst);
     }
-    printf("worst: balance %.1e, bound %.1e, outside %.1e, node's law %.1e, depth %.1e\n", all->worst.balance,
-           all->worst.bound, all->worst.outside, all->worst.node_law, all->worst.penetration);
+    printf("worst: balance %.1e, bound %.1e, outside %.1e, node's law %.1e, depth %.1e\n",
+           all->worst.balance, all->worst.bound, all->worst.outside, all->worst.node_law,
+           all->worst.penetration);
     return all->wrong > 0 || all->loose > 0 || all->converged < CONVERGED * all->steps;
 }

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random friction laws: what must hold of every one.                  usage: random_laws [--cases N | --seed S]
+/* Random friction laws: what must hold of every one.
+ *     usage: random_laws [--cases N | --seed S]
  *
- * A law is a random expression of discs, ellipsoids, boxes, polytopes and strips around 0, in products, intersections,
- * preimages, contacts and unit loads, of depth <= 4 in up to 6 components. For each, some velocities and forces:
+ * A law is a random expression of discs, ellipsoids, boxes, polytopes and strips around 0, in
+ * products, intersections, preimages, contacts and unit loads, of depth <= 4 in up to 6 components.
+ * For each, some velocities and forces:
  *
  *   - the dissipation is not negative, and positively homogeneous of degree 1
  *   - Fenchel-Young: phi(V) + <V, F> = 0 at the middle and the ends of the set of forces at V
- *   - the five forms agree there, and at a force inside (power forms to rounding, distance by the square-root bound)
+ *   - the five forms agree there, and at a force inside (power forms to rounding, distance by the
+ *       square-root bound)
  *   - V is among the velocities of each such force
  *   - phi of a product is the sum of its parts' (M77 section 8)
  *
@@ -22,15 +25,18 @@
 /* Relative to the power's scale: what the conic solver promises. */
 static const double POWER_TOLERANCE = 1e-9;
 
-/* Two ways to the same number: rounding, where everything is a closed form; else the solver's promise. */
+/* Two ways to the same number: rounding, where everything is a closed form; else the solver's
+ * promise. */
 static const double ROUNDING = 1e-12;
 
-/* [W] Rounding of sums of tens of products of order 10, where the force asked about is 0 and so is the power's scale.
+/* [W] Rounding of sums of tens of products of order 10, where the force asked about is 0 and so is
+ * the power's scale.
  */
 static const double TINY = 1e-12;
 
-/* Distance of V from the cone of velocities, relative to |V|. A force off by d, 1e-9 of the set, turns the normal of a
- * curved part by d/radius; preimages and sums make radii down to 1e-5 of the set. A wrong cone is off by order 1. */
+/* Distance of V from the cone of velocities, relative to |V|. A force off by d, 1e-9 of the set,
+ * turns the normal of a curved part by d/radius; preimages and sums make radii down to 1e-5 of the
+ * set. A wrong cone is off by order 1. */
 static const double TURN_TOLERANCE = 1e-4;
 
 static int failures, questions, open;
@@ -39,7 +45,8 @@ static uint64_t seed;
 static void fault(const CpsSet *set, const char *what, double got, double bound) {
     char text[500];
     cps_set_text(set, text, sizeof text);
-    fprintf(stderr, "seed %llu: %s: %.3g, allowed %.3g\n  %s\n", (unsigned long long)seed, what, got, bound, text);
+    fprintf(stderr, "seed %llu: %s: %.3g, allowed %.3g\n  %s\n", (unsigned long long)seed, what,
+            got, bound, text);
     failures++;
 }
 
@@ -55,9 +62,7 @@ static CpsSet *random_shape(int n) {
     CpsSet *set = NULL;
     for (int i = 0; i < n; i++) b[i] = uniform(0.2, 3);
     switch (below(5)) {
-    case 0:
-        DO(cps_set_ball(n, NULL, b[0], &set, &err));
-        break;
+    case 0: DO(cps_set_ball(n, NULL, b[0], &set, &err)); break;
     case 1: /* A A' + 0.1 I */
         for (int i = 0; i < n * n; i++) a[i] = uniform(-1, 1);
         for (int i = 0; i < n; i++)
@@ -108,8 +113,8 @@ static CpsLaw *random_product(int n, int depth) {
     DO(cps_law_dissipation(cps_law_set(law), velocity, NULL, &whole, &err));
     DO(cps_law_dissipation(cps_law_set(part[0]), velocity, NULL, &one, &err));
     DO(cps_law_dissipation(cps_law_set(part[1]), velocity + first, NULL, &two, &err));
-    check(cps_law_set(law), "phi of a product less the sum", fabs(whole.value - one.value - two.value),
-          POWER_TOLERANCE * (1 + whole.value));
+    check(cps_law_set(law), "phi of a product less the sum",
+          fabs(whole.value - one.value - two.value), POWER_TOLERANCE * (1 + whole.value));
     for (int i = 0; i < 2; i++) cps_law_destroy(part[i]);
     return law;
 }
@@ -186,7 +191,8 @@ static bool is_answered(CpsSetOutcome outcome) {
 }
 
 /* the five forms at any force of C */
-static void check_forms(const CpsSet *set, const double *force, const double *velocity, bool exact) {
+static void check_forms(const CpsSet *set, const double *force, const double *velocity,
+                        bool exact) {
     CpsLawResidual r;
     DO(cps_law_residual(set, force, velocity, 0, &r, &err));
     const bool projected = !isnan(r.normal_cone) && !isnan(r.outside);
@@ -195,7 +201,8 @@ static void check_forms(const CpsSet *set, const double *force, const double *ve
     check(set, "variational form", fabs(r.variational - r.dissipation), equal);
     check(set, "maximum dissipation form", fabs(r.maximum_dissipation - r.dissipation), equal);
     check(set, "power form below 0", -r.dissipation, POWER_TOLERANCE * r.scale + TINY);
-    check(set, "dissipated power above phi", r.power - (r.dissipation + r.power), POWER_TOLERANCE * r.scale + TINY);
+    check(set, "dissipated power above phi", r.power - (r.dissipation + r.power),
+          POWER_TOLERANCE * r.scale + TINY);
     const double root = sqrt(r.step * fmax(r.dissipation, 0));
     check(set, "square-root bound", r.normal_cone,
           2 * r.outside + root + sqrt(r.step * POWER_TOLERANCE * r.scale) + POWER_TOLERANCE);
@@ -211,7 +218,8 @@ static void check_velocities(const CpsSet *set, const double *force, const doubl
     if (is_answered(answer.outcome)) {
         DO(cps_set_project(velocities, velocity, NULL, nearest, &answer, &err));
         if (is_answered(answer.outcome))
-            check(set, "V from the velocities of its force", answer.value, TURN_TOLERANCE * norm(n, velocity));
+            check(set, "V from the velocities of its force", answer.value,
+                  TURN_TOLERANCE * norm(n, velocity));
     }
     cps_set_release(velocities);
 }
@@ -228,7 +236,8 @@ static void check_velocity(const CpsSet *set, const double *velocity) {
     DO(cps_law_dissipation(set, twice, NULL, &at, &err));
     const double size = norm(n, velocity) * 10;
     check(set, "dissipation below 0", -phi.value, POWER_TOLERANCE * size);
-    check(set, "phi(2V) less 2 phi(V)", fabs(at.value - 2 * phi.value), POWER_TOLERANCE * (size + phi.value));
+    check(set, "phi(2V) less 2 phi(V)", fabs(at.value - 2 * phi.value),
+          POWER_TOLERANCE * (size + phi.value));
 
     DO(cps_law_forces(set, velocity, 0, &forces, &face, &err));
     if (is_answered(face.outcome)) {
@@ -237,11 +246,13 @@ static void check_velocity(const CpsSet *set, const double *velocity) {
             check_forms(set, center, velocity, phi.exact);
             CpsLawResidual r;
             DO(cps_law_residual(set, center, velocity, 0, &r, &err));
-            check(set, "Fenchel-Young on the set of forces", r.dissipation, POWER_TOLERANCE * (r.scale + size));
+            check(set, "Fenchel-Young on the set of forces", r.dissipation,
+                  POWER_TOLERANCE * (r.scale + size));
             check_velocities(set, center, velocity);
         }
         /* the ends of the set of forces along its first direction */
-        for (int side = -1; side <= 1 && facts.outcome == CPS_SET_ANSWERED && facts.dimension > 0; side += 2) {
+        for (int side = -1; side <= 1 && facts.outcome == CPS_SET_ANSWERED && facts.dimension > 0;
+             side += 2) {
             for (int i = 0; i < n; i++) twice[i] = side * basis[i];
             DO(cps_set_support(forces, twice, end, &at, &err));
             if (!is_answered(at.outcome)) continue;
@@ -288,7 +299,7 @@ int main(int argc, char **argv) {
     }
     for (uint64_t number = first; number < first + count; number++) check_law(number);
     const double share = 100.0 * (questions - open) / (questions > 0 ? questions : 1);
-    printf("%llu laws, %d questions, %.3f %% answered, %d faults\n", (unsigned long long)count, questions, share,
-           failures);
+    printf("%llu laws, %d questions, %.3f %% answered, %d faults\n", (unsigned long long)count,
+           questions, share, failures);
     return failures > 0 || !(share >= 98);
 }

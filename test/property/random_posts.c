@@ -1,17 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random lines carried against posts and balls, thick and thin beside their elements; every element is looked at.
+/* Random lines carried against posts and balls, thick and thin beside their elements; every element
+ * is looked at.
  *
  *   random_posts [--share S] [--scene K]
  *
- * One to three cylinders and balls stand beside a line of 4 to 70 elements, h/R from 0.05 to 10; both ends are carried past them, or one end is
- * carried and the other pulled, and then one end goes back. Of every certified step is asked, with code of its own:
- *   - no element is deeper in an obstacle than min(l^2/(4 R), R/4), no node deeper than 0, but for 1e-10 of the length;
- *   - the angle by which the line winds about a cylinder changes by what the ways of its ends go round it and by nothing else (over a ball it may
+ * One to three cylinders and balls stand beside a line of 4 to 70 elements, h/R from 0.05 to 10;
+ * both ends are carried past them, or one end is carried and the other pulled, and then one end
+ * goes back. Of every certified step is asked, with code of its own:
+ *   - no element is deeper in an obstacle than min(l^2/(4 R), R/4), no node deeper than 0, but for
+ *       1e-10 of the length;
+ *   - the angle by which the line winds about a cylinder changes by what the ways of its ends go
+ *       round it and by nothing else (over a ball it may
  *     slip);
- *   - forces balance and obey the law: with consistent friction and coefficients by rig.h, and always by the checker, which reads the file of results.
- * Friction has one coefficient, two, or is a planar set of forces; bounds follow the reactions or are those of the step before.
- * No scene takes more than 10 s of processor time. With consistent friction at least 99.5 % of the steps are certified, or proved to have
- * no equilibrium. What is not is printed; --scene K runs a scene alone. */
+ *   - forces balance and obey the law: with consistent friction and coefficients by rig.h, and
+ *       always by the checker, which reads the file of results.
+ * Friction has one coefficient, two, or is a planar set of forces; bounds follow the reactions or
+ * are those of the step before. No scene takes more than 10 s of processor time. With consistent
+ * friction at least 99.5 % of the steps are certified, or proved to have no equilibrium. What is
+ * not is printed; --scene K runs a scene alone. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +31,8 @@
 #include "splitmix.h"
 
 enum { SCENES = 200 };
-/* Rounds end where nothing is deeper than 1e-10 of the length; beside it the rounding of a distance. */
+/* Rounds end where nothing is deeper than 1e-10 of the length; beside it the rounding of a
+ * distance. */
 static const double DEEP = 1.01e-10;
 /* [rad] Windings are whole turns apart where an axis was passed: rounding is far below this. */
 static const double SAME = 1e-6;
@@ -44,37 +51,45 @@ static double uniform(double low, double high) { return splitmix(&state, low, hi
 static double decades(double low, double high) { return pow(10, uniform(low, high)); }
 static bool chance(double probability) { return uniform(0, 1) < probability; }
 
-/* the scene ----------------------------------------------------------------------------------------------------- */
+/* the scene ------------------------------------------------------------------------------------ */
 
 typedef struct Scene {
     Rig rig;
-    double thickest; /* h/R of the thinnest obstacle */
-    bool flat;       /* all stays in the plane z = 0 */
-    bool sets;       /* friction by sets of forces */
+    double thickest;            /* h/R of the thinnest obstacle */
+    bool flat;                  /* all stays in the plane z = 0 */
+    bool sets;                  /* friction by sets of forces */
     CpsSet *set[RIG_OBSTACLES]; /* the friction of an obstacle; NULL: coefficients */
 } Scene;
 
-/* A set of friction forces with 0 in it: a polygon about a point beside it, a segment, or a disc beside it. */
+/* A set of friction forces with 0 in it: a polygon about a point beside it, a segment, or a disc
+ * beside it. */
 static CpsSet *friction_set(void) {
-    const double size = uniform(0.1, 0.5), angle = uniform(0, 2 * PI), x = size * cos(angle), y = size * sin(angle), aside = uniform(-0.5, 0.5);
+    const double size = uniform(0.1, 0.5), angle = uniform(0, 2 * PI), x = size * cos(angle),
+                 y = size * sin(angle), aside = uniform(-0.5, 0.5);
     const double what = uniform(0, 1);
     CpsSet *set = NULL;
     CpsError err;
     CpsStatus status;
     if (what < 0.2) {
-        status = cps_set_segment(2, (double[]){-x, -y}, (double[]){aside * x + x, aside * y + y}, &set, &err);
+        status = cps_set_segment(2, (double[]){-x, -y}, (double[]){aside * x + x, aside * y + y},
+                                 &set, &err);
     } else if (what < 0.4) {
         status = cps_set_ball(2, (double[]){aside * x, aside * y}, size, &set, &err);
     } else {
         double points[12];
         const int count = 3 + (int)uniform(0, 4);
         for (int k = 0; k < count; k++) { /* 0 is inside: no two neighbours are half a turn apart */
-            const double at = angle + 2 * PI * (k + uniform(-0.2, 0.2)) / count, far = size * uniform(0.6, 1.4);
-            points[2 * k] = far * cos(at), points[2 * k + 1] = far * sin(at);
+            const double at = angle + 2 * PI * (k + uniform(-0.2, 0.2)) / count,
+                         far = size * uniform(0.6, 1.4);
+            points[2 * k] = far * cos(at);
+            points[2 * k + 1] = far * sin(at);
         }
         status = cps_set_hull_of_points(2, count, points, &set, &err);
     }
-    if (status != CPS_OK) print_error("%s\n", err.message), abort();
+    if (status != CPS_OK) {
+        print_error("%s\n", err.message);
+        abort();
+    }
     return set;
 }
 
@@ -87,7 +102,10 @@ static void rubbing(Scene *s, CpsObstacle *o) {
     o->friction = uniform(0.05, 0.6);
     if (chance(0.2)) o->friction_lateral = uniform(0.05, 0.6);
     if (chance(0.1)) o->friction_shape = CPS_FRICTION_BOX;
-    if (chance(0.1)) o->grain[0] = uniform(-1, 1), o->grain[2] = 1;
+    if (chance(0.1)) {
+        o->grain[0] = uniform(-1, 1);
+        o->grain[2] = 1;
+    }
 }
 
 /* Is there room for a post of this radius at x, y? */
@@ -104,55 +122,74 @@ static void stand(Scene *s, double length, double radius) {
     for (int i = 0;; i++) {
         if (i == 100) return;
         const double room = 0.48 * length - radius; /* clear of the ways of the ends */
-        x = uniform(-0.75, 0.75) * room, y = uniform(0, 0.3) * length;
+        x = uniform(-0.75, 0.75) * room;
+        y = uniform(0, 0.3) * length;
         if (fits(s, x, y, radius)) break;
     }
     const bool post = chance(0.6);
     CpsObstacle *o = rig_obstacle(&s->rig, post ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE, 0);
     rubbing(s, o);
-    o->radius = radius, o->point[0] = x, o->point[1] = y, o->axis[1] = 0, o->axis[2] = 1;
+    o->radius = radius;
+    o->point[0] = x;
+    o->point[1] = y;
+    o->axis[1] = 0;
+    o->axis[2] = 1;
     if (s->flat) return;
-    if (post && chance(0.4)) o->axis[0] = uniform(-0.3, 0.3), o->axis[1] = uniform(-0.3, 0.3);
+    if (post && chance(0.4)) {
+        o->axis[0] = uniform(-0.3, 0.3);
+        o->axis[1] = uniform(-0.3, 0.3);
+    }
     if (!post) o->point[2] = uniform(-0.3, 0.3) * radius;
 }
 
 static void make(Scene *s, int number) {
     state = 7919u * (uint64_t)(number + 1);
     const double unit = chance(0.3) ? decades(-2, 2) : 1, ratio = decades(log10(0.05), 1);
-    const int fewest = (int)ceil(3 / ratio), elements = (fewest > 4 ? fewest : 4) + (int)uniform(0, 20);
+    const int fewest = (int)ceil(3 / ratio),
+              elements = (fewest > 4 ? fewest : 4) + (int)uniform(0, 20);
     const double length = elements * unit, radius = fmin(unit / ratio, length / 3);
     const bool pulled = chance(0.4), rigid = pulled && chance(0.3), heavy = chance(0.5);
     const double stiffness = decades(2, 4) * unit, force = 0.01 * stiffness;
     Rig *rig = &s->rig;
     rig_begin(rig, elements, heavy ? decades(-3, -1) : 0, rigid ? INFINITY : stiffness);
     rig_length(rig, length);
-    s->flat = !heavy && chance(0.3), s->sets = number % 5 == 4;
+    s->flat = !heavy && chance(0.3);
+    s->sets = number % 5 == 4;
     memset(s->set, 0, sizeof s->set);
     s->thickest = 0;
     double low = INFINITY, high = -INFINITY;
     const int wanted = 1 + (int)uniform(0, 3);
-    for (int k = 0; k < wanted; k++) stand(s, length, radius * (wanted > 1 ? uniform(0.7, 1.3) : 1));
+    for (int k = 0; k < wanted; k++)
+        stand(s, length, radius * (wanted > 1 ? uniform(0.7, 1.3) : 1));
     for (int k = 0; k < rig->scene.obstacle_count; k++) {
         const CpsObstacle *o = &rig->obstacle[k];
-        low = fmin(low, o->point[1] - 1.3 * o->radius), high = fmax(high, o->point[1] + o->radius);
+        low = fmin(low, o->point[1] - 1.3 * o->radius);
+        high = fmax(high, o->point[1] + o->radius);
         s->thickest = fmax(s->thickest, unit / o->radius);
     }
-    const double half = (rigid ? 0.5 : 0.505) * length, y = low - uniform(0.3, 0.8) * unit, up = high + uniform(0, 0.15) * length;
-    rig_point(rig, -half, y, 0), rig_point(rig, half, y, 0);
+    const double half = (rigid ? 0.5 : 0.505) * length, y = low - uniform(0.3, 0.8) * unit,
+                 up = high + uniform(0, 0.15) * length;
+    rig_point(rig, -half, y, 0);
+    rig_point(rig, half, y, 0);
     rig_end(rig, CPS_END_A, CPS_END_HELD, -half, y, 0);
-    if (pulled) rig_end(rig, CPS_END_B, CPS_END_FREE, force, 0, 0);
-    else rig_end(rig, CPS_END_B, CPS_END_HELD, half, y, 0);
+    if (pulled)
+        rig_end(rig, CPS_END_B, CPS_END_FREE, force, 0, 0);
+    else
+        rig_end(rig, CPS_END_B, CPS_END_HELD, half, y, 0);
     const int steps = 1 + (int)uniform(0, 30);
     rig_stage(rig, steps);
-    rig_change(rig, CPS_END_A, CPS_END_HELD, -half, up, s->flat ? 0 : uniform(-0.05, 0.05) * length);
-    if (pulled) rig_change(rig, CPS_END_B, CPS_END_FREE, force, 0.4 * force, 0);
-    else rig_change(rig, CPS_END_B, CPS_END_HELD, half, up * uniform(0.5, 1), 0);
+    rig_change(rig, CPS_END_A, CPS_END_HELD, -half, up,
+               s->flat ? 0 : uniform(-0.05, 0.05) * length);
+    if (pulled)
+        rig_change(rig, CPS_END_B, CPS_END_FREE, force, 0.4 * force, 0);
+    else
+        rig_change(rig, CPS_END_B, CPS_END_HELD, half, up * uniform(0.5, 1), 0);
     rig_stage(rig, 1 + steps / 2);
     rig_change(rig, CPS_END_A, CPS_END_HELD, -0.98 * half, 0.8 * up, 0);
     rig->scene.friction = chance(0.15) ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
 }
 
-/* what is looked at --------------------------------------------------------------------------------------------- */
+/* what is looked at ---------------------------------------------------------------------------- */
 
 /* x as seen from an obstacle: across its axis in two coordinates, or from its centre in three. */
 static void seen(const CpsObstacle *o, const double *x, double out[3]) {
@@ -169,13 +206,19 @@ static void seen(const CpsObstacle *o, const double *x, double out[3]) {
         second[a] = axis[b] * first[c] - axis[c] * first[b];
     }
     out[0] = out[1] = out[2] = 0;
-    for (int a = 0; a < 3; a++) out[0] += first[a] * from[a], out[1] += second[a] * from[a];
+    for (int a = 0; a < 3; a++) {
+        out[0] += first[a] * from[a];
+        out[1] += second[a] * from[a];
+    }
 }
 
 /* The distance of the origin from the straight piece between a and b. */
 static double apart(const double *a, const double *b) {
     double length = 0, passed = 0, d = 0;
-    for (int i = 0; i < 3; i++) length += (b[i] - a[i]) * (b[i] - a[i]), passed -= a[i] * (b[i] - a[i]);
+    for (int i = 0; i < 3; i++) {
+        length += (b[i] - a[i]) * (b[i] - a[i]);
+        passed -= a[i] * (b[i] - a[i]);
+    }
     const double share = length > 0 ? fmin(1, fmax(0, passed / length)) : 0;
     for (int i = 0; i < 3; i++) d += pow(a[i] + share * (b[i] - a[i]), 2);
     return sqrt(d);
@@ -189,7 +232,8 @@ static double depth(const Scene *s, const CpsLineView *view) {
         double a[3], b[3];
         seen(o, view->position, b);
         for (int e = 0; e < view->elements; e++) {
-            const double l = view->element_length[e], allowed = fmin(l * l / (4 * o->radius), o->radius / 4);
+            const double l = view->element_length[e],
+                         allowed = fmin(l * l / (4 * o->radius), o->radius / 4);
             memcpy(a, b, sizeof a);
             seen(o, &view->position[3 * e + 3], b);
             worst = fmax(worst, fmax(o->radius - allowed - apart(a, b), o->radius - apart(b, b)));
@@ -199,7 +243,9 @@ static double depth(const Scene *s, const CpsLineView *view) {
 }
 
 /* [rad] by which the straight way from a to b goes round, between -pi and pi */
-static double angle(const double *a, const double *b) { return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]); }
+static double angle(const double *a, const double *b) {
+    return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+}
 
 static double winding(const CpsObstacle *o, const double *x, int elements) {
     double sum = 0, a[3], b[3];
@@ -212,8 +258,8 @@ static double winding(const CpsObstacle *o, const double *x, int elements) {
     return sum;
 }
 
-/* Turns by which the line has come round an obstacle beyond what its ends went, from place `from` to place `to`. A free end's way is
- * straight as long as it is short. */
+/* Turns by which the line has come round an obstacle beyond what its ends went, from place `from`
+ * to place `to`. A free end's way is straight as long as it is short. */
 static double passed(const Scene *s, const double *from, const double *to) {
     const int elements = s->rig.line.elements;
     double worst = 0;
@@ -222,7 +268,8 @@ static double passed(const Scene *s, const double *from, const double *to) {
         if (o->kind == CPS_OBSTACLE_SPHERE) continue;
         double off = winding(o, to, elements) - winding(o, from, elements), a[3], b[3];
         for (int end = 0; end < 2; end++) {
-            seen(o, &from[end ? 3 * elements : 0], a), seen(o, &to[end ? 3 * elements : 0], b);
+            seen(o, &from[end ? 3 * elements : 0], a);
+            seen(o, &to[end ? 3 * elements : 0], b);
             off += (end ? -1 : 1) * angle(a, b);
         }
         worst = fmax(worst, fabs(off));
@@ -230,7 +277,7 @@ static double passed(const Scene *s, const double *from, const double *to) {
     return worst / (2 * PI);
 }
 
-/* the run ------------------------------------------------------------------------------------------------------- */
+/* the run -------------------------------------------------------------------------------------- */
 
 typedef struct Tally {
     int scenes, steps, certified, proved, coarse, refused, late, wrong;
@@ -241,32 +288,41 @@ typedef struct Tally {
 /* What a certified step promises of its forces; of a line without any there is nothing to ask. */
 static bool right(const Audit *a, const CpsCertificate *c) {
     if (a->scale == 0) return c->gap == 0;
-    return a->balance <= 1e-9 && a->open <= 1e-8 && a->bound <= 1e-8 && a->outside <= 1e-8 && a->law <= c->gap + 1e-12 * a->scale &&
-           c->gap <= 1e-8 * c->scale;
+    return a->balance <= 1e-9 && a->open <= 1e-8 && a->bound <= 1e-8 && a->outside <= 1e-8 &&
+           a->law <= c->gap + 1e-12 * a->scale && c->gap <= 1e-8 * c->scale;
 }
 
-static void judge(const Scene *s, const char *name, const CpsEvolution *evolution, const double *before, Tally *tally) {
+static void judge(const Scene *s, const char *name, const CpsEvolution *evolution,
+                  const double *before, Tally *tally) {
     static const double still[RIG_OBSTACLES] = {0};
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
     const CpsLineReport report = cps_evolution_line_report(evolution, 0);
     const char *step = cps_evolution_report(evolution).name;
     tally->steps++;
     if (!cps_outcome_is_certified(report.outcome)) {
-        const bool final = cps_outcome_is_final(report.outcome), coarse = report.outcome == CPS_MESH_TOO_COARSE;
-        tally->proved += final, tally->coarse += coarse, tally->refused += !final && !coarse;
+        const bool final = cps_outcome_is_final(report.outcome),
+                   coarse = report.outcome == CPS_MESH_TOO_COARSE;
+        tally->proved += final;
+        tally->coarse += coarse;
+        tally->refused += !final && !coarse;
         if (!final && !coarse) printf("%s, %s: %s\n", name, step, cps_outcome_key(report.outcome));
         return;
     }
     tally->certified++;
     const double deep = depth(s, &view), turns = passed(s, before, view.position);
     bool wrong = !(deep <= DEEP) || !(turns * 2 * PI <= SAME);
-    if (wrong) printf("%s, %s: WRONG: certified, %.3g of the length too deep, %.6f turns round an obstacle\n", name, step, fmax(0, deep), turns);
+    if (wrong)
+        printf(
+            "%s, %s: WRONG: certified, %.3g of the length too deep, %.6f turns round an obstacle\n",
+            name, step, fmax(0, deep), turns);
     if (s->rig.scene.friction == CPS_FRICTION_CONSISTENT && !s->sets) {
         const Audit audit = rig_audit(&s->rig.scene, still, &view);
         if (!right(&audit, &report.certificate)) {
             wrong = true;
-            printf("%s, %s: WRONG: balance %.1e, open %.1e, bound %.1e, outside %.1e, law %.1e beside a gap of %.1e\n", name, step, audit.balance,
-                   audit.open, audit.bound, audit.outside, audit.law, report.certificate.gap);
+            printf("%s, %s: WRONG: balance %.1e, open %.1e, bound %.1e, outside %.1e, law %.1e "
+                   "beside a gap of %.1e\n",
+                   name, step, audit.balance, audit.open, audit.bound, audit.outside, audit.law,
+                   report.certificate.gap);
         }
     }
     tally->wrong += wrong;
@@ -290,8 +346,10 @@ static void check_file(const Scene *s, const char *name, const char *directory, 
     fclose(log);
 }
 
-/* All steps of an evolution, or as many as there is time for; [s] of processor time that they took. */
-static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsResults *results, Tally *tally) {
+/* All steps of an evolution, or as many as there is time for; [s] of processor time that they
+ * took. */
+static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsResults *results,
+                 Tally *tally) {
     const size_t size = 3 * (size_t)(s->rig.line.elements + 1) * sizeof(double);
     double *before = malloc(size), spent = 0;
     CpsError err;
@@ -303,7 +361,10 @@ static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsR
         spent += (double)(clock() - begun) / CLOCKS_PER_SEC;
         tally->iterations += cps_evolution_report(evolution).iterations;
         judge(s, name, evolution, before, tally);
-        if (cps_results_append(results, evolution, &err)) print_error("%s: %s\n", name, err.message), abort();
+        if (cps_results_append(results, evolution, &err)) {
+            print_error("%s: %s\n", name, err.message);
+            abort();
+        }
     }
     free(before);
     return spent;
@@ -318,16 +379,21 @@ static void run(int number, const char *directory, Tally tallies[2]) {
     char name[160];
     make(&s, number);
     Tally *tally = &tallies[s.rig.scene.friction];
-    snprintf(name, sizeof name, "scene %d, %d obstacles%s, %d elements, h/R %.2f, %s%s", number, s.rig.scene.obstacle_count,
-             s.sets ? " with friction sets" : "", s.rig.line.elements, s.thickest,
-             s.rig.scene.friction == CPS_FRICTION_FROZEN ? "frozen" : "consistent", s.rig.line.end[1].kind == CPS_END_FREE ? ", pulled" : "");
-    if (cps_evolution_create(&s.rig.scene, &evolution, &err) || cps_results_open_with(directory, &s.rig.scene, evolution, &terse, &results, &err)) {
+    snprintf(name, sizeof name, "scene %d, %d obstacles%s, %d elements, h/R %.2f, %s%s", number,
+             s.rig.scene.obstacle_count, s.sets ? " with friction sets" : "", s.rig.line.elements,
+             s.thickest, s.rig.scene.friction == CPS_FRICTION_FROZEN ? "frozen" : "consistent",
+             s.rig.line.end[1].kind == CPS_END_FREE ? ", pulled" : "");
+    if (cps_evolution_create(&s.rig.scene, &evolution, &err) ||
+        cps_results_open_with(directory, &s.rig.scene, evolution, &terse, &results, &err)) {
         printf("%s: %s\n", name, err.message);
         tally->wrong++;
         return;
     }
     const double spent = go(&s, name, evolution, results, tally);
-    if (cps_results_finish(results, 0, &err)) print_error("%s: %s\n", name, err.message), abort();
+    if (cps_results_finish(results, 0, &err)) {
+        print_error("%s: %s\n", name, err.message);
+        abort();
+    }
     cps_results_destroy(results);
     cps_evolution_destroy(evolution);
     check_file(&s, name, directory, tally);
@@ -339,11 +405,14 @@ static void run(int number, const char *directory, Tally tallies[2]) {
     printf("%s: beyond %g s\n", name, LATE);
 }
 
-/* Says what was found; is the share of the steps that are certified, or proved to have no equilibrium, as large as asked for? */
+/* Says what was found; is the share of the steps that are certified, or proved to have no
+ * equilibrium, as large as asked for? */
 static bool tell(const char *friction, const Tally *t) {
-    printf("%s: %d scenes, %d steps: %d certified, %d proved to have no equilibrium, %d with a mesh too coarse, %d not certified, %d WRONG; %ld "
-           "iterations, the slowest scene took %.1f s, %d more than %g s\n",
-           friction, t->scenes, t->steps, t->certified, t->proved, t->coarse, t->refused, t->wrong, t->iterations, t->slowest, t->late, LATE);
+    printf("%s: %d scenes, %d steps: %d certified, %d proved to have no equilibrium, %d with a "
+           "mesh too coarse, %d not certified, %d WRONG; %ld iterations, the slowest scene took "
+           "%.1f s, %d more than %g s\n",
+           friction, t->scenes, t->steps, t->certified, t->proved, t->coarse, t->refused, t->wrong,
+           t->iterations, t->slowest, t->late, LATE);
     return t->certified + t->proved >= CERTIFIED * t->steps;
 }
 
@@ -351,20 +420,29 @@ int main(int argc, char **argv) {
     double share = 1;
     int only = -1;
     for (int i = 1; i < argc; i += 2) {
-        if (i + 1 < argc && !strcmp(argv[i], "--share")) share = strtod(argv[i + 1], NULL);
-        else if (i + 1 < argc && !strcmp(argv[i], "--scene")) only = (int)strtol(argv[i + 1], NULL, 10);
-        else return fprintf(stderr, "usage: random_posts [--share S] [--scene K]\n"), 2;
+        if (i + 1 < argc && !strcmp(argv[i], "--share")) {
+            share = strtod(argv[i + 1], NULL);
+        } else if (i + 1 < argc && !strcmp(argv[i], "--scene")) {
+            only = (int)strtol(argv[i + 1], NULL, 10);
+        } else {
+            fprintf(stderr, "usage: random_posts [--share S] [--scene K]\n");
+            return 2;
+        }
     }
     Tally tally[2] = {{0}};
     const char *base = getenv("TMPDIR");
     char directory[256], command[300];
     snprintf(directory, sizeof directory, "%.200s/capstan-posts-XXXXXX", base ? base : "/tmp");
-    if (!mkdtemp(directory)) return perror(directory), 2;
+    if (!mkdtemp(directory)) {
+        perror(directory);
+        return 2;
+    }
     snprintf(command, sizeof command, "rm -rf '%s'", directory);
     setvbuf(stdout, NULL, _IOLBF, 0); /* what a time limit ends has told so far */
     for (int k = 0; only < 0 && k < SCENES * share; k++) run(k, directory, tally);
     if (only >= 0) run(only, directory, tally);
     if (system(command) != 0) printf("%s is left behind\n", directory);
-    const bool enough = tell("consistent friction", &tally[CPS_FRICTION_CONSISTENT]) & tell("frozen friction", &tally[CPS_FRICTION_FROZEN]);
+    const bool enough = tell("consistent friction", &tally[CPS_FRICTION_CONSISTENT]) &
+                        tell("frozen friction", &tally[CPS_FRICTION_FROZEN]);
     return tally[0].wrong + tally[1].wrong > 0 || tally[0].late + tally[1].late > 0 || !enough;
 }

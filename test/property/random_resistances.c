@@ -1,16 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random resistance laws: what must hold of every one.                      usage: random_resistances [--cases N]
+/* Random resistance laws: what must hold of every one.
+ *     usage: random_resistances [--cases N]
  *
- * A law is a sum of one to four terms in up to 6 components: dry, viscous, powers of degree 1.1 to 6, tables and
- * functions, on balls, ellipsoids, boxes, products, preimages and sums of such sets. Potential and power are computed a
- * second time here, from the sets' own formulas. With F a force of the law at V, and U the velocity answered for F:
+ * A law is a sum of one to four terms in up to 6 components: dry, viscous, powers of degree 1.1 to
+ * 6, tables and functions, on balls, ellipsoids, boxes, products, preimages and sums of such sets.
+ * Potential and power are computed a second time here, from the sets' own formulas. With F a force
+ * of the law at V, and U the velocity answered for F:
  *
  *   - phi and power of each term; power = degree x phi for powers; power >= phi >= 0
  *   - <V, F> = -power, at the middle of the set of forces
  *   - the forces at two velocities: <V1 - V2, F1 - F2> <= 0
- *   - phi(V) + phi*(-F) + <V, F> = 0, and the same with U: phi recomputed here, so that the answer is proved to be one
- *   - phi*(-F) >= -<W, F> - phi(W) for other velocities W, and F close to the forces at U where those are one point
- *   - the same for forces that are no law's force at a known velocity; "none" only where phi grows no faster than g
+ *   - phi(V) + phi*(-F) + <V, F> = 0, and the same with U: phi recomputed here, so that the answer
+ *       is proved to be one
+ *   - phi*(-F) >= -<W, F> - phi(W) for other velocities W, and F close to the forces at U where
+ *       those are one point
+ *   - the same for forces that are no law's force at a known velocity; "none" only where phi grows
+ *       no faster than g
  *
  * A question may end without an answer, but not more often than MOST_OPEN. */
 #include <math.h>
@@ -24,18 +29,21 @@
 
 enum { MOST_SPACE = 6, MOST_TERMS = 4, MOST_POINTS = 5 };
 
-/* phi and power of one term, relative: rounding of products of tens of numbers, and of powers up to the sixth. */
+/* phi and power of one term, relative: rounding of products of tens of numbers, and of powers up to
+ * the sixth. */
 static const double ROUNDING = 1e-12;
 
-/* Powers relative to phi + phi*: what conjugates and faces promise is 1e-9, of which a check adds two or three. */
+/* Powers relative to phi + phi*: what conjugates and faces promise is 1e-9, of which a check adds
+ * two or three. */
 static const double PROMISE = 4e-9;
 
-/* [W] Rounding where a force is the middle of a set round 0: 1e-16 of the set's size, at speeds up to 10. Below SMALL a
- * velocity is told from rest by nothing. */
+/* [W] Rounding where a force is the middle of a set round 0: 1e-16 of the set's size, at speeds up
+ * to 10. Below SMALL a velocity is told from rest by nothing. */
 static const double TINY = 1e-14, SMALL = 1e-6;
 
-/* Distance of F from the one force at U, relative. phi is quadratic near U on the sets used, and their radii of
- * curvature differ by up to 1e3: a gap of PROMISE moves U by its root. A wrong velocity is off by order 1. */
+/* Distance of F from the one force at U, relative. phi is quadratic near U on the sets used, and
+ * their radii of curvature differ by up to 1e3: a gap of PROMISE moves U by its root. A wrong
+ * velocity is off by order 1. */
 static const double ROOT = 1e-2;
 
 /* The share of questions that may stay open, in per cent (issue: at least 98 % answered). */
@@ -56,8 +64,8 @@ static void fill(int count, double low, double high, double *a) {
 
 static void need(CpsStatus status, const CpsError *err, const char *call) {
     if (status == CPS_OK) return;
-    fprintf(stderr, "seed %llu: %s: %s: %s\n", (unsigned long long)seed, call, cps_status_sentence(status),
-            err->message);
+    fprintf(stderr, "seed %llu: %s: %s: %s\n", (unsigned long long)seed, call,
+            cps_status_sentence(status), err->message);
     exit(1);
 }
 
@@ -83,26 +91,22 @@ static double support(const Shape *s, const double *w) {
     const int n = s->n;
     double sum = 0, turned[MOST_SPACE];
     switch (s->kind) {
-    case BALL:
-        return dot(n, s->center, w) + s->radius * sqrt(dot(n, w, w));
+    case BALL: return dot(n, s->center, w) + s->radius * sqrt(dot(n, w, w));
     case ELLIPSOID:
         for (int i = 0; i < n; i++) sum += w[i] * dot(n, s->matrix + i * n, w);
         return sqrt(sum);
     case BOX:
         for (int i = 0; i < n; i++) sum += w[i] > 0 ? w[i] * s->high[i] : w[i] * s->low[i];
         return sum;
-    case PRODUCT:
-        return support(s->part[0], w) + support(s->part[1], w + s->part[0]->n);
+    case PRODUCT: return support(s->part[0], w) + support(s->part[1], w + s->part[0]->n);
     case PREIMAGE: /* h(w) = h_C(L^-1* w) */
         for (int j = 0; j < n; j++) {
             turned[j] = 0;
             for (int i = 0; i < n; i++) turned[j] += s->matrix[i * n + j] * w[i];
         }
         return support(s->part[0], turned);
-    case SUM:
-        return support(s->part[0], w) + support(s->part[1], w);
-    default:
-        return NAN;
+    case SUM: return support(s->part[0], w) + support(s->part[1], w);
+    default: return NAN;
     }
 }
 
@@ -125,7 +129,8 @@ static void random_map(int n, double *map, double *inverse) {
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             map[i * n + j] = uniform(-1, 1) * 0.7 / n + (i == j ? uniform(0.8, 1.5) : 0);
-            work[i][j] = map[i * n + j], work[i][n + j] = i == j;
+            work[i][j] = map[i * n + j];
+            work[i][n + j] = i == j;
         }
     for (int k = 0; k < n; k++) {
         const double pivot = work[k][k]; /* the diagonal dominates */
@@ -170,12 +175,13 @@ static Shape *random_shape(int n, int depth, CpsSet **set) {
         need(cps_set_ellipsoid(n, NULL, s->matrix, set, &err), &err, "ellipsoid");
         break;
     case BOX:
-        fill(n, -3, -0.2, s->low), fill(n, 0.2, 3, s->high);
+        fill(n, -3, -0.2, s->low);
+        fill(n, 0.2, 3, s->high);
         need(cps_set_box(n, s->low, s->high, set, &err), &err, "box");
         break;
     case PRODUCT: {
         const int first = 1 + below(n - 1);
-        s->part[0] = random_shape(first, depth - 1, &part[0]),
+        s->part[0] = random_shape(first, depth - 1, &part[0]);
         s->part[1] = random_shape(n - first, depth - 1, &part[1]);
         need(cps_set_product(2, (const CpsSet *const *)part, set, &err), &err, "product");
         break;
@@ -216,11 +222,13 @@ typedef struct Case {
     bool one;     /* at V other than 0 there is one force */
 } Case;
 
-/* steep: c (cosh(g/w) - 1); bent: c (sqrt(w^2 + g^2) - w), whose slope stays below c; logarithm: c g log(1 + g/w) */
+/* steep: c (cosh(g/w) - 1); bent: c (sqrt(w^2 + g^2) - w), whose slope stays below c; logarithm: c
+ * g log(1 + g/w) */
 static bool steep(void *user, double g, double *value, double *slope) {
     const Term *t = user;
     const double half = sinh(0.5 * g / t->width);
-    *value = 2 * t->factor * half * half, *slope = t->factor / t->width * sinh(g / t->width);
+    *value = 2 * t->factor * half * half;
+    *slope = t->factor / t->width * sinh(g / t->width);
     return true;
 }
 
@@ -235,14 +243,16 @@ static bool steep_conjugate(void *user, double s, double *value, double *g) {
 static bool bent(void *user, double g, double *value, double *slope) {
     const Term *t = user;
     const double root = hypot(t->width, g);
-    *value = t->factor * g * (g / (root + t->width)), *slope = t->factor * g / root;
+    *value = t->factor * g * (g / (root + t->width));
+    *slope = t->factor * g / root;
     return true;
 }
 
 static bool logarithm(void *user, double g, double *value, double *slope) {
     const Term *t = user;
     const double log_of = log1p(g / t->width);
-    *value = t->factor * g * log_of, *slope = t->factor * (log_of + g / (t->width + g));
+    *value = t->factor * g * log_of;
+    *slope = t->factor * (log_of + g / (t->width + g));
     return true;
 }
 
@@ -251,17 +261,17 @@ static void evaluate(int n, const Term *t, const double *velocity, double *phi, 
     double opposite[MOST_SPACE], slope = 0;
     for (int i = 0; i < n; i++) opposite[i] = -velocity[i];
     const double g = t->shape ? fmax(support(t->shape, opposite), 0) : 0;
-    *phi = g, *power = 0;
+    *phi = g;
+    *power = 0;
     switch (t->kind) {
-    case DRY:
-        *power = g;
-        return;
+    case DRY: *power = g; return;
     case VISCOUS:
         for (int i = 0; i < n; i++) *power += velocity[i] * dot(n, t->matrix + i * n, velocity);
         *phi = *power / 2;
         return;
     case POWER:
-        *power = t->factor * pow(g, t->degree), *phi = *power / t->degree;
+        *power = t->factor * pow(g, t->degree);
+        *phi = *power / t->degree;
         return;
     case TABLE: {
         int k = 0;
@@ -269,18 +279,14 @@ static void evaluate(int n, const Term *t, const double *velocity, double *phi, 
             *phi += (t->speed[k + 1] - t->speed[k]) * (t->slope[k + 1] + t->slope[k]) / 2;
         slope = t->slope[k];
         if (k + 1 < t->count)
-            slope += (g - t->speed[k]) * (t->slope[k + 1] - t->slope[k]) / (t->speed[k + 1] - t->speed[k]);
+            slope += (g - t->speed[k]) * (t->slope[k + 1] - t->slope[k]) /
+                     (t->speed[k + 1] - t->speed[k]);
         *phi += (g - t->speed[k]) * (slope + t->slope[k]) / 2;
         break;
     }
-    case STEEP:
-        (void)steep((void *)t, g, phi, &slope);
-        break;
-    case BENT:
-        (void)bent((void *)t, g, phi, &slope);
-        break;
-    default:
-        (void)logarithm((void *)t, g, phi, &slope);
+    case STEEP: (void)steep((void *)t, g, phi, &slope); break;
+    case BENT: (void)bent((void *)t, g, phi, &slope); break;
+    default: (void)logarithm((void *)t, g, phi, &slope);
     }
     *power = g * slope;
 }
@@ -311,9 +317,7 @@ static CpsResistance *random_term(int n, Term *t) {
     t->shape = random_shape(n, below(3), &set);
     need(cps_law_friction(set, &law, &err), &err, "friction");
     switch (t->kind) {
-    case DRY:
-        need(cps_resistance_dry(law, &out, &err), &err, "dry");
-        break;
+    case DRY: need(cps_resistance_dry(law, &out, &err), &err, "dry"); break;
     case POWER:
         need(cps_resistance_power(law, t->degree, t->factor, &out, &err), &err, "power");
         break;
@@ -327,13 +331,11 @@ static CpsResistance *random_term(int n, Term *t) {
         need(cps_resistance_table(law, t->count, t->speed, t->slope, &out, &err), &err, "table");
         break;
     case STEEP:
-        need(cps_resistance_function(law, steep, below(2) ? steep_conjugate : NULL, t, &out, &err), &err, "steep");
+        need(cps_resistance_function(law, steep, below(2) ? steep_conjugate : NULL, t, &out, &err),
+             &err, "steep");
         break;
-    case BENT:
-        need(cps_resistance_function(law, bent, NULL, t, &out, &err), &err, "bent");
-        break;
-    default:
-        need(cps_resistance_function(law, logarithm, NULL, t, &out, &err), &err, "logarithm");
+    case BENT: need(cps_resistance_function(law, bent, NULL, t, &out, &err), &err, "bent"); break;
+    default: need(cps_resistance_function(law, logarithm, NULL, t, &out, &err), &err, "logarithm");
     }
     cps_law_destroy(law);
     cps_set_release(set);
@@ -343,14 +345,18 @@ static CpsResistance *random_term(int n, Term *t) {
 static void make_case(Case *c) {
     CpsResistance *part[MOST_TERMS] = {NULL};
     CpsError err;
-    *c = (Case){.n = 1 + below(MOST_SPACE), .count = 1 + below(1 + below(MOST_TERMS)), .bounded = true, .one = true};
+    *c = (Case){.n = 1 + below(MOST_SPACE),
+                .count = 1 + below(1 + below(MOST_TERMS)),
+                .bounded = true,
+                .one = true};
     for (int i = 0; i < c->count; i++) {
         Term *t = &c->term[i];
         part[i] = random_term(c->n, t);
         c->bounded = c->bounded && (t->kind == DRY || t->kind == TABLE || t->kind == BENT);
         c->one = c->one && (t->kind == VISCOUS || is_round(t->shape));
     }
-    need(cps_resistance_sum(c->count, (const CpsResistance *const *)part, &c->law, &err), &err, "sum of terms");
+    need(cps_resistance_sum(c->count, (const CpsResistance *const *)part, &c->law, &err), &err,
+         "sum of terms");
     for (int i = 0; i < c->count; i++) cps_resistance_destroy(part[i]);
 }
 
@@ -362,8 +368,10 @@ static void free_case(Case *c) {
 /* ---- what must hold ---- */
 
 static void fault(const Case *c, const char *what, double got, double bound) {
-    static const char *const NAME[] = {"dry", "viscous", "power", "table", "steep", "bent", "logarithm"};
-    fprintf(stderr, "seed %llu: %s: %.3g, allowed %.3g; n = %d:", (unsigned long long)seed, what, got, bound, c->n);
+    static const char *const NAME[] = {"dry",   "viscous", "power",    "table",
+                                       "steep", "bent",    "logarithm"};
+    fprintf(stderr, "seed %llu: %s: %.3g, allowed %.3g; n = %d:", (unsigned long long)seed, what,
+            got, bound, c->n);
     for (int i = 0; i < c->count; i++) fprintf(stderr, " %s", NAME[c->term[i].kind]);
     fprintf(stderr, "\n");
     failures++;
@@ -405,9 +413,10 @@ static bool check_value(const Case *c, const double *velocity, double *phi, doub
         check(c, "phi below 0", -by_term[i].potential, 0);
         check(c, "phi above power", by_term[i].potential - by_term[i].power, slack);
         if (c->term[i].kind == POWER)
-            check(c, "power less degree x phi", fabs(by_term[i].power - c->term[i].degree * by_term[i].potential),
-                  slack);
-        *phi += own_phi, *power += own_power;
+            check(c, "power less degree x phi",
+                  fabs(by_term[i].power - c->term[i].degree * by_term[i].potential), slack);
+        *phi += own_phi;
+        *power += own_power;
     }
     return true;
 }
@@ -422,7 +431,8 @@ static bool force_at(const Case *c, const double *velocity, double power, double
     if (forces) need(cps_set_facts(forces, 0, &facts, force, NULL, &err), &err, "facts");
     cps_set_release(forces);
     if (!is_answered(facts.outcome)) return false;
-    const double slack = PROMISE * (power + sqrt(dot(c->n, velocity, velocity) * dot(c->n, force, force)));
+    const double slack =
+        PROMISE * (power + sqrt(dot(c->n, velocity, velocity) * dot(c->n, force, force)));
     check(c, "<V, F> + power", fabs(dot(c->n, velocity, force) + power), slack);
     return true;
 }
@@ -441,7 +451,8 @@ static bool check_conjugate(const Case *c, const double *force, double *value, d
     }
     if (!is_answered(answer.outcome)) return false;
     const double phi = potential(c, velocity), along = dot(n, velocity, force);
-    *value = answer.value, *scale = phi + answer.value;
+    *value = answer.value;
+    *scale = phi + answer.value;
     check(c, "phi*(-F) below 0", -answer.value, 0);
     const double slack = PROMISE * *scale + TINY;
     check(c, "gap of the velocity answered", fabs(phi + answer.value + along), slack);
@@ -455,7 +466,8 @@ static bool check_conjugate(const Case *c, const double *force, double *value, d
     }
     if (!c->one || !(*scale > SMALL)) return true;
     need(cps_resistance_residual(c->law, force, velocity, &gap, &distance, &err), &err, "residual");
-    if (!is_answered(isnan(gap) || isnan(distance) ? CPS_SET_INACCURATE : CPS_SET_ANSWERED)) return true;
+    if (!is_answered(isnan(gap) || isnan(distance) ? CPS_SET_INACCURATE : CPS_SET_ANSWERED))
+        return true;
     check(c, "residual gap", fabs(gap), slack);
     check(c, "F from the forces at its velocity", distance, ROOT * sqrt(dot(n, force, force)));
     return true;
@@ -470,8 +482,8 @@ static void check_case(uint64_t number) {
     bool known = true;
     for (int k = 0; k < 2; k++) {
         random_velocity(c.n, velocity[k]);
-        known =
-            check_value(&c, velocity[k], &phi[k], &power[k]) && force_at(&c, velocity[k], power[k], force[k]) && known;
+        known = check_value(&c, velocity[k], &phi[k], &power[k]) &&
+                force_at(&c, velocity[k], power[k], force[k]) && known;
     }
     if (known) {
         double sum = 0, size = 0;
@@ -481,7 +493,8 @@ static void check_case(uint64_t number) {
         }
         check(&c, "forces that grow with the velocity", sum, PROMISE * size);
         if (check_conjugate(&c, force[0], &value, &scale))
-            check(&c, "Fenchel gap of V and its force", fabs(phi[0] + value + dot(c.n, velocity[0], force[0])),
+            check(&c, "Fenchel gap of V and its force",
+                  fabs(phi[0] + value + dot(c.n, velocity[0], force[0])),
                   PROMISE * (phi[0] + value) + TINY);
     }
     /* a force of no known velocity */
@@ -499,7 +512,7 @@ int main(int argc, char **argv) {
     }
     for (int i = 0; i < cases; i++) check_case((uint64_t)(first + i));
     const double share = 100.0 * open / (questions > 0 ? questions : 1);
-    printf("%d laws, %d questions, %d (%.2f %%) without an answer, %d faults\n", cases, questions, open, share,
-           failures);
+    printf("%d laws, %d questions, %d (%.2f %%) without an answer, %d faults\n", cases, questions,
+           open, share, failures);
     return cases < 1 || failures > 0 || !(share <= MOST_OPEN);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The generator of random scenes. Sizes are spread over decades: lines of 1 to 1000 m, 0.1 N/m to 10 kN/m, forces
- * from a hundredth of the line's weight to five times it. Everything is laid out in the frame of the plane (two
- * tangents and the normal), so that a class only says what is special about it. */
+/* The generator of random scenes. Sizes are spread over decades: lines of 1 to 1000 m, 0.1 N/m to
+ * 10 kN/m, forces from a hundredth of the line's weight to five times it. Everything is laid out in
+ * the frame of the plane (two tangents and the normal), so that a class only says what is special
+ * about it. */
 #include "random_scene_maker.h"
 #include "splitmix.h"
 
@@ -11,11 +12,17 @@
 
 /* ---- random numbers ---- */
 
-double random_uniform(Random *random, double low, double high) { return splitmix(&random->state, low, high); }
+double random_uniform(Random *random, double low, double high) {
+    return splitmix(&random->state, low, high);
+}
 
-double random_decades(Random *random, double low, double high) { return pow(10, random_uniform(random, low, high)); }
+double random_decades(Random *random, double low, double high) {
+    return pow(10, random_uniform(random, low, high));
+}
 int random_below(Random *random, int bound) { return (int)random_uniform(random, 0, bound); }
-bool random_chance(Random *random, double probability) { return random_uniform(random, 0, 1) < probability; }
+bool random_chance(Random *random, double probability) {
+    return random_uniform(random, 0, 1) < probability;
+}
 
 /* ---- the frame of the plane ---- */
 
@@ -23,7 +30,8 @@ bool random_chance(Random *random, double probability) { return random_uniform(r
 static Frame make_frame(Random *random, double tilt) {
     Frame frame;
     double turn = random_uniform(random, 0, 6.283), spin = random_uniform(random, 0, 6.283);
-    double down[3] = {cos(turn) * cos(tilt), sin(turn) * cos(tilt), -sin(tilt)}, across[3] = {-sin(turn), cos(turn), 0};
+    double down[3] = {cos(turn) * cos(tilt), sin(turn) * cos(tilt), -sin(tilt)},
+           across[3] = {-sin(turn), cos(turn), 0};
     double normal[3] = {cos(turn) * sin(tilt), sin(turn) * sin(tilt), cos(tilt)};
     for (int k = 0; k < 3; k++) {
         frame.origin[k] = random_chance(random, 0.5) ? 0 : random_uniform(random, -50, 50);
@@ -81,7 +89,7 @@ void maker_begin_line(Maker *maker, int elements) {
     line->length = maker->length = random_decades(random, 0, 3);
     line->weight = maker->weight = random_decades(random, -1, 4);
     line->start.point = out->point[i];
-    maker->foot[0] = random_uniform(random, -1, 1) * maker->length,
+    maker->foot[0] = random_uniform(random, -1, 1) * maker->length;
     maker->foot[1] = random_uniform(random, -1, 1) * maker->length;
     maker->foot[2] = 0;
 }
@@ -109,7 +117,10 @@ static void set_points(Maker *maker, CpsStartKind kind, int count, double local[
 /* from the foot along an angle in the plane and one above it */
 static void start_straight(Maker *maker, double angle, double climb) {
     double local[2][3], along[3] = {cos(angle) * cos(climb), sin(angle) * cos(climb), sin(climb)};
-    for (int k = 0; k < 3; k++) local[0][k] = maker->foot[k], local[1][k] = maker->foot[k] + maker->length * along[k];
+    for (int k = 0; k < 3; k++) {
+        local[0][k] = maker->foot[k];
+        local[1][k] = maker->foot[k] + maker->length * along[k];
+    }
     set_points(maker, CPS_START_STRAIGHT, 2, local);
 }
 
@@ -120,13 +131,16 @@ static void start_polyline(Maker *maker, double rise) {
     double local[SCENE_POINTS][3] = {{0}}, heading = random_uniform(random, 0, 6.283), sum = 0;
     for (int i = 1; i < count; i++) {
         heading += random_uniform(random, -1.5, 1.5);
-        double step = random_uniform(random, 0.3, 1), height = rise > 0 ? random_uniform(random, 0, rise) : 0;
-        local[i][0] = local[i - 1][0] + step * cos(heading), local[i][1] = local[i - 1][1] + step * sin(heading);
+        double step = random_uniform(random, 0.3, 1),
+               height = rise > 0 ? random_uniform(random, 0, rise) : 0;
+        local[i][0] = local[i - 1][0] + step * cos(heading);
+        local[i][1] = local[i - 1][1] + step * sin(heading);
         local[i][2] = height;
         sum += hypot(step, local[i][2] - local[i - 1][2]);
     }
     for (int i = 0; i < count; i++) {
-        for (int k = 0; k < 3; k++) local[i][k] = maker->foot[k] + local[i][k] * maker->length / sum;
+        for (int k = 0; k < 3; k++)
+            local[i][k] = maker->foot[k] + local[i][k] * maker->length / sum;
     }
     set_points(maker, CPS_START_POLYLINE, count, local);
 }
@@ -138,7 +152,8 @@ static void start_arc(Maker *maker) {
     double radius = maker->length / random_uniform(&maker->random, 0.3, most),
            angle = random_uniform(&maker->random, 0, 6.283);
     double local[2][3] = {{maker->foot[0], maker->foot[1], maker->foot[2]},
-                          {maker->foot[0] + radius * cos(angle), maker->foot[1] + radius * sin(angle), maker->foot[2]}};
+                          {maker->foot[0] + radius * cos(angle),
+                           maker->foot[1] + radius * sin(angle), maker->foot[2]}};
     set_points(maker, CPS_START_ARC, 2, local);
     double turn[3] = {0, 0, random_chance(&maker->random, 0.5) ? 1 : -1};
     maker_direction(&maker->frame, turn, 1, line->start.axis);
@@ -146,7 +161,8 @@ static void start_arc(Maker *maker) {
 
 static void start_any(Maker *maker) {
     Random *random = &maker->random;
-    if (random_chance(random, 0.15)) maker->foot[2] = random_uniform(random, 0, 0.3) * maker->length;
+    if (random_chance(random, 0.15))
+        maker->foot[2] = random_uniform(random, 0, 0.3) * maker->length;
     double kind = random_uniform(random, 0, 1);
     if (kind < 0.35) {
         start_straight(maker, random_uniform(random, 0, 6.283),
@@ -164,8 +180,10 @@ void maker_stage(Maker *maker, int steps) {
     RandomScene *out = maker->out;
     int s = out->scene.stage_count++;
     snprintf(out->stage_name[s], sizeof out->stage_name[s], "s%d", s);
-    out->stage[s] =
-        (CpsStage){.name = out->stage_name[s], .steps = steps, .change = out->change[s], .turn = out->turn[s]};
+    out->stage[s] = (CpsStage){.name = out->stage_name[s],
+                               .steps = steps,
+                               .change = out->change[s],
+                               .turn = out->turn[s]};
 }
 
 void maker_change(Maker *maker, int end, CpsEndKind kind, const double value[3]) {
@@ -191,11 +209,13 @@ static double force_b(Maker *maker, double low, double high) {
 /* end B to a place at most `reach` lengths from the foot, on or above the plane */
 static void move_b(Maker *maker, double reach) {
     Random *random = &maker->random;
-    double angle = random_uniform(random, 0, 6.283), distance = reach * maker->length * random_uniform(random, 0.1, 1);
+    double angle = random_uniform(random, 0, 6.283),
+           distance = reach * maker->length * random_uniform(random, 0.1, 1);
     double climb = random_chance(random, 0.5) ? 0 : random_uniform(random, 0, 1.5), value[3];
     if (maker->foot[2] > 0) climb = random_uniform(random, 0, 1.5);
     double local[3] = {maker->foot[0] + distance * cos(angle) * cos(climb),
-                       maker->foot[1] + distance * sin(angle) * cos(climb), maker->foot[2] + distance * sin(climb)};
+                       maker->foot[1] + distance * sin(angle) * cos(climb),
+                       maker->foot[2] + distance * sin(climb)};
     maker_place(&maker->frame, local, value);
     maker_change(maker, CPS_END_B, CPS_END_HELD, value);
 }
@@ -205,8 +225,10 @@ static void move_b(Maker *maker, double reach) {
 /* the common scene: a line on a mostly flat bed, pulled about at its free end */
 double maker_common(Maker *maker, int elements) {
     Random *random = &maker->random;
-    double friction = random_chance(random, 0.15) ? 0 : random_uniform(random, 0.01, 1), largest = 0;
-    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.6), friction, true);
+    double friction = random_chance(random, 0.15) ? 0 : random_uniform(random, 0.01, 1),
+           largest = 0;
+    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.6), friction,
+                true);
     maker_begin_line(maker, elements);
     start_any(maker);
     int stages = 1 + random_below(random, 4);
@@ -223,7 +245,8 @@ double maker_common(Maker *maker, int elements) {
 
 static void make_slope(Maker *maker) {
     Random *random = &maker->random;
-    double friction = random_uniform(random, 0.05, 1.2), tilt = atan(friction) * random_uniform(random, 0.3, 1.7);
+    double friction = random_uniform(random, 0.05, 1.2),
+           tilt = atan(friction) * random_uniform(random, 0.3, 1.7);
     maker_begin(maker, fmin(tilt, 1.4), friction, true);
     maker_begin_line(maker, 0);
     start_any(maker);
@@ -237,10 +260,11 @@ static void make_slope(Maker *maker) {
 /* an end pushed back: only a part of the line moves, the rest rests without tension */
 static void make_slack(Maker *maker) {
     Random *random = &maker->random;
-    maker_begin(maker, random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 0.2), random_uniform(random, 0.25, 1),
-                true);
+    maker_begin(maker, random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 0.2),
+                random_uniform(random, 0.25, 1), true);
     maker_begin_line(maker, 0);
-    double angle = random_uniform(random, 0, 6.283), back = random_uniform(random, 0.02, 0.7), value[3];
+    double angle = random_uniform(random, 0, 6.283), back = random_uniform(random, 0.02, 0.7),
+           value[3];
     start_straight(maker, angle, 0);
     maker_stage(maker, 1 + random_below(random, 3));
     if (random_chance(random, 0.5)) {
@@ -250,10 +274,14 @@ static void make_slack(Maker *maker) {
         maker_change(maker, CPS_END_B, CPS_END_HELD, value);
     } else {
         double local[3] = {-cos(angle), -sin(angle), 0};
-        maker_direction(&maker->frame, local, back * maker->friction * maker->weight * maker->length, value);
+        maker_direction(&maker->frame, local,
+                        back * maker->friction * maker->weight * maker->length, value);
         maker_change(maker, CPS_END_B, CPS_END_FREE, value);
     }
-    if (random_chance(random, 0.5)) maker_stage(maker, 1), force_b(maker, -2, 0);
+    if (random_chance(random, 0.5)) {
+        maker_stage(maker, 1);
+        force_b(maker, -2, 0);
+    }
     maker_any_stiffness(maker);
 }
 
@@ -272,7 +300,10 @@ static void make_fully_slack(Maker *maker) {
         start_any(maker);
     }
     maker_stage(maker, 1);
-    if (kind == 0) force_b(maker, -2, 0.3), maker_stage(maker, 1 + random_below(random, 2));
+    if (kind == 0) {
+        force_b(maker, -2, 0.3);
+        maker_stage(maker, 1 + random_below(random, 2));
+    }
     if (kind == 1) {
         double local[3] = {maker->foot[0] + 0.2 * maker->length, maker->foot[1], 0}, value[3];
         maker_place(&maker->frame, local, value);
@@ -286,8 +317,8 @@ static void make_fully_slack(Maker *maker) {
 static void make_long_history(Maker *maker) {
     Random *random = &maker->random;
     int stages = random_below(random, 2) ? 20 : 4;
-    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.4), random_uniform(random, 0, 1),
-                true);
+    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.4),
+                random_uniform(random, 0, 1), true);
     maker_begin_line(maker, 0);
     start_any(maker);
     for (int s = 0; s < stages; s++) {
@@ -304,16 +335,16 @@ static void make_long_history(Maker *maker) {
 /* both ends held and moved, from a bent shape or laid by statics; sometimes let go */
 static void make_imposed(Maker *maker) {
     Random *random = &maker->random;
-    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.5), random_uniform(random, 0, 1),
-                true);
+    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.5),
+                random_uniform(random, 0, 1), true);
     maker_begin_line(maker, 0);
     CpsLine *line = maker_line(maker);
     line->end[CPS_END_B] = line->end[CPS_END_A]; // held where the start puts it
     if (random_chance(random, 0.5)) {
         start_polyline(maker, random_chance(random, 0.5) ? 0 : 0.5);
     } else {
-        double local[3] = {maker->foot[0] + random_uniform(random, 0.2, 0.8) * maker->length, maker->foot[1],
-                           random_uniform(random, 0, 0.5) * maker->length};
+        double local[3] = {maker->foot[0] + random_uniform(random, 0.2, 0.8) * maker->length,
+                           maker->foot[1], random_uniform(random, 0, 0.5) * maker->length};
         line->start.kind = CPS_START_LAID;
         maker_place(&maker->frame, maker->foot, line->end[CPS_END_A].value);
         maker_place(&maker->frame, local, line->end[CPS_END_B].value);
@@ -333,8 +364,8 @@ static void make_imposed(Maker *maker) {
 /* inextensible, end B brought to length * (1 + excess) from A, from a straight or a bent start */
 static void make_stretched(Maker *maker, double excess, bool obstacle) {
     Random *random = &maker->random;
-    maker_begin(maker, random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 0.5), random_uniform(random, 0, 1),
-                obstacle);
+    maker_begin(maker, random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 0.5),
+                random_uniform(random, 0, 1), obstacle);
     maker_begin_line(maker, 0);
     CpsLine *line = maker_line(maker);
     line->end[CPS_END_B] = line->end[CPS_END_A];
@@ -346,7 +377,8 @@ static void make_stretched(Maker *maker, double excess, bool obstacle) {
         start_polyline(maker, random_chance(random, 0.5) ? 0 : 0.5);
     }
     double at = maker->length * (1 + excess);
-    double local[3] = {maker->foot[0] + at * cos(angle) * cos(climb), maker->foot[1] + at * sin(angle) * cos(climb),
+    double local[3] = {maker->foot[0] + at * cos(angle) * cos(climb),
+                       maker->foot[1] + at * sin(angle) * cos(climb),
                        maker->foot[2] + at * sin(climb)};
     maker_place(&maker->frame, local, value);
     maker_stage(maker, 1);
@@ -361,19 +393,21 @@ static void make_graded(Maker *maker) {
     double *l = maker->out->element_length[0], sum = 0, range = random_uniform(random, 2, 4);
     bool smooth = random_chance(random, 0.6);
     for (int i = 0; i < line->elements; i++) {
-        l[i] = pow(10, smooth ? range * i / (line->elements - 1) : random_uniform(random, 0, range));
+        l[i] =
+            pow(10, smooth ? range * i / (line->elements - 1) : random_uniform(random, 0, range));
         sum += l[i];
     }
     for (int i = 0; i < line->elements; i++) l[i] *= line->length / sum;
     line->element_length = l;
-    if (line->start.kind == CPS_START_ARC) start_polyline(maker, 0); // one long chord would not fit an arc
+    if (line->start.kind == CPS_START_ARC)
+        start_polyline(maker, 0); // one long chord would not fit an arc
 }
 
 static void make_several(Maker *maker) {
     Random *random = &maker->random;
     int lines = 2 + random_below(random, SCENE_LINES - 1);
-    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.5), random_uniform(random, 0, 1),
-                true);
+    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.5),
+                random_uniform(random, 0, 1), true);
     int stages = 1 + random_below(random, 3);
     for (int i = 0; i < lines; i++) {
         maker_begin_line(maker, 0);
@@ -402,7 +436,10 @@ static void make_hanging(Maker *maker) {
             line->start.point_count = 0;
         }
         maker_stage(maker, 1);
-        if (random_chance(random, 0.5)) maker_stage(maker, 2), move_b(maker, 0.99);
+        if (random_chance(random, 0.5)) {
+            maker_stage(maker, 2);
+            move_b(maker, 0.99);
+        }
     } else {
         start_any(maker);
         maker_stage(maker, 1);
@@ -411,21 +448,28 @@ static void make_hanging(Maker *maker) {
     maker_any_stiffness(maker);
 }
 
-/* both ends free: dragged by more than the friction, lifted by more than the weight, on too steep a slope, or falling
+/* both ends free: dragged by more than the friction, lifted by more than the weight, on too steep a
+ * slope, or falling
  */
 static void make_unbounded(Maker *maker) {
     Random *random = &maker->random;
     int kind = random_below(random, 4);
-    double friction = random_uniform(random, 0, 0.8), beyond = 1 + random_decades(random, -2, 0.5), value[3];
-    maker_begin(maker, kind == 2 ? fmin(atan(friction * beyond) + 1e-3, 1.5) : 0, friction, kind != 3);
+    double friction = random_uniform(random, 0, 0.8), beyond = 1 + random_decades(random, -2, 0.5),
+           value[3];
+    maker_begin(maker, kind == 2 ? fmin(atan(friction * beyond) + 1e-3, 1.5) : 0, friction,
+                kind != 3);
     maker_begin_line(maker, 0);
     CpsLine *line = maker_line(maker);
     line->end[CPS_END_A] = (CpsEnd){.kind = CPS_END_FREE};
     start_straight(maker, random_uniform(random, 0, 6.283), 0);
     maker_stage(maker, 1);
-    double total = maker->weight * maker->length, pull = kind == 0 ? fmax(friction, 0.01) * total : total;
+    double total = maker->weight * maker->length,
+           pull = kind == 0 ? fmax(friction, 0.01) * total : total;
     double angle = random_uniform(random, 0, 6.283), local[3] = {cos(angle), sin(angle), 0};
-    if (kind == 1) local[0] = local[1] = 0, local[2] = 1;
+    if (kind == 1) {
+        local[0] = local[1] = 0;
+        local[2] = 1;
+    }
     maker_direction(&maker->frame, local, kind < 2 ? beyond * pull : 0, value);
     maker_change(maker, CPS_END_B, CPS_END_FREE, value);
     maker_any_stiffness(maker);
@@ -454,20 +498,16 @@ const char *random_scene_class_name(int class_index) {
     return NAME[class_index];
 }
 
-/* a scene of another class with Coulomb's law itself, from the stiffest of its kind down to soft lines */
+/* a scene of another class with Coulomb's law itself, from the stiffest of its kind down to soft
+ * lines */
 static void make_consistent(Maker *maker) {
     switch (random_below(&maker->random, 4)) {
-    case 0:
-        make_slope(maker);
-        break;
-    case 1:
-        make_imposed(maker);
-        break;
-    case 2:
-        make_long_history(maker);
-        break;
+    case 0: make_slope(maker); break;
+    case 1: make_imposed(maker); break;
+    case 2: make_long_history(maker); break;
     default:
-        maker_common(maker, 0), maker_any_stiffness(maker);
+        maker_common(maker, 0);
+        maker_any_stiffness(maker);
         break;
     }
     maker->out->scene.friction = CPS_FRICTION_CONSISTENT;
@@ -479,53 +519,32 @@ void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
     Random *random = &maker.random;
     random_uniform(random, 0, 1); // neighbouring seeds part here
     switch (class_index) {
-    case SCENE_INEXTENSIBLE:
-        maker_common(&maker, 0);
-        break;
-    case SCENE_SLOPE:
-        make_slope(&maker);
-        break;
-    case SCENE_SLACK:
-        make_slack(&maker);
-        break;
-    case SCENE_FULLY_SLACK:
-        make_fully_slack(&maker);
-        break;
-    case SCENE_LONG_HISTORY:
-        make_long_history(&maker);
-        break;
-    case SCENE_IMPOSED:
-        make_imposed(&maker);
-        break;
+    case SCENE_INEXTENSIBLE: maker_common(&maker, 0); break;
+    case SCENE_SLOPE: make_slope(&maker); break;
+    case SCENE_SLACK: make_slack(&maker); break;
+    case SCENE_FULLY_SLACK: make_fully_slack(&maker); break;
+    case SCENE_LONG_HISTORY: make_long_history(&maker); break;
+    case SCENE_IMPOSED: make_imposed(&maker); break;
     case SCENE_NEAR_FULL:
         make_stretched(&maker, -random_decades(random, -9, -3), random_chance(random, 0.6));
         break;
-    case SCENE_GRADED:
-        make_graded(&maker);
-        break;
+    case SCENE_GRADED: make_graded(&maker); break;
     case SCENE_FEW:
-        maker_common(&maker, 1 + random_below(random, 3)), maker_any_stiffness(&maker);
+        maker_common(&maker, 1 + random_below(random, 3));
+        maker_any_stiffness(&maker);
         break;
-    case SCENE_SEVERAL:
-        make_several(&maker);
-        break;
-    case SCENE_HANGING:
-        make_hanging(&maker);
-        break;
+    case SCENE_SEVERAL: make_several(&maker); break;
+    case SCENE_HANGING: make_hanging(&maker); break;
     case SCENE_INFEASIBLE:
         make_stretched(&maker, random_decades(random, -9, 0), random_chance(random, 0.6));
         out->expected = CPS_INFEASIBLE;
         break;
-    case SCENE_UNBOUNDED:
-        make_unbounded(&maker);
-        break;
+    case SCENE_UNBOUNDED: make_unbounded(&maker); break;
     case SCENE_TAUT:
         make_stretched(&maker, 0, random_chance(random, 0.6));
         out->expected = CPS_TAUT;
         break;
-    case SCENE_CONSISTENT:
-        make_consistent(&maker);
-        break;
+    case SCENE_CONSISTENT: make_consistent(&maker); break;
     case SCENE_CYLINDER:
     case SCENE_PIPE:
     case SCENE_SPHERE:
@@ -535,9 +554,7 @@ void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
     case SCENE_BOX:
     case SCENE_GRAIN:
     case SCENE_WINCH:
-    case SCENE_WILD:
-        random_scene_curved(class_index, &maker);
-        break;
+    case SCENE_WILD: random_scene_curved(class_index, &maker); break;
     default: { // ea_k
         double force = maker_common(&maker, 0);
         maker_stiffness(&maker, random_decades(random, class_index, class_index + 1), force);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Seeded random scenes, by class. The same (class, seed) gives the same scene, up to the last digits of the C library's
- * cos and pow. */
+/* Seeded random scenes, by class. The same (class, seed) gives the same scene, up to the last
+ * digits of the C library's cos and pow. */
 #ifndef CAPSTAN_TEST_RANDOM_SCENE_H
 #define CAPSTAN_TEST_RANDOM_SCENE_H
 
@@ -19,32 +19,37 @@ enum {
 };
 
 /* What a class is about; ea_0 ... ea_11 come first: EA / T from 10^k to 10^(k + 1). */
-#define SCENE_CLASS_LIST(X)                                                                                            \
-    X(SCENE_INEXTENSIBLE, "inextensible")                                                                              \
-    X(SCENE_SLOPE, "slope")             /* plane tilted up to and beyond the friction angle */                         \
-    X(SCENE_SLACK, "slack")             /* parts without tension */                                                    \
-    X(SCENE_FULLY_SLACK, "fully_slack") /* no tension at the end of a step */                                          \
-    X(SCENE_LONG_HISTORY, "long_history")                                                                              \
-    X(SCENE_IMPOSED, "imposed_ends")                                                                                   \
-    X(SCENE_NEAR_FULL, "near_full_length") /* inextensible, 1e-9 to 1e-3 short of straight */                          \
-    X(SCENE_GRADED, "graded")              /* element lengths 1 to 1e4 */                                              \
-    X(SCENE_FEW, "few_elements")           /* 1 to 3 */                                                                \
-    X(SCENE_SEVERAL, "several_lines")                                                                                  \
-    X(SCENE_HANGING, "hanging") /* no obstacle */                                                                      \
-    X(SCENE_INFEASIBLE, "infeasible")                                                                                  \
-    X(SCENE_UNBOUNDED, "unbounded")                                                                                    \
-    X(SCENE_TAUT, "taut")                                                                                              \
-    X(SCENE_CONSISTENT, "consistent") /* friction that follows the reaction: any of common, slope, imposed, history */ \
-    X(SCENE_CYLINDER, "cylinder") /* from here on consistent friction; a line round a cylinder, pulled at its end */   \
-    X(SCENE_PIPE, "pipe")         /* laid over a lying cylinder, its ends moved about */                               \
-    X(SCENE_SPHERE, "sphere")     /* along a circle on a ball */                                                       \
-    X(SCENE_TWO, "two_obstacles") /* a bed and a pipe or ball on it */                                                 \
-    X(SCENE_DRUM, "drum")         /* a cylinder that turns under the line */                                           \
-    X(SCENE_ELLIPSE, "ellipse")   /* on a plane, axial and lateral friction along the line */                          \
-    X(SCENE_BOX, "box")                                                                                                \
-    X(SCENE_GRAIN, "grain")          /* any scene on a plane, the two coefficients in directions of the plane */       \
-    X(SCENE_WINCH, "winch")          /* a drum with a load on one end and a hand on the other: nothing is held */      \
-    X(SCENE_WILD, "wild_directions") /* any scene on a plane, along the line: steps so large that its direction turns  \
+#define SCENE_CLASS_LIST(X)                                                                        \
+    X(SCENE_INEXTENSIBLE, "inextensible")                                                          \
+    X(SCENE_SLOPE, "slope")             /* plane tilted up to and beyond the friction angle */     \
+    X(SCENE_SLACK, "slack")             /* parts without tension */                                \
+    X(SCENE_FULLY_SLACK, "fully_slack") /* no tension at the end of a step */                      \
+    X(SCENE_LONG_HISTORY, "long_history")                                                          \
+    X(SCENE_IMPOSED, "imposed_ends")                                                               \
+    X(SCENE_NEAR_FULL, "near_full_length") /* inextensible, 1e-9 to 1e-3 short of straight */      \
+    X(SCENE_GRADED, "graded")              /* element lengths 1 to 1e4 */                          \
+    X(SCENE_FEW, "few_elements")           /* 1 to 3 */                                            \
+    X(SCENE_SEVERAL, "several_lines")                                                              \
+    X(SCENE_HANGING, "hanging") /* no obstacle */                                                  \
+    X(SCENE_INFEASIBLE, "infeasible")                                                              \
+    X(SCENE_UNBOUNDED, "unbounded")                                                                \
+    X(SCENE_TAUT, "taut")                                                                          \
+    X(SCENE_CONSISTENT, "consistent") /* friction that follows the reaction: any of common, slope, \
+                                         imposed, history */                                       \
+    X(SCENE_CYLINDER, "cylinder") /* from here on consistent friction; a line round a cylinder,    \
+                                     pulled at its end */                                          \
+    X(SCENE_PIPE, "pipe")         /* laid over a lying cylinder, its ends moved about */           \
+    X(SCENE_SPHERE, "sphere")     /* along a circle on a ball */                                   \
+    X(SCENE_TWO, "two_obstacles") /* a bed and a pipe or ball on it */                             \
+    X(SCENE_DRUM, "drum")         /* a cylinder that turns under the line */                       \
+    X(SCENE_ELLIPSE, "ellipse")   /* on a plane, axial and lateral friction along the line */      \
+    X(SCENE_BOX, "box")                                                                            \
+    X(SCENE_GRAIN,                                                                                 \
+      "grain") /* any scene on a plane, the two coefficients in directions of the plane */         \
+    X(SCENE_WINCH,                                                                                 \
+      "winch") /* a drum with a load on one end and a hand on the other: nothing is held */        \
+    X(SCENE_WILD, "wild_directions") /* any scene on a plane, along the line: steps so large that  \
+                                      * its direction turns                                        \
                                       */
 
 enum {

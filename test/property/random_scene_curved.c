@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random scenes on cylinders, balls and two obstacles at once, on drums that turn, and on planes whose friction has
- * directions, all with consistent friction. Angles of wrap and coefficients are moderate, mu theta up to about 2, and
- * no scene asks for what cannot be: forces pull outwards, and lines are longer than the way over the obstacle. */
+/* Random scenes on cylinders, balls and two obstacles at once, on drums that turn, and on planes
+ * whose friction has directions, all with consistent friction. Angles of wrap and coefficients are
+ * moderate, mu theta up to about 2, and no scene asks for what cannot be: forces pull outwards, and
+ * lines are longer than the way over the obstacle. */
 #include <math.h>
 #include <string.h>
 
@@ -9,9 +10,10 @@
 
 static double least(double a, double b) { return a < b ? a : b; }
 
-/* The plane of the maker becomes a cylinder or a ball of some radius around `local`, in the frame. */
-static void set_round(Maker *maker, CpsObstacle *obstacle, CpsObstacleKind kind, const double local[3], int axis,
-                      double radius) {
+/* The plane of the maker becomes a cylinder or a ball of some radius around `local`, in the
+ * frame. */
+static void set_round(Maker *maker, CpsObstacle *obstacle, CpsObstacleKind kind,
+                      const double local[3], int axis, double radius) {
     *obstacle = cps_obstacle_default();
     obstacle->name = obstacle == maker->out->obstacle ? "round" : "second";
     obstacle->kind = kind;
@@ -35,14 +37,18 @@ static void set_directions(Maker *maker, CpsObstacle *obstacle, bool box, bool g
 
 /* An arc in the plane of two axes of the frame, around the origin. */
 typedef struct Arc {
-    int first, second, axis; /* of the frame: where the arc begins, where it goes, what it turns about */
+    int first, second,
+        axis; /* of the frame: where the arc begins, where it goes, what it turns about */
     double radius, angle;
 } Arc;
 
 /* a vector of the arc's plane, `turned` from its first axis, plus a part along its axis */
-static void in_arc(const Maker *maker, const Arc *arc, double turned, double size, double aside, double out[3]) {
+static void in_arc(const Maker *maker, const Arc *arc, double turned, double size, double aside,
+                   double out[3]) {
     double local[3] = {0, 0, 0};
-    local[arc->first] = size * cos(turned), local[arc->second] = size * sin(turned), local[arc->axis] = aside;
+    local[arc->first] = size * cos(turned);
+    local[arc->second] = size * sin(turned);
+    local[arc->axis] = aside;
     maker_direction(&maker->frame, local, 1, out);
 }
 
@@ -57,7 +63,8 @@ static void start_on(Maker *maker, const Arc *arc) {
     memcpy(first, maker->frame.axis[arc->first], sizeof first);
     memcpy(second, maker->frame.axis[arc->second], sizeof second);
     for (int k = 0; k < 3; k++)
-        line->start.axis[k] = first[(k + 1) % 3] * second[(k + 2) % 3] - first[(k + 2) % 3] * second[(k + 1) % 3];
+        line->start.axis[k] =
+            first[(k + 1) % 3] * second[(k + 2) % 3] - first[(k + 2) % 3] * second[(k + 1) % 3];
 }
 
 /* the line along the arc, every chord as long as its element, and light beside a tension T */
@@ -70,7 +77,8 @@ static double wind(Maker *maker, Arc *arc) {
     const double tension = random_decades(random, 0, 4);
     line->weight = maker->weight =
         random_chance(random, 0.3) ? 0 : tension / arc->radius * random_decades(random, -4, -1.5);
-    line->stiffness = random_chance(random, 0.3) ? INFINITY : tension * random_decades(random, 1.5, 7);
+    line->stiffness =
+        random_chance(random, 0.3) ? INFINITY : tension * random_decades(random, 1.5, 7);
     start_on(maker, arc);
     return tension;
 }
@@ -80,7 +88,8 @@ static void pull_b(Maker *maker, const Arc *arc, double size, double aside) {
     Random *random = &maker->random;
     const double outwards = random_chance(random, 0.5) ? 0 : random_uniform(random, 0, 0.3);
     double value[3];
-    in_arc(maker, arc, arc->angle + 1.5707963 - outwards, size, size * random_uniform(random, -aside, aside), value);
+    in_arc(maker, arc, arc->angle + 1.5707963 - outwards, size,
+           size * random_uniform(random, -aside, aside), value);
     maker_change(maker, CPS_END_B, CPS_END_FREE, value);
 }
 
@@ -95,7 +104,8 @@ static Arc begin_round(Maker *maker, CpsObstacleKind kind) {
     arc.angle = random_uniform(random, 0.3, most);
     arc.radius = random_decades(random, -1, 1);
     set_round(maker, &maker->out->obstacle[0], kind, center, arc.axis, arc.radius);
-    if (random_chance(random, 0.3)) set_directions(maker, &maker->out->obstacle[0], random_chance(random, 0.5), false);
+    if (random_chance(random, 0.3))
+        set_directions(maker, &maker->out->obstacle[0], random_chance(random, 0.5), false);
     return arc;
 }
 
@@ -111,8 +121,8 @@ static void make_wound(Maker *maker, CpsObstacleKind kind) {
     }
 }
 
-/* A load at B, and at A a hook or a hand that holds within the capstan ratio; then the drum turns to and fro, by so
- * little that a line without hook stays wound far enough. */
+/* A load at B, and at A a hook or a hand that holds within the capstan ratio; then the drum turns
+ * to and fro, by so little that a line without hook stays wound far enough. */
 static void make_drum(Maker *maker, bool hand) {
     Random *random = &maker->random;
     Arc arc = begin_round(maker, CPS_OBSTACLE_CYLINDER);
@@ -135,31 +145,34 @@ static void make_drum(Maker *maker, bool hand) {
         maker_stage(maker, 1 + random_below(random, 4));
         CpsStage *stage = &maker->out->stage[maker->out->scene.stage_count - 1];
         const double most = hand ? 0.07 * arc.angle : 0.3;
-        maker->out->turn[maker->out->scene.stage_count - 1][0] = (CpsTurn){0, random_uniform(random, -most, most)};
+        maker->out->turn[maker->out->scene.stage_count - 1][0] =
+            (CpsTurn){0, random_uniform(random, -most, most)};
         stage->turn_count = 1;
     }
 }
 
 /* ---- a line laid over a pipe ---- */
 
-/* The shortest way from (a, h) over the top of a circle of radius r around 0 to (b, k); a < 0 < b. */
+/* The shortest way from (a, h) over the top of a circle of radius r around 0 to (b, k); a < 0 <
+ * b. */
 static double way_over(double r, double a, double h, double b, double k) {
     const double d1 = hypot(a, h), d2 = hypot(b, k);
-    const double between =
-        atan2(h, -a) + acos(r / d1) + atan2(k, b) + acos(r / d2); /* angles above the horizontal and of the tangents */
+    const double between = atan2(h, -a) + acos(r / d1) + atan2(k, b) +
+                           acos(r / d2); /* angles above the horizontal and of the tangents */
     const double wrapped = 3.14159265358979 - between;
     if (!(wrapped > 0)) return hypot(b - a, k - h);
     return sqrt(d1 * d1 - r * r) + r * wrapped + sqrt(d2 * d2 - r * r);
 }
 
-/* Both ends beside the pipe, at first so high that the straight line passes above its axis; then B goes lower and
- * aside. */
+/* Both ends beside the pipe, at first so high that the straight line passes above its axis; then B
+ * goes lower and aside. */
 static void make_pipe(Maker *maker) {
     Random *random = &maker->random;
     maker_begin(maker, 0, random_uniform(random, 0.03, 0.7), true);
     const double r = random_decades(random, -0.5, 0.5), none[3] = {0, 0, 0};
     set_round(maker, &maker->out->obstacle[0], CPS_OBSTACLE_CYLINDER, none, 1, r);
-    if (random_chance(random, 0.3)) set_directions(maker, &maker->out->obstacle[0], random_chance(random, 0.5), false);
+    if (random_chance(random, 0.3))
+        set_directions(maker, &maker->out->obstacle[0], random_chance(random, 0.5), false);
     maker_begin_line(maker, 10 + random_below(random, SCENE_ELEMENTS - 9));
     CpsLine *line = maker_line(maker);
     line->start.kind = CPS_START_LAID;
@@ -185,14 +198,17 @@ static void make_pipe(Maker *maker) {
 
 /* ---- two obstacles ---- */
 
-/* A bed, and a pipe or ball partly buried in it: the line, hardly longer than the way over it, lies on both. */
+/* A bed, and a pipe or ball partly buried in it: the line, hardly longer than the way over it, lies
+ * on both. */
 static void make_two(Maker *maker) {
     Random *random = &maker->random;
     maker_begin(maker, 0, random_uniform(random, 0.05, 0.8), true);
-    const double r = random_decades(random, -0.3, 0.5), buried = r * random_uniform(random, 0.1, 0.6);
+    const double r = random_decades(random, -0.3, 0.5),
+                 buried = r * random_uniform(random, 0.1, 0.6);
     const double at[3] = {0, 0, -buried};
     const bool ball = random_chance(random, 0.3);
-    set_round(maker, &maker->out->obstacle[1], ball ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER, at, 1, r);
+    set_round(maker, &maker->out->obstacle[1], ball ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER,
+              at, 1, r);
     maker->out->obstacle[1].friction = random_uniform(random, 0.05, 0.8);
     maker->out->scene.obstacle_count = 2;
     maker_begin_line(maker, 20 + random_below(random, SCENE_ELEMENTS - 19));
@@ -207,7 +223,8 @@ static void make_two(Maker *maker) {
     const int stages = 1 + random_below(random, 3);
     for (int s = 0; s < stages; s++) {
         const double away = ball ? 0 : r * random_uniform(random, -0.3, 0.3);
-        const double to[3] = {b[0] + r * random_uniform(random, -0.1, 0.3), away, r * random_uniform(random, 0, 1.5)};
+        const double to[3] = {b[0] + r * random_uniform(random, -0.1, 0.3), away,
+                              r * random_uniform(random, 0, 1.5)};
         double value[3];
         longest = fmax(longest, hypot(way_over(r, a[0], buried, to[0], to[2] + buried), to[1]));
         maker_place(&maker->frame, to, value);
@@ -243,7 +260,8 @@ static void make_directions(Maker *maker, bool box) {
         maker_stage(maker, 2 + random_below(random, 4));
         const double size = line->weight * line->length * random_decades(random, -1.5, 0.3);
         double value[3];
-        in_arc(maker, &arc, arc.angle + 1.5707963 + random_uniform(random, -0.5, 0.5), size, 0, value);
+        in_arc(maker, &arc, arc.angle + 1.5707963 + random_uniform(random, -0.5, 0.5), size, 0,
+               value);
         maker_change(maker, CPS_END_B, CPS_END_FREE, value);
     }
     set_directions(maker, &maker->out->obstacle[0], box, false);
@@ -251,36 +269,16 @@ static void make_directions(Maker *maker, bool box) {
 
 void random_scene_curved(int class_index, Maker *maker) {
     switch (class_index) {
-    case SCENE_CYLINDER:
-        make_wound(maker, CPS_OBSTACLE_CYLINDER);
-        break;
-    case SCENE_SPHERE:
-        make_wound(maker, CPS_OBSTACLE_SPHERE);
-        break;
-    case SCENE_PIPE:
-        make_pipe(maker);
-        break;
-    case SCENE_TWO:
-        make_two(maker);
-        break;
-    case SCENE_DRUM:
-        make_drum(maker, false);
-        break;
-    case SCENE_WINCH:
-        make_drum(maker, true);
-        break;
-    case SCENE_ELLIPSE:
-        make_directions(maker, false);
-        break;
-    case SCENE_BOX:
-        make_directions(maker, true);
-        break;
-    case SCENE_GRAIN:
-        make_wild(maker, random_chance(&maker->random, 0.5), true);
-        break;
-    default:
-        make_wild(maker, random_chance(&maker->random, 0.5), false);
-        break; // wild
+    case SCENE_CYLINDER: make_wound(maker, CPS_OBSTACLE_CYLINDER); break;
+    case SCENE_SPHERE: make_wound(maker, CPS_OBSTACLE_SPHERE); break;
+    case SCENE_PIPE: make_pipe(maker); break;
+    case SCENE_TWO: make_two(maker); break;
+    case SCENE_DRUM: make_drum(maker, false); break;
+    case SCENE_WINCH: make_drum(maker, true); break;
+    case SCENE_ELLIPSE: make_directions(maker, false); break;
+    case SCENE_BOX: make_directions(maker, true); break;
+    case SCENE_GRAIN: make_wild(maker, random_chance(&maker->random, 0.5), true); break;
+    default: make_wild(maker, random_chance(&maker->random, 0.5), false); break; // wild
     }
     maker->out->scene.friction = CPS_FRICTION_CONSISTENT;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the two halves of the generator share: random numbers, the frame of a plane, and a scene under construction. */
+/* What the two halves of the generator share: random numbers, the frame of a plane, and a scene
+ * under construction. */
 #ifndef CAPSTAN_TEST_RANDOM_SCENE_MAKER_H
 #define CAPSTAN_TEST_RANDOM_SCENE_MAKER_H
 

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random scenes, class by class: solve, write a result directory, re-check it with the independent checker.
+/* Random scenes, class by class: solve, write a result directory, re-check it with the independent
+ * checker.
  *
  *   random_scenes [--share S] [--class NAME] [--seed K] [--first K --count N] [-v]
  *
- * The seeds of a class are first, first + 1, ...; --share takes that part of the 200 of each class. A scene is
- * certified when every record of it is confirmed by the checker and its last step has the outcome that is known
- * beforehand. The program fails when a class has less than 99.5 % certified (98 % of the steps where friction has
- * directions or the ground is curved), or when anything is wrong: a claim that the checker refutes, a number that is
- * none, or an outcome that cannot be. */
+ * The seeds of a class are first, first + 1, ...; --share takes that part of the 200 of each class.
+ * A scene is certified when every record of it is confirmed by the checker and its last step has
+ * the outcome that is known beforehand. The program fails when a class has less than 99.5 %
+ * certified (98 % of the steps where friction has directions or the ground is curved), or when
+ * anything is wrong: a claim that the checker refutes, a number that is none, or an outcome that
+ * cannot be. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,10 +23,12 @@
 
 static const int SCENES_PER_CLASS = 200; // 150 and more of which are what the class says
 static const double CERTIFIED_SHARE = 0.995;
-// ... of the steps on curved ground and where friction has directions; found over 200 seeds of each: 0.992 (box) to 1
+// ... of the steps on curved ground and where friction has directions; found over 200 seeds of
+// each: 0.992 (box) to 1
 static const double CURVED_SHARE = 0.98;
-/* Where both ends are free on curved ground the balance of forces ends a little short of what is asked, and steps may
- * be so large that the line's direction turns: there only what is claimed must be right. */
+/* Where both ends are free on curved ground the balance of forces ends a little short of what is
+ * asked, and steps may be so large that the line's direction turns: there only what is claimed must
+ * be right. */
 static const double WILD_SHARE = 0.5;
 enum { MAX_STEPS = 400000, MAX_PATH = 512 };
 
@@ -49,14 +53,15 @@ typedef struct Tally {
 typedef enum Verdict { CERTIFIED, NOT_CERTIFIED, WRONG } Verdict;
 
 /* run the history; returns a static sentence on failure of a call, NULL otherwise */
-static const char *run_scene(const RandomScene *random, const char *directory, Tally *tally, CpsOutcome *last,
-                             CpsOutcome *worst_before, CpsError *err) {
+static const char *run_scene(const RandomScene *random, const char *directory, Tally *tally,
+                             CpsOutcome *last, CpsOutcome *worst_before, CpsError *err) {
     CpsEvolution *evolution = NULL;
     CpsResults *results = NULL;
     const char *failed = NULL;
     *last = *worst_before = CPS_SOLVED;
     if (cps_evolution_create(&random->scene, &evolution, err) != CPS_OK) return "create";
-    if (cps_results_open(directory, &random->scene, evolution, &results, err) != CPS_OK) failed = "open";
+    if (cps_results_open(directory, &random->scene, evolution, &results, err) != CPS_OK)
+        failed = "open";
     while (!failed && cps_evolution_remaining(evolution) > 0) {
         if (*last > *worst_before) *worst_before = *last;
         if (cps_evolution_step(evolution, err) != CPS_OK) {
@@ -66,7 +71,8 @@ static const char *run_scene(const RandomScene *random, const char *directory, T
         }
         CpsStepReport report = cps_evolution_report(evolution);
         *last = report.outcome;
-        if (tally->iterations_count < MAX_STEPS) tally->iterations[tally->iterations_count++] = report.iterations;
+        if (tally->iterations_count < MAX_STEPS)
+            tally->iterations[tally->iterations_count++] = report.iterations;
     }
     if (!failed && cps_results_finish(results, 0, err) != CPS_OK) failed = "finish";
     cps_results_destroy(results);
@@ -80,7 +86,8 @@ static bool impossible(CpsOutcome outcome, CpsOutcome expected) {
     return decided && outcome != expected;
 }
 
-static Verdict judge_scene(const RandomScene *random, const char *directory, Tally *tally, FILE *log) {
+static Verdict judge_scene(const RandomScene *random, const char *directory, Tally *tally,
+                           FILE *log) {
     CpsError err = {0};
     CpsOutcome last, before;
     const char *failed = run_scene(random, directory, tally, &last, &before, &err);
@@ -98,8 +105,8 @@ static Verdict judge_scene(const RandomScene *random, const char *directory, Tal
     tally->gap = fmax(tally->gap, report.gap);
     tally->force = fmax(tally->force, report.force);
     if (impossible(last, random->expected) || impossible(before, CPS_SOLVED)) {
-        fprintf(log, "  outcomes '%s', '%s', expected '%s'\n", cps_outcome_key(before), cps_outcome_key(last),
-                cps_outcome_key(random->expected));
+        fprintf(log, "  outcomes '%s', '%s', expected '%s'\n", cps_outcome_key(before),
+                cps_outcome_key(last), cps_outcome_key(random->expected));
         return WRONG;
     }
     if (report.refuted > 0 || given_file(path, &random->scene, log) != 0) return WRONG;
@@ -119,20 +126,23 @@ static double share(int part, int whole) { return whole > 0 ? (double)part / who
 static bool is_good(int class_index, const Tally *tally) {
     if (tally->wrong > 0) return false;
     if (class_index >= SCENE_WINCH) return share(tally->confirmed, tally->records) >= WILD_SHARE;
-    if (class_index >= SCENE_CYLINDER) return share(tally->confirmed, tally->records) >= CURVED_SHARE;
+    if (class_index >= SCENE_CYLINDER)
+        return share(tally->confirmed, tally->records) >= CURVED_SHARE;
     return share(tally->certified, tally->scenes) >= CERTIFIED_SHARE;
 }
 
 static void print_row(const char *name, Tally *tally) {
     int n = tally->iterations_count;
     qsort(tally->iterations, (size_t)n, sizeof *tally->iterations, ascending);
-    printf("%-18s %6d %9d %6d %6d %8.4f %7d %5d %10.2e %10.2e\n", name, tally->scenes, tally->certified, tally->wrong,
-           tally->steps, share(tally->confirmed, tally->records), n ? tally->iterations[n / 2] : 0,
-           n ? tally->iterations[n - 1] : 0, tally->gap, tally->force);
+    printf("%-18s %6d %9d %6d %6d %8.4f %7d %5d %10.2e %10.2e\n", name, tally->scenes,
+           tally->certified, tally->wrong, tally->steps, share(tally->confirmed, tally->records),
+           n ? tally->iterations[n / 2] : 0, n ? tally->iterations[n - 1] : 0, tally->gap,
+           tally->force);
     fflush(stdout);
 }
 
-static void run_class(int class_index, const Options *options, const char *directory, Tally *tally) {
+static void run_class(int class_index, const Options *options, const char *directory,
+                      Tally *tally) {
     int count = options->count ? options->count : (int)lround(options->share * SCENES_PER_CLASS);
     RandomScene *random = malloc(sizeof *random);
     if (!random) exit(6);
@@ -150,7 +160,8 @@ static void run_class(int class_index, const Options *options, const char *direc
         tally->wrong += verdict == WRONG;
         if (verdict != CERTIFIED) {
             printf("%s --class %s --seed %llu\n%s", verdict == WRONG ? "WRONG" : "not certified",
-                   random_scene_class_name(class_index), (unsigned long long)seed, options->verbose ? text : "");
+                   random_scene_class_name(class_index), (unsigned long long)seed,
+                   options->verbose ? text : "");
         }
         free(text);
     }
@@ -175,7 +186,9 @@ static bool parse(int argc, char **argv, Options *options) {
         } else if (strcmp(argv[i], "--first") == 0) {
             options->first = strtoull(value, &rest, 10);
         } else if (strcmp(argv[i], "--seed") == 0) {
-            options->first = strtoull(value, &rest, 10), options->count = 1, options->verbose = true;
+            options->first = strtoull(value, &rest, 10);
+            options->count = 1;
+            options->verbose = true;
         } else if (strcmp(argv[i], "--count") == 0) {
             options->count = (int)strtol(value, &rest, 10);
         } else {
@@ -190,7 +203,8 @@ static bool parse(int argc, char **argv, Options *options) {
 int main(int argc, char **argv) {
     Options options;
     if (!parse(argc, argv, &options)) {
-        fprintf(stderr, "usage: random_scenes [--share S] [--class NAME] [--seed K] [--first K --count N] [-v]\n");
+        fprintf(stderr, "usage: random_scenes [--share S] [--class NAME] [--seed K] [--first K "
+                        "--count N] [-v]\n");
         return 2;
     }
     const char *base = getenv("TMPDIR");
@@ -202,17 +216,20 @@ int main(int argc, char **argv) {
         return 4;
     }
 
-    printf("%-18s %6s %9s %6s %6s %8s %7s %5s %10s %10s\n", "class", "scenes", "certified", "wrong", "steps",
-           "of these", "median", "max", "gap/S", "imbalance");
+    printf("%-18s %6s %9s %6s %6s %8s %7s %5s %10s %10s\n", "class", "scenes", "certified", "wrong",
+           "steps", "of these", "median", "max", "gap/S", "imbalance");
     bool good = true;
     int scenes = 0, certified = 0, classes = 0;
     for (int c = 0; c < SCENE_CLASSES; c++) {
-        if (options.class_name && strcmp(options.class_name, random_scene_class_name(c)) != 0) continue;
+        if (options.class_name && strcmp(options.class_name, random_scene_class_name(c)) != 0)
+            continue;
         Tally tally = {.iterations = iterations};
         run_class(c, &options, directory, &tally);
         print_row(random_scene_class_name(c), &tally);
         good = is_good(c, &tally) && good;
-        scenes += tally.scenes, certified += tally.certified, classes++;
+        scenes += tally.scenes;
+        certified += tally.certified;
+        classes++;
     }
     printf("%d of %d scenes certified in %d classes\n", certified, scenes, classes);
     free(iterations);

@@ -1,22 +1,29 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random set expressions of depth <= 4 in R^n, n <= 6, against the identities of convex analysis.
- *                                                                 usage: random_sets [--cases N | --seed S]
+ *                                                                 usage: random_sets [--cases N |
+ *                                                                     --seed S]
  *
  * Each case asks one question whose answer is known in a second way:
  *   form       support by the calculus = support by the conic form of the whole expression
  *   sum        h of a sum = sum of the h's, by the conic form
  *   polar      C°° = C for C with 0, and the gauge of C° = h
- *   face       <w, x> = h(w) (Fenchel-Young) at the middle and the ends of the face; its points lie in C
+ *   face       <w, x> = h(w) (Fenchel-Young) at the middle and the ends of the face; its points lie
+ *              in C
  *   facet      a face of a face attains both directions, one after the other
- *   meet       h of an intersection = inf-convolution: h(w) = h_A(u) + h_B(w - u) at a splitting read off the normal
- * cones split      the same for balls, ellipsoids, boxes, half-spaces and strips, all in code of its own (split.c)
+ *   meet       h of an intersection = inf-convolution: h(w) = h_A(u) + h_B(w - u) at a splitting
+ *              read off the normal
+ * cones split      the same for balls, ellipsoids, boxes, half-spaces and strips, all in code of
+ *                  its own (split.c)
  *   moreau     p = P_K p + P_K° p, orthogonal, for cones of rays and for normal cones K
  *   project    p - P_C p is normal to C at P_C p: <p - P p, P p> = h(p - P p)
- *   preimage   L^-1(C) = image of C by the (pseudo-)inverse, and endless along the kernel; of a polyhedron: rows times
- * L cone       w is in the normal cone at x where x attains h(w), and what is in that cone exposes x degenerate points,
+ *   preimage   L^-1(C) = image of C by the (pseudo-)inverse, and endless along the kernel; of a
+ *              polyhedron: rows times
+ * L cone       w is in the normal cone at x where x attains h(w), and what is in that cone exposes
+ *              x degenerate points,
  * segments, flat sets, empty intersections, unbounded sets: the outcome is known beforehand
  *
- * At least 98 % must be answered, no matter how rare a refusal for a good reason is, and none may be wrong. */
+ * At least 98 % must be answered, no matter how rare a refusal for a good reason is, and none may
+ * be wrong. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -28,7 +35,8 @@
 static const double VALUE = 2e-9;
 /* Distances of points from where they should be. */
 static const double POINT = 1e-8;
-/* A normal turns by its point's error over the radius; radii go down to a hundredth and less of the set. */
+/* A normal turns by its point's error over the radius; radii go down to a hundredth and less of the
+ * set. */
 static const double TURN = 1e-5;
 
 /* ---- comparing ---- */
@@ -76,8 +84,8 @@ static Verdict inside(const CpsSet *set, const double *x, double scale) {
 
 /* ---- directions ---- */
 
-/* A direction in which the set is bounded: any, half of the time an axis; where that is unbounded one that leads from
- * the set to a point outside. h, and x that attains it. False: refused. */
+/* A direction in which the set is bounded: any, half of the time an axis; where that is unbounded
+ * one that leads from the set to a point outside. h, and x that attains it. False: refused. */
 static bool direction(const Sample *sample, double *w, double *x, CpsSetAnswer *h) {
     const int n = cps_set_space(sample->set);
     fill(n, 1, w);
@@ -133,7 +141,8 @@ static Verdict case_form(int n) {
         verdict = compare(&a, &b, scale);
         if (verdict == ANSWERED) verdict = inside(form, x, scale / norm(n, w));
     }
-    cps_set_release(sample.set), cps_set_release(form);
+    cps_set_release(sample.set);
+    cps_set_release(form);
     return verdict;
 }
 
@@ -150,10 +159,14 @@ static Verdict case_sum(int n) {
         DO(cps_set_support(two.set, w, NULL, &b, &err));
         DO(cps_set_support(form, w, NULL, &c, &err));
         verdict = both(verdict_of(a.outcome), verdict_of(b.outcome));
-        a.value += b.value, a.gap += b.gap;
+        a.value += b.value;
+        a.gap += b.gap;
         if (verdict == ANSWERED) verdict = compare(&a, &c, scale_of(set, w, x));
     }
-    cps_set_release(one.set), cps_set_release(two.set), cps_set_release(set), cps_set_release(form);
+    cps_set_release(one.set);
+    cps_set_release(two.set);
+    cps_set_release(set);
+    cps_set_release(form);
     return verdict;
 }
 
@@ -170,14 +183,18 @@ static Verdict case_polar(int n) {
     const double scale = scale_of(set, w, x);
     Verdict verdict = both(compare(&a, &b, scale), compare(&a, &gauge, scale));
     if (verdict == ANSWERED) verdict = inside(twice, x, scale / norm(n, w));
-    cps_set_release(set), cps_set_release(polar), cps_set_release(twice);
+    cps_set_release(set);
+    cps_set_release(polar);
+    cps_set_release(twice);
     return verdict;
 }
 
 /* ---- faces ---- */
 
-/* Does the face attain h(w) in the set, at its middle and at its ends along the first direction that it has? */
-static Verdict attains(const CpsSet *set, const CpsSet *face, const double *w, double h, double scale, double *center) {
+/* Does the face attain h(w) in the set, at its middle and at its ends along the first direction
+ * that it has? */
+static Verdict attains(const CpsSet *set, const CpsSet *face, const double *w, double h,
+                       double scale, double *center) {
     const int n = cps_set_space(set);
     double basis[MAX_SPACE * MAX_SPACE], end[MAX_SPACE];
     CpsSetFacts facts;
@@ -208,9 +225,11 @@ static Verdict case_face(int n) {
     if (direction(&sample, w, x, &h)) {
         DO(cps_set_face(sample.set, w, 0, &face, &answer, &err));
         verdict = due(answer.outcome);
-        if (face) verdict = attains(sample.set, face, w, answer.value, scale_of(sample.set, w, x), x);
+        if (face)
+            verdict = attains(sample.set, face, w, answer.value, scale_of(sample.set, w, x), x);
     }
-    cps_set_release(sample.set), cps_set_release(face);
+    cps_set_release(sample.set);
+    cps_set_release(face);
     return verdict;
 }
 
@@ -231,16 +250,20 @@ static Verdict case_facet(int n) {
     }
     if (second) {
         verdict = attains(face, second, u, two.value, scale_of(sample.set, u, x), x);
-        if (verdict == ANSWERED) verdict = same(dot(n, w, x), one.value, scale_of(sample.set, w, x));
+        if (verdict == ANSWERED)
+            verdict = same(dot(n, w, x), one.value, scale_of(sample.set, w, x));
     }
-    cps_set_release(sample.set), cps_set_release(face), cps_set_release(second);
+    cps_set_release(sample.set);
+    cps_set_release(face);
+    cps_set_release(second);
     return verdict;
 }
 
 /* ---- intersections ---- */
 
 /* u in N_A(x) with w - u in N_B(x): the point of {u : (u, w - u) in N_A x N_B} next to w/2. */
-static Verdict split_by_cones(int n, const CpsSet *const *part, const double *x, const double *w, double *u) {
+static Verdict split_by_cones(int n, const CpsSet *const *part, const double *x, const double *w,
+                              double *u) {
     double map[2 * MAX_SPACE * MAX_SPACE] = {0}, shift[2 * MAX_SPACE] = {0}, middle[MAX_SPACE];
     CpsSet *cone[2] = {NULL, NULL}, *product, *pairs;
     Verdict verdict = ANSWERED;
@@ -250,8 +273,10 @@ static Verdict split_by_cones(int n, const CpsSet *const *part, const double *x,
         verdict = both(verdict, due(answer.outcome));
     }
     for (int i = 0; i < n; i++) {
-        map[i * n + i] = 1, map[(n + i) * n + i] = -1;
-        shift[n + i] = w[i], middle[i] = w[i] / 2;
+        map[i * n + i] = 1;
+        map[(n + i) * n + i] = -1;
+        shift[n + i] = w[i];
+        middle[i] = w[i] / 2;
     }
     if (verdict == ANSWERED) {
         DO(cps_set_product(2, (const CpsSet *const *)cone, &product, &err));
@@ -259,14 +284,17 @@ static Verdict split_by_cones(int n, const CpsSet *const *part, const double *x,
         DO(cps_set_project(pairs, middle, NULL, u, &answer, &err));
         /* rounding may keep the two cones from meeting */
         verdict = answer.outcome == CPS_SET_EMPTY ? OPEN : due(answer.outcome);
-        cps_set_release(product), cps_set_release(pairs);
+        cps_set_release(product);
+        cps_set_release(pairs);
     }
-    cps_set_release(cone[0]), cps_set_release(cone[1]);
+    cps_set_release(cone[0]);
+    cps_set_release(cone[1]);
     return verdict;
 }
 
 static Verdict case_meet(int n) {
-    Sample one = random_expression(n, below(MAX_DEPTH), true), two = random_expression(n, below(MAX_DEPTH), true);
+    Sample one = random_expression(n, below(MAX_DEPTH), true),
+           two = random_expression(n, below(MAX_DEPTH), true);
     double w[MAX_SPACE], x[MAX_SPACE], u[MAX_SPACE], v[MAX_SPACE];
     for (int i = 0; i < n; i++) v[i] = one.inside[i] - two.inside[i];
     CpsSet *moved, *set;
@@ -278,7 +306,8 @@ static Verdict case_meet(int n) {
     if (direction(&(Sample){.set = set}, w, x, &h)) verdict = due(h.outcome);
     /* below: x is in both; above: a splitting */
     const double scale = scale_of(set, w, x);
-    for (int k = 0; verdict == ANSWERED && k < 2; k++) verdict = inside(part[k], x, scale / norm(n, w));
+    for (int k = 0; verdict == ANSWERED && k < 2; k++)
+        verdict = inside(part[k], x, scale / norm(n, w));
     if (verdict == ANSWERED) verdict = split_by_cones(n, part, x, w, u);
     if (verdict == ANSWERED) {
         for (int i = 0; i < n; i++) v[i] = w[i] - u[i];
@@ -286,9 +315,13 @@ static Verdict case_meet(int n) {
         DO(cps_set_support(moved, v, NULL, &b, &err));
         verdict = both(due(a.outcome), due(b.outcome));
         if (verdict == ANSWERED)
-            verdict = same(h.value, a.value + b.value, scale_of(one.set, u, x) + scale_of(moved, v, x));
+            verdict =
+                same(h.value, a.value + b.value, scale_of(one.set, u, x) + scale_of(moved, v, x));
     }
-    cps_set_release(one.set), cps_set_release(two.set), cps_set_release(moved), cps_set_release(set);
+    cps_set_release(one.set);
+    cps_set_release(two.set);
+    cps_set_release(moved);
+    cps_set_release(set);
     return verdict;
 }
 
@@ -319,7 +352,8 @@ static Verdict case_split(int n) {
 /* ---- cones and projections ---- */
 
 static Verdict case_moreau(int n) {
-    double rays[2 * MAX_SPACE * MAX_SPACE], p[MAX_SPACE], x[MAX_SPACE], y[MAX_SPACE], sum[MAX_SPACE];
+    double rays[2 * MAX_SPACE * MAX_SPACE], p[MAX_SPACE], x[MAX_SPACE], y[MAX_SPACE],
+        sum[MAX_SPACE];
     const int count = below(2 * n + 1);
     CpsSet *cone = NULL, *polar;
     CpsSetAnswer a, b;
@@ -342,13 +376,15 @@ static Verdict case_moreau(int n) {
     verdict = both(due(a.outcome), due(b.outcome));
     if (verdict == ANSWERED) {
         /* a distance off by d moves the nearest point by the root of 2 d times the distance */
-        const double square = dot(n, p, p),
-                     off = sqrt(2 * a.gap * (a.value + a.gap)) + sqrt(2 * b.gap * (b.value + b.gap));
+        const double square = dot(n, p, p), off = sqrt(2 * a.gap * (a.value + a.gap)) +
+                                                  sqrt(2 * b.gap * (b.value + b.gap));
         for (int i = 0; i < n; i++) sum[i] = x[i] + y[i] - p[i];
-        verdict = both(same(dot(n, x, y), 0, square), same(a.value * a.value + b.value * b.value, square, square));
+        verdict = both(same(dot(n, x, y), 0, square),
+                       same(a.value * a.value + b.value * b.value, square, square));
         if (!(norm(n, sum) <= off + POINT * norm(n, p))) verdict = WRONG;
     }
-    cps_set_release(cone), cps_set_release(polar);
+    cps_set_release(cone);
+    cps_set_release(polar);
     return verdict;
 }
 
@@ -397,17 +433,21 @@ static Verdict case_cone(int n) {
     if (verdict == ANSWERED && norm(n, w) > 0) {
         DO(cps_set_support(sample.set, w, NULL, &h, &err));
         verdict = verdict_of(h.outcome); /* an unbounded set and a direction off by rounding */
-        if (verdict == ANSWERED) verdict = same(h.value, dot(n, w, x), TURN / VALUE * scale_of(sample.set, w, x));
+        if (verdict == ANSWERED)
+            verdict = same(h.value, dot(n, w, x), TURN / VALUE * scale_of(sample.set, w, x));
     }
-    cps_set_release(sample.set), cps_set_release(cone);
+    cps_set_release(sample.set);
+    cps_set_release(cone);
     return verdict;
 }
 
 /* ---- preimages ---- */
 
-/* What L^-1(C) is beside the kernel of a square or wide L of full rank: L+ (C - shift), L+ = L'(L L')^-1 */
+/* What L^-1(C) is beside the kernel of a square or wide L of full rank: L+ (C - shift), L+ = L'(L
+ * L')^-1 */
 static CpsSet *eliminated(int n, int m, const double *map, const double *shift, const CpsSet *set) {
-    double square[MAX_SPACE * MAX_SPACE], inverse[MAX_SPACE * MAX_SPACE], plus[MAX_SPACE * MAX_SPACE], back[MAX_SPACE];
+    double square[MAX_SPACE * MAX_SPACE], inverse[MAX_SPACE * MAX_SPACE],
+        plus[MAX_SPACE * MAX_SPACE], back[MAX_SPACE];
     CpsSet *moved, *image;
     for (int i = 0; i < m; i++)
         for (int j = 0; j < m; j++) square[i * m + j] = dot(n, &map[i * n], &map[j * n]);
@@ -426,8 +466,8 @@ static CpsSet *eliminated(int n, int m, const double *map, const double *shift, 
 
 /* {x : rows (L x + shift) <= offsets} */
 static CpsSet *rows_times_map(int n, int m, const double *map, const double *shift, CpsSet **of) {
-    double rows[3 * MAX_SPACE * MAX_SPACE], offsets[3 * MAX_SPACE], through[3 * MAX_SPACE * MAX_SPACE],
-        left[3 * MAX_SPACE];
+    double rows[3 * MAX_SPACE * MAX_SPACE], offsets[3 * MAX_SPACE],
+        through[3 * MAX_SPACE * MAX_SPACE], left[3 * MAX_SPACE];
     const int count = 3 * m;
     CpsSet *set;
     fill(count * m, 1, rows);
@@ -448,7 +488,8 @@ static Verdict case_preimage(int n) {
     Sample part = {.inside = {0}};
     CpsSet *second, *pre;
     CpsSetAnswer a, b;
-    fill(m * n, 1, map), fill(m, 0.3, shift);
+    fill(m * n, 1, map);
+    fill(m, 0.3, shift);
     for (int k = 0; k < m && k < n; k++) map[k * n + k] += map[k * n + k] > 0 ? 1 : -1;
     if (rows)
         second = rows_times_map(n, m, map, shift, &part.set);
@@ -464,8 +505,11 @@ static Verdict case_preimage(int n) {
         DO(cps_set_support(pre, w, x, &a, &err));
         DO(cps_set_support(second, w, u, &b, &err));
         /* endless along what only rounding of L+ has left of w? */
-        const bool rounding = b.outcome == CPS_SET_UNBOUNDED && dot(n, w, u) < 1e-12 * norm(n, w) * norm(n, u);
-        verdict = rounding ? REFUSED : compare(&a, &b, scale_of(pre, w, a.outcome == CPS_SET_ANSWERED ? x : NULL));
+        const bool rounding =
+            b.outcome == CPS_SET_UNBOUNDED && dot(n, w, u) < 1e-12 * norm(n, w) * norm(n, u);
+        verdict = rounding
+                      ? REFUSED
+                      : compare(&a, &b, scale_of(pre, w, a.outcome == CPS_SET_ANSWERED ? x : NULL));
         if (m < n && verdict == ANSWERED) { /* but other directions are not */
             fill(n, 1, w);
             DO(cps_set_support(pre, w, x, &a, &err));
@@ -473,7 +517,8 @@ static Verdict case_preimage(int n) {
         }
         cps_set_release(pre);
     }
-    cps_set_release(part.set), cps_set_release(second);
+    cps_set_release(part.set);
+    cps_set_release(second);
     return verdict;
 }
 
@@ -493,8 +538,10 @@ static Verdict check_empty(int n, const CpsSet *set) {
     const CpsSetOutcome all[] = {support.outcome, face.outcome, nearest.outcome, facts.outcome};
     Verdict verdict = ANSWERED;
     for (int k = 0; k < 4; k++)
-        if (all[k] != CPS_SET_EMPTY) verdict = both(verdict, all[k] == CPS_SET_INACCURATE ? OPEN : WRONG);
-    if (verdict == ANSWERED && (support.value != -INFINITY || facts.dimension != -1 || out)) verdict = WRONG;
+        if (all[k] != CPS_SET_EMPTY)
+            verdict = both(verdict, all[k] == CPS_SET_INACCURATE ? OPEN : WRONG);
+    if (verdict == ANSWERED && (support.value != -INFINITY || facts.dimension != -1 || out))
+        verdict = WRONG;
     return verdict;
 }
 
@@ -505,14 +552,16 @@ static Verdict case_empty(int n, const Sample *sample) {
     CpsSetAnswer h;
     if (!direction(sample, u, x, &h)) return REFUSED;
     DO(cps_set_extent(sample->set, u, &extent, &err));
-    if (!extent.low_attained || !extent.high_attained) return verdict_of(extent.outcome) == OPEN ? OPEN : REFUSED;
+    if (!extent.low_attained || !extent.high_attained)
+        return verdict_of(extent.outcome) == OPEN ? OPEN : REFUSED;
     const double far = (extent.high - extent.low + uniform(0.01, 1)) / dot(n, u, u);
     for (int i = 0; i < n; i++) u[i] *= far;
     CpsSet *moved, *none;
     DO(cps_set_translate(u, sample->set, &moved, &err));
     DO(cps_set_intersection(2, (const CpsSet *[]){sample->set, moved}, &none, &err));
     const Verdict verdict = check_empty(n, none);
-    cps_set_release(moved), cps_set_release(none);
+    cps_set_release(moved);
+    cps_set_release(none);
     return verdict;
 }
 
@@ -527,10 +576,13 @@ static Verdict case_flat(int n, const Sample *sample) {
     DO(cps_set_intersection(2, (const CpsSet *[]){sample->set, plane}, &flat, &err));
     DO(cps_set_facts(flat, 0, &facts, center, NULL, &err));
     Verdict verdict = due(facts.outcome);
-    if (verdict == ANSWERED && (facts.dimension < 0 || facts.dimension >= n || facts.zero_interior)) verdict = WRONG;
-    if (verdict == ANSWERED) verdict = same(dot(n, u, center), at, norm(n, u) * fmax(1, norm(n, center)));
+    if (verdict == ANSWERED && (facts.dimension < 0 || facts.dimension >= n || facts.zero_interior))
+        verdict = WRONG;
+    if (verdict == ANSWERED)
+        verdict = same(dot(n, u, center), at, norm(n, u) * fmax(1, norm(n, center)));
     if (verdict == ANSWERED) verdict = inside(sample->set, center, fmax(1, norm(n, center)));
-    cps_set_release(plane), cps_set_release(flat);
+    cps_set_release(plane);
+    cps_set_release(flat);
     return verdict;
 }
 
@@ -547,23 +599,31 @@ static Verdict case_unbounded(int n, const Sample *sample) {
     DO(cps_set_support(form, ray, x, &up, &err));
     DO(cps_set_face(form, ray, 0, &face, &of, &err));
     Verdict verdict = up.outcome == CPS_SET_INACCURATE ? OPEN : ANSWERED;
-    if (verdict == ANSWERED && (up.outcome != CPS_SET_UNBOUNDED || up.value != INFINITY || face)) verdict = WRONG;
-    if (verdict == ANSWERED && !(dot(n, x, ray) > 0.999 * norm(n, x) * norm(n, ray))) verdict = WRONG;
+    if (verdict == ANSWERED && (up.outcome != CPS_SET_UNBOUNDED || up.value != INFINITY || face))
+        verdict = WRONG;
+    if (verdict == ANSWERED && !(dot(n, x, ray) > 0.999 * norm(n, x) * norm(n, ray)))
+        verdict = WRONG;
     DO(cps_set_support(form, back, NULL, &down, &err));
     DO(cps_set_support(sample->set, back, x, &of, &err));
     if (verdict == ANSWERED) verdict = compare(&down, &of, scale_of(sample->set, back, x));
-    cps_set_release(cone), cps_set_release(set), cps_set_release(form), cps_set_release(face);
+    cps_set_release(cone);
+    cps_set_release(set);
+    cps_set_release(form);
+    cps_set_release(face);
     return verdict;
 }
 
 /* A point or a segment, mapped and moved: its dimension, its ends. */
 static Verdict case_thin(int n) {
     const int m = 1 + below(MAX_SPACE), count = 1 + below(2);
-    double ends[2 * MAX_SPACE], mapped[2 * MAX_SPACE], map[MAX_SPACE * MAX_SPACE], w[MAX_SPACE], center[MAX_SPACE];
+    double ends[2 * MAX_SPACE], mapped[2 * MAX_SPACE], map[MAX_SPACE * MAX_SPACE], w[MAX_SPACE],
+        center[MAX_SPACE];
     CpsSet *segment, *image, *form;
     CpsSetFacts facts;
     CpsSetAnswer h;
-    fill(2 * m, 2, ends), fill(n * m, 1, map), fill(n, 1, w);
+    fill(2 * m, 2, ends);
+    fill(n * m, 1, map);
+    fill(n, 1, w);
     for (int k = 0; k < 2; k++) times(n, m, map, 1, &ends[k * m], &mapped[k * n]);
     DO(cps_set_hull_of_points(m, count, ends, &segment, &err));
     DO(cps_set_image(n, map, segment, &image, &err));
@@ -576,7 +636,9 @@ static Verdict case_thin(int n) {
     if (verdict == ANSWERED && (facts.dimension != count - 1 || !facts.bounded)) verdict = WRONG;
     for (int i = 0; verdict == ANSWERED && i < n; i++)
         verdict = same(center[i], 0.5 * (mapped[i] + mapped[(count - 1) * n + i]), 4);
-    cps_set_release(segment), cps_set_release(image), cps_set_release(form);
+    cps_set_release(segment);
+    cps_set_release(image);
+    cps_set_release(form);
     return verdict;
 }
 
@@ -595,10 +657,12 @@ int main(int argc, char **argv) {
     static const struct {
         const char *name;
         Verdict (*ask)(int n);
-    } CASE[] = {{"form", case_form},   {"sum", case_sum},           {"polar", case_polar},
-                {"face", case_face},   {"facet", case_facet},       {"meet", case_meet},
-                {"split", case_split}, {"moreau", case_moreau},     {"project", case_project},
-                {"cone", case_cone},   {"preimage", case_preimage}, {"degenerate", case_degenerate}};
+    } CASE[] = {{"form", case_form},         {"sum", case_sum},
+                {"polar", case_polar},       {"face", case_face},
+                {"facet", case_facet},       {"meet", case_meet},
+                {"split", case_split},       {"moreau", case_moreau},
+                {"project", case_project},   {"cone", case_cone},
+                {"preimage", case_preimage}, {"degenerate", case_degenerate}};
     enum { KINDS = sizeof CASE / sizeof *CASE };
     uint64_t first = 1, count = 1000, tally[KINDS][4] = {{0}}, total[4] = {0};
     if (!random_cases(argc, argv, &first, &count)) {
@@ -609,9 +673,12 @@ int main(int argc, char **argv) {
         random_seed(seed);
         const int kind = (int)(seed % KINDS);
         const Verdict verdict = CASE[kind].ask(1 + below(MAX_SPACE));
-        tally[kind][verdict]++, total[verdict]++;
-        if (verdict == WRONG) printf("wrong: seed %llu (%s)\n", (unsigned long long)seed, CASE[kind].name);
-        if (count == 1 && (verdict == OPEN || verdict == REFUSED)) printf("%s\n", verdict == OPEN ? "open" : "refused");
+        tally[kind][verdict]++;
+        total[verdict]++;
+        if (verdict == WRONG)
+            printf("wrong: seed %llu (%s)\n", (unsigned long long)seed, CASE[kind].name);
+        if (count == 1 && (verdict == OPEN || verdict == REFUSED))
+            printf("%s\n", verdict == OPEN ? "open" : "refused");
     }
     printf("%10s %9s %9s %9s %9s\n", "case", "answered", "refused", "open", "wrong");
     for (int k = 0; k < KINDS; k++) {
@@ -620,7 +687,8 @@ int main(int argc, char **argv) {
         printf("\n");
     }
     const double share = 100 * (double)total[ANSWERED] / (double)count;
-    printf("%llu cases, %.2f %% answered, %llu wrong; largest difference of values %.1e, of points %.1e\n",
+    printf("%llu cases, %.2f %% answered, %llu wrong; largest difference of values %.1e, of points "
+           "%.1e\n",
            (unsigned long long)count, share, (unsigned long long)total[WRONG], worst[0], worst[1]);
     return total[WRONG] == 0 && (count == 1 || share >= 98) ? 0 : 1;
 }

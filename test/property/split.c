@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Certificates for intersections (split.h). The splitting is read off x: w is written as a sum with factors >= 0 of the
- * unit normals of the parts that x touches, by non-negative least squares (Lawson and Hanson 1974, chapter 23); what is
- * left over goes to the first part, so that the pieces add up to w whatever x is. */
+/* Certificates for intersections (split.h). The splitting is read off x: w is written as a sum with
+ * factors >= 0 of the unit normals of the parts that x touches, by non-negative least squares
+ * (Lawson and Hanson 1974, chapter 23); what is left over goes to the first part, so that the
+ * pieces add up to w whatever x is. */
 #include "split.h"
 
 #include <math.h>
@@ -21,7 +22,10 @@ int split_random(int n, SplitPart *part) {
         memset(one, 0, sizeof *one);
         one->kind = (SplitKind)below(k == 0 ? 3 : 5);
         fill(n, 0.2, one->center);
-        for (int i = 0; i < n; i++) one->center[i] += at[i], one->half[i] = uniform(0.4, 1.5);
+        for (int i = 0; i < n; i++) {
+            one->center[i] += at[i];
+            one->half[i] = uniform(0.4, 1.5);
+        }
         do {
             fill(n * n, 0.6, one->factor);
             for (int i = 0; i < n; i++) one->factor[i * n + i] += 1;
@@ -37,37 +41,32 @@ CpsSet *split_set(int n, const SplitPart *part) {
     double a[MAX_SPACE], b[MAX_SPACE], shape[MAX_SPACE * MAX_SPACE];
     CpsSet *set = NULL;
     for (int i = 0; i < n; i++) {
-        a[i] = part->center[i] - part->half[i], b[i] = part->center[i] + part->half[i];
-        for (int j = 0; j < n; j++) shape[i * n + j] = dot(n, &part->factor[i * n], &part->factor[j * n]);
+        a[i] = part->center[i] - part->half[i];
+        b[i] = part->center[i] + part->half[i];
+        for (int j = 0; j < n; j++)
+            shape[i * n + j] = dot(n, &part->factor[i * n], &part->factor[j * n]);
     }
     switch (part->kind) {
-    case SPLIT_BALL:
-        DO(cps_set_ball(n, part->center, part->half[0], &set, &err));
-        break;
-    case SPLIT_ELLIPSOID:
-        DO(cps_set_ellipsoid(n, part->center, shape, &set, &err));
-        break;
-    case SPLIT_BOX:
-        DO(cps_set_box(n, a, b, &set, &err));
-        break;
-    case SPLIT_HALF_SPACE:
-        DO(cps_set_half_space(n, part->normal, part->high, &set, &err));
-        break;
-    case SPLIT_STRIP:
-        DO(cps_set_strip(n, part->normal, part->low, part->high, &set, &err));
-        break;
+    case SPLIT_BALL: DO(cps_set_ball(n, part->center, part->half[0], &set, &err)); break;
+    case SPLIT_ELLIPSOID: DO(cps_set_ellipsoid(n, part->center, shape, &set, &err)); break;
+    case SPLIT_BOX: DO(cps_set_box(n, a, b, &set, &err)); break;
+    case SPLIT_HALF_SPACE: DO(cps_set_half_space(n, part->normal, part->high, &set, &err)); break;
+    case SPLIT_STRIP: DO(cps_set_strip(n, part->normal, part->low, part->high, &set, &err)); break;
     }
     return set;
 }
 
-/* One unit normal that may press: of which part, and its offset for parts that have no other normals. */
+/* One unit normal that may press: of which part, and its offset for parts that have no other
+ * normals. */
 typedef struct Normal {
     int part;
     double direction[MAX_SPACE], offset;
 } Normal;
 
-/* How far x is outside of the part, and the unit normals of what it touches, into list; *count grows. */
-static double touched(int n, int k, const SplitPart *part, const double *x, Normal *list, int *count) {
+/* How far x is outside of the part, and the unit normals of what it touches, into list; *count
+ * grows. */
+static double touched(int n, int k, const SplitPart *part, const double *x, Normal *list,
+                      int *count) {
     double d[MAX_SPACE], y[MAX_SPACE], outside = -INFINITY;
     for (int i = 0; i < n; i++) d[i] = x[i] - part->center[i];
     if (part->kind == SPLIT_BALL || part->kind == SPLIT_ELLIPSOID) {
@@ -102,26 +101,32 @@ static double touched(int n, int k, const SplitPart *part, const double *x, Norm
         outside = fmax(outside, off);
         if (!(off > -TOUCH)) continue;
         Normal *normal = &list[(*count)++];
-        normal->part = k, normal->offset = end / size;
+        normal->part = k;
+        normal->offset = end / size;
         for (int i = 0; i < n; i++) normal->direction[i] = side * part->normal[i] / size;
     }
     return outside;
 }
 
-/* Least squares on the normals that are in use, by the normal equations; false where they are dependent. */
-static bool least_squares(int n, int used, const int *use, const Normal *list, const double *w, double *factor) {
+/* Least squares on the normals that are in use, by the normal equations; false where they are
+ * dependent. */
+static bool least_squares(int n, int used, const int *use, const Normal *list, const double *w,
+                          double *factor) {
     double gram[MAX_SPACE * MAX_SPACE], inverse[MAX_SPACE * MAX_SPACE], right[MAX_SPACE];
     for (int i = 0; i < used; i++) {
         right[i] = dot(n, list[use[i]].direction, w);
-        for (int j = 0; j < used; j++) gram[i * used + j] = dot(n, list[use[i]].direction, list[use[j]].direction);
+        for (int j = 0; j < used; j++)
+            gram[i * used + j] = dot(n, list[use[i]].direction, list[use[j]].direction);
     }
     if (!invert(used, gram, 1e-10, inverse)) return false;
     times(used, used, inverse, 1, right, factor);
     return true;
 }
 
-/* w = sum factor_j direction_j + left, factors >= 0, |left| least; normals that are nearly dependent stay out. */
-static void spread(int n, int count, const Normal *list, const double *w, double *factor, double *left) {
+/* w = sum factor_j direction_j + left, factors >= 0, |left| least; normals that are nearly
+ * dependent stay out. */
+static void spread(int n, int count, const Normal *list, const double *w, double *factor,
+                   double *left) {
     int use[MAX_SPACE], used = 0;
     bool barred[MOST_NORMALS] = {false};
     memset(factor, 0, (size_t)count * sizeof *factor);
@@ -134,7 +139,10 @@ static void spread(int n, int count, const Normal *list, const double *w, double
         double gain = 1e-14 * norm(n, w), trial[MAX_SPACE];
         for (int j = 0; j < count; j++) {
             const double along = dot(n, list[j].direction, left);
-            if (factor[j] == 0 && !barred[j] && along > gain) best = j, gain = along;
+            if (factor[j] == 0 && !barred[j] && along > gain) {
+                best = j;
+                gain = along;
+            }
         }
         if (best < 0 || used == n) return;
         use[used++] = best;
@@ -149,7 +157,10 @@ static void spread(int n, int count, const Normal *list, const double *w, double
             int stop = -1;
             for (int i = 0; i < used; i++) {
                 const double now = factor[use[i]];
-                if (trial[i] < 0 && now / (now - trial[i]) < share) share = now / (now - trial[i]), stop = i;
+                if (trial[i] < 0 && now / (now - trial[i]) < share) {
+                    share = now / (now - trial[i]);
+                    stop = i;
+                }
             }
             for (int i = 0; i < used; i++) factor[use[i]] += share * (trial[i] - factor[use[i]]);
             if (stop < 0) break;
@@ -164,25 +175,23 @@ static void spread(int n, int count, const Normal *list, const double *w, double
 static double support(int n, const SplitPart *part, const double *u, double press) {
     double turned[MAX_SPACE], value = dot(n, u, part->center);
     switch (part->kind) {
-    case SPLIT_BALL:
-        return value + part->half[0] * norm(n, u);
-    case SPLIT_ELLIPSOID:
-        times(n, n, part->factor, -1, u, turned);
-        return value + norm(n, turned);
+    case SPLIT_BALL: return value + part->half[0] * norm(n, u);
+    case SPLIT_ELLIPSOID: times(n, n, part->factor, -1, u, turned); return value + norm(n, turned);
     case SPLIT_BOX:
         for (int i = 0; i < n; i++) value += part->half[i] * fabs(u[i]);
         return value;
-    default:
-        return press;
+    default: return press;
     }
 }
 
-SplitBounds split_bounds(int n, int count, const SplitPart *part, const double *w, const double *x) {
+SplitBounds split_bounds(int n, int count, const SplitPart *part, const double *w,
+                         const double *x) {
     Normal list[MOST_NORMALS];
     double factor[MOST_NORMALS], left[MAX_SPACE];
     SplitBounds bounds = {.lower = dot(n, w, x), .outside = 0};
     int normals = 0;
-    for (int k = 0; k < count; k++) bounds.outside = fmax(bounds.outside, touched(n, k, &part[k], x, list, &normals));
+    for (int k = 0; k < count; k++)
+        bounds.outside = fmax(bounds.outside, touched(n, k, &part[k], x, list, &normals));
     spread(n, normals, list, w, factor, left);
     for (int k = 0; k < count; k++) {
         double u[MAX_SPACE] = {0}, press = 0;

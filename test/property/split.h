@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Certificates for the support of an intersection of simple sets, without the library: h(w) lies between <w, x> for x
- * in every part and sum h_i(w_i) for any splitting w = sum w_i. */
+/* Certificates for the support of an intersection of simple sets, without the library: h(w) lies
+ * between <w, x> for x in every part and sum h_i(w_i) for any splitting w = sum w_i. */
 #ifndef CAPSTAN_TEST_SPLIT_H
 #define CAPSTAN_TEST_SPLIT_H
 
@@ -8,7 +8,13 @@
 
 enum { SPLIT_PARTS = 5 };
 
-typedef enum SplitKind { SPLIT_BALL, SPLIT_ELLIPSOID, SPLIT_BOX, SPLIT_HALF_SPACE, SPLIT_STRIP } SplitKind;
+typedef enum SplitKind {
+    SPLIT_BALL,
+    SPLIT_ELLIPSOID,
+    SPLIT_BOX,
+    SPLIT_HALF_SPACE,
+    SPLIT_STRIP
+} SplitKind;
 
 typedef struct SplitPart {
     SplitKind kind;

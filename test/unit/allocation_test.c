@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory: stepping allocates nothing; creating survives every failing allocation and leaks nothing. malloc and its kin are
- * replaced by wrappers that count and can be told to fail (linked with --wrap). */
+/* Memory: stepping allocates nothing; creating survives every failing allocation and leaks nothing.
+ * malloc and its kin are replaced by wrappers that count and can be told to fail (linked with
+ * --wrap). */
 #include <stdlib.h>
 
 #include "capstan/capstan.h"
@@ -20,10 +21,17 @@ void __wrap_free(void *place);
 static int allocations, live, fail_at = -1;
 
 static bool refuse(void) { return allocations++ == fail_at; }
-static void *counted(void *place) { return live += place != NULL, place; }
+static void *counted(void *place) {
+    live += place != NULL;
+    return place;
+}
 void *__wrap_malloc(size_t size) { return refuse() ? NULL : counted(__real_malloc(size)); }
-void *__wrap_calloc(size_t count, size_t size) { return refuse() ? NULL : counted(__real_calloc(count, size)); }
-void *__wrap_realloc(void *place, size_t size) { return refuse() ? NULL : __real_realloc(place, size); }
+void *__wrap_calloc(size_t count, size_t size) {
+    return refuse() ? NULL : counted(__real_calloc(count, size));
+}
+void *__wrap_realloc(void *place, size_t size) {
+    return refuse() ? NULL : __real_realloc(place, size);
+}
 void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return refuse() ? NULL : counted(__real_aligned_alloc(alignment, size));
 }
@@ -39,24 +47,32 @@ static const CpsStage stage = {.name = "pull", .steps = 3, .change_count = 1, .c
 static CpsScene scene(const CpsObstacle *bed, const CpsLine *line) {
     CpsScene out = cps_scene_default();
     out.obstacle_count = out.line_count = out.stage_count = 1;
-    out.obstacle = bed, out.line = line, out.stage = &stage;
+    out.obstacle = bed;
+    out.line = line;
+    out.stage = &stage;
     return out;
 }
 
 static CpsLine rope(void) {
     CpsLine line = cps_line_default();
-    line.name = "rope", line.length = 6.28, line.elements = 50, line.weight = 9.81, line.stiffness = 10;
+    line.name = "rope";
+    line.length = 6.28;
+    line.elements = 50;
+    line.weight = 9.81;
+    line.stiffness = 10;
     line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = ends};
     return line;
 }
 
 static CpsObstacle rough(void) {
     CpsObstacle bed = cps_obstacle_default();
-    bed.name = "bed", bed.friction = 0.0255;
+    bed.name = "bed";
+    bed.friction = 0.0255;
     return bed;
 }
 
-/* Steps of a line of this stiffness take no memory; those of an inextensible one choose among forces, and look for their range. */
+/* Steps of a line of this stiffness take no memory; those of an inextensible one choose among
+ * forces, and look for their range. */
 static void step_all(double stiffness) {
     CpsLine line = rope();
     line.stiffness = stiffness;
@@ -88,7 +104,8 @@ static void every_failing_allocation_is_survived(void **unused) {
     for (int k = 0;; k++) {
         CpsEvolution *evolution = (CpsEvolution *)&stage; /* anything: must come back NULL */
         CpsError err;
-        allocations = 0, fail_at = k;
+        allocations = 0;
+        fail_at = k;
         const CpsStatus status = cps_evolution_create(&s, &evolution, &err);
         fail_at = -1;
         if (status == CPS_OK) {
@@ -111,7 +128,8 @@ static CpsSet *grooves(void) {
     assert_int_equal(cps_set_strip(2, normal, -0.2, 0.1, &strip, NULL), CPS_OK);
     const CpsSet *parts[] = {disc, strip};
     assert_int_equal(cps_set_intersection(2, parts, &set, NULL), CPS_OK);
-    cps_set_release(disc), cps_set_release(strip);
+    cps_set_release(disc);
+    cps_set_release(strip);
     return set;
 }
 
@@ -121,14 +139,17 @@ static void friction_sets_and_zones_take_no_more(void **unused) {
     CpsSet *set = grooves();
     CpsLine line = rope();
     const CpsFrictionZone zone = {.from = 1, .to = 3, .factor = 2};
-    line.zone_count = 1, line.zone = &zone;
+    line.zone_count = 1;
+    line.zone = &zone;
     CpsObstacle bed = rough();
-    bed.friction_set = set, bed.grain[0] = 1;
+    bed.friction_set = set;
+    bed.grain[0] = 1;
     const CpsScene s = scene(&bed, &line);
     for (int k = 0;; k++) {
         CpsEvolution *evolution = (CpsEvolution *)&stage;
         CpsError err;
-        allocations = 0, fail_at = k;
+        allocations = 0;
+        fail_at = k;
         const CpsStatus status = cps_evolution_create(&s, &evolution, &err);
         fail_at = -1;
         if (status != CPS_OK) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The 1990 method piece by piece: band factor, Newton, the functional of section 5 and P10.1 against differences, the
- * external approximation, and what is refused. A small made-up step: six uneven elements, a tilted obstacle, nothing at
- * rest. */
+/* The 1990 method piece by piece: band factor, Newton, the functional of section 5 and P10.1
+ * against differences, the external approximation, and what is refused. A small made-up step: six
+ * uneven elements, a tilted obstacle, nothing at rest. */
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,8 +17,10 @@
 enum { ELEMENTS = 6, NODES = ELEMENTS + 1, COORDINATES = 3 * NODES };
 
 typedef struct Step {
-    double arc[NODES], width[ELEMENTS], reference[COORDINATES], position[COORDINATES], load[COORDINATES];
-    double normal[COORDINATES], gap[NODES], bound[NODES], friction[COORDINATES], reaction[NODES], force[3 * ELEMENTS];
+    double arc[NODES], width[ELEMENTS], reference[COORDINATES], position[COORDINATES],
+        load[COORDINATES];
+    double normal[COORDINATES], gap[NODES], bound[NODES], friction[COORDINATES], reaction[NODES],
+        force[3 * ELEMENTS];
     double tension[ELEMENTS];
     unsigned char state[NODES];
     CpsLineView view;
@@ -45,7 +47,8 @@ static void make_step(Step *s) {
             y[k] = x[k] + 0.3 * noise(&seed) * (j > 0);
             b[k] = noise(&seed);
         }
-        s->normal[3 * j] = 0.6, s->normal[3 * j + 2] = 0.8;
+        s->normal[3 * j] = 0.6;
+        s->normal[3 * j + 2] = 0.8;
         s->gap[j] = j % 3 == 2 ? INFINITY : 0.01 * j;
         s->bound[j] = j % 3 == 1 ? 0.7 : 0.2;
     }
@@ -70,7 +73,8 @@ static void make_step(Step *s) {
 
 /* ---- band ---- */
 
-/* A = M M^T + I from a band M has the band of M; L L^T = A entry by entry, and A x = b is solved. */
+/* A = M M^T + I from a band M has the band of M; L L^T = A entry by entry, and A x = b is
+ * solved. */
 static void band_factor_and_solve(void **state) {
     (void)state;
     enum { N = 11, BAND = 4 };
@@ -103,7 +107,8 @@ static void band_refuses_indefinite(void **state) {
 
 /* ---- Newton ---- */
 
-/* sqrt(delta^2 + x^2) pulls hard to 0 and is nearly flat away from it: whole Newton steps diverge from |x| > delta. */
+/* sqrt(delta^2 + x^2) pulls hard to 0 and is nearly flat away from it: whole Newton steps diverge
+ * from |x| > delta. */
 typedef struct Sharp {
     double delta, pull;
 } Sharp;
@@ -175,7 +180,8 @@ static double total(Functional *t, const double *x) {
     return report.total;
 }
 
-/* The gradient is that of the energy that the report adds up, the Hessian that of the gradient: central differences. */
+/* The gradient is that of the energy that the report adds up, the Hessian that of the gradient:
+ * central differences. */
 static void functional_against_differences(void **state) {
     (void)state;
     for (int held = 0; held < 2; held++) {
@@ -200,9 +206,11 @@ static void functional_against_differences(void **state) {
             // third derivatives of some 1e4 times step^2, and rounding of energies of 10 over step
             CHECK_NEAR((high - low) / (2 * step), g[i], 1e-7);
             for (int k = i; k < n && k - i <= CPSI_REGULARIZED_BAND; k++)
-                CHECK_NEAR((after[k] - before[k]) / (2 * step), *cpsi_band_at(a, CPSI_REGULARIZED_BAND, k, i), 1e-5);
+                CHECK_NEAR((after[k] - before[k]) / (2 * step),
+                           *cpsi_band_at(a, CPSI_REGULARIZED_BAND, k, i), 1e-5);
             // nothing is coupled beyond the band
-            for (int k = i + CPSI_REGULARIZED_BAND + 1; k < n; k++) CHECK_NEAR(after[k], before[k], 1e-12);
+            for (int k = i + CPSI_REGULARIZED_BAND + 1; k < n; k++)
+                CHECK_NEAR(after[k], before[k], 1e-12);
         }
         cpsi_arena_free(&t.copy.arena);
     }
@@ -217,29 +225,37 @@ static void first_order_against_differences(void **state) {
     make_step(&step);
     CpsError err = {0};
     assert_int_equal(cpsi_step_copy(&step.view, &copy, &err), CPS_OK);
-    double tangent[3 * ELEMENTS], stretch[ELEMENTS], strain[ELEMENTS], u[COORDINATES] = {0}, anchor[COORDINATES] = {0};
+    double tangent[3 * ELEMENTS], stretch[ELEMENTS], strain[ELEMENTS], u[COORDINATES] = {0},
+                                                                       anchor[COORDINATES] = {0};
     double rub[COORDINATES], push[NODES], gradient[COORDINATES], x[COORDINATES];
     unsigned seed = 5;
     for (int i = 0; i < ELEMENTS; i++) {
         double square = 0;
         for (int k = 0; k < 3; k++) {
-            tangent[3 * i + k] = (step.reference[3 * i + 3 + k] - step.reference[3 * i + k]) / step.width[i];
+            tangent[3 * i + k] =
+                (step.reference[3 * i + 3 + k] - step.reference[3 * i + k]) / step.width[i];
             square += tangent[3 * i + k] * tangent[3 * i + k];
         }
         stretch[i] = sqrt(square);
         for (int k = 0; k < 3; k++) tangent[3 * i + k] /= stretch[i];
         strain[i] = fmax(0, stretch[i] - 1);
     }
-    for (int k = 0; k < COORDINATES; k++) rub[k] = 0.2 * noise(&seed), x[k] = 0.3 * noise(&seed);
+    for (int k = 0; k < COORDINATES; k++) {
+        rub[k] = 0.2 * noise(&seed);
+        x[k] = 0.3 * noise(&seed);
+    }
     for (int j = 0; j < NODES; j++) {
         push[j] = fabs(noise(&seed));
         // friction is tangential
         double across = 0.6 * rub[3 * j] + 0.8 * rub[3 * j + 2];
-        rub[3 * j] -= 0.6 * across, rub[3 * j + 2] -= 0.8 * across;
+        rub[3 * j] -= 0.6 * across;
+        rub[3 * j + 2] -= 0.8 * across;
     }
-    CpsiFirstOrder f = {&copy, 3 * ELEMENTS, tangent, stretch, strain, copy.own.gap, u, anchor, rub, push, gradient, 4, 0.3};
+    CpsiFirstOrder f = {&copy,  3 * ELEMENTS, tangent, stretch,  strain, copy.own.gap, u,
+                        anchor, rub,          push,    gradient, 4,      0.3};
     CpsiSmooth smooth = cpsi_first_order_smooth(&f);
-    double g[COORDINATES], before[COORDINATES], after[COORDINATES], a[COORDINATES * (CPSI_FIRST_ORDER_BAND + 1)] = {0};
+    double g[COORDINATES], before[COORDINATES], after[COORDINATES],
+        a[COORDINATES * (CPSI_FIRST_ORDER_BAND + 1)] = {0};
     smooth.gradient(smooth.user, x, g);
     smooth.hessian(smooth.user, x, 0, a);
     const double h = 1e-6;
@@ -252,7 +268,8 @@ static void first_order_against_differences(void **state) {
         x[i] = at;
         // piecewise smooth, third derivatives of order 10
         for (int k = i; k < smooth.unknowns; k++) {
-            double want = k - i <= CPSI_FIRST_ORDER_BAND ? *cpsi_band_at(a, CPSI_FIRST_ORDER_BAND, k, i) : 0;
+            double want =
+                k - i <= CPSI_FIRST_ORDER_BAND ? *cpsi_band_at(a, CPSI_FIRST_ORDER_BAND, k, i) : 0;
             CHECK_NEAR((after[k] - before[k]) / (2 * h), want, 1e-6);
         }
     }
@@ -276,7 +293,8 @@ static void first_order_tension_is_the_derivative(void **state) {
     CpsiFirstOrder f = {.step = &copy, .tangent = t, .stretch = &s, .strain = &e, .u = u};
     assert_true(e > 0.01);
     for (int level = 0; level < 2; level++) {
-        double size = level ? 1e-4 : 1e-3, d[3] = {0.3 * size, -0.5 * size, 0.7 * size}, got[3], now[3], length = 0;
+        double size = level ? 1e-4 : 1e-3, d[3] = {0.3 * size, -0.5 * size, 0.7 * size}, got[3],
+               now[3], length = 0;
         for (int k = 0; k < 3; k++) {
             u[3 + k] = d[k] * step.width[0];
             now[k] = r[k] + d[k];
@@ -286,9 +304,11 @@ static void first_order_tension_is_the_derivative(void **state) {
         cpsi_first_order_tension(&f, 0, got);
         error[level] = 0;
         for (int k = 0; k < 3; k++)
-            error[level] = fmax(error[level], fabs(got[k] - (length - 1) / copy.compliance * now[k] / length));
+            error[level] =
+                fmax(error[level], fabs(got[k] - (length - 1) / copy.compliance * now[k] / length));
     }
-    // a tenth of the displacement leaves a hundredth: the order is 2, its observed value off by the next term
+    // a tenth of the displacement leaves a hundredth: the order is 2, its observed value off by the
+    // next term
     CHECK_BETWEEN(log10(error[0] / error[1]), 1.98, 2.02);
     cpsi_arena_free(&copy.arena);
 }
@@ -303,10 +323,14 @@ static void external_cells(void **state) {
     make_step(&step);
     // a constant weight, and the end force on the last node; a constant bound per length
     double half[NODES] = {0};
-    for (int i = 0; i < ELEMENTS; i++) half[i] += step.width[i] / 2, half[i + 1] += step.width[i] / 2;
+    for (int i = 0; i < ELEMENTS; i++) {
+        half[i] += step.width[i] / 2;
+        half[i + 1] += step.width[i] / 2;
+    }
     for (int j = 0; j < NODES; j++) {
         for (int k = 0; k < 3; k++)
-            step.load[3 * j + k] = (k == 2 ? -2 * half[j] : 0) + (j == ELEMENTS ? step.view.end[1].value[k] : 0);
+            step.load[3 * j + k] =
+                (k == 2 ? -2 * half[j] : 0) + (j == ELEMENTS ? step.view.end[1].value[k] : 0);
         step.bound[j] = j > 0 ? 0.5 * half[j] : 0;
     }
     CpsError err = {0};
@@ -317,7 +341,8 @@ static void external_cells(void **state) {
     cpsi_cells_place(&cells, &copy, CELLS, &arena);
     assert_true(cpsi_arena_allocate(&arena));
     cpsi_cells_place(&cells, &copy, CELLS, &arena);
-    double length = step.arc[ELEMENTS], h = length / CELLS, width = 0, share = 0, load[3] = {0}, bound = 0;
+    double length = step.arc[ELEMENTS], h = length / CELLS, width = 0, share = 0, load[3] = {0},
+           bound = 0;
     for (int i = 0; i < CELLS; i++) width += cells.width[i];
     for (int j = 0; j <= CELLS; j++) {
         share += cells.share[j];
@@ -392,7 +417,8 @@ static void refusals(void **state) {
     assert_null(study);
     assert_non_null(strstr(err.message, "stage n"));
     options = cps_study_options(classic);
-    options.values[CPS_STUDY_H] = options.values[CPS_STUDY_LAMBDA] = options.values[CPS_STUDY_N] = options.values[CPS_STUDY_DELTA] = 1;
+    options.values[CPS_STUDY_H] = options.values[CPS_STUDY_LAMBDA] = options.values[CPS_STUDY_N] =
+        options.values[CPS_STUDY_DELTA] = 1;
     assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_OK);
     assert_non_null(cps_study_row(study, cps_study_row_count(study) - 1));
     assert_true(cps_classic_end_tension(classic, CPS_END_B) >= 0);
@@ -400,9 +426,11 @@ static void refusals(void **state) {
         const int absent = (int[]){-1, 64, INT_MAX, INT_MIN}[k];
         assert_null(cps_study_row(study, absent));
         assert_int_equal(cps_study_stage_end(study, (CpsStudyStage)absent).cells, 0);
-        assert_false(cps_classic_end_tension(classic, absent) == cps_classic_end_tension(classic, absent)); /* NaN */
+        assert_false(cps_classic_end_tension(classic, absent) ==
+                     cps_classic_end_tension(classic, absent)); /* NaN */
         CpsFirstOrder *none = NULL;
-        assert_int_equal(cps_first_order_solve(classic, (CpsFirstOrderContact)absent, &none, &err), CPS_ERR_ARGUMENT);
+        assert_int_equal(cps_first_order_solve(classic, (CpsFirstOrderContact)absent, &none, &err),
+                         CPS_ERR_ARGUMENT);
         assert_null(none);
     }
     cps_study_destroy(study);

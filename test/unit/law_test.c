@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Laws: what is accepted, what is refused and why, loads, residuals, and resistance laws term by term. */
+/* Laws: what is accepted, what is refused and why, loads, residuals, and resistance laws term by
+ * term. */
 #include <string.h>
 
 #include "capstan/law.h"
@@ -8,20 +9,21 @@
 /* Closed forms of a few operations. */
 static const double ROUNDING = 1e-13;
 
-/* The gap at which the conjugate of a sum may end, and what that leaves of a velocity: phi is quadratic round it. */
+/* The gap at which the conjugate of a sum may end, and what that leaves of a velocity: phi is
+ * quadratic round it. */
 static const double CONIC = 1e-11, ROOT = 3e-6;
 
 #define OK(call) assert_int_equal((call), CPS_OK)
 
 /* the call is refused with CPS_ERR_ARGUMENT and a message with `part` in it */
-#define REFUSED(call, part)                                                                                            \
-    do {                                                                                                               \
-        CpsError err = {0};                                                                                            \
-        assert_int_equal((call), CPS_ERR_ARGUMENT);                                                                    \
-        if (!strstr(err.message, part)) {                                                                              \
-            print_error("message: %s\n", err.message);                                                                 \
-            fail();                                                                                                    \
-        }                                                                                                              \
+#define REFUSED(call, part)                            \
+    do {                                               \
+        CpsError err = {0};                            \
+        assert_int_equal((call), CPS_ERR_ARGUMENT);    \
+        if (!strstr(err.message, part)) {              \
+            print_error("message: %s\n", err.message); \
+            fail();                                    \
+        }                                              \
     } while (0)
 
 static CpsLaw *coulomb(double radius) {
@@ -58,8 +60,10 @@ static void bad_numbers_are_refused(void **state) {
     CpsSetAnswer answer;
     CpsLawResidual residual;
     CpsLoadedLaw *loaded = NULL;
-    REFUSED(cps_law_dissipation(cps_law_set(law), velocity, NULL, &answer, &err), "component 2 of the velocity");
-    REFUSED(cps_law_residual(cps_law_set(law), velocity, velocity, 0, &residual, &err), "component 2 of the force");
+    REFUSED(cps_law_dissipation(cps_law_set(law), velocity, NULL, &answer, &err),
+            "component 2 of the velocity");
+    REFUSED(cps_law_residual(cps_law_set(law), velocity, velocity, 0, &residual, &err),
+            "component 2 of the force");
     REFUSED(cps_law_load(law, velocity, &loaded, &err), "component 2 of the load");
     REFUSED(cps_law_product(0, NULL, &law, &err), "NULL");
     cps_law_destroy(law);
@@ -154,7 +158,8 @@ static void resistance_refusals(void **state) {
     CpsLaw *law = coulomb(1);
     CpsResistance *out = NULL;
     const double rotated[4] = {1, 0.5, -0.5, 1}, indefinite[4] = {1, 2, 2, 1}, speed[3] = {0, 1, 2};
-    const double falling[3] = {1, 0.8, 0.9}, negative[3] = {-0.1, 0, 1}, rising[3] = {1, 1, 2}, late[3] = {1, 1, 2};
+    const double falling[3] = {1, 0.8, 0.9}, negative[3] = {-0.1, 0, 1}, rising[3] = {1, 1, 2},
+                 late[3] = {1, 1, 2};
     REFUSED(cps_resistance_viscous(2, rotated, &out, &err), "not symmetric");
     REFUSED(cps_resistance_viscous(2, indefinite, &out, &err), "not positive definite");
     REFUSED(cps_resistance_table(law, 3, speed, falling, &out, &err), "falls with speed");
@@ -171,7 +176,8 @@ static void resistance_refusals(void **state) {
     CpsResistance *part[2] = {NULL};
     OK(cps_resistance_dry(law, &part[0], NULL));
     OK(cps_resistance_viscous(1, one, &part[1], NULL));
-    REFUSED(cps_resistance_sum(2, (const CpsResistance *const *)part, &out, &err), "1 components, the first 2");
+    REFUSED(cps_resistance_sum(2, (const CpsResistance *const *)part, &out, &err),
+            "1 components, the first 2");
     assert_null(out);
     for (int i = 0; i < 2; i++) cps_resistance_destroy(part[i]);
     cps_law_destroy(law);
@@ -212,7 +218,8 @@ static void power_law(void **state) {
 static void table_law(void **state) {
     (void)state;
     /* h' = 1 + g up to g = 2, then 3 */
-    const double speed[2] = {0, 2}, factor[2] = {1, 3}, slow[2] = {0.6, 0.8}, fast[2] = {3, 4}, rest[2] = {0, 0};
+    const double speed[2] = {0, 2}, factor[2] = {1, 3}, slow[2] = {0.6, 0.8}, fast[2] = {3, 4},
+                 rest[2] = {0, 0};
     CpsLaw *disc = coulomb(10);
     CpsResistance *law = NULL;
     CpsResistanceValue value;
@@ -295,7 +302,8 @@ static void mixed_sum(void **state) {
 }
 
 /* one dry and one viscous term: phi* and V at F */
-static void check_dry_and_viscous(CpsSet *dry, const double *force, double value, double v0, double v1) {
+static void check_dry_and_viscous(CpsSet *dry, const double *force, double value, double v0,
+                                  double v1) {
     const double d[4] = {2, 0.5, 0.5, 1};
     CpsLaw *law = NULL;
     CpsResistance *part[2] = {NULL}, *sum = NULL;
@@ -347,7 +355,8 @@ static bool unit_ball(void *user, int n, const double *direction, double *value,
 static void sums_without_an_answer(void **state) {
     (void)state;
     /* dry and a table that ends: forces up to 1 + 2 x 2 along x, none along y */
-    const double from[2] = {-1, 0}, to[2] = {1, 0}, speed[2] = {0, 1}, factor[2] = {0, 2}, d[4] = {2, 1, 1, 2};
+    const double from[2] = {-1, 0}, to[2] = {1, 0}, speed[2] = {0, 1}, factor[2] = {0, 2},
+                 d[4] = {2, 1, 1, 2};
     const double inside[2] = {4.9, 0}, outside[2] = {5.1, 0}, beside[2] = {1, 0.1};
     CpsSet *segment = NULL, *user = NULL;
     CpsLaw *law = NULL;
@@ -397,15 +406,40 @@ enum { SOFT, FALLING, NEGATIVE, BACKWARD, NOT_ITS_SLOPE, NO_NUMBER, NO_REST, COR
 
 static bool function(void *user, double g, double *value, double *slope) {
     const int which = *(const int *)user;
-    *value = g * g / (1 + g), *slope = g * (2 + g) / ((1 + g) * (1 + g)); /* soft: the slope tends to 1 */
-    if (which == FALLING) *value = log1p(g), *slope = 1 / (1 + g);
-    if (which == NEGATIVE) *value = g * g - g, *slope = 2 * g - 1;
-    if (which == BACKWARD) *value = -g * g, *slope = -2 * g;
-    if (which == NOT_ITS_SLOPE) *value = g * g * g / 3, *slope = 2 * g * g;
-    if (which == NO_NUMBER) *value = g > 3 ? NAN : g, *slope = 1;
-    if (which == NO_REST) *value = 1 + g, *slope = 1;
-    if (which == CORNER) *value = g <= 2 ? g : 2 + 3 * (g - 2), *slope = g <= 2 ? 1 : 3;
-    if (which == GOVERNOR) *value = g <= 1 ? g * g / 2 : INFINITY, *slope = g <= 1 ? g : INFINITY;
+    *value = g * g / (1 + g);
+    *slope = g * (2 + g) / ((1 + g) * (1 + g)); /* soft: the slope tends to 1 */
+    if (which == FALLING) {
+        *value = log1p(g);
+        *slope = 1 / (1 + g);
+    }
+    if (which == NEGATIVE) {
+        *value = g * g - g;
+        *slope = 2 * g - 1;
+    }
+    if (which == BACKWARD) {
+        *value = -g * g;
+        *slope = -2 * g;
+    }
+    if (which == NOT_ITS_SLOPE) {
+        *value = g * g * g / 3;
+        *slope = 2 * g * g;
+    }
+    if (which == NO_NUMBER) {
+        *value = g > 3 ? NAN : g;
+        *slope = 1;
+    }
+    if (which == NO_REST) {
+        *value = 1 + g;
+        *slope = 1;
+    }
+    if (which == CORNER) {
+        *value = g <= 2 ? g : 2 + 3 * (g - 2);
+        *slope = g <= 2 ? 1 : 3;
+    }
+    if (which == GOVERNOR) {
+        *value = g <= 1 ? g * g / 2 : INFINITY;
+        *slope = g <= 1 ? g : INFINITY;
+    }
     return true;
 }
 
@@ -443,7 +477,8 @@ static void function_refusals(void **state) {
     REFUSED(cps_resistance_function(disc, NULL, NULL, NULL, &out, &err), "NULL");
     assert_null(out);
 
-    /* found when it is asked: a conjugate of something else, and a function that changes its mind */
+    /* found when it is asked: a conjugate of something else, and a function that changes its
+     * mind */
     int which = SOFT;
     const double force[2] = {0.3, 0.4}, velocity[2] = {1, 1};
     CpsSetAnswer answer;
@@ -462,12 +497,14 @@ static void function_law(void **state) {
     CpsLaw *disc = coulomb(1);
     CpsSetAnswer answer;
     CpsResistanceValue value;
-    const double velocity[2] = {0, 3}, force[2] = {0.3, -0.4}, strong[2] = {2, 0}, level[2] = {0, 2};
+    const double velocity[2] = {0, 3}, force[2] = {0.3, -0.4}, strong[2] = {2, 0},
+                 level[2] = {0, 2};
     const double three[2] = {3, 0};
     double found[2];
     for (int given = 0; given < 2; given++) {
         CpsResistance *law = NULL;
-        OK(cps_resistance_function(disc, function, given ? soft_conjugate : NULL, &soft, &law, NULL));
+        OK(cps_resistance_function(disc, function, given ? soft_conjugate : NULL, &soft, &law,
+                                   NULL));
         OK(cps_resistance_value(law, velocity, &value, NULL, NULL));
         CHECK_RELATIVE(value.potential, 9.0 / 4, ROUNDING);
         CHECK_RELATIVE(value.power, 3 * 15.0 / 16, ROUNDING);
@@ -487,8 +524,8 @@ static void function_law(void **state) {
     CHECK_NEAR(found[1], -2, ROOT * 2);
     cps_resistance_destroy(law);
 
-    /* a governor allows speeds up to 1: phi* = 3 - 1/2 at |F| = 3; no force goes with more. With as much viscosity: at
-     * |F| = 6 it is 6 - 1/2 - 1/2, and F = 1 is shared in equal parts */
+    /* a governor allows speeds up to 1: phi* = 3 - 1/2 at |F| = 3; no force goes with more. With as
+     * much viscosity: at |F| = 6 it is 6 - 1/2 - 1/2, and F = 1 is shared in equal parts */
     const double d[4] = {1, 0, 0, 1}, large[2] = {0, 6}, small[2] = {1, 0};
     CpsResistance *part[2] = {NULL}, *sum = NULL;
     CpsSet *forces = NULL;

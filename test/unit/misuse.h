@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls that have to be refused: each by itself, so that a crash of one hides no other. For one file of a test program. */
+/* Calls that have to be refused: each by itself, so that a crash of one hides no other. For one
+ * file of a test program. */
 #ifndef CAPSTAN_TEST_UNIT_MISUSE_H
 #define CAPSTAN_TEST_UNIT_MISUSE_H
 
@@ -29,14 +30,15 @@ static void fault(int line, const char *call, const char *what) {
 }
 
 /* Run the statement; what it does to memory ends here. */
-#define GUARDED(text, ...)                              \
-    do {                                                \
-        signal(SIGSEGV, crashed), signal(SIGFPE, crashed); \
-        if (sigsetjmp(back, 1) == 0) {                  \
-            __VA_ARGS__;                                \
-        } else {                                        \
-            fault(__LINE__, text, "crashes");           \
-        }                                               \
+#define GUARDED(text, ...)                    \
+    do {                                      \
+        signal(SIGSEGV, crashed);             \
+        signal(SIGFPE, crashed);              \
+        if (sigsetjmp(back, 1) == 0) {        \
+            __VA_ARGS__;                      \
+        } else {                              \
+            fault(__LINE__, text, "crashes"); \
+        }                                     \
     } while (0)
 
 /* A call that may do nothing. */
@@ -44,10 +46,12 @@ static void fault(int line, const char *call, const char *what) {
 /* Something that holds of what is given for nothing. */
 #define GIVES(holds) GUARDED(#holds, if (!(holds)) fault(__LINE__, #holds, "does not hold"))
 /* A call that returns a status other than CPS_OK, and says why. `err` is the file's. */
-#define REFUSED(call)                                                                                   \
-    GUARDED(#call, err.message[0] = '\0'; const CpsStatus status_ = (call);                             \
-            if (status_ != CPS_ERR_ARGUMENT && status_ != CPS_ERR_LIMIT) fault(__LINE__, #call, "is not refused"); \
-            else if (!err.message[0] || err.status != status_) fault(__LINE__, #call, "does not say why"))
+#define REFUSED(call)                                                       \
+    GUARDED(#call, err.message[0] = '\0'; const CpsStatus status_ = (call); \
+            if (status_ != CPS_ERR_ARGUMENT && status_ != CPS_ERR_LIMIT)    \
+                fault(__LINE__, #call, "is not refused");                   \
+            else if (!err.message[0] || err.status != status_)              \
+                fault(__LINE__, #call, "does not say why"))
 /* A call that has to work for the others to mean something. */
 #define SOUND(call) assert_int_equal(call, CPS_OK)
 

@@ -11,18 +11,24 @@
 
 static const double ONE[9] = {1};
 static CpsError err;
-static volatile int i;               /* of loops, which a crash must not disturb, as what follows */
+static volatile int i; /* of loops, which a crash must not disturb, as what follows */
 static const CpsDriveFile *volatile given;
 
 static void scenes(void **state) {
     (void)state;
     CpsSceneFile *file = NULL;
-    const CpsReadLimits none = {0}, negative = {.max_bytes = 1000, .max_depth = -1, .max_elements = -1, .max_steps = -1};
+    const CpsReadLimits none = {0}, negative = {.max_bytes = 1000,
+                                                .max_depth = -1,
+                                                .max_elements = -1,
+                                                .max_steps = -1};
     REFUSED(cps_scene_read(NULL, NULL, &file, &err));
     REFUSED(cps_scene_read("", NULL, NULL, &err));
-    GIVES(cps_scene_read("/nowhere/at/all.yaml", &none, &file, &err) != CPS_OK && file == NULL && err.message[0]);
-    GIVES(cps_scene_read(THIS_FILE, &none, &file, &err) != CPS_OK && file == NULL && err.message[0]);
-    GIVES(cps_scene_read(THIS_FILE, &negative, &file, &err) != CPS_OK && file == NULL && err.message[0]);
+    GIVES(cps_scene_read("/nowhere/at/all.yaml", &none, &file, &err) != CPS_OK && file == NULL &&
+          err.message[0]);
+    GIVES(cps_scene_read(THIS_FILE, &none, &file, &err) != CPS_OK && file == NULL &&
+          err.message[0]);
+    GIVES(cps_scene_read(THIS_FILE, &negative, &file, &err) != CPS_OK && file == NULL &&
+          err.message[0]);
     RUNS(cps_scene_file_destroy(NULL));
     GIVES(cps_scene_file_scene(NULL) == NULL);
     REFUSED(cps_scene_write_schema(NULL, &err));
@@ -97,8 +103,12 @@ static void laws(void **state) {
     CpsLawFile *file = NULL;
     CpsComposition composition;
     int line;
-    const CpsLawPicture picture = {.title = "", .axis = {0, 1}}, axes = {.title = "", .axis = {0, 7}}, untitled = {.axis = {0, 1}},
-                        missing = {.title = "", .axis = {0, 1}, .velocity_count = 2, .force_count = 2};
+    const CpsLawPicture picture = {.title = "", .axis = {0, 1}},
+                        axes = {.title = "", .axis = {0, 7}}, untitled = {.axis = {0, 1}},
+                        missing = {.title = "",
+                                   .axis = {0, 1},
+                                   .velocity_count = 2,
+                                   .force_count = 2};
     CpsSet *disc = NULL;
     SOUND(cps_set_ball(2, NULL, 1, &disc, &err));
     FILE *out = tmpfile();
@@ -106,7 +116,8 @@ static void laws(void **state) {
     REFUSED(cps_law_read(NULL, NULL, &file, &err));
     REFUSED(cps_law_read("", NULL, NULL, &err));
     RUNS(cps_law_file_destroy(NULL));
-    GIVES(strcmp(cps_law_file_title(NULL), "") == 0 && cps_law_file_space(NULL) == 0 && cps_law_file_set(NULL) == NULL);
+    GIVES(strcmp(cps_law_file_title(NULL), "") == 0 && cps_law_file_space(NULL) == 0 &&
+          cps_law_file_set(NULL) == NULL);
     GIVES(cps_law_file_loaded(NULL) == NULL && cps_law_file_resistance(NULL) == NULL);
     GIVES(!cps_law_file_composition(NULL, &composition, &line));
     REFUSED(cps_law_write_schema(NULL, &err));
@@ -122,7 +133,8 @@ static void laws(void **state) {
 
 static void drives(void **state) {
     (void)state;
-    static const CpsDriveKind KIND[] = {CPS_DRIVE_SYSTEM, CPS_DRIVE_BODY, CPS_DRIVE_PLANIMETER, CPS_DRIVE_ROPE, CPS_DRIVE_SWEEP, (CpsDriveKind)77};
+    static const CpsDriveKind KIND[] = {CPS_DRIVE_SYSTEM, CPS_DRIVE_BODY,  CPS_DRIVE_PLANIMETER,
+                                        CPS_DRIVE_ROPE,   CPS_DRIVE_SWEEP, (CpsDriveKind)77};
     CpsDriveFile *file = NULL, empty = {.title = ""};
     const CpsPlanimeterReading reading = {0};
     double walked[4];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function of the library that takes a handle, an index or an array gets none, or one that there is not: it refuses with a
- * status and a message, or gives nothing. A crash is told with its line and the others go on. (Those of evolve.h: results_test.c.) */
+/* Every public function of the library that takes a handle, an index or an array gets none, or one
+ * that there is not: it refuses with a status and a message, or gives nothing. A crash is told with
+ * its line and the others go on. (Those of evolve.h: results_test.c.) */
 #include <limits.h>
 #include <math.h>
 
@@ -31,17 +32,25 @@ static void make(void **state) {
 
 static void names_of_nothing(void **state) {
     (void)state;
-    GIVES(cps_status_name((CpsStatus)NEVER) != NULL && cps_status_sentence((CpsStatus)NEVER) != NULL);
-    GIVES(cps_set_outcome_name((CpsSetOutcome)NEVER) != NULL && cps_set_outcome_sentence((CpsSetOutcome)NEVER) != NULL);
-    GIVES(cps_composition_name((CpsComposition)NEVER) != NULL && cps_composition_sentence((CpsComposition)NEVER) != NULL);
-    GIVES(cps_motion_outcome_name((CpsMotionOutcome)NEVER) != NULL && cps_motion_outcome_sentence((CpsMotionOutcome)NEVER) != NULL);
-    GIVES(cps_outcome_key((CpsOutcome)NEVER) != NULL && cps_outcome_sentence((CpsOutcome)NEVER) != NULL);
+    GIVES(cps_status_name((CpsStatus)NEVER) != NULL &&
+          cps_status_sentence((CpsStatus)NEVER) != NULL);
+    GIVES(cps_set_outcome_name((CpsSetOutcome)NEVER) != NULL &&
+          cps_set_outcome_sentence((CpsSetOutcome)NEVER) != NULL);
+    GIVES(cps_composition_name((CpsComposition)NEVER) != NULL &&
+          cps_composition_sentence((CpsComposition)NEVER) != NULL);
+    GIVES(cps_motion_outcome_name((CpsMotionOutcome)NEVER) != NULL &&
+          cps_motion_outcome_sentence((CpsMotionOutcome)NEVER) != NULL);
+    GIVES(cps_outcome_key((CpsOutcome)NEVER) != NULL &&
+          cps_outcome_sentence((CpsOutcome)NEVER) != NULL);
     GIVES(cps_range_key((CpsRange)NEVER) != NULL);
     GIVES(!cps_outcome_is_certified((CpsOutcome)NEVER) && !cps_outcome_is_final((CpsOutcome)NEVER));
-    GIVES(cps_judgement_key((CpsJudgement)NEVER) != NULL && cps_judgement_sentence((CpsJudgement)NEVER) != NULL);
-    GIVES(cps_completion_key((CpsCompletion)NEVER) != NULL && cps_completion_sentence((CpsCompletion)NEVER) != NULL);
+    GIVES(cps_judgement_key((CpsJudgement)NEVER) != NULL &&
+          cps_judgement_sentence((CpsJudgement)NEVER) != NULL);
+    GIVES(cps_completion_key((CpsCompletion)NEVER) != NULL &&
+          cps_completion_sentence((CpsCompletion)NEVER) != NULL);
     GIVES(cps_study_stage_key((CpsStudyStage)NEVER) != NULL);
-    GIVES(cps_first_order_key((CpsFirstOrderVerdict)NEVER) != NULL && cps_first_order_sentence((CpsFirstOrderVerdict)NEVER) != NULL);
+    GIVES(cps_first_order_key((CpsFirstOrderVerdict)NEVER) != NULL &&
+          cps_first_order_sentence((CpsFirstOrderVerdict)NEVER) != NULL);
 }
 
 static void sets(void **state) {
@@ -264,7 +273,8 @@ static void resistances(void **state) {
     REFUSED(cps_resistance_sum(2, half, &resistance, &err));
     REFUSED(cps_resistance_sum(1, half, NULL, &err));
     RUNS(cps_resistance_destroy(NULL));
-    GIVES(cps_resistance_space(NULL) == 0 && cps_resistance_terms(NULL) == 0 && !cps_resistance_is_dry(NULL));
+    GIVES(cps_resistance_space(NULL) == 0 && cps_resistance_terms(NULL) == 0 &&
+          !cps_resistance_is_dry(NULL));
     REFUSED(cps_resistance_value(NULL, ONE, &value, NULL, &err));
     REFUSED(cps_resistance_value(viscous, NULL, &value, NULL, &err));
     REFUSED(cps_resistance_value(viscous, ONE, NULL, NULL, &err));
@@ -297,7 +307,8 @@ static void systems(void **state) {
     SOUND(cps_system_set_drive(system, 1, 1, &first, &err));
     REFUSED(cps_system_create(2, NULL, &err));
     RUNS(cps_system_destroy(NULL));
-    GIVES(cps_system_parameters(NULL) == 0 && cps_system_laws(NULL) == 0 && cps_system_drive_space(NULL) == 0);
+    GIVES(cps_system_parameters(NULL) == 0 && cps_system_laws(NULL) == 0 &&
+          cps_system_drive_space(NULL) == 0);
     REFUSED(cps_system_add_friction(NULL, NULL, law, 2, map, &err));
     REFUSED(cps_system_add_friction(system, NULL, NULL, 2, map, &err));
     REFUSED(cps_system_add_friction(system, NULL, law, 2, NULL, &err));
@@ -313,7 +324,8 @@ static void systems(void **state) {
     REFUSED(cps_system_set_load(NULL, ONE, &err));
     REFUSED(cps_system_set_load(system, NULL, &err));
     for (i = 0; i < ABSENCES; ++i) {
-        k = ABSENT[i], n = k == 99 ? -99 : k;
+        k = ABSENT[i];
+        n = k == 99 ? -99 : k;
         const CpsEntry row = {k, 0, 1}, column = {0, k, 1};
         REFUSED(cps_system_create(k == 99 ? 0 : k, &other, &err));
         GIVES(cps_system_law_name(system, k) == NULL && cps_system_law_space(system, k) == 0);
@@ -358,12 +370,16 @@ static void motions(void **state) {
     SOUND(cps_system_solve(system, ONE, NULL, &motion, &err));
     for (i = 0; i < ABSENCES; ++i) {
         k = ABSENT[i];
-        GIVES(cps_motion_law_velocity(motion, k) == NULL && cps_motion_law_force(motion, k) == NULL && cps_motion_law_share(motion, k) == NULL);
-        GIVES(cps_motion_law_velocity(NULL, k) == NULL && cps_motion_law_force(NULL, k) == NULL && cps_motion_law_share(NULL, k) == NULL);
+        GIVES(cps_motion_law_velocity(motion, k) == NULL &&
+              cps_motion_law_force(motion, k) == NULL && cps_motion_law_share(motion, k) == NULL);
+        GIVES(cps_motion_law_velocity(NULL, k) == NULL && cps_motion_law_force(NULL, k) == NULL &&
+              cps_motion_law_share(NULL, k) == NULL);
     }
     RUNS(cps_motion_destroy(NULL));
-    GIVES(cps_motion_report(NULL) == NULL && cps_motion_velocity(NULL) == NULL && cps_motion_direction(NULL) == NULL);
-    GIVES(cps_motion_resistance(NULL) == NULL && cps_motion_constraint_forces(NULL) == NULL && cps_motion_constraints(NULL) == 0);
+    GIVES(cps_motion_report(NULL) == NULL && cps_motion_velocity(NULL) == NULL &&
+          cps_motion_direction(NULL) == NULL);
+    GIVES(cps_motion_resistance(NULL) == NULL && cps_motion_constraint_forces(NULL) == NULL &&
+          cps_motion_constraints(NULL) == 0);
     REFUSED(cps_motion_continuous(NULL, &known, &holds, &err));
     REFUSED(cps_motion_continuous(motion, NULL, &holds, &err));
     REFUSED(cps_motion_continuous(motion, &known, NULL, &err));
@@ -381,7 +397,8 @@ static void motions(void **state) {
 
 static void bodies(void **state) {
     (void)state;
-    const CpsPatch patch[2] = {{.kind = CPS_PATCH_DISC, .friction = 0.5, .load = 1, .size = 1}, {.kind = CPS_PATCH_WHEEL, .friction = 0.5, .load = 1, .size = 1}};
+    const CpsPatch patch[2] = {{.kind = CPS_PATCH_DISC, .friction = 0.5, .load = 1, .size = 1},
+                               {.kind = CPS_PATCH_WHEEL, .friction = 0.5, .load = 1, .size = 1}};
     CpsPatch bad = patch[0];
     CpsPlanar *body = NULL, *other = NULL;
     CpsSystem *system = NULL;
@@ -415,7 +432,8 @@ static void bodies(void **state) {
     REFUSED(cps_planar_system(body, CPS_PLANAR_INNER, 4, NULL, &err));
     REFUSED(cps_planar_system(body, (CpsPlanarSide)NEVER, 4, &system, &err));
     for (i = 0; i < ABSENCES; ++i) {
-        k = ABSENT[i], n = k == 99 ? 0 : k;
+        k = ABSENT[i];
+        n = k == 99 ? 0 : k;
         REFUSED(cps_planar_law(body, CPS_PLANAR_INNER, n, &made, &err));
         REFUSED(cps_planar_system(body, CPS_PLANAR_INNER, n, &system, &err));
         REFUSED(cps_planar_wheel(body, k, ONE, &wheel, &err));
@@ -450,7 +468,8 @@ static void ropes_and_sweeps(void **state) {
     CpsRope rope = {.nodes = 2};
     CpsSweep sweep = {.stiffness = 1};
     CpsSweepStep step;
-    const CpsPlanimeter meter = {.pole_arm = 1, .tracer_arm = 1, .wheel = 0.5, .friction = 0.1, .load = 1};
+    const CpsPlanimeter meter = {
+        .pole_arm = 1, .tracer_arm = 1, .wheel = 0.5, .friction = 0.1, .load = 1};
     const double triangle[6] = {1, 0, 1.1, 0, 1, 0.1};
     CpsPlanimeterReading reading;
     REFUSED(cps_rope_system(NULL, &system, &err));
@@ -480,7 +499,8 @@ static void studies(void **state) {
     CpsClassicReport report;
     CpsJudgementReport judged;
     CpsSlackPart part[2];
-    const CpsLineView nothing = {0}; /* as cps_evolution_line_view gives of a line that there is not */
+    const CpsLineView nothing = {
+        0}; /* as cps_evolution_line_view gives of a line that there is not */
     const CpsLineView *const view[] = {NULL, &nothing};
     for (i = 0; i < 2; ++i) {
         REFUSED(cps_classic_create(view[i], &classic, &err));
@@ -513,16 +533,20 @@ static void studies(void **state) {
 
 static void clear(void **state) {
     (void)state;
-    cps_set_release(disc), cps_law_destroy(law), cps_resistance_destroy(viscous);
+    cps_set_release(disc);
+    cps_law_destroy(law);
+    cps_resistance_destroy(viscous);
     all_were_refused();
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(make),    cmocka_unit_test(names_of_nothing), cmocka_unit_test(sets),
-        cmocka_unit_test(questions_to_sets), cmocka_unit_test(laws),   cmocka_unit_test(resistances),
-        cmocka_unit_test(systems), cmocka_unit_test(motions),          cmocka_unit_test(bodies),
-        cmocka_unit_test(ropes_and_sweeps), cmocka_unit_test(studies), cmocka_unit_test(clear),
+        cmocka_unit_test(make),    cmocka_unit_test(names_of_nothing),
+        cmocka_unit_test(sets),    cmocka_unit_test(questions_to_sets),
+        cmocka_unit_test(laws),    cmocka_unit_test(resistances),
+        cmocka_unit_test(systems), cmocka_unit_test(motions),
+        cmocka_unit_test(bodies),  cmocka_unit_test(ropes_and_sweeps),
+        cmocka_unit_test(studies), cmocka_unit_test(clear),
     };
     return cmocka_run_group_tests_name("misuse", tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies on a plane: elliptic integrals, cells, the wheel, searches on random bodies, what is refused. */
+/* Bodies on a plane: elliptic integrals, cells, the wheel, searches on random bodies, what is
+ * refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,8 +21,9 @@ static CpsPlanar *body_of(int count, const CpsPatch *patch) {
 
 /* ---- elliptic integrals ---- */
 
-/* Over a quarter turn by the trapezium rule, which converges geometrically for periodic functions: the nearest poles
- * lie at asinh(kc/k) off the axis, and N intervals leave exp(-4 N asinh(kc/k)): exp(-45) for kc = 0.045. */
+/* Over a quarter turn by the trapezium rule, which converges geometrically for periodic functions:
+ * the nearest poles lie at asinh(kc/k) off the axis, and N intervals leave exp(-4 N asinh(kc/k)):
+ * exp(-45) for kc = 0.045. */
 static CpsiElliptic by_quadrature(double k) {
     enum { N = 256 };
     CpsiElliptic sum = {0};
@@ -41,15 +43,16 @@ static void elliptic_integrals(void **state) {
     static const double K[] = {0, 1e-9, 0.01, 0.3, 0.7071067811865476, 0.95, 0.999};
     const double tolerance = 3e-14; /* 256 additions, and logarithms that cancel for k near 1 */
     for (size_t i = 0; i < sizeof K / sizeof K[0]; i++) {
-        const CpsiElliptic got = cpsi_elliptic(K[i], sqrt((1 - K[i]) * (1 + K[i]))), want = by_quadrature(K[i]);
+        const CpsiElliptic got = cpsi_elliptic(K[i], sqrt((1 - K[i]) * (1 + K[i]))),
+                           want = by_quadrature(K[i]);
         CHECK_RELATIVE(got.e, want.e, tolerance);
         CHECK_RELATIVE(got.b, want.b, tolerance);
         CHECK_RELATIVE(got.c, want.c, tolerance);
         CHECK_RELATIVE(got.d, want.d, tolerance);
     }
 
-    /* the ends: k = 0 exactly; k = 1, where C and D grow without bound and E = B = 1 (differences of logarithms, 37
-     * ulp) */
+    /* the ends: k = 0 exactly; k = 1, where C and D grow without bound and E = B = 1 (differences
+     * of logarithms, 37 ulp) */
     CHECK_NEAR(cpsi_elliptic(0, 1).c, PI / 16, 1e-15);
     CHECK_NEAR(cpsi_elliptic(1, 0).e, 1, tolerance);
     CHECK_NEAR(cpsi_elliptic(1, 0).b, 1, tolerance);
@@ -74,7 +77,8 @@ static bool add_moments(void *user, double strength, const double r[2]) {
     return true;
 }
 
-/* Load and first moment are those of the patch, exactly; the second moment, of a convex function, lies between. */
+/* Load and first moment are those of the patch, exactly; the second moment, of a convex function,
+ * lies between. */
 static void cells_keep_load_and_moment(void **state) {
     (void)state;
     static const double CORNER[8] = {0, 0, 2, 0, 2, 1, 0, 1};
@@ -84,12 +88,25 @@ static void cells_keep_load_and_moment(void **state) {
     } CASE[] = {
         {{.kind = CPS_PATCH_ROD, .friction = 0.5, .load = 6, .size = 2, .tilt = {0.25}}, {1, 0}, 4},
         /* tilted by t: moments N t a^2/2 round a ring, N t a^2/4 over a disc; at 90 degrees */
-        {{.kind = CPS_PATCH_RING, .friction = 1, .load = 3, .size = 2, .tilt = {0.3, 0.4}}, {1.8, 2.4}, 12},
-        {{.kind = CPS_PATCH_DISC, .friction = 1, .load = 3, .size = 2, .angle = 0.5 * PI, .tilt = {0.3, 0.4}},
+        {{.kind = CPS_PATCH_RING, .friction = 1, .load = 3, .size = 2, .tilt = {0.3, 0.4}},
+         {1.8, 2.4},
+         12},
+        {{.kind = CPS_PATCH_DISC,
+          .friction = 1,
+          .load = 3,
+          .size = 2,
+          .angle = 0.5 * PI,
+          .tilt = {0.3, 0.4}},
          {-1.2, 0.9},
          6},
-        /* 3 N on 2 x 1 m2, tilt along x: moment 3 x 0.5 x 2^2/12; square 3 (4 + 1)/12, odd in the tilt */
-        {{.kind = CPS_PATCH_POLYGON, .friction = 1, .load = 3, .corner_count = 4, .corner = CORNER, .tilt = {0.5}},
+        /* 3 N on 2 x 1 m2, tilt along x: moment 3 x 0.5 x 2^2/12; square 3 (4 + 1)/12, odd in the
+         * tilt */
+        {{.kind = CPS_PATCH_POLYGON,
+          .friction = 1,
+          .load = 3,
+          .corner_count = 4,
+          .corner = CORNER,
+          .tilt = {0.5}},
          {0.5, 0},
          1.25},
     };
@@ -128,9 +145,12 @@ static void wheel_slip_and_spin(void **state) {
                                      {1, 1, -1.8785473984267176, 658.257569495584},
                                      {0.5, 2, -5.939273699213359, 629.128784747792},
                                      {0, 1, -10.0 / 3, 200}};
-    CpsPlanar *body = body_of(
-        1, &(CpsPatch){
-               .kind = CPS_PATCH_WHEEL, .angle = 0.5 * PI, .friction = 0.5, .load = 1000, .size = 0.3, .brake = 60});
+    CpsPlanar *body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_WHEEL,
+                                             .angle = 0.5 * PI,
+                                             .friction = 0.5,
+                                             .load = 1000,
+                                             .size = 0.3,
+                                             .brake = 60});
     for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++) {
         const double twist[3] = {CASE[i][0], CASE[i][1], 0}; /* rolling direction y, so i is x */
         double wrench[3];
@@ -143,7 +163,8 @@ static void wheel_slip_and_spin(void **state) {
         CHECK_RELATIVE(motion.ground + motion.brake, CASE[i][3], 1e-14);
         CHECK_RELATIVE(-wrench[0] * twist[0] - wrench[1] * twist[1], CASE[i][3], 1e-14);
         CHECK_LESS(fabs(wrench[1]), 200 + 1e-10);
-        if (twist[0] == 0) CHECK_NEAR(wrench[0], 0, 1e-12); /* of the edge's side forces, the middle one */
+        if (twist[0] == 0)
+            CHECK_NEAR(wrench[0], 0, 1e-12); /* of the edge's side forces, the middle one */
     }
     CpsWheelMotion motion;
     assert_int_equal(cps_planar_wheel(body, 1, (double[3]){0}, &motion, NULL), CPS_ERR_ARGUMENT);
@@ -197,8 +218,8 @@ static CpsPlanar *random_body(double scale, int kinds) {
     return body_of(count, patch);
 }
 
-/* Bounds are near each other, the motion agrees with the drive, forces balance, and no twist that agrees with the drive
- * dissipates less than the lower bound. */
+/* Bounds are near each other, the motion agrees with the drive, forces balance, and no twist that
+ * agrees with the drive dissipates less than the lower bound. */
 static void random_drives(void **state) {
     (void)state;
     for (int i = 0; i < 5000; i++) {
@@ -214,7 +235,8 @@ static void random_drives(void **state) {
         CpsError err = {.message = ""};
         if (cps_planar_drive(body, rows, map, velocity, &motion, &err) != CPS_OK)
             fail_msg("case %d: %s", i, err.message);
-        if (motion.outcome != CPS_SET_ANSWERED) fail_msg("case %d: outcome %d", i, (int)motion.outcome);
+        if (motion.outcome != CPS_SET_ANSWERED)
+            fail_msg("case %d: outcome %d", i, (int)motion.outcome);
         assert_true(motion.lower <= motion.upper);
         CHECK_LESS(motion.upper - motion.lower, 1e-10 * fmax(motion.upper, 1e-2 * motion.scale));
 
@@ -226,28 +248,34 @@ static void random_drives(void **state) {
                 size += fabs(map[3 * r + k] * motion.twist[k]);
                 balance[k] += map[3 * r + k] * motion.drive[r];
             }
-            CHECK_LESS(fabs(got), 1e-12 * size); /* the rows' condition, at worst 1e3 here, times some ulp */
+            CHECK_LESS(fabs(got),
+                       1e-12 * size); /* the rows' condition, at worst 1e3 here, times some ulp */
             work += motion.drive[r] * velocity[r];
         }
         CHECK_NEAR(work, motion.lower, 1e-12 * motion.scale + 1e-9 * motion.upper);
         const double force = hypot(hypot(motion.drive[0], motion.drive[1]), motion.drive[2]) * 3;
-        CHECK_LESS(hypot(hypot(balance[0], balance[1]), balance[2] / scale), 1e-9 * force + 1e-12 * motion.scale);
+        CHECK_LESS(hypot(hypot(balance[0], balance[1]), balance[2] / scale),
+                   1e-9 * force + 1e-12 * motion.scale);
 
         /* across all rows; where there is one, the second is a random direction in its place */
         for (int other = 0; other < 4 && rows < 3; other++) {
-            const double *a = map, *b = map + 3, t = motion.scale > 0 ? random_sign() * pow(0.01, other) : 0;
-            const double free[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+            const double *a = map, *b = map + 3,
+                         t = motion.scale > 0 ? random_sign() * pow(0.01, other) : 0;
+            const double free[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                    a[0] * b[1] - a[1] * b[0]};
             double twist[3];
             CpsSetAnswer answer;
             for (int k = 0; k < 3; k++) twist[k] = motion.twist[k] + t / scale * free[k];
-            assert_int_equal(cps_planar_dissipation(body, twist, NULL, NULL, &answer, NULL), CPS_OK);
+            assert_int_equal(cps_planar_dissipation(body, twist, NULL, NULL, &answer, NULL),
+                             CPS_OK);
             CHECK_GREATER(answer.value, motion.lower - 1e-12 * motion.scale);
         }
         cps_planar_destroy(body);
     }
 }
 
-/* Points and wheels: the conic solver of drive.h, which works on another formulation, finds the same gamma. */
+/* Points and wheels: the conic solver of drive.h, which works on another formulation, finds the
+ * same gamma. */
 static void random_drives_against_systems(void **state) {
     (void)state;
     for (int i = 0; i < 200; i++) {
@@ -257,7 +285,10 @@ static void random_drives_against_systems(void **state) {
         const int rows = 1 + (int)(random_share() * 2);
         double map[6], velocity[2];
         CpsEntry entry[6];
-        for (int k = 0; k < 6; k++) map[k] = random_sign(), entry[k] = (CpsEntry){k / 3, k % 3, map[k]};
+        for (int k = 0; k < 6; k++) {
+            map[k] = random_sign();
+            entry[k] = (CpsEntry){k / 3, k % 3, map[k]};
+        }
         for (int k = 0; k < 2; k++) velocity[k] = random_sign();
         CpsPlanarMotion found;
         assert_int_equal(cps_planar_drive(body, rows, map, velocity, &found, NULL), CPS_OK);
@@ -268,7 +299,8 @@ static void random_drives_against_systems(void **state) {
         assert_int_equal(cps_system_solve(system, velocity, NULL, &motion, NULL), CPS_OK);
         const CpsMotionReport *report = cps_motion_report(motion);
         assert_int_equal(report->outcome, CPS_MOTION_SOLVED);
-        assert_true(found.lower <= report->upper && report->lower <= found.upper); /* both enclose gamma */
+        assert_true(found.lower <= report->upper &&
+                    report->lower <= found.upper); /* both enclose gamma */
         cps_motion_destroy(motion);
         cps_system_destroy(system);
         cps_planar_destroy(body);
@@ -281,7 +313,8 @@ static void random_drives_against_systems(void **state) {
 static void bad_patches(void **state) {
     (void)state;
     static const double RIGHT_TURN[8] = {0, 0, 1, 0, 0.2, 0.2, 0, 1}, LINE[6] = {0, 0, 1, 0, 2, 0};
-    static const double STAR[10] = {1, 0, -0.809, 0.588, 0.309, -0.951, 0.309, 0.951, -0.809, -0.588};
+    static const double STAR[10] = {1,      0,     -0.809, 0.588,  0.309,
+                                    -0.951, 0.309, 0.951,  -0.809, -0.588};
     static const double UNIT[6] = {0, 0, 1, 0, 0, 1};
     CpsLaw *line = NULL;
     CpsSet *interval = NULL;
@@ -297,15 +330,19 @@ static void bad_patches(void **state) {
         {{.kind = CPS_PATCH_POINT, .friction = 0.1, .load = NAN}, "load"},
         {{.kind = CPS_PATCH_DISC, .friction = 0.1, .load = 1}, "size"},
         {{.kind = CPS_PATCH_WHEEL, .friction = 0.1, .load = 1, .size = 1, .brake = -1}, "brake"},
-        {{.kind = CPS_PATCH_ROD, .friction = 1, .load = 1, .size = 2, .tilt = {0.6}}, "negative at an end"},
-        {{.kind = CPS_PATCH_DISC, .friction = 1, .load = 1, .size = 2, .tilt = {0.4, 0.4}}, "negative"},
+        {{.kind = CPS_PATCH_ROD, .friction = 1, .load = 1, .size = 2, .tilt = {0.6}},
+         "negative at an end"},
+        {{.kind = CPS_PATCH_DISC, .friction = 1, .load = 1, .size = 2, .tilt = {0.4, 0.4}},
+         "negative"},
         {{.kind = CPS_PATCH_ROD, .friction = 1, .load = 1, .size = 2, .tilt = {0, 0.1}}, "across"},
         {{.kind = CPS_PATCH_WHEEL, .friction = 1, .load = 1, .size = 2, .tilt = {0, 0.1}}, "wheel"},
         {{.kind = CPS_PATCH_POLYGON, .corner_count = 2, .corner = LINE}, "2 corners"},
-        {{.kind = CPS_PATCH_POLYGON, .corner_count = 4, .corner = RIGHT_TURN}, "turns right at corner 2"},
+        {{.kind = CPS_PATCH_POLYGON, .corner_count = 4, .corner = RIGHT_TURN},
+         "turns right at corner 2"},
         {{.kind = CPS_PATCH_POLYGON, .corner_count = 3, .corner = LINE}, "round"},
         {{.kind = CPS_PATCH_POLYGON, .corner_count = 5, .corner = STAR}, "more than once"},
-        {{.kind = CPS_PATCH_POLYGON, .corner_count = 3, .corner = UNIT, .tilt = {4, 0}}, "negative at corner"},
+        {{.kind = CPS_PATCH_POLYGON, .corner_count = 3, .corner = UNIT, .tilt = {4, 0}},
+         "negative at corner"},
         {{.kind = CPS_PATCH_POINT, .law = line}, "1 components"},
         {{.kind = CPS_PATCH_DISC, .size = 1, .law = line}, "only a point"},
         {{.kind = CPS_PATCH_POINT, .load = 1, .law = line}, "one or the other"},
@@ -315,7 +352,8 @@ static void bad_patches(void **state) {
         CpsError err = {.message = ""};
         assert_int_equal(cps_planar_create(1, &BAD[i].patch, &body, &err), CPS_ERR_ARGUMENT);
         assert_null(body);
-        if (!strstr(err.message, BAD[i].says)) fail_msg("\"%s\" does not say \"%s\"", err.message, BAD[i].says);
+        if (!strstr(err.message, BAD[i].says))
+            fail_msg("\"%s\" does not say \"%s\"", err.message, BAD[i].says);
     }
     cps_law_destroy(line);
     cps_set_release(interval);
@@ -323,7 +361,8 @@ static void bad_patches(void **state) {
 
 static void bad_questions(void **state) {
     (void)state;
-    CpsPlanar *body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_DISC, .friction = 1, .load = 1, .size = 1});
+    CpsPlanar *body =
+        body_of(1, &(CpsPatch){.kind = CPS_PATCH_DISC, .friction = 1, .load = 1, .size = 1});
     const double twice[6] = {1, 0, 0, 2, 0, 0}, twist[3] = {0, NAN, 0}, one[3] = {1, 1, 1};
     CpsPlanarMotion motion;
     CpsPlanarBounds bounds;
@@ -331,7 +370,8 @@ static void bad_questions(void **state) {
     CpsTowStep step;
     CpsLaw *law = NULL;
     CpsError err;
-    assert_int_equal(cps_planar_dissipation(body, twist, NULL, NULL, &answer, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_planar_dissipation(body, twist, NULL, NULL, &answer, &err),
+                     CPS_ERR_ARGUMENT);
     assert_int_equal(cps_planar_bounds(body, one, -1, &bounds, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_planar_drive(body, 2, twice, one, &motion, &err), CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "row 2"));
@@ -350,13 +390,15 @@ static void bad_questions(void **state) {
     CHECK_BETWEEN(answer.value, bounds.lower, bounds.upper);
 
     /* numbers that overflow are no answer */
-    assert_int_equal(cps_planar_dissipation(body, (double[3]){1.7e308, 1.7e308, 0}, NULL, NULL, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_planar_dissipation(body, (double[3]){1.7e308, 1.7e308, 0}, NULL, NULL,
+                                            &answer, NULL),
+                     CPS_OK);
     assert_int_not_equal(answer.outcome, CPS_SET_ANSWERED);
     cps_planar_destroy(body);
 }
 
-/* A one-sided law whose drag fades the faster the point moves along it: C touches 0, phi = |v| - v_x, and driven across
- * no speed along x is the best. */
+/* A one-sided law whose drag fades the faster the point moves along it: C touches 0, phi = |v| -
+ * v_x, and driven across no speed along x is the best. */
 static void minimum_not_attained(void **state) {
     (void)state;
     CpsSet *ball = NULL;
@@ -365,7 +407,8 @@ static void minimum_not_attained(void **state) {
     assert_int_equal(cps_set_ball(2, (double[2]){1, 0}, 1, &ball, NULL), CPS_OK);
     assert_int_equal(cps_law_friction(ball, &law, NULL), CPS_OK);
     CpsPlanar *body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_POINT, .law = law});
-    assert_int_equal(cps_planar_drive(body, 2, (double[6]){0, 1, 0, 0, 0, 1}, (double[2]){1, 0}, &motion, NULL),
+    assert_int_equal(cps_planar_drive(body, 2, (double[6]){0, 1, 0, 0, 0, 1}, (double[2]){1, 0},
+                                      &motion, NULL),
                      CPS_OK);
     assert_int_equal(motion.outcome, CPS_SET_NOT_ATTAINED);
     cps_planar_destroy(body);
@@ -378,20 +421,24 @@ static void free_turning(void **state) {
     (void)state;
     CpsPlanar *body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_POINT, .friction = 1, .load = 2});
     double low[3], high[3];
-    assert_int_equal(cps_planar_motions(body, 2, (double[6]){1, 0, 0, 0, 1, 0}, (double[2]){3, 4}, 0, low, high, NULL),
+    assert_int_equal(cps_planar_motions(body, 2, (double[6]){1, 0, 0, 0, 1, 0}, (double[2]){3, 4},
+                                        0, low, high, NULL),
                      CPS_OK);
     CHECK_NEAR(low[0], 3, 1e-14);
     CHECK_NEAR(high[1], 4, 1e-14);
     assert_true(low[2] == -INFINITY && high[2] == INFINITY);
     cps_planar_destroy(body);
 
-    /* only one component of that point driven: the other rests, and directions in which nothing changes are oblique to
-     * all axes, where a slope is what rounding leaves of another */
+    /* only one component of that point driven: the other rests, and directions in which nothing
+     * changes are oblique to all axes, where a slope is what rounding leaves of another */
     for (int i = 0; i < 200; i++) {
         const double x = 0.0122635 + 1e-9 * i, y = -0.337436;
         CpsPlanarMotion motion;
-        body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_POINT, .position = {x, y}, .friction = 1, .load = 2});
-        assert_int_equal(cps_planar_drive(body, 1, (double[3]){1, 0, -y}, (double[1]){0.7}, &motion, NULL), CPS_OK);
+        body = body_of(
+            1, &(CpsPatch){.kind = CPS_PATCH_POINT, .position = {x, y}, .friction = 1, .load = 2});
+        assert_int_equal(cps_planar_drive(body, 1, (double[3]){1, 0, -y}, (double[1]){0.7}, &motion,
+                                          NULL),
+                         CPS_OK);
         assert_int_equal(motion.outcome, CPS_SET_ANSWERED);
         CHECK_NEAR(motion.lower, 1.4, 1e-12); /* the promised rounding, of a power of order 1 */
         CHECK_NEAR(motion.upper, 1.4, 1e-12);
@@ -402,7 +449,8 @@ static void free_turning(void **state) {
 /* A slack rope pulls nothing; a step that would spin the body is not made; both leave the pose. */
 static void tow_leaves_the_body(void **state) {
     (void)state;
-    CpsPlanar *body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_DISC, .friction = 1, .load = 1, .size = 1});
+    CpsPlanar *body =
+        body_of(1, &(CpsPatch){.kind = CPS_PATCH_DISC, .friction = 1, .load = 1, .size = 1});
     CpsTow tow = {.pose = {1, 2, 0.5}, .hitch = {0, 1}, .rope = 3, .end = {1, 2}};
     CpsTowStep step;
     assert_int_equal(cps_planar_tow(body, &tow, (double[2]){2, 4}, &step, NULL), CPS_OK);
@@ -438,18 +486,24 @@ static void move_along_a_screw(void **state) {
 static void bad_planimeters(void **state) {
     (void)state;
     static const double NEAR[6] = {0, 1, 1, 0, 1, 1}, FAR[6] = {1, 0, 5, 0, 1, 1};
-    CpsPlanimeter planimeter = {.pole_arm = 1, .tracer_arm = 1.3, .wheel = 0.4, .friction = 0.3, .load = 1};
+    CpsPlanimeter planimeter = {
+        .pole_arm = 1, .tracer_arm = 1.3, .wheel = 0.4, .friction = 0.3, .load = 1};
     CpsPlanimeterReading reading;
     CpsError err;
     assert_int_equal(cps_planimeter_trace(&planimeter, 3, NEAR, 10, &reading, &err), CPS_OK);
-    assert_int_equal(cps_planimeter_trace(&planimeter, 3, FAR, 10, &reading, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_planimeter_trace(&planimeter, 3, FAR, 10, &reading, &err),
+                     CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "cannot reach"));
-    assert_int_equal(cps_planimeter_trace(&planimeter, 2, NEAR, 10, &reading, &err), CPS_ERR_ARGUMENT);
-    assert_int_equal(cps_planimeter_trace(&planimeter, 3, NULL, 10, &reading, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_planimeter_trace(&planimeter, 2, NEAR, 10, &reading, &err),
+                     CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_planimeter_trace(&planimeter, 3, NULL, 10, &reading, &err),
+                     CPS_ERR_ARGUMENT);
     planimeter.load = 0;
-    assert_int_equal(cps_planimeter_trace(&planimeter, 3, NEAR, 10, &reading, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_planimeter_trace(&planimeter, 3, NEAR, 10, &reading, &err),
+                     CPS_ERR_ARGUMENT);
     planimeter = (CpsPlanimeter){.pole_arm = 1, .tracer_arm = NAN, .friction = 1, .load = 1};
-    assert_int_equal(cps_planimeter_trace(&planimeter, 3, NEAR, 10, &reading, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_planimeter_trace(&planimeter, 3, NEAR, 10, &reading, &err),
+                     CPS_ERR_ARGUMENT);
 }
 
 static void bad_sweeps(void **state) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Results of small runs: text that stays text, files that hold what the evolution said, calls out of order.
- * The files are left in the working directory, where results_files.py reads them with other people's readers. */
+/* Results of small runs: text that stays text, files that hold what the evolution said, calls out
+ * of order. The files are left in the working directory, where results_files.py reads them with
+ * other people's readers. */
 #include <limits.h>
 #include <locale.h>
 #include <math.h>
@@ -47,7 +48,8 @@ static void make_scene(Fixture *f) {
     }
     f->line[0].name = "rope";
     f->line[0].length = 6;
-    f->line[0].start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = ROPE, .axis = {0, 0, 1}};
+    f->line[0].start =
+        (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = ROPE, .axis = {0, 0, 1}};
     f->line[1].name = "mooring-2";
     f->line[1].length = 12;
     f->line[1].start.kind = CPS_START_LAID;
@@ -58,10 +60,18 @@ static void make_scene(Fixture *f) {
     f->change[1] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {9.5, 4, 5}}};
     f->change[2] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {8.5, 4, 5}}};
     f->change[3] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {9, 4, 5}}};
-    f->stage[0] = (CpsStage){.name = HOSTILE, .steps = 1, .change_count = 1, .change = &f->change[0]};
-    f->stage[1] = (CpsStage){.name = "surge out", .steps = CYCLE, .change_count = 1, .change = &f->change[1]};
-    f->stage[2] = (CpsStage){.name = "surge in", .steps = 2 * CYCLE, .change_count = 1, .change = &f->change[2]};
-    f->stage[3] = (CpsStage){.name = "surge home", .steps = CYCLE, .change_count = 1, .change = &f->change[3]};
+    f->stage[0] =
+        (CpsStage){.name = HOSTILE, .steps = 1, .change_count = 1, .change = &f->change[0]};
+    f->stage[1] =
+        (CpsStage){.name = "surge out", .steps = CYCLE, .change_count = 1, .change = &f->change[1]};
+    f->stage[2] = (CpsStage){.name = "surge in",
+                             .steps = 2 * CYCLE,
+                             .change_count = 1,
+                             .change = &f->change[2]};
+    f->stage[3] = (CpsStage){.name = "surge home",
+                             .steps = CYCLE,
+                             .change_count = 1,
+                             .change = &f->change[3]};
     f->scene = cps_scene_default();
     f->scene.title = HOSTILE;
     f->scene.obstacle_count = 1;
@@ -88,7 +98,8 @@ static CpsEvolution *run_into(const char *directory, const CpsScene *scene) {
     CpsError err;
     CpsResults *results = NULL;
     CpsEvolution *evolution = evolution_of(scene);
-    must(cps_results_prepare(directory, true, &err), &err); /* of an earlier run of this test, of whatever version */
+    must(cps_results_prepare(directory, true, &err),
+         &err); /* of an earlier run of this test, of whatever version */
     must(cps_results_open(directory, scene, evolution, &results, &err), &err);
     while (cps_evolution_remaining(evolution) > 0) {
         must(cps_evolution_step(evolution, &err), &err);
@@ -100,13 +111,13 @@ static CpsEvolution *run_into(const char *directory, const CpsScene *scene) {
 }
 
 /* what a writer prints, as a string */
-#define PRINTED(call)                                                                                                  \
-    {                                                                                                                  \
-        printed[0] = 0; /* stays when nothing is written */                                                            \
-        FILE *out = fmemopen(printed, sizeof printed, "w");                                                            \
-        assert_non_null(out);                                                                                          \
-        call;                                                                                                          \
-        fclose(out);                                                                                                   \
+#define PRINTED(call)                                       \
+    {                                                       \
+        printed[0] = 0; /* stays when nothing is written */ \
+        FILE *out = fmemopen(printed, sizeof printed, "w"); \
+        assert_non_null(out);                               \
+        call;                                               \
+        fclose(out);                                        \
     }
 
 static void text_is_escaped(void **state) {
@@ -115,7 +126,8 @@ static void text_is_escaped(void **state) {
     PRINTED(cpsi_put_json_string(out, "a\"\\\n\x7F\xC2\x85\xFF\xE2\x98\xA0"));
     assert_string_equal(printed, "\"a\\\"\\\\\\u000a\\u007f\\u0085\\ufffd\xE2\x98\xA0\"");
     PRINTED(cpsi_put_xml(out, "<&>\"'\x01\xED\xA0\x80z"));
-    assert_string_equal(printed, "&lt;&amp;&gt;&quot;&#39;\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBDz");
+    assert_string_equal(
+        printed, "&lt;&amp;&gt;&quot;&#39;\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBDz");
     PRINTED(cpsi_put_csv(out, "=a,\"b\"\n"));
     assert_string_equal(printed, "\"'=a,\"\"b\"\"\xEF\xBF\xBD\"");
     PRINTED(cpsi_put_csv(out, "plain"));
@@ -126,7 +138,8 @@ static void text_is_escaped(void **state) {
     assert_string_equal(printed, "");
 }
 
-/* overlong forms, surrogates, beyond U+10FFFF, cut characters; and the borders of what is allowed */
+/* overlong forms, surrogates, beyond U+10FFFF, cut characters; and the borders of what is
+ * allowed */
 static void utf8_is_judged(void **state) {
     (void)state;
     static const char *const BAD[] = {"\xC0\x80",
@@ -140,7 +153,8 @@ static void utf8_is_judged(void **state) {
                                       "\x80",
                                       "\xFF",
                                       ""};
-    for (size_t i = 0; i < sizeof BAD / sizeof *BAD; i++) assert_int_equal(cpsi_utf8_length(BAD[i]), 0);
+    for (size_t i = 0; i < sizeof BAD / sizeof *BAD; i++)
+        assert_int_equal(cpsi_utf8_length(BAD[i]), 0);
     assert_int_equal(cpsi_utf8_length("\x7F"), 1);
     assert_int_equal(cpsi_utf8_length("\xC2\x80"), 2);
     assert_int_equal(cpsi_utf8_length("\xEF\xBF\xBF"), 3);
@@ -219,7 +233,8 @@ static void netcdf_holds_the_last_step(void **state) {
         double slide[3 * (ELEMENTS + 1)] = {
             0}; /* on the bed z = 0: the horizontal displacement, its vertical part +0 */
         assert_null(v.slide);
-        for (size_t k = 0; k < 3 * n; k++) slide[k] = k % 3 < 2 ? v.position[k] - v.reference[k] : 0;
+        for (size_t k = 0; k < 3 * n; k++)
+            slide[k] = k % 3 < 2 ? v.position[k] - v.reference[k] : 0;
         same_in_file(file, v.name, "slide", steps - 1, 3 * n, slide);
         same_in_file(file, v.name, "gap", steps - 1, 1, &r.certificate.gap);
         same_in_file(file, v.name, "tension_bound", steps - 1, 1, &r.certificate.tension_bound);
@@ -239,7 +254,8 @@ static void whole_in_file(int file, const char *name, size_t count, const double
     assert_memory_equal(found, expected, count * sizeof *found);
 }
 
-/* obstacles of other kinds, what they turned in each step, and the way slid where the view has one */
+/* obstacles of other kinds, what they turned in each step, and the way slid where the view has
+ * one */
 static void obstacles_are_written(void **state) {
     (void)state;
     Fixture f;
@@ -269,7 +285,8 @@ static void obstacles_are_written(void **state) {
     whole_in_file(file, "obstacle_shape", 2, (double[]){1, 0});
     /* the laid start, the first stage, four steps of the second and twelve more */
     for (size_t step = 0; step < 18; step++)
-        same_in_file(file, "obstacle", "turn", step, 2, (double[]){0, step >= 2 && step < 6 ? -0.75 : 0});
+        same_in_file(file, "obstacle", "turn", step, 2,
+                     (double[]){0, step >= 2 && step < 6 ? -0.75 : 0});
     for (int i = 0; i < LINES; i++) {
         const CpsLineView v = cps_evolution_line_view(evolution, i);
         assert_non_null(v.slide);
@@ -296,7 +313,8 @@ static void block_of(const char *path, const char *name, void *out, size_t size)
     memcpy(out, data, size);
 }
 
-/* A rope that leans on a wall beside its bed: both contacts of its nodes in result.nc, and together in the .vtp. */
+/* A rope that leans on a wall beside its bed: both contacts of its nodes in result.nc, and together
+ * in the .vtp. */
 static void both_contacts_are_written(void **state) {
     (void)state;
     enum { N = ELEMENTS + 1 };
@@ -304,9 +322,11 @@ static void both_contacts_are_written(void **state) {
     make_scene(&f);
     CpsObstacle obstacle[2] = {f.bed, f.bed};
     obstacle[1].name = "wall";
-    obstacle[1].normal[1] = -1, obstacle[1].normal[2] = 0;
+    obstacle[1].normal[1] = -1;
+    obstacle[1].normal[2] = 0;
     f.scene.gravity[1] = 5;
-    f.scene.obstacle_count = 2, f.scene.obstacle = obstacle;
+    f.scene.obstacle_count = 2;
+    f.scene.obstacle = obstacle;
     f.scene.line_count = f.scene.stage_count = 1;
     CpsEvolution *evolution = run_into("results-contacts", &f.scene);
     const CpsLineView v = cps_evolution_line_view(evolution, 0);
@@ -320,15 +340,21 @@ static void both_contacts_are_written(void **state) {
             force[3 * (c % N) + a] += v.reaction[c] * v.normal[3 * c + a] + v.friction[3 * c + a];
         both += c >= N && v.reaction[c] > 1 && v.reaction[c - N] > 1;
     }
-    assert_in_range(both, ELEMENTS / 2, N); /* a node weighs 2 N, of which the wall bears about 0.9 N */
+    assert_in_range(both, ELEMENTS / 2,
+                    N); /* a node weighs 2 N, of which the wall bears about 0.9 N */
     assert_int_equal(nc_open("results-contacts/result.nc", NC_NOWRITE, &file), NC_NOERR);
-    same_in_file(file, "rope", "obstacle", 0, N, on), same_in_file(file, "rope", "obstacle_second", 0, N, on + N);
+    same_in_file(file, "rope", "obstacle", 0, N, on);
+    same_in_file(file, "rope", "obstacle_second", 0, N, on + N);
     const struct {
         const char *name;
         size_t count;
         const double *value;
-    } field[] = {{"normal", 3 * N, v.normal},     {"contact_gap", N, v.gap}, {"friction_bound", N, v.friction_bound},
-                 {"friction", 3 * N, v.friction}, {"slide", 3 * N, v.slide}, {"reaction", N, v.reaction}};
+    } field[] = {{"normal", 3 * N, v.normal},
+                 {"contact_gap", N, v.gap},
+                 {"friction_bound", N, v.friction_bound},
+                 {"friction", 3 * N, v.friction},
+                 {"slide", 3 * N, v.slide},
+                 {"reaction", N, v.reaction}};
     for (size_t k = 0; k < sizeof field / sizeof *field; k++) {
         char name[64];
         snprintf(name, sizeof name, "%s_second", field[k].name);
@@ -340,7 +366,8 @@ static void both_contacts_are_written(void **state) {
     block_of("results-contacts/step-00000.vtp", "friction_state", rest, sizeof rest);
     for (int j = 0; j < N; j++) {
         assert_int_equal(rest[j], v.state[j] > v.state[j + N] ? v.state[j] : v.state[j + N]);
-        for (int a = 0; a < 3; a++) assert_true(fabs(in_file[3 * j + a] - force[3 * j + a]) < 1e-12); /* rounding */
+        for (int a = 0; a < 3; a++)
+            assert_true(fabs(in_file[3 * j + a] - force[3 * j + a]) < 1e-12); /* rounding */
     }
     /* with one obstacle nothing is added */
     int id;
@@ -351,7 +378,8 @@ static void both_contacts_are_written(void **state) {
     cps_evolution_destroy(evolution);
 }
 
-/* a shorter run into the same place leaves nothing of the longer one, and nothing that is not ours is touched */
+/* a shorter run into the same place leaves nothing of the longer one, and nothing that is not ours
+ * is touched */
 static void earlier_files_give_way(void **state) {
     (void)state;
     Fixture f;
@@ -383,7 +411,8 @@ static void no_solution_is_written(void **state) {
     cps_evolution_destroy(evolution);
 }
 
-/* handles that are NULL, lines that there are not, an evolution of another scene, a journal out of turn */
+/* handles that are NULL, lines that there are not, an evolution of another scene, a journal out of
+ * turn */
 static void what_is_not_there_is_refused(void **state) {
     (void)state;
     Fixture f;
@@ -391,7 +420,8 @@ static void what_is_not_there_is_refused(void **state) {
     CpsError err;
     CpsEvolution *evolution = evolution_of(&f.scene), *other;
     CpsScene smaller = f.scene;
-    smaller.line_count = 1, smaller.stage_count = 0;
+    smaller.line_count = 1;
+    smaller.stage_count = 0;
     other = evolution_of(&smaller);
     assert_int_equal(cps_evolution_line_count(NULL), 0);
     assert_int_equal(cps_evolution_step_count(NULL), 0);
@@ -423,16 +453,21 @@ static void what_is_not_there_is_refused(void **state) {
 
     CpsJournal *journal = NULL;
     bool found;
-    assert_int_equal(cps_journal_open("results-misuse", other, CPS_JOURNAL_NEW, &journal, &err), CPS_ERR_ARGUMENT); /* has taken a step */
+    assert_int_equal(cps_journal_open("results-misuse", other, CPS_JOURNAL_NEW, &journal, &err),
+                     CPS_ERR_ARGUMENT); /* has taken a step */
     must(cps_journal_open("results-misuse", evolution, CPS_JOURNAL_NEW, &journal, &err), &err);
-    assert_int_equal(cps_journal_append(journal, evolution, &err), CPS_ERR_ARGUMENT); /* no step yet */
+    assert_int_equal(cps_journal_append(journal, evolution, &err),
+                     CPS_ERR_ARGUMENT); /* no step yet */
     assert_int_equal(cps_journal_append(journal, other, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_journal_next(journal, other, &found, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_journal_sync(NULL, &err), CPS_ERR_ARGUMENT);
-    cps_journal_remove(NULL), cps_journal_sync_late(NULL), cps_journal_destroy(NULL);
+    cps_journal_remove(NULL);
+    cps_journal_sync_late(NULL);
+    cps_journal_destroy(NULL);
     cps_journal_destroy(journal);
     cps_results_destroy(results);
-    cps_evolution_destroy(evolution), cps_evolution_destroy(other);
+    cps_evolution_destroy(evolution);
+    cps_evolution_destroy(other);
     struct stat gone;
     assert_int_not_equal(stat("results-misuse", &gone), 0);
 }
@@ -447,13 +482,16 @@ static void misuse_is_refused(void **state) {
     assert_int_equal(cps_results_open(NULL, &f.scene, evolution, &results, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_results_open("x", &f.scene, evolution, NULL, &err), CPS_ERR_ARGUMENT);
     must(cps_results_open("results-misuse", &f.scene, evolution, &results, &err), &err);
-    assert_int_equal(cps_results_append(results, evolution, &err), CPS_ERR_ARGUMENT); /* before the first step */
+    assert_int_equal(cps_results_append(results, evolution, &err),
+                     CPS_ERR_ARGUMENT); /* before the first step */
     must(cps_evolution_step(evolution, &err), &err);
     must(cps_results_append(results, evolution, &err), &err);
-    assert_int_equal(cps_results_append(results, evolution, &err), CPS_ERR_ARGUMENT); /* twice the same step */
+    assert_int_equal(cps_results_append(results, evolution, &err),
+                     CPS_ERR_ARGUMENT); /* twice the same step */
 
     /* two writers in one place; then none of them leaves anything without a finish */
-    assert_int_equal(cps_results_open("results-misuse", &f.scene, evolution, &second, &err), CPS_ERR_IO);
+    assert_int_equal(cps_results_open("results-misuse", &f.scene, evolution, &second, &err),
+                     CPS_ERR_IO);
     assert_null(second);
     cps_results_destroy(results);
     struct stat found;
@@ -479,11 +517,17 @@ static void locale_does_not_matter(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_is_escaped),        cmocka_unit_test(utf8_is_judged),
-        cmocka_unit_test(numbers_read_back),      cmocka_unit_test(netcdf_holds_the_last_step),
-        cmocka_unit_test(obstacles_are_written),  cmocka_unit_test(both_contacts_are_written),
-        cmocka_unit_test(earlier_files_give_way), cmocka_unit_test(no_solution_is_written),
-        cmocka_unit_test(what_is_not_there_is_refused), cmocka_unit_test(misuse_is_refused),      cmocka_unit_test(locale_does_not_matter),
+        cmocka_unit_test(text_is_escaped),
+        cmocka_unit_test(utf8_is_judged),
+        cmocka_unit_test(numbers_read_back),
+        cmocka_unit_test(netcdf_holds_the_last_step),
+        cmocka_unit_test(obstacles_are_written),
+        cmocka_unit_test(both_contacts_are_written),
+        cmocka_unit_test(earlier_files_give_way),
+        cmocka_unit_test(no_solution_is_written),
+        cmocka_unit_test(what_is_not_there_is_refused),
+        cmocka_unit_test(misuse_is_refused),
+        cmocka_unit_test(locale_does_not_matter),
     };
     return cmocka_run_group_tests_name("results", tests, NULL, NULL);
 }

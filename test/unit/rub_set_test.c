@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ellipse and box of friction forces: dissipation is the support function, the gap is phi + F.u and not less than 0,
- * clipped forces are in the set, room keeps them there. */
+/* Ellipse and box of friction forces: dissipation is the support function, the gap is phi + F.u and
+ * not less than 0, clipped forces are in the set, room keeps them there. */
 #include "cable/rub_set.h"
 
 #include "check.h"
@@ -9,17 +9,20 @@ static const double PI = 3.14159265358979323846;
 
 static CpsiRubSet make(double first, double second, bool box) {
     CpsObstacle def = cps_obstacle_default();
-    def.friction = first, def.friction_lateral = second;
+    def.friction = first;
+    def.friction_lateral = second;
     def.friction_shape = box ? CPS_FRICTION_BOX : CPS_FRICTION_ELLIPSE;
     const CpsiObstacle o = cpsi_obstacle(&def);
-    const CpsiLine line = {.obstacle_count = 1, .obstacle = &o}; /* of one obstacle, without zones */
+    const CpsiLine line = {.obstacle_count = 1,
+                           .obstacle = &o}; /* of one obstacle, without zones */
     return cpsi_rub_set(&line, 0);
 }
 
 /* The point of the set's boundary at parameter t, with bound w of the larger coefficient. */
 static void edge(const CpsiRubSet *set, double w, double t, double out[2]) {
     const double c = cos(t), s = sin(t), by = set->box ? fmax(fabs(c), fabs(s)) : 1;
-    out[0] = w * set->ratio[0] * c / by, out[1] = w * set->ratio[1] * s / by;
+    out[0] = w * set->ratio[0] * c / by;
+    out[1] = w * set->ratio[1] * s / by;
 }
 
 static void ratios(void **state) {
@@ -42,7 +45,8 @@ static void ratios(void **state) {
 static const double SHAPE[][3] = {{0.6, 0.3, 0}, {0.3, 0.6, 0}, {0.5, 0.5, 0}, {0.6, 0.3, 1},
                                   {0.2, 0.9, 1}, {0, 0.7, 0},   {0.4, 0, 1}};
 
-/* phi(u) = max of -F.u over the boundary; found at 4000 points of it, so short by (pi/2000)^2/2 = 1.3e-6 of it at most.
+/* phi(u) = max of -F.u over the boundary; found at 4000 points of it, so short by (pi/2000)^2/2 =
+ * 1.3e-6 of it at most.
  */
 static void support(void **state) {
     (void)state;
@@ -62,7 +66,8 @@ static void support(void **state) {
     }
 }
 
-/* gap = phi + F.u to rounding of the sum, >= 0 on the set, and 0 to rounding squared where the law holds. */
+/* gap = phi + F.u to rounding of the sum, >= 0 on the set, and 0 to rounding squared where the law
+ * holds. */
 static void gap(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof SHAPE / sizeof *SHAPE; k++) {
@@ -76,7 +81,8 @@ static void gap(void **state) {
                 for (double a = 0; a < 6.3; a += 0.41) {
                     const double u[2] = {1e-3 * cos(a), 1e-3 * sin(a)};
                     const double found = cpsi_rub_gap(&set, w, f, u),
-                                 plain = cpsi_rub_dissipation(&set, w, u) + f[0] * u[0] + f[1] * u[1];
+                                 plain =
+                                     cpsi_rub_dissipation(&set, w, u) + f[0] * u[0] + f[1] * u[1];
                     CHECK_NEAR(found, plain, 2e-15 * w * 1e-3); /* a few ulps of each term */
                     CHECK_GREATER(found, -1e-18);
                 }
@@ -104,8 +110,8 @@ static void corner(void **state) {
     }
 }
 
-/* What is clipped keeps its direction, and is in the set; what is inside is not touched. Room is a lower bound of what
- * may be added in the force's own direction. */
+/* What is clipped keeps its direction, and is in the set; what is inside is not touched. Room is a
+ * lower bound of what may be added in the force's own direction. */
 static void clip_and_room(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof SHAPE / sizeof *SHAPE; k++) {
@@ -114,7 +120,10 @@ static void clip_and_room(void **state) {
         for (double t = 0.05; t < 6.3; t += 0.23) {
             double on[2], far[2], in[2], kept[2];
             edge(&set, 2.5, t, on);
-            for (int a = 0; a < 2; a++) far[a] = 3 * on[a], kept[a] = in[a] = 0.4 * on[a];
+            for (int a = 0; a < 2; a++) {
+                far[a] = 3 * on[a];
+                kept[a] = in[a] = 0.4 * on[a];
+            }
             cpsi_rub_clip(&set, 2.5, 2.5, far);
             cpsi_rub_clip(&set, 2.5, 2.5, kept);
             for (int a = 0; a < 2; a++) {

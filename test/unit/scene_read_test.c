@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The scene reader: what is read, defaults, graded lists, ends, moves, numbers, limits, the locale. */
+/* The scene reader: what is read, defaults, graded lists, ends, moves, numbers, limits, the
+ * locale. */
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +18,8 @@
 #define ENDS     "    ends: {A: fixed, B: free}\n"
 
 /* read a text as a scene file */
-static CpsStatus read_text(const char *text, const CpsReadLimits *limits, CpsSceneFile **file, CpsError *err) {
+static CpsStatus read_text(const char *text, const CpsReadLimits *limits, CpsSceneFile **file,
+                           CpsError *err) {
     char path[] = "scene_read_test_XXXXXX";
     const int fd = mkstemp(path);
     assert_true(fd >= 0);
@@ -59,7 +61,8 @@ static void reads_defaults(void **state) {
     assert_int_equal(line->end[0].kind, CPS_END_HELD);
     assert_true(isnan(line->end[0].value[0]));
     assert_int_equal(line->end[1].kind, CPS_END_FREE);
-    assert_true(line->end[1].value[0] == 0 && line->end[1].value[1] == 0 && line->end[1].value[2] == 0);
+    assert_true(line->end[1].value[0] == 0 && line->end[1].value[1] == 0 &&
+                line->end[1].value[2] == 0);
     cps_scene_file_destroy(file);
     cps_scene_file_destroy(NULL);
 }
@@ -72,12 +75,16 @@ static void reads_every_key(void **state) {
         "lines:\n"
         "  one: {length: 5, elements: 7, weight: 3, stiffness: 1e3, start: laid,\n"
         "        ends: {A: {fixed: [0, 0, 8]}, B: {force: [4, 5, 6]}}}\n"
-        "  two: {length: 3, elements: 0x10, mass: +1.5, stiffness: 2.E3, ends: {B: {fixed: [0, 1, 12]}, A: free},\n"
+        "  two: {length: 3, elements: 0x10, mass: +1.5, stiffness: 2.E3, ends: {B: {fixed: [0, 1, "
+        "12]}, A: free},\n"
         "        start: {polyline: [[0, 0, 10], [0, 0, 12], [0, 1, 12]]}}\n"
-        "  three: {length: 3.0, elements: 20, mass: 0, stiffness: .Inf, ends: {A: fixed, B: fixed},\n"
+        "  three: {length: 3.0, elements: 20, mass: 0, stiffness: .Inf, ends: {A: fixed, B: "
+        "fixed},\n"
         "          start: {arc: {from: [0, 0, 10], center: [0, 0, 12], axis: [1, 0, 0]}}}\n"
-        "friction: frozen\ncontact: strict\nsolver: {tolerance: 1e-10, max_iterations: 33, linear_system: dense}\n"
-        "history:\n- {name: up & down, steps: 4, two.B: {position: [0, 1, 13]}, one.B: {force: [0, 0, 9]}}\n- {}\n");
+        "friction: frozen\ncontact: strict\nsolver: {tolerance: 1e-10, max_iterations: 33, "
+        "linear_system: dense}\n"
+        "history:\n- {name: up & down, steps: 4, two.B: {position: [0, 1, 13]}, one.B: {force: [0, "
+        "0, 9]}}\n- {}\n");
     const CpsScene *scene = cps_scene_file_scene(file);
     assert_string_equal(scene->title, "R\xc3\xbcgen: 'a'");
     assert_true(scene->gravity[2] == -10);
@@ -91,13 +98,16 @@ static void reads_every_key(void **state) {
 
     const CpsLine *one = &scene->line[0], *two = &scene->line[1], *three = &scene->line[2];
     assert_int_equal(one->start.kind, CPS_START_LAID);
-    assert_true(one->weight == 3 && one->elements == 7 && one->end[0].value[2] == 8 && one->end[1].value[2] == 6);
+    assert_true(one->weight == 3 && one->elements == 7 && one->end[0].value[2] == 8 &&
+                one->end[1].value[2] == 6);
     assert_int_equal(two->start.kind, CPS_START_POLYLINE);
     assert_int_equal(two->start.point_count, 3);
-    assert_true(two->elements == 16 && two->weight == 15 && two->stiffness == 2000 && two->start.point[7] == 1);
+    assert_true(two->elements == 16 && two->weight == 15 && two->stiffness == 2000 &&
+                two->start.point[7] == 1);
     assert_int_equal(two->end[0].kind, CPS_END_FREE);
     assert_int_equal(three->start.kind, CPS_START_ARC);
-    assert_true(three->start.point[5] == 12 && three->start.axis[0] == 1 && three->start.axis[2] == 0);
+    assert_true(three->start.point[5] == 12 && three->start.axis[0] == 1 &&
+                three->start.axis[2] == 0);
 
     assert_int_equal(scene->stage_count, 2);
     const CpsStage *stage = scene->stage;
@@ -116,16 +126,18 @@ static void reads_every_key(void **state) {
 /* every kind of obstacle, its defaults, both forms of friction; turns in degrees */
 static void reads_obstacles(void **state) {
     (void)state;
-    CpsSceneFile *file =
-        read_good(HEAD "    start: {straight: {from: [0, 0, 50], to: [10, 0, 50]}}\n" ENDS "obstacles:\n"
-                       "  bed: {plane: {}, friction: {axial: 0.6, lateral: 0.8, shape: box, grain: [1, 2, 0]}}\n"
-                       "  drum: {cylinder: {point: [1, 2, 3], axis: [0, 0, 5], radius: 0.5}, friction: 0.3}\n"
-                       "  pipe: {cylinder: {radius: 2}, friction: {axial: 0.1}}\n"
-                       "  ball: {sphere: {center: [4, 5, 6], radius: 7, axis: [1, 0, 0]}}\n"
-                       "history:\n- {drum.turn: 90, cable.B: {force: [0, 0, 1]}, ball.turn: -360, steps: 2}\n- {}\n");
+    CpsSceneFile *file = read_good(
+        HEAD
+        "    start: {straight: {from: [0, 0, 50], to: [10, 0, 50]}}\n" ENDS "obstacles:\n"
+        "  bed: {plane: {}, friction: {axial: 0.6, lateral: 0.8, shape: box, grain: [1, 2, 0]}}\n"
+        "  drum: {cylinder: {point: [1, 2, 3], axis: [0, 0, 5], radius: 0.5}, friction: 0.3}\n"
+        "  pipe: {cylinder: {radius: 2}, friction: {axial: 0.1}}\n"
+        "  ball: {sphere: {center: [4, 5, 6], radius: 7, axis: [1, 0, 0]}}\n"
+        "history:\n- {drum.turn: 90, cable.B: {force: [0, 0, 1]}, ball.turn: -360, steps: 2}\n- "
+        "{}\n");
     const CpsScene *scene = cps_scene_file_scene(file);
-    const CpsObstacle usual = cps_obstacle_default(), *bed = scene->obstacle, *drum = bed + 1, *pipe = bed + 2,
-                      *ball = bed + 3;
+    const CpsObstacle usual = cps_obstacle_default(), *bed = scene->obstacle, *drum = bed + 1,
+                      *pipe = bed + 2, *ball = bed + 3;
     assert_int_equal(scene->obstacle_count, 4);
     assert_int_equal(bed->kind, CPS_OBSTACLE_PLANE);
     assert_memory_equal(bed->normal, usual.normal, sizeof usual.normal);
@@ -135,13 +147,15 @@ static void reads_obstacles(void **state) {
     assert_int_equal(drum->kind, CPS_OBSTACLE_CYLINDER);
     CHECK_VECTOR(drum->point, ((double[]){1, 2, 3}), 0);
     CHECK_VECTOR(drum->axis, ((double[]){0, 0, 5}), 0);
-    assert_true(drum->radius == 0.5 && drum->friction == 0.3 && drum->friction_lateral == usual.friction_lateral);
+    assert_true(drum->radius == 0.5 && drum->friction == 0.3 &&
+                drum->friction_lateral == usual.friction_lateral);
     assert_memory_equal(pipe->axis, usual.axis, sizeof usual.axis);
     assert_memory_equal(pipe->point, usual.point, sizeof usual.point);
     assert_true(pipe->friction == 0.1 && pipe->friction_lateral == usual.friction_lateral);
     assert_int_equal(pipe->friction_shape, CPS_FRICTION_ELLIPSE);
     assert_int_equal(ball->kind, CPS_OBSTACLE_SPHERE);
-    assert_true(ball->radius == 7 && ball->point[1] == 5 && ball->axis[0] == 1 && ball->friction == 0);
+    assert_true(ball->radius == 7 && ball->point[1] == 5 && ball->axis[0] == 1 &&
+                ball->friction == 0);
 
     const CpsStage *stage = scene->stage;
     assert_int_equal(stage->turn_count, 2);
@@ -157,23 +171,27 @@ static void reads_obstacles(void **state) {
 /* sets in the words of law files, the scene file holds them; stretches of a line */
 static void reads_friction_sets_and_zones(void **state) {
     (void)state;
-    CpsSceneFile *file =
-        read_good(HEAD "    start: {straight: {from: [0, 0, 50], to: [10, 0, 50]}}\n" ENDS
-                       "    friction_zones: [{from: 0, to: 4, factor: 1.5}, {factor: 0, to: 10.0, from: 4.5}]\n"
-                       "obstacles:\n"
-                       "  bed: {plane: {}, friction: {set: {translate: {by: [0.1, 0], of: {ellipse: [0.6, 0.3]}}}, "
-                       "grain: [1, 2, 0]}}\n"
-                       "  pipe: {cylinder: {radius: 2}, friction: {set: {coulomb: {friction: 0.4, load: 1}}}}\n"
-                       "  ball: {sphere: {radius: 3}, friction: 0.2}\n");
+    CpsSceneFile *file = read_good(
+        HEAD
+        "    start: {straight: {from: [0, 0, 50], to: [10, 0, 50]}}\n" ENDS
+        "    friction_zones: [{from: 0, to: 4, factor: 1.5}, {factor: 0, to: 10.0, from: 4.5}]\n"
+        "obstacles:\n"
+        "  bed: {plane: {}, friction: {set: {translate: {by: [0.1, 0], of: {ellipse: [0.6, "
+        "0.3]}}}, grain: [1, 2, 0]}}\n"
+        "  pipe: {cylinder: {radius: 2}, friction: {set: {coulomb: {friction: 0.4, load: 1}}}}\n"
+        "  ball: {sphere: {radius: 3}, friction: 0.2}\n");
     const CpsScene *scene = cps_scene_file_scene(file);
     CpsSetAnswer answer;
     const double along[] = {1, 0}, across[] = {0, 1};
-    assert_int_equal(cps_set_support(scene->obstacle[0].friction_set, along, NULL, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_support(scene->obstacle[0].friction_set, along, NULL, &answer, NULL),
+                     CPS_OK);
     CHECK_NEAR(answer.value, 0.7, 1e-15); /* a rounding or two */
-    assert_int_equal(cps_set_support(scene->obstacle[0].friction_set, across, NULL, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_support(scene->obstacle[0].friction_set, across, NULL, &answer, NULL),
+                     CPS_OK);
     CHECK_NEAR(answer.value, 0.3, 1e-15);
     assert_true(scene->obstacle[0].grain[1] == 2 && scene->obstacle[0].friction == 0);
-    assert_int_equal(cps_set_support(scene->obstacle[1].friction_set, across, NULL, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_support(scene->obstacle[1].friction_set, across, NULL, &answer, NULL),
+                     CPS_OK);
     CHECK_NEAR(answer.value, 0.4, 1e-15);
     assert_null(scene->obstacle[2].friction_set);
     const CpsLine *line = scene->line;
@@ -184,8 +202,9 @@ static void reads_friction_sets_and_zones(void **state) {
 
     /* what was made before a fault is let go (the address sanitizer looks) */
     CpsError err;
-    const char *bad = HEAD STRAIGHT ENDS "obstacles:\n  a: {plane: {}, friction: {set: {disc: 1}}}\n"
-                                         "  b: {plane: {}, friction: {set: {sum: [{disc: 1}, {disc: -1}]}}}\n";
+    const char *bad =
+        HEAD STRAIGHT ENDS "obstacles:\n  a: {plane: {}, friction: {set: {disc: 1}}}\n"
+                           "  b: {plane: {}, friction: {set: {sum: [{disc: 1}, {disc: -1}]}}}\n";
     assert_int_equal(read_text(bad, NULL, &file, &err), CPS_ERR_INPUT);
     assert_int_equal(err.line, 11);
     assert_int_equal(err.column, 53);
@@ -198,19 +217,21 @@ static void reads_graded_elements(void **state) {
     const CpsLine *line = cps_scene_file_scene(file)->line;
     static const double want[] = {0.5, 1.5, 1.5, 1.5, 2, 2, 1};
     assert_int_equal(line->elements, 7);
-    for (int i = 0; i < 7; i++) CHECK_NEAR(line->element_length[i], want[i], 1e-15); /* exact in binary */
+    for (int i = 0; i < 7; i++)
+        CHECK_NEAR(line->element_length[i], want[i], 1e-15); /* exact in binary */
     cps_scene_file_destroy(file);
 }
 
 /* a move is counted from where the entry before has put the end, from the start shape at first */
 static void adds_moves(void **state) {
     (void)state;
-    CpsSceneFile *file = read_good(HEAD STRAIGHT "    ends: {A: fixed, B: fixed}\n"
-                                                 "history:\n"
-                                                 "- {cable.B: {move: [-1, 0, 0]}}\n"
-                                                 "- {cable.B: {move: [0, 2, 0]}, cable.A: {move: [0, 0, 1]}}\n"
-                                                 "- {cable.B: {position: [5, 5, 5]}}\n"
-                                                 "- {cable.B: {move: [0, 0, -1]}}\n");
+    CpsSceneFile *file =
+        read_good(HEAD STRAIGHT "    ends: {A: fixed, B: fixed}\n"
+                                "history:\n"
+                                "- {cable.B: {move: [-1, 0, 0]}}\n"
+                                "- {cable.B: {move: [0, 2, 0]}, cable.A: {move: [0, 0, 1]}}\n"
+                                "- {cable.B: {position: [5, 5, 5]}}\n"
+                                "- {cable.B: {move: [0, 0, -1]}}\n");
     const CpsStage *stage = cps_scene_file_scene(file)->stage;
     CHECK_VECTOR(stage[0].change[0].to.value, ((double[]){9, 0, 0}), 0);
     CHECK_VECTOR(stage[1].change[0].to.value, ((double[]){9, 2, 0}), 0);
@@ -219,8 +240,9 @@ static void adds_moves(void **state) {
     cps_scene_file_destroy(file);
 
     CpsError err;
-    const char *released = HEAD STRAIGHT "    ends: {A: fixed, B: fixed}\n"
-                                         "history:\n- {cable.B: {force: [0, 0, 0]}}\n- {cable.B: {move: [0, 2, 0]}}\n";
+    const char *released =
+        HEAD STRAIGHT "    ends: {A: fixed, B: fixed}\n"
+                      "history:\n- {cable.B: {force: [0, 0, 0]}}\n- {cable.B: {move: [0, 2, 0]}}\n";
     assert_int_equal(read_text(released, NULL, &file, &err), CPS_ERR_INPUT);
     assert_int_equal(err.line, 11);
     assert_int_equal(err.column, 14);
@@ -233,14 +255,17 @@ static void knows_numbers(void **state) {
     static const struct {
         const char *text;
         double value;
-    } GOOD[] = {{"0", 0},     {"-0", 0},     {"+12", 12},         {"1.5", 1.5},         {".5", 0.5},
-                {"5.", 5},    {"1e3", 1000}, {"1E-3", 0.001},     {"-1.e+2", -100},     {"0x1F", 31},
-                {"0o17", 15}, {"012", 12},   {"1e400", INFINITY}, {"-.inf", -INFINITY}, {"+.INF", INFINITY},
-                {"0.1", 0.1}};
-    static const char *const BAD[] = {"",     " 1",    "1 ",    "e3",           "1e",    "1e+", ".",
-                                      "-",    "--1",   "1.2.3", "1_000",        "1,5",   "0x",  "0o8",
-                                      "0x1g", "inf",   "nan",   "infinity",     "1d3",   "1f",  "0b1",
-                                      "-0x1", ".infx", "1:30",  "\xef\xbc\x91", "0x1p3", "5 m"};
+    } GOOD[] = {
+        {"0", 0},     {"-0", 0},     {"+12", 12},         {"1.5", 1.5},         {".5", 0.5},
+        {"5.", 5},    {"1e3", 1000}, {"1E-3", 0.001},     {"-1.e+2", -100},     {"0x1F", 31},
+        {"0o17", 15}, {"012", 12},   {"1e400", INFINITY}, {"-.inf", -INFINITY}, {"+.INF", INFINITY},
+        {"0.1", 0.1}};
+    static const char *const BAD[] = {"",      " 1",   "1 ",       "e3",   "1e",
+                                      "1e+",   ".",    "-",        "--1",  "1.2.3",
+                                      "1_000", "1,5",  "0x",       "0o8",  "0x1g",
+                                      "inf",   "nan",  "infinity", "1d3",  "1f",
+                                      "0b1",   "-0x1", ".infx",    "1:30", "\xef\xbc\x91",
+                                      "0x1p3", "5 m"};
     for (size_t i = 0; i < sizeof GOOD / sizeof GOOD[0]; i++) {
         double x = NAN;
         if (!cpsi_yaml_number(GOOD[i].text, &x)) fail_msg("'%s' is a number", GOOD[i].text);
@@ -258,7 +283,10 @@ static void keeps_limits(void **state) {
     CpsSceneFile *file;
     CpsError err;
     CpsReadLimits limits = cps_read_limits_default();
-    limits.max_bytes = strlen(text), limits.max_depth = 6, limits.max_elements = 100, limits.max_steps = 6;
+    limits.max_bytes = strlen(text);
+    limits.max_depth = 6;
+    limits.max_elements = 100;
+    limits.max_steps = 6;
     assert_int_equal(read_text(text, &limits, &file, &err), CPS_OK);
     cps_scene_file_destroy(file);
 
@@ -266,14 +294,18 @@ static void keeps_limits(void **state) {
     CpsReadLimits less = limits;
     less.max_bytes--;
     assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_LIMIT);
-    less = limits, less.max_depth--;
+    less = limits;
+    less.max_depth--;
     assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_LIMIT);
     assert_int_equal(err.line, 7);
-    less = limits, less.max_elements--;
+    less = limits;
+    less.max_elements--;
     assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_LIMIT);
-    less = limits, less.max_steps--;
+    less = limits;
+    less.max_steps--;
     assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_LIMIT);
-    less = limits, less.max_depth = 0;
+    less = limits;
+    less.max_depth = 0;
     assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(read_text(text, NULL, NULL, &err), CPS_ERR_ARGUMENT);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sets: arguments, holds, degenerate sets, users' sets, projections and gauges with known answers. */
+/* Sets: arguments, holds, degenerate sets, users' sets, projections and gauges with known
+ * answers. */
 #include "check.h"
 
 #include <string.h>
@@ -44,9 +45,12 @@ static void bad_arguments_are_refused(void **state) {
     CpsSetAnswer answer;
     double x[2];
     REFUSED(cps_set_support(disc, nan, x, &answer, &err), "direction[1] is nan");
-    REFUSED(cps_set_project(disc, one, flat, x, &answer, &err), "metric is not symmetric positive definite");
+    REFUSED(cps_set_project(disc, one, flat, x, &answer, &err),
+            "metric is not symmetric positive definite");
     REFUSED(cps_set_face(disc, one, -1, &set, &answer, &err), "tolerance is -1");
-    cps_set_release(disc), cps_set_release(line), cps_set_release(NULL);
+    cps_set_release(disc);
+    cps_set_release(line);
+    cps_set_release(NULL);
 }
 
 /* Parts live as long as what was made of them, whoever lets go first. */
@@ -57,7 +61,8 @@ static void parts_are_held(void **state) {
     DO(cps_set_translate((const double[]){3, 0}, disc, &moved, &err));
     const CpsSet *both[2] = {disc, moved};
     DO(cps_set_sum(2, both, &sum, &err));
-    cps_set_release(disc), cps_set_release(moved);
+    cps_set_release(disc);
+    cps_set_release(moved);
     CpsSetAnswer answer;
     DO(cps_set_support(sum, (const double[]){1, 0}, NULL, &answer, &err));
     CHECK_NEAR(answer.value, 5, 1e-15);
@@ -107,7 +112,10 @@ static void degenerate_sets_are_answered(void **state) {
     DO(cps_set_measure(thin, &measure, &err));
     CHECK_NEAR(measure.perimeter, 2, 1e-14);
     CHECK_NEAR(measure.area, 0, 1e-14);
-    cps_set_release(thin), cps_set_release(point), cps_set_release(none), cps_set_release(strip);
+    cps_set_release(thin);
+    cps_set_release(point);
+    cps_set_release(none);
+    cps_set_release(strip);
 }
 
 /* the l1 ball scaled by *user */
@@ -139,7 +147,9 @@ static void users_sets_answer_their_support(void **state) {
     assert_int_equal(answer.outcome, CPS_SET_NOT_AVAILABLE);
     DO(cps_set_face(user, x, 0, &face, &answer, &err));
     assert_int_equal(answer.outcome, CPS_SET_NOT_AVAILABLE);
-    cps_set_release(user), cps_set_release(ball), cps_set_release(sum);
+    cps_set_release(user);
+    cps_set_release(ball);
+    cps_set_release(sum);
 }
 
 /* Projections against hand calculation: disc ∩ half plane, and a box in a skew metric. */
@@ -165,19 +175,27 @@ static void projections_and_gauges(void **state) {
     DO(cps_set_gauge(set, (const double[]){0, 6}, &answer, &err));
     CHECK_NEAR(answer.value, 2, 1e-14);
     /* min (x - p)'M(x - p) over x <= 0: with x1 = 0 free x2 = p2 + M12/M22 p1 */
-    DO(cps_set_box(2, (const double[]){-INFINITY, -INFINITY}, (const double[]){0, INFINITY}, &box, &err));
-    DO(cps_set_project(box, (const double[]){1, 0}, (const double[]){2, 1, 1, 1}, x, &answer, &err));
+    DO(cps_set_box(2, (const double[]){-INFINITY, -INFINITY}, (const double[]){0, INFINITY}, &box,
+                   &err));
+    DO(cps_set_project(box, (const double[]){1, 0}, (const double[]){2, 1, 1, 1}, x, &answer,
+                       &err));
     CHECK_NEAR(x[0], 0, 1e-9);
     CHECK_NEAR(x[1], 1, 1e-9);
     CHECK_NEAR(answer.value, 1, 1e-9);
-    cps_set_release(disc), cps_set_release(half), cps_set_release(set), cps_set_release(box);
+    cps_set_release(disc);
+    cps_set_release(half);
+    cps_set_release(set);
+    cps_set_release(box);
 }
 
 /* A cube by its inequalities: faces, cones and vertices of every dimension. */
 static void faces_and_cones_of_a_cube(void **state) {
     (void)state;
     double rows[18] = {0}, offsets[6], center[3], ray[9];
-    for (int i = 0; i < 6; i++) rows[3 * i + i / 2] = i % 2 ? -1 : 1, offsets[i] = 1;
+    for (int i = 0; i < 6; i++) {
+        rows[3 * i + i / 2] = i % 2 ? -1 : 1;
+        offsets[i] = 1;
+    }
     CpsSet *cube, *face, *cone;
     DO(cps_set_inequalities(3, 6, rows, offsets, &cube, &err));
     for (int d = 1; d <= 3; d++) {
@@ -194,13 +212,15 @@ static void faces_and_cones_of_a_cube(void **state) {
         CHECK_INT(count, d);
         DO(cps_set_facts(cone, 0, &facts, NULL, NULL, &err));
         CHECK_INT(facts.dimension, d);
-        cps_set_release(face), cps_set_release(cone);
+        cps_set_release(face);
+        cps_set_release(cone);
     }
     cps_set_release(cube);
 }
 
-/* The polar of the unit disc round (2, 0) is bounded by a hyperbola, 2 x + |(x, y)| = 1, with its asymptotes at 60
- * degrees to -x. In their normals the support is 1/sqrt 3, the gauge of the tangent's point, and nothing attains it. */
+/* The polar of the unit disc round (2, 0) is bounded by a hyperbola, 2 x + |(x, y)| = 1, with its
+ * asymptotes at 60 degrees to -x. In their normals the support is 1/sqrt 3, the gauge of the
+ * tangent's point, and nothing attains it. */
 static void what_is_not_attained_says_so(void **state) {
     (void)state;
     const double w[2] = {sqrt(3) / 2, 0.5}, inner[2] = {1, 0}, outer[2] = {0.8, 0.6};
@@ -232,11 +252,13 @@ static void what_is_not_attained_says_so(void **state) {
     DO(cps_set_facts(polar, 0, &facts, NULL, NULL, &err));
     assert_int_equal(facts.outcome, CPS_SET_ANSWERED);
     assert_false(facts.bounded);
-    cps_set_release(disc), cps_set_release(polar);
+    cps_set_release(disc);
+    cps_set_release(polar);
 }
 
-/* The hyperbola's region has the open half-line below 1/sqrt 3 as its image along the asymptote's normal: the closure
- * answers, and says that it is one. So do sums of two such sets and hulls of unbounded ones; others are closed. */
+/* The hyperbola's region has the open half-line below 1/sqrt 3 as its image along the asymptote's
+ * normal: the closure answers, and says that it is one. So do sums of two such sets and hulls of
+ * unbounded ones; others are closed. */
 static void closures_say_so(void **state) {
     (void)state;
     const double w[2] = {sqrt(3) / 2, 0.5}, one = 1;
@@ -267,11 +289,14 @@ static void closures_say_so(void **state) {
     DO(cps_set_hull(2, (const CpsSet *[]){strip, disc}, &set, &err));
     DO(cps_set_contains(set, w, NULL, &answer, &err));
     assert_true(answer.closure);
-    cps_set_release(disc), cps_set_release(polar), cps_set_release(strip), cps_set_release(set);
+    cps_set_release(disc);
+    cps_set_release(polar);
+    cps_set_release(strip);
+    cps_set_release(set);
 }
 
-/* Where 0 is, told from the parts of a sum: of many contacts, which no conic program could hold, and of points that
- * are far apart in size. */
+/* Where 0 is, told from the parts of a sum: of many contacts, which no conic program could hold,
+ * and of points that are far apart in size. */
 static void zero_is_found_by_parts(void **state) {
     (void)state;
     enum { COUNT = 1500 };
@@ -293,7 +318,9 @@ static void zero_is_found_by_parts(void **state) {
     assert_int_equal(facts.outcome, CPS_SET_ANSWERED);
     assert_false(facts.has_zero);
     for (int k = 0; k < COUNT; k++) cps_set_release(part[k]);
-    cps_set_release(disc), cps_set_release(set), cps_set_release(far);
+    cps_set_release(disc);
+    cps_set_release(set);
+    cps_set_release(far);
 
     DO(cps_set_point(1, (const double[]){2.1}, &part[0], &err));
     DO(cps_set_scale(7.5e10, part[0], &part[1], &err));
@@ -309,10 +336,14 @@ static void zero_is_found_by_parts(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_arguments_are_refused),    cmocka_unit_test(parts_are_held),
-        cmocka_unit_test(degenerate_sets_are_answered), cmocka_unit_test(users_sets_answer_their_support),
-        cmocka_unit_test(projections_and_gauges),       cmocka_unit_test(faces_and_cones_of_a_cube),
-        cmocka_unit_test(what_is_not_attained_says_so), cmocka_unit_test(closures_say_so),
+        cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(parts_are_held),
+        cmocka_unit_test(degenerate_sets_are_answered),
+        cmocka_unit_test(users_sets_answer_their_support),
+        cmocka_unit_test(projections_and_gauges),
+        cmocka_unit_test(faces_and_cones_of_a_cube),
+        cmocka_unit_test(what_is_not_attained_says_so),
+        cmocka_unit_test(closures_say_so),
         cmocka_unit_test(zero_is_found_by_parts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -20,13 +20,16 @@ static const char FIRST_LINE[] = "capstan directory 1\n";
 /* far more than the files of the longest history take */
 enum { MARKER_MOST = 256 << 20 };
 
-static CpsStatus no_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while listing results"); }
-
-static CpsStatus fail_name(const char *path, const char *name, CpsError *err) {
-    return cpsi_fail(err, CPS_ERR_IO, "cannot write %s/%s: %s; earlier results are kept", path, name, strerror(errno));
+static CpsStatus no_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while listing results");
 }
 
-/* names --------------------------------------------------------------------------------------------------------- */
+static CpsStatus fail_name(const char *path, const char *name, CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_IO, "cannot write %s/%s: %s; earlier results are kept", path,
+                     name, strerror(errno));
+}
+
+/* names ---------------------------------------------------------------------------------------- */
 
 static bool ends_with(const char *name, const char *end) {
     const size_t length = strlen(name), more = strlen(end);
@@ -34,15 +37,19 @@ static bool ends_with(const char *name, const char *end) {
 }
 
 bool cpsi_marker_knows(const char *name) {
-    static const char *const PLAIN[] = {"summary.json",    "history.csv", "result.nc",   "result.pvd",  "obstacles.vtp", "plan.svg",
-                                        "elevation.svg",   "tension.svg", "study.csv",   "study.svg",   "study.json",    "first-order.csv",
-                                        "first-order.svg", "relaxed.svg", "methods.csv", "methods.svg", "methods.json",  "completed.csv",
+    static const char *const PLAIN[] = {"summary.json",    "history.csv",   "result.nc",
+                                        "result.pvd",      "obstacles.vtp", "plan.svg",
+                                        "elevation.svg",   "tension.svg",   "study.csv",
+                                        "study.svg",       "study.json",    "first-order.csv",
+                                        "first-order.svg", "relaxed.svg",   "methods.csv",
+                                        "methods.svg",     "methods.json",  "completed.csv",
                                         "completed.svg",   "completed.json"};
     for (size_t i = 0; i < sizeof PLAIN / sizeof *PLAIN; ++i)
         if (strcmp(name, PLAIN[i]) == 0) return true;
     if (strlen(name) + sizeof "..part" > CPSI_NAME_SIZE || strchr(name, '/')) return false;
     if (strncmp(name, "loop-", 5) == 0) return ends_with(name, ".svg");
-    if (strncmp(name, "line-", 5) == 0) return strspn(name + 5, "0123456789") + 9 == strlen(name) && ends_with(name, ".svg");
+    if (strncmp(name, "line-", 5) == 0)
+        return strspn(name + 5, "0123456789") + 9 == strlen(name) && ends_with(name, ".svg");
     if (strncmp(name, "step-", 5) != 0 || strspn(name + 5, "0123456789") < 5) return false;
     return ends_with(name, ".svg") || ends_with(name, ".vtp");
 }
@@ -52,8 +59,10 @@ static size_t place_of(const CpsiNames *names, const char *name) {
     size_t low = 0, high = names->count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (strcmp(names->name[middle], name) < 0) low = middle + 1;
-        else high = middle;
+        if (strcmp(names->name[middle], name) < 0)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low;
 }
@@ -70,7 +79,8 @@ CpsStatus cpsi_names_add(CpsiNames *names, const char *name, CpsError *err) {
         const size_t capacity = names->capacity ? 2 * names->capacity : 64;
         char **grown = realloc(names->name, capacity * sizeof *grown);
         if (!grown) return no_memory(err);
-        names->name = grown, names->capacity = capacity;
+        names->name = grown;
+        names->capacity = capacity;
     }
     char *copy = strdup(name);
     if (!copy) return no_memory(err);
@@ -100,7 +110,7 @@ void cpsi_marker_free(CpsiMarker *marker) {
     cpsi_names_free(&marker->awaited);
 }
 
-/* what is there ------------------------------------------------------------------------------------------------- */
+/* what is there -------------------------------------------------------------------------------- */
 
 /* A listing of the directory by a descriptor of its own; NULL after a failure. */
 static DIR *list_folder(int folder) {
@@ -116,7 +126,8 @@ bool cpsi_marker_is_alone(int folder) {
     bool alone = listing != NULL;
     for (struct dirent *entry; alone && (entry = readdir(listing)) != NULL;) {
         bool own = false;
-        for (size_t i = 0; i < sizeof OWN / sizeof *OWN; ++i) own = own || strcmp(entry->d_name, OWN[i]) == 0;
+        for (size_t i = 0; i < sizeof OWN / sizeof *OWN; ++i)
+            own = own || strcmp(entry->d_name, OWN[i]) == 0;
         alone = own;
     }
     if (listing) closedir(listing);
@@ -126,9 +137,12 @@ bool cpsi_marker_is_alone(int folder) {
 CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, CpsError *err) {
     CpsStatus status = CPS_OK;
     DIR *listing = list_folder(folder);
-    if (!listing) return cpsi_fail(err, CPS_ERR_IO, "cannot list the directory of results: %s", strerror(errno));
+    if (!listing)
+        return cpsi_fail(err, CPS_ERR_IO, "cannot list the directory of results: %s",
+                         strerror(errno));
     for (struct dirent *entry; status == CPS_OK && (entry = readdir(listing)) != NULL;)
-        if (cpsi_marker_knows(entry->d_name)) status = cpsi_names_add(&marker->written, entry->d_name, err);
+        if (cpsi_marker_knows(entry->d_name))
+            status = cpsi_names_add(&marker->written, entry->d_name, err);
     closedir(listing);
     return status;
 }
@@ -136,25 +150,32 @@ CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, CpsError *err) {
 const char *cpsi_marker_missing(const CpsiMarker *marker, int folder) {
     struct stat found;
     for (size_t i = 0; i < marker->awaited.count; ++i)
-        if (fstatat(folder, marker->awaited.name[i], &found, AT_SYMLINK_NOFOLLOW) != 0) return marker->awaited.name[i];
+        if (fstatat(folder, marker->awaited.name[i], &found, AT_SYMLINK_NOFOLLOW) != 0)
+            return marker->awaited.name[i];
     return NULL;
 }
 
-/* A regular file of the directory itself that begins with the first line; NULL where there is none, or *status says why. */
-static FILE *open_list(int folder, const char *path, const char *name, CpsStatus *status, CpsError *err) {
+/* A regular file of the directory itself that begins with the first line; NULL where there is none,
+ * or *status says why. */
+static FILE *open_list(int folder, const char *path, const char *name, CpsStatus *status,
+                       CpsError *err) {
     char line[sizeof FIRST_LINE];
     struct stat about;
     *status = CPS_OK;
     const int fd = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (fd < 0 && errno == ENOENT) return NULL;
-    const bool regular = fd >= 0 && fstat(fd, &about) == 0 && S_ISREG(about.st_mode) && about.st_size <= MARKER_MOST;
+    const bool regular =
+        fd >= 0 && fstat(fd, &about) == 0 && S_ISREG(about.st_mode) && about.st_size <= MARKER_MOST;
     FILE *list = regular ? fdopen(fd, "r") : NULL;
     if (!list && fd >= 0) close(fd);
     if (regular && !list) *status = no_memory(err);
     if (list && fgets(line, sizeof line, list) && strcmp(line, FIRST_LINE) == 0) return list;
     if (list) fclose(list);
     if (*status == CPS_OK)
-        *status = cpsi_fail(err, CPS_ERR_IO, "%s/%s is no list of capstan's: move it away, or choose another directory", path, name);
+        *status =
+            cpsi_fail(err, CPS_ERR_IO,
+                      "%s/%s is no list of capstan's: move it away, or choose another directory",
+                      path, name);
     return NULL;
 }
 
@@ -163,7 +184,8 @@ static bool next_line(FILE *list, char *letter, char name[CPSI_NAME_SIZE]) {
     char line[CPSI_NAME_SIZE + 8];
     if (!fgets(line, sizeof line, list)) return false;
     const size_t length = strcspn(line, "\n");
-    const bool whole = line[length] == '\n' && length > 2 && length < CPSI_NAME_SIZE + 2 && line[1] == ' ';
+    const bool whole =
+        line[length] == '\n' && length > 2 && length < CPSI_NAME_SIZE + 2 && line[1] == ' ';
     line[length] = '\0';
     *letter = 0;
     if (!whole || !cpsi_marker_knows(line + 2)) return true;
@@ -188,11 +210,13 @@ CpsStatus cpsi_marker_read(int folder, const char *path, CpsiMarker *out, CpsErr
     return status;
 }
 
-/* writing ------------------------------------------------------------------------------------------------------- */
+/* writing -------------------------------------------------------------------------------------- */
 
-CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *path, bool sync, CpsError *err) {
+CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *path, bool sync,
+                            CpsError *err) {
     unlinkat(folder, MARKER_PART, 0); /* of a killed run */
-    const int fd = openat(folder, MARKER_PART, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    const int fd =
+        openat(folder, MARKER_PART, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     FILE *list = fd >= 0 ? fdopen(fd, "w") : NULL;
     if (!list) {
         const CpsStatus status = fail_name(path, MARKER, err);
@@ -200,8 +224,10 @@ CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *pa
         return status;
     }
     fputs(FIRST_LINE, list);
-    for (size_t i = 0; i < marker->awaited.count; ++i) fprintf(list, "x %s\n", marker->awaited.name[i]);
-    for (size_t i = 0; i < marker->written.count; ++i) fprintf(list, "w %s\n", marker->written.name[i]);
+    for (size_t i = 0; i < marker->awaited.count; ++i)
+        fprintf(list, "x %s\n", marker->awaited.name[i]);
+    for (size_t i = 0; i < marker->written.count; ++i)
+        fprintf(list, "w %s\n", marker->written.name[i]);
     const bool failed = ferror(list) || fflush(list) != 0 || (sync && fsync(fd) != 0);
     const int code = errno;
     const bool closed = fclose(list) == 0;
@@ -225,12 +251,15 @@ CpsStatus cpsi_marker_begin(int folder, const char *path, int *notes, CpsError *
     if (list) fclose(list);
     /* an empty one is of a run that was killed in its first moment */
     struct stat about;
-    const bool empty = fstatat(folder, NOTES, &about, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(about.st_mode) && about.st_size == 0;
+    const bool empty = fstatat(folder, NOTES, &about, AT_SYMLINK_NOFOLLOW) == 0 &&
+                       S_ISREG(about.st_mode) && about.st_size == 0;
     if (status != CPS_OK && !empty) return status;
     unlinkat(folder, NOTES, 0);
-    *notes = openat(folder, NOTES, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
+    *notes = openat(folder, NOTES, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC,
+                    0666);
     if (*notes < 0) return fail_name(path, NOTES, err);
-    if (write(*notes, FIRST_LINE, sizeof FIRST_LINE - 1) == (ssize_t)sizeof FIRST_LINE - 1) return CPS_OK;
+    if (write(*notes, FIRST_LINE, sizeof FIRST_LINE - 1) == (ssize_t)sizeof FIRST_LINE - 1)
+        return CPS_OK;
     return fail_name(path, NOTES, err);
 }
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What makes a directory one of capstan's: the file .capstan in it, which lists the files that capstan has written there. Only those are
- * ever replaced or removed.
+/* What makes a directory one of capstan's: the file .capstan in it, which lists the files that
+ * capstan has written there. Only those are ever replaced or removed.
  *
- * While a run writes, .capstan.run lists what it has begun, so that the next run can clear what a killed one left as .NAME.part. While
- * finished files are renamed into place, .capstan names the one that comes last, the summary of its set; where that one is missing then, the
- * files of its set are of two runs. Both files are text, a name in each line behind one letter. */
+ * While a run writes, .capstan.run lists what it has begun, so that the next run can clear what a
+ * killed one left as .NAME.part. While finished files are renamed into place, .capstan names the
+ * one that comes last, the summary of its set; where that one is missing then, the files of its set
+ * are of two runs. Both files are text, a name in each line behind one letter. */
 #ifndef CAPSTAN_SRC_IO_BASE_DIRECTORY_MARKER_H
 #define CAPSTAN_SRC_IO_BASE_DIRECTORY_MARKER_H
 
@@ -34,8 +35,9 @@ typedef struct CpsiMarker {
 /* Names that results can have; a marker is believed about no others. */
 bool cpsi_marker_knows(const char *name);
 
-/* Read .capstan in the directory open as `folder`, called `path` in messages. Returns CPS_OK also where there is none,
- * CPS_ERR_IO where there is a file of that name that is none of capstan's, CPS_ERR_MEMORY. */
+/* Read .capstan in the directory open as `folder`, called `path` in messages. Returns CPS_OK also
+ * where there is none, CPS_ERR_IO where there is a file of that name that is none of capstan's,
+ * CPS_ERR_MEMORY. */
 CpsStatus cpsi_marker_read(int folder, const char *path, CpsiMarker *out, CpsError *err);
 void cpsi_marker_free(CpsiMarker *marker);
 
@@ -43,9 +45,11 @@ void cpsi_marker_free(CpsiMarker *marker);
 CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, CpsError *err);
 
 /* Write .capstan anew, whole or not at all; `sync`: onto the disk before it takes its name. */
-CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *path, bool sync, CpsError *err);
+CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *path, bool sync,
+                            CpsError *err);
 
-/* A file that is awaited and not there: the others of its set are of two runs. NULL where there is none. */
+/* A file that is awaited and not there: the others of its set are of two runs. NULL where there is
+ * none. */
 const char *cpsi_marker_missing(const CpsiMarker *marker, int folder);
 
 /* Clear what a killed run has begun; begin the list of this one. *notes is its descriptor. */

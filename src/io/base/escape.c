@@ -89,22 +89,26 @@ void cpsi_put_xml(FILE *out, const char *text) {
     while (*text) {
         switch (*text) {
         case '&':
-            fputs("&amp;", out), ++text;
+            fputs("&amp;", out);
+            ++text;
             break;
         case '<':
-            fputs("&lt;", out), ++text;
+            fputs("&lt;", out);
+            ++text;
             break;
         case '>':
-            fputs("&gt;", out), ++text;
+            fputs("&gt;", out);
+            ++text;
             break;
         case '"':
-            fputs("&quot;", out), ++text;
+            fputs("&quot;", out);
+            ++text;
             break;
         case '\'':
-            fputs("&#39;", out), ++text;
+            fputs("&#39;", out);
+            ++text;
             break;
-        default:
-            text += put_plain(out, text);
+        default: text += put_plain(out, text);
         }
     }
 }
@@ -113,10 +117,12 @@ void cpsi_put_csv(FILE *out, const char *text) {
     fputc('"', out);
     if (*text && strchr("=+-@\t\r", *text)) fputc('\'', out);
     while (*text) {
-        if (*text == '"')
-            fputs("\"\"", out), ++text;
-        else
+        if (*text == '"') {
+            fputs("\"\"", out);
+            ++text;
+        } else {
             text += put_plain(out, text);
+        }
     }
     fputc('"', out);
 }

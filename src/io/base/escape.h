@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Text from users made safe for JSON, XML and CSV, and numbers that read back as written.
  *
- * Names and titles come from scene files: quotes, control characters, broken UTF-8 and spreadsheet formulas in
- * them must stay text. Bytes that are not UTF-8 and control characters become U+FFFD where the format has no
- * escape for them. Numbers are printed in the calling thread's locale, which the results set to "C". */
+ * Names and titles come from scene files: quotes, control characters, broken UTF-8 and spreadsheet
+ * formulas in them must stay text. Bytes that are not UTF-8 and control characters become U+FFFD
+ * where the format has no escape for them. Numbers are printed in the calling thread's locale,
+ * which the results set to "C". */
 #ifndef CAPSTAN_SRC_IO_BASE_ESCAPE_H
 #define CAPSTAN_SRC_IO_BASE_ESCAPE_H
 
@@ -12,13 +13,15 @@
 
 enum { CPSI_NUMBER_SIZE = 32 };
 
-/* Length in bytes of the UTF-8 character at text, 0 if it is not one (RFC 3629); the text ends with a zero. */
+/* Length in bytes of the UTF-8 character at text, 0 if it is not one (RFC 3629); the text ends with
+ * a zero. */
 size_t cpsi_utf8_length(const char *text);
 
 /* Longest start of text with at most `size` bytes that does not cut a character. */
 size_t cpsi_utf8_cut(const char *text, size_t size);
 
-/* The shortest of 15, 16 or 17 digits that reads back as x; "" when x is not finite. Returns out. */
+/* The shortest of 15, 16 or 17 digits that reads back as x; "" when x is not finite. Returns
+ * out. */
 const char *cpsi_number(char out[CPSI_NUMBER_SIZE], double x);
 
 void cpsi_put_json_string(FILE *out, const char *text);

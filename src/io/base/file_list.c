@@ -18,13 +18,15 @@ enum { CHUNK = 1 << 16 };
 static void make_table(uint32_t table[256]) {
     for (uint32_t i = 0; i < 256; ++i) {
         uint32_t value = i;
-        for (int bit = 0; bit < 8; ++bit) value = value & 1 ? 0xedb88320u ^ (value >> 1) : value >> 1;
+        for (int bit = 0; bit < 8; ++bit)
+            value = value & 1 ? 0xedb88320u ^ (value >> 1) : value >> 1;
         table[i] = value;
     }
 }
 
 /* Of all bytes of a file. False after an error, which errno tells. */
-static bool sum_up(int fd, const uint32_t table[256], unsigned char *chunk, uint64_t *bytes, uint32_t *crc) {
+static bool sum_up(int fd, const uint32_t table[256], unsigned char *chunk, uint64_t *bytes,
+                   uint32_t *crc) {
     *bytes = 0;
     *crc = 0xffffffffu;
     for (;;) {
@@ -43,7 +45,8 @@ CpsStatus cpsi_result_list_put(const CpsiDirectory *directory, FILE *out, CpsErr
     uint32_t table[256];
     make_table(table);
     unsigned char *chunk = malloc(CHUNK);
-    if (!chunk) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while listing the files of the run");
+    if (!chunk)
+        return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while listing the files of the run");
     const size_t files = cpsi_directory_count(directory) - 1;
     CpsStatus status = CPS_OK;
     fputs("  \"files\": [", out);
@@ -53,7 +56,9 @@ CpsStatus cpsi_result_list_put(const CpsiDirectory *directory, FILE *out, CpsErr
         uint32_t crc = 0;
         const int fd = cpsi_directory_reopen(directory, name);
         if (fd < 0 || !sum_up(fd, table, chunk, &bytes, &crc))
-            status = cpsi_fail(err, CPS_ERR_IO, "cannot read %s again: %s; earlier results are kept", name, strerror(errno));
+            status =
+                cpsi_fail(err, CPS_ERR_IO, "cannot read %s again: %s; earlier results are kept",
+                          name, strerror(errno));
         if (fd >= 0) close(fd);
         if (status != CPS_OK) break;
         fputs(i ? ",\n    {\"name\": " : "\n    {\"name\": ", out);

@@ -3,9 +3,9 @@
 #include "io/base/file_set.h"
 
 #include "base/status.h"
-#include "io/base/numbers.h"
-#include "io/base/file_list.h"
 #include "io/base/escape.h"
+#include "io/base/file_list.h"
+#include "io/base/numbers.h"
 
 static bool nothing_stale(const char *name) {
     (void)name;
@@ -17,7 +17,8 @@ void cpsi_file_set_title(const void *title, FILE *out) {
     cpsi_put_json_string(out, title);
 }
 
-static CpsStatus write_file(CpsiDirectory *directory, const CpsiFile *file, bool listed, CpsError *err) {
+static CpsStatus write_file(CpsiDirectory *directory, const CpsiFile *file, bool listed,
+                            CpsError *err) {
     FILE *out = NULL;
     CpsStatus status = cpsi_directory_create(directory, file->name, &out, err);
     if (status != CPS_OK) return status;
@@ -27,18 +28,22 @@ static CpsStatus write_file(CpsiDirectory *directory, const CpsiFile *file, bool
         status = cpsi_result_list_put(directory, out, err);
         fputs("}\n", out);
     }
-    const CpsStatus closed = cpsi_directory_close_file(directory, out, status == CPS_OK ? err : NULL);
+    const CpsStatus closed =
+        cpsi_directory_close_file(directory, out, status == CPS_OK ? err : NULL);
     return status != CPS_OK ? status : closed;
 }
 
-static CpsStatus write_all(CpsiDirectory *directory, const CpsiFile *file, int count, const CpsiFile *summary, CpsError *err) {
+static CpsStatus write_all(CpsiDirectory *directory, const CpsiFile *file, int count,
+                           const CpsiFile *summary, CpsError *err) {
     CpsStatus status = CPS_OK;
-    for (int i = 0; i < count && status == CPS_OK; ++i) status = write_file(directory, &file[i], false, err);
+    for (int i = 0; i < count && status == CPS_OK; ++i)
+        status = write_file(directory, &file[i], false, err);
     if (status == CPS_OK) status = write_file(directory, summary, true, err);
     return status == CPS_OK ? cpsi_directory_commit(directory, nothing_stale, err) : status;
 }
 
-CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count, const CpsiFile *summary, CpsError *err) {
+CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count,
+                              const CpsiFile *summary, CpsError *err) {
     CpsiNumbers numbers;
     if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     CpsiDirectory *open = NULL;

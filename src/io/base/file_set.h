@@ -9,13 +9,15 @@
 
 typedef struct CpsiFile {
     const char *name;
-    void (*put)(const void *what, FILE *out); /* numbers have a decimal point whatever the program's locale */
+    void (*put)(const void *what,
+                FILE *out); /* numbers have a decimal point whatever the program's locale */
     const void *what;
 } CpsiFile;
 
-/* Write `count` files and then their summary: an object of JSON that is put without its last brace, and gets the list of the others.
- * Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
-CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count, const CpsiFile *summary, CpsError *err);
+/* Write `count` files and then their summary: an object of JSON that is put without its last brace,
+ * and gets the list of the others. Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
+CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count,
+                              const CpsiFile *summary, CpsError *err);
 
 /* What to put of a summary that says no more than its title. */
 void cpsi_file_set_title(const void *title, FILE *out);

@@ -23,7 +23,9 @@ void *cpsi_pool_take(CpsiPool *pool, size_t count, size_t size) {
 
     CpsiPoolBlock *block = pool->newest;
     if (!block || block->size - block->used < bytes) {
-        size_t room = !block ? FIRST_BLOCK : block->size < LARGEST_BLOCK / 2 ? 2 * block->size : LARGEST_BLOCK;
+        size_t room = !block                            ? FIRST_BLOCK
+                      : block->size < LARGEST_BLOCK / 2 ? 2 * block->size
+                                                        : LARGEST_BLOCK;
         if (room < bytes) room = bytes;
         block = calloc(1, sizeof *block + room);
         if (!block) return NULL;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory for many small things of unknown number that are freed together: a parsed file, a scene. */
+/* Memory for many small things of unknown number that are freed together: a parsed file, a
+ * scene. */
 #ifndef CAPSTAN_SRC_IO_BASE_POOL_H
 #define CAPSTAN_SRC_IO_BASE_POOL_H
 
@@ -9,7 +10,8 @@ typedef struct CpsiPool {
     struct CpsiPoolBlock *newest; /* NULL: empty */
 } CpsiPool;
 
-/* Room for `count` zeroed items of `size` bytes, aligned for any type; NULL when memory or size_t does not suffice. */
+/* Room for `count` zeroed items of `size` bytes, aligned for any type; NULL when memory or size_t
+ * does not suffice. */
 void *cpsi_pool_take(CpsiPool *pool, size_t count, size_t size);
 
 /* A copy of n bytes with a NUL behind; NULL as above. */

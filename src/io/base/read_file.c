@@ -17,21 +17,27 @@ static CpsStatus io_error(const char *file, const char *what, CpsError *err) {
     return cpsi_fail_at(err, CPS_ERR_IO, file, 0, 0, "%s", what);
 }
 
-/* Open a regular file; a FIFO must not block us, a device must not be read. `how`: 0 or O_NOFOLLOW. */
+/* Open a regular file; a FIFO must not block us, a device must not be read. `how`: 0 or
+ * O_NOFOLLOW. */
 static CpsStatus open_regular(const char *path, int how, int *fd, CpsError *err) {
     *fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY | how);
-    if (*fd < 0 && errno == ELOOP && how == O_NOFOLLOW) return io_error(path, "is a symbolic link, expected a file of this name itself", err);
-    if (*fd < 0) return cpsi_fail_at(err, CPS_ERR_IO, path, 0, 0, "cannot open: %s", strerror(errno));
+    if (*fd < 0 && errno == ELOOP && how == O_NOFOLLOW)
+        return io_error(path, "is a symbolic link, expected a file of this name itself", err);
+    if (*fd < 0)
+        return cpsi_fail_at(err, CPS_ERR_IO, path, 0, 0, "cannot open: %s", strerror(errno));
     struct stat about = {0};
     if (fstat(*fd, &about) == 0 && S_ISREG(about.st_mode)) return CPS_OK;
     const bool directory = S_ISDIR(about.st_mode);
     close(*fd);
-    return io_error(
-        path, directory ? "is a directory, expected a file" : "is not a regular file; '-' reads standard input", err);
+    return io_error(path,
+                    directory ? "is a directory, expected a file"
+                              : "is not a regular file; '-' reads standard input",
+                    err);
 }
 
 /* All bytes of fd and a NUL behind them. The buffer doubles, so a size is never trusted. */
-static CpsStatus read_bytes(int fd, const char *file, size_t max_bytes, char **bytes, size_t *size, CpsError *err) {
+static CpsStatus read_bytes(int fd, const char *file, size_t max_bytes, char **bytes, size_t *size,
+                            CpsError *err) {
     size_t room = 4096, used = 0;
     char *buffer = malloc(room);
     while (buffer) {
@@ -43,25 +49,28 @@ static CpsStatus read_bytes(int fd, const char *file, size_t max_bytes, char **b
         }
         if (n == 0) {
             buffer[used] = '\0';
-            *bytes = buffer, *size = used;
+            *bytes = buffer;
+            *size = used;
             return CPS_OK;
         }
         used += (size_t)n;
         if (used > max_bytes) {
             free(buffer);
-            return cpsi_fail_at(err, CPS_ERR_LIMIT, file, 0, 0, "is larger than %zu bytes, the limit", max_bytes);
+            return cpsi_fail_at(err, CPS_ERR_LIMIT, file, 0, 0,
+                                "is larger than %zu bytes, the limit", max_bytes);
         }
         if (used + 1 == room) {
             char *larger = room <= SIZE_MAX / 2 ? realloc(buffer, 2 * room) : NULL;
             if (!larger) free(buffer);
-            buffer = larger, room *= 2;
+            buffer = larger;
+            room *= 2;
         }
     }
     return cpsi_fail_at(err, CPS_ERR_MEMORY, file, 0, 0, "out of memory while reading the file");
 }
 
-CpsStatus cpsi_read_file(const char *path, const char *file, size_t max_bytes, char **bytes, size_t *size,
-                         CpsError *err) {
+CpsStatus cpsi_read_file(const char *path, const char *file, size_t max_bytes, char **bytes,
+                         size_t *size, CpsError *err) {
     int fd = STDIN_FILENO;
     const bool input = strcmp(path, "-") == 0;
     CpsStatus status = input ? CPS_OK : open_regular(path, 0, &fd, err);
@@ -71,7 +80,8 @@ CpsStatus cpsi_read_file(const char *path, const char *file, size_t max_bytes, c
     return status;
 }
 
-CpsStatus cpsi_read_file_itself(const char *path, size_t max_bytes, char **bytes, size_t *size, CpsError *err) {
+CpsStatus cpsi_read_file_itself(const char *path, size_t max_bytes, char **bytes, size_t *size,
+                                CpsError *err) {
     int fd;
     CpsStatus status = open_regular(path, O_NOFOLLOW, &fd, err);
     if (status != CPS_OK) return status;
@@ -81,7 +91,8 @@ CpsStatus cpsi_read_file_itself(const char *path, size_t max_bytes, char **bytes
 }
 
 bool cpsi_is_beside(const char *name) {
-    return *name && !strchr(name, '/') && strcmp(name, "-") != 0 && strcmp(name, ".") != 0 && strcmp(name, "..") != 0;
+    return *name && !strchr(name, '/') && strcmp(name, "-") != 0 && strcmp(name, ".") != 0 &&
+           strcmp(name, "..") != 0;
 }
 
 char *cpsi_path_beside(CpsiPool *pool, const char *file, const char *name) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Temporary name, write, sync, rename: a set of files that appears whole or not at all (see write_directory.h).
- * The order is that of POSIX fsync(2) and rename(2): data first, then names, then the directory itself. Where files are replaced the one
- * that comes last is removed first, so that its absence tells a set that was replaced in part. */
+/* Temporary name, write, sync, rename: a set of files that appears whole or not at all (see
+ * write_directory.h). The order is that of POSIX fsync(2) and rename(2): data first, then names,
+ * then the directory itself. Where files are replaced the one that comes last is removed first, so
+ * that its absence tells a set that was replaced in part. */
 #define _DEFAULT_SOURCE /* flock */
 
 #include "io/base/write_directory.h"
@@ -20,43 +21,51 @@
 struct CpsiDirectory {
     char *path;
     int fd;
-    bool made;   /* by us: removed again when nothing is committed */
-    bool marked; /* by us: the same */
-    bool committed; /* files have begun to take their names */
+    bool made;         /* by us: removed again when nothing is committed */
+    bool marked;       /* by us: the same */
+    bool committed;    /* files have begun to take their names */
     CpsiMarker marker; /* what is there of capstan's */
     int notes;
-    bool late; /* files are synced at the commit, all of them, and not one by one */
+    bool late;   /* files are synced at the commit, all of them, and not one by one */
     char **name; /* final names, in the order of creation */
     size_t count, capacity;
 };
 
 enum { TEMPORARY_SIZE = CPSI_NAME_SIZE };
 
-static CpsStatus fail_path(const CpsiDirectory *directory, const char *name, int code, CpsError *err) {
-    return cpsi_fail(err, CPS_ERR_IO, "cannot write %s/%s: %s; earlier results are kept", directory->path, name,
-                     code ? strerror(code) : "the write failed");
+static CpsStatus fail_path(const CpsiDirectory *directory, const char *name, int code,
+                           CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_IO, "cannot write %s/%s: %s; earlier results are kept",
+                     directory->path, name, code ? strerror(code) : "the write failed");
 }
 
 static void temporary_name(char out[TEMPORARY_SIZE], const char *name) {
     snprintf(out, TEMPORARY_SIZE, ".%s.part", name);
 }
 
-/* `make`: where it is missing. *out is NULL, and the status CPS_OK, where it is missing and not made. */
+/* `make`: where it is missing. *out is NULL, and the status CPS_OK, where it is missing and not
+ * made. */
 static CpsStatus open_folder(const char *path, bool make, CpsiDirectory **out, CpsError *err) {
     *out = NULL;
     CpsiDirectory *directory = calloc(1, sizeof *directory);
-    if (directory) directory->path = strdup(path), directory->fd = directory->notes = -1;
+    if (directory) {
+        directory->path = strdup(path);
+        directory->fd = directory->notes = -1;
+    }
     if (!directory || !directory->path) {
         free(directory);
         return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while opening the results directory");
     }
 
     directory->made = make && mkdir(path, 0777) == 0;
-    if (directory->made || !make || errno == EEXIST) directory->fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (directory->made || !make || errno == EEXIST)
+        directory->fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (directory->fd < 0) {
-        const CpsStatus status = !make && errno == ENOENT
-                                     ? CPS_OK
-                                     : cpsi_fail(err, CPS_ERR_IO, "cannot use %s as a directory for results: %s", path, strerror(errno));
+        const CpsStatus status =
+            !make && errno == ENOENT
+                ? CPS_OK
+                : cpsi_fail(err, CPS_ERR_IO, "cannot use %s as a directory for results: %s", path,
+                            strerror(errno));
         cpsi_directory_destroy(directory);
         return status;
     }
@@ -65,7 +74,8 @@ static CpsStatus open_folder(const char *path, bool make, CpsiDirectory **out, C
     if (flock(directory->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         directory->made = false;
         cpsi_directory_destroy(directory);
-        return cpsi_fail(err, CPS_ERR_IO, "another run is writing to %s; choose another directory", path);
+        return cpsi_fail(err, CPS_ERR_IO, "another run is writing to %s; choose another directory",
+                         path);
     }
     *out = directory;
     return CPS_OK;
@@ -73,11 +83,13 @@ static CpsStatus open_folder(const char *path, bool make, CpsiDirectory **out, C
 
 /* Has capstan written to the directory before, or is there nothing in it? */
 static CpsStatus look_round(CpsiDirectory *directory, CpsError *err) {
-    const CpsStatus status = cpsi_marker_read(directory->fd, directory->path, &directory->marker, err);
-    if (status != CPS_OK || directory->marker.found || cpsi_marker_is_alone(directory->fd)) return status;
+    const CpsStatus status =
+        cpsi_marker_read(directory->fd, directory->path, &directory->marker, err);
+    if (status != CPS_OK || directory->marker.found || cpsi_marker_is_alone(directory->fd))
+        return status;
     return cpsi_fail(err, CPS_ERR_IO,
-                     "%s is not empty and was not written by capstan: choose another directory, or add --force to replace the files in it "
-                     "that have names of results",
+                     "%s is not empty and was not written by capstan: choose another directory, or "
+                     "add --force to replace the files in it that have names of results",
                      directory->path);
 }
 
@@ -106,7 +118,8 @@ CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsError *err) {
     } else {
         status = cpsi_marker_read(directory->fd, path, &directory->marker, err);
         if (status == CPS_OK) status = cpsi_marker_adopt(&directory->marker, directory->fd, err);
-        if (status == CPS_OK) status = cpsi_marker_write(&directory->marker, directory->fd, path, true, err);
+        if (status == CPS_OK)
+            status = cpsi_marker_write(&directory->marker, directory->fd, path, true, err);
     }
     cpsi_directory_destroy(directory);
     return status;
@@ -136,7 +149,9 @@ bool cpsi_directory_has(const CpsiDirectory *directory, const char *name) {
 /* remember a name, so that its temporary file is removed or renamed later */
 static CpsStatus remember(CpsiDirectory *directory, const char *name, CpsError *err) {
     if (!cpsi_marker_knows(name))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "'%s' is no name of a file of results: add it to those in directory_marker.c", name);
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "'%s' is no name of a file of results: add it to those in directory_marker.c", name);
     if (directory->count == directory->capacity) {
         const size_t capacity = directory->capacity ? 2 * directory->capacity : 64;
         char **grown = realloc(directory->name, capacity * sizeof *grown);
@@ -157,14 +172,16 @@ static CpsStatus remember(CpsiDirectory *directory, const char *name, CpsError *
     return CPS_OK;
 }
 
-CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE **out, CpsError *err) {
+CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE **out,
+                                CpsError *err) {
     *out = NULL;
     const CpsStatus status = remember(directory, name, err);
     if (status) return status;
 
     char temporary[TEMPORARY_SIZE];
     temporary_name(temporary, name);
-    const int fd = openat(directory->fd, temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    const int fd = openat(directory->fd, temporary,
+                          O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (fd < 0) return fail_path(directory, name, errno, err);
     *out = fdopen(fd, "w");
     if (*out) return CPS_OK;
@@ -178,11 +195,13 @@ CpsStatus cpsi_directory_close_file(CpsiDirectory *directory, FILE *stream, CpsE
         ferror(stream) || fflush(stream) != 0 || (!directory->late && fsync(fileno(stream)) != 0);
     const int flush_code = errno;
     if (fclose(stream) != 0 || failed)
-        return fail_path(directory, directory->name[directory->count - 1], failed ? flush_code : errno, err);
+        return fail_path(directory, directory->name[directory->count - 1],
+                         failed ? flush_code : errno, err);
     return CPS_OK;
 }
 
-CpsStatus cpsi_directory_reserve(CpsiDirectory *directory, const char *name, char **path, CpsError *err) {
+CpsStatus cpsi_directory_reserve(CpsiDirectory *directory, const char *name, char **path,
+                                 CpsError *err) {
     *path = NULL;
     const CpsStatus status = remember(directory, name, err);
     if (status) return status;
@@ -205,7 +224,9 @@ CpsStatus cpsi_directory_sync(CpsiDirectory *directory, const char *name, CpsErr
 
 size_t cpsi_directory_count(const CpsiDirectory *directory) { return directory->count; }
 
-const char *cpsi_directory_name(const CpsiDirectory *directory, size_t i) { return directory->name[i]; }
+const char *cpsi_directory_name(const CpsiDirectory *directory, size_t i) {
+    return directory->name[i];
+}
 
 int cpsi_directory_reopen(const CpsiDirectory *directory, const char *name) {
     char temporary[TEMPORARY_SIZE];
@@ -213,23 +234,29 @@ int cpsi_directory_reopen(const CpsiDirectory *directory, const char *name) {
     return openat(directory->fd, temporary, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-/* commit --------------------------------------------------------------------------------------------------------- */
+/* commit --------------------------------------------------------------------------------------- */
 
 static CpsStatus fail_mixed(const CpsiDirectory *directory, const char *name, CpsError *err) {
     return cpsi_fail(err, CPS_ERR_IO,
-                     "cannot put %s/%s in its place: %s; the files there are now of two runs, and %s is missing: run again into this "
-                     "directory (--resume goes on from the journal) to replace them all",
+                     "cannot put %s/%s in its place: %s; the files there are now of two runs, and "
+                     "%s is missing: run again into this directory (--resume goes on from the "
+                     "journal) to replace them all",
                      directory->path, name, strerror(errno), directory->name[directory->count - 1]);
 }
 
 static CpsStatus fail_late(const CpsiDirectory *directory, CpsError *err) {
-    return cpsi_fail(err, CPS_ERR_IO, "all files of %s are in place, but the disk has not confirmed it: %s", directory->path, strerror(errno));
+    return cpsi_fail(err, CPS_ERR_IO,
+                     "all files of %s are in place, but the disk has not confirmed it: %s",
+                     directory->path, strerror(errno));
 }
 
 /* a file system that cannot sync a directory is accepted */
-static bool sync_folder(const CpsiDirectory *directory) { return fsync(directory->fd) == 0 || errno == EINVAL; }
+static bool sync_folder(const CpsiDirectory *directory) {
+    return fsync(directory->fd) == 0 || errno == EINVAL;
+}
 
-/* What would be refused or lost, before the first earlier file is replaced. *replaces: there are such files. */
+/* What would be refused or lost, before the first earlier file is replaced. *replaces: there are
+ * such files. */
 static CpsStatus look_ahead(const CpsiDirectory *directory, bool *replaces, CpsError *err) {
     *replaces = false;
     for (size_t i = 0; i < directory->count; ++i) {
@@ -238,64 +265,79 @@ static CpsStatus look_ahead(const CpsiDirectory *directory, bool *replaces, CpsE
         if (fstatat(directory->fd, name, &found, AT_SYMLINK_NOFOLLOW) != 0) continue;
         if (S_ISDIR(found.st_mode)) return fail_path(directory, name, EISDIR, err);
         if (!cpsi_names_have(&directory->marker.written, name))
-            return cpsi_fail(err, CPS_ERR_IO,
-                             "%s/%s was not written by capstan: move it away, or add --force to replace it (and --resume to go on from the "
-                             "journal); earlier results are kept",
-                             directory->path, name);
+            return cpsi_fail(
+                err, CPS_ERR_IO,
+                "%s/%s was not written by capstan: move it away, or add --force to replace it (and "
+                "--resume to go on from the journal); earlier results are kept",
+                directory->path, name);
         *replaces = true;
     }
     return CPS_OK;
 }
 
-/* The names of this run in order, and those of the marker with them: all memory that a commit takes. */
+/* The names of this run in order, and those of the marker with them: all memory that a commit
+ * takes. */
 static CpsStatus list_names(CpsiDirectory *directory, CpsiNames *own, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (size_t i = 0; i < directory->count && status == CPS_OK; ++i) {
         status = cpsi_names_add(own, directory->name[i], err);
-        if (status == CPS_OK) status = cpsi_names_add(&directory->marker.written, directory->name[i], err);
+        if (status == CPS_OK)
+            status = cpsi_names_add(&directory->marker.written, directory->name[i], err);
     }
-    return status == CPS_OK ? cpsi_names_add(&directory->marker.awaited, directory->name[directory->count - 1], err) : status;
+    return status == CPS_OK ? cpsi_names_add(&directory->marker.awaited,
+                                             directory->name[directory->count - 1], err)
+                            : status;
 }
 
 /* All names but the last, and what earlier runs have left beyond them. */
-static CpsStatus put_in_place(CpsiDirectory *directory, const CpsiNames *own, bool (*stale)(const char *name), CpsError *err) {
+static CpsStatus put_in_place(CpsiDirectory *directory, const CpsiNames *own,
+                              bool (*stale)(const char *name), CpsError *err) {
     char temporary[TEMPORARY_SIZE];
     for (size_t i = 0; i + 1 < directory->count; ++i) {
         temporary_name(temporary, directory->name[i]);
-        if (renameat(directory->fd, temporary, directory->fd, directory->name[i]) != 0) return fail_mixed(directory, directory->name[i], err);
+        if (renameat(directory->fd, temporary, directory->fd, directory->name[i]) != 0)
+            return fail_mixed(directory, directory->name[i], err);
     }
-    /* pictures and steps of an earlier, longer run would be taken for this run's; one that cannot be removed stays in the list, for the next */
+    /* pictures and steps of an earlier, longer run would be taken for this run's; one that cannot
+     * be removed stays in the list, for the next */
     CpsiNames *written = &directory->marker.written;
     for (size_t i = written->count; i-- > 0;) {
         const char *name = written->name[i];
         if (!stale(name) || cpsi_names_have(own, name)) continue;
-        if (unlinkat(directory->fd, name, 0) == 0 || errno == ENOENT) cpsi_names_drop_at(written, i);
+        if (unlinkat(directory->fd, name, 0) == 0 || errno == ENOENT)
+            cpsi_names_drop_at(written, i);
     }
     return CPS_OK;
 }
 
 /* From here on the list names old files and new ones, and the one whose absence tells. */
-static CpsStatus replace(CpsiDirectory *directory, const CpsiNames *own, bool (*stale)(const char *name), bool replaces, CpsError *err) {
+static CpsStatus replace(CpsiDirectory *directory, const CpsiNames *own,
+                         bool (*stale)(const char *name), bool replaces, CpsError *err) {
     CpsiMarker *marker = &directory->marker;
     const char *last = directory->name[directory->count - 1];
     CpsStatus status = cpsi_marker_write(marker, directory->fd, directory->path, replaces, err);
     if (status != CPS_OK) return status;
     directory->committed = true;
     if (replaces && !sync_folder(directory)) return fail_path(directory, ".", errno, err);
-    if (unlinkat(directory->fd, last, 0) != 0 && errno != ENOENT) return fail_path(directory, last, errno, err);
+    if (unlinkat(directory->fd, last, 0) != 0 && errno != ENOENT)
+        return fail_path(directory, last, errno, err);
     if (replaces && !sync_folder(directory)) return fail_mixed(directory, last, err);
 
     status = put_in_place(directory, own, stale, err);
     if (status != CPS_OK) return status;
     char temporary[TEMPORARY_SIZE];
     temporary_name(temporary, last);
-    if (!sync_folder(directory) || renameat(directory->fd, temporary, directory->fd, last) != 0) return fail_mixed(directory, last, err);
+    if (!sync_folder(directory) || renameat(directory->fd, temporary, directory->fd, last) != 0)
+        return fail_mixed(directory, last, err);
     cpsi_names_drop(&marker->awaited, last);
-    if (cpsi_marker_write(marker, directory->fd, directory->path, replaces, NULL) != CPS_OK || !sync_folder(directory)) return fail_late(directory, err);
+    if (cpsi_marker_write(marker, directory->fd, directory->path, replaces, NULL) != CPS_OK ||
+        !sync_folder(directory))
+        return fail_late(directory, err);
     return CPS_OK;
 }
 
-CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const char *name), CpsError *err) {
+CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const char *name),
+                                CpsError *err) {
     if (directory->count == 0) return CPS_OK;
     bool replaces;
     CpsiNames own = {0};
@@ -317,7 +359,8 @@ void cpsi_directory_destroy(CpsiDirectory *directory) {
         free(directory->name[i]);
     }
     cpsi_marker_end(directory->fd, directory->notes);
-    if (directory->marked && !directory->committed && cpsi_marker_is_alone(directory->fd)) cpsi_marker_remove(directory->fd);
+    if (directory->marked && !directory->committed && cpsi_marker_is_alone(directory->fd))
+        cpsi_marker_remove(directory->fd);
     cpsi_marker_free(&directory->marker);
     if (directory->fd >= 0) close(directory->fd);
     if (directory->made && !directory->committed) rmdir(directory->path);

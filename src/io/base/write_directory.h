@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A set of files that appears in a directory whole or not at all.
  *
- * Every file NAME is written as .NAME.part, synced, and renamed at the commit, after all of them are complete. A commit that is interrupted
- * leaves a mixture that the marker tells (directory_marker.h).
- * Closing without a commit removes the temporary files, and the directory too if it was made for them. One
- * writer at a time: the open directory carries an advisory lock, which also ends with a killed process. */
+ * Every file NAME is written as .NAME.part, synced, and renamed at the commit, after all of them
+ * are complete. A commit that is interrupted leaves a mixture that the marker tells
+ * (directory_marker.h).
+ * Closing without a commit removes the temporary files, and the directory too if it was made for
+ * them. One writer at a time: the open directory carries an advisory lock, which also ends with a
+ * killed process. */
 #ifndef CAPSTAN_SRC_IO_BASE_WRITE_DIRECTORY_H
 #define CAPSTAN_SRC_IO_BASE_WRITE_DIRECTORY_H
 
@@ -17,28 +19,31 @@ enum { CPSI_NAME_SIZE = 256 }; /* of a file with what is added to it while it is
 
 typedef struct CpsiDirectory CpsiDirectory;
 
-/* Open `path`, made if missing. One that is not empty and has no marker (directory_marker.h) is refused.
- * Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
+/* Open `path`, made if missing. One that is not empty and has no marker (directory_marker.h) is
+ * refused. Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
 CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *err);
 
-/* Will it be accepted?  With `force` what lies there under names of results counts as capstan's from then on, and may be replaced. One that
- * is missing is left so. */
+/* Will it be accepted?  With `force` what lies there under names of results counts as capstan's
+ * from then on, and may be replaced. One that is missing is left so. */
 CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsError *err);
 
-/* The file of a directory without which the others of its set are of two runs, because replacing them was interrupted; "" where none is
- * missing, or the directory is. Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
+/* The file of a directory without which the others of its set are of two runs, because replacing
+ * them was interrupted; "" where none is missing, or the directory is. Returns CPS_OK, CPS_ERR_IO
+ * or CPS_ERR_MEMORY. */
 CpsStatus cpsi_directory_missing(const char *path, char missing[CPSI_NAME_SIZE], CpsError *err);
 
 /* From now on files are synced at the commit, one after the other, and not each as it is closed. */
 void cpsi_directory_sync_late(CpsiDirectory *directory);
 
 /* Begin the file `name`; the stream is closed by cpsi_directory_close_file. */
-CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE **out, CpsError *err);
+CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE **out,
+                                CpsError *err);
 
 /* Has a file of this name been begun? */
 bool cpsi_directory_has(const CpsiDirectory *directory, const char *name);
 
-/* The files begun, in that order, and one of them open for reading while it has its temporary name; -1 after an error. */
+/* The files begun, in that order, and one of them open for reading while it has its temporary name;
+ * -1 after an error. */
 size_t cpsi_directory_count(const CpsiDirectory *directory);
 const char *cpsi_directory_name(const CpsiDirectory *directory, size_t i);
 int cpsi_directory_reopen(const CpsiDirectory *directory, const char *name);
@@ -47,15 +52,18 @@ int cpsi_directory_reopen(const CpsiDirectory *directory, const char *name);
 CpsStatus cpsi_directory_close_file(CpsiDirectory *directory, FILE *stream, CpsError *err);
 
 /* Begin a file that a library opens by itself: its temporary path, owned by the caller. */
-CpsStatus cpsi_directory_reserve(CpsiDirectory *directory, const char *name, char **path, CpsError *err);
+CpsStatus cpsi_directory_reserve(CpsiDirectory *directory, const char *name, char **path,
+                                 CpsError *err);
 
 /* Sync a reserved file after the library has closed it. */
 CpsStatus cpsi_directory_sync(CpsiDirectory *directory, const char *name, CpsError *err);
 
-/* Rename all files into place, in the order of their creation, and remove listed files of earlier runs for which
- * `stale` is true and that this run has not written. The last file is removed first and renamed last. A file that the marker does not list
- * is not replaced: CPS_ERR_IO before anything has changed. */
-CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const char *name), CpsError *err);
+/* Rename all files into place, in the order of their creation, and remove listed files of earlier
+ * runs for which `stale` is true and that this run has not written. The last file is removed first
+ * and renamed last. A file that the marker does not list is not replaced: CPS_ERR_IO before
+ * anything has changed. */
+CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const char *name),
+                                CpsError *err);
 
 /* Close; files not committed are removed. Accepts NULL. */
 void cpsi_directory_destroy(CpsiDirectory *directory);

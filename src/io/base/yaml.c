@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* YAML to a tree, from the events of libfyaml (see yaml.h). No recursion: a stack of open collections. */
+/* YAML to a tree, from the events of libfyaml (see yaml.h). No recursion: a stack of open
+ * collections. */
 #include "io/base/yaml.h"
 
 #include <libfyaml.h>
@@ -13,7 +14,8 @@
 #include "io/base/escape.h"
 #include "io/base/yaml_lines.h"
 
-/* Values of a file, and bytes of one scalar: far more than a file needs, few enough to stay within memory. */
+/* Values of a file, and bytes of one scalar: far more than a file needs, few enough to stay within
+ * memory. */
 enum { MAX_VALUES = 4000000, MAX_SCALAR = 65536 };
 
 typedef struct Open {      /* a collection not yet closed */
@@ -32,8 +34,8 @@ typedef struct Parse {
     CpsiYaml *root;
 } Parse;
 
-CpsStatus cpsi_fail_at(CpsError *err, CpsStatus status, const char *file, int line, int column, const char *format,
-                       ...) {
+CpsStatus cpsi_fail_at(CpsError *err, CpsStatus status, const char *file, int line, int column,
+                       const char *format, ...) {
     char message[sizeof err->message];
     va_list args;
     va_start(args, format);
@@ -48,7 +50,8 @@ CpsStatus cpsi_fail_at(CpsError *err, CpsStatus status, const char *file, int li
     cpsi_fail(err, status, "%s", message);
     if (err) {
         snprintf(err->file, sizeof err->file, "%s", file);
-        err->line = line, err->column = column;
+        err->line = line;
+        err->column = column;
     }
     return status;
 }
@@ -60,7 +63,8 @@ const CpsiYaml *cpsi_yaml_child(const CpsiYaml *node, const char *key) {
     return NULL;
 }
 
-/* The child that the first step of a place names, and how long that step is; a key may have dots itself. */
+/* The child that the first step of a place names, and how long that step is; a key may have dots
+ * itself. */
 static const CpsiYaml *first_step(const CpsiYaml *node, const char *place, size_t *length) {
     const CpsiYaml *best = NULL;
     *length = 0;
@@ -72,7 +76,10 @@ static const CpsiYaml *first_step(const CpsiYaml *node, const char *place, size_
     }
     for (const CpsiYaml *child = node->child; child && child->key; child = child->next) {
         const size_t n = strlen(child->key);
-        if (n > *length && strncmp(place, child->key, n) == 0 && strchr(".[", place[n])) best = child, *length = n;
+        if (n > *length && strncmp(place, child->key, n) == 0 && strchr(".[", place[n])) {
+            best = child;
+            *length = n;
+        }
     }
     return best;
 }
@@ -83,7 +90,8 @@ const CpsiYaml *cpsi_yaml_at(const CpsiYaml *root, const char *place) {
         size_t length;
         const CpsiYaml *next = first_step(node, place, &length);
         if (!next) break;
-        node = next, place += length;
+        node = next;
+        place += length;
         place += *place == '.';
     }
     return node;
@@ -145,18 +153,21 @@ static CpsStatus check_characters(const Parse *p, const char *bytes, size_t size
     for (const char *s = bytes; s < bytes + size;) {
         const bool space = *s == '\t' || *s == '\n' || *s == '\r';
         if (is_control(s) && !space)
-            return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column,
-                                "found a control character (byte 0x%02x): remove it (is this a text file?)",
-                                (unsigned)(unsigned char)*s);
+            return cpsi_fail_at(
+                p->err, CPS_ERR_INPUT, p->file, line, column,
+                "found a control character (byte 0x%02x): remove it (is this a text file?)",
+                (unsigned)(unsigned char)*s);
         const size_t length = cpsi_utf8_length(s);
         if (length == 0)
             return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column,
                                 "found byte 0x%02x, which is not UTF-8: save the file as UTF-8",
                                 (unsigned)(unsigned char)*s);
-        if (*s == '\n' && line < INT_MAX)
-            line++, column = 1;
-        else if (column < INT_MAX)
+        if (*s == '\n' && line < INT_MAX) {
+            line++;
+            column = 1;
+        } else if (column < INT_MAX) {
             column++;
+        }
         s += length;
     }
     return CPS_OK;
@@ -165,11 +176,14 @@ static CpsStatus check_characters(const Parse *p, const char *bytes, size_t size
 /* ---- events ---- */
 
 static CpsStatus out_of_memory(const Parse *p) {
-    return cpsi_fail_at(p->err, CPS_ERR_MEMORY, p->file, 0, 0, "out of memory while reading the %s", p->what);
+    return cpsi_fail_at(p->err, CPS_ERR_MEMORY, p->file, 0, 0, "out of memory while reading the %s",
+                        p->what);
 }
 
-/* The text of a scalar, copied; NULL after an error. Without memory libfyaml gives an empty text. */
-static const char *scalar_text(Parse *p, struct fy_event *event, int line, int column, CpsStatus *status) {
+/* The text of a scalar, copied; NULL after an error. Without memory libfyaml gives an empty
+ * text. */
+static const char *scalar_text(Parse *p, struct fy_event *event, int line, int column,
+                               CpsStatus *status) {
     size_t n = 0;
     const char *text = fy_token_get_text(event->scalar.value, &n);
     const struct fy_mark *start = fy_token_start_mark(event->scalar.value);
@@ -179,18 +193,19 @@ static const char *scalar_text(Parse *p, struct fy_event *event, int line, int c
     char *copy = NULL;
     *status = CPS_OK;
     if (n > MAX_SCALAR)
-        *status = cpsi_fail_at(p->err, CPS_ERR_LIMIT, p->file, line, column, "a text of %zu bytes, the limit is %d", n,
-                               (int)MAX_SCALAR);
-    else if (!text || (n == 0 && extent > 0 && !block) || !(copy = cpsi_pool_text(p->pool, text, n)))
+        *status = cpsi_fail_at(p->err, CPS_ERR_LIMIT, p->file, line, column,
+                               "a text of %zu bytes, the limit is %d", n, (int)MAX_SCALAR);
+    else if (!text || (n == 0 && extent > 0 && !block) ||
+             !(copy = cpsi_pool_text(p->pool, text, n)))
         *status = out_of_memory(p);
 
     /* line breaks are folded or escaped, control characters escaped: none may come through */
     for (size_t i = 0; *status == CPS_OK && i < n;) {
         const size_t length = is_control(copy + i) ? 0 : cpsi_utf8_length(copy + i);
         if (length == 0)
-            *status = cpsi_fail_at(
-                p->err, CPS_ERR_INPUT, p->file, line, column,
-                "found a text with a line break, a tab or a control character: write it on one line, without");
+            *status = cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column,
+                                   "found a text with a line break, a tab or a control character: "
+                                   "write it on one line, without");
         i += length;
     }
     return *status == CPS_OK ? copy : NULL;
@@ -199,16 +214,19 @@ static const char *scalar_text(Parse *p, struct fy_event *event, int line, int c
 /* A new value below the innermost open collection, or the root. */
 static CpsStatus add_value(Parse *p, CpsiYaml value, CpsiYaml **added) {
     if (++p->values > MAX_VALUES)
-        return cpsi_fail_at(p->err, CPS_ERR_LIMIT, p->file, value.line, value.column, "more than %d values in the file",
-                            (int)MAX_VALUES);
+        return cpsi_fail_at(p->err, CPS_ERR_LIMIT, p->file, value.line, value.column,
+                            "more than %d values in the file", (int)MAX_VALUES);
     CpsiYaml *node = CPSI_POOL_TAKE(p->pool, 1, CpsiYaml);
     if (!node) return out_of_memory(p);
     if (p->depth == 0) {
         p->root = node;
     } else {
         Open *parent = &p->open[p->depth - 1];
-        if (parent->node->kind == CPSI_YAML_MAPPING)
-            value.key = parent->key, value.line = parent->line, value.column = parent->column;
+        if (parent->node->kind == CPSI_YAML_MAPPING) {
+            value.key = parent->key;
+            value.line = parent->line;
+            value.column = parent->column;
+        }
         parent->key = NULL;
         if (parent->last)
             parent->last->next = node;
@@ -226,7 +244,8 @@ static int by_key_then_place(const void *left, const void *right) {
     const CpsiYaml *a = *(CpsiYaml *const *)left, *b = *(CpsiYaml *const *)right;
     const int order = strcmp(a->key, b->key);
     if (order != 0) return order;
-    return a->line != b->line ? (a->line < b->line ? -1 : 1) : (a->column > b->column) - (a->column < b->column);
+    return a->line != b->line ? (a->line < b->line ? -1 : 1)
+                              : (a->column > b->column) - (a->column < b->column);
 }
 
 static CpsStatus check_duplicates(const Parse *p, const CpsiYaml *mapping) {
@@ -239,9 +258,10 @@ static CpsStatus check_duplicates(const Parse *p, const CpsiYaml *mapping) {
     CpsStatus status = CPS_OK;
     for (size_t i = 1; i < n && status == CPS_OK; i++)
         if (strcmp(sorted[i - 1]->key, sorted[i]->key) == 0)
-            status = cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, sorted[i]->line, sorted[i]->column,
-                                  "key '%.64s' is given twice, first in line %d: keep one", sorted[i]->key,
-                                  sorted[i - 1]->line);
+            status =
+                cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, sorted[i]->line, sorted[i]->column,
+                             "key '%.64s' is given twice, first in line %d: keep one",
+                             sorted[i]->key, sorted[i - 1]->line);
     free(sorted);
     return status;
 }
@@ -251,8 +271,8 @@ static CpsStatus refuse(const Parse *p, int line, int column, const char *found)
 }
 
 static CpsStatus refuse_nothing(const Parse *p, const char *found) {
-    return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, 1, 1, "found %s: a %s begins with 'capstan: 1'", found,
-                        p->what);
+    return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, 1, 1,
+                        "found %s: a %s begins with 'capstan: 1'", found, p->what);
 }
 
 /* where an anchor or a tag stands, not the value behind it */
@@ -263,7 +283,8 @@ static CpsStatus refuse_token(const Parse *p, struct fy_token *token, const char
 
 /* A scalar or the beginning of a collection. */
 static CpsStatus take_value(Parse *p, struct fy_event *event, int line, int column) {
-    struct fy_token *anchor = fy_event_get_anchor_token(event), *tag = fy_event_get_tag_token(event);
+    struct fy_token *anchor = fy_event_get_anchor_token(event),
+                    *tag = fy_event_get_tag_token(event);
     if (anchor) return refuse_token(p, anchor, "an anchor ('&'): write the value out instead");
     if (tag) return refuse_token(p, tag, "a tag ('!'): remove it");
 
@@ -272,9 +293,11 @@ static CpsStatus take_value(Parse *p, struct fy_event *event, int line, int colu
     Open *parent = p->depth > 0 ? &p->open[p->depth - 1] : NULL;
     const bool scalar = event->type == FYET_SCALAR;
     if (parent && parent->node->kind == CPSI_YAML_MAPPING && !parent->key) {
-        if (!scalar) return refuse(p, line, column, "a mapping or a list as a key: a key is a word");
+        if (!scalar)
+            return refuse(p, line, column, "a mapping or a list as a key: a key is a word");
         parent->key = scalar_text(p, event, line, column, &status);
-        parent->line = line, parent->column = column;
+        parent->line = line;
+        parent->column = column;
         return status;
     }
 
@@ -287,7 +310,8 @@ static CpsStatus take_value(Parse *p, struct fy_event *event, int line, int colu
     }
     if (p->depth == p->max_depth)
         return cpsi_fail_at(p->err, CPS_ERR_LIMIT, p->file, line, column,
-                            "mappings and lists are nested deeper than %d, the limit", p->max_depth);
+                            "mappings and lists are nested deeper than %d, the limit",
+                            p->max_depth);
     value.kind = event->type == FYET_MAPPING_START ? CPSI_YAML_MAPPING : CPSI_YAML_SEQUENCE;
     status = add_value(p, value, &added);
     if (status == CPS_OK) p->open[p->depth++] = (Open){.node = added};
@@ -297,7 +321,10 @@ static CpsStatus take_value(Parse *p, struct fy_event *event, int line, int colu
 static CpsStatus take_event(Parse *p, struct fy_event *event) {
     const struct fy_mark *mark = fy_event_start_mark(event);
     /* what is not written has no place: that of what stands before it */
-    if (mark) p->line = mark->line + 1, p->column = mark->column + 1;
+    if (mark) {
+        p->line = mark->line + 1;
+        p->column = mark->column + 1;
+    }
     const int line = p->line;
     int column = p->column;
     if (event->type == FYET_SCALAR) {
@@ -310,19 +337,13 @@ static CpsStatus take_event(Parse *p, struct fy_event *event) {
         if (++p->documents < 2) return CPS_OK;
         return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column,
                             "found a second document ('---'): a file holds one %s", p->what);
-    case FYET_ALIAS:
-        return refuse(p, line, column, "an alias ('*'): write the value out instead");
+    case FYET_ALIAS: return refuse(p, line, column, "an alias ('*'): write the value out instead");
     case FYET_SCALAR:
     case FYET_MAPPING_START:
-    case FYET_SEQUENCE_START:
-        return take_value(p, event, line, column);
-    case FYET_MAPPING_END:
-        return check_duplicates(p, p->open[--p->depth].node);
-    case FYET_SEQUENCE_END:
-        p->depth--;
-        return CPS_OK;
-    default:
-        return CPS_OK;
+    case FYET_SEQUENCE_START: return take_value(p, event, line, column);
+    case FYET_MAPPING_END: return check_duplicates(p, p->open[--p->depth].node);
+    case FYET_SEQUENCE_END: p->depth--; return CPS_OK;
+    default: return CPS_OK;
     }
 }
 
@@ -331,8 +352,10 @@ static CpsStatus syntax_error(const Parse *p, struct fy_diag *diag) {
     void *previous = NULL;
     const struct fy_diag_error *error = fy_diag_errors_iterate(diag, &previous);
     if (!error) return out_of_memory(p);
-    const int line = error->line > 0 ? error->line : 1, column = error->column > 0 ? error->column : 1;
-    return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column, "not valid YAML: %.200s", error->msg);
+    const int line = error->line > 0 ? error->line : 1,
+              column = error->column > 0 ? error->column : 1;
+    return cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column, "not valid YAML: %.200s",
+                        error->msg);
 }
 
 static CpsStatus take_all(Parse *p, struct fy_parser *parser, struct fy_diag *diag) {
@@ -348,9 +371,15 @@ static CpsStatus take_all(Parse *p, struct fy_parser *parser, struct fy_diag *di
     return CPS_OK;
 }
 
-CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes, size_t size, int max_depth,
-                          CpsiPool *pool, CpsiYaml **root, CpsError *err) {
-    Parse p = {.file = file, .what = what, .pool = pool, .err = err, .max_depth = max_depth, .line = 1, .column = 1};
+CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes, size_t size,
+                          int max_depth, CpsiPool *pool, CpsiYaml **root, CpsError *err) {
+    Parse p = {.file = file,
+               .what = what,
+               .pool = pool,
+               .err = err,
+               .max_depth = max_depth,
+               .line = 1,
+               .column = 1};
     *root = NULL;
     CpsStatus status = check_characters(&p, bytes, size);
     if (status != CPS_OK) return status;
@@ -365,7 +394,8 @@ CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes,
     quiet.fp = NULL;
     struct fy_diag *diag = fy_diag_create(&quiet);
     if (diag) fy_diag_set_collect_errors(diag, true);
-    const struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_COLLECT_DIAG | FYPCF_DISABLE_DEPTH_LIMIT |
+    const struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_COLLECT_DIAG |
+                                                 FYPCF_DISABLE_DEPTH_LIMIT |
                                                  FYPCF_DEFAULT_VERSION_1_2 | FYPCF_JSON_NONE,
                                         .diag = diag};
     struct fy_parser *parser = diag ? fy_parser_create(&config) : NULL;

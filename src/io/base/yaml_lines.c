@@ -5,16 +5,19 @@
 #include <limits.h>
 #include <string.h>
 
-/* A directive is '%YAML 1.2'; empty lines part sections. On both libfyaml 0.7 to 0.9 spends a time that grows with the square of what is
- * there: 160 kB of '%' take half a minute, as do 40 kB of line breaks in a block text. At these limits it is not to be measured. */
+/* A directive is '%YAML 1.2'; empty lines part sections. On both libfyaml 0.7 to 0.9 spends a time
+ * that grows with the square of what is there: 160 kB of '%' take half a minute, as do 40 kB of
+ * line breaks in a block text. At these limits it is not to be measured. */
 enum { DIRECTIVE_MOST = 80, EMPTY_MOST = 500 };
 
-/* Bytes of the line break at s, 0: none. YAML 1.1, which a directive may ask for, knows U+0085, U+2028 and U+2029 as well. */
+/* Bytes of the line break at s, 0: none. YAML 1.1, which a directive may ask for, knows U+0085,
+ * U+2028 and U+2029 as well. */
 static size_t line_break(const char *s, size_t left) {
     if (s[0] == '\r') return left > 1 && s[1] == '\n' ? 2 : 1;
     if (s[0] == '\n') return 1;
     if (left > 1 && memcmp(s, "\xc2\x85", 2) == 0) return 2;
-    return left > 2 && (memcmp(s, "\xe2\x80\xa8", 3) == 0 || memcmp(s, "\xe2\x80\xa9", 3) == 0) ? 3 : 0;
+    return left > 2 && (memcmp(s, "\xe2\x80\xa8", 3) == 0 || memcmp(s, "\xe2\x80\xa9", 3) == 0) ? 3
+                                                                                                : 0;
 }
 
 bool cpsi_yaml_lines(const char *bytes, size_t size, int *line, const char **found) {
@@ -23,7 +26,8 @@ bool cpsi_yaml_lines(const char *bytes, size_t size, int *line, const char **fou
         const size_t begin = at;
         bool blank = true;
         size_t after = 0;
-        for (; at < size && !(after = line_break(bytes + at, size - at)); ++at) blank = blank && (bytes[at] == ' ' || bytes[at] == '\t');
+        for (; at < size && !(after = line_break(bytes + at, size - at)); ++at)
+            blank = blank && (bytes[at] == ' ' || bytes[at] == '\t');
         *found = "a long line that begins with '%': a directive is '%YAML 1.2'";
         if (bytes[begin] == '%' && at - begin > DIRECTIVE_MOST) return false;
         *found = "more than 500 empty lines one after another: remove some";

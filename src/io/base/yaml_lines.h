@@ -6,7 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Look through `bytes`, UTF-8. True: nothing is wrong; else *line (from 1), and *found says what is there and what is expected. */
+/* Look through `bytes`, UTF-8. True: nothing is wrong; else *line (from 1), and *found says what is
+ * there and what is expected. */
 bool cpsi_yaml_lines(const char *bytes, size_t size, int *line, const char **found);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What pictures of driven systems share: frames of equal scales, curves, arrows; lengths in data. */
+/* What pictures of driven systems share: frames of equal scales, curves, arrows; lengths in
+ * data. */
 #ifndef CAPSTAN_SRC_IO_DRAW_DIAGRAM_H
 #define CAPSTAN_SRC_IO_DRAW_DIAGRAM_H
 
@@ -18,24 +19,27 @@ void cpsi_frame_equal(CpsiFrame *frame);
 /* Ranges of (count, 2) points, added to those there. */
 void cpsi_range_points(double x[2], double y[2], int count, const double *point);
 
-/* A polyline, closed or not; `style` is more attributes. Points nearer than half a pixel are left out. */
-void cpsi_put_curve(FILE *out, const CpsiFrame *frame, int count, const double *point, bool closed, const char *style);
+/* A polyline, closed or not; `style` is more attributes. Points nearer than half a pixel are left
+ * out. */
+void cpsi_put_curve(FILE *out, const CpsiFrame *frame, int count, const double *point, bool closed,
+                    const char *style);
 
 /* An arrow from a point along (dx, dy) in data, with a head of some pixels. */
-void cpsi_put_arrow(FILE *out, const CpsiFrame *frame, const double from[2], const double along[2], const char *colour,
-                    double width);
+void cpsi_put_arrow(FILE *out, const CpsiFrame *frame, const double from[2], const double along[2],
+                    const char *colour, double width);
 
-void cpsi_put_dot(FILE *out, const CpsiFrame *frame, const double at[2], double radius, const char *style);
+void cpsi_put_dot(FILE *out, const CpsiFrame *frame, const double at[2], double radius,
+                  const char *style);
 
 /* A heading above a frame. */
 void cpsi_frame_title(FILE *out, const CpsiFrame *frame, const char *text);
 
 /* A body's patches at a pose, filled pale. */
-void cpsi_put_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body, const double pose[3],
-                   const char *colour, double opacity);
+void cpsi_put_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
+                   const double pose[3], const char *colour, double opacity);
 
 /* Let `draw` write with decimal points whatever the locale. */
-CpsStatus cpsi_draw_plain(CpsStatus (*draw)(void *what, FILE *out, CpsError *err), void *what, FILE *out,
-                          CpsError *err);
+CpsStatus cpsi_draw_plain(CpsStatus (*draw)(void *what, FILE *out, CpsError *err), void *what,
+                          FILE *out, CpsError *err);
 
 #endif

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pictures of friction laws, in the manner of M77 figure 1: the set of forces; at each corner the sector of normals,
- * into which -V points for every velocity that this one force resists; for each velocity asked for its set of forces,
- * and -V from there.
+/* Pictures of friction laws, in the manner of M77 figure 1: the set of forces; at each corner the
+ * sector of normals, into which -V points for every velocity that this one force resists; for each
+ * velocity asked for its set of forces, and -V from there.
  *
- * A set of more dimensions shows its section by the plane of two components, and the shadow it casts on that plane;
- * force sets are then shown by their shadows too. Curves are drawn through points of contact with tangents in evenly
- * turned directions, which are points of the set to rounding and lie dense on arcs; corners come from the set itself.
+ * A set of more dimensions shows its section by the plane of two components, and the shadow it
+ * casts on that plane; force sets are then shown by their shadows too. Curves are drawn through
+ * points of contact with tangents in evenly turned directions, which are points of the set to
+ * rounding and lie dense on arcs; corners come from the set itself.
  */
 #include <locale.h>
 #include <math.h>
@@ -38,7 +39,8 @@ static const double NOTHING = 1e-12;
 /* Radius of normal sectors and length of -V, as parts of the set's larger width. */
 static const double SECTOR = 0.2, ARROW = 0.26;
 
-/* Of a set without bounds so many times its own size is seen; it is cut off so many times farther out, beyond the frame. */
+/* Of a set without bounds so many times its own size is seen; it is cut off so many times farther
+ * out, beyond the frame. */
 static const double SEEN = 2, BEYOND = 8;
 
 /* What is drawn, and how data come onto paper. */
@@ -62,7 +64,9 @@ typedef struct Curve {
     double x[DIRECTIONS][2];
 } Curve;
 
-static CpsStatus out_of_memory(CpsError *err) { return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory"); }
+static CpsStatus out_of_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+}
 
 /* ---- sets to curves ---- */
 
@@ -114,7 +118,8 @@ static CpsStatus cut_off(const Sheet *s, double limits, CpsSet **set) {
     CpsSet *box = NULL, *seen = NULL;
     const double most = limits * s->limit, low[2] = {-most, -most}, high[2] = {most, most};
     CpsStatus status = cps_set_box(2, low, high, &box, s->err);
-    if (status == CPS_OK) status = cps_set_intersection(2, (const CpsSet *const[]){*set, box}, &seen, s->err);
+    if (status == CPS_OK)
+        status = cps_set_intersection(2, (const CpsSet *const[]){*set, box}, &seen, s->err);
     cps_set_release(box);
     if (status != CPS_OK) return status;
     cps_set_release(*set);
@@ -122,8 +127,8 @@ static CpsStatus cut_off(const Sheet *s, double limits, CpsSet **set) {
     return CPS_OK;
 }
 
-/* How far a set without bounds is seen: some times the largest of its finite supports, its distance from or depth at 0, its
- * corners and the forces asked for. */
+/* How far a set without bounds is seen: some times the largest of its finite supports, its distance
+ * from or depth at 0, its corners and the forces asked for. */
 static CpsStatus choose_limit(Sheet *s, const CpsSet *shadow) {
     CpsSetFacts facts;
     CpsStatus status = cps_set_facts(shadow, 0, &facts, NULL, NULL, s->err);
@@ -136,14 +141,21 @@ static CpsStatus choose_limit(Sheet *s, const CpsSet *shadow) {
         status = cps_set_support(shadow, (double[]){cos(angle), sin(angle)}, NULL, &answer, s->err);
         if (answer.outcome == CPS_SET_ANSWERED) most = fmax(most, fabs(answer.value));
     }
-    if (status == CPS_OK) status = cps_set_contains(shadow, (double[]){0, 0}, NULL, &answer, s->err);
-    if (status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && isfinite(answer.value)) most = fmax(most, fabs(answer.value));
-    if (status == CPS_OK) status = cps_set_vertices(shadow, 0, MOST_CORNERS, corner, &corners, &answer, s->err);
-    for (int i = 0; status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && i < 2 * corners && i < 2 * MOST_CORNERS; i++)
+    if (status == CPS_OK)
+        status = cps_set_contains(shadow, (double[]){0, 0}, NULL, &answer, s->err);
+    if (status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && isfinite(answer.value))
+        most = fmax(most, fabs(answer.value));
+    if (status == CPS_OK)
+        status = cps_set_vertices(shadow, 0, MOST_CORNERS, corner, &corners, &answer, s->err);
+    for (int i = 0; status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && i < 2 * corners &&
+                    i < 2 * MOST_CORNERS;
+         i++)
         most = fmax(most, fabs(corner[i]));
     for (int i = 0; i < s->picture->force_count; i++)
         for (int k = 0; k < 2; k++)
-            most = fmax(most, fabs(s->picture->force[(size_t)i * (size_t)s->n + (size_t)s->picture->axis[k]]));
+            most = fmax(
+                most,
+                fabs(s->picture->force[(size_t)i * (size_t)s->n + (size_t)s->picture->axis[k]]));
     s->limit = most > 0 ? SEEN * most : 1;
     return status;
 }
@@ -166,33 +178,40 @@ static void put_curve(const Sheet *s, const Curve *curve, const char *style) {
         const double x = px(s, curve->x[i][0]), y = py(s, curve->x[i][1]);
         if (fabs(x - lx) + fabs(y - ly) < 0.02) continue;
         fprintf(s->out, "%.2f,%.2f ", x, y);
-        lx = x, ly = y;
+        lx = x;
+        ly = y;
     }
     fputs("\"/>\n", s->out);
 }
 
-static void put_arrow(const Sheet *s, const double from[2], const double direction[2], double length,
-                      const char *colour) {
+static void put_arrow(const Sheet *s, const double from[2], const double direction[2],
+                      double length, const char *colour) {
     const double x0 = px(s, from[0]), y0 = py(s, from[1]);
-    const double x1 = px(s, from[0] + length * direction[0]), y1 = py(s, from[1] + length * direction[1]);
+    const double x1 = px(s, from[0] + length * direction[0]),
+                 y1 = py(s, from[1] + length * direction[1]);
     const double dx = x1 - x0, dy = y1 - y0, l = hypot(dx, dy);
     if (!(l > 1)) return;
     const double ux = dx / l, uy = dy / l;
-    fprintf(s->out, "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" stroke-width=\"1.8\"/>", x0,
-            y0, x1 - 7 * ux, y1 - 7 * uy, colour);
-    fprintf(s->out, "<polygon fill=\"%s\" points=\"%.2f,%.2f %.2f,%.2f %.2f,%.2f\"/>\n", colour, x1, y1,
-            x1 - 10 * ux - 4 * uy, y1 - 10 * uy + 4 * ux, x1 - 10 * ux + 4 * uy, y1 - 10 * uy - 4 * ux);
+    fprintf(s->out,
+            "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" "
+            "stroke-width=\"1.8\"/>",
+            x0, y0, x1 - 7 * ux, y1 - 7 * uy, colour);
+    fprintf(s->out, "<polygon fill=\"%s\" points=\"%.2f,%.2f %.2f,%.2f %.2f,%.2f\"/>\n", colour, x1,
+            y1, x1 - 10 * ux - 4 * uy, y1 - 10 * uy + 4 * ux, x1 - 10 * ux + 4 * uy,
+            y1 - 10 * uy - 4 * ux);
 }
 
-/* a cone of R^2 with its apex at a point: a sector up to the whole disc, an arrow, a line with two heads; *dimension: its own */
-static CpsStatus put_cone(const Sheet *s, const CpsSet *cone, const double apex[2], bool arrow, const char *style,
-                          int *dimension) {
+/* a cone of R^2 with its apex at a point: a sector up to the whole disc, an arrow, a line with two
+ * heads; *dimension: its own */
+static CpsStatus put_cone(const Sheet *s, const CpsSet *cone, const double apex[2], bool arrow,
+                          const char *style, int *dimension) {
     CpsiPlanarCone found;
     const CpsStatus status = cpsi_planar_cone(cone, &found, s->err);
     *dimension = found.dimension;
     const double r = SECTOR * s->size;
     for (int side = 1; found.dimension == 1 && arrow && side >= (found.line ? -1 : 1); side -= 2)
-        put_arrow(s, apex, (double[]){side * cos(found.start), side * sin(found.start)}, r, "#c98a1b");
+        put_arrow(s, apex, (double[]){side * cos(found.start), side * sin(found.start)}, r,
+                  "#c98a1b");
     if (status != CPS_OK || found.dimension < 2) return status;
     fprintf(s->out, "<polygon %s points=\"", style);
     if (found.turn < 2 * CPSI_PI) fprintf(s->out, "%.2f,%.2f ", px(s, apex[0]), py(s, apex[1]));
@@ -220,12 +239,15 @@ static CpsStatus put_corners(Sheet *s, const CpsSet *seen, const CpsSet *set) {
         if (is_beyond(s, at)) continue;
         status = cps_set_normal_cone(set, at, 0, &cone, &answer, s->err);
         if (status == CPS_OK && cone)
-            status = put_cone(s, cone, at, false,
-                              "fill=\"#f6dca6\" fill-opacity=\"0.75\" stroke=\"#c98a1b\" stroke-width=\"0.8\"", &dimension);
+            status = put_cone(
+                s, cone, at, false,
+                "fill=\"#f6dca6\" fill-opacity=\"0.75\" stroke=\"#c98a1b\" stroke-width=\"0.8\"",
+                &dimension);
         cps_set_release(cone);
         s->corners += dimension == 2;
         if (dimension == 2)
-            fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"#2b5fa8\"/>\n", px(s, at[0]), py(s, at[1]));
+            fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"3\" fill=\"#2b5fa8\"/>\n",
+                    px(s, at[0]), py(s, at[1]));
     }
     free(corner);
     return status;
@@ -252,7 +274,8 @@ static void vector_text(int n, const double *x, char *text, size_t size) {
     if (used < size) snprintf(text + used, size - used, n > 6 ? ", ...)" : ")");
 }
 
-static void list_velocity(const Sheet *s, int i, const double *velocity, const CpsSetAnswer *phi, int dimension) {
+static void list_velocity(const Sheet *s, int i, const double *velocity, const CpsSetAnswer *phi,
+                          int dimension) {
     static const char *const KIND[] = {"one force", "a segment of forces", "an area of forces"};
     char text[160], vector[100];
     if (i > MOST_LISTED) return;
@@ -266,7 +289,8 @@ static void list_velocity(const Sheet *s, int i, const double *velocity, const C
     double speed = 0; /* below the rounding of forces times speed phi is 0 */
     for (int k = 0; k < s->n; k++) speed = fmax(speed, fabs(velocity[k]));
     if (phi->outcome == CPS_SET_ANSWERED)
-        snprintf(text, sizeof text, "   %.6g W, %s", fabs(phi->value) > NOTHING * s->size * speed ? phi->value : 0,
+        snprintf(text, sizeof text, "   %.6g W, %s",
+                 fabs(phi->value) > NOTHING * s->size * speed ? phi->value : 0,
                  dimension < 3 ? KIND[dimension] : "a body of forces");
     else if (phi->outcome == CPS_SET_UNBOUNDED)
         snprintf(text, sizeof text, "   no force: phi is infinite");
@@ -285,11 +309,12 @@ static CpsStatus find_middle(const Sheet *s, const CpsSet *flat, Curve *curve, d
     return status;
 }
 
-static CpsStatus put_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFacts *facts, const char *colour, double center[2]) {
+static CpsStatus put_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFacts *facts,
+                                   const char *colour, double center[2]) {
     char style[120];
     if (facts->dimension == 0) {
-        fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"5.5\" fill=\"%s\" stroke=\"#fff\"/>\n", px(s, center[0]),
-                py(s, center[1]), colour);
+        fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"5.5\" fill=\"%s\" stroke=\"#fff\"/>\n",
+                px(s, center[0]), py(s, center[1]), colour);
         return CPS_OK;
     }
     Curve *curve = malloc(sizeof *curve);
@@ -298,7 +323,8 @@ static CpsStatus put_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFa
     if (status == CPS_OK && !facts->bounded) status = cut_off(s, BEYOND, flat);
     if (status == CPS_OK) status = trace(*flat, curve, s->err);
     if (status == CPS_OK) {
-        snprintf(style, sizeof style, "fill=\"%s\" fill-opacity=\"0.35\" stroke=\"%s\" stroke-width=\"4\"", colour,
+        snprintf(style, sizeof style,
+                 "fill=\"%s\" fill-opacity=\"0.35\" stroke=\"%s\" stroke-width=\"4\"", colour,
                  colour);
         fputs("<g clip-path=\"url(#frame1)\">\n", s->out); /* as of cpsi_frame_begin in put_axes */
         put_curve(s, curve, style);
@@ -309,7 +335,8 @@ static CpsStatus put_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFa
 }
 
 /* a set of forces in the plane: a dot, a thick line, or an area; its middle goes to center */
-static CpsStatus put_forces(const Sheet *s, const CpsSet *forces, const char *colour, double center[2]) {
+static CpsStatus put_forces(const Sheet *s, const CpsSet *forces, const char *colour,
+                            double center[2]) {
     CpsSet *flat = NULL;
     CpsSetFacts facts;
     CpsStatus status = plane_set(s, forces, false, &flat);
@@ -334,9 +361,11 @@ static CpsStatus put_velocity(const Sheet *s, int i) {
     if (status != CPS_OK) return status;
 
     /* -V in the plane, to the length of the arrows */
-    const double v[2] = {-velocity[s->picture->axis[0]], -velocity[s->picture->axis[1]]}, l = hypot(v[0], v[1]);
+    const double v[2] = {-velocity[s->picture->axis[0]], -velocity[s->picture->axis[1]]},
+                 l = hypot(v[0], v[1]);
     const double direction[2] = {l > 0 ? v[0] / l : 0, l > 0 ? v[1] / l : 0};
-    if (answer.outcome == CPS_SET_ANSWERED) put_arrow(s, center, direction, ARROW * s->size, colour.hex);
+    if (answer.outcome == CPS_SET_ANSWERED)
+        put_arrow(s, center, direction, ARROW * s->size, colour.hex);
     list_velocity(s, i, velocity, &answer, facts.dimension < 0 ? 0 : facts.dimension);
     return CPS_OK;
 }
@@ -351,12 +380,15 @@ static CpsStatus put_force(const Sheet *s, int i) {
     CpsStatus status = cps_set_normal_cone(s->set, force, 0, &cone, &answer, s->err);
     if (status == CPS_OK && cone) status = plane_set(s, cone, false, &flat);
     if (status == CPS_OK && flat)
-        status = put_cone(s, flat, at, true,
-                          "fill=\"#f0b429\" fill-opacity=\"0.6\" stroke=\"#8a5a00\" stroke-width=\"1.2\"", &dimension);
+        status = put_cone(
+            s, flat, at, true,
+            "fill=\"#f0b429\" fill-opacity=\"0.6\" stroke=\"#8a5a00\" stroke-width=\"1.2\"",
+            &dimension);
     cps_set_release(cone);
     cps_set_release(flat);
     fprintf(s->out,
-            "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"4.5\" fill=\"#fff\" stroke=\"#8a5a00\" stroke-width=\"1.6\"/>\n",
+            "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"4.5\" fill=\"#fff\" stroke=\"#8a5a00\" "
+            "stroke-width=\"1.6\"/>\n",
             px(s, at[0]), py(s, at[1]));
     return status;
 }
@@ -371,14 +403,19 @@ static void fit_frame(Sheet *s, const Curve *curve) {
         cpsi_range_include(y, curve->x[i][1]);
     }
     for (int i = 0; i < s->picture->force_count; i++) {
-        cpsi_range_include(x, s->picture->force[(size_t)i * (size_t)s->n + (size_t)s->picture->axis[0]]);
-        cpsi_range_include(y, s->picture->force[(size_t)i * (size_t)s->n + (size_t)s->picture->axis[1]]);
+        cpsi_range_include(
+            x, s->picture->force[(size_t)i * (size_t)s->n + (size_t)s->picture->axis[0]]);
+        cpsi_range_include(
+            y, s->picture->force[(size_t)i * (size_t)s->n + (size_t)s->picture->axis[1]]);
     }
     s->size = fmax(fmax(x[1] - x[0], y[1] - y[0]), 1e-300);
     s->unit = cpsi_unit("N", 0.5 * s->size);
-    const double room = 0.31 * s->size, wide = 0.5 * (x[1] - x[0]) + room, high = 0.5 * (y[1] - y[0]) + room;
-    const double half = fmax(wide, high / TALLEST) * s->unit.factor, share = fmin(high / wide, TALLEST);
-    const double cx = 0.5 * (x[0] + x[1]) * s->unit.factor, cy = 0.5 * (y[0] + y[1]) * s->unit.factor;
+    const double room = 0.31 * s->size, wide = 0.5 * (x[1] - x[0]) + room,
+                 high = 0.5 * (y[1] - y[0]) + room;
+    const double half = fmax(wide, high / TALLEST) * s->unit.factor,
+                 share = fmin(high / wide, TALLEST);
+    const double cx = 0.5 * (x[0] + x[1]) * s->unit.factor,
+                 cy = 0.5 * (y[0] + y[1]) * s->unit.factor;
     s->frame = (CpsiFrame){.left = LEFT,
                            .top = TOP,
                            .width = SIDE,
@@ -393,33 +430,38 @@ static void put_axes(const Sheet *s) {
         snprintf(x, sizeof x, "force, component %d (%s)", s->picture->axis[0] + 1, s->unit.name);
         snprintf(y, sizeof y, "force, component %d (%s)", s->picture->axis[1] + 1, s->unit.name);
     } else { /* of more components some may be torques */
-        snprintf(x, sizeof x, "component %d (%s, of a torque %s m)", s->picture->axis[0] + 1, s->unit.name,
-                 s->unit.name);
-        snprintf(y, sizeof y, "component %d (%s, of a torque %s m)", s->picture->axis[1] + 1, s->unit.name,
-                 s->unit.name);
+        snprintf(x, sizeof x, "component %d (%s, of a torque %s m)", s->picture->axis[0] + 1,
+                 s->unit.name, s->unit.name);
+        snprintf(y, sizeof y, "component %d (%s, of a torque %s m)", s->picture->axis[1] + 1,
+                 s->unit.name, s->unit.name);
     }
     cpsi_frame_axes(s->out, &s->frame, x, y);
     cpsi_frame_begin(s->out, &s->frame, 1);
-    fprintf(s->out, "<path d=\"M%.1f %.1fh%d M%.1f %.1fv%.1f\" stroke=\"#aaa\" stroke-width=\"1\"/>\n", s->frame.left,
-            py(s, 0), SIDE, px(s, 0), s->frame.top, s->frame.height);
+    fprintf(s->out,
+            "<path d=\"M%.1f %.1fh%d M%.1f %.1fv%.1f\" stroke=\"#aaa\" stroke-width=\"1\"/>\n",
+            s->frame.left, py(s, 0), SIDE, px(s, 0), s->frame.top, s->frame.height);
 }
 
 static void put_legend(const Sheet *s, bool some) {
     double x = LEFT, y = TOP + s->frame.height + 58;
-    cpsi_legend(s->out, &x, y,
-                "<rect x=\"-11\" y=\"-5\" width=\"22\" height=\"10\" fill=\"#dfe9f6\" stroke=\"#2b5fa8\"/>",
-                !s->in_space ? "set of forces"
-                : some       ? "section of the set of forces"
-                             : "no section: the plane misses the set");
+    cpsi_legend(
+        s->out, &x, y,
+        "<rect x=\"-11\" y=\"-5\" width=\"22\" height=\"10\" fill=\"#dfe9f6\" stroke=\"#2b5fa8\"/>",
+        !s->in_space ? "set of forces"
+        : some       ? "section of the set of forces"
+                     : "no section: the plane misses the set");
     if (s->in_space)
-        cpsi_legend(s->out, &x, y, "<line x1=\"-11\" x2=\"11\" stroke=\"#2b5fa8\" stroke-dasharray=\"4 3\"/>",
+        cpsi_legend(s->out, &x, y,
+                    "<line x1=\"-11\" x2=\"11\" stroke=\"#2b5fa8\" stroke-dasharray=\"4 3\"/>",
                     "its shadow");
     if (s->corners > 0)
-        cpsi_legend(s->out, &x, y, "<path d=\"M-9 4L9 4A18 18 0 0 0 4 -7Z\" fill=\"#f6dca6\" stroke=\"#c98a1b\"/>",
+        cpsi_legend(s->out, &x, y,
+                    "<path d=\"M-9 4L9 4A18 18 0 0 0 4 -7Z\" fill=\"#f6dca6\" stroke=\"#c98a1b\"/>",
                     "directions of \xE2\x88\x92V at a corner");
     if (s->picture->velocity_count > 0)
         cpsi_legend(s->out, &x, y,
-                    "<path d=\"M-10 0H10M4 -4L10 0L4 4\" stroke=\"#a03070\" fill=\"none\" stroke-width=\"1.8\"/>",
+                    "<path d=\"M-10 0H10M4 -4L10 0L4 4\" stroke=\"#a03070\" fill=\"none\" "
+                    "stroke-width=\"1.8\"/>",
                     "\xE2\x88\x92V, from its forces");
 }
 
@@ -436,28 +478,35 @@ static CpsStatus frame_shadow(Sheet *s, const CpsSet *shadow, Curve *curve) {
 }
 
 /* `whole` is the section; it and the shadow cut off, where they have no bounds, beyond the frame */
-static CpsStatus put_all(Sheet *s, const CpsSet *whole, const CpsSet *section, const CpsSet *shadow, Curve *curve) {
+static CpsStatus put_all(Sheet *s, const CpsSet *whole, const CpsSet *section, const CpsSet *shadow,
+                         Curve *curve) {
     CpsStatus status = trace(shadow, curve, s->err);
     if (status != CPS_OK) return status;
     const int asked = s->picture->velocity_count;
     const double list = TOP + 51.0 * (asked < MOST_LISTED ? asked : MOST_LISTED + 1);
-    const char *title = s->picture->title && *s->picture->title ? s->picture->title : "friction law";
-    cpsi_svg_begin(s->out, LEFT + SIDE + (asked ? LIST : 40), fmax(TOP + s->frame.height + 76, list), title,
-                   s->in_space      ? "section through 0, and shadow, of the set of forces"
-                   : s->limit > 0   ? "set of forces, which goes on beyond the frame"
-                                    : "set of forces");
+    const char *title =
+        s->picture->title && *s->picture->title ? s->picture->title : "friction law";
+    cpsi_svg_begin(s->out, LEFT + SIDE + (asked ? LIST : 40),
+                   fmax(TOP + s->frame.height + 76, list), title,
+                   s->in_space    ? "section through 0, and shadow, of the set of forces"
+                   : s->limit > 0 ? "set of forces, which goes on beyond the frame"
+                                  : "set of forces");
     put_axes(s);
     if (s->in_space) {
-        put_curve(s, curve, "fill=\"#f6f8fc\" stroke=\"#2b5fa8\" stroke-width=\"1\" stroke-dasharray=\"5 4\"");
+        put_curve(
+            s, curve,
+            "fill=\"#f6f8fc\" stroke=\"#2b5fa8\" stroke-width=\"1\" stroke-dasharray=\"5 4\"");
         status = trace(section, curve, s->err);
     }
     /* the plane through 0 may miss a set that a load has moved: its shadow is left */
     const bool some = curve->count > 0;
-    if (status == CPS_OK && some) put_curve(s, curve, "fill=\"#dfe9f6\" stroke=\"#2b5fa8\" stroke-width=\"1.8\"");
+    if (status == CPS_OK && some)
+        put_curve(s, curve, "fill=\"#dfe9f6\" stroke=\"#2b5fa8\" stroke-width=\"1.8\"");
     if (status == CPS_OK && some) status = put_corners(s, section, whole);
     for (int i = 0; i < s->picture->force_count && status == CPS_OK; i++) status = put_force(s, i);
     cpsi_frame_end(s->out);
-    for (int i = 0; i < s->picture->velocity_count && status == CPS_OK; i++) status = put_velocity(s, i);
+    for (int i = 0; i < s->picture->velocity_count && status == CPS_OK; i++)
+        status = put_velocity(s, i);
     put_legend(s, some);
     cpsi_svg_finish(s->out);
     return status;
@@ -483,13 +532,16 @@ static CpsStatus draw(Sheet *s) {
 }
 
 CpsStatus cps_law_draw(const CpsSet *set, const CpsLawPicture *picture, FILE *out, CpsError *err) {
-    if (!set || !picture || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "set, picture or out is NULL");
-    if ((picture->velocity_count > 0 && !picture->velocity) || (picture->force_count > 0 && !picture->force))
+    if (!set || !picture || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "set, picture or out is NULL");
+    if ((picture->velocity_count > 0 && !picture->velocity) ||
+        (picture->force_count > 0 && !picture->force))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "velocities or forces are counted, and NULL");
     const int n = cps_set_space(set), *axis = picture->axis;
     if (n == 1) return cpsi_law_graph(set, NULL, picture, out, err);
     if (axis[0] < 0 || axis[1] < 0 || axis[0] >= n || axis[1] >= n || axis[0] == axis[1])
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "axes %d and %d are not two different components from 0 to %d", axis[0],
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "axes %d and %d are not two different components from 0 to %d", axis[0],
                          axis[1], n - 1);
     Sheet s = {.out = out, .err = err, .picture = picture, .set = set, .n = n, .in_space = n > 2};
     s.shadow_map = calloc(2 * (size_t)n, sizeof *s.shadow_map);

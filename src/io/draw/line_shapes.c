@@ -1,18 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Plan views and elevations: what the lines look like.
  *
- * One step: colour is tension, a pale band under the line says whether it sticks or slips, grey is where the step
- * started. All steps: colour is the step. Plan views keep both scales equal; elevations may exaggerate heights by
- * a round factor that is printed. */
+ * One step: colour is tension, a pale band under the line says whether it sticks or slips, grey is
+ * where the step started. All steps: colour is the step. Plan views keep both scales equal;
+ * elevations may exaggerate heights by a round factor that is printed. */
 #include <math.h>
 #include <string.h>
 
 #include "io/draw/run_picture.h"
 #include "io/draw/steps.h"
 
-enum { MAX_FRAME_HEIGHT = 520, MIN_PLAN_HEIGHT = 220, LOW_HEIGHT = 210, COLOUR_LEVELS = 48, NAMED_LINES = 6 };
+enum {
+    MAX_FRAME_HEIGHT = 520,
+    MIN_PLAN_HEIGHT = 220,
+    LOW_HEIGHT = 210,
+    COLOUR_LEVELS = 48,
+    NAMED_LINES = 6
+};
 
-static const char COLOUR_STICK[] = "#9ad9c8", COLOUR_SLIP[] = "#ffb59b", COLOUR_AIR[] = "#d3b8f0", COLOUR_START[] = "#c4c4c4";
+static const char COLOUR_STICK[] = "#9ad9c8", COLOUR_SLIP[] = "#ffb59b", COLOUR_AIR[] = "#d3b8f0",
+                  COLOUR_START[] = "#c4c4c4";
 
 /* largest of 1, 2, 5, 10, ... that is not above x */
 static double round_down(double x) {
@@ -32,7 +39,8 @@ static double fit(const CpsiView *view, CpsiFrame *frame) {
     double dx = frame->x[1] - frame->x[0];
     double factor = 1, scale = frame->width / dx; /* pixels per metre along x */
 
-    /* heights: a round exaggeration where they would hardly be seen, none where they are nothing but rounding */
+    /* heights: a round exaggeration where they would hardly be seen, none where they are nothing
+     * but rounding */
     const double natural = height * scale;
     if (!view->plan && !view->true_scale && natural > 1e-5 * frame->width && natural < LOW_HEIGHT)
         factor = round_down(LOW_HEIGHT / natural);
@@ -43,9 +51,16 @@ static double fit(const CpsiView *view, CpsiFrame *frame) {
     frame->height = fmin(MAX_FRAME_HEIGHT, fmax(MIN_PLAN_HEIGHT, natural * factor * 1.3));
     dx = frame->width / scale;
     const double dy = frame->height / (scale * factor);
-    const double mid_x = 0.5 * (frame->x[0] + frame->x[1]), mid_y = 0.5 * (frame->y[0] + frame->y[1]);
-    if (isfinite(dx) && isfinite(mid_x)) frame->x[0] = mid_x - 0.5 * dx, frame->x[1] = mid_x + 0.5 * dx;
-    if (isfinite(dy) && isfinite(mid_y)) frame->y[0] = mid_y - 0.5 * dy, frame->y[1] = mid_y + 0.5 * dy;
+    const double mid_x = 0.5 * (frame->x[0] + frame->x[1]),
+                 mid_y = 0.5 * (frame->y[0] + frame->y[1]);
+    if (isfinite(dx) && isfinite(mid_x)) {
+        frame->x[0] = mid_x - 0.5 * dx;
+        frame->x[1] = mid_x + 0.5 * dx;
+    }
+    if (isfinite(dy) && isfinite(mid_y)) {
+        frame->y[0] = mid_y - 0.5 * dy;
+        frame->y[1] = mid_y + 0.5 * dy;
+    }
     return factor;
 }
 
@@ -62,22 +77,26 @@ static void put_point(const Pen *pen, const double position[3]) {
 }
 
 /* points first..last of an array (points, 3) */
-static void put_polyline(const Pen *pen, const double *position, int first, int last, const char *colour, double width,
-                         const char *more) {
+static void put_polyline(const Pen *pen, const double *position, int first, int last,
+                         const char *colour, double width, const char *more) {
     fprintf(pen->out,
-            "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-linejoin=\"round\" %s points=\"",
+            "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-linejoin=\"round\" "
+            "%s points=\"",
             colour, width, more);
     for (int i = first; i <= last; ++i) put_point(pen, position + 3 * (size_t)i);
     fputs("\"/>\n", pen->out);
 }
 
 static const char *band_colour(unsigned char state) {
-    return state == CPSI_SHAPE_IN_AIR ? COLOUR_AIR : state == CPS_NODE_SLIP ? COLOUR_SLIP : COLOUR_STICK;
+    return state == CPSI_SHAPE_IN_AIR ? COLOUR_AIR
+           : state == CPS_NODE_SLIP   ? COLOUR_SLIP
+                                      : COLOUR_STICK;
 }
 
 static bool rubs_in_air(const CpsResults *results, const CpsiSnapshot *snapshot) {
     for (int l = 0; l < results->line_count; ++l)
-        if (memchr(snapshot->shape[l].state, CPSI_SHAPE_IN_AIR, (size_t)snapshot->shape[l].points)) return true;
+        if (memchr(snapshot->shape[l].state, CPSI_SHAPE_IN_AIR, (size_t)snapshot->shape[l].points))
+            return true;
     return false;
 }
 
@@ -117,12 +136,15 @@ static void draw_end(const Pen *pen, const double position[3], bool held, const 
     const Vec3 place = vec3_load(position);
     const double x = cpsi_frame_x(pen->frame, vec3_dot(pen->view->right, place));
     const double y = cpsi_frame_y(pen->frame, vec3_dot(pen->view->up, place));
-    fprintf(pen->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\" stroke=\"#222\" stroke-width=\"1.4\"/>", x,
-            y, held ? "#222" : "#fff");
+    fprintf(pen->out,
+            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\" stroke=\"#222\" "
+            "stroke-width=\"1.4\"/>",
+            x, y, held ? "#222" : "#fff");
     /* on the side where there is room */
     const bool left = x > pen->frame->left + 0.8 * pen->frame->width;
     cpsi_svg_text(pen->out, left ? x - 7 : x + 7, y - 8, left ? CPSI_END : CPSI_START,
-                  "font-size=\"11\" paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"", name);
+                  "font-size=\"11\" paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"",
+                  name);
 }
 
 static void draw_ends(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot) {
@@ -133,9 +155,10 @@ static void draw_ends(const Pen *pen, const CpsResults *results, const CpsiSnaps
         for (int e = 0; e < 2; ++e) {
             char name[64] = "";
             if (results->line_count <= NAMED_LINES)
-                snprintf(name, sizeof name, "%.40s%s%s", named ? results->line_name[l] : "", named ? "." : "",
-                         e ? "B" : "A");
-            draw_end(pen, shape->position + (e ? 3 * (size_t)(shape->points - 1) : 0), row->line[l].held[e], name);
+                snprintf(name, sizeof name, "%.40s%s%s", named ? results->line_name[l] : "",
+                         named ? "." : "", e ? "B" : "A");
+            draw_end(pen, shape->position + (e ? 3 * (size_t)(shape->points - 1) : 0),
+                     row->line[l].held[e], name);
         }
     }
 }
@@ -143,51 +166,61 @@ static void draw_ends(const Pen *pen, const CpsResults *results, const CpsiSnaps
 static void draw_step_legend(const CpsResults *results, bool air, double y, FILE *out) {
     char mark[160];
     double x = CPSI_FRAME_LEFT;
-    snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"2\"/>", COLOUR_START);
+    snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"2\"/>",
+             COLOUR_START);
     cpsi_legend(out, &x, y, mark, "start of the step");
     if (results->obstacle_count > 0) {
-        snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_STICK);
+        snprintf(mark, sizeof mark,
+                 "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_STICK);
         cpsi_legend(out, &x, y, mark, "sticks");
-        snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_SLIP);
+        snprintf(mark, sizeof mark,
+                 "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_SLIP);
         cpsi_legend(out, &x, y, mark, "slips");
         if (air) {
-            snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_AIR);
+            snprintf(mark, sizeof mark,
+                     "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_AIR);
             cpsi_legend(out, &x, y, mark, "friction in the air");
         }
-        snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"3.4\"/>",
+        snprintf(mark, sizeof mark,
+                 "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"3.4\"/>",
                  cpsi_colour(CPSI_SCALE_TENSION, 0.5).hex);
         cpsi_legend(out, &x, y, mark, "off the obstacle");
     }
     cpsi_legend(out, &x, y, "<circle r=\"4.5\" fill=\"#222\" stroke=\"#222\"/>", "held end");
-    cpsi_legend(out, &x, y, "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>", "free end");
+    cpsi_legend(out, &x, y,
+                "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>",
+                "free end");
 }
 
-/* Where a step started. Before a line is laid by statics it is nowhere: the first guess of the solver is no shape to
- * show. */
+/* Where a step started. Before a line is laid by statics it is nowhere: the first guess of the
+ * solver is no shape to show. */
 static const double *start_of(const CpsResults *results, const CpsiSnapshot *snapshot, int line) {
     const bool laid = snapshot->step == 0 && strcmp(results->row[0].name, "laid") == 0;
     return laid ? snapshot->shape[line].position : snapshot->shape[line].reference;
 }
 
-/* axes, obstacles, subtitle: what both kinds of sheet begin with; step as of cpsi_picture_obstacles */
-static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, int step, const char *what,
-                        FILE *out) {
+/* axes, obstacles, subtitle: what both kinds of sheet begin with; step as of
+ * cpsi_picture_obstacles */
+static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, int step,
+                        const char *what, FILE *out) {
     char subtitle[300], label[256], more[64] = "";
     const double factor = fit(view, frame);
     if (factor > 1) snprintf(more, sizeof more, ", heights \xC3\x97 %.8g", factor);
-    snprintf(subtitle, sizeof subtitle, "%s%s%s", view->plan ? "Plan view" : "Elevation", more, what);
-    cpsi_svg_begin(out, CPSI_SHEET_WIDTH, frame->top + frame->height + 88, *results->title ? results->title : "capstan",
-                   subtitle);
+    snprintf(subtitle, sizeof subtitle, "%s%s%s", view->plan ? "Plan view" : "Elevation", more,
+             what);
+    cpsi_svg_begin(out, CPSI_SHEET_WIDTH, frame->top + frame->height + 88,
+                   *results->title ? results->title : "capstan", subtitle);
     cpsi_frame_begin(out, frame, 0);
-    fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#fdfdfd\"/>\n", frame->left,
-            frame->top, frame->width, frame->height);
+    fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#fdfdfd\"/>\n",
+            frame->left, frame->top, frame->width, frame->height);
     cpsi_picture_obstacles(results, view, frame, step, out);
     cpsi_frame_end(out);
     snprintf(label, sizeof label, "%s%s", view->y_label, more);
     cpsi_frame_axes(out, frame, view->x_label, label);
 }
 
-void cpsi_picture_step(const CpsResults *results, const CpsiView *view, const CpsiSnapshot *snapshot, FILE *out) {
+void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
+                       const CpsiSnapshot *snapshot, FILE *out) {
     const CpsiRow *row = &results->row[snapshot->step];
     char what[160], label[32];
     CpsiFrame frame;
@@ -200,7 +233,8 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view, const Cp
     const Pen pen = {view, &frame, out};
     cpsi_frame_begin(out, &frame, 1);
     for (int l = 0; l < results->line_count; ++l)
-        put_polyline(&pen, start_of(results, snapshot, l), 0, snapshot->shape[l].points - 1, COLOUR_START, 2, "");
+        put_polyline(&pen, start_of(results, snapshot, l), 0, snapshot->shape[l].points - 1,
+                     COLOUR_START, 2, "");
     for (int l = 0; l < results->line_count; ++l) draw_states(&pen, &snapshot->shape[l]);
     for (int l = 0; l < results->line_count; ++l) draw_tension(&pen, &snapshot->shape[l], range);
     cpsi_frame_end(out);
@@ -208,7 +242,8 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view, const Cp
 
     const CpsiUnit unit = cpsi_unit("N", range[1]);
     snprintf(label, sizeof label, "tension (%s)", unit.name);
-    cpsi_frame_bar(out, &frame, CPSI_SCALE_TENSION, range[0] * unit.factor, range[1] * unit.factor, label);
+    cpsi_frame_bar(out, &frame, CPSI_SCALE_TENSION, range[0] * unit.factor, range[1] * unit.factor,
+                   label);
     draw_step_legend(results, rubs_in_air(results, snapshot), frame.top + frame.height + 68, out);
     cpsi_svg_finish(out);
 }
@@ -223,16 +258,18 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
     const Pen pen = {view, &frame, out};
     cpsi_frame_begin(out, &frame, 1);
     for (int l = 0; l < results->line_count; ++l)
-        put_polyline(&pen, start_of(results, &results->snapshot[0], l), 0, results->snapshot[0].shape[l].points - 1,
-                     COLOUR_START, 3, "");
+        put_polyline(&pen, start_of(results, &results->snapshot[0], l), 0,
+                     results->snapshot[0].shape[l].points - 1, COLOUR_START, 3, "");
     for (int s = 0; s < results->snapshot_count; ++s)
         for (int l = 0; l < results->line_count; ++l)
-            put_polyline(&pen, results->snapshot[s].shape[l].position, 0, results->snapshot[s].shape[l].points - 1,
-                         cpsi_step_colour(results, s).hex, cpsi_step_width(results, s), "");
+            put_polyline(&pen, results->snapshot[s].shape[l].position, 0,
+                         results->snapshot[s].shape[l].points - 1, cpsi_step_colour(results, s).hex,
+                         cpsi_step_width(results, s), "");
     cpsi_frame_end(out);
     cpsi_step_list(results, &frame, out);
     double x = CPSI_FRAME_LEFT;
-    snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"3\"/>", COLOUR_START);
+    snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"3\"/>",
+             COLOUR_START);
     cpsi_legend(out, &x, frame.top + frame.height + 68, mark, "where the first step started");
     cpsi_svg_finish(out);
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The loops that force and displacement of a moved end describe.
  *
- * A loop is a run of stages that move a held end away and back to the same place. With u the displacement along the
- * direction of the farthest point and F the force along it, the loop's area is the work done on the line there, in a
- * steady cycle what friction dissipates. The figures of the picture are those of the ledger, which takes the parts of
- * every load step; the curve goes straight from step to step and may enclose another area. A stiff line's loop
- * is too thin to see: the second frame shows F less the mean f(u) of the ways out and back, which opens the loop and
+ * A loop is a run of stages that move a held end away and back to the same place. With u the
+ * displacement along the direction of the farthest point and F the force along it, the loop's area
+ * is the work done on the line there, in a steady cycle what friction dissipates. The figures of
+ * the picture are those of the ledger, which takes the parts of every load step; the curve goes
+ * straight from step to step and may enclose another area. A stiff line's loop is too thin to see:
+ * the second frame shows F less the mean f(u) of the ways out and back, which opens the loop and
  * leaves its area as it is, since f(u) du sums to nothing round a closed path. */
 #include <ctype.h>
 #include <math.h>
@@ -13,22 +14,24 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "io/draw/run_picture.h"
 #include "io/base/escape.h"
+#include "io/draw/run_picture.h"
 
 /* Displacements closer than this part of the loop's width are equal. */
 static const double SAME_DISPLACEMENT = 1e-6;
 
-/* Ends closer than this part of the line's length are at the same place: far above rounding of imposed positions. */
+/* Ends closer than this part of the line's length are at the same place: far above rounding of
+ * imposed positions. */
 static const double SAME_PLACE = 1e-9;
 
 enum { MAX_LOOPS = 48, MAX_LOOP_STAGES = 1000, FORCE_HEIGHT = 300, OPENED_HEIGHT = 260 };
 
-/* Steps first..last (rows) of one end of one line that lead back to where they began; row first - 1, if there is
- * one, is the state before. */
+/* Steps first..last (rows) of one end of one line that lead back to where they began; row first -
+ * 1, if there is one, is the state before. */
 typedef struct Loop {
     int line, end, first_stage, last_stage;
-    int start, last;   /* rows: the state before the loop, or its first step if there is none; its last step */
+    int start, last;   /* rows: the state before the loop, or its first step if there is none; its
+                          last step */
     Vec3 direction;    /* unit vector to the farthest point */
     double work;       /* [J] done on the line at this end, by the ledger */
     double dissipated; /* [J] by friction on this line, by the ledger */
@@ -77,21 +80,25 @@ static void measure_loop(const CpsResults *results, Loop *loop) {
     }
 }
 
-/* The next closed run of stages from `stage` on for the loop's line and end; returns the stage after it, or the
- * number of stages when there is none (loop->last is then -1). */
+/* The next closed run of stages from `stage` on for the loop's line and end; returns the stage
+ * after it, or the number of stages when there is none (loop->last is then -1). */
 static int find_loop(const CpsResults *results, Loop *loop, int stage) {
     loop->last = -1;
     for (; stage < results->stage_count; ++stage) {
         if (!stage_moves(results, loop, &results->stage[stage])) continue;
         const int first = results->stage[stage].first;
         loop->start = first > 0 ? first - 1 : 0;
-        const int most =
-            results->stage_count - stage < MAX_LOOP_STAGES ? results->stage_count : stage + MAX_LOOP_STAGES;
+        const int most = results->stage_count - stage < MAX_LOOP_STAGES ? results->stage_count
+                                                                        : stage + MAX_LOOP_STAGES;
         for (int next = stage; next < most; ++next) {
             if (!stage_moves(results, loop, &results->stage[next])) break;
             const int last = results->stage[next].last;
-            if (vec3_norm(moved(results, loop, last)) > SAME_PLACE * results->line_length[loop->line]) continue;
-            loop->first_stage = stage, loop->last_stage = next, loop->last = last;
+            if (vec3_norm(moved(results, loop, last)) >
+                SAME_PLACE * results->line_length[loop->line])
+                continue;
+            loop->first_stage = stage;
+            loop->last_stage = next;
+            loop->last = last;
             measure_loop(results, loop);
             return next + 1;
         }
@@ -99,7 +106,8 @@ static int find_loop(const CpsResults *results, Loop *loop, int stage) {
     return stage;
 }
 
-/* what the names of the loop's stages have in common, else the first one's: "surge out", "surge back" -> "surge" */
+/* what the names of the loop's stages have in common, else the first one's: "surge out", "surge
+ * back" -> "surge" */
 static void loop_name(const CpsResults *results, const Loop *loop, char out[64]) {
     const char *first = results->stage[loop->first_stage].name;
     size_t length = cpsi_utf8_cut(first, 60);
@@ -130,8 +138,9 @@ static int by_displacement(const void *a, const void *b) {
     return (p->u > q->u) - (p->u < q->u);
 }
 
-/* The mean curve's knots from the sorted points: where the path passes more than once, half way between the largest
- * and the smallest force there; and both turning points. Returns their number. */
+/* The mean curve's knots from the sorted points: where the path passes more than once, half way
+ * between the largest and the smallest force there; and both turning points. Returns their
+ * number. */
 static int find_knots(Knot *knot, int count) {
     const double same = SAME_DISPLACEMENT * (knot[count - 1].u - knot[0].u);
     int knots = 0;
@@ -141,7 +150,8 @@ static int find_knots(Knot *knot, int count) {
             low = fmin(low, knot[next].force);
             high = fmax(high, knot[next].force);
         }
-        if (next - i > 1 || i == 0 || next == count) knot[knots++] = (Knot){knot[i].u, 0.5 * (low + high)};
+        if (next - i > 1 || i == 0 || next == count)
+            knot[knots++] = (Knot){knot[i].u, 0.5 * (low + high)};
     }
     return knots;
 }
@@ -160,16 +170,18 @@ static void open_path(Path *path) {
     }
 }
 
-static void draw_path(const Path *path, const double *force, CpsiFrame frame, const char *x_label, const char *what,
-                      FILE *out) {
+static void draw_path(const Path *path, const double *force, CpsiFrame frame, const char *x_label,
+                      const char *what, FILE *out) {
     char label[80];
-    frame.x[0] = frame.y[0] = INFINITY, frame.x[1] = frame.y[1] = -INFINITY;
+    frame.x[0] = frame.y[0] = INFINITY;
+    frame.x[1] = frame.y[1] = -INFINITY;
     for (int i = 0; i < path->count; ++i) {
         cpsi_range_include(frame.x, path->u[i]);
         cpsi_range_include(frame.y, force[i]);
     }
     const CpsiUnit unit = cpsi_unit("N", fmax(fabs(frame.y[0]), fabs(frame.y[1])));
-    frame.y[0] *= unit.factor, frame.y[1] *= unit.factor;
+    frame.y[0] *= unit.factor;
+    frame.y[1] *= unit.factor;
     cpsi_range_pad(frame.x, 0.06);
     cpsi_range_pad(frame.y, 0.12);
     snprintf(label, sizeof label, "%s (%s)", what, unit.name);
@@ -177,38 +189,51 @@ static void draw_path(const Path *path, const double *force, CpsiFrame frame, co
 
     /* the area, then the path with its steps */
     for (int pass = 0; pass < 2; ++pass) {
-        fprintf(out, "<%s fill=\"%s\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" points=\"",
-                pass ? "polyline" : "polygon", pass ? "none" : "#dfe9f6", pass ? "#2b5fa8" : "none");
+        fprintf(out,
+                "<%s fill=\"%s\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" "
+                "points=\"",
+                pass ? "polyline" : "polygon", pass ? "none" : "#dfe9f6",
+                pass ? "#2b5fa8" : "none");
         for (int i = 0; i < path->count; ++i)
-            fprintf(out, "%.1f,%.1f ", cpsi_frame_x(&frame, path->u[i]), cpsi_frame_y(&frame, force[i] * unit.factor));
+            fprintf(out, "%.1f,%.1f ", cpsi_frame_x(&frame, path->u[i]),
+                    cpsi_frame_y(&frame, force[i] * unit.factor));
         fputs("\"/>\n", out);
     }
     for (int i = 0; i < path->count; ++i)
         fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"#2b5fa8\"/>\n",
-                cpsi_frame_x(&frame, path->u[i]), cpsi_frame_y(&frame, force[i] * unit.factor), i ? "2.2" : "5",
-                i ? "#2b5fa8" : "#fff");
+                cpsi_frame_x(&frame, path->u[i]), cpsi_frame_y(&frame, force[i] * unit.factor),
+                i ? "2.2" : "5", i ? "#2b5fa8" : "#fff");
 }
 
-static void draw_loop(const CpsResults *results, const Loop *loop, const Path *path, const char *name, FILE *out) {
-    const CpsiFrame above = {
-        .left = CPSI_FRAME_LEFT, .top = CPSI_FRAME_TOP + 28, .width = CPSI_FRAME_WIDTH, .height = FORCE_HEIGHT};
+static void draw_loop(const CpsResults *results, const Loop *loop, const Path *path,
+                      const char *name, FILE *out) {
+    const CpsiFrame above = {.left = CPSI_FRAME_LEFT,
+                             .top = CPSI_FRAME_TOP + 28,
+                             .width = CPSI_FRAME_WIDTH,
+                             .height = FORCE_HEIGHT};
     CpsiFrame below = above;
     below.top += above.height + 62;
     below.height = OPENED_HEIGHT;
     char text[300], x_label[96];
-    snprintf(text, sizeof text, "%s  \xC2\xB7  line %.40s, end %s  \xC2\xB7  steps %d to %d, from the open circle on",
-             name, results->line_name[loop->line], loop->end ? "B" : "A", loop->start + 1, loop->last + 1);
-    cpsi_svg_begin(out, CPSI_SHEET_WIDTH, below.top + below.height + 56, *results->title ? results->title : "capstan",
-                   text);
+    snprintf(text, sizeof text,
+             "%s  \xC2\xB7  line %.40s, end %s  \xC2\xB7  steps %d to %d, from the open circle on",
+             name, results->line_name[loop->line], loop->end ? "B" : "A", loop->start + 1,
+             loop->last + 1);
+    cpsi_svg_begin(out, CPSI_SHEET_WIDTH, below.top + below.height + 56,
+                   *results->title ? results->title : "capstan", text);
     const CpsiUnit joule = cpsi_unit("J", fmax(fabs(loop->work), loop->dissipated));
-    snprintf(text, sizeof text, "work done on the line at this end: %.4g %s", loop->work * joule.factor, joule.name);
-    cpsi_svg_text(out, above.left, above.top - 12, CPSI_START, "font-size=\"14\" font-weight=\"bold\" fill=\"#2b5fa8\"",
-                  text);
-    snprintf(text, sizeof text, "dissipated by friction: %.4g %s", loop->dissipated * joule.factor, joule.name);
-    cpsi_svg_text(out, above.left + above.width, above.top - 12, CPSI_END, "font-size=\"13\" fill=\"#666\"", text);
+    snprintf(text, sizeof text, "work done on the line at this end: %.4g %s",
+             loop->work * joule.factor, joule.name);
+    cpsi_svg_text(out, above.left, above.top - 12, CPSI_START,
+                  "font-size=\"14\" font-weight=\"bold\" fill=\"#2b5fa8\"", text);
+    snprintf(text, sizeof text, "dissipated by friction: %.4g %s", loop->dissipated * joule.factor,
+             joule.name);
+    cpsi_svg_text(out, above.left + above.width, above.top - 12, CPSI_END,
+                  "font-size=\"13\" fill=\"#666\"", text);
 
     const Vec3 d = loop->direction;
-    snprintf(x_label, sizeof x_label, "displacement along (%.3g, %.3g, %.3g) (m)", d.x + 0.0, d.y + 0.0, d.z + 0.0);
+    snprintf(x_label, sizeof x_label, "displacement along (%.3g, %.3g, %.3g) (m)", d.x + 0.0,
+             d.y + 0.0, d.z + 0.0);
     draw_path(path, path->force, above, x_label, "force along it", out);
     draw_path(path, path->opened, below, x_label, "less the mean of both ways", out);
     cpsi_svg_finish(out);
@@ -224,7 +249,9 @@ static bool picture_loop(const CpsResults *results, const Loop *loop, const char
         free(path.knot);
         return false;
     }
-    path.u = block, path.force = path.u + path.count, path.opened = path.force + path.count;
+    path.u = block;
+    path.force = path.u + path.count;
+    path.opened = path.force + path.count;
     for (int i = 0; i < path.count; ++i) {
         path.u[i] = along(results, loop, loop->start + i);
         path.force[i] = force(results, loop, loop->start + i);
@@ -266,7 +293,8 @@ CpsStatus cpsi_pictures_loops(CpsResults *results, CpsError *err) {
             const bool drawn_whole = picture_loop(results, &loop, name, out);
             status = cpsi_directory_close_file(results->directory, out, err);
             if (status) return status;
-            if (!drawn_whole) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while drawing %s", file);
+            if (!drawn_whole)
+                return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while drawing %s", file);
             ++drawn;
         }
     }

@@ -43,8 +43,10 @@ static CpsiColour step_colour(const CpsiMethods *m, int step) {
 
 static void find_ranges(Sheet *sheet) {
     const CpsiMethods *m = sheet->m;
-    for (int x = 0; x < 3; ++x)
-        sheet->whole[x][0] = sheet->around[x][0] = INFINITY, sheet->whole[x][1] = sheet->around[x][1] = -INFINITY;
+    for (int x = 0; x < 3; ++x) {
+        sheet->whole[x][0] = sheet->around[x][0] = INFINITY;
+        sheet->whole[x][1] = sheet->around[x][1] = -INFINITY;
+    }
     for (int k = 0; k < m->methods; ++k)
         for (int s = 0; s < m->steps; ++s)
             for (int p = 0; p < m->points; ++p)
@@ -62,24 +64,28 @@ static void find_ranges(Sheet *sheet) {
 
 /* the same metres per pixel along both axes */
 static void make_even(CpsiFrame *frame) {
-    const double across = (frame->x[1] - frame->x[0]) / frame->width, up = (frame->y[1] - frame->y[0]) / frame->height;
+    const double across = (frame->x[1] - frame->x[0]) / frame->width,
+                 up = (frame->y[1] - frame->y[0]) / frame->height;
     double *narrow = across > up ? frame->y : frame->x;
     const double wanted = fmax(across, up) * (across > up ? frame->height : frame->width);
     const double more = (wanted - (narrow[1] - narrow[0])) / 2;
-    narrow[0] -= more, narrow[1] += more;
+    narrow[0] -= more;
+    narrow[1] += more;
 }
 
-static void put_point(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int point, int up,
-                      FILE *out) {
+static void put_point(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int point,
+                      int up, FILE *out) {
     const double *x = place(m, method, step, point);
     fprintf(out, "%.1f,%.1f ", cpsi_frame_x(frame, x[0]), cpsi_frame_y(frame, x[up]));
 }
 
 /* the node before the first one inside the frame */
-static int first_inside(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up) {
+static int first_inside(const CpsiMethods *m, const CpsiFrame *frame, int method, int step,
+                        int up) {
     for (int p = 0; p < m->points; ++p) {
         const double *x = place(m, method, step, p);
-        if (x[0] >= frame->x[0] && x[0] <= frame->x[1] && x[up] >= frame->y[0] && x[up] <= frame->y[1])
+        if (x[0] >= frame->x[0] && x[0] <= frame->x[1] && x[up] >= frame->y[0] &&
+            x[up] <= frame->y[1])
             return p > 0 ? p - 1 : 0;
     }
     return m->points - 1;
@@ -92,25 +98,30 @@ static double width_of(const CpsiMethods *m, int step, bool near) {
 }
 
 /* End B after a step, as a ring: rings of steps that end in one place lie in each other. */
-static void put_ring(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up, FILE *out) {
+static void put_ring(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up,
+                     FILE *out) {
     const double *x = place(m, method, step, m->points - 1);
-    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\"/>\n", cpsi_frame_x(frame, x[0]),
-            cpsi_frame_y(frame, x[up]), 3.0 + 2.6 * (m->steps - 1 - step), step_colour(m, step).hex);
+    fprintf(out,
+            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" "
+            "stroke-width=\"1.8\"/>\n",
+            cpsi_frame_x(frame, x[0]), cpsi_frame_y(frame, x[up]),
+            3.0 + 2.6 * (m->steps - 1 - step), step_colour(m, step).hex);
 }
 
 /* The nodes of a short piece: as many elements as there are dots, however close. */
 static void put_dots(const CpsiMethods *m, const CpsiFrame *frame, int method, FILE *out) {
     for (int p = 0; p < m->points && m->points <= DOTTED; ++p) {
         const double *x = place(m, method, 0, p);
-        fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2\" fill=\"%s\"/>\n", cpsi_frame_x(frame, x[0]), cpsi_frame_y(frame, x[1]),
-                step_colour(m, 0).hex);
+        fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2\" fill=\"%s\"/>\n",
+                cpsi_frame_x(frame, x[0]), cpsi_frame_y(frame, x[1]), step_colour(m, 0).hex);
     }
 }
 
-/* Some 150 points are enough for a whole line, and what is inside the frame for the rest; more only make files large.
+/* Some 150 points are enough for a whole line, and what is inside the frame for the rest; more only
+ * make files large.
  */
-static void put_curve(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up, bool near,
-                      FILE *out) {
+static void put_curve(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up,
+                      bool near, FILE *out) {
     const int last = m->points - 1;
     const int stride = !near && !m->plan_only && last > NARROW / 2 ? last / (NARROW / 2) : 1;
     for (int p = near ? first_inside(m, frame, method, step, up) : 0; p < last; p += stride)
@@ -122,10 +133,13 @@ static bool is_near(int row) { return row >= PLAN_NEAR; }
 static bool is_plan(int row) { return row % 2 == PLAN; }
 
 static double row_top(int row) {
-    return TOP + (PLAN_HEIGHT + SIDE_HEIGHT + 2 * PITCH) * (row / 2) + (is_plan(row) ? 0 : PLAN_HEIGHT + PITCH);
+    return TOP + (PLAN_HEIGHT + SIDE_HEIGHT + 2 * PITCH) * (row / 2) +
+           (is_plan(row) ? 0 : PLAN_HEIGHT + PITCH);
 }
 
-static double row_bottom(int row) { return row_top(row) + (is_plan(row) ? PLAN_HEIGHT : SIDE_HEIGHT); }
+static double row_bottom(int row) {
+    return row_top(row) + (is_plan(row) ? PLAN_HEIGHT : SIDE_HEIGHT);
+}
 
 /* a long history by an even selection, with the first and the last step */
 static bool is_drawn(const CpsiMethods *m, int step) {
@@ -147,18 +161,21 @@ static void draw_frame(const Sheet *sheet, int method, int row, FILE *out) {
     cpsi_frame_begin(out, &frame, ROWS * method + row);
     for (int s = 0; s < m->steps; ++s) {
         if (!is_drawn(m, s)) continue;
-        fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" points=\"", step_colour(m, s).hex,
-                width_of(m, s, is_near(row)));
+        fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" points=\"",
+                step_colour(m, s).hex, width_of(m, s, is_near(row)));
         put_curve(m, &frame, method, s, up, is_near(row), out);
         fputs("\"/>\n", out);
     }
-    for (int s = 1; s < m->steps && is_near(row) && m->steps <= RINGED; ++s) put_ring(m, &frame, method, s, up, out);
+    for (int s = 1; s < m->steps && is_near(row) && m->steps <= RINGED; ++s)
+        put_ring(m, &frame, method, s, up, out);
     if (m->plan_only) put_dots(m, &frame, method, out);
     cpsi_frame_end(out);
     if (!is_plan(row)) return;
     char name[96];
-    snprintf(name, sizeof name, "%.72s%s", m->method[method].name, is_near(row) ? ", around end B" : "");
-    cpsi_svg_text(out, frame.left + frame.width / 2, frame.top - 10, CPSI_MIDDLE, "font-weight=\"bold\"", name);
+    snprintf(name, sizeof name, "%.72s%s", m->method[method].name,
+             is_near(row) ? ", around end B" : "");
+    cpsi_svg_text(out, frame.left + frame.width / 2, frame.top - 10, CPSI_MIDDLE,
+                  "font-weight=\"bold\"", name);
 }
 
 static void draw_legend(const Sheet *sheet, double width, double y, FILE *out) {
@@ -166,9 +183,11 @@ static void draw_legend(const Sheet *sheet, double width, double y, FILE *out) {
     double x = LEFT;
     for (int s = 0; s < m->steps; ++s) {
         char mark[128], name[24];
-        snprintf(name, sizeof name, "%.*s", (int)cpsi_utf8_cut(m->step_name[s], 18), m->step_name[s]);
+        snprintf(name, sizeof name, "%.*s", (int)cpsi_utf8_cut(m->step_name[s], 18),
+                 m->step_name[s]);
         if (x + 44 + 8 * (double)strlen(name) > width) break;
-        snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" y1=\"0\" y2=\"0\" stroke=\"%s\" stroke-width=\"3\"/>",
+        snprintf(mark, sizeof mark,
+                 "<line x1=\"-11\" x2=\"11\" y1=\"0\" y2=\"0\" stroke=\"%s\" stroke-width=\"3\"/>",
                  step_colour(m, s).hex);
         cpsi_legend(out, &x, y, mark, name);
     }
@@ -181,7 +200,8 @@ void cpsi_picture_methods(const CpsiMethods *m, FILE *out) {
                                           : PLAN_NEAR,
                    .column = m->methods > 1 ? NARROW : WIDE};
     find_ranges(&sheet);
-    const double width = LEFT + (sheet.column + GAP) * m->methods, bottom = row_bottom(sheet.rows - 1) + 56;
+    const double width = LEFT + (sheet.column + GAP) * m->methods,
+                 bottom = row_bottom(sheet.rows - 1) + 56;
     cpsi_svg_begin(out, width, bottom + (m->steps > 1 ? 34 : 0), m->title, m->note);
     for (int k = 0; k < m->methods; ++k)
         for (int row = 0; row < sheet.rows; ++row) draw_frame(&sheet, k, row, out);

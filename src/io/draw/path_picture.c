@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A planimeter on its curve; a block on a spring, its path in the plane or its loop in one component. */
+/* A planimeter on its curve; a block on a spring, its path in the plane or its loop in one
+ * component. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,9 +21,12 @@ typedef struct TracePicture {
 /* the hinge, on the side that the elbow is on */
 static void find_hinge(const CpsPlanimeter *p, const double tracer[2], double hinge[2]) {
     const double dx = tracer[0] - p->pole[0], dy = tracer[1] - p->pole[1], d2 = dx * dx + dy * dy;
-    const double along = 0.5 * (1 + (p->pole_arm * p->pole_arm - p->tracer_arm * p->tracer_arm) / d2);
-    const double across = sqrt(fmax(p->pole_arm * p->pole_arm / d2 - along * along, 0)) * (p->left_elbow ? 1 : -1);
-    hinge[0] = p->pole[0] + along * dx - across * dy, hinge[1] = p->pole[1] + along * dy + across * dx;
+    const double along =
+        0.5 * (1 + (p->pole_arm * p->pole_arm - p->tracer_arm * p->tracer_arm) / d2);
+    const double across =
+        sqrt(fmax(p->pole_arm * p->pole_arm / d2 - along * along, 0)) * (p->left_elbow ? 1 : -1);
+    hinge[0] = p->pole[0] + along * dx - across * dy;
+    hinge[1] = p->pole[1] + along * dy + across * dx;
 }
 
 static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
@@ -35,18 +39,23 @@ static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
     double hinge[2];
     find_hinge(m, tracer, hinge);
     const double t = m->wheel / m->tracer_arm;
-    const double wheel[2] = {hinge[0] + t * (tracer[0] - hinge[0]), hinge[1] + t * (tracer[1] - hinge[1])};
+    const double wheel[2] = {hinge[0] + t * (tracer[0] - hinge[0]),
+                             hinge[1] + t * (tracer[1] - hinge[1])};
     const double arms[6] = {m->pole[0], m->pole[1], hinge[0], hinge[1], tracer[0], tracer[1]};
-    frame.x[0] = frame.x[1] = m->pole[0], frame.y[0] = frame.y[1] = m->pole[1];
+    frame.x[0] = frame.x[1] = m->pole[0];
+    frame.y[0] = frame.y[1] = m->pole[1];
     cpsi_range_points(frame.x, frame.y, d->points, d->point);
     cpsi_range_points(frame.x, frame.y, 3, arms);
     cpsi_range_points(frame.x, frame.y, 1, wheel);
-    cpsi_range_pad(frame.x, 0.08), cpsi_range_pad(frame.y, 0.08);
+    cpsi_range_pad(frame.x, 0.08);
+    cpsi_range_pad(frame.y, 0.08);
     cpsi_frame_equal(&frame);
     char text[200];
-    snprintf(text, sizeof text, "area by the wheel %.9g m\xC2\xB2, of the curve %.9g m\xC2\xB2, difference %.2g",
+    snprintf(text, sizeof text,
+             "area by the wheel %.9g m\xC2\xB2, of the curve %.9g m\xC2\xB2, difference %.2g",
              p->reading->area, p->reading->exact, p->reading->area - p->reading->exact);
-    cpsi_svg_begin(out, LEFT + SIDE + 40, TOP + SIDE + 90, *p->file->title ? p->file->title : "polar planimeter", text);
+    cpsi_svg_begin(out, LEFT + SIDE + 40, TOP + SIDE + 90,
+                   *p->file->title ? p->file->title : "polar planimeter", text);
     cpsi_frame_axes(out, &frame, "x (m)", "y (m)");
     cpsi_frame_begin(out, &frame, 1);
     cpsi_put_curve(out, &frame, d->points, d->point, true,
@@ -57,24 +66,29 @@ static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
     cpsi_put_dot(out, &frame, tracer, 4, "fill=\"" CPSI_PLUM "\"");
 
     /* the wheel, across its arm */
-    const double nx = -(tracer[1] - hinge[1]) / m->tracer_arm, ny = (tracer[0] - hinge[0]) / m->tracer_arm;
+    const double nx = -(tracer[1] - hinge[1]) / m->tracer_arm,
+                 ny = (tracer[0] - hinge[0]) / m->tracer_arm;
     const double half = 0.06 * (frame.x[1] - frame.x[0]) * 0.6;
-    const double rim[4] = {wheel[0] - half * nx, wheel[1] - half * ny, wheel[0] + half * nx, wheel[1] + half * ny};
+    const double rim[4] = {wheel[0] - half * nx, wheel[1] - half * ny, wheel[0] + half * nx,
+                           wheel[1] + half * ny};
     cpsi_put_curve(out, &frame, 2, rim, false, "stroke=\"" CPSI_ORANGE "\" stroke-width=\"7\"");
     cpsi_frame_end(out);
     double x = LEFT;
     const double y = TOP + SIDE + 62;
     cpsi_legend(out, &x, y, "<circle r=\"6\" fill=\"#333\"/>", "pole");
-    cpsi_legend(out, &x, y, "<path d=\"M-8 0H8\" stroke=\"" CPSI_ORANGE "\" stroke-width=\"7\"/>", "wheel");
-    cpsi_legend(out, &x, y, "<circle r=\"4\" fill=\"" CPSI_PLUM "\"/>", "tracer, at the first point");
+    cpsi_legend(out, &x, y, "<path d=\"M-8 0H8\" stroke=\"" CPSI_ORANGE "\" stroke-width=\"7\"/>",
+                "wheel");
+    cpsi_legend(out, &x, y, "<circle r=\"4\" fill=\"" CPSI_PLUM "\"/>",
+                "tracer, at the first point");
     cpsi_svg_finish(out);
     return CPS_OK;
 }
 
-CpsStatus cps_drive_draw_planimeter(const CpsDriveFile *file, const CpsPlanimeterReading *reading, FILE *out,
-                                    CpsError *err) {
+CpsStatus cps_drive_draw_planimeter(const CpsDriveFile *file, const CpsPlanimeterReading *reading,
+                                    FILE *out, CpsError *err) {
     if (!file || file->kind != CPS_DRIVE_PLANIMETER || file->planimeter.points < 3 || !reading)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the file holds no planimeter, or there is no reading");
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the file holds no planimeter, or there is no reading");
     TracePicture picture = {file, reading};
     return cpsi_draw_plain(draw_trace, &picture, out, err);
 }
@@ -88,14 +102,22 @@ typedef struct SweepPicture {
 } SweepPicture;
 
 /* one component: a value over the moved end */
-static void put_loop(FILE *out, const SweepPicture *p, int column, const double *value, const char *label,
-                     const char *colour, double *room) {
-    CpsiFrame frame = {.left = LEFT + column * (SIDE - 60.0), .top = TOP, .width = SIDE - 160, .height = SIDE - 160};
-    frame.x[0] = frame.y[0] = INFINITY, frame.x[1] = frame.y[1] = -INFINITY;
+static void put_loop(FILE *out, const SweepPicture *p, int column, const double *value,
+                     const char *label, const char *colour, double *room) {
+    CpsiFrame frame = {.left = LEFT + column * (SIDE - 60.0),
+                       .top = TOP,
+                       .width = SIDE - 160,
+                       .height = SIDE - 160};
+    frame.x[0] = frame.y[0] = INFINITY;
+    frame.x[1] = frame.y[1] = -INFINITY;
     char style[80];
-    for (int i = 0; i < p->count; i++) room[2 * (size_t)i] = p->end[i], room[2 * (size_t)i + 1] = value[i];
+    for (int i = 0; i < p->count; i++) {
+        room[2 * (size_t)i] = p->end[i];
+        room[2 * (size_t)i + 1] = value[i];
+    }
     cpsi_range_points(frame.x, frame.y, p->count, room);
-    cpsi_range_pad(frame.x, 0.08), cpsi_range_pad(frame.y, 0.08);
+    cpsi_range_pad(frame.x, 0.08);
+    cpsi_range_pad(frame.y, 0.08);
     cpsi_frame_axes(out, &frame, "moved end of the spring (m)", label);
     cpsi_frame_begin(out, &frame, 1 + column);
     snprintf(style, sizeof style, "fill=\"none\" stroke=\"%s\" stroke-width=\"2\"", colour);
@@ -107,17 +129,21 @@ static void put_loop(FILE *out, const SweepPicture *p, int column, const double 
 /* two: the way of the block and of the end, with springs */
 static void put_plane(FILE *out, const SweepPicture *p) {
     CpsiFrame frame = {.left = LEFT, .top = TOP, .width = SIDE, .height = SIDE};
-    frame.x[0] = frame.y[0] = INFINITY, frame.x[1] = frame.y[1] = -INFINITY;
+    frame.x[0] = frame.y[0] = INFINITY;
+    frame.x[1] = frame.y[1] = -INFINITY;
     cpsi_range_points(frame.x, frame.y, p->count, p->end);
     cpsi_range_points(frame.x, frame.y, p->count, p->position);
-    cpsi_range_pad(frame.x, 0.08), cpsi_range_pad(frame.y, 0.08);
+    cpsi_range_pad(frame.x, 0.08);
+    cpsi_range_pad(frame.y, 0.08);
     cpsi_frame_equal(&frame);
     cpsi_frame_axes(out, &frame, "x (m)", "y (m)");
     cpsi_frame_begin(out, &frame, 1);
     for (int shot = 0; shot <= 12; shot++) {
         const size_t i = (size_t)((long long)(p->count - 1) * shot / 12);
-        const double line[4] = {p->position[2 * i], p->position[2 * i + 1], p->end[2 * i], p->end[2 * i + 1]};
-        cpsi_put_curve(out, &frame, 2, line, false, "fill=\"none\" stroke=\"" CPSI_GREY "\" stroke-dasharray=\"2 2\"");
+        const double line[4] = {p->position[2 * i], p->position[2 * i + 1], p->end[2 * i],
+                                p->end[2 * i + 1]};
+        cpsi_put_curve(out, &frame, 2, line, false,
+                       "fill=\"none\" stroke=\"" CPSI_GREY "\" stroke-dasharray=\"2 2\"");
         cpsi_put_dot(out, &frame, line, 3, "fill=\"" CPSI_BLUE "\"");
     }
     cpsi_put_curve(out, &frame, p->count, p->end, false, WAY);
@@ -126,9 +152,13 @@ static void put_plane(FILE *out, const SweepPicture *p) {
     cpsi_frame_end(out);
     double x = LEFT;
     const double y = TOP + SIDE + 62;
-    cpsi_legend(out, &x, y, "<path d=\"M-11 0H11\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2\"/>", "block");
-    cpsi_legend(out, &x, y, "<path d=\"M-11 0H11\" stroke=\"" CPSI_PLUM "\" stroke-width=\"1.4\"/>", "moved end");
-    cpsi_legend(out, &x, y, "<path d=\"M-11 0H11\" stroke=\"" CPSI_GREY "\" stroke-dasharray=\"2 2\"/>", "spring");
+    cpsi_legend(out, &x, y, "<path d=\"M-11 0H11\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2\"/>",
+                "block");
+    cpsi_legend(out, &x, y, "<path d=\"M-11 0H11\" stroke=\"" CPSI_PLUM "\" stroke-width=\"1.4\"/>",
+                "moved end");
+    cpsi_legend(out, &x, y,
+                "<path d=\"M-11 0H11\" stroke=\"" CPSI_GREY "\" stroke-dasharray=\"2 2\"/>",
+                "spring");
 }
 
 static CpsStatus draw_sweep(void *what, FILE *out, CpsError *err) {
@@ -136,10 +166,12 @@ static CpsStatus draw_sweep(void *what, FILE *out, CpsError *err) {
     const bool plane = p->file->sweep.space == 2;
     double *room = malloc(2 * (size_t)p->count * sizeof *room);
     if (!room) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    cpsi_svg_begin(out, LEFT + SIDE + (plane ? 40 : SIDE - 160), TOP + (plane ? SIDE + 90 : SIDE - 90),
+    cpsi_svg_begin(out, LEFT + SIDE + (plane ? 40 : SIDE - 160),
+                   TOP + (plane ? SIDE + 90 : SIDE - 90),
                    *p->file->title ? p->file->title : "block on a spring",
                    plane
-                       ? "a block dragged by a spring: friction lets it follow only where the spring pulls hard enough"
+                       ? "a block dragged by a spring: friction lets it follow only where the "
+                         "spring pulls hard enough"
                        : "the play operator: position and force over the moved end of the spring");
     if (plane) {
         put_plane(out, p);
@@ -152,9 +184,11 @@ static CpsStatus draw_sweep(void *what, FILE *out, CpsError *err) {
     return CPS_OK;
 }
 
-CpsStatus cps_drive_draw_sweep(const CpsDriveFile *file, int count, const double *end, const double *position,
-                               const double *force, FILE *out, CpsError *err) {
-    if (!file || file->kind != CPS_DRIVE_SWEEP || !file->sweep.law || count < 1 || !end || !position || !force)
+CpsStatus cps_drive_draw_sweep(const CpsDriveFile *file, int count, const double *end,
+                               const double *position, const double *force, FILE *out,
+                               CpsError *err) {
+    if (!file || file->kind != CPS_DRIVE_SWEEP || !file->sweep.law || count < 1 || !end ||
+        !position || !force)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the file holds no sweep, or there are no steps");
     SweepPicture picture = {file, count, end, position, force};
     return cpsi_draw_plain(draw_sweep, &picture, out, err);

@@ -6,7 +6,8 @@
 
 #include "base/math.h"
 
-/* Unit directions as near as this lie in the cone: far below a pixel, above what directions of normals are known to. */
+/* Unit directions as near as this lie in the cone: far below a pixel, above what directions of
+ * normals are known to. */
 static const double NEAR = 1e-6;
 
 /* Halvings of an angle: to the same. */
@@ -15,7 +16,8 @@ enum { HALVINGS = 22 };
 static CpsStatus holds(const CpsSet *cone, double angle, bool *in, CpsError *err) {
     double nearest[2];
     CpsSetAnswer answer;
-    const CpsStatus status = cps_set_project(cone, (double[]){cos(angle), sin(angle)}, NULL, nearest, &answer, err);
+    const CpsStatus status =
+        cps_set_project(cone, (double[]){cos(angle), sin(angle)}, NULL, nearest, &answer, err);
     *in = answer.outcome == CPS_SET_ANSWERED && answer.value <= NEAR;
     return status;
 }
@@ -25,11 +27,13 @@ static CpsStatus reach(const CpsSet *cone, double middle, int side, double *angl
     double low = 0, high = CPSI_PI;
     CpsStatus status = CPS_OK;
     for (int k = 0; status == CPS_OK && k < HALVINGS; k++) {
-        const double half = 0.5*(low + high);
+        const double half = 0.5 * (low + high);
         bool in = false;
-        status = holds(cone, middle + side*half, &in, err);
-        if (in) low = half;
-        else high = half;
+        status = holds(cone, middle + side * half, &in, err);
+        if (in)
+            low = half;
+        else
+            high = half;
     }
     *angle = low;
     return status;
@@ -43,7 +47,8 @@ CpsStatus cpsi_planar_cone(const CpsSet *cone, CpsiPlanarCone *out, CpsError *er
     if (status != CPS_OK || facts.outcome != CPS_SET_ANSWERED) return status;
     out->dimension = facts.dimension;
     if (facts.dimension == 0) return CPS_OK;
-    const double middle = facts.dimension == 1 ? atan2(basis[1], basis[0]) : atan2(center[1], center[0]);
+    const double middle =
+        facts.dimension == 1 ? atan2(basis[1], basis[0]) : atan2(center[1], center[0]);
     bool ahead = false, back = false;
     status = holds(cone, middle, &ahead, err);
     if (status == CPS_OK) status = holds(cone, middle + CPSI_PI, &back, err);
@@ -54,12 +59,13 @@ CpsStatus cpsi_planar_cone(const CpsSet *cone, CpsiPlanarCone *out, CpsError *er
         return CPS_OK;
     }
     if (back) { /* beside a direction inside, the opposite one leaves nothing out */
-        out->turn = 2*CPSI_PI;
+        out->turn = 2 * CPSI_PI;
         return CPS_OK;
     }
     double left = 0, right = 0;
     status = reach(cone, middle, 1, &left, err);
     if (status == CPS_OK) status = reach(cone, middle, -1, &right, err);
-    out->start = middle - right, out->turn = left + right;
+    out->start = middle - right;
+    out->turn = left + right;
     return status;
 }

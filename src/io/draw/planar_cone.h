@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A closed convex cone of the plane as a range of directions: nothing, a ray, a line, a sector, a half-plane, the whole plane. */
+/* A closed convex cone of the plane as a range of directions: nothing, a ray, a line, a sector, a
+ * half-plane, the whole plane. */
 #ifndef CAPSTAN_SRC_IO_DRAW_PLANAR_CONE_H
 #define CAPSTAN_SRC_IO_DRAW_PLANAR_CONE_H
 

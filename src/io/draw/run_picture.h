@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the pictures share: measures of the sheet, the direction of view, and one function per kind of picture. */
+/* What the pictures share: measures of the sheet, the direction of view, and one function per kind
+ * of picture. */
 #ifndef CAPSTAN_SRC_IO_DRAW_RUN_PICTURE_H
 #define CAPSTAN_SRC_IO_DRAW_RUN_PICTURE_H
 
 #include "base/vec3.h"
-#include "io/history.h"
 #include "io/draw/svg.h"
+#include "io/history.h"
 
 /* In pixels. */
 enum { CPSI_SHEET_WIDTH = 960, CPSI_FRAME_LEFT = 84, CPSI_FRAME_WIDTH = 740, CPSI_FRAME_TOP = 72 };
@@ -24,14 +25,16 @@ CpsiView cpsi_view_plan(const CpsResults *results);
 CpsiView cpsi_view_elevation(const CpsResults *results);
 
 /* What the lines lie on, under everything else; turned as after a step, or of all steps (-1). */
-void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame, int step,
-                            FILE *out);
+void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
+                            int step, FILE *out);
 
 /* Is its silhouette a circle: a ball, or a cylinder seen from its end? */
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);
 
-/* One step: lines coloured by tension, with what sticks and slips. All steps: curves coloured by step. */
-void cpsi_picture_step(const CpsResults *results, const CpsiView *view, const CpsiSnapshot *snapshot, FILE *out);
+/* One step: lines coloured by tension, with what sticks and slips. All steps: curves coloured by
+ * step. */
+void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
+                       const CpsiSnapshot *snapshot, FILE *out);
 void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *out);
 
 /* Tension along the lines, all steps. */

@@ -9,7 +9,9 @@ static CpsStatus write_steps(CpsResults *results, const CpsiView *view, CpsError
     for (int s = 0; s < results->snapshot_count && !status; ++s) {
         const CpsiSnapshot *snapshot = &results->snapshot[s];
         /* a history that ended early: its last step is pictured too */
-        if (!cpsi_results_pictured(results, snapshot->step) && snapshot->step != results->row_count - 1) continue;
+        if (!cpsi_results_pictured(results, snapshot->step) &&
+            snapshot->step != results->row_count - 1)
+            continue;
         char name[64];
         snprintf(name, sizeof name, "step-%05d-%s.svg", snapshot->step, kind);
         status = cpsi_directory_create(results->directory, name, &out, err);
@@ -18,7 +20,8 @@ static CpsStatus write_steps(CpsResults *results, const CpsiView *view, CpsError
         status = cpsi_directory_close_file(results->directory, out, err);
     }
     if (status) return status;
-    status = cpsi_directory_create(results->directory, view->plan ? "plan.svg" : "elevation.svg", &out, err);
+    status = cpsi_directory_create(results->directory, view->plan ? "plan.svg" : "elevation.svg",
+                                   &out, err);
     if (status) return status;
     cpsi_picture_steps(results, view, out);
     return cpsi_directory_close_file(results->directory, out, err);

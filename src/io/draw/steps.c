@@ -9,7 +9,8 @@
 enum { LISTED_STEPS = 14 };
 
 void cpsi_tension_range(const CpsResults *results, double range[2]) {
-    range[0] = INFINITY, range[1] = -INFINITY;
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
     for (int s = 0; s < results->snapshot_count; ++s)
         for (int l = 0; l < results->line_count; ++l)
             for (int i = 0; i + 1 < results->snapshot[s].shape[l].points; ++i)
@@ -28,14 +29,16 @@ CpsiColour cpsi_step_colour(const CpsResults *results, int snapshot) {
 
 double cpsi_step_width(const CpsResults *results, int snapshot) {
     const int count = results->snapshot_count;
-    return count < 2 || count > LISTED_STEPS ? 1.6 : 1.6 + 5.0 * (count - 1 - snapshot) / (count - 1);
+    return count < 2 || count > LISTED_STEPS ? 1.6
+                                             : 1.6 + 5.0 * (count - 1 - snapshot) / (count - 1);
 }
 
 void cpsi_step_note(const CpsResults *results, char *out, size_t size) {
     if (results->snapshot_count == results->row_count)
         snprintf(out, size, "%d step%s", results->row_count, results->row_count == 1 ? "" : "s");
     else
-        snprintf(out, size, "%d steps, %d of them drawn", results->row_count, results->snapshot_count);
+        snprintf(out, size, "%d steps, %d of them drawn", results->row_count,
+                 results->snapshot_count);
 }
 
 void cpsi_step_list(const CpsResults *results, const CpsiFrame *frame, FILE *out) {
@@ -49,8 +52,10 @@ void cpsi_step_list(const CpsResults *results, const CpsiFrame *frame, FILE *out
         char name[20];
         const CpsiRow *row = &results->row[results->snapshot[s].step];
         snprintf(name, sizeof name, "%.*s", (int)cpsi_utf8_cut(row->name, 15), row->name);
-        fprintf(out, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"3\"/>", x,
-                x + 16, y - 4, y - 4, cpsi_step_colour(results, s).hex);
+        fprintf(out,
+                "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" "
+                "stroke-width=\"3\"/>",
+                x, x + 16, y - 4, y - 4, cpsi_step_colour(results, s).hex);
         cpsi_svg_text(out, x + 22, y, CPSI_START, "font-size=\"11\"", name);
     }
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How pictures show the steps of a run: their colours, widths and list, and the tensions of all of them. */
+/* How pictures show the steps of a run: their colours, widths and list, and the tensions of all of
+ * them. */
 #ifndef CAPSTAN_SRC_IO_DRAW_STEPS_H
 #define CAPSTAN_SRC_IO_DRAW_STEPS_H
 

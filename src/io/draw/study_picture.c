@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The way of a study to its limits: tensions on which the stages come to rest, and errors solve by solve. */
+/* The way of a study to its limits: tensions on which the stages come to rest, and errors solve by
+ * solve. */
 #include <math.h>
 
-#include "io/draw/study_picture.h"
 #include "io/base/escape.h"
+#include "io/draw/study_picture.h"
 #include "io/draw/svg.h"
 
 enum {
@@ -28,8 +29,8 @@ static CpsiColour stage_colour(int stage) {
 
 /* ---- tensions ---- */
 
-static void put_tension(FILE *out, const CpsiFrame *frame, int cells, const double *arc, const double *tension,
-                        double factor, const char *style) {
+static void put_tension(FILE *out, const CpsiFrame *frame, int cells, const double *arc,
+                        const double *tension, double factor, const char *style) {
     fprintf(out, "<polyline fill=\"none\" %s points=\"", style);
     for (int i = 0; i < cells; ++i)
         fprintf(out, "%.1f,%.1f ", cpsi_frame_x(frame, (arc[i] + arc[i + 1]) / 2),
@@ -61,8 +62,10 @@ static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
                 "stroke=\"#bbb\" stroke-width=\"7\" stroke-linejoin=\"round\"");
     for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
         const CpsClassicView view = cps_study_stage_end(files->study, (CpsStudyStage)s);
-        snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"%.1f\"", stage_colour(s).hex, 3.4 - 0.6 * s);
-        if (view.cells > 0) put_tension(out, &frame, view.cells, view.arc_length, view.tension, unit.factor, style);
+        snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"%.1f\"", stage_colour(s).hex,
+                 3.4 - 0.6 * s);
+        if (view.cells > 0)
+            put_tension(out, &frame, view.cells, view.arc_length, view.tension, unit.factor, style);
     }
     cpsi_frame_end(out);
 
@@ -75,8 +78,10 @@ static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
             snprintf(text, sizeof text, "solution of P4.2");
         else
             snprintf(text, sizeof text, "%s at its limit", STAGE_NAME[s]);
-        fprintf(out, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%d\"/>", x,
-                x + 18, y - 4, y - 4, s < 0 ? "#bbb" : stage_colour(s).hex, s < 0 ? 7 : 3);
+        fprintf(out,
+                "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" "
+                "stroke-width=\"%d\"/>",
+                x, x + 18, y - 4, y - 4, s < 0 ? "#bbb" : stage_colour(s).hex, s < 0 ? 7 : 3);
         cpsi_svg_text(out, x + 26, y, CPSI_START, "", text);
     }
 }
@@ -108,12 +113,19 @@ static void put_stages(FILE *out, const CpsiFrame *frame, const CpsStudy *study)
     for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
         int first = rows, last = -1;
         for (int i = rows - 1; i >= 0; --i)
-            if (cps_study_row(study, i)->stage == (CpsStudyStage)s) first = i, last = last < 0 ? i : last;
+            if (cps_study_row(study, i)->stage == (CpsStudyStage)s) {
+                first = i;
+                last = last < 0 ? i : last;
+            }
         if (last < 0) continue;
-        const double left = cpsi_frame_x(frame, first - 0.5), right = cpsi_frame_x(frame, last + 0.5);
-        fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" opacity=\"0.10\"/>\n",
+        const double left = cpsi_frame_x(frame, first - 0.5),
+                     right = cpsi_frame_x(frame, last + 0.5);
+        fprintf(out,
+                "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" "
+                "opacity=\"0.10\"/>\n",
                 left, frame->top, right - left, frame->height, stage_colour(s).hex);
-        cpsi_svg_text(out, (left + right) / 2, frame->top - 8, CPSI_MIDDLE, "font-weight=\"bold\"", STAGE_NAME[s]);
+        cpsi_svg_text(out, (left + right) / 2, frame->top - 8, CPSI_MIDDLE, "font-weight=\"bold\"",
+                      STAGE_NAME[s]);
     }
 }
 
@@ -134,28 +146,33 @@ static void draw_errors(const CpsStudyFiles *files, FILE *out) {
                              .x = {-0.5, rows - 0.5},
                              .y = {range[0], range[1]}};
     put_stages(out, &frame, files->study);
-    cpsi_frame_axes(out, &frame, "solve, in the order h, \xCE\xBB, n, \xCE\xB4", "log10 of what is left");
+    cpsi_frame_axes(out, &frame, "solve, in the order h, \xCE\xBB, n, \xCE\xB4",
+                    "log10 of what is left");
     cpsi_frame_begin(out, &frame, 1);
     for (int c = 0; c < CURVES; ++c) {
-        fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" %s points=\"", CURVE[c].colour,
-                CURVE[c].dash);
+        fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" %s points=\"",
+                CURVE[c].colour, CURVE[c].dash);
         for (int i = 0; i < rows; ++i)
             fprintf(out, "%.1f,%.1f ", cpsi_frame_x(&frame, i),
-                    cpsi_frame_y(&frame, curve_value(c, &cps_study_row(files->study, i)->report, &step)));
+                    cpsi_frame_y(&frame,
+                                 curve_value(c, &cps_study_row(files->study, i)->report, &step)));
         fputs("\"/>\n", out);
     }
     /* a solve that did not converge is crossed out */
     for (int i = 0; i < rows; ++i) {
         const CpsStudyRow *row = cps_study_row(files->study, i);
         if (row->report.converged) continue;
-        cpsi_svg_text(out, cpsi_frame_x(&frame, i), cpsi_frame_y(&frame, curve_value(1, &row->report, &step)) + 4,
-                      CPSI_MIDDLE, "fill=\"#b91c1c\" font-weight=\"bold\"", "\xC3\x97");
+        cpsi_svg_text(out, cpsi_frame_x(&frame, i),
+                      cpsi_frame_y(&frame, curve_value(1, &row->report, &step)) + 4, CPSI_MIDDLE,
+                      "fill=\"#b91c1c\" font-weight=\"bold\"", "\xC3\x97");
     }
     cpsi_frame_end(out);
     for (int c = 0; c < CURVES; ++c) {
         const double x = LEFT + WIDTH + 20, y = ERROR_TOP + 14 + 22 * c;
-        fprintf(out, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"2\" %s/>", x,
-                x + 18, y - 4, y - 4, CURVE[c].colour, CURVE[c].dash);
+        fprintf(out,
+                "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" "
+                "stroke-width=\"2\" %s/>",
+                x, x + 18, y - 4, y - 4, CURVE[c].colour, CURVE[c].dash);
         cpsi_svg_text(out, x + 26, y, CPSI_START, "", CURVE[c].name);
     }
 }
@@ -170,8 +187,8 @@ void cpsi_picture_study(const CpsStudyFiles *files, FILE *out) {
     }
     char note[160];
     snprintf(note, sizeof note,
-             "The method of section 5 on its way to P4.2  \xC2\xB7  %d solves, %d Newton steps%s", rows,
-             iterations, open ? "  \xC2\xB7  \xC3\x97 did not converge" : "");
+             "The method of section 5 on its way to P4.2  \xC2\xB7  %d solves, %d Newton steps%s",
+             rows, iterations, open ? "  \xC2\xB7  \xC3\x97 did not converge" : "");
     cpsi_svg_begin(out, SHEET_WIDTH, SHEET_HEIGHT, files->title, note);
     draw_tensions(files, out);
     if (rows > 0) draw_errors(files, out);

@@ -5,7 +5,8 @@
 
 #include "capstan/classic_io.h"
 
-/* Tensions with which the stages end, over those of P4.2; below, errors and residuals on the way. */
+/* Tensions with which the stages end, over those of P4.2; below, errors and residuals on the
+ * way. */
 void cpsi_picture_study(const CpsStudyFiles *files, FILE *out);
 
 /* Strain and tension of P10.1 along the line beside those of P2.1, with what (86) forbids. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drawing graphs as SVG 1.1 (see svg.h). Colours are laid out in OKLab (B. Ottosson, 2020), where equal distances
- * look equal: lightness falls evenly along a scale while the hue turns, so they also read in grey. */
+/* Drawing graphs as SVG 1.1 (see svg.h). Colours are laid out in OKLab (B. Ottosson, 2020), where
+ * equal distances look equal: lightness falls evenly along a scale while the hue turns, so they
+ * also read in grey. */
 #include "io/draw/svg.h"
 
 #include <math.h>
@@ -40,7 +41,10 @@ CpsiColour cpsi_colour(CpsiScale scale, double t) {
 CpsiUnit cpsi_unit(const char *base, double largest) {
     static const char *const PREFIX[] = {"", "k", "M", "G"};
     int power = 0;
-    while (power < 3 && largest >= 5000) largest /= 1000, ++power;
+    while (power < 3 && largest >= 5000) {
+        largest /= 1000;
+        ++power;
+    }
     CpsiUnit unit = {.factor = pow(1000, -power)};
     snprintf(unit.name, sizeof unit.name, "%s%s", PREFIX[power], base);
     return unit;
@@ -56,11 +60,12 @@ static void put_cut(FILE *out, const char *text, size_t size) {
     if (text[cut]) fputs("\xE2\x80\xA6", out);
 }
 
-void cpsi_svg_begin(FILE *out, double width, double height, const char *title, const char *subtitle) {
+void cpsi_svg_begin(FILE *out, double width, double height, const char *title,
+                    const char *subtitle) {
     fprintf(out,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-            "font-family=\"'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif\" font-size=\"12\" "
-            "fill=\"#333\">\n<title>",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 "
+            "0 %.0f %.0f\" font-family=\"'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu "
+            "Sans', sans-serif\" font-size=\"12\" fill=\"#333\">\n<title>",
             width, height, width, height);
     put_cut(out, title, 200);
     fputs("</title>\n", out);
@@ -74,7 +79,8 @@ void cpsi_svg_begin(FILE *out, double width, double height, const char *title, c
 
 void cpsi_svg_finish(FILE *out) { fputs("</svg>\n", out); }
 
-void cpsi_svg_text(FILE *out, double x, double y, CpsiAnchor anchor, const char *style, const char *text) {
+void cpsi_svg_text(FILE *out, double x, double y, CpsiAnchor anchor, const char *style,
+                   const char *text) {
     static const char *const ANCHOR[] = {"start", "middle", "end"};
     fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, ANCHOR[anchor], style);
     put_cut(out, text, 100);
@@ -85,11 +91,13 @@ void cpsi_svg_text(FILE *out, double x, double y, CpsiAnchor anchor, const char 
 static double clamp_pixel(double p) { return p >= -1e4 ? fmin(p, 1e4) : -1e4; }
 
 double cpsi_frame_x(const CpsiFrame *frame, double x) {
-    return clamp_pixel(frame->left + (x - frame->x[0]) / (frame->x[1] - frame->x[0]) * frame->width);
+    return clamp_pixel(frame->left +
+                       (x - frame->x[0]) / (frame->x[1] - frame->x[0]) * frame->width);
 }
 
 double cpsi_frame_y(const CpsiFrame *frame, double y) {
-    return clamp_pixel(frame->top + (frame->y[1] - y) / (frame->y[1] - frame->y[0]) * frame->height);
+    return clamp_pixel(frame->top +
+                       (frame->y[1] - y) / (frame->y[1] - frame->y[0]) * frame->height);
 }
 
 void cpsi_range_include(double range[2], double x) {
@@ -100,7 +108,10 @@ void cpsi_range_include(double range[2], double x) {
 
 void cpsi_range_pad(double range[2], double share) {
     double length = range[1] - range[0];
-    if (!isfinite(length) || length < 0) range[0] = 0, range[1] = length = 1;
+    if (!isfinite(length) || length < 0) {
+        range[0] = 0;
+        range[1] = length = 1;
+    }
     /* a range within rounding of one value is shown as that value in the middle */
     const double least = 1e-9 * fmax(fabs(range[0]), fabs(range[1]));
     const double more = length > least ? share * length : fmax(0.5, 1e3 * least);
@@ -128,7 +139,9 @@ static int find_ticks(const double range[2], double count, double value[MAX_TICK
     return ticks;
 }
 
-static void tick_label(char out[CPSI_NUMBER_SIZE], double x) { snprintf(out, CPSI_NUMBER_SIZE, "%.8g", x); }
+static void tick_label(char out[CPSI_NUMBER_SIZE], double x) {
+    snprintf(out, CPSI_NUMBER_SIZE, "%.8g", x);
+}
 
 void cpsi_frame_axes(FILE *out, const CpsiFrame *frame, const char *x_label, const char *y_label) {
     const double right = frame->left + frame->width, bottom = frame->top + frame->height;
@@ -139,20 +152,23 @@ void cpsi_frame_axes(FILE *out, const CpsiFrame *frame, const char *x_label, con
     int count = find_ticks(frame->x, fmax(2, frame->width / 95), tick);
     for (int i = 0; i < count; ++i) {
         const double x = cpsi_frame_x(frame, tick[i]);
-        fprintf(out, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\"/>", x, x, frame->top, bottom + 4);
+        fprintf(out, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\"/>", x, x, frame->top,
+                bottom + 4);
         tick_label(label, tick[i]);
         cpsi_svg_text(out, x, bottom + 17, CPSI_MIDDLE, "stroke=\"none\" fill=\"#555\"", label);
     }
     count = find_ticks(frame->y, fmax(2, frame->height / 50), tick);
     for (int i = 0; i < count; ++i) {
         const double y = cpsi_frame_y(frame, tick[i]);
-        fprintf(out, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\"/>", frame->left - 4, right, y, y);
+        fprintf(out, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\"/>", frame->left - 4,
+                right, y, y);
         tick_label(label, tick[i]);
-        cpsi_svg_text(out, frame->left - 8, y + 4, CPSI_END, "stroke=\"none\" fill=\"#555\"", label);
+        cpsi_svg_text(out, frame->left - 8, y + 4, CPSI_END, "stroke=\"none\" fill=\"#555\"",
+                      label);
     }
     fprintf(out,
-            "</g>\n<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#999\" "
-            "stroke-width=\"0.8\"/>\n",
+            "</g>\n<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" "
+            "stroke=\"#999\" stroke-width=\"0.8\"/>\n",
             frame->left, frame->top, frame->width, frame->height);
 
     cpsi_svg_text(out, frame->left + 0.5 * frame->width, bottom + 36, CPSI_MIDDLE, "", x_label);
@@ -164,14 +180,16 @@ void cpsi_frame_axes(FILE *out, const CpsiFrame *frame, const char *x_label, con
 
 void cpsi_frame_begin(FILE *out, const CpsiFrame *frame, int id) {
     fprintf(out,
-            "<clipPath id=\"frame%d\"><rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/></clipPath>\n"
+            "<clipPath id=\"frame%d\"><rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" "
+            "height=\"%.1f\"/></clipPath>\n"
             "<g clip-path=\"url(#frame%d)\">\n",
             id, frame->left, frame->top, frame->width, frame->height, id);
 }
 
 void cpsi_frame_end(FILE *out) { fputs("</g>\n", out); }
 
-void cpsi_frame_bar(FILE *out, const CpsiFrame *frame, CpsiScale scale, double lo, double hi, const char *label) {
+void cpsi_frame_bar(FILE *out, const CpsiFrame *frame, CpsiScale scale, double lo, double hi,
+                    const char *label) {
     const CpsiFrame bar = {.left = frame->left + frame->width + 22,
                            .top = frame->top + 18,
                            .width = 14,
@@ -184,17 +202,22 @@ void cpsi_frame_bar(FILE *out, const CpsiFrame *frame, CpsiScale scale, double l
         const double t = (double)i / BAR_STOPS;
         fprintf(out, "<stop offset=\"%.4f\" stop-color=\"%s\"/>", t, cpsi_colour(scale, t).hex);
     }
-    fprintf(out, "</linearGradient>\n<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"url(#bar)\"/>\n",
+    fprintf(out,
+            "</linearGradient>\n<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" "
+            "fill=\"url(#bar)\"/>\n",
             bar.left, bar.top, bar.width, bar.height);
     double tick[MAX_TICKS];
     char text[CPSI_NUMBER_SIZE];
     const int count = find_ticks(bar.y, fmax(2, bar.height / 45), tick);
     for (int i = 0; i < count; ++i) {
         const double y = cpsi_frame_y(&bar, tick[i]);
-        fprintf(out, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"#666\" stroke-width=\"0.8\"/>",
+        fprintf(out,
+                "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"#666\" "
+                "stroke-width=\"0.8\"/>",
                 bar.left + bar.width, bar.left + bar.width + 4, y, y);
         tick_label(text, tick[i]);
-        cpsi_svg_text(out, bar.left + bar.width + 8, y + 4, CPSI_START, "font-size=\"11\" fill=\"#555\"", text);
+        cpsi_svg_text(out, bar.left + bar.width + 8, y + 4, CPSI_START,
+                      "font-size=\"11\" fill=\"#555\"", text);
     }
 }
 

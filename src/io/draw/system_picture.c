@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Maps of a system with two driven components: what it answers at every driving velocity of a grid. The first map has
- * gamma as colour and the resistance as arrows; the others one velocity parameter each. */
+/* Maps of a system with two driven components: what it answers at every driving velocity of a grid.
+ * The first map has gamma as colour and the resistance as arrows; the others one velocity parameter
+ * each. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,12 +15,16 @@ typedef struct Maps {
     CpsDriveProgress *progress;
     void *user;
     int parameters;
-    double *gamma, *resistance, *velocity; /* (GRID*GRID), (.., 2), (.., parameters); NaN where there is no motion */
+    double *gamma, *resistance,
+        *velocity; /* (GRID*GRID), (.., 2), (.., parameters); NaN where there is no motion */
 } Maps;
 
-static double grid(const CpsDriveSystem *s, int i) { return s->map_radius * (2.0 * i / (GRID - 1) - 1); }
+static double grid(const CpsDriveSystem *s, int i) {
+    return s->map_radius * (2.0 * i / (GRID - 1) - 1);
+}
 
-/* Velocities below this share of the largest of all maps are rounding: the root of what the bounds leave open. */
+/* Velocities below this share of the largest of all maps are rounding: the root of what the bounds
+ * leave open. */
 static const double ROUNDING = 1e-7;
 
 /* A parameter that rests everywhere has a plain map. */
@@ -45,9 +50,11 @@ static CpsStatus solve_grid(Maps *m, CpsError *err) {
         const bool none = r->outcome == CPS_MOTION_NO_BALANCE || r->outcome == CPS_MOTION_BLOCKED ||
                           r->outcome == CPS_MOTION_NOT_ATTAINED;
         m->gamma[at] = none ? NAN : r->value;
-        for (int k = 0; k < 2; k++) m->resistance[2 * at + k] = none ? NAN : cps_motion_resistance(motion)[k];
+        for (int k = 0; k < 2; k++)
+            m->resistance[2 * at + k] = none ? NAN : cps_motion_resistance(motion)[k];
         for (int k = 0; k < m->parameters; k++)
-            m->velocity[(size_t)at * (size_t)m->parameters + (size_t)k] = none ? NAN : cps_motion_velocity(motion)[k];
+            m->velocity[(size_t)at * (size_t)m->parameters + (size_t)k] =
+                none ? NAN : cps_motion_velocity(motion)[k];
         cps_motion_destroy(motion);
         if (m->progress && (at + 1) % GRID == 0) m->progress(m->user, (at + 1) / GRID, GRID);
     }
@@ -64,21 +71,29 @@ static int level(double x, const double range[2]) {
     return (int)((LEVELS - 1) * (x - range[0]) / (range[1] - range[0]) + 0.5);
 }
 
-/* a field as square cells, one path for all of a colour, runs of a row together; the frame is GRID cells wide and high
+/* a field as square cells, one path for all of a colour, runs of a row together; the frame is GRID
+ * cells wide and high
  */
-static void put_field(FILE *out, const CpsiFrame *frame, const double *value, int stride, CpsiScale scale) {
+static void put_field(FILE *out, const CpsiFrame *frame, const double *value, int stride,
+                      CpsiScale scale) {
     double range[2] = {INFINITY, -INFINITY};
-    for (int i = 0; i < GRID * GRID; i++) cpsi_range_include(range, value[(size_t)i * (size_t)stride]);
+    for (int i = 0; i < GRID * GRID; i++)
+        cpsi_range_include(range, value[(size_t)i * (size_t)stride]);
     const double cell = frame->width / GRID;
-    fprintf(out, "<g shape-rendering=\"crispEdges\" transform=\"translate(%.1f %.1f) scale(%.5f %.5f)\">\n",
-            frame->left, frame->top + frame->height, cell, -cell);
+    fprintf(
+        out,
+        "<g shape-rendering=\"crispEdges\" transform=\"translate(%.1f %.1f) scale(%.5f %.5f)\">\n",
+        frame->left, frame->top + frame->height, cell, -cell);
     for (int l = 0; l < LEVELS; l++) {
         bool some = false;
         for (int i = 0; i < GRID * GRID; i++) {
             int run = 0; /* cells side by side */
-            while (i % GRID + run < GRID && level(value[(size_t)(i + run) * (size_t)stride], range) == l) run++;
+            while (i % GRID + run < GRID &&
+                   level(value[(size_t)(i + run) * (size_t)stride], range) == l)
+                run++;
             if (run == 0) continue;
-            if (!some) fprintf(out, "<path fill=\"%s\" d=\"", cpsi_colour(scale, l / (LEVELS - 1.0)).hex);
+            if (!some)
+                fprintf(out, "<path fill=\"%s\" d=\"", cpsi_colour(scale, l / (LEVELS - 1.0)).hex);
             fprintf(out, "M%d %dh%dv1h-%dz", i % GRID, i / GRID, run, run);
             i += run - 1;
             some = true;
@@ -89,19 +104,22 @@ static void put_field(FILE *out, const CpsiFrame *frame, const double *value, in
 }
 
 /* the range of a field as a bar below it */
-static void put_scale(FILE *out, const CpsiFrame *frame, const double *value, int stride, CpsiScale scale,
-                      const char *unit) {
+static void put_scale(FILE *out, const CpsiFrame *frame, const double *value, int stride,
+                      CpsiScale scale, const char *unit) {
     double range[2] = {INFINITY, -INFINITY};
     char text[40];
-    for (int i = 0; i < GRID * GRID; i++) cpsi_range_include(range, value[(size_t)i * (size_t)stride]);
+    for (int i = 0; i < GRID * GRID; i++)
+        cpsi_range_include(range, value[(size_t)i * (size_t)stride]);
     const double y = frame->top + frame->height + 52;
     for (int i = 0; i < 60; i++)
-        fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"2.4\" height=\"9\" fill=\"%s\"/>", frame->left + 90 + 2 * i,
-                y, cpsi_colour(scale, i / 59.0).hex);
+        fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"2.4\" height=\"9\" fill=\"%s\"/>",
+                frame->left + 90 + 2 * i, y, cpsi_colour(scale, i / 59.0).hex);
     snprintf(text, sizeof text, "%.4g", fabs(range[0]) < 1e-9 * fabs(range[1]) ? 0 : range[0]);
     cpsi_svg_text(out, frame->left + 84, y + 9, CPSI_END, "font-size=\"11\" fill=\"#555\"", text);
-    snprintf(text, sizeof text, "%.4g %s", fabs(range[1]) < 1e-9 * fabs(range[0]) ? 0 : range[1], unit);
-    cpsi_svg_text(out, frame->left + 218, y + 9, CPSI_START, "font-size=\"11\" fill=\"#555\"", text);
+    snprintf(text, sizeof text, "%.4g %s", fabs(range[1]) < 1e-9 * fabs(range[0]) ? 0 : range[1],
+             unit);
+    cpsi_svg_text(out, frame->left + 218, y + 9, CPSI_START, "font-size=\"11\" fill=\"#555\"",
+                  text);
 }
 
 /* -G at every fourth point, all to one scale */
@@ -139,7 +157,8 @@ static void put_map(FILE *out, const Maps *m, int index, int columns) {
     put_field(out, &frame, value, stride, scale);
     if (index == 0) put_arrows(out, &frame, m);
     cpsi_frame_end(out);
-    snprintf(text, sizeof text, index ? "velocity map: %.60s" : "force map: gamma, and the resistance G as arrows",
+    snprintf(text, sizeof text,
+             index ? "velocity map: %.60s" : "force map: gamma, and the resistance G as arrows",
              index ? s->parameter[index - 1] : "");
     cpsi_frame_title(out, &frame, text);
     put_scale(out, &frame, value, stride, scale, index ? "" : "W");
@@ -152,7 +171,8 @@ static CpsStatus draw_maps(void *what, FILE *out, CpsError *err) {
     const size_t cells = (size_t)GRID * GRID;
     m->gamma = malloc(cells * (3 + (size_t)m->parameters) * sizeof *m->gamma);
     if (!m->gamma) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    m->resistance = m->gamma + cells, m->velocity = m->resistance + 2 * cells;
+    m->resistance = m->gamma + cells;
+    m->velocity = m->resistance + 2 * cells;
     const CpsStatus status = solve_grid(m, err);
     const int maps = 1 + m->parameters,
               columns = maps < 4    ? maps
@@ -160,9 +180,10 @@ static CpsStatus draw_maps(void *what, FILE *out, CpsError *err) {
                                     : 3,
               rows = (maps + columns - 1) / columns;
     if (status == CPS_OK) {
-        cpsi_svg_begin(out, 84 + columns * (SIDE + GAP) - GAP + 60, TOP + rows * (SIDE + 130) - 40,
-                       *m->file->title ? m->file->title : "driven system",
-                       "by least dissipation, at every driving velocity W (m/s; of an angle rad/s)");
+        cpsi_svg_begin(
+            out, 84 + columns * (SIDE + GAP) - GAP + 60, TOP + rows * (SIDE + 130) - 40,
+            *m->file->title ? m->file->title : "driven system",
+            "by least dissipation, at every driving velocity W (m/s; of an angle rad/s)");
         for (int i = 0; i < maps; i++) put_map(out, m, i, columns);
         cpsi_svg_finish(out);
     }
@@ -170,13 +191,15 @@ static CpsStatus draw_maps(void *what, FILE *out, CpsError *err) {
     return status;
 }
 
-CpsStatus cps_drive_draw_system(const CpsDriveFile *file, CpsDriveProgress *progress, void *user, FILE *out,
-                                CpsError *err) {
+CpsStatus cps_drive_draw_system(const CpsDriveFile *file, CpsDriveProgress *progress, void *user,
+                                FILE *out, CpsError *err) {
     if (!file || file->kind != CPS_DRIVE_SYSTEM || file->system.driven != 2)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "maps are drawn of a system with two driven components; found %d",
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "maps are drawn of a system with two driven components; found %d",
                          file ? file->system.driven : 0);
     if (file->system.parameters > 500)
-        return cpsi_fail(err, CPS_ERR_LIMIT, "maps are drawn of systems of up to 500 parameters; found %d",
+        return cpsi_fail(err, CPS_ERR_LIMIT,
+                         "maps are drawn of systems of up to 500 parameters; found %d",
                          file->system.parameters);
     Maps maps = {.file = file, .progress = progress, .user = user};
     return cpsi_draw_plain(draw_maps, &maps, out, err);

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where the pictures look from: plan views against gravity, elevations across the direction in which the lines
- * spread most, along a slope, which then is a straight line, or along the axis of a cylinder, which then is round. All
- * pictures of a run share them, so that steps can
+/* Where the pictures look from: plan views against gravity, elevations across the direction in
+ * which the lines spread most, along a slope, which then is a straight line, or along the axis of a
+ * cylinder, which then is round. All pictures of a run share them, so that steps can
  * be laid side by side. */
 #include <math.h>
 
 #include "io/draw/run_picture.h"
 
-/* A widest direction this close to an axis is taken as the axis: pictures of moorings then show plain x or y. */
+/* A widest direction this close to an axis is taken as the axis: pictures of moorings then show
+ * plain x or y. */
 static const double SNAP_COSINE = 0.985; /* 10 degrees */
 
 /* A plane is level below this slope: not seen in a picture. */
 static const double LEVEL = 1e-3;
 
-/* A cylinder lies when its axis is this long seen from above: 25 degrees from the horizontal at most. */
+/* A cylinder lies when its axis is this long seen from above: 25 degrees from the horizontal at
+ * most. */
 static const double HORIZONTAL = 0.9;
 
 /* Silhouettes up to this many times as wide as the lines are shown whole. */
@@ -60,11 +62,16 @@ static void include_round(const CpsResults *results, CpsiView *view) {
         if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
         view->true_scale = true;
         const Vec3 centre = vec3_load(obstacle->point);
-        const double x = vec3_dot(view->right, centre), y = vec3_dot(view->up, centre), r = obstacle->radius;
+        const double x = vec3_dot(view->right, centre), y = vec3_dot(view->up, centre),
+                     r = obstacle->radius;
         const double away = hypot(apart(view->x, x, r), apart(view->y, y, r));
-        if (!cpsi_obstacle_is_circle(obstacle, view) || r > MOST_ROUND * spread || away > NEAR * spread) continue;
-        cpsi_range_include(view->x, x - r), cpsi_range_include(view->x, x + r);
-        cpsi_range_include(view->y, y - r), cpsi_range_include(view->y, y + r);
+        if (!cpsi_obstacle_is_circle(obstacle, view) || r > MOST_ROUND * spread ||
+            away > NEAR * spread)
+            continue;
+        cpsi_range_include(view->x, x - r);
+        cpsi_range_include(view->x, x + r);
+        cpsi_range_include(view->y, y - r);
+        cpsi_range_include(view->y, y + r);
     }
 }
 
@@ -77,7 +84,8 @@ static void measure(const CpsResults *results, CpsiView *view) {
         for (int l = 0; l < results->line_count; ++l) {
             const CpsiShape *shape = &results->snapshot[s].shape[l];
             for (size_t i = 0; i < (size_t)shape->points; ++i) {
-                const Vec3 place = vec3_load(shape->position + 3 * i), start = vec3_load(shape->reference + 3 * i);
+                const Vec3 place = vec3_load(shape->position + 3 * i),
+                           start = vec3_load(shape->reference + 3 * i);
                 cpsi_range_include(view->x, vec3_dot(view->right, place));
                 cpsi_range_include(view->x, vec3_dot(view->right, start));
                 cpsi_range_include(view->y, vec3_dot(view->up, place));
@@ -101,7 +109,8 @@ CpsiView cpsi_view_plan(const CpsResults *results) {
     return view;
 }
 
-/* angle of the widest spread in the plane (right, up): the main axis of the second moments of all points */
+/* angle of the widest spread in the plane (right, up): the main axis of the second moments of all
+ * points */
 static double widest_angle(const CpsResults *results, Vec3 right, Vec3 up) {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
     const Vec3 origin = vec3_load(results->snapshot[0].shape[0].position);
@@ -111,21 +120,28 @@ static double widest_angle(const CpsResults *results, Vec3 right, Vec3 up) {
             for (size_t i = 0; i < (size_t)shape->points; ++i) {
                 const Vec3 place = vec3_sub(vec3_load(shape->position + 3 * i), origin);
                 const double a = vec3_dot(right, place), b = vec3_dot(up, place);
-                n += 1, x += a, y += b, xx += a * a, xy += a * b, yy += b * b;
+                n += 1;
+                x += a;
+                y += b;
+                xx += a * a;
+                xy += a * b;
+                yy += b * b;
             }
         }
     }
     return 0.5 * atan2(2 * (xy - x * y / n), (xx - x * x / n) - (yy - y * y / n));
 }
 
-/* the direction of a slope, across a horizontal cylinder, or of the widest spread, as an angle from east */
+/* the direction of a slope, across a horizontal cylinder, or of the widest spread, as an angle from
+ * east */
 static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) {
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle *obstacle = &results->obstacle[k];
         if (obstacle->kind == CPS_OBSTACLE_SPHERE) continue;
         const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE;
         const Vec3 d = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
-        const double e = vec3_dot(d, east), n = vec3_dot(d, north), x = plane ? e : n, y = plane ? n : -e;
+        const double e = vec3_dot(d, east), n = vec3_dot(d, north), x = plane ? e : n,
+                     y = plane ? n : -e;
         if (hypot(x, y) > (plane ? LEVEL : HORIZONTAL)) return x < 0 ? atan2(-y, -x) : atan2(y, x);
     }
     return widest_angle(results, east, north);

@@ -12,8 +12,9 @@ typedef struct CpsiField {
     const char *name, *long_name, *units;
     CpsiPlace place;
     bool vector, fixed; /* fixed: does not change with the steps, and is always written */
-    bool contact;       /* belongs to a contact: where nodes have a second one, there is one more variable of it */
-    size_t offset;      /* of a const double * in CpsLineView */
+    bool contact; /* belongs to a contact: where nodes have a second one, there is one more variable
+                     of it */
+    size_t offset; /* of a const double * in CpsLineView */
 } CpsiField;
 
 enum { CPSI_FIELDS = 21 };
@@ -23,7 +24,8 @@ extern const CpsiField cpsi_field[CPSI_FIELDS];
 #define CPSI_WANTED_STATE    (1u << CPSI_FIELDS)
 #define CPSI_WANTED_OBSTACLE (2u << CPSI_FIELDS)
 
-/* A list of names separated by commas; NULL: all; "none": none. Returns CPS_OK or CPS_ERR_ARGUMENT. */
+/* A list of names separated by commas; NULL: all; "none": none. Returns CPS_OK or
+ * CPS_ERR_ARGUMENT. */
 CpsStatus cpsi_fields_choose(const char *list, unsigned *wanted, CpsError *err);
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The history as CSV (RFC 4180): a row of names, a row of units, a row per step. The columns are two tables, one
- * of the step and one of each line; a value that says nothing is an empty cell. */
+/* The history as CSV (RFC 4180): a row of names, a row of units, a row per step. The columns are
+ * two tables, one of the step and one of each line; a value that says nothing is an empty cell. */
 #include <stddef.h>
 
-#include "io/results/writers.h"
 #include "io/base/escape.h"
+#include "io/results/writers.h"
 
 typedef struct Column {
     const char *name, *unit;
@@ -32,16 +32,15 @@ static const Column STEP_COLUMN[] = {
     {"wall", "s", STEP(wall)},
 };
 
-#define END_COLUMNS(letter, e)                                                                                         \
-    {letter ".x", "m", LINE(end[e].position[0])}, {letter ".y", "m", LINE(end[e].position[1])},                        \
-        {letter ".z", "m", LINE(end[e].position[2])}, {letter ".fx", "N", LINE(end[e].force[0])},                      \
-        {letter ".fy", "N", LINE(end[e].force[1])}, {letter ".fz", "N", LINE(end[e].force[2])}, {                      \
-        letter ".tension", "N", LINE(end[e].tension)                                                                   \
-    },                                                                                                                 \
-        {letter ".tension_least", "N", LINE(end[e].range.least)},                                                      \
-        {letter ".tension_least_bound", "N", LINE(end[e].range.least_bound)},                                          \
-        {letter ".tension_greatest", "N", LINE(end[e].range.greatest)}, {                                              \
-        letter ".tension_greatest_bound", "N", LINE(end[e].range.greatest_bound)                                       \
+#define END_COLUMNS(letter, e)                                                                    \
+    {letter ".x", "m", LINE(end[e].position[0])}, {letter ".y", "m", LINE(end[e].position[1])},   \
+        {letter ".z", "m", LINE(end[e].position[2])}, {letter ".fx", "N", LINE(end[e].force[0])}, \
+        {letter ".fy", "N", LINE(end[e].force[1])}, {letter ".fz", "N", LINE(end[e].force[2])},   \
+        {letter ".tension", "N", LINE(end[e].tension)},                                           \
+        {letter ".tension_least", "N", LINE(end[e].range.least)},                                 \
+        {letter ".tension_least_bound", "N", LINE(end[e].range.least_bound)},                     \
+        {letter ".tension_greatest", "N", LINE(end[e].range.greatest)}, {                         \
+        letter ".tension_greatest_bound", "N", LINE(end[e].range.greatest_bound)                  \
     }
 
 static const Column LINE_COLUMN[] = {
@@ -91,8 +90,9 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
         const CpsiRow *row = &results->row[r];
         fprintf(out, "%d,", row->report.index);
         cpsi_put_csv(out, row->name);
-        fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_key(row->report.outcome), row->report.iterations, row->report.parts,
-                row->report.snaps, (int)row->report.places);
+        fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_key(row->report.outcome),
+                row->report.iterations, row->report.parts, row->report.snaps,
+                (int)row->report.places);
         for (int i = 0; i < STEP_COLUMNS; ++i) {
             fputc(',', out);
             cpsi_put_csv_number(out, member(&row->report, &STEP_COLUMN[i]));

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A journal of steps (io.h): a head that says which program and which scene it is of, then one record per step: its number, a checksum and
- * the state of cps_evolution_save, each synced before the next step begins unless that is left to the end. The journal ends where no whole
- * record follows: what a killed run left unfinished, and what a power cut made of the tail, is dropped. */
+/* A journal of steps (io.h): a head that says which program and which scene it is of, then one
+ * record per step: its number, a checksum and the state of cps_evolution_save, each synced before
+ * the next step begins unless that is left to the end. The journal ends where no whole record
+ * follows: what a killed run left unfinished, and what a power cut made of the tail, is dropped. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <fcntl.h>
@@ -28,11 +29,13 @@ struct CpsJournal {
     unsigned char *state; /* (size) */
 };
 
-/* What a journal begins with. The scene is known by the state of its evolution before the first step. */
+/* What a journal begins with. The scene is known by the state of its evolution before the first
+ * step. */
 typedef struct Head {
     char magic[8], program[64];
-    uint64_t build, scene, size; /* checksums of the program's version and build and of that state; bytes of a state */
-    uint64_t checksum;           /* of all before */
+    uint64_t build, scene,
+        size; /* checksums of the program's version and build and of that state; bytes of a state */
+    uint64_t checksum; /* of all before */
 } Head;
 
 static const char MAGIC[8] = "capstnJ2", PROGRAM[] = CAPSTAN_COMMIT " " CAPSTAN_BUILD;
@@ -47,7 +50,7 @@ static uint64_t checksum(uint64_t hash, const void *bytes, size_t size) {
     for (size_t i = 0; i < size; i += 8) {
         uint64_t word = 0;
         memcpy(&word, byte + i, size - i < 8 ? size - i : 8);
-        hash = (hash ^ word)*1099511628211u;
+        hash = (hash ^ word) * 1099511628211u;
     }
     return hash;
 }
@@ -81,18 +84,21 @@ static bool write_at(int file, const void *from, size_t size, off_t at) {
 }
 
 static CpsStatus fail(const CpsJournal *journal, const char *what, CpsError *err) {
-    return cpsi_fail(err, CPS_ERR_IO, "cannot %s the journal %s/%s: %s", what, journal->directory, NAME, strerror(errno));
+    return cpsi_fail(err, CPS_ERR_IO, "cannot %s the journal %s/%s: %s", what, journal->directory,
+                     NAME, strerror(errno));
 }
 
 /* refuse: the journal stays as it is */
-static CpsStatus refuse(const CpsJournal *journal, CpsStatus status, const char *why, CpsError *err) {
+static CpsStatus refuse(const CpsJournal *journal, CpsStatus status, const char *why,
+                        CpsError *err) {
     return cpsi_fail(err, status, "%s/%s %s", journal->directory, NAME, why);
 }
 
-/* open --------------------------------------------------------------------------------------------------------- */
+/* open ----------------------------------------------------------------------------------------- */
 
 static Head make_head(const CpsJournal *journal) {
-    Head head = {.build = checksum(CHECKSUM_BEGINS, PROGRAM, sizeof PROGRAM), .size = journal->size};
+    Head head = {.build = checksum(CHECKSUM_BEGINS, PROGRAM, sizeof PROGRAM),
+                 .size = journal->size};
     memcpy(head.magic, MAGIC, sizeof MAGIC);
     snprintf(head.program, sizeof head.program, "%s", cps_version());
     head.build = checksum(head.build, head.program, sizeof head.program);
@@ -107,16 +113,19 @@ static CpsStatus begin(CpsJournal *journal, CpsError *err) {
     const Head head = make_head(journal);
     journal->begun = true;
     journal->end = (off_t)sizeof head;
-    if (ftruncate(journal->file, 0) != 0 || !write_at(journal->file, &head, sizeof head, 0) || fdatasync(journal->file) != 0)
+    if (ftruncate(journal->file, 0) != 0 || !write_at(journal->file, &head, sizeof head, 0) ||
+        fdatasync(journal->file) != 0)
         return fail(journal, "write", err);
     /* a file system that cannot sync a directory is accepted */
     return fsync(journal->folder) == 0 || errno == EINVAL ? CPS_OK : fail(journal, "write", err);
 }
 
 /* What is there is a journal as far as it goes: `got` bytes of its head. */
-static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const Head *found, size_t got, CpsError *err) {
+static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const Head *found, size_t got,
+                         CpsError *err) {
     if (memcmp(found->magic, MAGIC, got < sizeof MAGIC ? got : sizeof MAGIC) != 0)
-        return refuse(journal, CPS_ERR_IO, "is no journal of capstan: move it away, or choose another directory", err);
+        return refuse(journal, CPS_ERR_IO,
+                      "is no journal of capstan: move it away, or choose another directory", err);
     struct stat about;
     if (fstat(journal->file, &about) != 0) return fail(journal, "read", err);
     const Head own = make_head(journal);
@@ -124,15 +133,23 @@ static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const Head *f
     if (mode == CPS_JOURNAL_REPLACE || empty) return begin(journal, err);
     if (mode == CPS_JOURNAL_NEW)
         return refuse(journal, CPS_ERR_IO,
-                      "keeps the steps of a run that was interrupted: go on with it (--resume), or begin anew without them (--force)", err);
+                      "keeps the steps of a run that was interrupted: go on with it (--resume), or "
+                      "begin anew without them (--force)",
+                      err);
     if (found->checksum != checksum(CHECKSUM_BEGINS, found, offsetof(Head, checksum)))
-        return refuse(journal, CPS_ERR_ARGUMENT, "has a damaged head: nothing can be taken from it; begin anew (--force)", err);
+        return refuse(journal, CPS_ERR_ARGUMENT,
+                      "has a damaged head: nothing can be taken from it; begin anew (--force)",
+                      err);
     if (found->build != own.build)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "%s/%s is of another program, %.*s; this is %s, or another build of it: go on with that one, or begin anew (--force)",
-                         journal->directory, NAME, (int)sizeof found->program - 1, found->program, own.program);
+                         "%s/%s is of another program, %.*s; this is %s, or another build of it: "
+                         "go on with that one, or begin anew (--force)",
+                         journal->directory, NAME, (int)sizeof found->program - 1, found->program,
+                         own.program);
     if (found->scene != own.scene || found->size != own.size)
-        return refuse(journal, CPS_ERR_ARGUMENT, "is of another scene than this one, or of other settings: begin anew (--force)", err);
+        return refuse(
+            journal, CPS_ERR_ARGUMENT,
+            "is of another scene than this one, or of other settings: begin anew (--force)", err);
     journal->end = (off_t)sizeof own;
     return CPS_OK;
 }
@@ -149,22 +166,33 @@ static CpsStatus open_file(CpsJournal *journal, CpsJournalMode mode, CpsError *e
     journal->file = openat(journal->folder, NAME, HOW);
     if (journal->file < 0 && errno != ELOOP) return fail(journal, "open", err);
     if (journal->file < 0 || fstat(journal->file, &about) != 0 || !S_ISREG(about.st_mode))
-        return refuse(journal, CPS_ERR_IO, "is not a file but a link or a device: move it away, or choose another directory", err);
+        return refuse(
+            journal, CPS_ERR_IO,
+            "is not a file but a link or a device: move it away, or choose another directory", err);
     Head found = {0};
     size_t got;
     if (!read_at(journal->file, &found, sizeof found, 0, &got)) return fail(journal, "read", err);
     return take_up(journal, mode, &found, got, err);
 }
 
-CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution, CpsJournalMode mode, CpsJournal **out, CpsError *err) {
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL; give the address of a CpsJournal pointer");
+CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution,
+                           CpsJournalMode mode, CpsJournal **out, CpsError *err) {
+    if (!out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "out is NULL; give the address of a CpsJournal pointer");
     *out = NULL;
-    if (!directory || !evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory and evolution are both needed");
+    if (!directory || !evolution)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory and evolution are both needed");
     if (cps_evolution_report(evolution).index >= 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the evolution has taken steps already: open its journal before the first one");
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "the evolution has taken steps already: open its journal before the first one");
     CpsJournal *journal = calloc(1, sizeof *journal);
     if (journal)
-        *journal = (CpsJournal){.folder = -1, .file = -1, .size = cps_evolution_state_size(evolution), .directory = strdup(directory)};
+        *journal = (CpsJournal){.folder = -1,
+                                .file = -1,
+                                .size = cps_evolution_state_size(evolution),
+                                .directory = strdup(directory)};
     if (journal) journal->state = malloc(journal->size);
     if (!journal || !journal->directory || !journal->state) {
         cps_journal_destroy(journal);
@@ -180,19 +208,24 @@ CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution,
     return CPS_OK;
 }
 
-/* steps -------------------------------------------------------------------------------------------------------- */
+/* steps ---------------------------------------------------------------------------------------- */
 
-CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *found, CpsError *err) {
-    if (!journal || !evolution || !found) return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal, evolution and found are all needed");
+CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *found,
+                           CpsError *err) {
+    if (!journal || !evolution || !found)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal, evolution and found are all needed");
     *found = false;
     if (cps_evolution_state_size(evolution) != journal->size)
-        return refuse(journal, CPS_ERR_ARGUMENT, "was opened for another evolution than this one", err);
+        return refuse(journal, CPS_ERR_ARGUMENT, "was opened for another evolution than this one",
+                      err);
     Record record;
     size_t got;
-    if (!read_at(journal->file, &record, sizeof record, journal->end, &got)) return fail(journal, "read", err);
+    if (!read_at(journal->file, &record, sizeof record, journal->end, &got))
+        return fail(journal, "read", err);
     const bool begun = got == sizeof record && record.step == journal->steps;
     const off_t body = journal->end + (off_t)sizeof record;
-    if (begun && !read_at(journal->file, journal->state, journal->size, body, &got)) return fail(journal, "read", err);
+    if (begun && !read_at(journal->file, journal->state, journal->size, body, &got))
+        return fail(journal, "read", err);
     if (!begun || got < journal->size || record_checksum(record.step, journal) != record.checksum) {
         journal->tail = true;
         return CPS_OK;
@@ -200,9 +233,11 @@ CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *f
     CpsError inner;
     const CpsStatus status = cps_evolution_load(evolution, journal->state, journal->size, &inner);
     if (status == CPS_OK && cps_evolution_report(evolution).index != (int)journal->steps)
-        return refuse(journal, CPS_ERR_ARGUMENT, "has its steps in another order: begin anew (--force)", err);
+        return refuse(journal, CPS_ERR_ARGUMENT,
+                      "has its steps in another order: begin anew (--force)", err);
     if (status != CPS_OK)
-        return cpsi_fail(err, status, "%s/%s: %s: begin anew (--force)", journal->directory, NAME, inner.message);
+        return cpsi_fail(err, status, "%s/%s: %s: begin anew (--force)", journal->directory, NAME,
+                         inner.message);
     journal->end = body + (off_t)journal->size;
     journal->steps++;
     *found = true;
@@ -210,19 +245,24 @@ CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *f
 }
 
 CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *evolution, CpsError *err) {
-    if (!journal || !evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal and evolution are both needed");
+    if (!journal || !evolution)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal and evolution are both needed");
     if (cps_evolution_state_size(evolution) != journal->size)
-        return refuse(journal, CPS_ERR_ARGUMENT, "was opened for another evolution than this one", err);
+        return refuse(journal, CPS_ERR_ARGUMENT, "was opened for another evolution than this one",
+                      err);
     if (cps_evolution_report(evolution).index != (int)journal->steps)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d follows the %d steps of the journal; append every step once",
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "step %d follows the %d steps of the journal; append every step once",
                          cps_evolution_report(evolution).index, (int)journal->steps);
-    if (journal->tail && ftruncate(journal->file, journal->end) != 0) return fail(journal, "write", err);
+    if (journal->tail && ftruncate(journal->file, journal->end) != 0)
+        return fail(journal, "write", err);
     journal->tail = false;
     cps_evolution_save(evolution, journal->state);
     const Record record = {journal->steps, record_checksum(journal->steps, journal)};
     const off_t body = journal->end + (off_t)sizeof record;
     if (!write_at(journal->file, &record, sizeof record, journal->end) ||
-        !write_at(journal->file, journal->state, journal->size, body) || (!journal->late && fdatasync(journal->file) != 0))
+        !write_at(journal->file, journal->state, journal->size, body) ||
+        (!journal->late && fdatasync(journal->file) != 0))
         return fail(journal, "write", err);
     journal->end = body + (off_t)journal->size;
     journal->steps++;
@@ -242,13 +282,15 @@ CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err) {
 void cps_journal_remove(CpsJournal *journal) {
     struct stat own, named;
     if (journal && journal->file >= 0 && fstat(journal->file, &own) == 0 &&
-        fstatat(journal->folder, NAME, &named, AT_SYMLINK_NOFOLLOW) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino)
+        fstatat(journal->folder, NAME, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
+        own.st_dev == named.st_dev && own.st_ino == named.st_ino)
         unlinkat(journal->folder, NAME, 0);
 }
 
 void cps_journal_destroy(CpsJournal *journal) {
     if (!journal) return;
-    if (journal->begun && journal->steps == 0) cps_journal_remove(journal); /* nothing to go on from */
+    if (journal->begun && journal->steps == 0)
+        cps_journal_remove(journal); /* nothing to go on from */
     if (journal->file >= 0) close(journal->file);
     if (journal->folder >= 0) close(journal->folder);
     free(journal->directory);

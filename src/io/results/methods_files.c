@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables and pictures of configurations side by side: a history by several methods; slack laid out in several ways. */
+/* Tables and pictures of configurations side by side: a history by several methods; slack laid out
+ * in several ways. */
 #include <math.h>
 
 #include "base/status.h"
 #include "base/vec3.h"
+#include "io/base/escape.h"
 #include "io/base/file_set.h"
 #include "io/draw/methods_picture.h"
-#include "io/base/escape.h"
 
 enum { MAX_METHODS = 4 };
 
@@ -24,7 +25,8 @@ static const double *place(const CpsiMethods *m, int method, int step, int point
 static double farthest(const CpsiMethods *m, int method, int step) {
     double most = 0;
     for (int p = 0; p < m->points; ++p) {
-        const Vec3 way = vec3_sub(vec3_load(place(m, method, step, p)), vec3_load(place(m, 0, step, p)));
+        const Vec3 way =
+            vec3_sub(vec3_load(place(m, method, step, p)), vec3_load(place(m, 0, step, p)));
         most = fmax(most, vec3_norm(way));
     }
     return most;
@@ -46,16 +48,19 @@ static void methods_table(const void *what, FILE *out) {
 
 static void methods_picture(const void *what, FILE *out) { cpsi_picture_methods(what, out); }
 
-CpsStatus cps_methods_write(const char *directory, const char *title, int methods, const CpsMethodHistory *method,
-                            int steps, int points, const char *const *step_name, CpsError *err) {
+CpsStatus cps_methods_write(const char *directory, const char *title, int methods,
+                            const CpsMethodHistory *method, int steps, int points,
+                            const char *const *step_name, CpsError *err) {
     if (!directory || !title || !method || !step_name)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory, title, method or step_name is NULL");
     if (methods < 1 || methods > MAX_METHODS || steps < 1 || points < 2)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "found %d methods, %d steps, %d points; expected 1 to %d, and at least 1 and 2", methods,
-                         steps, points, (int)MAX_METHODS);
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "found %d methods, %d steps, %d points; expected 1 to %d, and at least 1 and 2",
+            methods, steps, points, (int)MAX_METHODS);
     for (int i = 0; i < methods; ++i)
-        if (!method[i].name || !method[i].position) return cpsi_fail(err, CPS_ERR_ARGUMENT, "method %d has no name or no positions", i);
+        if (!method[i].name || !method[i].position)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "method %d has no name or no positions", i);
     for (int s = 0; s < steps; ++s)
         if (!step_name[s]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d has no name", s);
     const CpsiMethods m = {.title = title,
@@ -65,7 +70,8 @@ CpsStatus cps_methods_write(const char *directory, const char *title, int method
                            .points = points,
                            .method = method,
                            .step_name = step_name};
-    const CpsiFile set[] = {{"methods.csv", methods_table, &m}, {"methods.svg", methods_picture, &m}};
+    const CpsiFile set[] = {{"methods.csv", methods_table, &m},
+                            {"methods.svg", methods_picture, &m}};
     const CpsiFile summary = {"methods.json", cpsi_file_set_title, title};
     return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, err);
 }
@@ -78,7 +84,8 @@ static void find_loose(const CpsLineView *view, int *first, int *last) {
     CpsSlackPart part[PARTS];
     const int parts = cps_solution_slack(view, PARTS, part);
     double longest = 0;
-    *first = 0, *last = view->elements;
+    *first = 0;
+    *last = view->elements;
     for (int i = 0; i < parts && i < PARTS; ++i) {
         if (!part[i].loose || !(part[i].to - part[i].from > longest)) continue;
         longest = part[i].to - part[i].from;
@@ -89,15 +96,16 @@ static void find_loose(const CpsLineView *view, int *first, int *last) {
     }
 }
 
-/* a file of nodes to go on from (docs/formats.md), in the coordinates of the scene: what belongs to an element stands beside the node it
- * ends at */
+/* a file of nodes to go on from (docs/formats.md), in the coordinates of the scene: what belongs to
+ * an element stands beside the node it ends at */
 static void completed_table(const void *what, FILE *out) {
     const CpsCompletedLine *c = what;
     const CpsLineView *view = c->view;
     fputs("arc_length,x,y,z,tension,reaction\nm,m,m,m,N,N\n", out);
     for (int j = 0; j <= view->elements; ++j) {
         cpsi_put_csv_number(out, view->arc_length[j]);
-        for (int x = 0; x < 3; ++x) put_number(out, view->origin[x] + c->position[c->chosen][3 * (size_t)j + (size_t)x]);
+        for (int x = 0; x < 3; ++x)
+            put_number(out, view->origin[x] + c->position[c->chosen][3 * (size_t)j + (size_t)x]);
         put_number(out, j > 0 ? view->tension[j - 1] : NAN);
         put_number(out, view->reaction[j]);
         fputc('\n', out);
@@ -109,11 +117,14 @@ static void completed_picture(const void *what, FILE *out) {
     const CpsCompletedLine *c = what;
     int first, last;
     find_loose(c->view, &first, &last);
-    CpsMethodHistory shape[1 + CPS_COMPLETIONS] = {{"as found", c->view->position + 3 * (size_t)first}};
+    CpsMethodHistory shape[1 + CPS_COMPLETIONS] = {
+        {"as found", c->view->position + 3 * (size_t)first}};
     for (int k = 0; k < CPS_COMPLETIONS; ++k)
-        shape[1 + k] = (CpsMethodHistory){cps_completion_key((CpsCompletion)k), c->position[k] + 3 * (size_t)first};
+        shape[1 + k] = (CpsMethodHistory){cps_completion_key((CpsCompletion)k),
+                                          c->position[k] + 3 * (size_t)first};
     char note[160];
-    snprintf(note, sizeof note, "Slack from %.6g to %.6g m in plan: all have the same tensions and the same energy",
+    snprintf(note, sizeof note,
+             "Slack from %.6g to %.6g m in plan: all have the same tensions and the same energy",
              c->view->arc_length[first], c->view->arc_length[last]);
     const char *const step = "";
     const CpsiMethods m = {.title = c->title,
@@ -128,11 +139,14 @@ static void completed_picture(const void *what, FILE *out) {
 }
 
 CpsStatus cps_completed_write(const char *directory, const CpsCompletedLine *line, CpsError *err) {
-    if (!directory || !line || !line->title || !line->view || (unsigned)line->chosen >= CPS_COMPLETIONS)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory, line, its title or view is NULL, or none is chosen");
+    if (!directory || !line || !line->title || !line->view ||
+        (unsigned)line->chosen >= CPS_COMPLETIONS)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "directory, line, its title or view is NULL, or none is chosen");
     for (int k = 0; k < CPS_COMPLETIONS; ++k)
         if (!line->position[k]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "position %d is NULL", k);
-    const CpsiFile set[] = {{"completed.csv", completed_table, line}, {"completed.svg", completed_picture, line}};
+    const CpsiFile set[] = {{"completed.csv", completed_table, line},
+                            {"completed.svg", completed_picture, line}};
     const CpsiFile summary = {"completed.json", cpsi_file_set_title, line->title};
     return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, err);
 }

@@ -16,7 +16,8 @@ static bool find(void *handle, const char *name, void *to) {
 }
 
 CpsStatus cpsi_netcdf_library(CpsiNetcdfLibrary *out, CpsError *err) {
-    *out = (CpsiNetcdfLibrary){.handle = dlopen(CAPSTAN_NETCDF, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)};
+    *out = (CpsiNetcdfLibrary){.handle =
+                                   dlopen(CAPSTAN_NETCDF, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)};
     bool whole = out->handle != NULL;
 #define FIND(name) whole = whole && find(out->handle, "nc_" #name, &out->name);
     CPSI_NETCDF_CALLS(FIND)
@@ -24,7 +25,8 @@ CpsStatus cpsi_netcdf_library(CpsiNetcdfLibrary *out, CpsError *err) {
     if (whole) return CPS_OK;
     const char *why = dlerror();
     cpsi_netcdf_library_close(out);
-    return cpsi_fail(err, CPS_ERR_IO, "cannot write result.nc without %s: %s", CAPSTAN_NETCDF, why ? why : "it lacks a function");
+    return cpsi_fail(err, CPS_ERR_IO, "cannot write result.nc without %s: %s", CAPSTAN_NETCDF,
+                     why ? why : "it lacks a function");
 }
 
 void cpsi_netcdf_library_close(CpsiNetcdfLibrary *library) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* libnetcdf, opened when a result.nc is to be written: loading it and what it needs takes longer than all else a command does to begin. */
+/* libnetcdf, opened when a result.nc is to be written: loading it and what it needs takes longer
+ * than all else a command does to begin. */
 #ifndef CAPSTAN_SRC_IO_RESULTS_NETCDF_LIBRARY_H
 #define CAPSTAN_SRC_IO_RESULTS_NETCDF_LIBRARY_H
 
@@ -10,9 +11,24 @@
 #include "capstan/base.h"
 
 /* The functions that are used, nc_NAME of netcdf.h. */
-#define CPSI_NETCDF_CALLS(X)                                                                                                  \
-    X(create) X(set_fill) X(def_dim) X(def_var) X(enddef) X(sync) X(close) X(strerror) X(put_att_text) X(put_att_int)          \
-    X(put_att_double) X(put_var_double) X(put_var1_int) X(put_var1_double) X(put_vara_text) X(put_vara_int) X(put_vara_uchar) \
+#define CPSI_NETCDF_CALLS(X) \
+    X(create)                \
+    X(set_fill)              \
+    X(def_dim)               \
+    X(def_var)               \
+    X(enddef)                \
+    X(sync)                  \
+    X(close)                 \
+    X(strerror)              \
+    X(put_att_text)          \
+    X(put_att_int)           \
+    X(put_att_double)        \
+    X(put_var_double)        \
+    X(put_var1_int)          \
+    X(put_var1_double)       \
+    X(put_vara_text)         \
+    X(put_vara_int)          \
+    X(put_vara_uchar)        \
     X(put_vara_double)
 
 typedef struct CpsiNetcdfLibrary {
@@ -22,7 +38,8 @@ typedef struct CpsiNetcdfLibrary {
 #undef CPSI_NETCDF_CALL
 } CpsiNetcdfLibrary;
 
-/* Open it. Returns CPS_OK, or CPS_ERR_IO with what the system says. It stays in the process once it has been opened. */
+/* Open it. Returns CPS_OK, or CPS_ERR_IO with what the system says. It stays in the process once it
+ * has been opened. */
 CpsStatus cpsi_netcdf_library(CpsiNetcdfLibrary *out, CpsError *err);
 void cpsi_netcdf_library_close(CpsiNetcdfLibrary *library);
 

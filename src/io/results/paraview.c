@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps for ParaView: one .vtp per step (VTK XML PolyData 1.0, appended raw data, 64-bit headers, the byte order
- * of this machine), each line one polyline, and result.pvd that lists the steps.
+/* Steps for ParaView: one .vtp per step (VTK XML PolyData 1.0, appended raw data, 64-bit headers,
+ * the byte order of this machine), each line one polyline, and result.pvd that lists the steps.
  *
- * A block of appended data is its size in bytes as a 64-bit integer, then the data. The header gives offsets into
- * the appended part, so the sizes are summed first, then everything is written in the same order. */
+ * A block of appended data is its size in bytes as a 64-bit integer, then the data. The header
+ * gives offsets into the appended part, so the sizes are summed first, then everything is written
+ * in the same order. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
-#include "io/results/writers.h"
 #include "io/base/escape.h"
+#include "io/results/writers.h"
 
 /* In the order of the file. */
 typedef enum Block {
@@ -36,7 +37,8 @@ static bool measure(const CpsEvolution *evolution, Layout *out) {
                           PER_LINE[BLOCKS] = {[BLOCK_OFFSETS] = 8, [BLOCK_LINE_ID] = 4};
     memset(out, 0, sizeof *out);
     out->lines = cps_evolution_line_count(evolution);
-    for (int i = 0; i < out->lines; ++i) out->points += (uint64_t)cps_evolution_line_view(evolution, i).elements + 1;
+    for (int i = 0; i < out->lines; ++i)
+        out->points += (uint64_t)cps_evolution_line_view(evolution, i).elements + 1;
     uint64_t end = 0;
     for (int b = 0; b < BLOCKS; ++b) {
         uint64_t size = 0;
@@ -49,12 +51,12 @@ static bool measure(const CpsEvolution *evolution, Layout *out) {
     return true;
 }
 
-static void put_array(FILE *out, const Layout *layout, Block block, const char *type, const char *name,
-                      int components) {
-    fprintf(
-        out,
-        "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%llu\"/>\n",
-        type, name, components, (unsigned long long)layout->offset[block]);
+static void put_array(FILE *out, const Layout *layout, Block block, const char *type,
+                      const char *name, int components) {
+    fprintf(out,
+            "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" "
+            "format=\"appended\" offset=\"%llu\"/>\n",
+            type, name, components, (unsigned long long)layout->offset[block]);
 }
 
 static void put_header(FILE *out, const Layout *layout) {
@@ -64,22 +66,25 @@ static void put_header(FILE *out, const Layout *layout) {
             "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"%s\" header_type=\"UInt64\">\n"
             "  <PolyData>\n"
-            "    <Piece NumberOfPoints=\"%llu\" NumberOfVerts=\"0\" NumberOfLines=\"%d\" NumberOfStrips=\"0\" "
-            "NumberOfPolys=\"0\">\n"
+            "    <Piece NumberOfPoints=\"%llu\" NumberOfVerts=\"0\" NumberOfLines=\"%d\" "
+            "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"
             "      <Points>\n",
-            little ? "LittleEndian" : "BigEndian", (unsigned long long)layout->points, layout->lines);
+            little ? "LittleEndian" : "BigEndian", (unsigned long long)layout->points,
+            layout->lines);
     put_array(out, layout, BLOCK_POINTS, "Float64", "Points", 3);
     fputs("      </Points>\n      <Lines>\n", out);
     put_array(out, layout, BLOCK_CONNECTIVITY, "Int64", "connectivity", 1);
     put_array(out, layout, BLOCK_OFFSETS, "Int64", "offsets", 1);
-    fputs("      </Lines>\n      <PointData Scalars=\"tension_N\" Vectors=\"contact_force_N\">\n", out);
+    fputs("      </Lines>\n      <PointData Scalars=\"tension_N\" Vectors=\"contact_force_N\">\n",
+          out);
     put_array(out, layout, BLOCK_TENSION, "Float64", "tension_N", 1);
     put_array(out, layout, BLOCK_CONTACT_FORCE, "Float64", "contact_force_N", 3);
     put_array(out, layout, BLOCK_FRICTION_STATE, "UInt8", "friction_state", 1);
     put_array(out, layout, BLOCK_DISPLACEMENT, "Float64", "displacement_m", 3);
     fputs("      </PointData>\n      <CellData Scalars=\"line_id\">\n", out);
     put_array(out, layout, BLOCK_LINE_ID, "Int32", "line_id", 1);
-    fputs("      </CellData>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_", out);
+    fputs("      </CellData>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_",
+          out);
 }
 
 /* mean of the elements on both sides of a node */
@@ -102,11 +107,20 @@ static void put_node(FILE *out, const CpsLineView *view, Block block, int j) {
     size_t count = 1;
     for (size_t k = 0; k < 3; ++k) {
         const size_t i = 3 * (size_t)j + k;
-        if (block == BLOCK_POINTS) value[k] = view->position[i], count = 3;
-        if (block == BLOCK_DISPLACEMENT) value[k] = view->position[i] - view->reference[i], count = 3;
+        if (block == BLOCK_POINTS) {
+            value[k] = view->position[i];
+            count = 3;
+        }
+        if (block == BLOCK_DISPLACEMENT) {
+            value[k] = view->position[i] - view->reference[i];
+            count = 3;
+        }
     }
     if (block == BLOCK_TENSION) value[0] = node_tension(view, j);
-    if (block == BLOCK_CONTACT_FORCE) contact_force(view, j, value), count = 3;
+    if (block == BLOCK_CONTACT_FORCE) {
+        contact_force(view, j, value);
+        count = 3;
+    }
     fwrite(value, sizeof value[0], count, out);
 }
 
@@ -117,7 +131,8 @@ static void put_block(FILE *out, const CpsEvolution *evolution, const Layout *la
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         switch (block) {
         case BLOCK_CONNECTIVITY:
-            for (int64_t j = 0; j <= view.elements; ++j) fwrite(&(int64_t){node + j}, sizeof(int64_t), 1, out);
+            for (int64_t j = 0; j <= view.elements; ++j)
+                fwrite(&(int64_t){node + j}, sizeof(int64_t), 1, out);
             break;
         case BLOCK_OFFSETS:
             fwrite(&(int64_t){node + view.elements + 1}, sizeof(int64_t), 1, out);
@@ -125,9 +140,7 @@ static void put_block(FILE *out, const CpsEvolution *evolution, const Layout *la
         case BLOCK_FRICTION_STATE:
             for (int j = 0; j <= view.elements; ++j) fputc(cpsi_node_state(&view, j), out);
             break;
-        case BLOCK_LINE_ID:
-            fwrite(&i, sizeof i, 1, out);
-            break;
+        case BLOCK_LINE_ID: fwrite(&i, sizeof i, 1, out); break;
         default:
             for (int j = 0; j <= view.elements; ++j) put_node(out, &view, block, j);
         }
@@ -138,7 +151,8 @@ static void put_block(FILE *out, const CpsEvolution *evolution, const Layout *la
 CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
     Layout layout;
     if (!measure(evolution, &layout))
-        return cpsi_fail(err, CPS_ERR_LIMIT, "the lines have more nodes than a .vtp file can address");
+        return cpsi_fail(err, CPS_ERR_LIMIT,
+                         "the lines have more nodes than a .vtp file can address");
     char name[64];
     FILE *out = NULL;
     snprintf(name, sizeof name, "step-%05d.vtp", results->row_count - 1);
@@ -154,16 +168,21 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err) {
     FILE *out = NULL;
     const CpsStatus status = cpsi_directory_create(results->directory, "result.pvd", &out, err);
     if (status) return status;
-    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n", out);
+    fputs(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n",
+        out);
     char surfaces[32];
     cpsi_paraview_obstacles_name(-1, surfaces);
     for (int i = 0; i < results->row_count; ++i) {
         if (cpsi_paraview_obstacles_turn(results, i)) cpsi_paraview_obstacles_name(i, surfaces);
-        fprintf(out, "    <DataSet timestep=\"%d\" part=\"0\" file=\"step-%05d.vtp\" name=\"", i, i);
+        fprintf(out, "    <DataSet timestep=\"%d\" part=\"0\" file=\"step-%05d.vtp\" name=\"", i,
+                i);
         cpsi_put_xml(out, results->row[i].name);
         fputs("\"/>\n", out);
         if (results->obstacle_count > 0)
-            fprintf(out, "    <DataSet timestep=\"%d\" part=\"1\" file=\"%s\" name=\"obstacles\"/>\n", i, surfaces);
+            fprintf(out,
+                    "    <DataSet timestep=\"%d\" part=\"1\" file=\"%s\" name=\"obstacles\"/>\n", i,
+                    surfaces);
     }
     fputs("  </Collection>\n</VTKFile>\n", out);
     return cpsi_directory_close_file(results->directory, out, err);

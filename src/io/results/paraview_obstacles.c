@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the lines lie on as quadrilaterals for ParaView, in text: obstacles.vtp, and step-N-obstacles.vtp of each step
- * in which something turns. Balls are whole; planes and cylinders, which have no ends, reach as far as the lines did,
- * and a little farther. Cells carry the sector of their obstacle that they belong to, without which nobody would see a
- * turn. */
+/* What the lines lie on as quadrilaterals for ParaView, in text: obstacles.vtp, and
+ * step-N-obstacles.vtp of each step in which something turns. Balls are whole; planes and
+ * cylinders, which have no ends, reach as far as the lines did, and a little farther. Cells carry
+ * the sector of their obstacle that they belong to, without which nobody would see a turn. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -21,16 +21,19 @@ static const double MARGIN = 0.15;
 typedef struct Patch {
     const CpsObstacle *obstacle;
     int rows, columns;
-    Vec3 centre, axis[3]; /* the third is the plane's normal or what a cylinder or ball turns about */
-    double reach[2][2];   /* plane: along the first two axes; cylinder: along the third, in reach[0] */
-    double turned;        /* [rad] about the third, which is right-handed with the others */
+    Vec3 centre,
+        axis[3]; /* the third is the plane's normal or what a cylinder or ball turns about */
+    double reach[2]
+                [2]; /* plane: along the first two axes; cylinder: along the third, in reach[0] */
+    double turned;   /* [rad] about the third, which is right-handed with the others */
 } Patch;
 
 static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
 
 /* Range of the lines along a direction, from a centre, over all that is kept for pictures. */
 static void reach_along(const CpsResults *results, Vec3 centre, Vec3 direction, double range[2]) {
-    range[0] = INFINITY, range[1] = -INFINITY;
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
     double extent = 0;
     for (int s = 0; s < results->snapshot_count; ++s)
         for (int l = 0; l < results->line_count; ++l) {
@@ -38,15 +41,18 @@ static void reach_along(const CpsResults *results, Vec3 centre, Vec3 direction, 
             for (size_t i = 0; i < (size_t)shape->points; ++i) {
                 const Vec3 from = vec3_sub(vec3_load(shape->position + 3 * i), centre);
                 const double x = vec3_dot(from, direction);
-                range[0] = fmin(range[0], x), range[1] = fmax(range[1], x);
+                range[0] = fmin(range[0], x);
+                range[1] = fmax(range[1], x);
             }
             extent = fmax(extent, results->line_length[l]);
         }
-    range[0] -= MARGIN * extent, range[1] += MARGIN * extent;
+    range[0] -= MARGIN * extent;
+    range[1] += MARGIN * extent;
 }
 
 static Patch patch_of(const CpsResults *results, const CpsObstacle *obstacle) {
-    const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE, ball = obstacle->kind == CPS_OBSTACLE_SPHERE;
+    const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE,
+               ball = obstacle->kind == CPS_OBSTACLE_SPHERE;
     Patch patch = {.obstacle = obstacle, .rows = ball ? ALONG : 1, .columns = plane ? 1 : AROUND};
     const Vec3 axis = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
     const Vec3 seed = fabs(axis.x) <= 0.75 ? vec3(1, 0, 0) : vec3(0, 1, 0);
@@ -65,13 +71,19 @@ static Vec3 point_of(const Patch *patch, int row, int column) {
     double x[3];
     switch (patch->obstacle->kind) {
     case CPS_OBSTACLE_PLANE:
-        x[0] = patch->reach[0][row], x[1] = patch->reach[1][column], x[2] = 0;
+        x[0] = patch->reach[0][row];
+        x[1] = patch->reach[1][column];
+        x[2] = 0;
         break;
     case CPS_OBSTACLE_CYLINDER:
-        x[0] = r * cos(angle), x[1] = r * sin(angle), x[2] = patch->reach[0][row];
+        x[0] = r * cos(angle);
+        x[1] = r * sin(angle);
+        x[2] = patch->reach[0][row];
         break;
     default:
-        x[0] = r * sin(polar) * cos(angle), x[1] = r * sin(polar) * sin(angle), x[2] = r * cos(polar);
+        x[0] = r * sin(polar) * cos(angle);
+        x[1] = r * sin(polar) * sin(angle);
+        x[2] = r * cos(polar);
     }
     Vec3 place = patch->centre;
     for (int k = 0; k < 3; ++k) place = vec3_axpy(x[k], patch->axis[k], place);
@@ -96,7 +108,8 @@ static void put_cells(int patches, const Patch *patch, CellData what, FILE *out)
         const int columns = patch[k].columns, width = columns + 1;
         for (int cell = 0; cell < patch[k].rows * columns; ++cell) {
             const int at = first + cell / columns * width + cell % columns;
-            if (what == CONNECTIVITY) fprintf(out, "%d %d %d %d\n", at, at + 1, at + 1 + width, at + width);
+            if (what == CONNECTIVITY)
+                fprintf(out, "%d %d %d %d\n", at, at + 1, at + 1 + width, at + width);
             if (what == OFFSETS) fprintf(out, "%d\n", 4 * ++cells);
             if (what == OBSTACLE_ID) fprintf(out, "%d\n", k);
             if (what == SECTOR) fprintf(out, "%d\n", cell % columns * SECTORS / columns);
@@ -105,7 +118,8 @@ static void put_cells(int patches, const Patch *patch, CellData what, FILE *out)
     }
 }
 
-static void put_array(int patches, const Patch *patch, const char *type, const char *name, CellData what, FILE *out) {
+static void put_array(int patches, const Patch *patch, const char *type, const char *name,
+                      CellData what, FILE *out) {
     fprintf(out, "        <DataArray type=\"%s\" Name=\"%s\" format=\"ascii\">\n", type, name);
     put_cells(patches, patch, what, out);
     fputs("        </DataArray>\n", out);
@@ -117,13 +131,14 @@ static void put_obstacles(int patches, const Patch *patch, FILE *out) {
         points += (patch[k].rows + 1) * (patch[k].columns + 1);
         cells += patch[k].rows * patch[k].columns;
     }
-    fprintf(
-        out,
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-        "  <PolyData>\n    <Piece NumberOfPoints=\"%d\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
-        "NumberOfPolys=\"%d\">\n      <Points>\n"
-        "        <DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n",
-        points, cells);
+    fprintf(out,
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+            "byte_order=\"LittleEndian\">\n"
+            "  <PolyData>\n    <Piece NumberOfPoints=\"%d\" NumberOfVerts=\"0\" "
+            "NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"%d\">\n      <Points>\n"
+            "        <DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" "
+            "format=\"ascii\">\n",
+            points, cells);
     put_points(patches, patch, out);
     fputs("        </DataArray>\n      </Points>\n      <Polys>\n", out);
     put_array(patches, patch, "Int64", "connectivity", CONNECTIVITY, out);
@@ -143,7 +158,8 @@ void cpsi_paraview_obstacles_name(int step, char name[32]) {
 
 bool cpsi_paraview_obstacles_turn(const CpsResults *results, int step) {
     bool turn = false;
-    for (int k = 0; k < results->obstacle_count; ++k) turn = turn || cpsi_results_turn(results, step, k) != 0;
+    for (int k = 0; k < results->obstacle_count; ++k)
+        turn = turn || cpsi_results_turn(results, step, k) != 0;
     return turn;
 }
 
@@ -154,7 +170,8 @@ static CpsStatus put_file(CpsResults *results, int step, Patch *patch, CpsError 
     cpsi_paraview_obstacles_name(step, name);
     const CpsStatus status = cpsi_directory_create(results->directory, name, &out, err);
     if (status) return status;
-    for (int k = 0; k < results->obstacle_count; ++k) patch[k].turned = cpsi_results_turned(results, step, k);
+    for (int k = 0; k < results->obstacle_count; ++k)
+        patch[k].turned = cpsi_results_turned(results, step, k);
     put_obstacles(results->obstacle_count, patch, out);
     return cpsi_directory_close_file(results->directory, out, err);
 }
@@ -163,10 +180,12 @@ CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err) {
     if (results->obstacle_count == 0 || results->snapshot_count == 0) return CPS_OK;
     Patch *patch = calloc((size_t)results->obstacle_count, sizeof *patch);
     if (!patch) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the surfaces of obstacles");
-    for (int k = 0; k < results->obstacle_count; ++k) patch[k] = patch_of(results, &results->obstacle[k]);
+    for (int k = 0; k < results->obstacle_count; ++k)
+        patch[k] = patch_of(results, &results->obstacle[k]);
     CpsStatus status = put_file(results, -1, patch, err);
     for (int step = 0; step < results->row_count && !status; ++step)
-        if (cpsi_paraview_obstacles_turn(results, step)) status = put_file(results, step, patch, err);
+        if (cpsi_paraview_obstacles_turn(results, step))
+            status = put_file(results, step, patch, err);
     free(patch);
     return status;
 }

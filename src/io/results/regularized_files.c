@@ -4,14 +4,14 @@
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "io/base/escape.h"
 #include "io/base/file_set.h"
 #include "io/draw/methods_picture.h"
-#include "io/base/escape.h"
 
 /* what replaces a certificate */
 static const char *const WARRANT =
-    "none: a regularised solution is no equilibrium under dry friction; 'left' says by how much, against the certified "
-    "step with frozen friction";
+    "none: a regularised solution is no equilibrium under dry friction; 'left' says by how much, "
+    "against the certified step with frozen friction";
 
 typedef struct Column {
     const char *name, *unit;
@@ -56,7 +56,8 @@ static void put_number(FILE *out, double x) {
     cpsi_put_csv_number(out, x);
 }
 
-static void put_row(const CpsRegularizedRun *run, int s, const CpsRegularizedLine *line, FILE *out) {
+static void put_row(const CpsRegularizedRun *run, int s, const CpsRegularizedLine *line,
+                    FILE *out) {
     const CpsClassicParameters *p = &line->parameters[s];
     const CpsClassicReport *r = &line->report[s];
     cpsi_put_csv(out, run->step_name[s]);
@@ -98,8 +99,10 @@ static void put_line(const CpsRegularizedLine *line, int s, FILE *out) {
     const CpsClassicReport *r = &line->report[s];
     fputs("        ", out);
     cpsi_put_json_string(out, line->name);
-    fprintf(out, ": {\"converged\": %s, \"iterations\": %d,\n          \"parameters\": {\"lambda_N/m2\": ",
-            r->converged ? "true" : "false", r->iterations);
+    fprintf(
+        out,
+        ": {\"converged\": %s, \"iterations\": %d,\n          \"parameters\": {\"lambda_N/m2\": ",
+        r->converged ? "true" : "false", r->iterations);
     cpsi_put_json_number(out, p->penalty);
     fputs(", \"1/n_Nm2\": ", out);
     cpsi_put_json_number(out, p->stiffness);
@@ -126,15 +129,16 @@ static void summary(const void *what, FILE *out) {
     const CpsRegularizedRun *run = what;
     bool converged = true;
     for (int i = 0; i < run->lines; ++i)
-        for (int s = 1; s < run->steps; ++s) converged = converged && run->line[i].report[s].converged;
+        for (int s = 1; s < run->steps; ++s)
+            converged = converged && run->line[i].report[s].converged;
     fputs("{\n  \"capstan\": ", out);
     cpsi_put_json_string(out, cps_version());
     fputs(",\n  \"title\": ", out);
     cpsi_put_json_string(out, run->title);
     fputs(",\n  \"method\": \"regularized\",\n  \"certificate\": ", out);
     cpsi_put_json_string(out, WARRANT);
-    fprintf(out, ",\n  \"converged\": %s,\n  \"complete\": %s,\n  \"wall_s\": ", converged ? "true" : "false",
-            run->complete ? "true" : "false");
+    fprintf(out, ",\n  \"converged\": %s,\n  \"complete\": %s,\n  \"wall_s\": ",
+            converged ? "true" : "false", run->complete ? "true" : "false");
     cpsi_put_json_number(out, run->wall);
     fputs(",\n  \"steps\": [", out);
     for (int s = 1; s < run->steps; ++s) {
@@ -162,13 +166,14 @@ static void portrait(const void *what, FILE *out) {
     const Portrait *p = what;
     const CpsRegularizedLine *line = &p->run->line[p->line];
     const CpsMethodHistory history = {line->name, line->position};
-    const CpsiMethods m = {.title = p->run->title,
-                           .note = "Regularised, 1990: plan and elevation (heights stretched), step by step",
-                           .methods = 1,
-                           .steps = p->run->steps,
-                           .points = line->points,
-                           .method = &history,
-                           .step_name = p->run->step_name};
+    const CpsiMethods m = {
+        .title = p->run->title,
+        .note = "Regularised, 1990: plan and elevation (heights stretched), step by step",
+        .methods = 1,
+        .steps = p->run->steps,
+        .points = line->points,
+        .method = &history,
+        .step_name = p->run->step_name};
     cpsi_picture_methods(&m, out);
 }
 
@@ -178,11 +183,13 @@ static CpsStatus check(const CpsRegularizedRun *run, CpsError *err) {
     if (!run || !run->title || !run->step_name || !run->line)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "run, its title, step_name or line is NULL");
     if (run->steps < 1 || run->lines < 1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "found %d steps and %d lines, expected at least 1 and 1", run->steps,
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "found %d steps and %d lines, expected at least 1 and 1", run->steps,
                          run->lines);
     for (int i = 0; i < run->lines; ++i) {
         const CpsRegularizedLine *line = &run->line[i];
-        if (!line->name || !line->position || !line->parameters || !line->report || !line->tension || line->points < 2)
+        if (!line->name || !line->position || !line->parameters || !line->report ||
+            !line->tension || line->points < 2)
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "line %d has no name, points or results", i);
     }
     for (int s = 0; s < run->steps; ++s)
@@ -198,7 +205,8 @@ CpsStatus cps_regularized_summary(const CpsRegularizedRun *run, FILE *out, CpsEr
     return cpsi_file_set_put(&file, out, err);
 }
 
-CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *run, CpsError *err) {
+CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *run,
+                                CpsError *err) {
     CpsStatus status = check(run, err);
     if (status != CPS_OK) return status;
     if (!directory) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL");

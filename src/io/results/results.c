@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A directory of results: open, append each step, finish. The writers are beside this file, the pictures in
- * ../draw; this file owns the memory, the order of the files and what happens when one of them fails. */
+/* A directory of results: open, append each step, finish. The writers are beside this file, the
+ * pictures in ../draw; this file owns the memory, the order of the files and what happens when one
+ * of them fails. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +34,8 @@ static bool copy_stages(CpsResults *results, const CpsScene *scene) {
         stage->turn = calloc((size_t)scene->obstacle_count + 1, sizeof *stage->turn);
         if (!stage->name || !stage->turn) return false;
         for (int k = 0; k < scene->stage[i].turn_count; ++k)
-            stage->turn[scene->stage[i].turn[k].obstacle] = scene->stage[i].turn[k].angle / scene->stage[i].steps;
+            stage->turn[scene->stage[i].turn[k].obstacle] =
+                scene->stage[i].turn[k].angle / scene->stage[i].steps;
     }
     return true;
 }
@@ -61,7 +63,8 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->line_name = calloc(lines, sizeof *results->line_name);
     results->line_length = calloc(lines, sizeof *results->line_length);
     results->line_elements = calloc(lines, sizeof *results->line_elements);
-    if (!results->title || !results->line_name || !results->line_length || !results->line_elements) return false;
+    if (!results->title || !results->line_name || !results->line_length || !results->line_elements)
+        return false;
     if (!copy_obstacles(results, scene)) return false;
     for (size_t i = 0; i < lines; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, (int)i);
@@ -75,7 +78,8 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
 }
 
 static CpsStatus open_files(CpsResults *results, const char *directory, const CpsScene *scene,
-                            const CpsEvolution *evolution, const CpsResultsOptions *options, CpsError *err) {
+                            const CpsEvolution *evolution, const CpsResultsOptions *options,
+                            CpsError *err) {
     CpsStatus status = cpsi_directory_open(directory, &results->directory, err);
     if (status) return status;
     if (options->sync_at_end) cpsi_directory_sync_late(results->directory);
@@ -87,13 +91,15 @@ static CpsStatus open_files(CpsResults *results, const char *directory, const Cp
 }
 
 CpsStatus cps_results_prepare(const char *directory, bool force, CpsError *err) {
-    if (!directory || !*directory) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL or empty");
+    if (!directory || !*directory)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL or empty");
     return cpsi_directory_prepare(directory, force, err);
 }
 
 CpsStatus cps_results_missing(const char *directory, char missing[CPS_RESULT_NAME], CpsError *err) {
     if (missing) missing[0] = '\0';
-    if (!directory || !*directory || !missing) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory and missing are both needed");
+    if (!directory || !*directory || !missing)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory and missing are both needed");
     return cpsi_directory_missing(directory, missing, err);
 }
 
@@ -102,19 +108,23 @@ CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *
     return options ? cpsi_fields_choose(options->fields, &wanted, err) : CPS_OK;
 }
 
-CpsStatus cps_results_open(const char *directory, const CpsScene *scene, const CpsEvolution *evolution,
-                           CpsResults **out, CpsError *err) {
+CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
+                           const CpsEvolution *evolution, CpsResults **out, CpsError *err) {
     return cps_results_open_with(directory, scene, evolution, NULL, out, err);
 }
 
-CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene, const CpsEvolution *evolution,
-                                const CpsResultsOptions *options, CpsResults **out, CpsError *err) {
+CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene,
+                                const CpsEvolution *evolution, const CpsResultsOptions *options,
+                                CpsResults **out, CpsError *err) {
     static const CpsResultsOptions all = {0};
     if (!options) options = &all;
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL; give the address of a CpsResults pointer");
+    if (!out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "out is NULL; give the address of a CpsResults pointer");
     *out = NULL;
     if (!directory || !*directory || !scene || !evolution)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory, scene and evolution are all needed to open results");
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "directory, scene and evolution are all needed to open results");
 
     CpsResults *results = calloc(1, sizeof *results);
     if (!results) return fail_memory(err);
@@ -131,16 +141,17 @@ CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene, co
     return CPS_OK;
 }
 
-/* Largest reaction of an obstacle on a node that does not touch it: what complementarity forbids, in newtons. A held
- * end is carried by what holds it; its reaction is only a share of that and says nothing. */
+/* Largest reaction of an obstacle on a node that does not touch it: what complementarity forbids,
+ * in newtons. A held end is carried by what holds it; its reaction is only a share of that and says
+ * nothing. */
 static double open_reaction(const CpsLineView *view) {
     const double touch = CPS_TOUCH * view->arc_length[view->elements];
     double worst = 0;
     const int first = view->end[CPS_END_A].kind == CPS_END_HELD;
     const int last = view->elements - (view->end[CPS_END_B].kind == CPS_END_HELD);
     for (int j = first; j <= last; ++j) {
-        const Vec3 moved =
-            vec3_sub(vec3_load(view->position + 3 * (size_t)j), vec3_load(view->reference + 3 * (size_t)j));
+        const Vec3 moved = vec3_sub(vec3_load(view->position + 3 * (size_t)j),
+                                    vec3_load(view->reference + 3 * (size_t)j));
         for (int i = 0; i < view->contacts; ++i) {
             const size_t c = (size_t)j + (size_t)i * ((size_t)view->elements + 1);
             const double distance = vec3_dot(vec3_load(view->normal + 3 * c), moved) + view->gap[c];
@@ -181,10 +192,12 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
 }
 
 static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
-    if (!append_row(results, evolution) || !cpsi_snapshot_append(results, evolution)) return fail_memory(err);
+    if (!append_row(results, evolution) || !cpsi_snapshot_append(results, evolution))
+        return fail_memory(err);
     double *turn = calloc((size_t)results->obstacle_count + 1, sizeof *turn);
     if (!turn) return fail_memory(err);
-    for (int k = 0; k < results->obstacle_count; ++k) turn[k] = cpsi_results_turn(results, results->row_count - 1, k);
+    for (int k = 0; k < results->obstacle_count; ++k)
+        turn[k] = cpsi_results_turn(results, results->row_count - 1, k);
     const CpsStatus status = cpsi_netcdf_append(results->netcdf, evolution, turn, err);
     free(turn);
     return status || !results->paraview ? status : cpsi_paraview_step(results, evolution, err);
@@ -194,7 +207,8 @@ static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsE
 static bool has_these_lines(const CpsResults *results, const CpsEvolution *evolution) {
     if (cps_evolution_line_count(evolution) != results->line_count) return false;
     for (int i = 0; i < results->line_count; ++i)
-        if (cps_evolution_line_view(evolution, i).elements != results->line_elements[i]) return false;
+        if (cps_evolution_line_view(evolution, i).elements != results->line_elements[i])
+            return false;
     return true;
 }
 
@@ -204,13 +218,17 @@ static CpsStatus refuse_failed(CpsError *err) {
 }
 
 CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
-    if (!results || !evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and evolution are both needed");
+    if (!results || !evolution)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and evolution are both needed");
     if (results->failed) return refuse_failed(err);
     if (!has_these_lines(results, evolution))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the evolution has other lines than the one that these results were opened for");
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "the evolution has other lines than the one that these results were opened for");
     const CpsStepReport report = cps_evolution_report(evolution);
     if (report.index != results->row_count)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d follows step %d of the results; append every step once",
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "step %d follows step %d of the results; append every step once",
                          report.index, results->row_count - 1);
     const locale_t before = uselocale(results->locale);
     const CpsStatus status = append(results, evolution, err);
@@ -233,7 +251,8 @@ static CpsStatus write_summary(CpsResults *results, double wall, CpsError *err) 
     const CpsStatus status = cpsi_directory_create(results->directory, "summary.json", &out, err);
     if (status) return status;
     const CpsStatus listed = cpsi_summary_file(results, wall, out, err);
-    const CpsStatus closed = cpsi_directory_close_file(results->directory, out, listed ? NULL : err);
+    const CpsStatus closed =
+        cpsi_directory_close_file(results->directory, out, listed ? NULL : err);
     return listed ? listed : closed;
 }
 
@@ -273,12 +292,15 @@ CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError *err) {
     return status;
 }
 
-CpsStatus cps_results_write_summary(const CpsResults *results, double wall, FILE *out, CpsError *err) {
-    if (!results || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and out are both needed");
+CpsStatus cps_results_write_summary(const CpsResults *results, double wall, FILE *out,
+                                    CpsError *err) {
+    if (!results || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and out are both needed");
     const locale_t before = uselocale(results->locale);
     cpsi_summary_write(results, wall, out);
     uselocale(before);
-    if (fflush(out) != 0 || ferror(out)) return cpsi_fail(err, CPS_ERR_IO, "the summary could not be written");
+    if (fflush(out) != 0 || ferror(out))
+        return cpsi_fail(err, CPS_ERR_IO, "the summary could not be written");
     return CPS_OK;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Thinned copies of the lines for the pictures.
  *
- * Kept are the steps that get pictures of their own, an even selection for the overviews, and always the last one:
- * while it is only the last so far, the next step overwrites it. */
+ * Kept are the steps that get pictures of their own, an even selection for the overviews, and
+ * always the last one: while it is only the last so far, the next step overwrites it. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,10 +32,14 @@ static int point_count(const CpsResults *results, int elements) {
     return elements < most ? elements + 1 : most;
 }
 
-/* node of the line that point i of the shape shows; the first and the last node are always among them */
-static size_t node_of(int i, int points, int elements) { return (size_t)((int64_t)i * elements / (points - 1)); }
+/* node of the line that point i of the shape shows; the first and the last node are always among
+ * them */
+static size_t node_of(int i, int points, int elements) {
+    return (size_t)((int64_t)i * elements / (points - 1));
+}
 
-/* How the node rests; one that touches nothing and has friction all the same, frozen friction of the reference, is told apart. */
+/* How the node rests; one that touches nothing and has friction all the same, frozen friction of
+ * the reference, is told apart. */
 static unsigned char shown_state(const CpsLineView *view, size_t j) {
     const size_t n = (size_t)view->elements + 1;
     const unsigned char state = cpsi_node_state(view, (int)j);
@@ -63,13 +67,15 @@ static void sample(CpsiShape *shape, const CpsLineView *view) {
 
 static bool take(CpsResults *results, const CpsEvolution *evolution, CpsiSnapshot *out) {
     const size_t lines = (size_t)results->line_count;
-    *out = (CpsiSnapshot){.step = results->row_count - 1, .shape = calloc(lines, sizeof *out->shape)};
+    *out =
+        (CpsiSnapshot){.step = results->row_count - 1, .shape = calloc(lines, sizeof *out->shape)};
     if (!out->shape) return false;
 
     /* one block for all lines: 8 doubles and a state per point */
     size_t total = 0;
     for (size_t i = 0; i < lines; ++i) {
-        out->shape[i].points = point_count(results, cps_evolution_line_view(evolution, (int)i).elements);
+        out->shape[i].points =
+            point_count(results, cps_evolution_line_view(evolution, (int)i).elements);
         total += (size_t)out->shape[i].points;
     }
     double *block = malloc(total * (8 * sizeof(double) + 1));
@@ -108,7 +114,8 @@ bool cpsi_snapshot_append(CpsResults *results, const CpsEvolution *evolution) {
         }
     }
     if (results->snapshot_count == results->snapshot_capacity) {
-        const size_t capacity = results->snapshot_capacity ? 2 * (size_t)results->snapshot_capacity : 16;
+        const size_t capacity =
+            results->snapshot_capacity ? 2 * (size_t)results->snapshot_capacity : 16;
         CpsiSnapshot *grown = realloc(results->snapshot, capacity * sizeof *grown);
         if (!grown) {
             cpsi_snapshot_free(&snapshot);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study of the 1990 method as files: tables of its solves and of P10.1, and the pictures. As in history.csv the first
- * row has the names, the second the units. */
+/* A study of the 1990 method as files: tables of its solves and of P10.1, and the pictures. As in
+ * history.csv the first row has the names, the second the units. */
 #include <math.h>
 #include <stddef.h>
 
 #include "base/status.h"
+#include "io/base/escape.h"
 #include "io/base/file_set.h"
 #include "io/draw/study_picture.h"
-#include "io/base/escape.h"
 
 typedef struct Column {
     const char *name, *unit;
@@ -60,25 +60,28 @@ static void put_study(const CpsStudyFiles *files, FILE *out) {
         const int cells = row->parameters.cells > 0 ? row->parameters.cells : step.elements;
         fprintf(out, "%s,%d", cps_study_stage_key(row->stage), cells);
         put_number(out, step.length / cells);
-        fprintf(out, ",%d,%d,%d", row->report.converged, row->report.iterations, row->report.evaluations);
+        fprintf(out, ",%d,%d,%d", row->report.converged, row->report.iterations,
+                row->report.evaluations);
         for (int i = 0; i < COLUMNS; ++i)
             put_number(out, *(const double *)(const void *)((const char *)row + COLUMN[i].offset));
         fputc('\n', out);
     }
 }
 
-/* P10.1 beside P2.1: a row per node; what belongs to an element stands beside the node it ends at */
+/* P10.1 beside P2.1: a row per node; what belongs to an element stands beside the node it ends
+ * at */
 static void put_first_order(const CpsStudyFiles *files, FILE *out) {
     const CpsClassicStep step = cps_classic_step(files->classic);
     const CpsFirstOrderView view = cps_first_order_view(files->first_order);
-    fputs("arc_length,reference.x,reference.y,reference.z,P2.1.x,P2.1.y,P2.1.z,u.x,u.y,u.z,friction.x,friction.y,"
-          "friction.z,reaction,strain,tension.x,tension.y,tension.z,P2.1.tension\n"
-          "m,m,m,m,m,m,m,m,m,m,N,N,N,N,-,N,N,N,N\n",
-          out);
+    fputs(
+        "arc_length,reference.x,reference.y,reference.z,P2.1.x,P2.1.y,P2.1.z,u.x,u.y,u.z,friction."
+        "x,friction.y,friction.z,reaction,strain,tension.x,tension.y,tension.z,P2.1.tension\n"
+        "m,m,m,m,m,m,m,m,m,m,N,N,N,N,-,N,N,N,N\n",
+        out);
     for (int j = 0; j <= step.elements; ++j) {
         const size_t k = 3 * (size_t)j;
-        const double *const vector[] = {step.reference + k, step.position + k, view.displacement + k,
-                                        view.friction + k};
+        const double *const vector[] = {step.reference + k, step.position + k,
+                                        view.displacement + k, view.friction + k};
         cpsi_put_csv_number(out, view.arc_length[j]);
         for (size_t v = 0; v < sizeof vector / sizeof *vector; ++v)
             for (int x = 0; x < 3; ++x) put_number(out, vector[v][x]);
@@ -93,12 +96,16 @@ static void put_first_order(const CpsStudyFiles *files, FILE *out) {
 static void study_table(const void *files, FILE *out) { put_study(files, out); }
 static void study_picture(const void *files, FILE *out) { cpsi_picture_study(files, out); }
 static void first_order_table(const void *files, FILE *out) { put_first_order(files, out); }
-static void first_order_picture(const void *files, FILE *out) { cpsi_picture_first_order(files, out); }
+static void first_order_picture(const void *files, FILE *out) {
+    cpsi_picture_first_order(files, out);
+}
 static void relaxed_picture(const void *files, FILE *out) { cpsi_picture_relaxed(files, out); }
 
 CpsStatus cps_study_write(const char *directory, const CpsStudyFiles *files, CpsError *err) {
-    if (!directory || !files || !files->title || !files->classic || !files->study || !files->first_order)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory, files, or one of what files has, is NULL");
+    if (!directory || !files || !files->title || !files->classic || !files->study ||
+        !files->first_order)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "directory, files, or one of what files has, is NULL");
     const CpsiFile set[] = {{"study.csv", study_table, files},
                             {"study.svg", study_picture, files},
                             {"first-order.csv", first_order_table, files},

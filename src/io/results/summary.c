@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The summary as one JSON object (RFC 8259): what `capstan run --json` prints and summary.json holds.
- * Keys are stable and carry their units; a number that says nothing is null. docs/results.md lists them. */
-#include "io/results/writers.h"
-#include "io/base/file_list.h"
+/* The summary as one JSON object (RFC 8259): what `capstan run --json` prints and summary.json
+ * holds. Keys are stable and carry their units; a number that says nothing is null. docs/results.md
+ * lists them. */
 #include "io/base/escape.h"
+#include "io/base/file_list.h"
+#include "io/results/writers.h"
 
 static void put_key(FILE *out, const char *key) {
     cpsi_put_json_string(out, key);
@@ -31,7 +32,8 @@ static void put_vector(FILE *out, const char *key, const double x[3], const char
     fprintf(out, "]%s", after);
 }
 
-/* between which values the tension of the element at an end lies; null where unbounded or not known, `kind` says which */
+/* between which values the tension of the element at an end lies; null where unbounded or not
+ * known, `kind` says which */
 static void put_range(FILE *out, const CpsTensionRange *range) {
     fputs(", \n            \"tension_range_N\": {", out);
     put_string(out, "kind", cps_range_key(range->kind), ", ");
@@ -55,10 +57,13 @@ static void put_end(FILE *out, const char *key, const CpsEndReport *end, const c
 /* what proves that there is no solution, in the units of its kind */
 static void put_proof(FILE *out, const CpsLineReport *report) {
     if (!cps_outcome_is_final(report->outcome)) return;
-    const char *value = report->outcome == CPS_INFEASIBLE ? "excess_m" : report->outcome == CPS_SLIDES ? "power_N" : "fall_N";
+    const char *value = report->outcome == CPS_INFEASIBLE ? "excess_m"
+                        : report->outcome == CPS_SLIDES   ? "power_N"
+                                                          : "fall_N";
     fputs("          \"proof\": {", out);
     put_vector(out, "direction", report->proof, ", ");
-    if (report->outcome == CPS_INFEASIBLE && report->proof_obstacle >= 0) fprintf(out, "\"obstacle\": %d, ", report->proof_obstacle);
+    if (report->outcome == CPS_INFEASIBLE && report->proof_obstacle >= 0)
+        fprintf(out, "\"obstacle\": %d, ", report->proof_obstacle);
     if (report->coulomb > 0) put_number(out, "coulomb_N", report->coulomb, ", ");
     put_number(out, value, report->proof_value, "},\n");
 }
@@ -80,7 +85,8 @@ static void put_line(FILE *out, const char *name, const CpsLineReport *report, c
     put_key(out, name);
     fputs("{\n          ", out);
     put_string(out, "outcome", cps_outcome_key(report->outcome), ", ");
-    fprintf(out, "\"iterations\": %d, \"places_not_unique\": %d,\n          ", report->iterations, (int)report->places);
+    fprintf(out, "\"iterations\": %d, \"places_not_unique\": %d,\n          ", report->iterations,
+            (int)report->places);
     put_number(out, "grounded_m", report->grounded, ", ");
     put_number(out, "slipping_m", report->slipping, ", ");
     put_number(out, "slack_m", report->slack, ", ");
@@ -142,7 +148,8 @@ static void put_step(FILE *out, const CpsResults *results, const CpsiRow *row) {
     put_ledger(out, &row->report);
     put_number(out, "wall_s", row->report.wall, ",\n      \"lines\": {\n");
     for (int i = 0; i < results->line_count; ++i)
-        put_line(out, results->line_name[i], &row->line[i].report, i + 1 < results->line_count ? ",\n" : "\n");
+        put_line(out, results->line_name[i], &row->line[i].report,
+                 i + 1 < results->line_count ? ",\n" : "\n");
     fputs("      }\n    }", out);
 }
 
