@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "options.h"
 #include "printable.h"
+#include "signals.h"
 
 typedef struct Command {
     const char *name;
@@ -76,6 +77,7 @@ int cli_report(const CpsError *err) {
     case CPS_ERR_IO: return EXIT_IO;
     case CPS_ERR_MEMORY:
     case CPS_ERR_LIMIT: return EXIT_LIMIT;
+    case CPS_ERR_INTERRUPTED: return 128 + cli_stopped();
     }
     return EXIT_INPUT;
 }

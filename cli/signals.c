@@ -24,3 +24,17 @@ void cli_catch_signals(void) {
 }
 
 int cli_stopped(void) { return stop_signal; }
+
+static bool is_stopped(void *user) {
+    (void)user;
+    return stop_signal != 0;
+}
+
+CpsStatus cli_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err) {
+    CpsStatus status = cps_evolution_create(scene, out, err);
+    if (status == CPS_OK) status = cps_evolution_interrupt(*out, is_stopped, NULL, err);
+    if (status == CPS_OK) return CPS_OK;
+    cps_evolution_destroy(*out);
+    *out = NULL;
+    return status;
+}

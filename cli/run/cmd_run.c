@@ -236,6 +236,7 @@ static CpsStatus take_back(Run *run, CpsError *err) {
 static CpsStatus take_steps(Run *run, CpsError *err) {
     while (cps_evolution_remaining(run->evolution) > 0 && !cli_stopped()) {
         CpsStatus status = cps_evolution_step(run->evolution, err);
+        if (status == CPS_ERR_INTERRUPTED) break;
         run->refused = status != CPS_OK;
         if (!status) status = cps_journal_append(run->journal, run->evolution, err);
         if (!status) status = keep_step(run, err);
@@ -250,7 +251,7 @@ static CpsStatus take_steps(Run *run, CpsError *err) {
 static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *options,
                            CpsError *err) {
     const double begun = cli_now();
-    CpsStatus status = cps_evolution_create(run->scene, &run->evolution, err);
+    CpsStatus status = cli_evolution_create(run->scene, &run->evolution, err);
     const CpsResultsOptions wanted = wanted_results(options);
     if (!status)
         status = cps_results_open_with(directory, run->scene, run->evolution, &wanted,

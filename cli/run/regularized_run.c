@@ -256,7 +256,7 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
     if (!classic_options_read(options, "run", &given)) return EXIT_USAGE;
     const CpsScene frozen = regularized_scene(scene);
     History h = {.scene = scene, .done = 1};
-    if (cps_evolution_create(&frozen, &h.exact, &err) != CPS_OK) return cli_report(&err);
+    if (cli_evolution_create(&frozen, &h.exact, &err) != CPS_OK) return cli_report(&err);
     h.steps = 1 + cps_evolution_step_count(h.exact);
     h.lines = cps_evolution_line_count(h.exact);
     int code = EXIT_LIMIT;

@@ -274,7 +274,7 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
     const CpsScene scene = solutions ? *given : regularized_scene(given);
     const int number = find_step(given, options->step);
     if (number == 0) return EXIT_USAGE;
-    if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
+    if (cli_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
     const int line = find_line(evolution, options->line);
     int code = line < 0 ? EXIT_USAGE : reach_step(evolution, number);
     if (code == EXIT_OK) {

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "printable.h"
 #include "run/regularized_run.h"
+#include "signals.h"
 
 enum { REGULARISED, FROZEN, CONSISTENT, METHODS, NAME_SIZE = 96 };
 
@@ -73,7 +74,7 @@ static int run_evolution(Histories *h, int method, int line) {
     CpsError err;
     CpsEvolution *evolution = NULL;
     Regularized own = {.friction = h->friction, .given = h->given};
-    if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
+    if (cli_evolution_create(&scene, &evolution, &err) != CPS_OK) return cli_report(&err);
     int code = EXIT_OK;
     const CpsLineView start = cps_evolution_line_view(evolution, line);
     store(h, method, 0, start.position, start.origin);

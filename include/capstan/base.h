@@ -50,7 +50,8 @@ extern "C" {
     X(CPS_ERR_MEMORY, 2, "out of memory")                                  \
     X(CPS_ERR_INPUT, 3, "the input file is not valid")                     \
     X(CPS_ERR_IO, 4, "a file could not be read or written")                \
-    X(CPS_ERR_LIMIT, 5, "a size limit was exceeded")
+    X(CPS_ERR_LIMIT, 5, "a size limit was exceeded")                       \
+    X(CPS_ERR_INTERRUPTED, 6, "the caller interrupted it")
 
 typedef enum CpsStatus {
 #define CPS_STATUS_ENUM(name, number, sentence) name = number,

@@ -106,8 +106,17 @@ CPS_API int cps_evolution_remaining(const CpsEvolution *evolution);
 /* Take the next load step. The outcome is in the report; the status is CPS_OK even when it is not
  * solved. After an infeasible or unbounded step the lines stay where they were. Returns
  * CPS_ERR_ARGUMENT when no step remains, and where a free end that the next stage grabs would go
- * through an obstacle on its straight way from where it is: nothing has changed then. */
+ * through an obstacle on its straight way from where it is: nothing has changed then.
+ * CPS_ERR_INTERRUPTED: see below. */
 CPS_API CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err);
+
+/* Let a step be interrupted while it is under way: it asks `asked` in each of its iterations, and
+ * once that is true it is given up. cps_evolution_step then returns CPS_ERR_INTERRUPTED and the
+ * evolution is as it was before the step. What is not interrupted has the same bits as without.
+ * `asked` is called from the thread that steps, and calls nothing of this evolution; NULL: no more.
+ */
+CPS_API CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)(void *user),
+                                          void *user, CpsError *err);
 
 /* The state between two steps as bytes, for going on later: the steps that follow a load give the
  * same bits as if they had followed the save. The bytes are the same in every run: no address, no

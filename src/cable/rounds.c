@@ -151,6 +151,7 @@ void cpsi_rounds_settle(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
             next_bounds(line, program, cpsi_line_unit_force(line, bounds));
         }
         if (line->follows) arrived = cpsi_rounds_look(line, sides, &turned);
+        if (cpsi_interrupt_seen(program->base.interrupt)) break;
         if (turned <= SETTLED && off <= MATCHED && cpsi_line_is_clean(&ipm)) break;
         if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
         if (turned < 0.5 * best) {
@@ -214,6 +215,7 @@ void cpsi_rounds_drag(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
         cpsi_contact_look(line);
         ipm = cpsi_line_solve(line, program, &with, bounds, false);
         arrived = cpsi_rounds_look(line, sides, &turned);
+        if (cpsi_interrupt_seen(program->base.interrupt)) break;
         if (turned <= SETTLED && cpsi_line_is_clean(&ipm)) break;
         watch.path += way_between(line->n, watch.before, line->base);
         if (turned < 0.5 * watch.best) {

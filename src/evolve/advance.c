@@ -457,7 +457,8 @@ static void take_rest(Advance *advance, double from, double to) {
 /* Take a stretch in parts, each halved up to `halvings` times. */
 static void advance_stretch(Advance *advance, Stretch stretch, int halvings) {
     const double tolerance = advance->options->solver.path_tolerance, least = ldexp(1, -halvings);
-    for (double at = 0, part = 1; at < 1;) {
+    for (double at = 0, part = 1;
+         at < 1 && !cpsi_interrupt_seen(advance->program->base.interrupt);) {
         const double end = at + part < 1 ? at + part : 1,
                      middle = within(&stretch, at + 0.5 * (end - at));
         const double from = within(&stretch, at), to = within(&stretch, end);

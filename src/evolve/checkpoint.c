@@ -259,6 +259,12 @@ void cps_evolution_save(const CpsEvolution *evolution, void *state) {
     pass_state(&tape, (CpsEvolution *)(uintptr_t)evolution); /* only read */
 }
 
+void cpsi_evolution_restore(CpsEvolution *evolution, const void *state) {
+    pass_state(&(Tape){.in = state}, evolution);
+    evolution->report.name = evolution->step_name;
+    evolution->ended = cps_outcome_is_final(evolution->report.outcome);
+}
+
 CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t size,
                              CpsError *err) {
     if (!evolution || !state)
@@ -280,12 +286,10 @@ CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t 
     unsigned char *before = malloc(size);
     if (!before) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while loading a state");
     cps_evolution_save(evolution, before);
-    pass_state(&(Tape){.in = state}, evolution);
+    cpsi_evolution_restore(evolution, state);
     const char *fault = cpsi_state_fault(evolution);
-    if (fault) pass_state(&(Tape){.in = before}, evolution);
+    if (fault) cpsi_evolution_restore(evolution, before);
     free(before);
-    evolution->report.name = evolution->step_name;
-    evolution->ended = cps_outcome_is_final(evolution->report.outcome);
     return fault ? cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state is damaged: %s", fault)
                  : CPS_OK;
 }

@@ -9,4 +9,7 @@
 /* A number that differs, in all likelihood, between evolutions of different scenes. */
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution);
 
+/* Back to a state that this evolution itself has saved. */
+void cpsi_evolution_restore(CpsEvolution *evolution, const void *state);
+
 #endif

@@ -251,6 +251,9 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
                                                    .to = {g[0], g[1], g[2]}};
         evolution->stage_count = evolution->step_count = 1;
     }
+    evolution->program.base.interrupt = &evolution->interrupt;
+    evolution->forces.program.base.interrupt = &evolution->interrupt;
+    evolution->least.program.chain.base.interrupt = &evolution->interrupt;
     evolution->report = (CpsStepReport){.name = evolution->step_name, .index = -1};
     evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
 }
@@ -295,6 +298,7 @@ void cps_evolution_destroy(CpsEvolution *evolution) {
     for (int k = 0; evolution->set && k < evolution->obstacle_count; k++)
         cpsi_friction_set_free(evolution->set[k]);
     free(evolution->set);
+    free(evolution->before);
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
     cpsi_arena_free(&arena);
 }
@@ -480,6 +484,18 @@ static void find_ranges(CpsEvolution *evolution) {
     }
 }
 
+CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)(void *user), void *user,
+                                  CpsError *err) {
+    if (!evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution is NULL");
+    if (asked && !evolution->before) {
+        evolution->before = malloc(cps_evolution_state_size(evolution));
+        if (!evolution->before)
+            return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory for the state before a step");
+    }
+    evolution->interrupt = (CpsiInterrupt){.asked = asked, .user = user};
+    return CPS_OK;
+}
+
 CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     if (!evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution is NULL");
     if (cps_evolution_remaining(evolution) == 0)
@@ -489,6 +505,8 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     const bool laying = evolution->laid && evolution->done == 0;
     const CpsStatus status = laying ? CPS_OK : check_grabs(evolution, err);
     if (status) return status;
+    if (evolution->interrupt.asked) cps_evolution_save(evolution, evolution->before);
+    evolution->interrupt.seen = false;
     if (laying) {
         lay(evolution);
     } else {
@@ -498,6 +516,11 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
                               &evolution->move[i], &evolution->room, evolution->done > 0);
     }
     if (evolution->part == 0) find_ranges(evolution);
+    if (evolution->interrupt.seen) {
+        cpsi_evolution_restore(evolution, evolution->before);
+        return cpsi_fail(err, CPS_ERR_INTERRUPTED,
+                         "the load step was interrupted, and is not taken");
+    }
     evolution->report = (CpsStepReport){.name = evolution->step_name, .index = evolution->done};
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);

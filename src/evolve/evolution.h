@@ -49,8 +49,10 @@ struct CpsEvolution {
     CpsiChainProgram program;
     CpsiForceSet forces; /* room for those of inextensible lines */
     CpsiLeastMotion least;
-    double origin[3];     /* [m] from which all places are measured */
-    uint64_t fingerprint; /* of everything that does not change: which scene this is */
+    CpsiInterrupt interrupt; /* of all programs */
+    void *before;            /* the state before a step, where one may be interrupted; else NULL */
+    double origin[3];        /* [m] from which all places are measured */
+    uint64_t fingerprint;    /* of everything that does not change: which scene this is */
 };
 
 #endif

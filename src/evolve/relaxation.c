@@ -38,7 +38,7 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
     with.least = NULL;
     with.centrings = 2;
     *done = (CpsiRelaxation){0};
-    for (int k = 0; k < STEPS; k++) {
+    for (int k = 0; k < STEPS && !cpsi_interrupt_seen(program->base.interrupt); k++) {
         const CpsiLedgerStart start = cpsi_ledger_start(line, from, known);
         line->report.iterations = 0;
         const CpsiDampedStep step = cpsi_line_damped_step(line, program, &with);

@@ -146,7 +146,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
         /* where are we, and is it enough? */
         const CpsiSums sums = measure(program);
         const double merit = judge(program, &sums, options, &report), mu = sums.sz / sums.weight;
-        if (!isfinite(merit)) {
+        if (!isfinite(merit) || cpsi_interrupt_look(program->interrupt)) {
             report.outcome = CPSI_IPM_STALLED;
             break;
         }

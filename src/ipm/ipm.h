@@ -7,7 +7,8 @@
 
 typedef enum CpsiIpmOutcome {
     CPSI_IPM_SOLVED,  /* gap and residuals reached the target */
-    CPSI_IPM_STALLED, /* no further progress: judge the iterate by its certificate */
+    CPSI_IPM_STALLED, /* no further progress, or interrupted: judge the iterate by its certificate
+                       */
     CPSI_IPM_ITERATION_LIMIT,
     CPSI_IPM_INFEASIBLE, /* the duals are a ray that proves there is no feasible u */
     CPSI_IPM_UNBOUNDED   /* u is a ray along which the objective falls for ever */

@@ -14,6 +14,8 @@
 
 #include <stdbool.h>
 
+#include "ipm/interrupt.h"
+
 typedef struct CpsiProgram CpsiProgram;
 
 /* What a pass over the elements of one kind adds up. Step lengths are kept as inverses: the largest
@@ -70,6 +72,7 @@ struct CpsiProgram {
     void (*solve)(CpsiProgram *program);
     /* the largest residual of an unknown that is free to move */
     double (*imbalance)(const CpsiProgram *program);
+    CpsiInterrupt *interrupt; /* looked at in each iteration; NULL: none */
 };
 
 #endif

@@ -56,6 +56,41 @@ def end_while_waiting():
         waiting.stdin.close()
 
 
+HARD = """{"capstan": 1, "gravity": [-2.6601283044409714, 2.759059534438018, 9.030360341057195],
+"obstacles": {"bed": {"plane": {"point": [4.3675130356665255, -5.036750502636892, -6.671841292277447],
+  "normal": [0.27116496477481866, -0.2812496977001038, -0.9205260286500707]}, "friction": {"axial": 0.588625151985494, "lateral": 0.0}}},
+"lines": {"a": {"length": 0.9049442288267853, "elements": 321, "weight": 1.1050404744792393, "stiffness": .inf,
+  "start": {"polyline": [[4.3675130356665255, -5.036750502636892, -6.671841292277447], [4.467681670279063, -4.795754722754122, -6.715965808802356],
+    [4.883361116087756, -4.622687219720161, -6.6463941537083295], [4.9634551277966965, -4.773732076926472, -6.576651410652702]]},
+  "ends": {"A": "fixed", "B": "free"}}},
+"history": [{"name": "s0", "a.B": {"force": [-0.2381959893177024, 0.3487532816888836, -0.17672195792042686]}},
+  {"name": "s1", "steps": 2, "a.B": {"force": [0.014897231074644786, -0.006022340182070276, 0.0055996264271495075]}}], "friction": "consistent"}"""
+
+
+def processor(pid):
+    """Seconds of the processor that a process has had."""
+    with open(f"/proc/{pid}/stat") as file:
+        return sum(int(word) for word in file.read().rsplit(")", 1)[1].split()[11:13]) / os.sysconf("SC_CLK_TCK")
+
+
+def end_within_a_step():
+    """A signal in a step that takes seconds: the program ends at once, and keeps the steps before."""
+    write("hard.yaml", HARD)
+    running = subprocess.Popen([CAPSTAN, "run", "hard.yaml", "-o", "hard"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    said = running.stderr.readline()  # the first step is there
+    time.sleep(0.2)
+    before = processor(running.pid)
+    running.send_signal(signal.SIGTERM)
+    rest = running.stderr.read()
+    used = os.wait4(running.pid, 0)[2]
+    after = used.ru_utime + used.ru_stime
+    running.returncode = 0  # wait4 has taken it
+    expect("signal in a step: after the first one", said.startswith("step 1 of 3"), said)
+    expect("signal in a step: what is said", "stopped by a signal after 1 of 3 steps; --resume goes on from there" in rest, rest)
+    # the step takes some 8 s, the files that are written at the end 0.05 s
+    expect("signal in a step: time of the processor until the end", after - before < 1, after - before)
+
+
 def pipe_to_judge():
     os.mkfifo("pipe")
     try:
@@ -134,7 +169,7 @@ with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     write("scene.yaml", SCENE)
     write("frozen.yaml", SCENE + "friction: frozen\n")
-    for part in (closed_streams, end_while_waiting, pipe_to_judge, escapes, named_files, libraries, slow_lines):
+    for part in (closed_streams, end_while_waiting, end_within_a_step, pipe_to_judge, escapes, named_files, libraries, slow_lines):
         part()
     os.chdir("/")
 
