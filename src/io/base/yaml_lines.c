@@ -15,6 +15,7 @@ enum { DIRECTIVE_MOST = 80, EMPTY_MOST = 500 };
 static size_t line_break(const char *s, size_t left) {
     if (s[0] == '\r') return left > 1 && s[1] == '\n' ? 2 : 1;
     if (s[0] == '\n') return 1;
+    if (!(s[0] & 0x80)) return 0; /* the others are not ASCII */
     if (left > 1 && memcmp(s, "\xc2\x85", 2) == 0) return 2;
     return left > 2 && (memcmp(s, "\xe2\x80\xa8", 3) == 0 || memcmp(s, "\xe2\x80\xa9", 3) == 0) ? 3
                                                                                                 : 0;
