@@ -91,8 +91,10 @@ static void compare(const char *name, bool bed, bool friction, int allowed) {
     }
     qsort(ratio, CASES, sizeof *ratio, by_size);
     printf(
-        "%-24s error over estimate: least %.2f, 5 %% %.2f, median %.2f, 95 %% %.2f, largest %.2f\n",
-        name, ratio[0], ratio[2], ratio[CASES / 2], ratio[CASES - 3], ratio[CASES - 1]);
+        "%-24s error over estimate: least %.2f, 5 %% %.2f, median %.2f, 95 %% %.2f, largest %.2f; "
+        "%d of %d within a factor of 3\n",
+        name, ratio[0], ratio[2], ratio[CASES / 2], ratio[CASES - 3], ratio[CASES - 1],
+        CASES - beyond, CASES);
     CHECK_BETWEEN(beyond, 0, allowed);
 }
 

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pictures of docs/gallery.md, of driven systems."""
+import os
+import re
+
+
+def driven(name, *arguments):
+    def draw(program):
+        path = os.path.join(program.folder, re.sub(r"\W+", "_", "-".join(("drive", name) + arguments)) + ".svg")
+        program.call("drive", f"examples/drive/{name}.yaml", *arguments, "--plot", path)
+        return path
+    return draw
+
+
+PICTURES = {
+    "drive-wheel-maps": driven("braked-wheel"),
+    "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),
+    "drive-disc": driven("disc"), "drive-plate": driven("plate"), "drive-car": driven("car"), "drive-planimeter": driven("planimeter"),
+    "drive-rope-straight": driven("rope-straight"), "drive-rope-slack": driven("rope-slack"), "drive-rope-arc": driven("rope-arc"),
+    "drive-tractrix": driven("tractrix"), "drive-play": driven("play"),
+}

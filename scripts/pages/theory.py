@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The figures of docs/theory.md: constants of the program, and what tests find."""
+import math
+import re
+
+from marks import short
+
+
+def number(where, name):
+    """A constant of the program."""
+    return lambda p: p.constant(where, rf"\b{name}\s+(?:= )?(-?[\d.]+(?:e-?\d+)?)\b")
+
+
+def numbers(*constants):
+    return lambda p: [number(*c)(p) for c in constants]
+
+
+def in_vain(p):
+    most, beside, sets = numbers(*(("evolve/advance.c", n) for n in ("IN_VAIN", "NODES_BESIDE", "SET_COST")))(p)
+    return [f"{float(most) / 1e6:g}", beside, sets]
+
+
+def locked(p):
+    """mu tan(d/2) where a bend is taken for locked, and its k = (1 + mu tan(d/2))/(1 - mu tan(d/2))."""
+    most = number("cable/bend.c", "LOCKED")(p)
+    return [most, f"{(1 + float(most)) / (1 - float(most)):.0f}"]
+
+
+def percent(where, name):
+    return lambda p: f"{100 * float(number(where, name)(p)):g}"
+
+
+def mesh_error(p):
+    """Of the errors over their estimates in the test `mesh_error`: the least and the largest without friction."""
+    found = re.findall(r"(?:hanging|laid on a bed) +error over estimate: least ([\d.]+),.* largest ([\d.]+);", p.output("test", "analytic", "test_mesh_error"))
+    return [p.constant("test_mesh_error.c", r"solve\(&m, (\d+) ?\* ?n, fine\)"), min(low for low, _ in found), f"{max(float(high) for _, high in found):.1f}"]
+
+
+def mesh_error_moved(p):
+    return list(re.search(r"moved with friction.*; (\d+) of (\d+) within", p.output("test", "analytic", "test_mesh_error")).groups())
+
+
+FIGURES = {}
+SENTENCES = [
+    ("psi(x_R) = 0 }, to {} of the length", number(".h", "CPS_TOUCH")),
+    ("at mu theta = 6 pi, a ratio of tensions of {}", lambda p: short(math.exp(6 * math.pi))),
+    ("axes turned by more than {} rad", number("cable/rounds.c", "SETTLED")),
+    ("inside an obstacle; after {}, or {} if they close in, they begin anew and go on slowly, up to {} without foresight",
+     numbers(("cable/rounds.c", "ROUNDS"), ("cable/rounds.c", "MORE_ROUNDS"), ("cable/rounds.c", "SLOW_ROUNDS"))),
+    ("its certificate is asked every {}.", number("cable/rounds.c", "SLOW_PATIENCE")),
+    ("up to {} rounds go on from the reference", number("cable/rounds.c", "DRAG_ROUNDS")),
+    ("its reaction below {} of the unit of force", number("cable/line_solve.c", "LEAST_REACTION")),
+    ("The drag begins with {} units of force", number("evolve/relaxation.c", "FIRST_DRAG")),
+    ("drag times motion is below {} of the unit of force, and the motion below {} of the length",
+     numbers(("evolve/relaxation.c", "REST_FORCE"), ("evolve/relaxation.c", "REST_WAY"))),
+    ("the motion ends at {}/{} at most", lambda p: [f"{1 / float(number('evolve/advance.c', 'LAST')(p)) - 1:g}", f"{1 / float(number('evolve/advance.c', 'LAST')(p)):g}"]),
+    ("Normals that differ by less than {} make", number("cable/step_program.c", "PARALLEL")),
+    ("have cost {} 10^6 iterations times nodes ({} added to them, or {} times as many", in_vain),
+    ("a part with E above {} % of that", percent("evolve/advance.c", "MUCH")),
+    ("what the certificate and places known to {} of the length leave of an energy (gap + {} F L)",
+     lambda p: [number(".h", "CPS_TOUCH")(p)] * 2),
+    ("is below half of the part's and below {} %;", percent("evolve/advance.c", "MUCH")),
+    ("is largest; beyond {} % a caution", percent("cable/bend.c", "TOLD")),
+    ("the turn at which they differ by {} %. With mu tan(d/2) >= {}, k = {},", lambda p: [percent("cable/bend.c", "TOLD")(p), *locked(p)]),
+    ("no gap is asked to be less than {} F0 L", number("cable/certificate.c", "GAP_FLOOR")),
+    ("of the gap is what the loop ({})", number("cable/line_solve.h", "CPSI_TARGET")),
+    ("gap <= tolerance S ({} unless", lambda p: p.constant("evolve/scene_check.c", r"\.tolerance = (\S+?)[,}]")),
+    ("Against meshes {} times as fine the error is {} to {} times", mesh_error),
+    ("{} of {} moorings moved in ten steps", mesh_error_moved),
+    ("Directions within {} rad are taken as one", number("cable/force_set.c", "ANGLE")),
+    ("with the cones widened by {} of the largest force", number("cable/force_set.c", "WIDER")),
+    ("shorter than its length by less than {} of it", number("cable/force_set.c", "EXACT")),
+    ("or that moved by less than {} L;", number("cable/force_set.c", "EXACT")),
+    ("If the sum exceeds L (1 + {})", number("cable/line_solve.h", "CPSI_TAUT")),
+    ("exactly straight (within {} of its length)", number("cable/line_solve.h", "CPSI_TAUT")),
+    ("a line longer by one part in {}:", lambda p: f"{1 / float(number('cable/line_solve.c', 'TAUT_SLACK')(p)):.0e}".replace("+0", "")),
+    ("P_k must exceed {} of the sum", number("evolve/advance.c", "SLIDES_LEAST")),
+    ("farther than {} lengths from where the step began", number("cable/line_solve.c", "AFAR")),
+    ("The loop runs down to a relative gap of {},", number("cable/line_solve.h", "CPSI_TARGET")),
+    ("is not aimed below {} of s0 z0", number("cone/soc.h", "CPSI_SOC_ROUNDING")),
+    ("= 0.0255 x 1 x 9.81 = {} N/m", lambda p: f"{0.0255 * 9.81:.6f}"),
+    ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),
+]
+# data of the papers, exponents of formulas, and what double precision is
+GIVEN = ["Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a way of 350 degrees is not taken for one of -10",
+         "d^3/12 and more", "positions and reactions (1e-16)", "lie 1e-7 beside", "lemma 9.6 for 7.6", "\"A = 0.25 N\"",
+         "slack on 0.6 of its length"]
