@@ -80,7 +80,7 @@ static void print_line(const CpsLine *line) {
 
 static void print_scene(const CpsScene *scene) {
     if (scene->title) {
-        cli_put_text(stdout, scene->title, INT_MAX, false);
+        cli_print_text(stdout, scene->title, INT_MAX, false);
         putchar('\n');
     }
     printf("gravity (%g, %g, %g) m/s2\n", scene->gravity[0], scene->gravity[1], scene->gravity[2]);

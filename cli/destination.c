@@ -29,7 +29,7 @@ static char *default_directory(const char *scene, const char *more) {
 
 /* Say whether files are of two runs; they stay until what wrote them is run again. False after an
  * error. */
-static bool tell_mixed(const char *directory, CpsError *err) {
+static bool print_mixed(const char *directory, CpsError *err) {
     char missing[CPS_RESULT_NAME];
     if (cps_results_missing(directory, missing, err) != CPS_OK) return false;
     if (*missing)
@@ -55,7 +55,7 @@ char *cli_destination(const CliOptions *options, const char *more, int *code) {
                 strerror(errno));
         *code = EXIT_IO;
     } else if (cps_results_prepare(directory, options->overwrite, &err) != CPS_OK ||
-               !tell_mixed(directory, &err)) {
+               !print_mixed(directory, &err)) {
         *code = cli_report(&err);
     } else {
         return directory;

@@ -65,10 +65,10 @@ static void print_version(void) {
 int cli_report(const CpsError *err) {
     /* names and texts come from files: no control character of theirs reaches a terminal */
     fputs("capstan: ", stderr);
-    cli_put_text(stderr, err->file, INT_MAX, false);
+    cli_print_text(stderr, err->file, INT_MAX, false);
     if (err->file[0] && err->line > 0) fprintf(stderr, ":%d:%d", err->line, err->column);
     if (err->file[0]) fputs(": ", stderr);
-    cli_put_text(stderr, err->message, INT_MAX, false);
+    cli_print_text(stderr, err->message, INT_MAX, false);
     fputc('\n', stderr);
     switch (err->status) {
     case CPS_OK: return EXIT_OK;
@@ -77,14 +77,14 @@ int cli_report(const CpsError *err) {
     case CPS_ERR_IO: return EXIT_IO;
     case CPS_ERR_MEMORY:
     case CPS_ERR_LIMIT: return EXIT_LIMIT;
-    case CPS_ERR_INTERRUPTED: return 128 + cli_stopped();
+    case CPS_ERR_INTERRUPTED: return 128 + cli_interrupted();
     }
     return EXIT_INPUT;
 }
 
 static int unknown_command(const char *given) {
     fputs("capstan: unknown command '", stderr);
-    cli_put_text(stderr, given, INT_MAX, false);
+    cli_print_text(stderr, given, INT_MAX, false);
     fputc('\'', stderr);
     const Command *best = NULL;
     int shared = 0;

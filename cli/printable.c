@@ -6,7 +6,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-void cli_put_text(FILE *out, const char *text, int width, bool pad) {
+void cli_print_text(FILE *out, const char *text, int width, bool pad) {
     int used = 0;
     for (const unsigned char *c = (const unsigned char *)text; *c && used < width; ++c) {
         const bool c1 = c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0;
@@ -33,7 +33,7 @@ void cli_printf(FILE *out, const char *format, ...) {
         end = line + strcspn(line, "\n");
         const bool more = *end == '\n';
         *end = '\0';
-        cli_put_text(out, line, INT_MAX, false);
+        cli_print_text(out, line, INT_MAX, false);
         if (more) {
             fputc('\n', out);
             end++;

@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 /* At most `width` characters of the text, padded to it when pad is set. */
-void cli_put_text(FILE *out, const char *text, int width, bool pad);
+void cli_print_text(FILE *out, const char *text, int width, bool pad);
 
 /* fprintf; line ends stay, and what is longer than 4000 bytes is cut. */
 #ifdef __GNUC__

@@ -42,7 +42,7 @@ static void draw_bar(const Progress *progress, int done, const char *name, doubl
     fputs("\r[", stderr);
     for (int i = 0; i < BAR_WIDTH; ++i) fputc(i < full ? '#' : '.', stderr);
     fprintf(stderr, "] %d/%d  %.1f s  ", done, progress->steps, elapsed);
-    cli_put_text(stderr, name, NAME_WIDTH, true);
+    cli_print_text(stderr, name, NAME_WIDTH, true);
     fflush(stderr);
 }
 
@@ -59,7 +59,7 @@ void progress_step(Progress *progress, int done, const char *name) {
     if (tenths == progress->tenths) return;
     progress->tenths = tenths;
     fprintf(stderr, "step %d of %d, %.1f s: ", done, progress->steps, now - progress->begun);
-    cli_put_text(stderr, name, 80, false);
+    cli_print_text(stderr, name, 80, false);
     fputc('\n', stderr);
 }
 

@@ -23,7 +23,7 @@ void cli_catch_signals(void) {
     signal(SIGXFSZ, SIG_IGN);
 }
 
-int cli_stopped(void) { return stop_signal; }
+int cli_interrupted(void) { return stop_signal; }
 
 static bool is_stopped(void *user) {
     (void)user;

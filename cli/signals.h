@@ -11,7 +11,7 @@
 void cli_catch_signals(void);
 
 /* The signal that asked to stop, 0: none. 128 more is the exit code. */
-int cli_stopped(void);
+int cli_interrupted(void);
 
 /* As cps_evolution_create; its steps are given up once a signal asked to stop. */
 CpsStatus cli_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err);

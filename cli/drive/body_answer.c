@@ -64,7 +64,7 @@ static void find_ellipsoid(const CpsPlanar *body, Facts *f) {
     f->ratio = tan(quarter - at);
 }
 
-static bool ask_facts(DriveRun *run, Facts *f) {
+static bool query_facts(DriveRun *run, Facts *f) {
     const CpsDriveBody *b = &run->file->body;
     *f = (Facts){.ellipsoid = NAN, .ratio = NAN};
     double *const to[3] = {&f->fx, &f->fy, &f->torque};
@@ -86,10 +86,10 @@ static bool ask_facts(DriveRun *run, Facts *f) {
     return true;
 }
 
-static bool tell_body(DriveRun *run) {
+static bool print_body(DriveRun *run) {
     const CpsDriveBody *b = &run->file->body;
     Facts f;
-    if (!ask_facts(run, &f)) return false;
+    if (!query_facts(run, &f)) return false;
     if (run->json) {
         printf(", \"patches\": %d", b->patches);
         drive_json("load_N", f.load);
@@ -237,7 +237,7 @@ static bool go(DriveRun *run, Trail *t) {
     return good;
 }
 
-static void tell_tow(DriveRun *run, const Trail *t) {
+static void print_tow(DriveRun *run, const Trail *t) {
     const double radius = turning_radius(t);
     run->answered = run->answered && t->inaccurate == 0;
     if (run->json) {
@@ -284,11 +284,11 @@ static CpsStatus draw(void *user, FILE *out, CpsError *err) {
 int drive_answer_body(DriveRun *run) {
     const CpsDriveBody *b = &run->file->body;
     Trail trail = {.count = 0};
-    bool good = tell_body(run);
+    bool good = print_body(run);
     if (run->json) fputs(",\n  \"pushes\": [", stdout);
     for (int i = 0; i < b->pushes && good; i++) good = tell_push(run, i);
     if (run->json) putchar(']');
-    if (good && b->tow.points > 0 && (good = go(run, &trail))) tell_tow(run, &trail);
+    if (good && b->tow.points > 0 && (good = go(run, &trail))) print_tow(run, &trail);
     int code = good ? EXIT_OK : cli_report(&run->err);
     Drawing drawing = {run->file, &trail};
     if (code == EXIT_OK && run->options->plot) code = cli_plot(draw, &drawing, run->options->plot);

@@ -43,7 +43,7 @@ static int answer(DriveRun *run) {
         cps_json_text(stdout, file->title);
         printf(", \"kind\": \"%s\"", kind);
     } else if (*file->title) {
-        cli_put_text(stdout, file->title, INT_MAX, false);
+        cli_print_text(stdout, file->title, INT_MAX, false);
         putchar('\n');
     }
     const int code = ANSWER[file->kind](run);

@@ -21,7 +21,7 @@ static CpsStatus draw_trace(void *user, FILE *out, CpsError *err) {
     return cps_drive_draw_planimeter(d->file, d->reading, out, err);
 }
 
-static void tell_reading(const DriveRun *run, const CpsPlanimeterReading *r) {
+static void print_reading(const DriveRun *run, const CpsPlanimeterReading *r) {
     const CpsDrivePlanimeter *p = &run->file->planimeter;
     const double error = r->area - r->exact;
     if (run->json) {
@@ -53,7 +53,7 @@ int drive_answer_planimeter(DriveRun *run) {
     if (cps_planimeter_trace(&p->planimeter, p->points, p->point, p->steps, &reading, &run->err) !=
         CPS_OK)
         return cli_report(&run->err);
-    tell_reading(run, &reading);
+    print_reading(run, &reading);
     TraceDrawing drawing = {run->file, &reading};
     return run->options->plot ? cli_plot(draw_trace, &drawing, run->options->plot) : EXIT_OK;
 }
@@ -101,7 +101,7 @@ static bool go(DriveRun *run, Sweep *s) {
     return good;
 }
 
-static void tell_sweep(DriveRun *run, const Sweep *s) {
+static void print_sweep(DriveRun *run, const Sweep *s) {
     const int n = run->file->sweep.space;
     run->answered = run->answered && s->inaccurate == 0;
     if (run->json) {
@@ -135,7 +135,7 @@ int drive_answer_sweep(DriveRun *run) {
     Sweep sweep = {.file = run->file};
     int code = EXIT_OK;
     if (go(run, &sweep))
-        tell_sweep(run, &sweep);
+        print_sweep(run, &sweep);
     else
         code = cli_report(&run->err);
     if (code == EXIT_OK && run->options->plot)

@@ -71,7 +71,7 @@ static void json_rope(const RopeRun *r, double length, double sliding, double te
                     cps_motion_resistance(r->motion));
 }
 
-static void tell_velocity(const RopeRun *r) {
+static void print_velocity(const RopeRun *r) {
     const CpsMotionReport *p = cps_motion_report(r->motion);
     double length, sliding, tension;
     r->run->answered = r->run->answered && p->outcome != CPS_MOTION_INACCURATE;
@@ -202,7 +202,7 @@ static bool follow_path(RopeRun *r) {
     return good;
 }
 
-static void tell_path(const RopeRun *r) {
+static void print_path(const RopeRun *r) {
     const int last = r->shots - 1, nodes = r->rope->rope.nodes;
     if (cps_outcome_is_final(r->outcome))
         r->run->none = true;
@@ -243,8 +243,8 @@ int drive_answer_rope(DriveRun *run) {
     options.composition = false;
     bool good = cps_rope_system(&r.rope->rope, &system, &run->err) == CPS_OK &&
                 cps_system_solve(system, r.rope->driving, &options, &r.motion, &run->err) == CPS_OK;
-    if (good) tell_velocity(&r);
-    if (good && !run->none && r.rope->points > 0 && (good = follow_path(&r))) tell_path(&r);
+    if (good) print_velocity(&r);
+    if (good && !run->none && r.rope->points > 0 && (good = follow_path(&r))) print_path(&r);
     int code = good ? EXIT_OK : cli_report(&run->err);
     if (code == EXIT_OK && run->options->plot && !run->none)
         code = cli_plot(draw, &r, run->options->plot);

@@ -69,7 +69,7 @@ static int force_components(const CpsSystem *system) {
 typedef enum Asked { VELOCITIES, FORCES, RESISTANCES } Asked;
 
 /* all solutions of small systems; else an outcome that says so */
-static bool ask_all(DriveRun *run, const CpsMotion *motion, Asked what, All *all) {
+static bool query_all(DriveRun *run, const CpsMotion *motion, Asked what, All *all) {
     typedef CpsStatus Ask(const CpsMotion *, double, CpsSolutionSet *, double *, double *,
                           CpsError *);
     static Ask *const ASK[] = {cps_motion_velocities, cps_motion_forces, cps_motion_resistances};
@@ -314,9 +314,9 @@ static bool tell_motion(DriveRun *run, const double *velocity, int i) {
     CpsMotion *motion = NULL;
     Solutions all = {.velocities = {.low = NULL}};
     bool good = cps_system_solve(s->system, velocity, NULL, &motion, &run->err) == CPS_OK &&
-                ask_all(run, motion, VELOCITIES, &all.velocities) &&
-                ask_all(run, motion, FORCES, &all.forces) &&
-                ask_all(run, motion, RESISTANCES, &all.resistances);
+                query_all(run, motion, VELOCITIES, &all.velocities) &&
+                query_all(run, motion, FORCES, &all.forces) &&
+                query_all(run, motion, RESISTANCES, &all.resistances);
     all.asked = s->parameters + force_components(s->system) <= MOST_DENSE;
     if (good && all.asked)
         good = cps_motion_continuous(motion, &all.known, &all.continuous, &run->err) == CPS_OK;
@@ -346,8 +346,8 @@ static bool tell_motion(DriveRun *run, const double *velocity, int i) {
 
 /* ---- the reduced law ---- */
 
-static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, bool velocity,
-                         int i) {
+static bool print_reduced(DriveRun *run, const CpsSet *set, const double *asked, bool velocity,
+                          int i) {
     const int n = run->file->system.driven;
     CpsSet *found = NULL;
     CpsSetAnswer answer;
@@ -391,7 +391,7 @@ static bool tell_reduced(DriveRun *run, const CpsSet *set, const double *asked, 
 }
 
 /* Forces that balance the load: none, where the reduced set is empty. */
-static bool tell_empty(DriveRun *run) {
+static bool print_empty(DriveRun *run) {
     run->none = true;
     if (run->json)
         printf(", \"components\": %d, \"forces\": {\"outcome\": \"%s\"}", run->file->system.driven,
@@ -401,7 +401,7 @@ static bool tell_empty(DriveRun *run) {
     return true;
 }
 
-static bool tell_elimination(DriveRun *run, const CpsSet *set, CpsComposition composition) {
+static bool print_elimination(DriveRun *run, const CpsSet *set, CpsComposition composition) {
     CpsSetMeasure measure = {.outcome = CPS_SET_NOT_PLANAR};
     const int n = run->file->system.driven;
     if (n == 2 && cps_set_measure(set, &measure, &run->err) != CPS_OK) return false;
@@ -442,7 +442,7 @@ static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *veloc
 
 /* Does nothing balance the load?  Beside the limit this proof decides before a set is known to be
  * empty. */
-static bool ask_balance(DriveRun *run, bool *none) {
+static bool query_balance(DriveRun *run, bool *none) {
     const CpsDriveSystem *s = &run->file->system;
     CpsMotionOptions options = cps_motion_options_default();
     CpsMotion *motion = NULL;
@@ -464,19 +464,19 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
     CpsComposition composition = CPS_COMPOSE_NOT_SATISFIED;
     CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
     const size_t n = (size_t)run->file->system.driven;
-    bool empty = false, good = ask_balance(run, &empty);
+    bool empty = false, good = query_balance(run, &empty);
     if (good && !empty)
         good = cps_system_eliminate(run->file->system.system, NULL, &set, &composition,
                                     &run->err) == CPS_OK;
     if (!good) return cli_report(&run->err);
     if (!empty) good = cps_set_facts(set, 0, &facts, NULL, NULL, &run->err) == CPS_OK;
     empty = empty || facts.outcome == CPS_SET_EMPTY;
-    good = good && (empty ? tell_empty(run) : tell_elimination(run, set, composition));
+    good = good && (empty ? print_empty(run) : print_elimination(run, set, composition));
     if (run->json) fputs(",\n  \"answers\": [", stdout);
     for (int i = 0; i < velocity->count && good && !empty; i++)
-        good = tell_reduced(run, set, velocity->row + (size_t)i * n, true, i);
+        good = print_reduced(run, set, velocity->row + (size_t)i * n, true, i);
     for (int i = 0; i < force->count && good && !empty; i++)
-        good = tell_reduced(run, set, force->row + (size_t)i * n, false, velocity->count + i);
+        good = print_reduced(run, set, force->row + (size_t)i * n, false, velocity->count + i);
     if (run->json) putchar(']');
     int code = good ? EXIT_OK : cli_report(&run->err);
     if (code == EXIT_OK && run->options->plot && !empty)
@@ -487,7 +487,7 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
 
 /* ---- all together ---- */
 
-static void tell_system(const DriveRun *run) {
+static void print_system(const DriveRun *run) {
     const CpsDriveSystem *s = &run->file->system;
     if (!run->json) {
         printf("system of %d parameter%s and %d law%s; driven:", s->parameters,
@@ -568,7 +568,7 @@ int drive_answer_system(DriveRun *run) {
         if (!velocity.row) code = drive_no_memory();
     }
     if (code == EXIT_OK) {
-        tell_system(run);
+        print_system(run);
         code = run->options->eliminate ? answer_reduced(run, &velocity, &force)
                                        : answer_motions(run, &velocity);
     }

@@ -40,7 +40,7 @@ static void set_text(const LawRun *run, char *text, size_t size) {
 
 /* what is told of the whole set; a sum over very many contacts is too large for it, though not for
  * its answers */
-static bool ask_set(LawRun *run, CpsSetFacts *facts, CpsSetMeasure *measure) {
+static bool query_set(LawRun *run, CpsSetFacts *facts, CpsSetMeasure *measure) {
     if (!run->set || (!run->json && run->n != 2)) return true;
     CpsStatus status = cps_set_facts(run->set, 0, facts, NULL, NULL, &run->err);
     if (status == CPS_OK && run->n == 2 && facts->bounded)
@@ -49,7 +49,7 @@ static bool ask_set(LawRun *run, CpsSetFacts *facts, CpsSetMeasure *measure) {
     return status == CPS_OK || status == CPS_ERR_LIMIT;
 }
 
-static bool tell_law(LawRun *run) {
+static bool print_law(LawRun *run) {
     char text[400];
     CpsComposition composition;
     int line;
@@ -59,12 +59,12 @@ static bool tell_law(LawRun *run) {
                                                                 : "friction law";
     CpsSetMeasure measure = {.outcome = CPS_SET_NOT_PLANAR};
     CpsSetFacts facts = {.outcome = CPS_SET_NOT_AVAILABLE};
-    if (!ask_set(run, &facts, &measure)) return false;
+    if (!query_set(run, &facts, &measure)) return false;
     if (run->set) set_text(run, text, sizeof text);
     const bool measured = measure.outcome == CPS_SET_ANSWERED;
     if (!run->json) {
         if (*cps_law_file_title(run->file)) {
-            cli_put_text(stdout, cps_law_file_title(run->file), INT_MAX, false);
+            cli_print_text(stdout, cps_law_file_title(run->file), INT_MAX, false);
             putchar('\n');
         }
         printf("%s, %d component%s", kind, run->n, run->n == 1 ? "" : "s");
@@ -107,8 +107,8 @@ static bool tell_law(LawRun *run) {
 
 /* the dissipated power at V, of a resistance law phi too, which is another number, and the
  * forces */
-static CpsStatus ask_velocity(LawRun *run, const double *velocity, double *power, double *potential,
-                              CpsSet **forces, CpsSetAnswer *answer) {
+static CpsStatus query_velocity(LawRun *run, const double *velocity, double *power,
+                                double *potential, CpsSet **forces, CpsSetAnswer *answer) {
     if (run->resistance) {
         CpsResistanceValue value = {.potential = NAN};
         CpsStatus status =
@@ -126,8 +126,8 @@ static CpsStatus ask_velocity(LawRun *run, const double *velocity, double *power
 }
 
 /* the velocities at a force */
-static CpsStatus ask_force(LawRun *run, const double *force, CpsSet **velocities,
-                           CpsSetAnswer *answer) {
+static CpsStatus query_force(LawRun *run, const double *force, CpsSet **velocities,
+                             CpsSetAnswer *answer) {
     return run->set
                ? cps_law_velocities(run->set, force, 0, velocities, answer, &run->err)
                : cps_resistance_velocities(run->resistance, force, velocities, answer, &run->err);
@@ -141,14 +141,14 @@ static bool is_cone(const LawRun *run, const SetAnswer *about) {
 }
 
 /* one velocity with its forces, or one force with its velocities */
-static bool tell_answer(LawRun *run, bool velocity, const double *asked, int i) {
+static bool print_answer(LawRun *run, bool velocity, const double *asked, int i) {
     bool cone = !velocity && run->set;
     CpsSet *set = NULL;
     CpsSetAnswer answer;
     SetAnswer about = {.n = run->n};
     double power = NAN, potential = NAN;
-    CpsStatus status = velocity ? ask_velocity(run, asked, &power, &potential, &set, &answer)
-                                : ask_force(run, asked, &set, &answer);
+    CpsStatus status = velocity ? query_velocity(run, asked, &power, &potential, &set, &answer)
+                                : query_force(run, asked, &set, &answer);
     if (status == CPS_OK && set) status = law_answer_ask(set, cone, &about, &run->err);
     if (status == CPS_OK && set && !velocity && !cone && is_cone(run, &about)) {
         law_answer_free(&about);
@@ -205,7 +205,7 @@ static bool tell_answer(LawRun *run, bool velocity, const double *asked, int i) 
 }
 
 /* as many forces as velocities: how far each pair is from the law */
-static bool tell_pair(LawRun *run, const double *force, const double *velocity, int i) {
+static bool print_pair(LawRun *run, const double *force, const double *velocity, int i) {
     double gap = NAN, distance = NAN;
     CpsLawResidual r = {.outcome = CPS_SET_ANSWERED};
     const CpsStatus status =
@@ -235,19 +235,20 @@ static bool tell_pair(LawRun *run, const double *force, const double *velocity, 
     return true;
 }
 
-static bool tell_all(LawRun *run, const QueryList *velocity, const QueryList *force) {
+static bool print_all(LawRun *run, const QueryList *velocity, const QueryList *force) {
     const size_t n = (size_t)run->n;
-    if (!tell_law(run)) return false;
+    if (!print_law(run)) return false;
     if (run->json) fputs(",\n  \"answers\": [", stdout);
     for (int i = 0; i < velocity->count; i++)
-        if (!tell_answer(run, true, velocity->row + (size_t)i * n, i)) return false;
+        if (!print_answer(run, true, velocity->row + (size_t)i * n, i)) return false;
     for (int i = 0; i < force->count; i++)
-        if (!tell_answer(run, false, force->row + (size_t)i * n, velocity->count + i)) return false;
+        if (!print_answer(run, false, force->row + (size_t)i * n, velocity->count + i))
+            return false;
     if (run->json) fputs("]", stdout);
     if (force->count == velocity->count && force->count > 0) {
         if (run->json) fputs(",\n  \"pairs\": [", stdout);
         for (int i = 0; i < force->count; i++)
-            if (!tell_pair(run, force->row + (size_t)i * n, velocity->row + (size_t)i * n, i))
+            if (!print_pair(run, force->row + (size_t)i * n, velocity->row + (size_t)i * n, i))
                 return false;
         if (run->json) fputs("]", stdout);
     } else if (force->count > 0 && velocity->count > 0 && !run->json) {
@@ -294,7 +295,7 @@ static int answer(LawRun *run, const CliOptions *options) {
     int code = check_picture(run, options);
     if (code == EXIT_OK) code = law_query_read(&options->velocity, "velocity", &velocity);
     if (code == EXIT_OK) code = law_query_read(&options->force, "force", &force);
-    if (code == EXIT_OK && !tell_all(run, &velocity, &force)) code = cli_report(&run->err);
+    if (code == EXIT_OK && !print_all(run, &velocity, &force)) code = cli_report(&run->err);
     if (code == EXIT_OK && options->plot) code = draw(run, options, &velocity, &force);
     free(velocity.row);
     free(force.row);

@@ -34,7 +34,7 @@ static bool make_room(QueryList *list) {
     return true;
 }
 
-static void say_expected(const QueryList *list, char *text, size_t size) {
+static void print_expected(const QueryList *list, char *text, size_t size) {
     snprintf(text, size,
              list->n == 1 ? "expected %d number of at most 1e100"
                           : "expected %d numbers separated by commas, at most 1e100",
@@ -44,7 +44,7 @@ static void say_expected(const QueryList *list, char *text, size_t size) {
 /* one row "1, 2" of list->n numbers; line 0: of the command line */
 static int add_row(const char *text, const char *option, int line, QueryList *list) {
     char expected[80];
-    say_expected(list, expected, sizeof expected);
+    print_expected(list, expected, sizeof expected);
     if (list->count == MOST_ROWS || !make_room(list)) {
         fprintf(stderr, "capstan: out of memory, or more than %d rows\n", (int)MOST_ROWS);
         return EXIT_LIMIT;
@@ -106,7 +106,7 @@ static int read_rows(const char *option, QueryList *list) {
         fprintf(stderr, "capstan: cannot read standard input\n");
         code = EXIT_IO;
     } else if (code == EXIT_OK && list->count == before) {
-        say_expected(list, expected, sizeof expected);
+        print_expected(list, expected, sizeof expected);
         fprintf(stderr, "capstan: standard input: found no rows, %s in each\n", expected);
         code = EXIT_INPUT;
     }

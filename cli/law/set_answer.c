@@ -55,7 +55,7 @@ static void take_middle(SetAnswer *a) {
 
 /* The pointed part of a cone, which lies across its lines: rays where it has dimension 1 or 2, and
  * the lines both ways. */
-static CpsStatus ask_pointed(const CpsSet *cone, SetAnswer *a, CpsError *err) {
+static CpsStatus query_pointed(const CpsSet *cone, SetAnswer *a, CpsError *err) {
     const size_t n = (size_t)a->n, lines = (size_t)a->lineality;
     CpsSet *across = NULL, *pointed = NULL;
     CpsSetAnswer listed;
@@ -82,7 +82,7 @@ static CpsStatus ask_pointed(const CpsSet *cone, SetAnswer *a, CpsError *err) {
 }
 
 /* The largest subspace in a cone N: what N and -N have in common. */
-static CpsStatus ask_lines(const CpsSet *cone, SetAnswer *a, CpsError *err) {
+static CpsStatus query_lines(const CpsSet *cone, SetAnswer *a, CpsError *err) {
     CpsSet *turned = NULL, *both = NULL;
     CpsSetFacts facts = {.outcome = CPS_SET_INACCURATE};
     CpsStatus status = cps_set_scale(-1, cone, &turned, err);
@@ -92,7 +92,7 @@ static CpsStatus ask_lines(const CpsSet *cone, SetAnswer *a, CpsError *err) {
     if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED) a->lineality = facts.dimension;
     cps_set_release(turned);
     cps_set_release(both);
-    return status == CPS_OK && a->lineality > 0 ? ask_pointed(cone, a, err) : status;
+    return status == CPS_OK && a->lineality > 0 ? query_pointed(cone, a, err) : status;
 }
 
 CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *err) {
@@ -119,7 +119,7 @@ CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *e
     if (status == CPS_OK && cone) {
         status = cps_set_rays(set, 0, MOST_LISTED, a->ray, &count, &listed, err);
         if (status == CPS_OK && listed.outcome == CPS_SET_ANSWERED) a->ray_count = count;
-        if (status == CPS_OK && a->facts.dimension > 0) status = ask_lines(set, a, err);
+        if (status == CPS_OK && a->facts.dimension > 0) status = query_lines(set, a, err);
     } else if (status == CPS_OK && a->facts.bounded) {
         status = cps_set_vertices(set, 0, MOST_LISTED, a->vertex, &count, &listed, err);
         if (status == CPS_OK && listed.outcome == CPS_SET_ANSWERED) a->vertex_count = count;

@@ -17,7 +17,7 @@
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
-#include "run/classic_options.h"
+#include "run/regularized_options.h"
 #include "run/regularized_run.h"
 #include "run/warnings.h"
 #include "signals.h"
@@ -27,7 +27,7 @@ enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
 /* A range narrower than this, per largest force, is one value in the table. */
 static const double RANGE_SHOWN = 1e-5;
 
-static void put_head(FILE *table) {
+static void print_head(FILE *table) {
     static const char *const NAME[] = {"tension A", "tension B"},
                              *const ERROR[] = {"bound", "mesh"},
                              *const LENGTH[] = {"grounded", "slipping", "slack"};
@@ -44,7 +44,7 @@ static void put_head(FILE *table) {
 }
 
 /* An error of the tension [N], or - where nothing is known of it. */
-static void put_error(FILE *table, double error) {
+static void print_error(FILE *table, double error) {
     if (isfinite(error))
         fprintf(table, " %8.2g", error);
     else
@@ -59,7 +59,7 @@ static double shown_tension(const CpsLineReport *line, int end) {
 }
 
 /* at the end of a stage, where forces at rest leave the tension of the end's element open */
-static void put_range(FILE *table, char end, const CpsTensionRange *range, double force) {
+static void print_range(FILE *table, char end, const CpsTensionRange *range, double force) {
     if (range->kind == CPS_RANGE_UNBOUNDED)
         fprintf(table, "%*s element at %c: any tension from %.6g N up may hold it (jammed)\n",
                 NAME_WIDTH + 1 + LINE_WIDTH, "", end, range->least);
@@ -84,12 +84,12 @@ static double outside_kin(const CpsLineView *view) {
 
 /* With the friction of the reference a step is P4.2 of S90: does its solution lie in Kin, that is,
  * solve P3.1, and is it the only one? */
-static void put_verdict(FILE *verdicts, const char *step, const CpsLineReport *line,
-                        const CpsLineView *view) {
+static void print_verdict(FILE *verdicts, const char *step, const CpsLineReport *line,
+                          const CpsLineView *view) {
     const double length = outside_kin(view);
-    cli_put_text(verdicts, step, NAME_WIDTH, true);
+    cli_print_text(verdicts, step, NAME_WIDTH, true);
     fputc(' ', verdicts);
-    cli_put_text(verdicts, view->name, LINE_WIDTH, true);
+    cli_print_text(verdicts, view->name, LINE_WIDTH, true);
     fputc(' ', verdicts);
     if (length > 0)
         fprintf(verdicts, "a solution of P4.2 outside Kin: |x'| < 1 on %.4g m", length);
@@ -99,28 +99,28 @@ static void put_verdict(FILE *verdicts, const char *step, const CpsLineReport *l
             line->places == CPS_PLACES_UNIQUE ? "the only one" : "one of many places");
 }
 
-static void put_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
-                     const CpsEvolution *evolution) {
+static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
+                       const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         const CpsCertificate *certificate = &line.certificate;
-        cli_put_text(table, i == 0 ? step.name : "", NAME_WIDTH, true);
+        cli_print_text(table, i == 0 ? step.name : "", NAME_WIDTH, true);
         fputc(' ', table);
-        cli_put_text(table, cps_evolution_line_view(evolution, i).name, LINE_WIDTH, true);
+        cli_print_text(table, cps_evolution_line_view(evolution, i).name, LINE_WIDTH, true);
         fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g", cps_outcome_key(line.outcome),
                 line.parts, line.iterations,
                 certificate->scale > 0 ? certificate->gap / certificate->scale : certificate->gap,
                 shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B));
         const bool solved = line.outcome == CPS_SOLVED || line.outcome == CPS_TAUT;
-        put_error(table, solved ? certificate->tension_bound : NAN);
-        put_error(table, solved ? line.tension_mesh : NAN);
+        print_error(table, solved ? certificate->tension_bound : NAN);
+        print_error(table, solved ? line.tension_mesh : NAN);
         fprintf(table, " %10.4g %10.4g %10.4g\n", line.grounded, line.slipping, line.slack);
         for (int e = 0; e < 2; ++e)
-            put_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
+            print_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         if (solved && scene->friction == CPS_FRICTION_FROZEN && !view.slide)
-            put_verdict(verdicts, step.name, &line, &view);
+            print_verdict(verdicts, step.name, &line, &view);
     }
 }
 
@@ -131,9 +131,9 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         if (line.outcome == CPS_SOLVED) continue;
         fputs("capstan: step ", stderr);
-        cli_put_text(stderr, step.name, 80, false);
+        cli_print_text(stderr, step.name, 80, false);
         fputs(", line ", stderr);
-        cli_put_text(stderr, cps_evolution_line_view(evolution, i).name, 80, false);
+        cli_print_text(stderr, cps_evolution_line_view(evolution, i).name, 80, false);
         fprintf(stderr, ": %s", cps_outcome_sentence(line.outcome));
         const double *d = line.proof;
         const CpsCertificate *c = &line.certificate;
@@ -142,7 +142,7 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
                     d[2]);
             if (line.proof_obstacle >= 0) {
                 fputs(", the shortest way round obstacle ", stderr);
-                cli_put_text(stderr, scene->obstacle[line.proof_obstacle].name, 80, false);
+                cli_print_text(stderr, scene->obstacle[line.proof_obstacle].name, 80, false);
             }
             fputc(')', stderr);
         } else if (line.outcome == CPS_UNBOUNDED || line.outcome == CPS_SLIDES) {
@@ -155,7 +155,7 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
                     "%.6g N in all, holds the line: 'friction: consistent' has an equilibrium",
                     line.coulomb);
         } else if (line.outcome == CPS_MESH_TOO_COARSE)
-            cautions_put_bend(&line.bend, scene->obstacle[line.bend.obstacle].name);
+            warnings_print_bend(&line.bend, scene->obstacle[line.bend.obstacle].name);
         else if (line.outcome != CPS_TAUT && !(c->scale > 0 && c->largest_force > 0))
             fprintf(stderr, " (gap %.2e J, without any force)", c->gap);
         else if (line.outcome != CPS_TAUT)
@@ -207,8 +207,8 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     cautions_step(&run->cautions, run->scene, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED ||
-        cli_stopped())
-        put_rows(run->table, run->verdicts, run->scene, run->evolution);
+        cli_interrupted())
+        print_rows(run->table, run->verdicts, run->scene, run->evolution);
     if (report.outcome != CPS_SOLVED) {
         progress_end(&run->progress);
         report_outcomes(run->scene, run->evolution);
@@ -234,7 +234,7 @@ static CpsStatus take_back(Run *run, CpsError *err) {
 
 /* All steps, or until a signal. */
 static CpsStatus take_steps(Run *run, CpsError *err) {
-    while (cps_evolution_remaining(run->evolution) > 0 && !cli_stopped()) {
+    while (cps_evolution_remaining(run->evolution) > 0 && !cli_interrupted()) {
         CpsStatus status = cps_evolution_step(run->evolution, err);
         if (status == CPS_ERR_INTERRUPTED) break;
         run->refused = status != CPS_OK;
@@ -243,7 +243,7 @@ static CpsStatus take_steps(Run *run, CpsError *err) {
         if (status) return status;
     }
     progress_end(&run->progress);
-    if (!run->progress.quiet) cautions_say(&run->cautions);
+    if (!run->progress.quiet) warnings_print(&run->cautions);
     return CPS_OK;
 }
 
@@ -280,10 +280,10 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
     return status;
 }
 
-static void say_where(const char *directory, const CpsEvolution *evolution, bool paraview) {
+static void print_where(const char *directory, const CpsEvolution *evolution, bool paraview) {
     const int steps = cps_evolution_step_count(evolution),
               left = cps_evolution_remaining(evolution);
-    if (cli_stopped())
+    if (cli_interrupted())
         fprintf(stderr,
                 "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n",
                 steps - left, steps);
@@ -319,17 +319,17 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
         fprintf(stderr, "capstan: out of memory\n");
         return EXIT_LIMIT;
     }
-    put_head(run.table);
+    print_head(run.table);
     const CpsStatus status = carry_out(&run, directory, options, &err);
     const bool whole = (fclose(run.table) == 0) & (fclose(run.verdicts) == 0);
     if (whole && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
         if (length > 0) printf("\n%s", said);
-        say_where(directory, run.evolution, !options->no_paraview);
+        print_where(directory, run.evolution, !options->no_paraview);
     }
-    const int code = status          ? cli_report(&err)
-                     : cli_stopped() ? 128 + cli_stopped()
-                                     : exit_code(run.worst);
+    const int code = status              ? cli_report(&err)
+                     : cli_interrupted() ? 128 + cli_interrupted()
+                                         : exit_code(run.worst);
     free(text);
     free(said);
     cps_journal_destroy(run.journal);
@@ -360,7 +360,7 @@ static bool is_sound(const CliOptions *options, bool *regularized) {
     if (options->method && !*regularized && strcmp(options->method, "exact") != 0)
         cli_printf(stderr, "capstan run: --method: found '%.40s', expected exact or regularized\n",
                    options->method);
-    else if (!*regularized && classic_options_given(options))
+    else if (!*regularized && regularized_options_given(options))
         fputs("capstan run: --lambda, --n and --delta are those of --method regularized\n", stderr);
     else if (*regularized && (options->resume || options->tol || options->no_paraview ||
                               options->fields || options->sync))

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capstan/classic_io.h"
+#include "capstan/regularized_io.h"
 #include "commands.h"
 #include "printable.h"
 #include "progress.h"
@@ -46,18 +46,18 @@ void regularized_tell_steps(const CpsScene *scene) {
 }
 
 CpsStatus regularized_step(Regularized *method, const CpsLineView *exact,
-                           CpsClassicParameters *parameters, CpsClassicReport *report,
+                           CpsRegularizedParameters *parameters, CpsRegularizedReport *report,
                            CpsError *err) {
-    CpsClassic *next = NULL;
+    CpsRegularized *next = NULL;
     CpsStatus status = method->last
-                           ? cps_classic_next(exact, method->friction, method->last, &next, err)
-                           : cps_classic_create(exact, &next, err);
-    cps_classic_destroy(method->last);
+                           ? cps_regularized_next(exact, method->friction, method->last, &next, err)
+                           : cps_regularized_create(exact, &next, err);
+    cps_regularized_destroy(method->last);
     method->last = next;
     if (status != CPS_OK) return status;
-    *parameters = classic_options_apply(&method->given, next);
+    *parameters = regularized_options_apply(&method->given, next);
     parameters->cells = 0;
-    return cps_classic_solve(next, parameters, NEWTON_LIMIT, report, err);
+    return cps_regularized_solve(next, parameters, NEWTON_LIMIT, report, err);
 }
 
 /* ---- a history ---- */
@@ -67,8 +67,8 @@ typedef struct Track {
     Regularized method;
     int points;
     double *position, *tension; /* (steps, points, 3), (steps, 2) */
-    CpsClassicParameters *parameters;
-    CpsClassicReport *report;
+    CpsRegularizedParameters *parameters;
+    CpsRegularizedReport *report;
 } Track;
 
 typedef struct History {
@@ -82,7 +82,7 @@ typedef struct History {
 static void free_history(History *h) {
     for (int i = 0; i < h->lines && h->track; ++i) {
         Track *t = &h->track[i];
-        cps_classic_destroy(t->method.last);
+        cps_regularized_destroy(t->method.last);
         free(t->position);
         free(t->tension);
         free(t->parameters);
@@ -93,7 +93,7 @@ static void free_history(History *h) {
     cps_evolution_destroy(h->exact);
 }
 
-static bool make_history(History *h, double friction, const ClassicOptions *given) {
+static bool make_history(History *h, double friction, const RegularizedOptions *given) {
     const size_t steps = (size_t)h->steps;
     h->name = calloc(steps, sizeof *h->name);
     h->track = calloc((size_t)h->lines, sizeof *h->track);
@@ -128,10 +128,10 @@ static CpsStatus follow(History *h, CpsError *err) {
         const CpsStatus status =
             regularized_step(&t->method, &exact, &t->parameters[h->done], &t->report[h->done], err);
         if (status != CPS_OK) return status;
-        const CpsClassicView own = cps_classic_view(t->method.last);
+        const CpsRegularizedView own = cps_regularized_view(t->method.last);
         store(t, h->done, own.position, exact.origin);
         for (int end = 0; end < 2; ++end)
-            t->tension[2 * h->done + end] = cps_classic_end_tension(t->method.last, end);
+            t->tension[2 * h->done + end] = cps_regularized_end_tension(t->method.last, end);
     }
     return CPS_OK;
 }
@@ -141,7 +141,7 @@ static int take_steps(History *h, bool quiet) {
     CpsError err;
     Progress progress = progress_begin(h->steps - 1, quiet);
     int code = EXIT_OK;
-    while (h->done < h->steps && !cli_stopped() && code == EXIT_OK) {
+    while (h->done < h->steps && !cli_interrupted() && code == EXIT_OK) {
         if (cps_evolution_step(h->exact, &err) != CPS_OK) {
             code = cli_report(&err);
             break;
@@ -151,7 +151,7 @@ static int take_steps(History *h, bool quiet) {
         if (report.outcome != CPS_SOLVED) {
             progress_end(&progress);
             fputs("capstan run: step ", stderr);
-            cli_put_text(stderr, report.name, 80, false);
+            cli_print_text(stderr, report.name, 80, false);
             fprintf(stderr, ": %s; the method of 1990 has no limit to go to\n",
                     cps_outcome_sentence(report.outcome));
             code = cps_outcome_is_final(report.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
@@ -170,7 +170,7 @@ static int take_steps(History *h, bool quiet) {
 static double larger(double a, double b) { return b > a ? b : a; }
 
 static void tell(const History *h, const char *directory) {
-    CpsClassicReport most = {0};
+    CpsRegularizedReport most = {0};
     printf("%-*s %-*s %-13s %5s %12s %12s %9s %9s %9s %9s %9s %9s\n", NAME_WIDTH, "step",
            LINE_WIDTH, "line", "outcome", "iter", "tension A", "tension B", "push", "sunk", "creep",
            "uncarried", "tension", "place");
@@ -179,16 +179,16 @@ static void tell(const History *h, const char *directory) {
     for (int s = 1; s < h->done; ++s)
         for (int i = 0; i < h->lines; ++i) {
             const Track *t = &h->track[i];
-            const CpsClassicReport *r = &t->report[s];
+            const CpsRegularizedReport *r = &t->report[s];
             most.compression = larger(most.compression, r->compression);
             most.penetration = larger(most.penetration, r->penetration);
             most.creep = larger(most.creep, r->creep);
             most.friction_excess = larger(most.friction_excess, r->friction_excess);
             if (!cli_is_shown(h->scene, h->steps - 1, s - 1) && r->converged && s < h->done - 1)
                 continue;
-            cli_put_text(stdout, i == 0 ? h->name[s] : "", NAME_WIDTH, true);
+            cli_print_text(stdout, i == 0 ? h->name[s] : "", NAME_WIDTH, true);
             putchar(' ');
-            cli_put_text(stdout, cps_evolution_line_view(h->exact, i).name, LINE_WIDTH, true);
+            cli_print_text(stdout, cps_evolution_line_view(h->exact, i).name, LINE_WIDTH, true);
             printf(" %-13s %5d %12.6g %12.6g %9.1e %9.1e %9.1e %9.1e %9.1e %9.1e\n",
                    r->converged ? "converged" : "not converged", r->iterations, t->tension[2 * s],
                    t->tension[2 * s + 1], r->compression, r->penetration, r->creep,
@@ -252,8 +252,8 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
     CpsError err;
     const double begun = cli_now(), friction = regularized_friction(scene, "run");
     if (friction < 0) return EXIT_INPUT;
-    ClassicOptions given;
-    if (!classic_options_read(options, "run", &given)) return EXIT_USAGE;
+    RegularizedOptions given;
+    if (!regularized_options_read(options, "run", &given)) return EXIT_USAGE;
     const CpsScene frozen = regularized_scene(scene);
     History h = {.scene = scene, .done = 1};
     if (cli_evolution_create(&frozen, &h.exact, &err) != CPS_OK) return cli_report(&err);
@@ -277,10 +277,10 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
             tell(&h, directory);
         }
         if (code == EXIT_OK && !all_converged(&h)) code = EXIT_NOT_CERTIFIED;
-        if (cli_stopped())
+        if (cli_interrupted())
             fprintf(stderr, "capstan: stopped by a signal after %d of %d steps\n", h.done - 1,
                     h.steps - 1);
-        if (code == EXIT_OK && cli_stopped()) code = 128 + cli_stopped();
+        if (code == EXIT_OK && cli_interrupted()) code = 128 + cli_interrupted();
     }
     free_history(&h);
     return code;

@@ -5,16 +5,16 @@
 #ifndef CAPSTAN_CLI_RUN_REGULARIZED_RUN_H
 #define CAPSTAN_CLI_RUN_REGULARIZED_RUN_H
 
-#include "capstan/classic.h"
 #include "capstan/io.h"
+#include "capstan/regularized.h"
 #include "options.h"
-#include "run/classic_options.h"
+#include "run/regularized_options.h"
 
 /* One line's history so far. Begin with friction, mu of its obstacle, and the parameters given. */
 typedef struct Regularized {
     double friction;
-    ClassicOptions given;
-    CpsClassic *last; /* the last step, NULL before the first; the caller's to destroy */
+    RegularizedOptions given;
+    CpsRegularized *last; /* the last step, NULL before the first; the caller's to destroy */
 } Regularized;
 
 /* mu of the scene's obstacle, 0 without one; -1 after a message of `command` where there are
@@ -31,7 +31,7 @@ void regularized_tell_steps(const CpsScene *scene);
 /* The step that the exact history has just taken, at the parameters with which a study ends or
  * those given, on the step's own elements. */
 CpsStatus regularized_step(Regularized *method, const CpsLineView *exact,
-                           CpsClassicParameters *parameters, CpsClassicReport *report,
+                           CpsRegularizedParameters *parameters, CpsRegularizedReport *report,
                            CpsError *err);
 
 /* capstan run --method regularized: all steps of all lines; prints a table, writes the results. A

@@ -155,7 +155,7 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
     }
 }
 
-void cautions_put_bend(const CpsBend *bend, const char *obstacle) {
+void warnings_print_bend(const CpsBend *bend, const char *obstacle) {
     fprintf(stderr,
             " (at %.4g m the line turns by %.4g degrees at one node round obstacle '%s', mu %.4g: "
             "it holds ",
@@ -170,7 +170,7 @@ void cautions_put_bend(const CpsBend *bend, const char *obstacle) {
             bend->coulomb, bend->element);
 }
 
-static void put_figures(int kind, double value, double of) {
+static void print_figures(int kind, double value, double of) {
     if (kind == CAUTION_BOUND)
         fprintf(stderr,
                 "the friction bounds of the reference differ from mu R by %.4g N, of %.4g N in "
@@ -226,23 +226,23 @@ static void put_figures(int kind, double value, double of) {
                 value, of);
 }
 
-void cautions_say(const Cautions *cautions) {
+void warnings_print(const Cautions *cautions) {
     for (int k = 0; k < CAUTIONS; ++k) {
         if (cautions->kind[k].steps == 0) continue;
         fputs("capstan: caution: step ", stderr);
-        cli_put_text(stderr, cautions->kind[k].step, 80, false);
+        cli_print_text(stderr, cautions->kind[k].step, 80, false);
         fputs(", line ", stderr);
-        cli_put_text(stderr, cautions->kind[k].line, 80, false);
+        cli_print_text(stderr, cautions->kind[k].line, 80, false);
         if (k == CAUTION_PIERCED) {
             fputs(", obstacle ", stderr);
-            cli_put_text(stderr, cautions->kind[k].obstacle, 80, false);
+            cli_print_text(stderr, cautions->kind[k].obstacle, 80, false);
         }
         fputs(": ", stderr);
         if (k == CAUTION_BEND) {
             fputs("the mesh is coarse for a bend", stderr);
-            cautions_put_bend(&cautions->bend, cautions->kind[CAUTION_BEND].obstacle);
+            warnings_print_bend(&cautions->bend, cautions->kind[CAUTION_BEND].obstacle);
         } else
-            put_figures(k, cautions->kind[k].value, cautions->kind[k].of);
+            print_figures(k, cautions->kind[k].value, cautions->kind[k].of);
         if (cautions->kind[k].steps > 1)
             fprintf(stderr, " (the worst of %d)", cautions->kind[k].steps);
         fputc('\n', stderr);

@@ -38,10 +38,10 @@ typedef struct Cautions {
 void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution *evolution);
 
 /* A line on standard error for each kind met, with its figures and what to do. */
-void cautions_say(const Cautions *cautions);
+void warnings_print(const Cautions *cautions);
 
 /* A bend round the obstacle, in brackets, on standard error: what the mesh makes of it, and which
  * mesh would do. */
-void cautions_put_bend(const CpsBend *bend, const char *obstacle);
+void warnings_print_bend(const CpsBend *bend, const char *obstacle);
 
 #endif

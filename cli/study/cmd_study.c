@@ -13,13 +13,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "capstan/classic_io.h"
+#include "capstan/regularized_io.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
-#include "run/classic_options.h"
+#include "run/regularized_options.h"
 #include "run/regularized_run.h"
 #include "signals.h"
 #include "study/study_methods.h"
@@ -80,19 +80,19 @@ static int find_step(const CpsScene *scene, const char *asked) {
 /* Solve up to a step, counted from 1. The exit code, EXIT_OK when there. */
 static int reach_step(CpsEvolution *evolution, int number) {
     CpsError err;
-    while (cps_evolution_remaining(evolution) > 0 && !cli_stopped()) {
+    while (cps_evolution_remaining(evolution) > 0 && !cli_interrupted()) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) return cli_report(&err);
         const CpsStepReport step = cps_evolution_report(evolution);
         if (step.outcome != CPS_SOLVED) {
             fputs("capstan study: step ", stderr);
-            cli_put_text(stderr, step.name, 80, false);
+            cli_print_text(stderr, step.name, 80, false);
             fprintf(stderr, ": %s; there is nothing to compare with\n",
                     cps_outcome_sentence(step.outcome));
             return cps_outcome_is_final(step.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
         }
         if (step.index + 1 == number) return EXIT_OK;
     }
-    if (cli_stopped()) return 128 + cli_stopped();
+    if (cli_interrupted()) return 128 + cli_interrupted();
     fprintf(stderr, "capstan study: the scene has no step but a laid one: give it a history\n");
     return EXIT_USAGE;
 }
@@ -112,32 +112,32 @@ static int find_line(const CpsEvolution *evolution, const char *asked) {
 
 typedef struct Teller {
     Progress progress;
-    CpsClassicStep step;
+    CpsRegularizedStep step;
     bool converged; /* every solve so far */
 } Teller;
 
-static void put_rate(double rate) {
+static void print_rate(double rate) {
     if (isfinite(rate))
         printf(" %5.2f", rate);
     else
         printf(" %5s", "-");
 }
 
-static void put_row(const CpsStudyRow *row, const CpsClassicStep *step) {
-    const CpsClassicReport *r = &row->report;
-    const CpsClassicParameters *p = &row->parameters;
+static void print_row(const CpsStudyRow *row, const CpsRegularizedStep *step) {
+    const CpsRegularizedReport *r = &row->report;
+    const CpsRegularizedParameters *p = &row->parameters;
     const int cells = p->cells > 0 ? p->cells : step->elements;
     printf("%-6s %9.3g %9.2g %9.2g %9.2g %5d %11.3e", cps_study_stage_key(row->stage),
            step->length / cells, p->penalty, p->stiffness, p->delta, r->iterations,
            r->energy_error);
-    put_rate(row->rate_energy);
+    print_rate(row->rate_energy);
     printf(" %10.2e", r->tension_rms);
-    put_rate(row->rate_tension);
+    print_rate(row->rate_tension);
     printf(" %9.1e %9.1e %9.1e %9.1e%s\n", r->compression, r->penetration, r->creep,
            r->friction_excess, r->converged ? "" : "  not converged");
 }
 
-static void put_head(void) {
+static void print_head(void) {
     printf("%-6s %9s %9s %9s %9s %5s %11s %5s %10s %5s %9s %9s %9s %9s\n", "stage", "h", "lambda",
            "1/n", "delta", "iter", "energy", "rate", "tension", "rate", "push", "sunk", "creep",
            "uncarried");
@@ -150,16 +150,16 @@ static bool on_row(void *user, const CpsStudyRow *row, int done, int of) {
     teller->progress.steps = of;
     progress_step(&teller->progress, done, cps_study_stage_key(row->stage));
     teller->converged = teller->converged && row->report.converged;
-    return !cli_stopped();
+    return !cli_interrupted();
 }
 
-static void put_force(const CpsFirstOrderReport *r, const char *what) {
+static void print_force(const CpsFirstOrderReport *r, const char *what) {
     const double *f = r->unbalanced;
     printf("    (%.6g, %.6g, %.6g) N at a = %.6g m %s\n", f[0], f[1], f[2], r->unbalanced_arc,
            what);
 }
 
-static void tell_verdict(const CpsFirstOrderReport *r, const char *contact) {
+static void print_verdict(const CpsFirstOrderReport *r, const char *contact) {
     printf("  %s: %s\n", contact, cps_first_order_sentence(r->verdict));
     switch (r->verdict) {
     case CPS_FIRST_ORDER_SHORTENS:
@@ -167,8 +167,8 @@ static void tell_verdict(const CpsFirstOrderReport *r, const char *contact) {
                "the reference\n",
                r->least_strain, r->least_strain_arc, r->shortened, r->slack);
         break;
-    case CPS_FIRST_ORDER_UNBALANCED: put_force(r, "is carried by nothing, (89)"); break;
-    case CPS_FIRST_ORDER_MESH: put_force(r, "does not pull along the slack end, (87)"); break;
+    case CPS_FIRST_ORDER_UNBALANCED: print_force(r, "is carried by nothing, (89)"); break;
+    case CPS_FIRST_ORDER_MESH: print_force(r, "does not pull along the slack end, (87)"); break;
     case CPS_FIRST_ORDER_SOLVED: break;
     case CPS_FIRST_ORDER_UNDECIDED:
         printf("    forces still fail by %.4g N after %d rounds\n", r->residual, r->rounds);
@@ -182,7 +182,7 @@ static void tell_verdict(const CpsFirstOrderReport *r, const char *contact) {
 
 /* P10.1 as it stands, and with every node kept out, where that is the step's own contact and the
  * answer is another one */
-static void tell_first_order(const CpsFirstOrder *const *solution) {
+static void print_first_order(const CpsFirstOrder *const *solution) {
     const CpsFirstOrderReport paper = cps_first_order_report(solution[0]),
                               gained = cps_first_order_report(solution[1]);
     const CpsFirstOrderView a = cps_first_order_view(solution[0]),
@@ -191,9 +191,10 @@ static void tell_first_order(const CpsFirstOrder *const *solution) {
     for (int k = 0; k < 3 * (a.elements + 1); ++k)
         apart = fmax(apart, fabs(a.displacement[k] - b.displacement[k]));
     printf("\nconsistent first-order problem P10.1\n");
-    tell_verdict(&paper, "C of (77), u.n >= 0 where x_R touches");
+    print_verdict(&paper, "C of (77), u.n >= 0 where x_R touches");
     if (paper.verdict != gained.verdict || apart > 1e-6 * a.arc_length[a.elements])
-        tell_verdict(&gained, "every node kept out, (16), as the step with 'contact: gained' does");
+        print_verdict(&gained,
+                      "every node kept out, (16), as the step with 'contact: gained' does");
     if (paper.outside > 0)
         printf("  (on %.6g m the reference has |x_R'| < 1, outside Kin: taken as slack and just "
                "straight)\n",
@@ -205,10 +206,10 @@ static void tell(const CpsStudy *study, const CpsFirstOrder *const *first_order,
                  const char *directory) {
     printf("exact: J** + j = %.10g J on %d elements; everything below is against it\n\n",
            teller->step.energy, teller->step.elements);
-    put_head();
+    print_head();
     for (int i = 0; i < cps_study_row_count(study); ++i)
-        put_row(cps_study_row(study, i), &teller->step);
-    tell_first_order(first_order);
+        print_row(cps_study_row(study, i), &teller->step);
+    print_first_order(first_order);
     study_tell_slack(view, tolerance);
     printf("\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, "
            "relaxed.svg\n",
@@ -220,17 +221,17 @@ static void tell(const CpsStudy *study, const CpsFirstOrder *const *first_order,
 static int study_step(const CpsLineView *view, const char *title, const char *directory,
                       const CliOptions *options) {
     CpsError err;
-    CpsClassic *classic = NULL;
+    CpsRegularized *classic = NULL;
     CpsStudy *study = NULL;
     CpsFirstOrder *first_order[2] = {NULL, NULL};
     Teller teller = {.converged = true};
-    ClassicOptions given;
-    if (!classic_options_read(options, "study", &given)) return EXIT_USAGE;
-    CpsStatus status = cps_classic_create(view, &classic, &err);
+    RegularizedOptions given;
+    if (!regularized_options_read(options, "study", &given)) return EXIT_USAGE;
+    CpsStatus status = cps_regularized_create(view, &classic, &err);
     if (status == CPS_OK) {
-        const CpsClassicParameters to = classic_options_apply(&given, classic);
+        const CpsRegularizedParameters to = regularized_options_apply(&given, classic);
         const CpsStudyOptions how = cps_study_options_to(classic, &to);
-        teller.step = cps_classic_step(classic);
+        teller.step = cps_regularized_step(classic);
         teller.progress = progress_begin(1, options->quiet);
         status = cps_study_run(classic, &how, on_row, &teller, &study, &err);
         progress_end(&teller.progress);
@@ -246,20 +247,20 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
     if (status == CPS_OK && !options->quiet)
         tell(study, (const CpsFirstOrder *const *)first_order, view, &teller,
              study_find_tolerance(options->tolerance), directory);
-    const int code = status != CPS_OK   ? cli_report(&err)
-                     : cli_stopped()    ? 128 + cli_stopped()
-                     : teller.converged ? EXIT_OK
-                                        : EXIT_NOT_CERTIFIED;
+    const int code = status != CPS_OK    ? cli_report(&err)
+                     : cli_interrupted() ? 128 + cli_interrupted()
+                     : teller.converged  ? EXIT_OK
+                                         : EXIT_NOT_CERTIFIED;
     if (status != CPS_OK && view->compliance == 0)
         fputs("capstan study: --complete and --judge take inextensible lines too\n", stderr);
     for (int k = 0; k < 2; ++k) cps_first_order_destroy(first_order[k]);
     cps_study_destroy(study);
-    cps_classic_destroy(classic);
+    cps_regularized_destroy(classic);
     return code;
 }
 
 /* Say which friction bounds the solutions are judged with. */
-static void tell_bounds(const CpsScene *scene) {
+static void print_bounds(const CpsScene *scene) {
     puts(scene->friction == CPS_FRICTION_CONSISTENT
              ? "friction: consistent, A = mu R at x; P4.2 and P3.1 are those with this A"
              : "friction: frozen, A = mu R_R of the reference, (78)");
@@ -290,10 +291,10 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
         snprintf(title, sizeof title, "%.120s: %.60s, %.60s", scene.title ? scene.title : "capstan",
                  step.name, view.name);
         if (!options->quiet) {
-            cli_put_text(stdout, title, 240, false);
+            cli_print_text(stdout, title, 240, false);
             putchar('\n');
             if (solutions) {
-                tell_bounds(given);
+                print_bounds(given);
             } else {
                 regularized_tell_friction(given);
                 regularized_tell_steps(given);
@@ -319,7 +320,7 @@ static bool is_sound(const CliOptions *options) {
             stderr);
         return false;
     }
-    if (classic_options_given(options) &&
+    if (regularized_options_given(options) &&
         (options->judge || options->complete || (options->history && options->h))) {
         fputs("capstan study: --lambda, --n and --delta are those of the method of 1990, in a step "
               "or with --history; --h is that of a step\n",

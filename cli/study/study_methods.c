@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capstan/classic_io.h"
+#include "capstan/regularized_io.h"
 #include "commands.h"
 #include "printable.h"
 #include "run/regularized_run.h"
@@ -22,7 +22,7 @@ typedef struct Histories {
     const CpsScene *scene;
     const char *line; /* as asked for */
     double friction;  /* mu of the obstacle */
-    ClassicOptions given;
+    RegularizedOptions given;
     int steps, points; /* the start is step 0 */
     double *position[METHODS];
     char (*name)[NAME_SIZE]; /* (steps) */
@@ -55,11 +55,11 @@ static void store(Histories *h, int method, int step, const double *position,
 /* the step once more by the regularised method */
 static int regularise(Histories *h, const CpsLineView *view, int step, Regularized *method) {
     CpsError err;
-    CpsClassicReport report;
-    CpsClassicParameters fine;
+    CpsRegularizedReport report;
+    CpsRegularizedParameters fine;
     if (regularized_step(method, view, &fine, &report, &err) != CPS_OK) return cli_report(&err);
     h->converged = h->converged && report.converged;
-    store(h, REGULARISED, step, cps_classic_view(method->last).position, view->origin);
+    store(h, REGULARISED, step, cps_regularized_view(method->last).position, view->origin);
     return EXIT_OK;
 }
 
@@ -96,7 +96,7 @@ static int run_evolution(Histories *h, int method, int line) {
         store(h, method, step, view.position, view.origin);
         if (method == FROZEN) code = regularise(h, &view, step, &own);
     }
-    cps_classic_destroy(own.last);
+    cps_regularized_destroy(own.last);
     cps_evolution_destroy(evolution);
     return code;
 }
@@ -115,7 +115,7 @@ static void tell(const Histories *h) {
                                     (a[2] - b[2]) * (a[2] - b[2])));
             }
             const double *tip = h->position[m] + from + size - 3;
-            cli_put_text(stdout, m == 0 ? h->name[s] : "", 20, true);
+            cli_print_text(stdout, m == 0 ? h->name[s] : "", 20, true);
             printf(" %-20s %12.6f %12.6f %12.6f %12.3e\n", METHOD[m], tip[0], tip[1], tip[2], most);
         }
 }
@@ -158,7 +158,7 @@ int study_methods(const CpsScene *scene, const CliOptions *options, const char *
                    .steps = 1 + cps_evolution_step_count(evolution),
                    .converged = true};
     cps_evolution_destroy(evolution);
-    if (!classic_options_read(options, "study", &h.given)) return EXIT_USAGE;
+    if (!regularized_options_read(options, "study", &h.given)) return EXIT_USAGE;
     const int index = find_line(&h);
     if (index < 0) return EXIT_USAGE;
     h.points = scene->line[index].elements + 1;

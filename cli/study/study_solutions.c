@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "capstan/classic_io.h"
+#include "capstan/regularized_io.h"
 #include "commands.h"
 #include "printable.h"
 
@@ -54,7 +54,7 @@ static const char *hold_of(const CpsSlackPart *part) {
                           : "held by friction";
 }
 
-static int tell_parts(const CpsLineView *view) {
+static int print_parts(const CpsLineView *view) {
     CpsSlackPart part[SHOWN_PARTS];
     const int parts = cps_solution_slack(view, SHOWN_PARTS, part);
     printf("\nslack: %s\n", parts == 0 ? "none, the configuration is unique (result 4.4)" : "");
@@ -65,8 +65,8 @@ static int tell_parts(const CpsLineView *view) {
     return parts;
 }
 
-static void tell_judgement(const char *what, const CpsLineView *view, const double *position,
-                           double tolerance) {
+static void print_judgement(const char *what, const CpsLineView *view, const double *position,
+                            double tolerance) {
     CpsError err;
     CpsJudgementReport report;
     if (cps_solution_judge(view, position, tolerance, &report, &err) == CPS_OK)
@@ -77,15 +77,15 @@ void study_tell_slack(const CpsLineView *view, double tolerance) {
     CpsError err;
     CpsSlackReport slack;
     char what[96];
-    tell_parts(view);
-    tell_judgement("as found", view, view->position, tolerance);
+    print_parts(view);
+    print_judgement("as found", view, view->position, tolerance);
     double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
     if (position &&
         cps_solution_complete(view, CPS_COMPLETION_MEANDER, position, &slack, &err) == CPS_OK &&
         slack.parts > 0) {
         snprintf(what, sizeof what, "laid out %s, %.6g m of it",
                  cps_completion_sentence(CPS_COMPLETION_MEANDER), slack.loose);
-        tell_judgement(what, view, position, tolerance);
+        print_judgement(what, view, position, tolerance);
     }
     free(position);
 }
@@ -174,7 +174,7 @@ static int read_configuration(const CpsLineView *view, const char *path, double 
     FILE *file = open_regular(path);
     if (!file) {
         fputs("capstan: ", stderr);
-        cli_put_text(stderr, path, INT_MAX, false);
+        cli_print_text(stderr, path, INT_MAX, false);
         fprintf(stderr, ": %s\n", errno ? strerror(errno) : "is not a regular file");
         return EXIT_IO;
     }
@@ -183,7 +183,7 @@ static int read_configuration(const CpsLineView *view, const char *path, double 
     return code;
 }
 
-static void tell_report(const CpsJudgementReport *r, double tolerance, double length) {
+static void print_report(const CpsJudgementReport *r, double tolerance, double length) {
     printf("%s\n\n", cps_judgement_sentence(r->judgement));
     printf("energy above the minimum  %12.5g J, of which\n", r->energy);
     printf("  tension                 %12.5g J  0 where tensions and their directions are those of "
@@ -214,9 +214,9 @@ int study_judge(const CpsLineView *view, const char *path, double tolerance, boo
         code = cli_report(&err);
     else if (code == EXIT_OK) {
         if (!quiet) {
-            cli_put_text(stdout, path, 200, false);
+            cli_print_text(stdout, path, 200, false);
             printf(": ");
-            tell_report(&report, tolerance, view->arc_length[view->elements]);
+            print_report(&report, tolerance, view->arc_length[view->elements]);
         }
         code = report.judgement == CPS_JUDGED_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
     }
@@ -250,8 +250,8 @@ int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance,
         status = cps_solution_judge(view, line.position[how], tolerance, &report, &err);
     if (status == CPS_OK) status = cps_completed_write(directory, &line, &err);
     if (status == CPS_OK && !quiet) {
-        tell_parts(view);
-        tell_judgement("as found", view, view->position, tolerance);
+        print_parts(view);
+        print_judgement("as found", view, view->position, tolerance);
         printf("  laid out %s, %.6g m of it in %d piece%s: %s\n", cps_completion_sentence(how),
                slack[how].loose, slack[how].parts, slack[how].parts == 1 ? "" : "s",
                cps_judgement_sentence(report.judgement));

@@ -4,11 +4,11 @@
 #define CAPSTAN_CAPSTAN_H
 
 #include "capstan/base.h"
-#include "capstan/classic.h"
 #include "capstan/drive.h"
 #include "capstan/evolve.h"
 #include "capstan/law.h"
 #include "capstan/planar.h"
+#include "capstan/regularized.h"
 #include "capstan/report.h"
 #include "capstan/rope.h"
 #include "capstan/scene.h"

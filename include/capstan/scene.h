@@ -147,17 +147,17 @@ typedef struct CpsStage {
                           goes with it: w per |g| of the scene */
 } CpsStage;
 
-typedef enum CpsFriction {
+typedef enum CpsFrictionPolicy {
     CPS_FRICTION_FROZEN, /* the bound A = mu R is that of the reference configuration   (S90 section
                             2 d) */
     CPS_FRICTION_CONSISTENT /* the default, Coulomb's law: A = mu R with the reaction of the
                                configuration reached */
-} CpsFriction;
+} CpsFrictionPolicy;
 
-typedef enum CpsContact {
+typedef enum CpsContactPolicy {
     CPS_CONTACT_GAINED, /* no node ends below the obstacle: contact may be gained within a step */
     CPS_CONTACT_STRICT  /* only what touches at the reference is kept out              (S90 (35)) */
-} CpsContact;
+} CpsContactPolicy;
 
 typedef enum CpsLinearSystem {
     CPS_LINEAR_SYSTEM_CHAIN, /* block tridiagonal, cost linear in the nodes */
@@ -186,8 +186,8 @@ typedef struct CpsScene {
     const CpsLine *line;
     int stage_count; /* >= 0 */
     const CpsStage *stage;
-    CpsFriction friction;
-    CpsContact contact;
+    CpsFrictionPolicy friction;
+    CpsContactPolicy contact;
     CpsSolverOptions solver;
 } CpsScene;
 

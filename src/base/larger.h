@@ -3,6 +3,6 @@
 #ifndef CAPSTAN_SRC_BASE_LARGER_H
 #define CAPSTAN_SRC_BASE_LARGER_H
 
-static inline double cpsi_larger(double a, double b) { return a > b || a != a ? a : b; }
+static inline double cpsi_max_nan(double a, double b) { return a > b || a != a ? a : b; }
 
 #endif

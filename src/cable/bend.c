@@ -12,8 +12,8 @@
  * on a plane lead away from it. */
 #include "cable/bend.h"
 
-#include "cable/rub_set.h"
-#include "linsys/frame.h"
+#include "cable/friction_law.h"
+#include "chain/frame.h"
 
 /* A force below this share of the largest one has the direction that rounding gave it. */
 static const double LEAST_FORCE = 1e-9;
@@ -60,15 +60,15 @@ static double told_turn(double friction) {
 /* The larger coefficient for a slip along the line, this way or that: the support of the set of
  * forces. */
 static double friction_along(const CpsiLine *line, int c, Vec3 along) {
-    const CpsiRubSet set = cpsi_rub_set(line, c);
-    double wanted[3], way[3];
+    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+    double wanted[3], slip[3];
     vec3_store(wanted, along);
-    cpsi_frame_to(way, cpsi_line_axes(line, c), wanted);
-    const double size = hypot(way[0], way[1]);
-    const double forth[2] = {size > 0 ? way[0] / size : 1, size > 0 ? way[1] / size : 0},
+    cpsi_frame_to(slip, cpsi_line_axes(line, c), wanted);
+    const double size = hypot(slip[0], slip[1]);
+    const double forth[2] = {size > 0 ? slip[0] / size : 1, size > 0 ? slip[1] / size : 0},
                  back[2] = {-forth[0], -forth[1]};
-    return fmax(cpsi_rub_dissipation(&set, set.friction, forth),
-                cpsi_rub_dissipation(&set, set.friction, back));
+    return fmax(cpsi_friction_law_dissipation(&set, set.friction, forth),
+                cpsi_friction_law_dissipation(&set, set.friction, back));
 }
 
 /* The forces of the line before and after contact c, false where there is none on one side. What an
@@ -122,7 +122,7 @@ static CpsBend bend_of(const CpsiLine *line, int c) {
 
 CpsBend cpsi_line_bend(const CpsiLine *line) {
     CpsBend worst = {0};
-    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) {
+    for (int c = 0; line->has_local_axes && c < cpsi_line_all_contacts(line); c++) {
         const CpsBend bend = bend_of(line, c);
         if (cpsi_bend_is_sharper(&bend, &worst)) worst = bend;
     }

@@ -23,9 +23,9 @@
 #include <math.h>
 
 #include "base/larger.h"
-#include "cable/rub_set.h"
-#include "linsys/frame.h"
-#include "linsys/small.h"
+#include "cable/friction_law.h"
+#include "chain/frame.h"
+#include "linalg/dense.h"
 
 /* What the loop (to 1e-13) and rounding leave of the gap where nothing is strained and nothing
  * works, per length and force, the largest or all loads together: no step is asked for less. */
@@ -67,16 +67,17 @@ static Vec3 segment_force(const CpsiLine *line, int e) {
 }
 
 /* The friction set of contact c, with force or way in its tangent axes. */
-static CpsiRubSet rub_set(const CpsiLine *line, int c, const double vector[3], double local[3]) {
+static CpsiFrictionLaw rub_set(const CpsiLine *line, int c, const double vector[3],
+                               double local[3]) {
     cpsi_frame_to(local, cpsi_line_axes(line, c), vector);
-    return cpsi_rub_set(line, c);
+    return cpsi_friction_law(line, c);
 }
 
 /* How much more friction contact c could give, in whatever direction. */
 static double room_of(const CpsiLine *line, int c) {
     double f[3];
-    const CpsiRubSet set = rub_set(line, c, &line->friction_force[3 * c], f);
-    return cpsi_rub_room(&set, line->friction_bound[c], f);
+    const CpsiFrictionLaw set = rub_set(line, c, &line->friction_force[3 * c], f);
+    return cpsi_friction_law_margin(&set, line->friction_bound[c], f);
 }
 
 /* Add scale x a b^T to m (3, 3). */
@@ -88,7 +89,7 @@ static void add_outer(double m[9], double scale, Vec3 a, Vec3 b) {
 
 /* Does the bound of contact c follow its reaction? */
 static bool bound_follows(const CpsiLine *line, int c) {
-    const double bound = cpsi_rub_set(line, c).friction * line->reaction[c];
+    const double bound = cpsi_friction_law(line, c).friction * line->reaction[c];
     return bound > 0 && fabs(line->friction_bound[c] - bound) <= 1e-12 * bound;
 }
 
@@ -171,7 +172,7 @@ static double coordinate_rounding(const CpsiLine *line, int e) {
     return 4 * DBL_EPSILON * sum / line->element_length[e];
 }
 
-static void raise_to(double *largest, double value) { *largest = cpsi_larger(*largest, value); }
+static void raise_to(double *largest, double value) { *largest = cpsi_max_nan(*largest, value); }
 
 /* Elongation: the segments' part of P, D, gap, scale and tension errors. */
 static void add_segments(const CpsiLine *line, CpsCertificate *out) {
@@ -213,12 +214,12 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);
     const Vec3 slide = cpsi_line_slide(line, c);
     const double w = line->friction_bound[c], reaction = line->reaction[c];
-    double force[3], way[3], along[3];
+    double force[3], slip[3], along[3];
     vec3_store(along, slide);
-    const CpsiRubSet set = rub_set(line, c, along, way);
+    const CpsiFrictionLaw set = rub_set(line, c, along, slip);
     cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-    const double law = cpsi_rub_gap(&set, w, force, way),
-                 dissipation = cpsi_rub_dissipation(&set, w, way);
+    const double law = cpsi_friction_law_gap(&set, w, force, slip),
+                 dissipation = cpsi_friction_law_dissipation(&set, w, slip);
     out->law_residual += law > 0 ? law : 0;
     out->friction_residual += fabs(w - set.friction * reaction);
     out->primal += dissipation;
@@ -280,21 +281,21 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
     out->gap += out->law_residual + out->contact_residual;
 }
 
-bool cpsi_law_holds(const CpsiLine *line, double tolerance) {
+bool cpsi_law_refcount(const CpsiLine *line, double tolerance) {
     const double rounding = 1e-14 * line->report.certificate.largest_force * line->length;
     double law = 0, dissipated = 0, bounds = 0;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double w = line->friction_bound[c];
         if (!(w > 0)) continue;
-        double force[3], way[3], along[3];
+        double force[3], slip[3], along[3];
         vec3_store(along, cpsi_line_slide(line, c));
-        const CpsiRubSet set = rub_set(line, c, along, way);
+        const CpsiFrictionLaw set = rub_set(line, c, along, slip);
         cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-        const double off = fabs(cpsi_rub_gap(&set, w, force, way));
+        const double off = fabs(cpsi_friction_law_gap(&set, w, force, slip));
         if (off > tolerance * w * line->length + rounding) return false;
         law += off;
         bounds += w * line->length;
-        dissipated += cpsi_rub_dissipation(&set, w, way);
+        dissipated += cpsi_friction_law_dissipation(&set, w, slip);
     }
     return law <= tolerance * dissipated + 1e-12 * bounds + rounding;
 }

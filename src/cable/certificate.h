@@ -23,6 +23,6 @@ CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance);
 /* Does friction's law hold to `tolerance` of w L at every node, and of what friction dissipates in
  * sum?  Less what rounding leaves where nothing slides: 1e-14 of the largest force times L, and
  * 1e-12 of all w L. Asked where rounds settle it. */
-bool cpsi_law_holds(const CpsiLine *line, double tolerance);
+bool cpsi_law_refcount(const CpsiLine *line, double tolerance);
 
 #endif

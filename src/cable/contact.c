@@ -19,9 +19,9 @@
 
 #include <string.h>
 
-#include "cable/rub_set.h"
-#include "cable/side.h"
-#include "linsys/frame.h"
+#include "cable/friction_law.h"
+#include "cable/obstacle_side.h"
+#include "chain/frame.h"
 
 /* No node moves farther in one go than this, per distance from the axis or centre of a round
  * obstacle: its planes say no more. */
@@ -91,7 +91,7 @@ static bool is_watched(const CpsiLine *line, int c, double gap) {
     if (!line->gains) return isfinite(line->gap[c]);
     if (c < line->n || obstacle->kind == CPS_OBSTACLE_PLANE || gap <= NEAR * obstacle->radius)
         return true;
-    return line->follows && is_kept(line, c);
+    return line->has_local_axes && is_kept(line, c);
 }
 
 /* What a contact keeps of its obstacle from place to place. */
@@ -135,7 +135,7 @@ static Vec3 reference_normal(const CpsiLine *line, int k, int c) {
 }
 
 /* The contacts of node j at its base: those it had keep what they have. */
-static void meet(CpsiLine *line, int j, bool pressed) {
+static void detect(CpsiLine *line, int j, bool pressed) {
     const int n = line->n;
     Kept before[2] = {{.on = -1}, {.on = -1}};
     int on[2];
@@ -165,7 +165,7 @@ static bool clearance(const CpsiLine *line, const double *x, int e, int k, doubl
 /* The contact of element e at its base: with the obstacle that it has gone into, else with the one
  * it has had, as long as that is near. Frozen friction that acts stays, if it has to at the point
  * where the element last faced the obstacle. */
-static void meet_element(CpsiLine *line, int e) {
+static void detect_element(CpsiLine *line, int e) {
     const int c = cpsi_line_contacts(line) + e;
     Kept now = {.on = -1, .gap = INFINITY, .state = CPS_NODE_FREE};
     const Kept before = keep(line, c);
@@ -194,7 +194,7 @@ static Vec3 direction_at(const CpsiLine *line, const double *x, int c) {
 }
 
 /* Axes and curvature of contact c at its base; without an obstacle those of the world. */
-static void see(CpsiLine *line, int c) {
+static void update_contact(CpsiLine *line, int c) {
     const Vec3 x = cpsi_line_place(line, line->base, c);
     double *axes = &line->axes[9 * c];
     if (line->on[c] >= 0) {
@@ -225,7 +225,7 @@ static void freeze(CpsiLine *line, int c) {
 }
 
 /* The reference of the node on the obstacle of contact c, carried along as it turns. */
-static Vec3 carried(const CpsiLine *line, int c) {
+static Vec3 carried_along(const CpsiLine *line, int c) {
     const Vec3 x = cpsi_line_place(line, line->reference, c);
     const int k = line->on[c];
     return k < 0 ? x : cpsi_obstacle_turn(&line->obstacle[k], x, line->turn[k]);
@@ -233,8 +233,8 @@ static Vec3 carried(const CpsiLine *line, int c) {
 
 /* The part of the node's way to x, from where the obstacle of contact c has carried its reference,
  * in the plane of friction. */
-static Vec3 flat_way(const CpsiLine *line, int c, Vec3 x) {
-    const Vec3 u = vec3_sub(x, carried(line, c));
+static Vec3 plane_slip(const CpsiLine *line, int c, Vec3 x) {
+    const Vec3 u = vec3_sub(x, carried_along(line, c));
     if (line->on[c] < 0) return u;
     const Vec3 n = vec3_load(&cpsi_line_axes(line, c)[6]);
     return vec3_axpy(-vec3_dot(u, n), n, u);
@@ -248,18 +248,19 @@ static double allowance(const CpsiLine *line, int c) {
                  : cpsi_obstacle_allowance(&line->obstacle[line->on[c]], line->element_length[e]);
 }
 
-Vec3 cpsi_contact_way(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
+Vec3 cpsi_contact_slip_between(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
     CpsiObstacle touched = line->obstacle[line->on[c]];
-    if (touched.kind == CPS_OBSTACLE_PLANE) return cpsi_obstacle_way(&touched, from, to);
+    if (touched.kind == CPS_OBSTACLE_PLANE) return cpsi_obstacle_slip(&touched, from, to);
     touched.radius -= allowance(line, c);
-    return cpsi_obstacle_way(&touched, from, to);
+    return cpsi_obstacle_slip(&touched, from, to);
 }
 
 /* The way of the node on the obstacle of contact c, at x: along the surface, or in the plane of
  * friction where that is frozen. */
-static Vec3 way_to(const CpsiLine *line, int c, Vec3 x) {
-    if (line->frozen) return flat_way(line, c, x);
-    return line->on[c] < 0 ? vec3(0, 0, 0) : cpsi_contact_way(line, c, carried(line, c), x);
+static Vec3 slip_to(const CpsiLine *line, int c, Vec3 x) {
+    if (line->frozen) return plane_slip(line, c, x);
+    return line->on[c] < 0 ? vec3(0, 0, 0)
+                           : cpsi_contact_slip_between(line, c, carried_along(line, c), x);
 }
 
 void cpsi_contact_clear(CpsiLine *line, int c) {
@@ -267,15 +268,15 @@ void cpsi_contact_clear(CpsiLine *line, int c) {
     for (int a = 0; a < 3; a++) line->friction_force[3 * c + a] = 0;
 }
 
-void cpsi_contact_meet(CpsiLine *line, bool pressed) {
-    for (int j = 0; j < line->n; j++) meet(line, j, pressed);
+void cpsi_contact_detect(CpsiLine *line, bool pressed) {
+    for (int j = 0; j < line->n; j++) detect(line, j, pressed);
     for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)
-        if (!(pressed && line->pressed[cpsi_line_contacts(line) + e])) meet_element(line, e);
+        if (!(pressed && line->pressed[cpsi_line_contacts(line) + e])) detect_element(line, e);
 }
 
 /* What contact c has gone round its obstacle, where its normal was `before` at the last look; that
  * of an element as on a ball, for the point of the element changes from look to look. */
-static void go_round(CpsiLine *line, int c, Vec3 before) {
+static void wind_round(CpsiLine *line, int c, Vec3 before) {
     const int k = line->on[c];
     if (k < 0) return;
     const CpsiObstacle *obstacle = &line->obstacle[k];
@@ -287,7 +288,7 @@ static void go_round(CpsiLine *line, int c, Vec3 before) {
         line->round[c] = INFINITY; /* too far in one round to tell which way */
 }
 
-void cpsi_contact_look(CpsiLine *line) {
+void cpsi_contact_update_geometry(CpsiLine *line) {
     for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) {
         const int on = line->on[cpsi_line_contacts(line) + e];
         double share, gap;
@@ -296,11 +297,11 @@ void cpsi_contact_look(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const int k = line->on[c];
         const Vec3 before = vec3_load(&line->normal[3 * c]);
-        see(line, c);
-        go_round(line, c, before);
+        update_contact(line, c);
+        wind_round(line, c, before);
         if (line->frozen) freeze(line, c);
         const Vec3 x = cpsi_line_place(line, line->base, c), n = vec3_load(&line->normal[3 * c]);
-        vec3_store(&line->slide[3 * c], way_to(line, c, x));
+        vec3_store(&line->slide[3 * c], slip_to(line, c, x));
         const Vec3 u = vec3_sub(x, cpsi_line_place(line, line->reference, c));
         const double gap =
             k < 0 ? INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x) + allowance(line, c);
@@ -310,7 +311,7 @@ void cpsi_contact_look(CpsiLine *line) {
 }
 
 /* Contact c at the reference: its friction bound, and its gap if it is watched. */
-static void pose(CpsiLine *line, int c, bool frictionless) {
+static void set_reference(CpsiLine *line, int c, bool frictionless) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     const double gap =
         obstacle ? cpsi_obstacle_gap(obstacle, cpsi_line_place(line, line->reference, c)) +
@@ -322,7 +323,7 @@ static void pose(CpsiLine *line, int c, bool frictionless) {
     const bool near = fabs(gap) <= CPSI_TOUCH * line->length,
                touches = line->gains ? obstacle && line->state[c] != CPS_NODE_FREE : near;
     const bool rubs = touches && !held && !frictionless;
-    line->friction_bound[c] = rubs ? cpsi_rub_set(line, c).friction * line->reaction[c] : 0;
+    line->friction_bound[c] = rubs ? cpsi_friction_law(line, c).friction * line->reaction[c] : 0;
     line->gap[c] = !held && near ? 0 : INFINITY;
     if (is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
     /* what is free has no reaction, but for what the loop left of it */
@@ -330,20 +331,21 @@ static void pose(CpsiLine *line, int c, bool frictionless) {
         cpsi_contact_clear(line, c);
 }
 
-void cpsi_contact_return(CpsiLine *line) {
+void cpsi_contact_reset(CpsiLine *line) {
     memcpy(line->base, line->reference, 3 * (size_t)line->n * sizeof *line->base);
-    cpsi_contact_meet(line, false);
+    cpsi_contact_detect(line, false);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-        see(line, c);
+        update_contact(line, c);
         line->round[c] = 0;
     }
 }
 
-void cpsi_contact_pose(CpsiLine *line, CpsContact contact, CpsFriction friction,
-                       bool frictionless) {
+void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
+                                CpsFrictionPolicy friction, bool frictionless) {
     const size_t n = (size_t)line->n;
     line->gains = contact == CPS_CONTACT_GAINED;
-    line->frozen = line->follows && line->gains && friction == CPS_FRICTION_FROZEN && !frictionless;
+    line->frozen =
+        line->has_local_axes && line->gains && friction == CPS_FRICTION_FROZEN && !frictionless;
     memcpy(line->reference, line->position, 3 * n * sizeof *line->reference);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         line->friction_bound[c] = 0;
@@ -351,20 +353,20 @@ void cpsi_contact_pose(CpsiLine *line, CpsContact contact, CpsFriction friction,
     }
     for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
         if (line->state[c] == CPS_NODE_FREE) line->on[c] = -1; /* to be met again when it goes in */
-    if (line->follows) cpsi_contact_return(line);
+    if (line->has_local_axes) cpsi_contact_reset(line);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (line->frozen) freeze(line, c);
-        if (!line->follows && line->obstacle_count > 0)
+        if (!line->has_local_axes && line->obstacle_count > 0)
             vec3_store(&line->normal[3 * c], line->obstacle->frame.axis[2]);
-        pose(line, c, frictionless);
+        set_reference(line, c, frictionless);
     }
-    cpsi_contact_slide(line);
+    cpsi_contact_plane_slip(line);
 }
 
-void cpsi_contact_slide(CpsiLine *line) {
-    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) {
+void cpsi_contact_plane_slip(CpsiLine *line) {
+    for (int c = 0; line->has_local_axes && c < cpsi_line_all_contacts(line); c++) {
         const Vec3 to = cpsi_line_place(line, line->position, c);
-        vec3_store(&line->slide[3 * c], flat_way(line, c, to));
+        vec3_store(&line->slide[3 * c], plane_slip(line, c, to));
         const int k = line->on[c];
         if (k < 0) continue;
         const Vec3 from = reference_normal(line, k, c),
@@ -377,12 +379,12 @@ void cpsi_contact_slide(CpsiLine *line) {
  * round. */
 static double apart(const CpsiLine *line, int c) {
     const CpsiObstacle *obstacle = &line->obstacle[line->on[c]];
-    const Vec3 from = cpsi_obstacle_normal(obstacle, carried(line, c)),
+    const Vec3 from = cpsi_obstacle_normal(obstacle, carried_along(line, c)),
                to = cpsi_line_place(line, line->position, c);
     return fabs(cpsi_obstacle_angle(obstacle, from, cpsi_obstacle_normal(obstacle, to)));
 }
 
-void cpsi_contact_still(CpsiLine *line) {
+void cpsi_contact_clear_undetermined_slip(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (line->on[c] < 0 || line->friction_bound[c] > 0) continue;
         if (apart(line, c) < HALF_ROUND) continue;
@@ -390,8 +392,8 @@ void cpsi_contact_still(CpsiLine *line) {
     }
 }
 
-bool cpsi_contact_rounds(const CpsiLine *line) {
-    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) {
+bool cpsi_contact_turns_too_far(const CpsiLine *line) {
+    for (int c = 0; line->has_local_axes && c < cpsi_line_all_contacts(line); c++) {
         if (line->on[c] < 0 || !(line->friction_bound[c] > 0)) continue;
         if (line->frozen && !(line->reaction[c] > 0))
             continue; /* it has left the surface, and its way is one in the plane of the reference
@@ -414,7 +416,7 @@ double cpsi_contact_shorten(CpsiLine *line, bool sides) {
                      within = obstacle->radius + fmax(0, cpsi_obstacle_gap(obstacle, from));
         if (way * share > LEAP * within) share = LEAP * within / way;
     }
-    if (sides) share = cpsi_side_share(line, line->base, line->position, share);
+    if (sides) share = cpsi_obstacle_side_share(line, line->base, line->position, share);
     for (int i = 0; i < 3 * line->n && share < 1; i++)
         line->position[i] = line->base[i] + share * (line->position[i] - line->base[i]);
     return share;
@@ -461,7 +463,7 @@ static double turn_of_axes(const CpsiLine *line, int c, const double now[9]) {
     if (line->frozen) return normal;
     const double along = vec3_norm(vec3_sub(tangent, from)),
                  against = vec3_norm(vec3_axpy(1, tangent, from));
-    return fmax(normal, cpsi_rub_set(line, c).given ? along : fmin(along, against));
+    return fmax(normal, cpsi_friction_law(line, c).given ? along : fmin(along, against));
 }
 
 /* How far the axes of node j turn from its base to its position, the tangent's turn counting where
@@ -511,13 +513,13 @@ static double turn_of_deepest(const CpsiLine *line) {
     return worst;
 }
 
-double cpsi_contact_move(CpsiLine *line, bool sides) {
+double cpsi_contact_move_base(CpsiLine *line, bool sides) {
     /* where a surface bends away from a coarse line, its nodes go straight: the slide is looked up
      * anew after this */
     const size_t places = 3 * (size_t)line->n * sizeof *line->position;
     memcpy(line->slide, line->position, places);
     for (int j = 0; j < line->n; j++) move(line, j);
-    if (sides && cpsi_side_share(line, line->base, line->position, 1) < 1)
+    if (sides && cpsi_obstacle_side_share(line, line->base, line->position, 1) < 1)
         memcpy(line->position, line->slide, places);
     double turned = line->gains && line->element_contacts > 0 ? turn_of_deepest(line) : 0;
     for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)

@@ -8,8 +8,8 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
-#include "cable/line_report.h"
 #include "cable/line_solve.h"
+#include "cable/report.h"
 #include "cable/rounds.h"
 
 static bool is_finite(const CpsiLine *line) {
@@ -24,10 +24,10 @@ static bool is_finite(const CpsiLine *line) {
  * the next step corrects them. */
 static bool solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) {
-        CpsiIpmReport ipm = cpsi_line_solve(line, program, options, CPSI_BOUNDS_FOLLOW, false);
+        CpsiIpmReport ipm = cpsi_line_solve(line, program, options, CPSI_BOUNDS_COUPLED, false);
         if (cpsi_line_is_clean(&ipm) && is_finite(line)) return true;
     }
-    const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, CPSI_BOUNDS_GIVEN, false);
+    const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, CPSI_BOUNDS_FIXED, false);
     return ipm.gap + ipm.residual <= options->solver.tolerance && is_finite(line);
 }
 
@@ -35,24 +35,24 @@ CpsiDampedStep cpsi_line_damped_step(CpsiLine *line, CpsiChainProgram *program,
                                      const CpsiStepOptions *options) {
     CpsiDampedStep step = {0};
     double turned;
-    cpsi_line_pose(line, options);
+    cpsi_line_set_reference(line, options);
     step.solved = solve(line, program, options);
     if (!step.solved) {
         memcpy(line->position, line->reference, 3 * (size_t)line->n * sizeof *line->position);
         return step;
     }
-    if (line->follows)
-        step.shortened = !cpsi_rounds_look(line, !options->frictionless, &turned);
+    if (line->has_local_axes)
+        step.shortened = !cpsi_rounds_refresh_axes(line, !options->frictionless, &turned);
     else
-        cpsi_contact_slide(line);
-    if (line->follows && line->contacts > 1) {
-        cpsi_contact_meet(line, true);
-        cpsi_contact_look(line);
+        cpsi_contact_plane_slip(line);
+    if (line->has_local_axes && line->contacts > 1) {
+        cpsi_contact_detect(line, true);
+        cpsi_contact_update_geometry(line);
     }
-    if (options->friction == CPS_FRICTION_CONSISTENT) cpsi_rounds_take_bounds(line);
-    cpsi_line_let_go(line, program);
+    if (options->friction == CPS_FRICTION_CONSISTENT) cpsi_rounds_couple_bounds(line);
+    cpsi_line_release_open_contacts(line, program);
     cpsi_line_classify(line, program);
     cpsi_line_report_ends(line);
-    step.distance = cpsi_line_longest_way(line, line->reference);
+    step.distance = cpsi_line_largest_displacement(line, line->reference);
     return step;
 }

@@ -5,7 +5,7 @@
 
 #include "cable/line.h"
 #include "cable/step_options.h"
-#include "ipm/chain_program.h"
+#include "chain/chain_program.h"
 
 /* What a damped step did. */
 typedef struct CpsiDampedStep {

@@ -7,8 +7,8 @@
 #include <math.h>
 
 #include "cable/contact.h"
+#include "cable/friction_law.h"
 #include "cable/line_solve.h"
-#include "cable/rub_set.h"
 
 /* Ends farther apart than an inextensible line is long: a constant force along the ends is a
  * proof. */
@@ -29,7 +29,7 @@ static bool too_short(CpsiLine *line) {
  * obstacle does not stop it. On one plane with isotropic friction, or none; elsewhere the loop has
  * to find out. */
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
-    if (!cpsi_line_both_ends(line, CPS_END_FREE) || line->follows) return false;
+    if (!cpsi_line_both_ends(line, CPS_END_FREE) || line->has_local_axes) return false;
     Vec3 sum = vec3(0, 0, 0);
     double friction = 0, steepest = 0, least = INFINITY, loads = 0;
     bool stopped = false;
@@ -38,7 +38,7 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
         sum = vec3_add(sum, b);
         loads += vec3_norm(b);
         friction += line->friction_bound[j];
-        const double coefficient = cpsi_rub_set(line, j).friction;
+        const double coefficient = cpsi_friction_law(line, j).friction;
         steepest = fmax(steepest, coefficient);
         least = fmin(least, coefficient);
         stopped = stopped || isfinite(line->gap[j]);

@@ -16,10 +16,10 @@
 #include <string.h>
 
 #include "cable/contact.h"
-#include "cable/rub_set.h"
+#include "cable/friction_law.h"
+#include "chain/frame.h"
 #include "ipm/ipm.h"
-#include "linsys/frame.h"
-#include "linsys/small.h"
+#include "linalg/dense.h"
 
 /* Directions that differ by less [rad] are one: a tension that crosses there is off balance by this
  * share at most, and the angle between force and element costs its square. */
@@ -42,7 +42,7 @@ typedef struct Contact {
     int columns, cones, rows;
     double column[3][3]; /* the directions */
     double rise[3];      /* what each does to R */
-    double rub[3][2];    /* and to F, in the tangents of the contact */
+    double disc[3][2];   /* and to F, in the tangents of the contact */
     int dim[CONES];
     double row[CONES][3], h[CONES]; /* of the cones, on the amounts */
 } Contact;
@@ -75,32 +75,32 @@ static void add_row(Contact *contact, int dim, const double row[3], double h) {
     contact->h[contact->rows++] = h;
 }
 
-static void add_column(Contact *contact, Vec3 direction, double rise, const double rub[2]) {
+static void add_column(Contact *contact, Vec3 direction, double rise, const double disc[2]) {
     const int k = contact->columns++;
     vec3_store(contact->column[k], direction);
     contact->rise[k] = rise;
-    memcpy(contact->rub[k], rub, sizeof contact->rub[k]);
+    memcpy(contact->disc[k], disc, sizeof contact->disc[k]);
 }
 
 /* The two tangents along which friction is free to vary: not where it slips, nor where there is
  * none. */
 static void free_tangents(const CpsiLine *line, const CpsiForceLaw *law, int c,
-                          const CpsiRubSet *set, bool out[2]) {
-    double slide[3], way[3];
+                          const CpsiFrictionLaw *set, bool out[2]) {
+    double slide[3], slip[3];
     vec3_store(slide, cpsi_line_slide(line, c));
-    cpsi_frame_to(way, cpsi_line_axes(line, c), slide);
-    for (int a = 0; a < 2; a++) way[a] = fabs(set->ratio[a] * way[a]);
+    cpsi_frame_to(slip, cpsi_line_axes(line, c), slide);
+    for (int a = 0; a < 2; a++) slip[a] = fabs(set->ratio[a] * slip[a]);
     const double still = EXACT * line->length;
     const bool rests = line->state[c] == CPS_NODE_STICK && !law->tight;
     for (int a = 0; a < 2; a++) {
-        const double slid = set->box ? way[a] : sqrt(way[0] * way[0] + way[1] * way[1]);
+        const double slid = set->box ? slip[a] : sqrt(slip[0] * slip[0] + slip[1] * slip[1]);
         out[a] = set->ratio[a] > 0 && (rests || slid <= still);
     }
 }
 
 /* The cones of a contact whose friction is free along `free` of its tangents: columns are the
  * normal one, if there is, then those. */
-static void add_cones(Contact *contact, const CpsiRubSet *set, const bool free[2], bool normal,
+static void add_cones(Contact *contact, const CpsiFrictionLaw *set, const bool free[2], bool normal,
                       double mu, double reaction, double bound, const double force[2]) {
     const int first = normal ? 1 : 0, count = free[0] + free[1];
     const double follow = normal ? mu : 0; /* the bound with the normal column */
@@ -132,19 +132,19 @@ static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit,
                      Contact *out) {
     static const double none[2] = {0, 0};
     *out = (Contact){0};
-    const CpsiRubSet set = cpsi_rub_set(line, c);
+    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
     const double *axes = cpsi_line_axes(line, c), reaction = line->reaction[c] / unit;
-    const bool touching = touches(line, c), rubs = !law->frictionless && set.friction > 0;
-    const bool given = rubs && set.given && (touching || line->friction_bound[c] > 0);
+    const bool touching = touches(line, c), discs = !law->frictionless && set.friction > 0;
+    const bool given = discs && set.given && (touching || line->friction_bound[c] > 0);
     double force[3];
     cpsi_frame_to(force, axes, &line->friction_force[3 * c]);
     for (int a = 0; a < 2; a++) force[a] /= unit;
     bool free[2] = {false, false};
     const Vec3 n = vec3_load(&line->normal[3 * c]);
     if (given && !law->frozen) return false;
-    if (law->frozen || !rubs) {
+    if (law->frozen || !discs) {
         /* R by itself; F within its given bound, which has no directions without end */
-        const bool varies = rubs && !given && !law->directions && line->friction_bound[c] > 0;
+        const bool varies = discs && !given && !law->directions && line->friction_bound[c] > 0;
         if (varies) free_tangents(line, law, c, &set, free);
         if (touching) add_column(out, n, 1, none);
     } else {
@@ -152,19 +152,19 @@ static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit,
         free_tangents(line, law, c, &set, free);
         const bool slips = !(free[0] && free[1]);
         if (slips && !(reaction > 0)) return true;
-        double rub[2] = {0, 0};
-        Vec3 way = n;
+        double disc[2] = {0, 0};
+        Vec3 slip = n;
         for (int a = 0; a < 2 && slips; a++) {
             if (free[a]) continue;
-            rub[a] = force[a] / reaction;
-            way = vec3_axpy(rub[a], vec3_load(&axes[3 * a]), way);
+            disc[a] = force[a] / reaction;
+            slip = vec3_axpy(disc[a], vec3_load(&axes[3 * a]), slip);
         }
-        add_column(out, way, 1, rub);
+        add_column(out, slip, 1, disc);
     }
     const bool normal = out->columns > 0;
     for (int a = 0; a < 2; a++)
         if (free[a]) add_column(out, vec3_load(&axes[3 * a]), 0, (const double[2]){a == 0, a == 1});
-    const double follow = law->frozen || !rubs ? 0 : set.friction;
+    const double follow = law->frozen || !discs ? 0 : set.friction;
     add_cones(out, &set, free, normal, follow, reaction,
               law->frozen ? line->friction_bound[c] / unit : follow * reaction, force);
     return !given;
@@ -379,20 +379,21 @@ bool cpsi_force_set_solve(CpsiForceSet *set) {
 
 /* back ----------------------------------------------------------------------------------------- */
 
-static void put_contact(const CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw *law, int c,
-                        const Contact *contact, const double *amount) {
-    const CpsiRubSet rub = cpsi_rub_set(line, c);
+static void store_contact(const CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw *law, int c,
+                          const Contact *contact, const double *amount) {
+    const CpsiFrictionLaw disc = cpsi_friction_law(line, c);
     const double *axes = cpsi_line_axes(line, c);
     double force[3], reaction = line->reaction[c];
     cpsi_frame_to(force, axes, &line->friction_force[3 * c]);
     for (int k = 0; k < contact->columns; k++) {
         reaction += set->force * amount[k] * contact->rise[k];
-        for (int a = 0; a < 2; a++) force[a] += set->force * amount[k] * contact->rub[k][a];
+        for (int a = 0; a < 2; a++) force[a] += set->force * amount[k] * contact->disc[k][a];
     }
     line->reaction[c] = fmax(0, reaction);
     if (law->frictionless) return;
-    if (!law->frozen) line->friction_bound[c] = rub.friction * line->reaction[c];
-    if (!rub.given) cpsi_rub_clip(&rub, line->friction_bound[c], line->friction_bound[c], force);
+    if (!law->frozen) line->friction_bound[c] = disc.friction * line->reaction[c];
+    if (!disc.given)
+        cpsi_friction_law_clip(&disc, line->friction_bound[c], line->friction_bound[c], force);
     force[2] = 0;
     cpsi_frame_from(&line->friction_force[3 * c], axes, force);
 }
@@ -413,7 +414,7 @@ void cpsi_force_set_apply(CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw 
             for (int a = 0; a < node.own; a++) amount[k] += u[site->at + a] * node.own_way[a][k];
         }
         for (int i = 0; i < node.contacts; i++)
-            put_contact(set, line, law, node.which[i], &node.contact[i], &amount[node.first[i]]);
+            store_contact(set, line, law, node.which[i], &node.contact[i], &amount[node.first[i]]);
     }
     for (int e = 0; e + 1 < line->n; e++) {
         if (set->scalar[e] < 0) continue;

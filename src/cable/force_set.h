@@ -6,7 +6,7 @@
  * the reaction and the friction of each contact within what the law leaves of them. Balance at node
  * j then says that T_j t_j - T_j+1 t_j+1 - b_j is a sum of forces of its contacts: a condition on
  * two neighbouring tensions and, in a corner, on how the forces are shared between the contacts. So
- * the set is a chain of scalars (ipm/scalar_program.h). Where a node leaves no choice its two
+ * the set is a chain of scalars (chain/scalar_program.h). Where a node leaves no choice its two
  * elements keep what they have; where it leaves one ratio (a line that runs straight through a free
  * node, or slides round a post) they are one scalar.
  *
@@ -15,7 +15,7 @@
 #define CAPSTAN_SRC_CABLE_FORCE_SET_H
 
 #include "cable/line.h"
-#include "ipm/scalar_program.h"
+#include "chain/scalar_program.h"
 
 /* Which law the forces obey, and which of them are asked for. */
 typedef struct CpsiForceLaw {

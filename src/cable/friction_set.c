@@ -13,21 +13,21 @@
 
 #include "base/arena.h"
 #include "base/status.h"
-#include "cone/soc.h"
-#include "ipm/conic_program.h"
-#include "linsys/small.h"
-#include "set/node.h"
+#include "conic/dense_program.h"
+#include "ipm/soc.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 /* What a support must be good for to be used, relative to data of order one. */
 static const double ACCEPT = 1e-9;
 /* A conic form whose rows, of size one, leave no more room than this has no interior. */
 static const double LEAST_MARGIN = 1e-9;
 /* Rows of the conic form: every node that touches holds a matrix of them. */
-enum { MOST_ROWS = 128, MOST_CENTERING = 200 };
+enum { MOST_ROWS = 128, MAX_CENTERING = 200 };
 
 struct CpsiFrictionSet {
-    CpsiShapeForm shape;
-    CpsiForm *form;
+    CpsiConicSet shape;
+    CpsiConicForm *form;
     CpsiArena arena;
     double *centre, *cost;
     CpsiConicProgram *program;
@@ -65,8 +65,8 @@ CpsStatus cpsi_friction_set_check(const CpsSet *set, const char *name, CpsError 
 
 /* ---- make ---- */
 
-static void lay(CpsiFrictionSet *set) {
-    const CpsiForm *form = set->form;
+static void layout(CpsiFrictionSet *set) {
+    const CpsiConicForm *form = set->form;
     set->centre = CPSI_TAKE(&set->arena, form->unknowns, double);
     set->cost = CPSI_TAKE(&set->arena, form->unknowns, double);
     set->program =
@@ -82,7 +82,7 @@ typedef struct Work {
     double *hessian, *factor;    /* (unknowns, unknowns) */
 } Work;
 
-static void lay_work(CpsiArena *arena, Work *work, const CpsiForm *form) {
+static void layout_work(CpsiArena *arena, Work *work, const CpsiConicForm *form) {
     const size_t n = (size_t)form->unknowns, m = (size_t)form->rows;
     work->program = cpsi_conic_layout(arena, form->unknowns + 1, form->rows + 1, form->cones + 1,
                                       form->largest_cone);
@@ -98,7 +98,7 @@ static void lay_work(CpsiArena *arena, Work *work, const CpsiForm *form) {
 }
 
 /* The largest t <= 1 with A v + b - t e in K, and v. */
-static double find_margin(const CpsiForm *form, const Work *work, double *v) {
+static double find_margin(const CpsiConicForm *form, const Work *work, double *v) {
     const size_t n = (size_t)form->unknowns, m = (size_t)form->rows, width = n + 1;
     for (size_t i = 0; i < m; i++)
         memcpy(&work->a[i * width], &form->a[i * n], n * sizeof *work->a);
@@ -122,7 +122,7 @@ static double find_margin(const CpsiForm *form, const Work *work, double *v) {
 
 /* z = A v + b, its gradient A'z^-1 and the Hessian A'(2 (Jz)(Jz)'/det^2 - J/det) A of the barrier.
  * False: z is not inside. */
-static bool differentiate(const CpsiForm *form, const Work *work, const double *v) {
+static bool differentiate(const CpsiConicForm *form, const Work *work, const double *v) {
     const size_t n = (size_t)form->unknowns;
     memset(work->gradient, 0, n * sizeof *work->gradient);
     memset(work->hessian, 0, n * n * sizeof *work->hessian);
@@ -151,9 +151,9 @@ static bool differentiate(const CpsiForm *form, const Work *work, const double *
 }
 
 /* From a point inside to the analytic centre; false where it is not reached. */
-static bool centre(const CpsiForm *form, const Work *work, double *v) {
+static bool centre(const CpsiConicForm *form, const Work *work, double *v) {
     const int n = form->unknowns;
-    for (int round = 0; round < MOST_CENTERING; round++) {
+    for (int round = 0; round < MAX_CENTERING; round++) {
         if (!differentiate(form, work, v) || !cpsi_cholesky(n, work->hessian, work->factor))
             return false;
         /* step = (L L')^-1 gradient, decrement = |L^-1 gradient| */
@@ -176,10 +176,10 @@ static bool centre(const CpsiForm *form, const Work *work, double *v) {
 static CpsStatus find_centre(CpsiFrictionSet *set, const char *name, CpsError *err) {
     CpsiArena arena = {0};
     Work work;
-    lay_work(&arena, &work, set->form);
+    layout_work(&arena, &work, set->form);
     if (!cpsi_arena_allocate(&arena))
         return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a friction set");
-    lay_work(&arena, &work, set->form);
+    layout_work(&arena, &work, set->form);
     const bool found = find_margin(set->form, &work, set->centre) > LEAST_MARGIN &&
                        centre(set->form, &work, set->centre);
     cpsi_arena_free(&arena);
@@ -201,18 +201,18 @@ static CpsStatus as_segment(const CpsSet *set, const double along[2], CpsSet **o
 }
 
 static void describe(CpsiFrictionSet *set, double reach) {
-    const CpsiForm *form = set->form;
-    set->shape = (CpsiShapeForm){.unknowns = form->unknowns,
-                                 .rows = form->rows,
-                                 .cones = form->cones,
-                                 .spread = form->rows,
-                                 .dim = form->dim,
-                                 .a = form->a,
-                                 .b = form->b,
-                                 .p = form->p,
-                                 .origin = form->origin,
-                                 .centre = set->centre,
-                                 .reach = reach};
+    const CpsiConicForm *form = set->form;
+    set->shape = (CpsiConicSet){.unknowns = form->unknowns,
+                                .rows = form->rows,
+                                .cones = form->cones,
+                                .spread = form->rows,
+                                .dim = form->dim,
+                                .a = form->a,
+                                .b = form->b,
+                                .p = form->p,
+                                .origin = form->origin,
+                                .centre = set->centre,
+                                .reach = reach};
     for (int k = 0; k < form->cones; k++) set->shape.spread += form->dim[k] > 1;
     CpsiConicProgram *program = set->program;
     program->dim = form->dim;
@@ -235,18 +235,18 @@ static CpsStatus find_reach(const CpsSet *set, double *reach, CpsError *err) {
 }
 
 static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, CpsError *err) {
-    CpsStatus status = cpsi_form_make(of, &set->form, err);
+    CpsStatus status = cpsi_conic_form_make(of, &set->form, err);
     if (status) return status;
-    const CpsiForm *form = set->form;
+    const CpsiConicForm *form = set->form;
     if (form->empty || form->lines > 0 || form->unknowns == 0 || form->rows > MOST_ROWS)
         return cpsi_fail(err, CPS_ERR_LIMIT,
                          "obstacle '%s': friction set: its conic form has %d rows, expected 1 to "
                          "%d: use fewer parts",
                          name, form->rows, (int)MOST_ROWS);
-    lay(set);
+    layout(set);
     if (!cpsi_arena_allocate(&set->arena))
         return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a friction set");
-    lay(set);
+    layout(set);
     double reach;
     status = find_reach(of, &reach, err);
     if (!status) status = find_centre(set, name, err);
@@ -276,15 +276,15 @@ CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFricti
 
 void cpsi_friction_set_free(CpsiFrictionSet *set) {
     if (!set) return;
-    cpsi_form_free(set->form);
+    cpsi_conic_form_free(set->form);
     cpsi_arena_free(&set->arena);
     free(set);
 }
 
-const CpsiShapeForm *cpsi_friction_set_shape(const CpsiFrictionSet *set) { return &set->shape; }
+const CpsiConicSet *cpsi_friction_set_conic(const CpsiFrictionSet *set) { return &set->shape; }
 
 double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]) {
-    const CpsiShapeForm *form = &set->shape;
+    const CpsiConicSet *form = &set->shape;
     const double size = hypot(u[0], u[1]);
     if (!(size > 0)) return size;
     double largest = 0;

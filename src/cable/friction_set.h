@@ -6,7 +6,7 @@
 #define CAPSTAN_SRC_CABLE_FRICTION_SET_H
 
 #include "capstan/set.h"
-#include "ipm/elements.h"
+#include "chain/elements.h"
 
 typedef struct CpsiFrictionSet CpsiFrictionSet;
 
@@ -18,7 +18,7 @@ CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFricti
                                  CpsError *err);
 void cpsi_friction_set_free(CpsiFrictionSet *set);
 
-const CpsiShapeForm *cpsi_friction_set_shape(const CpsiFrictionSet *set);
+const CpsiConicSet *cpsi_friction_set_conic(const CpsiFrictionSet *set);
 
 /* phi(u) = max -<u, F> over the set; to about 1e-13 of reach |u|, NaN where the small program
  * failed. Not for two threads at once. */

@@ -11,7 +11,7 @@
  * Runs of nodes joined by elements that pull move as one rigid body that does not turn: a cluster.
  * What its nodes' contacts leave free is a linear space of dimension 0 to 3, cut by half-spaces.
  * Clusters are joined by single elements without tension. So the nearest place is a program over
- * the chain of clusters (ipm/nearest_program.h), and its solution is at hand where no element and
+ * the chain of clusters (chain/nearest_program.h), and its solution is at hand where no element and
  * no half-space is in the way of each cluster's own nearest place.
  *
  * Which of two complementary quantities of a round is the one that vanishes is read from their
@@ -23,7 +23,7 @@
 #include <string.h>
 
 #include "base/larger.h"
-#include "cable/rub_set.h"
+#include "cable/friction_law.h"
 #include "ipm/ipm.h"
 
 /* What carries more than this, per unit of force, is not called without force: others places would
@@ -63,18 +63,19 @@ void cpsi_least_motion_layout(CpsiLeastMotion *least, CpsiArena *arena, int n, i
 /* what the round says -------------------------------------------------------------------------- */
 
 static void mark_friction(CpsiLeastMotion *least, const CpsiChainProgram *program) {
-    const CpsiRub *rub = &program->rub;
-    for (int k = 0; k < rub->count; k++) {
-        const double *s = rub->s[k], *z = rub->z[k];
+    const CpsiFrictionDisc *disc = &program->disc;
+    for (int k = 0; k < disc->count; k++) {
+        const double *s = disc->s[k], *z = disc->z[k];
         const bool slips =
             sqrt(s[1] * s[1] + s[2] * s[2]) * z[0] > z[0] - sqrt(z[1] * z[1] + z[2] * z[2]);
         const bool across =
-            k > 0 && rub->contact[k - 1] == rub->contact[k]; /* the second of a box */
-        least->mark[rub->contact[k]] |= RUBS | (slips ? across ? SLIPS_ACROSS : SLIPS : 0);
+            k > 0 && disc->contact[k - 1] == disc->contact[k]; /* the second of a box */
+        least->mark[disc->contact[k]] |= RUBS | (slips ? across ? SLIPS_ACROSS : SLIPS : 0);
     }
-    for (int k = 0; k < program->shape.count; k++) {
-        const bool slips = cpsi_shape_way(program, k) > cpsi_shape_margin(&program->shape, k);
-        least->mark[program->shape.contact[k]] |= RUBS | (slips ? SLIPS : 0);
+    for (int k = 0; k < program->conic.count; k++) {
+        const bool slips =
+            cpsi_friction_conic_slip(program, k) > cpsi_friction_conic_margin(&program->conic, k);
+        least->mark[program->conic.contact[k]] |= RUBS | (slips ? SLIPS : 0);
     }
 }
 
@@ -88,13 +89,13 @@ static void read_round(const CpsiLine *line, CpsiLeastMotion *least,
         if (line->friction_bound[c] > 0) least->mark[c] = RUBS;
     for (int i = 1; !program && i < line->n; i++) least->slack[i] = true;
     if (!program) return;
-    const CpsiStop *stop = &program->stop;
-    for (int k = 0; k < stop->count; k++)
-        if (!(stop->z[k] < stop->s[k] && stop->z[k] < LOOSE))
-            least->mark[stop->contact[k]] = PRESSED;
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++)
+        if (!(unilateral->z[k] < unilateral->s[k] && unilateral->z[k] < LOOSE))
+            least->mark[unilateral->contact[k]] = PRESSED;
     mark_friction(least, program);
     for (int i = 1; i < line->n; i++) {
-        const double *s = program->stretch.s[i], *z = program->stretch.z[i];
+        const double *s = program->segment.s[i], *z = program->segment.z[i];
         least->slack[i] =
             z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]) && z[0] < LOOSE;
     }
@@ -158,9 +159,9 @@ static void cut(CpsiLeastMotion *least, int j, double weight, Vec3 a, double roo
 /* What friction leaves free along one of its axes, of which it slips or not; `way` is the slip
  * there. */
 static void restrict_along(CpsiLeastMotion *least, int j, double weight, double *basis,
-                           int *freedom, Vec3 axis, bool slips, double way) {
-    if (slips && fabs(way) > LEAST_WAY)
-        cut(least, j, weight, vec3_scale(way > 0 ? 1 : -1, axis), fabs(way));
+                           int *freedom, Vec3 axis, bool slips, double slip) {
+    if (slips && fabs(slip) > LEAST_WAY)
+        cut(least, j, weight, vec3_scale(slip > 0 ? 1 : -1, axis), fabs(slip));
     else
         block(basis, freedom, axis);
 }
@@ -171,30 +172,31 @@ static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, d
                           double *basis, int *freedom) {
     const int j = cpsi_line_node(line, c), mark = least->mark[c];
     const double *axes = cpsi_line_axes(line, c);
-    const CpsiRubSet set = cpsi_rub_set(line, c);
+    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
     const Vec3 n = cpsi_line_friction_normal(line, c),
-               from = vec3_load(line->follows ? &line->base[3 * j] : &line->reference[3 * j]);
+               from =
+                   vec3_load(line->has_local_axes ? &line->base[3 * j] : &line->reference[3 * j]);
     const Vec3 u = vec3_sub(vec3_load(&line->position[3 * j]), from);
-    const Vec3 before = line->follows ? vec3_load(&line->slide[3 * c]) : vec3(0, 0, 0);
-    const Vec3 way =
+    const Vec3 before = line->has_local_axes ? vec3_load(&line->slide[3 * c]) : vec3(0, 0, 0);
+    const Vec3 slip =
         vec3_scale(1 / line->length, vec3_add(before, vec3_axpy(-vec3_dot(u, n), n, u)));
     Vec3 along[2] = {row(axes, 0), row(axes, 1)};
     bool acts[2] = {set.given || set.ratio[0] > 0, set.given || set.ratio[1] > 0},
          slips[2] = {mark & SLIPS, mark & (set.box ? SLIPS_ACROSS : SLIPS)};
-    if (set.given && cpsi_friction_set_shape(set.given)->unknowns == 1) {
-        const double *p = cpsi_friction_set_shape(set.given)->p, size = hypot(p[0], p[1]);
+    if (set.given && cpsi_friction_set_conic(set.given)->unknowns == 1) {
+        const double *p = cpsi_friction_set_conic(set.given)->p, size = hypot(p[0], p[1]);
         const Vec3 x = along[0], y = along[1];
         along[0] = vec3_axpy(p[0] / size, x, vec3_scale(p[1] / size, y));
         along[1] = vec3_cross(n, along[0]);
         acts[1] = false;
     } else if (!set.box && acts[0] && acts[1]) {
-        const double size = vec3_norm(way);
+        const double size = vec3_norm(slip);
         if (!slips[0] || size <= LEAST_WAY) {
             block(basis, freedom, along[0]);
             block(basis, freedom, along[1]);
             return;
         }
-        const Vec3 unit = vec3_scale(1 / size, way);
+        const Vec3 unit = vec3_scale(1 / size, slip);
         block(basis, freedom, vec3_cross(n, unit));
         cut(least, j, weight, unit, size);
         return;
@@ -202,7 +204,7 @@ static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, d
     for (int a = 0; a < 2; a++)
         if (acts[a])
             restrict_along(least, j, weight, basis, freedom, along[a], slips[a],
-                           vec3_dot(way, along[a]));
+                           vec3_dot(slip, along[a]));
 }
 
 /* What contact c leaves free. */
@@ -219,7 +221,7 @@ static void restrict_contact(const CpsiLine *line, CpsiLeastMotion *least, int c
         cut(least, j, weight, n, (line->gap[c] + vec3_dot(n, u)) / line->length);
     }
     /* a bound that follows the reaction is none without it */
-    if ((mark & RUBS) && (bounds == CPSI_BOUNDS_GIVEN || (mark & PRESSED)))
+    if ((mark & RUBS) && (bounds == CPSI_BOUNDS_FIXED || (mark & PRESSED)))
         restrict_slip(line, least, c, weight, basis, freedom);
 }
 
@@ -282,10 +284,11 @@ static double violation(const CpsiLine *line, const CpsiLeastMotion *least) {
                                                vec3_load(&least->place[3 * (i - 1)]))) /
                                 l -
                             1;
-        if (over * l > ROUNDING * l + lost) size = cpsi_larger(size, over * l / line->length);
+        if (over * l > ROUNDING * l + lost) size = cpsi_max_nan(size, over * l / line->length);
     }
     for (int k = 0; k < half->count; k++)
-        if (half->gap[k] < -ROUNDING - lost / line->length) size = cpsi_larger(size, -half->gap[k]);
+        if (half->gap[k] < -ROUNDING - lost / line->length)
+            size = cpsi_max_nan(size, -half->gap[k]);
     return size;
 }
 
@@ -321,7 +324,7 @@ static void fill(const CpsiLine *line, CpsiLeastMotion *least, double size) {
     CpsiNearestProgram *program = &least->program;
     CpsiChainProgram *chain = &program->chain;
     cpsi_chain_program_resize(chain, chain->n, true);
-    chain->stretch.compliance = 0;
+    chain->segment.compliance = 0;
     program->size = size;
     memcpy(chain->frame, least->basis, 9 * (size_t)chain->n * sizeof *chain->frame);
     memset(chain->base.load, 0, 3 * (size_t)chain->n * sizeof *chain->base.load);
@@ -337,8 +340,8 @@ static void fill(const CpsiLine *line, CpsiLeastMotion *least, double size) {
                 a < program->freedom[k] ? vec3_dot(row(&least->basis[9 * k], a), back) : 0;
         if (k == 0) continue;
         const double l = line->element_length[j - 1];
-        chain->stretch.length[k] = l / line->length;
-        vec3_store(&chain->stretch.s[k][1],
+        chain->segment.length[k] = l / line->length;
+        vec3_store(&chain->segment.s[k][1],
                    vec3_scale(1 / l, vec3_sub(at, vec3_load(&line->position[3 * (j - 1)]))));
     }
 }
@@ -351,7 +354,7 @@ static bool solve(const CpsiLine *line, CpsiLeastMotion *least, double size, int
     const CpsiIpmOptions options = {.target = TARGET,
                                     .scale = 1,
                                     .max_iterations = most,
-                                    .centrings = CENTRINGS,
+                                    .centering_steps = CENTRINGS,
                                     .sharpenings = SHARPENINGS};
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->chain.base, &options);
     *iterations += ipm.iterations;
@@ -368,7 +371,7 @@ static bool solve(const CpsiLine *line, CpsiLeastMotion *least, double size, int
 }
 
 /* Take the places. A node that rounding has put below the plane of its contact is lifted to it. */
-static void take_places(CpsiLine *line, const CpsiLeastMotion *least) {
+static void accept_places(CpsiLine *line, const CpsiLeastMotion *least) {
     memcpy(line->position, least->place, 3 * (size_t)line->n * sizeof *line->position);
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         const int j = cpsi_line_node(line, c);
@@ -387,14 +390,14 @@ static void take_places(CpsiLine *line, const CpsiLeastMotion *least) {
 /* Are elements kept out of obstacles in this round?  Their contacts tie two nodes each, which
  * clusters do not know. */
 static bool ties_nodes(const CpsiLine *line, const CpsiChainProgram *program) {
-    for (int k = 0; program && k < program->stop.count; k++)
-        if (program->stop.contact[k] >= cpsi_line_contacts(line)) return true;
+    for (int k = 0; program && k < program->unilateral.count; k++)
+        if (program->unilateral.contact[k] >= cpsi_line_contacts(line)) return true;
     return false;
 }
 
 static bool is_slack_somewhere(const CpsiChainProgram *program) {
     for (int i = 1; i < program->n; i++)
-        if (!(program->stretch.z[i][0] > LOOSE)) return true;
+        if (!(program->segment.z[i][0] > LOOSE)) return true;
     return false;
 }
 
@@ -422,20 +425,20 @@ int cpsi_least_motion(CpsiLine *line, CpsiLeastMotion *least, const CpsiChainPro
     const bool found = !(size > 0) || solve(line, least, size, max_iterations, &iterations);
     line->report.places = found ? CPS_PLACES_NEAREST : CPS_PLACES_ANY;
     least->chose = true;
-    if (found) take_places(line, least);
+    if (found) accept_places(line, least);
     return iterations;
 }
 
 void cpsi_least_motion_restate(const CpsiLine *line, CpsiChainProgram *program) {
-    CpsiRub *rub = &program->rub;
-    for (int k = 0; k < rub->count; k++) {
-        const int c = rub->contact[k];
-        const CpsiRubSet set = cpsi_rub_set(line, c);
-        const bool across = k > 0 && rub->contact[k - 1] == c;
+    CpsiFrictionDisc *disc = &program->disc;
+    for (int k = 0; k < disc->count; k++) {
+        const int c = disc->contact[k];
+        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+        const bool across = k > 0 && disc->contact[k - 1] == c;
         const double *axes = cpsi_line_axes(line, c);
-        const Vec3 way = vec3_scale(1 / line->length, cpsi_line_slide(line, c));
+        const Vec3 slip = vec3_scale(1 / line->length, cpsi_line_slide(line, c));
         for (int a = 0; a < 2; a++)
-            rub->s[k][1 + a] =
-                (!set.box || across == (a == 1) ? set.ratio[a] : 0) * vec3_dot(row(axes, a), way);
+            disc->s[k][1 + a] =
+                (!set.box || across == (a == 1) ? set.ratio[a] : 0) * vec3_dot(row(axes, a), slip);
     }
 }

@@ -6,7 +6,7 @@
 
 #include "cable/line.h"
 #include "cable/step_program.h"
-#include "ipm/nearest_program.h"
+#include "chain/nearest_program.h"
 
 /* Scratch of the second program of a round, and of what it is made from. */
 typedef struct CpsiLeastMotion {

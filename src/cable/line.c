@@ -21,29 +21,29 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->tension = CPSI_TAKE(arena, n, double);
     line->motion = CPSI_TAKE(arena, 3 * n, double);
     line->state = CPSI_TAKE(arena, contacts, unsigned char);
-    line->slide = line->follows ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
-    line->round = line->follows ? CPSI_TAKE(arena, contacts, double) : NULL;
-    line->base = line->follows ? CPSI_TAKE(arena, 3 * n, double) : NULL;
-    line->axes = line->follows ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
-    line->first_axes = line->follows ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
-    line->curvature = line->follows ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
-    line->on = line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
-    line->pressed = line->follows ? CPSI_TAKE(arena, contacts, bool) : NULL;
+    line->slide = line->has_local_axes ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
+    line->round = line->has_local_axes ? CPSI_TAKE(arena, contacts, double) : NULL;
+    line->base = line->has_local_axes ? CPSI_TAKE(arena, 3 * n, double) : NULL;
+    line->axes = line->has_local_axes ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
+    line->first_axes = line->has_local_axes ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
+    line->curvature = line->has_local_axes ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
+    line->on = line->has_local_axes ? CPSI_TAKE(arena, contacts, int) : NULL;
+    line->pressed = line->has_local_axes ? CPSI_TAKE(arena, contacts, bool) : NULL;
     line->beta = line->element_contacts > 0 ? CPSI_TAKE(arena, n, double) : NULL;
-    line->carries = line->follows ? CPSI_TAKE(arena, n, double) : NULL;
-    line->trail = line->follows ? CPSI_TAKE(arena, 6 * (size_t)n, double) : NULL;
-    if (line->follows) cpsi_ahead_layout(&line->ahead, arena, line->n);
+    line->carries = line->has_local_axes ? CPSI_TAKE(arena, n, double) : NULL;
+    line->trail = line->has_local_axes ? CPSI_TAKE(arena, 6 * (size_t)n, double) : NULL;
+    if (line->has_local_axes) cpsi_anderson_layout(&line->anderson, arena, line->n);
     const bool inextensible = line->compliance == 0;
     line->tension_before = inextensible ? CPSI_TAKE(arena, n, double) : NULL;
     line->reaction_before = inextensible ? CPSI_TAKE(arena, contacts, double) : NULL;
-    line->on_before = inextensible && line->follows ? CPSI_TAKE(arena, contacts, int) : NULL;
+    line->on_before = inextensible && line->has_local_axes ? CPSI_TAKE(arena, contacts, int) : NULL;
 }
 
-double cpsi_line_longest_way(const CpsiLine *line, const double *from) {
+double cpsi_line_largest_displacement(const CpsiLine *line, const double *from) {
     double longest = 0;
     for (int j = 0; j < line->n; j++)
-        longest = cpsi_larger(longest, vec3_norm(vec3_sub(vec3_load(&line->position[3 * j]),
-                                                          vec3_load(&from[3 * j]))));
+        longest = cpsi_max_nan(longest, vec3_norm(vec3_sub(vec3_load(&line->position[3 * j]),
+                                                           vec3_load(&from[3 * j]))));
     return longest;
 }
 
@@ -80,7 +80,7 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
     return worst;
 }
 
-void cpsi_line_measure(CpsiLine *line) {
+void cpsi_line_set_arc_length(CpsiLine *line) {
     /* compensated: the last abscissa is the length to the last digit, for any number of elements */
     double sum = 0, carry = 0;
     line->arc_length[0] = 0;
@@ -115,6 +115,6 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));
         line->reaction[j] = reaction > 0 ? reaction : 0;
         line->state[j] = CPS_NODE_STICK;
-        if (line->follows) line->on[j] = on;
+        if (line->has_local_axes) line->on[j] = on;
     }
 }

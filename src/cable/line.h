@@ -12,7 +12,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
-#include "cable/ahead.h"
+#include "cable/anderson.h"
 #include "cable/friction_set.h"
 #include "capstan/evolve.h"
 #include "geometry/obstacle.h"
@@ -28,16 +28,16 @@ typedef struct CpsiLine {
     const CpsiObstacle *obstacle;               /* (obstacle_count) */
     const CpsiFrictionSet *const *friction_set; /* (obstacle_count) of those that have one, NULL: no
                                                    friction; NULL: none has */
-    const double *turn; /* (obstacle_count) [rad] by which each turns in this part of the step */
-    bool has_zones;     /* friction differs along the line */
-    bool follows;       /* nodes have axes of their own, which follow them: more than one plane with
-                           isotropic friction */
-    int contacts;       /* of a node: 2 where there is more than one obstacle, else 1 */
-    int element_contacts;   /* of an element: 1 where there is a round obstacle, else 0; the arrays
-                               (contacts, n) have so many rows more */
-    double common[9];       /* axes of the whole line: those of the one plane, or of the world */
-    CpsEnd end[2];          /* imposed now */
-    double *arc_length;     /* (n) [m] */
+    const double *turn;   /* (obstacle_count) [rad] by which each turns in this part of the step */
+    bool has_zones;       /* friction differs along the line */
+    bool has_local_axes;  /* nodes have axes of their own, which follow them: more than one plane
+                      with  isotropic friction */
+    int contacts;         /* of a node: 2 where there is more than one obstacle, else 1 */
+    int element_contacts; /* of an element: 1 where there is a round obstacle, else 0; the arrays
+                             (contacts, n) have so many rows more */
+    double common[9];     /* axes of the whole line: those of the one plane, or of the world */
+    CpsEnd end[2];        /* imposed now */
+    double *arc_length;   /* (n) [m] */
     double *element_length; /* (n - 1) [m] element e joins nodes e and e + 1 */
     /* the step */
     double *reference; /* (n, 3) [m] */
@@ -75,8 +75,8 @@ typedef struct CpsiLine {
     bool gains;      /* contact is looked for everywhere */
     bool frozen; /* friction keeps the bounds and axes of the reference while contact is looked for
                     where the nodes are */
-    double *trail;   /* (n, 3) [m] where rounds with drag began to be watched */
-    CpsiAhead ahead; /* of the rounds of a step */
+    double *trail;         /* (n, 3) [m] where rounds with drag began to be watched */
+    CpsiAnderson anderson; /* of the rounds of a step */
     /* where it is inextensible, else NULL: what its tensions and reactions were before the step,
      * and room to choose among those after */
     double *tension_before;  /* (n - 1) [N] T_R */
@@ -93,7 +93,7 @@ typedef struct CpsiLine {
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 
 /* Fill the arc length from element_length. */
-void cpsi_line_measure(CpsiLine *line);
+void cpsi_line_set_arc_length(CpsiLine *line);
 
 /* [m] Natural length that node j stands for: half of its elements. */
 static inline double cpsi_line_share(const CpsiLine *line, int j) {
@@ -150,13 +150,13 @@ static inline bool cpsi_line_is_contact_held(const CpsiLine *line, int c) {
 
 /* The obstacle of contact c, or NULL; the axes of its friction. */
 static inline const CpsiObstacle *cpsi_line_obstacle(const CpsiLine *line, int c) {
-    if (line->follows) return line->on[c] >= 0 ? &line->obstacle[line->on[c]] : NULL;
+    if (line->has_local_axes) return line->on[c] >= 0 ? &line->obstacle[line->on[c]] : NULL;
     return line->obstacle_count > 0 ? line->obstacle : NULL;
 }
 
 static inline const double *cpsi_line_axes(const CpsiLine *line, int c) {
     if (line->frozen) return &line->first_axes[9 * c];
-    return line->follows ? &line->axes[9 * c] : line->common;
+    return line->has_local_axes ? &line->axes[9 * c] : line->common;
 }
 
 /* The normal of the plane in which contact c rubs: that of the contact, but where friction is
@@ -167,14 +167,14 @@ static inline Vec3 cpsi_line_friction_normal(const CpsiLine *line, int c) {
 
 /* [m] The way of the node on the obstacle of contact c in this step. */
 static inline Vec3 cpsi_line_slide(const CpsiLine *line, int c) {
-    if (line->follows) return vec3_load(&line->slide[3 * c]);
+    if (line->has_local_axes) return vec3_load(&line->slide[3 * c]);
     const Vec3 u = vec3_sub(vec3_load(&line->position[3 * c]), vec3_load(&line->reference[3 * c]));
     const Vec3 n = vec3_load(&line->normal[3 * c]);
     return vec3_axpy(-vec3_dot(u, n), n, u);
 }
 
 /* [m] The longest way of a node from place `from` (n, 3) to where it is. */
-double cpsi_line_longest_way(const CpsiLine *line, const double *from);
+double cpsi_line_largest_displacement(const CpsiLine *line, const double *from);
 
 /* The obstacle nearest to a point (-1: none) and the distance to it (INFINITY). */
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap);

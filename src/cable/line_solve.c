@@ -8,17 +8,17 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
-#include "cable/side.h"
-#include "linsys/frame.h"
+#include "cable/obstacle_side.h"
+#include "chain/frame.h"
 
 /* Steps to the centre at the target (line_step.c), and towards smaller products where friction
  * acts: each halves what a node at its limit creeps, and takes two digits off what the force of one
  * that slips lacks. */
 static const int SHARPENINGS = 6;
 /* No step takes a node this many lengths away: it was on its way to nowhere. */
-static const double AFAR = 1e4;
+static const double MAX_DISPLACEMENT = 1e4;
 /* A reference this much tighter than the loads and the ends explain. */
-static const double HELD = 100;
+static const double PRESTRESS_FACTOR = 100;
 /* ... and, where nothing else asks for any force, by more than this strain: less is what rounding
  * leaves of |x'| <= 1. */
 static const double LEAST_STRAIN = 1e-12;
@@ -30,8 +30,8 @@ static const double PLACES = CPSI_TOUCH;
 /* A reaction below this share of the unit of force is rounding where the node is apart. */
 static const double LEAST_REACTION = 1e-12;
 
-void cpsi_line_pose(CpsiLine *line, const CpsiStepOptions *options) {
-    cpsi_contact_pose(line, options->contact, options->friction, options->frictionless);
+void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
+    cpsi_contact_set_reference(line, options->contact, options->friction, options->frictionless);
     for (int j = 0; j < line->n; j++)
         for (int a = 0; a < 3; a++)
             line->load[3 * j + a] = cpsi_line_share(line, j) * line->weight[a];
@@ -86,7 +86,8 @@ static void straighten(CpsiLine *line) {
 
 bool cpsi_line_is_near(const CpsiLine *line) {
     for (int j = 0; j < 3 * line->n; j++)
-        if (!(fabs(line->position[j] - line->reference[j]) <= AFAR * line->length)) return false;
+        if (!(fabs(line->position[j] - line->reference[j]) <= MAX_DISPLACEMENT * line->length))
+            return false;
     return true;
 }
 
@@ -94,7 +95,7 @@ bool cpsi_line_is_near(const CpsiLine *line) {
  * Strict contact with frozen friction sees them from the reference only, from where the line goes
  * straight and passes none. */
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
-    const bool consistent = line->follows && options->friction == CPS_FRICTION_CONSISTENT;
+    const bool consistent = line->has_local_axes && options->friction == CPS_FRICTION_CONSISTENT;
     if ((consistent || line->frozen) &&
         !(cpsi_contact_depth(line) <= 0.1 * CPSI_TOUCH * line->length))
         return false;
@@ -102,9 +103,11 @@ static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     if (line->gains &&
         !(line->report.certificate.element_penetration <= 0.1 * CPSI_TOUCH * line->length))
         return false;
-    const bool straight = line->follows && !consistent && !line->frozen && !options->frictionless;
-    if (straight && cpsi_side_share(line, line->reference, line->position, 1) < 1) return false;
-    if (consistent && !cpsi_law_holds(line, options->solver.tolerance)) return false;
+    const bool straight =
+        line->has_local_axes && !consistent && !line->frozen && !options->frictionless;
+    if (straight && cpsi_obstacle_side_share(line, line->reference, line->position, 1) < 1)
+        return false;
+    if (consistent && !cpsi_law_refcount(line, options->solver.tolerance)) return false;
     return cpsi_line_is_near(line);
 }
 
@@ -120,8 +123,8 @@ static bool is_a_line(const CpsCertificate *c, double tolerance) {
 /* The iterate of the loop as a certified answer, or what it is instead. The loop's own residuals
  * (tensions against elongations, positions against distances) must be well below the tolerance too,
  * but not below what rounding leaves. */
-CpsOutcome cpsi_line_judge(const CpsiLine *line, const CpsiStepOptions *options,
-                           const CpsiIpmReport *ipm) {
+CpsOutcome cpsi_line_outcome(const CpsiLine *line, const CpsiStepOptions *options,
+                             const CpsiIpmReport *ipm) {
     const CpsCertificate *c = &line->report.certificate;
     const double tolerance = options->solver.tolerance;
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
@@ -135,14 +138,16 @@ CpsOutcome cpsi_line_judge(const CpsiLine *line, const CpsiStepOptions *options,
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }
 
-void cpsi_line_let_go(CpsiLine *line, const CpsiChainProgram *program) {
-    const CpsiStop *stop = &program->stop;
-    for (int k = 0; k < stop->count; k++) {
-        if (!(stop->z[k] < stop->s[k] && stop->weight[k] * stop->z[k] < LEAST_REACTION)) continue;
+void cpsi_line_release_open_contacts(CpsiLine *line, const CpsiChainProgram *program) {
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++) {
+        if (!(unilateral->z[k] < unilateral->s[k] &&
+              unilateral->weight[k] * unilateral->z[k] < LEAST_REACTION))
+            continue;
         if (line->frozen)
-            line->reaction[stop->contact[k]] = 0;
+            line->reaction[unilateral->contact[k]] = 0;
         else
-            cpsi_contact_clear(line, stop->contact[k]);
+            cpsi_contact_clear(line, unilateral->contact[k]);
     }
 }
 
@@ -150,7 +155,7 @@ void cpsi_line_certify(CpsiLine *line, const CpsiStepOptions *options, const Cps
     cpsi_balance_forces(line);
     line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
     if (options->frictionless) line->report.certificate.friction_residual = 0;
-    line->report.outcome = cpsi_line_judge(line, options, ipm);
+    line->report.outcome = cpsi_line_outcome(line, options, ipm);
 }
 
 /* The tension of the reference by its own strain; 0 of an inextensible line. */
@@ -169,9 +174,10 @@ double cpsi_line_unit_force(const CpsiLine *line, CpsiBounds bounds) {
                                          (cpsi_line_is_taut(line) ? 1 + TAUT_SLACK : 1)),
            all = 0;
     const double before = line->obstacle_count > 0 ? reference_tension(line) : 0;
-    if (before > HELD * force && (force > 0 || before * line->compliance > LEAST_STRAIN))
+    if (before > PRESTRESS_FACTOR * force &&
+        (force > 0 || before * line->compliance > LEAST_STRAIN))
         force = before;
-    for (int c = 0; c < cpsi_line_all_contacts(line) && bounds == CPSI_BOUNDS_TRIED; c++)
+    for (int c = 0; c < cpsi_line_all_contacts(line) && bounds == CPSI_BOUNDS_TRIAL; c++)
         all += line->friction_bound[c];
     return fmax(force, all);
 }
@@ -203,9 +209,9 @@ static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program,
     memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
     memset(line->tension, 0, n * sizeof *line->tension);
-    if (bounds != CPSI_BOUNDS_GIVEN)
+    if (bounds != CPSI_BOUNDS_FIXED)
         memset(line->friction_bound, 0, contacts * sizeof *line->friction_bound);
-    if (line->follows) memset(line->pressed, 0, contacts * sizeof *line->pressed);
+    if (line->has_local_axes) memset(line->pressed, 0, contacts * sizeof *line->pressed);
     line->report.iterations +=
         cpsi_least_motion(line, options->least, NULL, bounds, most_iterations(line, options));
     if (line->report.places == CPS_PLACES_ANY) return false;
@@ -239,8 +245,9 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     const CpsiIpmOptions ipm_options = {.target = CPSI_TARGET,
                                         .scale = loads > 0 ? loads : 1,
                                         .max_iterations = most_iterations(line, options),
-                                        .centrings = options->centrings,
-                                        .sharpenings = options->centrings > 0 ? SHARPENINGS : 0};
+                                        .centering_steps = options->centering_steps,
+                                        .sharpenings =
+                                            options->centering_steps > 0 ? SHARPENINGS : 0};
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
     cpsi_step_program_unpack(line, program, &scale);

@@ -21,7 +21,7 @@
 
 /* What a step starts from: contact at the reference, and the loads: weight, half of each element to
  * each of its nodes, and the forces at free ends. */
-void cpsi_line_pose(CpsiLine *line, const CpsiStepOptions *options);
+void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options);
 
 bool cpsi_line_both_ends(const CpsiLine *line, CpsEndKind kind);
 /* [m] */
@@ -43,10 +43,10 @@ bool cpsi_line_is_clean(const CpsiIpmReport *ipm);
 
 /* What rounding leaves of the reaction of a node that is apart is none, nor is there friction,
  * whose axes nothing holds there, unless they are frozen. */
-void cpsi_line_let_go(CpsiLine *line, const CpsiChainProgram *program);
+void cpsi_line_release_open_contacts(CpsiLine *line, const CpsiChainProgram *program);
 /* The iterate of the loop as a certified answer, or what it is instead. */
-CpsOutcome cpsi_line_judge(const CpsiLine *line, const CpsiStepOptions *options,
-                           const CpsiIpmReport *ipm);
+CpsOutcome cpsi_line_outcome(const CpsiLine *line, const CpsiStepOptions *options,
+                             const CpsiIpmReport *ipm);
 /* Balance the forces, take the certificate, and judge what has been found. */
 void cpsi_line_certify(CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm);
 

@@ -8,13 +8,13 @@
  *   conclude  back to world axes; balance the forces; classify nodes; certificate; report
  *
  * Consistent friction is solved in one go, the bound of each rub tied to the reaction beside it
- * (ipm/rub.c). That problem is no minimisation and may stall; then the bounds are found in rounds,
- * each a convex step with the last round's mu R.
+ * (chain/friction_disc.c). That problem is no minimisation and may stall; then the bounds are found
+ * in rounds, each a convex step with the last round's mu R.
  *
  * On curved obstacles, or where friction follows the line's direction, each round is such a program
  * on the tangent planes where the last one ended: the inequalities are kept whole, normals and axes
  * turn from round to round. Rounds come to rest where the equilibrium is stable (docs/theory.md
- * 2a); they look ahead (ahead.h), and where that does not settle they go slowly, or with a drag.
+ * 2a); they look ahead (anderson.h), and where that does not settle they go slowly, or with a drag.
  * What the last round leaves is in the certificate, which is taken at the place reached, with its
  * own normals. Frozen friction keeps the bounds and axes of the reference, as S90 has it; strict
  * contact beside it the planes of the reference too. */
@@ -26,21 +26,21 @@
 #include "cable/bend.h"
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/endless_slide.h"
 #include "cable/existence.h"
-#include "cable/line_report.h"
+#include "cable/friction_law.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
+#include "cable/report.h"
 #include "cable/rounds.h"
-#include "cable/rub_set.h"
 #include "cable/shortfall.h"
-#include "cable/slides.h"
 #include "cable/tension_field.h"
+#include "chain/frame.h"
 #include "ipm/ipm.h"
-#include "linsys/frame.h"
 
 /* Steps to the centre once there: what is left of a force's angle to its element is squared by
  * each. */
-static const int CENTRINGS = 2;
+static const int CENTERING_STEPS = 2;
 /* A line stays where it is if its gap is at most a digit worse than that of the step before:
  * without slip, and balanced anew, the same forces add up to a little more or less. */
 static const double AS_GOOD = 10;
@@ -52,29 +52,30 @@ static const double AS_GOOD = 10;
 static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program,
                              const CpsiStepOptions *options, bool follow) {
     const CpsiIpmReport ipm =
-        cpsi_line_solve(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN,
+        cpsi_line_solve(line, program, options, follow ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED,
                         false);
-    cpsi_contact_slide(line);
-    if (follow) cpsi_line_let_go(line, program);
+    cpsi_contact_plane_slip(line);
+    if (follow) cpsi_line_release_open_contacts(line, program);
     cpsi_line_certify(line, options, &ipm);
     return ipm;
 }
 
 /* The step as it is posed, in one go or in rounds. */
-static void solve_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+static void solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const bool consistent = options->friction == CPS_FRICTION_CONSISTENT;
     const bool follow = consistent && !options->frictionless && line->obstacle_count > 0;
     if (options->dragged) {
-        cpsi_rounds_drag(line, program, options, follow ? CPSI_BOUNDS_FOLLOW : CPSI_BOUNDS_GIVEN);
-    } else if (line->follows && (consistent || options->frictionless || line->frozen)) {
-        cpsi_rounds_settle(line, program, options,
-                           !follow           ? CPSI_BOUNDS_GIVEN
-                           : options->trying ? CPSI_BOUNDS_TRIED
-                                             : CPSI_BOUNDS_FOLLOW);
+        cpsi_dragged_rounds(line, program, options,
+                            follow ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED);
+    } else if (line->has_local_axes && (consistent || options->frictionless || line->frozen)) {
+        cpsi_tangent_plane_rounds(line, program, options,
+                                  !follow           ? CPSI_BOUNDS_FIXED
+                                  : options->trying ? CPSI_BOUNDS_TRIAL
+                                                    : CPSI_BOUNDS_COUPLED);
     } else {
         const CpsiIpmReport ipm = attempt(line, program, options, follow);
         if (follow && !cpsi_line_is_clean(&ipm))
-            cpsi_rounds_settle(line, program, options, CPSI_BOUNDS_TRIED);
+            cpsi_tangent_plane_rounds(line, program, options, CPSI_BOUNDS_TRIAL);
     }
 }
 
@@ -87,7 +88,7 @@ static bool is_finite(const CpsiLine *line) {
 
 /* Back to the reference, without forces: what is reported where arithmetic has broken down, or the
  * line was on its way to nowhere. */
-static void forget(CpsiLine *line, const CpsiStepOptions *options) {
+static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     const CpsiIpmReport none = {.outcome = CPSI_IPM_STALLED};
     memcpy(line->position, line->reference, 3 * n * sizeof *line->position);
@@ -96,9 +97,9 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
     memset(line->friction_bound, 0, contacts * sizeof *line->friction_bound);
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
     memset(line->tension, 0, n * sizeof *line->tension);
-    if (line->follows) {
-        cpsi_contact_return(line);
-        cpsi_contact_look(line);
+    if (line->has_local_axes) {
+        cpsi_contact_reset(line);
+        cpsi_contact_update_geometry(line);
     }
     cpsi_line_certify(line, options, &none);
     line->report.outcome = CPS_STALLED;
@@ -112,17 +113,19 @@ static void forget(CpsiLine *line, const CpsiStepOptions *options) {
  * where what rests in a corner has many answers, the loop with bounds that follow ends far from the
  * boundary. Last in rounds that a drag may hold back, where the others go to and fro or have far to
  * go. */
-static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    enum { QUICK, AS_FOUND, SLOW, TURNING, TRYING, DRAGGED, WAYS };
-    const int first = line->follows && options->frictionless ? SLOW : QUICK;
-    for (int way = first; way < WAYS; way++) {
+static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
+                                 const CpsiStepOptions *options) {
+    enum { QUICK, AS_FOUND, SLOW, TURNING, TRYING, DRAGGED, STRATEGIES };
+    const int first = line->has_local_axes && options->frictionless ? SLOW : QUICK;
+    for (int way = first; way < STRATEGIES; way++) {
         if (way == AS_FOUND && !(options->least && options->least->chose))
-            continue;                                /* all places were as they were found */
-        if (way == SLOW && !line->follows) continue; /* no rounds on one plane */
-        if (way == TURNING && line->follows && options->frictionless) continue;
-        if (way == TRYING && (!line->follows || line->frozen || options->frictionless)) continue;
-        const bool rounds = line->follows && (options->friction == CPS_FRICTION_CONSISTENT ||
-                                              options->frictionless || line->frozen);
+            continue;                                       /* all places were as they were found */
+        if (way == SLOW && !line->has_local_axes) continue; /* no rounds on one plane */
+        if (way == TURNING && line->has_local_axes && options->frictionless) continue;
+        if (way == TRYING && (!line->has_local_axes || line->frozen || options->frictionless))
+            continue;
+        const bool rounds = line->has_local_axes && (options->friction == CPS_FRICTION_CONSISTENT ||
+                                                     options->frictionless || line->frozen);
         if (way == DRAGGED && !rounds) return;
         CpsiStepOptions with = *options;
         with.slow = way == SLOW;
@@ -131,12 +134,12 @@ static void try_ways(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         with.turning = way == TURNING;
         with.dragged = way == DRAGGED;
         with.trying = way == TRYING;
-        with.centrings = way == TURNING ? 0 : CENTRINGS;
+        with.centering_steps = way == TURNING ? 0 : CENTERING_STEPS;
         if (way > first)
             memset(line->reaction, 0,
                    (size_t)cpsi_line_all_contacts(line) * sizeof *line->reaction);
-        if (line->follows) cpsi_contact_return(line);
-        solve_step(line, program, &with);
+        if (line->has_local_axes) cpsi_contact_reset(line);
+        solve_once(line, program, &with);
         if (options->least && (way == AS_FOUND || way == DRAGGED))
             cpsi_places_as_found(line, program);
         if (cps_outcome_is_certified(line->report.outcome)) return;
@@ -151,7 +154,7 @@ static void remember(CpsiLine *line) {
     if (!line->forces) return;
     memcpy(line->tension_before, line->tension, (n - 1) * sizeof *line->tension);
     memcpy(line->reaction_before, line->reaction, contacts * sizeof *line->reaction);
-    if (line->follows) memcpy(line->on_before, line->on, contacts * sizeof *line->on);
+    if (line->has_local_axes) memcpy(line->on_before, line->on, contacts * sizeof *line->on);
 }
 
 /* Free, stick and slip, and the sums that go with them. */
@@ -198,7 +201,7 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
         if (line->turn[k] != 0) return false;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3], inside[3];
-        const CpsiRubSet set = cpsi_rub_set(line, c);
+        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
         const double bound = line->friction_bound[c];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
         if (f[0] == 0 && f[1] == 0 && f[2] == 0) continue;
@@ -206,7 +209,7 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
          * one that follows is */
         if (set.given && !(bound > 0 && options->friction == CPS_FRICTION_CONSISTENT)) return false;
         memcpy(inside, f, sizeof f);
-        cpsi_rub_clip(&set, bound, bound, inside);
+        cpsi_friction_law_clip(&set, bound, bound, inside);
         const double out = hypot(f[0] - inside[0], f[1] - inside[1]) + fabs(f[2]);
         if (!(out <= CPSI_CLEAN * line->report.certificate.largest_force)) return false;
     }
@@ -229,7 +232,7 @@ static bool stays(CpsiLine *line, const CpsiStepOptions *options, const CpsLineR
     }
     if (!nothing_moves(line, options)) return false;
     const CpsCertificate *c = &line->report.certificate;
-    line->report.outcome = cpsi_line_judge(line, options, &nothing_left);
+    line->report.outcome = cpsi_line_outcome(line, options, &nothing_left);
     if (!cps_outcome_is_certified(line->report.outcome) ||
         !(c->gap <= fmax(AS_GOOD * before->certificate.gap, CPSI_TARGET * c->scale)))
         return false;
@@ -251,12 +254,13 @@ static void keep_ends(CpsiLine *line) {
     }
 }
 
-bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, double margin) {
+bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *options,
+                                     double margin) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (options->friction != CPS_FRICTION_CONSISTENT || options->frictionless) return false;
     keep_ends(line);
-    cpsi_line_pose(line, options);
-    if (!cpsi_line_slides(line, margin)) return false;
+    cpsi_line_set_reference(line, options);
+    if (!cpsi_line_slides_endlessly(line, margin)) return false;
     line->report.outcome = CPS_SLIDES;
     memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
     memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
@@ -268,7 +272,7 @@ bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) 
     CpsiShortfall shortfall;
     if (!cpsi_line_falls_short(line, options, &shortfall)) return false;
     keep_ends(line);
-    cpsi_line_pose(line, options);
+    cpsi_line_set_reference(line, options);
     line->report.outcome = CPS_INFEASIBLE;
     vec3_store(line->report.proof, shortfall.leaves);
     line->report.proof_value = shortfall.missing;
@@ -288,7 +292,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     const CpsLineReport before = line->report;
     keep_ends(line);
     remember(line);
-    cpsi_line_pose(line, options);
+    cpsi_line_set_reference(line, options);
     if (stays(line, options, &before)) {
         cpsi_line_pierces(line, &line->report.pierced);
         cpsi_line_report_ends(line);
@@ -300,21 +304,21 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     line->report.certificate = (CpsCertificate){0};
     line->report.outcome = CPS_SOLVED;
     if (cpsi_line_has_no_equilibrium(line, options)) return;
-    try_ways(line, program, options);
-    if (!is_finite(line) || !cpsi_line_is_near(line)) forget(line, options);
+    solve_with_fallbacks(line, program, options);
+    if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     cpsi_line_pierces(line, &line->report.pierced);
     classify(line, program);
     choose_forces(line, program, options);
     /* contacts that are free may have come to other obstacles in the last round; the forces of the
      * others are those that were certified */
-    const bool looked =
-        line->follows && (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless);
+    const bool looked = line->has_local_axes &&
+                        (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless);
     if ((looked || line->frozen) && line->contacts > 1) {
-        cpsi_contact_meet(line, true);
-        cpsi_contact_look(line);
+        cpsi_contact_detect(line, true);
+        cpsi_contact_update_geometry(line);
     }
-    if (looked) cpsi_contact_still(line);
+    if (looked) cpsi_contact_clear_undetermined_slip(line);
     cpsi_line_report_ends(line);
     cpsi_line_report_lengths(line);
     line->report.tension_mesh = cpsi_mesh_error(line);

@@ -6,7 +6,7 @@
 
 #include "cable/line.h"
 #include "cable/step_options.h"
-#include "ipm/chain_program.h"
+#include "chain/chain_program.h"
 
 /* From the line's position (and its reaction and state there) to the next equilibrium under
  * line->end.
@@ -19,9 +19,9 @@
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options);
 
 /* Instead of a step that finds no answer: does the line slide along itself without end, by this
- * margin (slides.h)?  Then the report says so, and position, reaction and state stay. Coulomb's
- * friction alone; frozen friction has bounds that no tension raises. */
-bool cpsi_line_step_slides(CpsiLine *line, const CpsiStepOptions *options, double margin);
+ * margin (endless_slide.h)?  Then the report says so, and position, reaction and state stay.
+ * Coulomb's friction alone; frozen friction has bounds that no tension raises. */
+bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *options, double margin);
 
 /* Before a step is tried: is the line too short to reach round an obstacle to where its ends are to
  * be (shortfall.h)?  Then the report says so, and position, reaction and state stay. */

@@ -20,7 +20,7 @@
 
 #include <math.h>
 
-#include "linsys/small.h"
+#include "linalg/dense.h"
 
 typedef struct Span {
     double compliance[9]; /* [m/N] */
@@ -73,13 +73,14 @@ static void add_support(const CpsiLine *line, int j, int e, int inward, Span *sp
     if (cpsi_line_is_held(line, j) || c < 0) return;
     const Vec3 n = vec3_load(&line->normal[3 * c]), q = vec3_load(line->weight),
                p = force_of(line, e);
-    const double press = -vec3_dot(q, n), l = line->element_length[e];
+    const double second_reaction_change = -vec3_dot(q, n), l = line->element_length[e];
     const Vec3 flat = vec3_axpy(-vec3_dot(p, n), n, p);
     const double tight = vec3_norm(flat);
     if (!(tight > 0)) return;
-    if (cpsi_line_obstacle(line, c)->kind == CPS_OBSTACLE_PLANE && press > 0) {
-        const double off = 0.5 * l - fabs(vec3_dot(p, n)) / press;
-        span->defect = vec3_axpy(inward * press / (2 * tight) * off * off, n, span->defect);
+    if (cpsi_line_obstacle(line, c)->kind == CPS_OBSTACLE_PLANE && second_reaction_change > 0) {
+        const double off = 0.5 * l - fabs(vec3_dot(p, n)) / second_reaction_change;
+        span->defect =
+            vec3_axpy(inward * second_reaction_change / (2 * tight) * off * off, n, span->defect);
     }
     /* what slides beside the span gives way as it stretches; up to a free end it is drawn along */
     double slides = 0;

@@ -6,44 +6,44 @@
 #include <string.h>
 
 #include "cable/contact.h"
+#include "cable/friction_law.h"
 #include "cable/line_solve.h"
-#include "cable/rub_set.h"
-#include "cable/side.h"
-#include "linsys/frame.h"
+#include "cable/obstacle_side.h"
+#include "chain/frame.h"
 
 /* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
-static const int ROUNDS = 12;
+static const int MAX_ROUNDS = 12;
 /* ... and of the slow way. */
-static const int SLOW_ROUNDS = 100;
+static const int MAX_SLOW_ROUNDS = 100;
 /* ... which end after so many that came no nearer, and ask their certificate as often: what has no
  * tension may go on moving. */
 static const int SLOW_PATIENCE = 20;
 /* Rounds that close in, their axes turning by no more than CLOSING [rad] in one, may be as many as
  * this. */
-static const int MORE_ROUNDS = 60;
-static const double CLOSING = 1e-2;
+static const int MAX_CONVERGING_ROUNDS = 60;
+static const double AXES_CONVERGING = 1e-2;
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
-static const double SETTLED = 1e-10;
+static const double AXES_TOL = 1e-10;
 /* From here on [rad] what a round leaves is linear in what it found. */
-static const double NEAR = 0.1;
+static const double AXES_LINEAR = 0.1;
 /* ... and bounds that were tried differ by no more than this share, in sum, from mu R. */
-static const double MATCHED = 1e-11;
+static const double BOUND_TOL = 1e-11;
 /* Rounds with drag, at most, and those that are given a chance to halve their turn before the drag
  * is changed. */
-static const int DRAG_ROUNDS = 200, DRAG_PATIENCE = 10;
+static const int MAX_DRAG_ROUNDS = 200, DRAG_PATIENCE = 10;
 /* [-] The drag changes by factors of 4, from the least that holds back a line whose tension is one
  * over its length to one with which it hardly moves in all these rounds. */
 static const double LEAST_DRAG = 0.25, MOST_DRAG = 1e4;
 
-void cpsi_rounds_take_bounds(CpsiLine *line) {
+void cpsi_rounds_couple_bounds(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double *axes = cpsi_line_axes(line, c);
-        const CpsiRubSet set = cpsi_rub_set(line, c);
+        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
         const double within = line->friction_bound[c];
         double f[3];
         line->friction_bound[c] = isfinite(line->gap[c]) ? set.friction * line->reaction[c] : 0;
         cpsi_frame_to(f, axes, &line->friction_force[3 * c]);
-        cpsi_rub_clip(&set, within, line->friction_bound[c], f);
+        cpsi_friction_law_clip(&set, within, line->friction_bound[c], f);
         cpsi_frame_from(&line->friction_force[3 * c], axes, f);
     }
 }
@@ -53,7 +53,7 @@ static double mismatch(const CpsiLine *line) {
     double off = 0, all = 0;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!isfinite(line->gap[c])) continue;
-        const double follow = cpsi_rub_set(line, c).friction * line->reaction[c];
+        const double follow = cpsi_friction_law(line, c).friction * line->reaction[c];
         off += fabs(line->friction_bound[c] - follow);
         all += follow;
     }
@@ -63,26 +63,27 @@ static double mismatch(const CpsiLine *line) {
 /* The next round's bounds: mu R as Newton's method foresees it from the last solution, or simply mu
  * R. */
 static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force) {
-    const bool newton = cpsi_chain_program_follow(program);
-    for (int k = 0; k < program->stop.count; k++) {
-        const int c = program->stop.contact[k];
-        const double foreseen = program->stop.z[k] + program->stop.dz[k], now = program->stop.z[k];
+    const bool newton = cpsi_chain_program_couple_bounds(program);
+    for (int k = 0; k < program->unilateral.count; k++) {
+        const int c = program->unilateral.contact[k];
+        const double foreseen = program->unilateral.z[k] + program->unilateral.dz[k],
+                     now = program->unilateral.z[k];
         const double reaction = newton && isfinite(foreseen) ? fmax(0, foreseen) : now;
         line->friction_bound[c] =
-            cpsi_rub_set(line, c).friction * reaction * force * program->stop.weight[k];
+            cpsi_friction_law(line, c).friction * reaction * force * program->unilateral.weight[k];
     }
 }
 
-bool cpsi_rounds_look(CpsiLine *line, bool sides, double *turned) {
+bool cpsi_rounds_refresh_axes(CpsiLine *line, bool sides, double *turned) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
         memcpy(&line->friction_force[3 * c], f, sizeof f);
     }
     const bool shortened = cpsi_contact_shorten(line, sides) < 1;
-    *turned = cpsi_contact_move(line, sides);
+    *turned = cpsi_contact_move_base(line, sides);
     if (shortened) *turned = INFINITY;
-    cpsi_contact_look(line);
+    cpsi_contact_update_geometry(line);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3];
         cpsi_frame_from(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
@@ -102,68 +103,71 @@ static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program,
 }
 
 /* The base of the next round: where the last one ended, or foreseen from several that close in. */
-static void look_ahead(CpsiLine *line, bool sides, double turned) {
-    if (turned > NEAR) {
-        cpsi_ahead_start(&line->ahead, line->n, line->base);
+static void accelerate(CpsiLine *line, bool sides, double turned) {
+    if (turned > AXES_LINEAR) {
+        cpsi_anderson_start(&line->anderson, line->n, line->base);
         return;
     }
     memcpy(line->carries, line->reaction, (size_t)line->n * sizeof *line->carries);
     for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)
         for (int j = e; j <= e + 1; j++)
             line->carries[j] += line->reaction[cpsi_line_contacts(line) + e];
-    cpsi_ahead_foresee(&line->ahead, line->n, line->carries, line->base);
-    if (sides && cpsi_side_share(line, line->position, line->base, 1) < 1)
+    cpsi_anderson_accelerate(&line->anderson, line->n, line->carries, line->base);
+    if (sides && cpsi_obstacle_side_share(line, line->position, line->base, 1) < 1)
         memcpy(line->base, line->position, 3 * (size_t)line->n * sizeof *line->base);
 }
 
 /* The last round as an answer: is it one? */
-static bool conclude(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                     CpsiBounds bounds, const CpsiIpmReport *ipm) {
-    if (bounds != CPSI_BOUNDS_GIVEN) cpsi_rounds_take_bounds(line);
-    if (bounds != CPSI_BOUNDS_GIVEN || line->frozen) cpsi_line_let_go(line, program);
+static bool certify_last_round(CpsiLine *line, CpsiChainProgram *program,
+                               const CpsiStepOptions *options, CpsiBounds bounds,
+                               const CpsiIpmReport *ipm) {
+    if (bounds != CPSI_BOUNDS_FIXED) cpsi_rounds_couple_bounds(line);
+    if (bounds != CPSI_BOUNDS_FIXED || line->frozen) cpsi_line_release_open_contacts(line, program);
     cpsi_line_certify(line, options, ipm);
     return cps_outcome_is_certified(line->report.outcome);
 }
 
-void cpsi_rounds_settle(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                        CpsiBounds bounds) {
+void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
+                               const CpsiStepOptions *options, CpsiBounds bounds) {
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
-    double turned = line->follows ? INFINITY : 0, off = 0, best = INFINITY;
+    double turned = line->has_local_axes ? INFINITY : 0, off = 0, best = INFINITY;
     const bool sides = !options->frictionless; /* statics comes from no side */
     bool arrived = true;
     int since = 0;
-    for (int round = 0, most = options->slow ? SLOW_ROUNDS : ROUNDS; round < most; round++) {
-        if (line->follows && bounds != CPSI_BOUNDS_TRIED && !options->slow)
-            look_ahead(line, sides, turned);
-        if (line->follows) {
-            cpsi_contact_meet(line, false);
-            cpsi_contact_look(line);
+    for (int round = 0, most = options->slow ? MAX_SLOW_ROUNDS : MAX_ROUNDS; round < most;
+         round++) {
+        if (line->has_local_axes && bounds != CPSI_BOUNDS_TRIAL && !options->slow)
+            accelerate(line, sides, turned);
+        if (line->has_local_axes) {
+            cpsi_contact_detect(line, false);
+            cpsi_contact_update_geometry(line);
         }
         ipm = solve_round(line, program, options, bounds, options->turning);
-        if (bounds == CPSI_BOUNDS_FOLLOW && !cpsi_line_is_clean(&ipm)) {
-            bounds = CPSI_BOUNDS_TRIED;
+        if (bounds == CPSI_BOUNDS_COUPLED && !cpsi_line_is_clean(&ipm)) {
+            bounds = CPSI_BOUNDS_TRIAL;
             for (int c = 0; c < cpsi_line_all_contacts(line); c++)
                 line->friction_bound[c] = line->reaction[c] = 0;
             ipm = solve_round(line, program, options, bounds, options->turning);
         }
-        if (bounds == CPSI_BOUNDS_TRIED) {
+        if (bounds == CPSI_BOUNDS_TRIAL) {
             off = mismatch(line);
             next_bounds(line, program, cpsi_line_unit_force(line, bounds));
         }
-        if (line->follows) arrived = cpsi_rounds_look(line, sides, &turned);
+        if (line->has_local_axes) arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
-        if (turned <= SETTLED && off <= MATCHED && cpsi_line_is_clean(&ipm)) break;
-        if (turned <= CLOSING && most < MORE_ROUNDS) most = MORE_ROUNDS;
+        if (turned <= AXES_TOL && off <= BOUND_TOL && cpsi_line_is_clean(&ipm)) break;
+        if (turned <= AXES_CONVERGING && most < MAX_CONVERGING_ROUNDS) most = MAX_CONVERGING_ROUNDS;
         if (turned < 0.5 * best) {
             best = turned;
             since = round;
         }
         if (options->slow && round >= since + SLOW_PATIENCE) break;
-        if (options->slow && arrived && bounds != CPSI_BOUNDS_TRIED &&
-            (round + 1) % SLOW_PATIENCE == 0 && conclude(line, program, options, bounds, &ipm))
+        if (options->slow && arrived && bounds != CPSI_BOUNDS_TRIAL &&
+            (round + 1) % SLOW_PATIENCE == 0 &&
+            certify_last_round(line, program, options, bounds, &ipm))
             return;
     }
-    if (conclude(line, program, options, bounds, &ipm) && !arrived)
+    if (certify_last_round(line, program, options, bounds, &ipm) && !arrived)
         line->report.outcome = CPS_STALLED;
 }
 
@@ -176,7 +180,7 @@ typedef struct Watch {
 } Watch;
 
 /* [m] Root of the mean square of the way of the nodes between two places (n, 3). */
-static double way_between(int n, const double *from, const double *to) {
+static double rms_displacement(int n, const double *from, const double *to) {
     double sum = 0;
     for (int i = 0; i < 3 * n; i++) sum += (to[i] - from[i]) * (to[i] - from[i]);
     return sqrt(sum / n);
@@ -192,13 +196,13 @@ static void begin_watch(const CpsiLine *line, Watch *watch) {
 /* The drag of the rounds to come, after some that did not halve their turn: less where the line is
  * on its way, more where it goes to and fro. */
 static double next_drag(const CpsiLine *line, const Watch *watch, double drag) {
-    const bool on_its_way = way_between(line->n, watch->from, line->base) > 0.5 * watch->path;
+    const bool on_its_way = rms_displacement(line->n, watch->from, line->base) > 0.5 * watch->path;
     if (on_its_way) return drag > LEAST_DRAG ? 0.25 * drag : 0;
     return fmax(4 * drag, LEAST_DRAG);
 }
 
-void cpsi_rounds_drag(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                      CpsiBounds bounds) {
+void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                         CpsiBounds bounds) {
     CpsiStepOptions with = *options;
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     Watch watch = {.from = line->trail, .before = &line->trail[3 * line->n]};
@@ -208,16 +212,16 @@ void cpsi_rounds_drag(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     with.drag = 0;
     with.least = NULL; /* the nearest place is not the one on the way */
     begin_watch(line, &watch);
-    for (int round = 0; round < DRAG_ROUNDS; round++) {
-        look_ahead(line, sides, watch.waited > 0 ? turned : INFINITY);
+    for (int round = 0; round < MAX_DRAG_ROUNDS; round++) {
+        accelerate(line, sides, watch.waited > 0 ? turned : INFINITY);
         memcpy(watch.before, line->base, 3 * (size_t)line->n * sizeof *watch.before);
-        cpsi_contact_meet(line, false);
-        cpsi_contact_look(line);
+        cpsi_contact_detect(line, false);
+        cpsi_contact_update_geometry(line);
         ipm = cpsi_line_solve(line, program, &with, bounds, false);
-        arrived = cpsi_rounds_look(line, sides, &turned);
+        arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
-        if (turned <= SETTLED && cpsi_line_is_clean(&ipm)) break;
-        watch.path += way_between(line->n, watch.before, line->base);
+        if (turned <= AXES_TOL && cpsi_line_is_clean(&ipm)) break;
+        watch.path += rms_displacement(line->n, watch.before, line->base);
         if (turned < 0.5 * watch.best) {
             watch.best = turned;
             watch.waited = 0;
@@ -227,6 +231,6 @@ void cpsi_rounds_drag(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
         with.drag = next_drag(line, &watch, with.drag);
         begin_watch(line, &watch);
     }
-    if (conclude(line, program, options, bounds, &ipm) && !arrived)
+    if (certify_last_round(line, program, options, bounds, &ipm) && !arrived)
         line->report.outcome = CPS_STALLED;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Too short to reach round an obstacle (shortfall.h). The line does not pass the obstacle (side.h),
- * so that its turn about the axis of a cylinder is the one that it has where the step begins,
- * changed by what the held ends do on their straight ways. */
+/* Too short to reach round an obstacle (shortfall.h). The line does not pass the obstacle
+ * (obstacle_side.h), so that its turn about the axis of a cylinder is the one that it has where the
+ * step begins, changed by what the held ends do on their straight ways. */
 #include "cable/shortfall.h"
 
 #include "cable/line_solve.h"
@@ -59,11 +59,11 @@ bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
         CpsiPolygon polygon = {longest, line->element_contacts > 0
                                             ? o->radius - cpsi_obstacle_allowance(o, longest)
                                             : 0};
-        CpsiShortestWay way;
+        CpsiShortestPath way;
         double turn;
         if (o->kind == CPS_OBSTACLE_PLANE || !turn_about(line, o, options->frictionless, &turn))
             continue;
-        if (!cpsi_shortest_way(o, a, b, turn, polygon, &way)) continue;
+        if (!cpsi_shortest_path(o, a, b, turn, polygon, &way)) continue;
         const double missing = way.length - line->length;
         if (way.length - way.rounding > allowed && missing > out->missing)
             *out = (CpsiShortfall){k, missing, way.leaves};

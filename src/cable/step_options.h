@@ -7,13 +7,13 @@
 
 typedef struct CpsiStepOptions {
     CpsSolverOptions solver;
-    CpsFriction friction;
-    CpsContact contact;
+    CpsFrictionPolicy friction;
+    CpsContactPolicy contact;
     bool frictionless; /* a start laid by statics */
     /* scratch of the rule of least motion; NULL: places are as they are found */
     CpsiLeastMotion *least;
     /* set by the step itself */
-    int centrings;
+    int centering_steps;
     bool slow;    /* many rounds, that do not look ahead */
     bool turning; /* reactions turn with their normals within a round */
     bool trying;  /* bounds that are tried, not bounds that follow */

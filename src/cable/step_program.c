@@ -9,8 +9,8 @@
 
 #include <string.h>
 
-#include "cable/rub_set.h"
-#include "linsys/frame.h"
+#include "cable/friction_law.h"
+#include "chain/frame.h"
 
 /* Friction below this share of the force scale is none: it could not be told from rounding. */
 static const double LEAST_FRICTION = 1e-14;
@@ -24,7 +24,7 @@ static const double PARALLEL = 1e-3;
 static const double BOTH = 1e-3;
 
 static const double *base_of(const CpsiLine *line) {
-    return line->follows ? line->base : line->reference;
+    return line->has_local_axes ? line->base : line->reference;
 }
 
 /* [m] How far contact c is open at the base; INFINITY where it is not looked for. */
@@ -36,7 +36,7 @@ static double open_gap(const CpsiLine *line, int c) {
                                 cpsi_line_place(line, line->reference, c));
         return gap + vec3_dot(vec3_load(&line->normal[3 * c]), u);
     }
-    for (int a = 0; line->follows && a < 3; a++)
+    for (int a = 0; line->has_local_axes && a < 3; a++)
         gap += line->normal[3 * c + a] * (line->base[3 * j + a] - line->reference[3 * j + a]);
     return gap;
 }
@@ -63,7 +63,7 @@ static void fill_axes(const CpsiLine *line, CpsiChainProgram *program, int j) {
                other = vec3_load(&line->normal[3 * (j + line->n)]);
     const Vec3 corner = vec3_cross(n, other);
     const double sine = vec3_norm(corner);
-    if (sine < PARALLEL || cpsi_rub_set(line, j).given) return;
+    if (sine < PARALLEL || cpsi_friction_law(line, j).given) return;
     const Vec3 x = vec3_scale(1 / sine, corner);
     vec3_store(&axes[0], x);
     vec3_store(&axes[3], vec3_cross(n, x));
@@ -75,7 +75,7 @@ static const double *node_axes(const CpsiLine *line, const CpsiChainProgram *pro
 
 /* The first guess: the base, its ends moved to where they are held, the rest along in
  * proportion. */
-static void guess(const CpsiLine *line, CpsiChainProgram *program) {
+static void initial_guess(const CpsiLine *line, CpsiChainProgram *program) {
     double shift[2][3] = {{0}};
     const int last = line->n - 1;
     const double *base = base_of(line);
@@ -124,55 +124,55 @@ static void friction_axes(const CpsiLine *line, const CpsiChainProgram *program,
         cpsi_frame_relative(axes, cpsi_line_axes(line, c), &program->frame[9 * node_of(line, c)]);
 }
 
-static double tried_or(const CpsiStepScale *scale, double bound) {
-    return scale->bounds == CPSI_BOUNDS_TRIED ? fmax(bound, LEAST_TRIED) : bound;
+static double trial_bound_or(const CpsiStepScale *scale, double bound) {
+    return scale->bounds == CPSI_BOUNDS_TRIAL ? fmax(bound, LEAST_TRIED) : bound;
 }
 
 /* The shape of a contact, its set being given as such. */
-static void fill_shape(const CpsiLine *line, CpsiChainProgram *program, int c,
+static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
                        const CpsiStepScale *scale) {
-    CpsiShape *shape = &program->shape;
-    const CpsiRubSet set = cpsi_rub_set(line, c);
-    const int j = node_of(line, c), k = shape->count++;
+    CpsiFrictionConic *conic = &program->conic;
+    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+    const int j = node_of(line, c), k = conic->count++;
     const double share = cpsi_line_contact_share(line, c) / line->length;
-    double way[3], axes[9];
-    cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3 * c]);
+    double slip[3], axes[9];
+    cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slide[3 * c]);
     friction_axes(line, program, c, axes);
-    shape->node[k] = j;
-    shape->contact[k] = c;
-    shape->second[k] =
+    conic->node[k] = j;
+    conic->contact[k] = c;
+    conic->second[k] =
         is_second(line, c) || line->frozen; /* a first one's tangents are those of the node */
-    shape->weight[k] = share;
-    shape->form[k] = cpsi_friction_set_shape(set.given);
-    shape->stop[k] = isfinite(line->gap[c]) ? program->stop.count - 1 : -1;
-    shape->friction[k] = set.friction;
-    shape->bound[k] = tried_or(scale, line->friction_bound[c] / (scale->force * share));
-    for (int a = 0; a < 2; a++) shape->offset[k][a] = way[a] / line->length;
-    memcpy(shape->tangent[k], axes, sizeof shape->tangent[k]);
+    conic->weight[k] = share;
+    conic->form[k] = cpsi_friction_set_conic(set.given);
+    conic->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;
+    conic->friction[k] = set.friction;
+    conic->bound[k] = trial_bound_or(scale, line->friction_bound[c] / (scale->force * share));
+    for (int a = 0; a < 2; a++) conic->offset[k][a] = slip[a] / line->length;
+    memcpy(conic->tangent[k], axes, sizeof conic->tangent[k]);
 }
 
 /* The rubs of a contact: one, its map the ratios of an ellipse, or two for a box. */
-static void fill_rubs(const CpsiLine *line, CpsiChainProgram *program, int c,
-                      const CpsiStepScale *scale) {
-    CpsiRub *rub = &program->rub;
-    const CpsiRubSet set = cpsi_rub_set(line, c);
-    const int j = node_of(line, c), count = line->follows && set.box ? 2 : 1;
+static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
+                       const CpsiStepScale *scale) {
+    CpsiFrictionDisc *disc = &program->disc;
+    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+    const int j = node_of(line, c), count = line->has_local_axes && set.box ? 2 : 1;
     const double share = cpsi_line_contact_share(line, c) / line->length;
-    double way[3] = {0}, axes[9];
-    if (line->follows) cpsi_frame_to(way, cpsi_line_axes(line, c), &line->slide[3 * c]);
+    double slip[3] = {0}, axes[9];
+    if (line->has_local_axes) cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slide[3 * c]);
     friction_axes(line, program, c, axes);
     for (int i = 0; i < count; i++) {
-        const int k = rub->count++;
-        rub->node[k] = j;
-        rub->contact[k] = c;
-        rub->weight[k] = share;
-        rub->stop[k] = isfinite(line->gap[c]) ? program->stop.count - 1 : -1;
-        rub->friction[k] = set.friction;
-        rub->z[k][0] = tried_or(scale, line->friction_bound[c] / (scale->force * share));
-        for (int a = 0; line->follows && a < 2; a++) {
+        const int k = disc->count++;
+        disc->node[k] = j;
+        disc->contact[k] = c;
+        disc->weight[k] = share;
+        disc->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;
+        disc->friction[k] = set.friction;
+        disc->z[k][0] = trial_bound_or(scale, line->friction_bound[c] / (scale->force * share));
+        for (int a = 0; line->has_local_axes && a < 2; a++) {
             const double ratio = !set.box || i == a ? set.ratio[a] : 0;
-            for (int b = 0; b < 3; b++) rub->map[k][3 * a + b] = ratio * axes[3 * a + b];
-            rub->offset[k][a] = ratio * way[a] / line->length;
+            for (int b = 0; b < 3; b++) disc->map[k][3 * a + b] = ratio * axes[3 * a + b];
+            disc->offset[k][a] = ratio * slip[a] / line->length;
         }
     }
 }
@@ -184,21 +184,21 @@ static void turn_curvature(double out[6], const double axes[9], const double cur
     cpsi_add_mapped(out, by, axes, curvature);
 }
 
-static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int c,
-                      const CpsiStepScale *scale) {
-    CpsiStop *stop = &program->stop;
-    const int j = node_of(line, c), k = stop->count++;
+static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int c,
+                            const CpsiStepScale *scale) {
+    CpsiUnilateral *unilateral = &program->unilateral;
+    const int j = node_of(line, c), k = unilateral->count++;
     const double share = cpsi_line_contact_share(line, c) / line->length;
-    stop->node[k] = j;
-    stop->contact[k] = c;
-    stop->second[k] = is_second(line, c);
-    stop->weight[k] = share;
-    stop->gap[k] = open_gap(line, c) / line->length;
-    if (!line->follows) return;
+    unilateral->node[k] = j;
+    unilateral->contact[k] = c;
+    unilateral->second[k] = is_second(line, c);
+    unilateral->weight[k] = share;
+    unilateral->gap[k] = open_gap(line, c) / line->length;
+    if (!line->has_local_axes) return;
     double axes[9];
     contact_axes(line, program, c, axes);
-    memcpy(stop->normal[k], &axes[6], sizeof stop->normal[k]);
-    turn_curvature(stop->curvature[k], axes, &line->curvature[3 * c],
+    memcpy(unilateral->normal[k], &axes[6], sizeof unilateral->normal[k]);
+    turn_curvature(unilateral->curvature[k], axes, &line->curvature[3 * c],
                    scale->curved && j < line->n
                        ? line->reaction[c] * line->length / (scale->force * share)
                        : 0);
@@ -207,20 +207,20 @@ static void fill_stop(const CpsiLine *line, CpsiChainProgram *program, int c,
 static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c,
                          const CpsiStepScale *scale) {
     const bool watched = isfinite(line->gap[c]);
-    if (watched) fill_stop(line, program, c, scale);
-    const bool rubs = scale->bounds == CPSI_BOUNDS_GIVEN
-                          ? line->friction_bound[c] >= LEAST_FRICTION * scale->force
-                          : watched && cpsi_rub_set(line, c).friction > 0;
-    if (rubs && cpsi_rub_set(line, c).given)
-        fill_shape(line, program, c, scale);
-    else if (rubs)
-        fill_rubs(line, program, c, scale);
+    if (watched) fill_unilateral(line, program, c, scale);
+    const bool discs = scale->bounds == CPSI_BOUNDS_FIXED
+                           ? line->friction_bound[c] >= LEAST_FRICTION * scale->force
+                           : watched && cpsi_friction_law(line, c).friction > 0;
+    if (discs && cpsi_friction_law(line, c).given)
+        fill_conic(line, program, c, scale);
+    else if (discs)
+        fill_discs(line, program, c, scale);
 }
 
 static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program,
                        const CpsiStepScale *scale) {
-    program->rub.count = program->stop.count = program->shape.count = 0;
-    program->rub.follow = scale->bounds == CPSI_BOUNDS_FOLLOW;
+    program->disc.count = program->unilateral.count = program->conic.count = 0;
+    program->disc.follow = scale->bounds == CPSI_BOUNDS_COUPLED;
     for (int j = 0; j < line->n; j++) {
         program->held[j] = cpsi_line_is_held(line, j);
         cpsi_frame_to(&program->base.load[3 * j], node_axes(line, program, j), &line->load[3 * j]);
@@ -239,7 +239,7 @@ static void fill_points(const CpsiLine *line, CpsiChainProgram *program,
         const int i = c - nodes + 1; /* element i of the program; the last contact is none */
         const bool acts =
             line->on[c] >= 0 && (isfinite(line->gap[c]) || line->friction_bound[c] > 0);
-        if (i < n) program->own.share[i] = acts ? line->beta[i - 1] : 0;
+        if (i < n) program->node_frames.share[i] = acts ? line->beta[i - 1] : 0;
         if (!acts) continue;
         any = true;
         memcpy(&program->frame[9 * (n + i)], &line->axes[9 * c], 9 * sizeof *line->axes);
@@ -258,7 +258,7 @@ static void common(const CpsiChainProgram *program, int j, double out[3]) {
 
 static void fill_elements(const CpsiLine *line, CpsiChainProgram *program,
                           const CpsiStepScale *scale) {
-    CpsiStretch *st = &program->stretch;
+    CpsiSegment *st = &program->segment;
     const double *base = base_of(line);
     st->compliance = line->compliance * scale->force;
     for (int i = 1; i < line->n; i++) {
@@ -275,22 +275,22 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program,
 
 void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
                             const CpsiStepScale *scale) {
-    cpsi_chain_program_resize(program, line->n, line->follows);
+    cpsi_chain_program_resize(program, line->n, line->has_local_axes);
     program->drag = scale->drag;
-    for (int j = 0; line->follows && j < line->n; j++) fill_axes(line, program, j);
-    guess(line, program);
+    for (int j = 0; line->has_local_axes && j < line->n; j++) fill_axes(line, program, j);
+    initial_guess(line, program);
     fill_nodes(line, program, scale);
     if (line->element_contacts > 0) fill_points(line, program, scale);
     fill_elements(line, program, scale);
 }
 
 void cpsi_step_program_clear(const CpsiLine *line, CpsiChainProgram *program) {
-    cpsi_chain_program_resize(program, line->n, line->follows);
-    program->rub.count = program->stop.count = program->shape.count = 0;
+    cpsi_chain_program_resize(program, line->n, line->has_local_axes);
+    program->disc.count = program->unilateral.count = program->conic.count = 0;
     for (int i = 1; i < line->n; i++)
         for (int a = 0; a < 4; a++) {
-            program->stretch.s[i][a] = a == 0;
-            program->stretch.z[i][a] = 0;
+            program->segment.s[i][a] = a == 0;
+            program->segment.z[i][a] = 0;
         }
 }
 
@@ -301,7 +301,8 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program) {
     for (int j = 0; j < line->n; j++) {
         double u[3], shift[3];
         for (int a = 0; a < 3; a++) u[a] = line->length * program->base.u[3 * j + a];
-        if (!line->follows && isfinite(line->gap[j]) && u[2] < -line->gap[j]) u[2] = -line->gap[j];
+        if (!line->has_local_axes && isfinite(line->gap[j]) && u[2] < -line->gap[j])
+            u[2] = -line->gap[j];
         cpsi_frame_from(shift, node_axes(line, program, j), u);
         for (int a = 0; a < 3; a++) line->position[3 * j + a] = base[3 * j + a] + shift[a];
     }
@@ -314,53 +315,55 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program) {
 static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program,
                              const CpsiStepScale *scale) {
     memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->reaction);
-    if (line->follows)
+    if (line->has_local_axes)
         memset(line->pressed, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->pressed);
-    for (int k = 0; k < program->stop.count; k++) {
-        const int c = program->stop.contact[k];
-        line->reaction[c] = scale->force * program->stop.weight[k] * program->stop.z[k];
-        if (line->follows) line->pressed[c] = program->stop.z[k] > program->stop.s[k];
+    for (int k = 0; k < program->unilateral.count; k++) {
+        const int c = program->unilateral.contact[k];
+        line->reaction[c] = scale->force * program->unilateral.weight[k] * program->unilateral.z[k];
+        if (line->has_local_axes)
+            line->pressed[c] = program->unilateral.z[k] > program->unilateral.s[k];
     }
 }
 
 /* The friction (f_x, f_y) of contact c, given inside the set of the bound `within`, kept inside its
  * own. */
-static void put_friction(CpsiLine *line, int c, bool follow, double within, double f[3]) {
-    const CpsiRubSet set = cpsi_rub_set(line, c);
+static void store_friction(CpsiLine *line, int c, bool follow, double within, double f[3]) {
+    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
     if (follow) line->friction_bound[c] = set.friction * line->reaction[c];
-    cpsi_rub_clip(&set, within > 0 ? within : line->friction_bound[c], line->friction_bound[c], f);
+    cpsi_friction_law_clip(&set, within > 0 ? within : line->friction_bound[c],
+                           line->friction_bound[c], f);
     cpsi_frame_from(&line->friction_force[3 * c], cpsi_line_axes(line, c), f);
 }
 
 /* The friction of a contact: what its rubs add up to, or its shape's force. */
 static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program,
                             const CpsiStepScale *scale) {
-    const CpsiRub *rub = &program->rub;
-    const CpsiShape *shape = &program->shape;
-    const bool follow = scale->bounds == CPSI_BOUNDS_FOLLOW;
+    const CpsiFrictionDisc *disc = &program->disc;
+    const CpsiFrictionConic *conic = &program->conic;
+    const bool follow = scale->bounds == CPSI_BOUNDS_COUPLED;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (follow || line->friction_bound[c] < LEAST_FRICTION * scale->force)
             line->friction_bound[c] = 0;
         for (int a = 0; a < 3; a++) line->friction_force[3 * c + a] = 0;
     }
-    for (int k = 0; k < rub->count;) {
-        const int c = rub->contact[k];
-        const CpsiRubSet set = cpsi_rub_set(line, c);
+    for (int k = 0; k < disc->count;) {
+        const int c = disc->contact[k];
+        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
         double f[3] = {0};
-        for (int i = 0; k < rub->count && rub->contact[k] == c; k++, i++) {
-            const double by = scale->force * rub->weight[k];
+        for (int i = 0; k < disc->count && disc->contact[k] == c; k++, i++) {
+            const double by = scale->force * disc->weight[k];
             for (int a = 0; a < 2; a++)
-                f[a] += by * (!set.box || i == a ? set.ratio[a] : 0) * rub->z[k][1 + a];
+                f[a] += by * (!set.box || i == a ? set.ratio[a] : 0) * disc->z[k][1 + a];
         }
-        put_friction(line, c, follow, 0, f);
+        store_friction(line, c, follow, 0, f);
     }
-    for (int k = 0; k < shape->count; k++) {
-        const double by = scale->force * shape->weight[k];
+    for (int k = 0; k < conic->count; k++) {
+        const double by = scale->force * conic->weight[k];
         double f[3] = {0};
-        cpsi_shape_force(shape, k, f);
+        cpsi_friction_conic_force(conic, k, f);
         f[0] *= by;
         f[1] *= by;
-        put_friction(line, shape->contact[k], follow, by * shape->bound[k], f);
+        store_friction(line, conic->contact[k], follow, by * conic->bound[k], f);
     }
 }
 
@@ -370,7 +373,7 @@ void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
     unpack_reactions(line, program, scale);
     unpack_friction(line, program, scale);
     for (int i = 1; i < line->n; i++) {
-        const double *z = program->stretch.z[i];
+        const double *z = program->segment.z[i];
         const double force[3] = {-scale->force * z[1], -scale->force * z[2], -scale->force * z[3]};
         cpsi_frame_from(&line->segment_force[3 * (i - 1)], line->common, force);
         line->tension[i - 1] = scale->force * z[0];

@@ -7,14 +7,14 @@
 #include <stdbool.h>
 
 #include "cable/line.h"
-#include "ipm/chain_program.h"
+#include "chain/chain_program.h"
 
 /* The friction bounds of a step. */
 typedef enum CpsiBounds {
-    CPSI_BOUNDS_GIVEN,  /* those of the line stay */
-    CPSI_BOUNDS_FOLLOW, /* they follow the reactions: part of the program */
-    CPSI_BOUNDS_TRIED   /* as given, but wherever contact is possible: a round towards bounds that
-                           follow */
+    CPSI_BOUNDS_FIXED,   /* those of the line stay */
+    CPSI_BOUNDS_COUPLED, /* they follow the reactions: part of the program */
+    CPSI_BOUNDS_TRIAL    /* as given, but wherever contact is possible: a round towards bounds that
+                            follow */
 } CpsiBounds;
 
 typedef struct CpsiStepScale {

@@ -79,7 +79,8 @@ static void land(CpsiForceSet *set) {
 static double reaction_before(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c);
     for (int b = j; b < cpsi_line_contacts(line); b += line->n)
-        if (!line->follows || line->on_before[b] == line->on[c]) return line->reaction_before[b];
+        if (!line->has_local_axes || line->on_before[b] == line->on[c])
+            return line->reaction_before[b];
     return 0;
 }
 

@@ -18,7 +18,7 @@
 #include "base/larger.h"
 #include "base/status.h"
 #include "drive/motion.h"
-#include "linsys/small.h"
+#include "linalg/dense.h"
 
 /* Velocities that one-sided laws forbid count as on the boundary up to this share of the largest
  * velocity. */
@@ -73,7 +73,7 @@ void cpsi_motion_carry(CpsMotion *motion) {
         motion->law_velocity[i] = cpsi_rows_times(&motion->system->map, i, motion->velocity);
 }
 
-void cpsi_motion_take_forces(CpsMotion *motion, const CpsiDriveProgram *program) {
+void cpsi_motion_recover_forces(CpsMotion *motion, const CpsiDriveProgram *program) {
     const CpsSystem *system = motion->system;
     memset(motion->law_force, 0, (size_t)system->components * sizeof *motion->law_force);
     for (int k = 0; k < system->pieces; k++) {
@@ -102,7 +102,7 @@ typedef struct Part {
  * by rounding. */
 static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
                     const double *u) {
-    const CpsiForm *form = program->form[k];
+    const CpsiConicForm *form = program->form[k];
     const double *z = cpsi_sparse_program_z(program->program) + program->row[k];
     const double *v = cpsi_sparse_program_x(program->program) + program->first[k];
     const int space = motion->system->piece[k].space, n = form->unknowns;
@@ -222,10 +222,10 @@ static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, 
         const CpsStatus status = piece_part(motion, program, k, &part, err);
         if (status != CPS_OK) return status;
         share.potential += part.potential;
-        share.outside = cpsi_larger(share.outside, part.outside);
+        share.outside = cpsi_max_nan(share.outside, part.outside);
         conjugate += part.conjugate;
         totals->missing += part.missing;
-        totals->forbidden = cpsi_larger(totals->forbidden, part.forbidden);
+        totals->forbidden = cpsi_max_nan(totals->forbidden, part.forbidden);
     }
     if (law->resistance) {
         CpsResistanceValue value;
@@ -252,13 +252,13 @@ static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, 
     totals->dissipated += share.dissipated;
     totals->size += speed * force;
     if (share.outside > 0)
-        totals->outside = cpsi_larger(totals->outside, share.outside / fmax(force, motion->force));
+        totals->outside = cpsi_max_nan(totals->outside, share.outside / fmax(force, motion->force));
     return CPS_OK;
 }
 
 static double largest_of(int n, const double *a) {
     double largest = 0;
-    for (int i = 0; i < n; i++) largest = cpsi_larger(largest, fabs(a[i]));
+    for (int i = 0; i < n; i++) largest = cpsi_max_nan(largest, fabs(a[i]));
     return largest;
 }
 
@@ -270,21 +270,21 @@ static void measure_balance(CpsMotion *motion, double *above, double *below) {
     double moved = 0, held = 0, left = 0, force = largest_of(system->components, motion->law_force);
     for (int i = 0; i < system->n; i++) r[i] = (CpsiSum){system->load ? system->load[i] : 0, 0};
     for (int i = 0; i < system->components; i++) add_row(&system->map, i, motion->law_force[i], r);
-    for (int i = 0; i < system->n; i++) force = cpsi_larger(force, fabs(total(&r[i])));
+    for (int i = 0; i < system->n; i++) force = cpsi_max_nan(force, fabs(total(&r[i])));
     for (int j = 0; j < system->drive.rows; j++) {
         const double miss = row_residual(&system->drive, j, motion->velocity, motion->driving[j]);
         add_row(&system->drive, j, -motion->resistance[j], r);
-        moved = cpsi_larger(moved, fabs(miss));
+        moved = cpsi_max_nan(moved, fabs(miss));
         *above += fabs(miss * motion->resistance[j]);
     }
     for (int j = 0; j < system->constraint.rows; j++) {
         const double miss = row_residual(&system->constraint, j, motion->velocity, 0);
         add_row(&system->constraint, j, -motion->constraint[j], r);
-        held = cpsi_larger(held, fabs(miss));
+        held = cpsi_max_nan(held, fabs(miss));
         *above += fabs(miss * motion->constraint[j]);
     }
     for (int i = 0; i < system->n; i++) {
-        left = cpsi_larger(left, fabs(total(&r[i])));
+        left = cpsi_max_nan(left, fabs(total(&r[i])));
         *below += fabs(total(&r[i]) * motion->velocity[i]);
     }
     const double drive = largest_of(system->drive.rows, motion->driving);
@@ -301,7 +301,7 @@ CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program
     CpsiSum load = {0}, drive = {0};
     double above = 0, below = 0;
     cpsi_motion_carry(motion);
-    motion->speed = cpsi_larger(motion->speed, largest_of(system->n, motion->velocity));
+    motion->speed = cpsi_max_nan(motion->speed, largest_of(system->n, motion->velocity));
     for (int l = 0; l < system->laws; l++) {
         const CpsStatus status = law_totals(motion, program, l, &totals, err);
         if (status != CPS_OK) return status;
@@ -325,7 +325,7 @@ CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program
     report->outside = totals.outside;
     const double forbidden =
         motion->speed > 0 ? totals.forbidden / motion->speed : totals.forbidden;
-    report->constraint = cpsi_larger(report->constraint, forbidden);
+    report->constraint = cpsi_max_nan(report->constraint, forbidden);
     if (!(forbidden <= ON_BOUNDARY)) report->upper = report->value = report->minimum = INFINITY;
     /* forces that miss balance say nothing about velocities other than V */
     if (!(report->equilibrium <= BALANCED)) {

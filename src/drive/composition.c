@@ -6,14 +6,14 @@
 
 #include "base/status.h"
 #include "drive/motion.h"
-#include "linsys/small.h"
+#include "linalg/dense.h"
 
 static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion");
 }
 
 /* Do the forces of the form fill the space? */
-static CpsStatus full_dimension(const CpsiForm *form, int space, bool *full, CpsError *err) {
+static CpsStatus full_dimension(const CpsiConicForm *form, int space, bool *full, CpsError *err) {
     const size_t n = (size_t)space, count = (size_t)(form->unknowns + form->lines);
     if (count < n) {
         *full = false;
@@ -32,7 +32,7 @@ static CpsStatus full_dimension(const CpsiForm *form, int space, bool *full, Cps
 }
 
 /* The least margin of a piece's cones, which are of size one. */
-static double margin_of(const CpsiForm *form, const double *s) {
+static double margin_of(const CpsiConicForm *form, const double *s) {
     double least = INFINITY;
     for (int c = 0; c < form->cones; s += form->dim[c++])
         least = fmin(least, s[0] - cpsi_norm(form->dim[c] - 1, s + 1));
@@ -52,7 +52,7 @@ CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary,
     *composition = known ? CPS_COMPOSE_INTERIOR : CPS_COMPOSE_NOT_SATISFIED;
     bool full = true;
     for (int k = 0; status == CPS_OK && known && k < system->pieces; k++) {
-        const CpsiForm *form = program.form[k];
+        const CpsiConicForm *form = program.form[k];
         const CpsiPiece *piece = &system->piece[k];
         CpsComposition place = CPS_COMPOSE_INTERIOR;
         /* neighbours of one set have one dimension */

@@ -14,7 +14,7 @@
 #include "base/status.h"
 #include "drive/kinematics.h"
 #include "drive/motion.h"
-#include "set/node.h"
+#include "set/set.h"
 
 static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for Proposition 2");
@@ -85,7 +85,7 @@ static CpsStatus against(const CpsMotion *motion, const double *v0, CpsSet **out
     CpsSet *span = NULL, *half = NULL;
     CpsStatus status = cpsi_system_kernel(system, NULL, &rank, &all, err);
     if (status == CPS_OK) status = cps_set_subspace(system->n, rank, all, &span, err);
-    for (size_t i = 0; i < n; i++) size = cpsi_larger(size, fabs(v0[i]));
+    for (size_t i = 0; i < n; i++) size = cpsi_max_nan(size, fabs(v0[i]));
     if (status == CPS_OK && size > 0) status = cps_set_half_space(system->n, v0, 0, &half, err);
     if (status == CPS_OK && half)
         status = cps_set_intersection(2, (const CpsSet *const[]){span, half}, out, err);

@@ -15,9 +15,9 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "drive/dense.h"
 #include "drive/motion.h"
-#include "linsys/small.h"
+#include "drive/null_space.h"
+#include "linalg/dense.h"
 
 /* Rows of the drive count as dependent at this share: rounding of the given numbers. */
 static const double DEPENDENT = 1e-9;

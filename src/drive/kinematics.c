@@ -8,8 +8,8 @@
 
 #include "base/status.h"
 #include "drive/adjoint.h"
-#include "linsys/small.h"
-#include "linsys/sparse.h"
+#include "linalg/dense.h"
+#include "linalg/sparse_ldl.h"
 
 /* Regularisation of dependent rows: above rounding; rows that are nearly dependent need more rounds
  * of refinement. */
@@ -63,7 +63,7 @@ static void list_rows(const CpsiRows *rows, int first, CpsEntry **to) {
 static void list_lines(const CpsSystem *system, int first, CpsiAdjoint *adjoint, CpsEntry **to) {
     for (int k = 0; k < system->pieces; k++) {
         const CpsiPiece *piece = &system->piece[k];
-        const CpsiForm *form = piece->term ? NULL : system->form[piece->form];
+        const CpsiConicForm *form = piece->term ? NULL : system->form[piece->form];
         for (int l = 0; form && l < form->lines; l++, first++) {
             cpsi_adjoint_apply(adjoint, system, piece, &form->q[(size_t)l * (size_t)form->n], 1, 1);
             for (int i = 0; i < adjoint->count; i++)

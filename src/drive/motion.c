@@ -97,7 +97,7 @@ static CpsStatus motion_new(const CpsSystem *system, const double *driving, CpsM
 
 static double largest_of(int n, const double *a) {
     double largest = 0;
-    for (int i = 0; i < n; i++) largest = cpsi_larger(largest, fabs(a[i]));
+    for (int i = 0; i < n; i++) largest = cpsi_max_nan(largest, fabs(a[i]));
     return largest;
 }
 
@@ -165,7 +165,7 @@ static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, dou
             memset(motion->driving, 0, m * sizeof *driving);
             cpsi_drive_program_velocity(&program, motion->velocity);
             cpsi_kinematics_project(kinematics, motion->driving, motion->velocity);
-            cpsi_motion_take_forces(motion, &program);
+            cpsi_motion_recover_forces(motion, &program);
             status = cpsi_motion_certify(motion, &program, err);
             if (report->upper < 0) {
                 report->outcome = CPS_MOTION_NO_BALANCE;
@@ -190,8 +190,8 @@ static bool has_resistance(const CpsSystem *system) {
 /* Are the bounds near, and is what they are made of admissible? `least`: a power that does not
  * count. */
 static bool close_enough(const CpsMotionReport *report, double tolerance, double least) {
-    const double residual = cpsi_larger(cpsi_larger(report->drive, report->constraint),
-                                        cpsi_larger(report->equilibrium, report->outside));
+    const double residual = cpsi_max_nan(cpsi_max_nan(report->drive, report->constraint),
+                                         cpsi_max_nan(report->equilibrium, report->outside));
     return report->minimum <= tolerance * fmax(fmax(report->scale, fabs(report->value)), least) &&
            residual <= tolerance;
 }
@@ -214,7 +214,7 @@ static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double s
         if (motion->speed == 0 && largest_of(motion->system->n, motion->velocity) <= REST)
             memset(motion->velocity, 0, (size_t)motion->system->n * sizeof *motion->velocity);
     }
-    cpsi_motion_take_forces(motion, &program);
+    cpsi_motion_recover_forces(motion, &program);
     if (program.result.outcome == CPSI_CONIC_UNBOUNDED)
         block(report);
     else

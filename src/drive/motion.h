@@ -39,12 +39,12 @@ CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving,
 /* U_k = B_k V of all laws. */
 void cpsi_motion_carry(CpsMotion *motion);
 /* Forces, G and lambda from a program's solution. */
-void cpsi_motion_take_forces(CpsMotion *motion, const CpsiDriveProgram *program);
+void cpsi_motion_recover_forces(CpsMotion *motion, const CpsiDriveProgram *program);
 /* Shares, residuals and bounds from V, F, G and lambda alone. `program` (NULL: none) only supplies
  * velocities of one-sided laws on the boundary of those that are allowed. */
 CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program, CpsError *err);
 
-/* Makes the outcome CPS_MOTION_NOT_ATTAINED where the infimum is (attained.c); asked where
+/* Makes the outcome CPS_MOTION_NOT_ATTAINED where the infimum is (attainment.c); asked where
  * Proposition 1's condition does not hold. */
 CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsiKinematics *kinematics, CpsError *err);
 

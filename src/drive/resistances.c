@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "drive/dense.h"
 #include "drive/motion.h"
-#include "linsys/small.h"
+#include "drive/null_space.h"
+#include "linalg/dense.h"
 
 /* A combination of rows below this share is rounding. */
 static const double ROUNDING = 1e-11;

@@ -3,7 +3,7 @@
  *
  * Solutions come in pairs freely: every V of a solution goes with every F of another (phi(V) = -
  * <V, F> for both, Proposition 2). So with one pair (V*, F*), in coordinates V = V* + N y, F = F* +
- * L t of dense.h,
+ * L t of null_space.h,
  *
  *     motions   { y : -(U* + B N y) in N_C(F*) }          an intersection of preimages of cones
  *     forces    { t : F* + L t in the face of C at -U* }   an intersection of preimages of faces
@@ -15,9 +15,9 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "drive/dense.h"
 #include "drive/motion.h"
-#include "linsys/small.h"
+#include "drive/null_space.h"
+#include "linalg/dense.h"
 
 /* How near to rest or to a boundary counts as there, where the caller does not say. */
 static const double TOLERANCE = 1e-6;

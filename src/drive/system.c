@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a system");
@@ -44,7 +44,7 @@ static void clear_law(CpsiSystemLaw *law) {
 void cps_system_destroy(CpsSystem *system) {
     if (!system) return;
     for (int k = 0; k < system->laws; k++) clear_law(&system->law[k]);
-    for (int k = 0; k < system->forms; k++) cpsi_form_free(system->form[k]);
+    for (int k = 0; k < system->forms; k++) cpsi_conic_form_free(system->form[k]);
     free(system->law);
     free(system->piece);
     free(system->form);
@@ -97,9 +97,9 @@ static CpsStatus form_of(CpsSystem *system, const CpsSet *set, const CpsiPiece *
         *place = last->form;
         return CPS_OK;
     }
-    if (!grow((void **)&system->form, &system->form_room, system->forms, sizeof(CpsiForm *)))
+    if (!grow((void **)&system->form, &system->form_room, system->forms, sizeof(CpsiConicForm *)))
         return out_of_memory(err);
-    const CpsStatus status = cpsi_form_make(set, &system->form[system->forms], err);
+    const CpsStatus status = cpsi_conic_form_make(set, &system->form[system->forms], err);
     if (status == CPS_OK) *place = system->forms++;
     return status;
 }

@@ -7,7 +7,7 @@
 #include "capstan/drive.h"
 #include "drive/rows.h"
 #include "law/resistance.h"
-#include "set/form.h"
+#include "set/conic_form.h"
 
 /* A factor of a friction law, or a term of a resistance. */
 typedef struct CpsiPiece {
@@ -30,11 +30,11 @@ struct CpsSystem {
     size_t law_room, piece_room, form_room;
     CpsiSystemLaw *law;
     CpsiPiece *piece;
-    CpsiForm **form;     /* conic forms of the friction laws' sets */
-    CpsiRows map;        /* (components) rows of all B_k */
-    CpsiRows constraint; /* C */
-    CpsiRows drive;      /* D */
-    double *load;        /* (n), NULL: none */
+    CpsiConicForm **form; /* conic forms of the friction laws' sets */
+    CpsiRows map;         /* (components) rows of all B_k */
+    CpsiRows constraint;  /* C */
+    CpsiRows drive;       /* D */
+    double *load;         /* (n), NULL: none */
 };
 
 /* Is there a load other than 0? */

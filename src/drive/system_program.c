@@ -9,7 +9,7 @@
 
 #include "base/status.h"
 #include "drive/adjoint.h"
-#include "linsys/small.h"
+#include "linalg/dense.h"
 
 /* Residual and gap above which the solver's outcome is no proof by itself; the bounds decide on
  * motions. */
@@ -21,7 +21,7 @@ static CpsStatus out_of_memory(CpsError *err) {
 
 void cpsi_drive_program_clear(CpsiDriveProgram *p) {
     cpsi_sparse_program_free(p->program);
-    for (int k = 0; p->own && k < p->system->pieces; k++) cpsi_form_free(p->own[k]);
+    for (int k = 0; p->own && k < p->system->pieces; k++) cpsi_conic_form_free(p->own[k]);
     void *part[] = {p->form, p->own, p->first, p->block, p->c};
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) free(part[k]);
     cpsi_rows_free(&p->equation);
@@ -47,7 +47,8 @@ static CpsStatus gather_forms(CpsiDriveProgram *p, double speed, int *blocks, Cp
                 cpsi_term_form(piece->space, piece->term, speed, &p->own[k], err);
             if (status != CPS_OK) return status;
         }
-        const CpsiForm *form = p->form[k] = piece->term ? p->own[k] : system->form[piece->form];
+        const CpsiConicForm *form = p->form[k] =
+            piece->term ? p->own[k] : system->form[piece->form];
         p->first[k] = (int)unknowns;
         p->row[k] = (int)rows;
         p->line[k] = (int)lines;
@@ -93,7 +94,7 @@ static bool push(List *list, int row, int column, double value) {
 /* B* F of one piece: entries, and the constant to h */
 static bool push_piece(const CpsiDriveProgram *p, int k, CpsiAdjoint *adjoint, List *list) {
     const CpsSystem *system = p->system;
-    const CpsiForm *form = p->form[k];
+    const CpsiConicForm *form = p->form[k];
     const CpsiPiece *piece = &system->piece[k];
     const size_t space = (size_t)piece->space, unknowns = (size_t)form->unknowns;
     const double size = cpsi_adjoint_size(space * unknowns, form->p),
@@ -151,7 +152,7 @@ static CpsStatus write_equations(CpsiDriveProgram *p, CpsiAim aim, CpsError *err
 }
 
 /* A form without offsets is a cone: its unknowns have no size of their own. */
-static bool is_cone(const CpsiForm *form) {
+static bool is_cone(const CpsiConicForm *form) {
     for (int i = 0; i < form->rows; i++)
         if (form->b[i] != 0) return false;
     return true;
@@ -215,7 +216,7 @@ static void write_objective(CpsiDriveProgram *p, CpsiAim aim, const double *driv
     for (int j = 0; aim == CPSI_AIM_MOTION && j < p->system->drive.rows; j++)
         p->c[p->resistance + j] = driving[j];
     for (int k = 0; aim == CPSI_AIM_MOTION && k < p->system->pieces; k++) {
-        const CpsiForm *form = p->own[k];
+        const CpsiConicForm *form = p->own[k];
         if (!form) continue;
         const size_t last = (size_t)form->n - 1, u = (size_t)form->unknowns;
         for (size_t j = 0; j < u; j++) p->c[(size_t)p->first[k] + j] = form->p[last * u + j];
@@ -275,7 +276,7 @@ void cpsi_drive_program_solve(CpsiDriveProgram *p) {
 /* ---- reading the solution ---- */
 
 void cpsi_drive_program_force(const CpsiDriveProgram *p, int piece, double *force) {
-    const CpsiForm *form = p->form[piece];
+    const CpsiConicForm *form = p->form[piece];
     const double *x = cpsi_sparse_program_x(p->program), *v = &x[p->first[piece]],
                  *l = &x[p->line[piece]];
     const double *of_v = &p->column_scale[p->first[piece]],

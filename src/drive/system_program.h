@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A driven system as one conic program over forces (ipm/sparse_program.h):
+/* A driven system as one conic program over forces (conic/sparse_program.h):
  *
  *     min  <W, G> + sum of costs    s.t.  sum of B_k* F_k + load - D* G - C* lambda = 0,
  *                                          F_k = o + P v + Q'l,  A v + b in K
@@ -11,8 +11,8 @@
 #ifndef CAPSTAN_SRC_DRIVE_SYSTEM_PROGRAM_H
 #define CAPSTAN_SRC_DRIVE_SYSTEM_PROGRAM_H
 
+#include "conic/sparse_program.h"
 #include "drive/system.h"
-#include "ipm/sparse_program.h"
 
 /* What the objective is. */
 typedef enum CpsiAim {
@@ -23,9 +23,9 @@ typedef enum CpsiAim {
 
 typedef struct CpsiDriveProgram {
     const CpsSystem *system;
-    const CpsiForm **form;   /* (pieces) of each piece */
-    CpsiForm **own;          /* (pieces) made here, for terms; else NULL */
-    int *first, *line, *row; /* (pieces) first unknown v, first unknown l, first row */
+    const CpsiConicForm **form; /* (pieces) of each piece */
+    CpsiConicForm **own;        /* (pieces) made here, for terms; else NULL */
+    int *first, *line, *row;    /* (pieces) first unknown v, first unknown l, first row */
     int unknowns, resistance, constraint, factor; /* and where G, lambda, mu begin */
     CpsiBlock *block;
     CpsiRows equation;
@@ -54,6 +54,7 @@ double cpsi_drive_program_factor(const CpsiDriveProgram *p);
 
 /* The epigraph {(F, e) : phi*(-F) <= e} of a term in conic form; speed is the size of velocities.
  * speed 0: {F : phi*(-F) finite} x {0}. */
-CpsStatus cpsi_term_form(int n, const CpsiTerm *term, double speed, CpsiForm **out, CpsError *err);
+CpsStatus cpsi_term_form(int n, const CpsiTerm *term, double speed, CpsiConicForm **out,
+                         CpsError *err);
 
 #endif

@@ -16,16 +16,16 @@
 #include <string.h>
 
 #include "drive/system_program.h"
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a resistance law");
 }
 
 /* The cone |(q - a/2, sqrt(a) y)| <= q + a/2 but for y: its rows; q is unknown number `q`. */
-static double *square_cone(CpsiRaw *raw, int q, double a, int count) {
-    double *rows = cpsi_raw_cone(raw, count + 2);
+static double *square_cone(CpsiConicRows *raw, int q, double a, int count) {
+    double *rows = cpsi_conic_rows_cone(raw, count + 2);
     const size_t w = (size_t)raw->width;
     rows[q] = 1;
     rows[w - 1] = 0.5 * a;
@@ -35,7 +35,7 @@ static double *square_cone(CpsiRaw *raw, int q, double a, int count) {
 }
 
 /* x (n + 1, width): F and e; F are the first unknowns */
-static double *begin_x(const CpsiRaw *raw, int n) {
+static double *begin_x(const CpsiConicRows *raw, int n) {
     const size_t w = (size_t)raw->width;
     double *x = calloc(((size_t)n + 2) * w, sizeof *x);
     for (size_t i = 0; x && i < (size_t)n; i++) x[i * w + i] = 1;
@@ -43,24 +43,24 @@ static double *begin_x(const CpsiRaw *raw, int n) {
 }
 
 /* R^n x {0} */
-static CpsStatus any_force(int n, CpsiForm **out, CpsError *err) {
+static CpsStatus any_force(int n, CpsiConicForm **out, CpsError *err) {
     const CpsiCount count = {.unknowns = (size_t)n};
-    CpsiRaw *raw = NULL;
-    CpsStatus status = cpsi_raw_new(count, n, &raw, err);
+    CpsiConicRows *raw = NULL;
+    CpsStatus status = cpsi_conic_rows_new(count, n, &raw, err);
     double *x = status == CPS_OK ? begin_x(raw, n) : NULL;
     if (status == CPS_OK && !x) status = out_of_memory(err);
-    if (status == CPS_OK) status = cpsi_form_reduce(raw, n + 1, x, 0, NULL, 1e-11, out, err);
+    if (status == CPS_OK) status = cpsi_conic_form_reduce(raw, n + 1, x, 0, NULL, 1e-11, out, err);
     free(x);
-    cpsi_raw_free(raw);
+    cpsi_conic_rows_free(raw);
     return status;
 }
 
-static CpsStatus viscous_form(int n, const double *matrix, double speed, CpsiForm **out,
+static CpsStatus viscous_form(int n, const double *matrix, double speed, CpsiConicForm **out,
                               CpsError *err) {
     const size_t w = (size_t)n;
     const CpsiCount count = {.unknowns = w + 1, .rows = w + 2, .cones = 1};
-    CpsiRaw *raw = NULL;
-    CpsStatus status = cpsi_raw_new(count, n + 1, &raw, err);
+    CpsiConicRows *raw = NULL;
+    CpsStatus status = cpsi_conic_rows_new(count, n + 1, &raw, err);
     if (status != CPS_OK) return status;
     double *factor = calloc(2 * w * w, sizeof *factor), *inverse = factor ? factor + w * w : NULL,
            *x = begin_x(raw, n);
@@ -78,11 +78,11 @@ static CpsStatus viscous_form(int n, const double *matrix, double speed, CpsiFor
         for (size_t i = 0; i < w; i++)
             for (size_t j = 0; j <= i; j++) rows[i * (w + 2) + j] = sqrt(a) * inverse[i * w + j];
         x[w * (w + 2) + w] = 1;
-        status = cpsi_form_reduce(raw, n + 1, x, 0, NULL, 1e-11, out, err);
+        status = cpsi_conic_form_reduce(raw, n + 1, x, 0, NULL, 1e-11, out, err);
     }
     free(factor);
     free(x);
-    cpsi_raw_free(raw);
+    cpsi_conic_rows_free(raw);
     return status;
 }
 
@@ -113,7 +113,7 @@ static int ramps_of(const CpsiTerm *term, Ramp *ramp) {
 }
 
 /* Write a ramp: its s is added to t, its cost, where speed > 0, to e; unknowns from raw->next. */
-static void emit_ramp(CpsiRaw *raw, const Ramp *ramp, double speed, double *t, double *e) {
+static void ramp_rows(CpsiConicRows *raw, const Ramp *ramp, double speed, double *t, double *e) {
     const int s = raw->next++;
     const size_t w = (size_t)raw->width;
     t[s] += 1;
@@ -125,14 +125,14 @@ static void emit_ramp(CpsiRaw *raw, const Ramp *ramp, double speed, double *t, d
         row[s] = size / ramp->slope; /* sqrt(a/slope) */
         e[q] += 1;
     }
-    cpsi_raw_cone(raw, 1)[s] = 1;
+    cpsi_conic_rows_cone(raw, 1)[s] = 1;
     if (!isfinite(ramp->rise)) return;
-    double *below = cpsi_raw_cone(raw, 1);
+    double *below = cpsi_conic_rows_cone(raw, 1);
     below[s] = -1;
     below[w - 1] = ramp->rise;
 }
 
-static CpsStatus gauge_form(int n, const CpsiTerm *term, double speed, CpsiForm **out,
+static CpsStatus gauge_form(int n, const CpsiTerm *term, double speed, CpsiConicForm **out,
                             CpsError *err) {
     Ramp *ramp = malloc(((size_t)term->count + 2) * sizeof *ramp);
     if (!ramp) return out_of_memory(err);
@@ -141,28 +141,30 @@ static CpsStatus gauge_form(int n, const CpsiTerm *term, double speed, CpsiForm 
                        .equations = (size_t)n,
                        .rows = 5 * (size_t)ramps,
                        .cones = 3 * (size_t)ramps};
-    cpsi_raw_count(term->set, &count);
-    CpsiRaw *raw = NULL;
-    CpsStatus status = cpsi_raw_new(count, n, &raw, err);
+    cpsi_conic_rows_count(term->set, &count);
+    CpsiConicRows *raw = NULL;
+    CpsStatus status = cpsi_conic_rows_new(count, n, &raw, err);
     double *x = status == CPS_OK ? begin_x(raw, n) : NULL;
     if (status == CPS_OK && !x) status = out_of_memory(err);
     if (status == CPS_OK) {
         const size_t w = (size_t)raw->width;
         double *e = x + (size_t)n * w, *t = e + w;
         const double size = cpsi_set_size(term->set);
-        for (int k = 0; k < ramps; k++) emit_ramp(raw, &ramp[k], speed * size, t, e);
+        for (int k = 0; k < ramps; k++) ramp_rows(raw, &ramp[k], speed * size, t, e);
         /* no ramp, no force */
-        for (int i = 0; ramps == 0 && i < n; i++) cpsi_raw_equation(raw)[i] = 1;
-        if (ramps > 0 && !cpsi_raw_emit(raw, term->set, x, t)) status = out_of_memory(err);
-        if (status == CPS_OK) status = cpsi_form_reduce(raw, n + 1, x, 0, NULL, 1e-11, out, err);
+        for (int i = 0; ramps == 0 && i < n; i++) cpsi_conic_rows_equation(raw)[i] = 1;
+        if (ramps > 0 && !cpsi_conic_rows_write(raw, term->set, x, t)) status = out_of_memory(err);
+        if (status == CPS_OK)
+            status = cpsi_conic_form_reduce(raw, n + 1, x, 0, NULL, 1e-11, out, err);
     }
     free(ramp);
     free(x);
-    cpsi_raw_free(raw);
+    cpsi_conic_rows_free(raw);
     return status;
 }
 
-CpsStatus cpsi_term_form(int n, const CpsiTerm *term, double speed, CpsiForm **out, CpsError *err) {
+CpsStatus cpsi_term_form(int n, const CpsiTerm *term, double speed, CpsiConicForm **out,
+                         CpsError *err) {
     if (term->kind == CPSI_VISCOUS && !(speed > 0)) return any_force(n, out, err);
     if (term->kind == CPSI_VISCOUS) return viscous_form(n, term->data, speed, out, err);
     return gauge_form(n, term, speed, out, err);

@@ -218,7 +218,7 @@ static void mix_obstacle(uint64_t *hash, const CpsiObstacle *obstacle, const Cps
     mix_numbers(hash, 3,
                 (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
     if (!set) return;
-    const CpsiShapeForm *form = cpsi_friction_set_shape(set);
+    const CpsiConicSet *form = cpsi_friction_set_conic(set);
     mix(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
     mix_numbers(hash, (size_t)(form->rows * form->unknowns), form->a);
     mix_numbers(hash, (size_t)form->rows, form->b);

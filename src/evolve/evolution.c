@@ -27,7 +27,7 @@
 
 /* create --------------------------------------------------------------------------------------- */
 
-static char *take_name(CpsiArena *arena, const char *name) {
+static char *copy_name(CpsiArena *arena, const char *name) {
     const size_t size = strlen(name) + 1;
     char *copy = CPSI_TAKE(arena, size, char);
     if (copy) memcpy(copy, name, size);
@@ -57,10 +57,10 @@ static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
 
 /* The friction sets of the obstacles; *out is NULL where none is given. `largest` holds them
  * all. */
-static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiShapeForm *largest,
+static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiConicSet *largest,
                            CpsError *err) {
     *out = NULL;
-    *largest = (CpsiShapeForm){0};
+    *largest = (CpsiConicSet){0};
     bool any = false;
     for (int k = 0; k < scene->obstacle_count; k++) any = any || scene->obstacle[k].friction_set;
     if (!any) return CPS_OK;
@@ -76,7 +76,7 @@ static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiSh
             return status;
         }
         if (!set[k]) continue;
-        const CpsiShapeForm *form = cpsi_friction_set_shape(set[k]);
+        const CpsiConicSet *form = cpsi_friction_set_conic(set[k]);
         if (form->unknowns > largest->unknowns) largest->unknowns = form->unknowns;
         if (form->rows > largest->rows) largest->rows = form->rows;
         if (form->cones > largest->cones) largest->cones = form->cones;
@@ -88,7 +88,7 @@ static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiSh
 
 /* Everything an evolution holds, in one block (base/arena.h); called once to measure and once to
  * place. */
-static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiShapeForm *largest) {
+static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiConicSet *largest) {
     CpsEvolution measured = {0};
     CpsiLine any = {0};
     CpsiEvolutionStage none = {0};
@@ -102,21 +102,21 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     evolution->obstacle = CPSI_TAKE(arena, scene->obstacle_count + 1, CpsiObstacle);
     evolution->obstacle_name = CPSI_TAKE(arena, scene->obstacle_count + 1, const char *);
     for (int k = 0; k < scene->obstacle_count; k++) {
-        const char *name = take_name(arena, scene->obstacle[k].name);
+        const char *name = copy_name(arena, scene->obstacle[k].name);
         if (real) evolution->obstacle_name[k] = name;
     }
     evolution->angle = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->room.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
-    const bool follows = scene_follows(scene);
+    const bool has_local_axes = scene_follows(scene);
     const int contacts = scene->obstacle_count > 1 ? 2 : 1,
               element_contacts = scene_keeps_elements_out(scene) ? 1 : 0;
     int nodes = 0, inextensible = 0;
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
-        line->name = take_name(arena, scene->line[i].name);
+        line->name = copy_name(arena, scene->line[i].name);
         line->n = scene->line[i].elements + 1;
-        line->follows = follows;
+        line->has_local_axes = has_local_axes;
         line->contacts = contacts;
         line->element_contacts = element_contacts;
         line->has_zones = scene->line[i].zone_count > 0;
@@ -127,18 +127,18 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiS
     }
     for (int i = 0; i < scene->stage_count; i++) {
         CpsiEvolutionStage *stage = real ? &evolution->stage[i] : &none;
-        stage->name = take_name(arena, scene->stage[i].name);
+        stage->name = copy_name(arena, scene->stage[i].name);
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
-    cpsi_advance_layout(&evolution->room, arena, nodes, contacts + element_contacts,
-                        scene->solver.path_tolerance > 0);
+    cpsi_substeps_layout(&evolution->room, arena, nodes, contacts + element_contacts,
+                         scene->solver.path_tolerance > 0);
     if (inextensible > 0)
         cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts + element_contacts);
     const CpsiLinsysOps *ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE
                                    ? &cpsi_linsys_dense
                                    : &cpsi_linsys_chain;
-    cpsi_chain_program_layout(&evolution->program, arena, nodes, follows ? contacts : 0,
+    cpsi_chain_program_layout(&evolution->program, arena, nodes, has_local_axes ? contacts : 0,
                               element_contacts > 0, largest, ops);
     cpsi_least_motion_layout(&evolution->least, arena, nodes, contacts, ops);
     return placed;
@@ -151,7 +151,7 @@ static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     line->obstacle = evolution->obstacle;
     line->friction_set = (const CpsiFrictionSet *const *)evolution->set;
     line->turn = evolution->room.turn;
-    const bool own = line->follows || line->obstacle_count == 0;
+    const bool own = line->has_local_axes || line->obstacle_count == 0;
     const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
     for (int i = 0; i < 3; i++) vec3_store(&line->common[3 * i], plane.axis[i]);
 }
@@ -190,9 +190,9 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     for (int e = 0; e < def->elements; e++)
         line->element_length[e] =
             def->element_length ? def->element_length[e] : def->length / def->elements;
-    cpsi_line_measure(line);
+    cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);
-    for (int c = 0; line->follows && c < cpsi_line_all_contacts(line); c++) line->on[c] = -1;
+    for (int c = 0; line->has_local_axes && c < cpsi_line_all_contacts(line); c++) line->on[c] = -1;
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
@@ -263,7 +263,7 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the handle");
     *out = NULL;
     CpsiFrictionSet **set = NULL;
-    CpsiShapeForm sizes;
+    CpsiConicSet sizes;
     CpsStatus status = cps_scene_check(scene, err);
     if (status == CPS_OK) status = make_sets(scene, &set, &sizes, err);
     if (status != CPS_OK) return status;
@@ -273,7 +273,7 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
         free_sets(scene, set);
         return status;
     }
-    const CpsiShapeForm *largest = set ? &sizes : NULL;
+    const CpsiConicSet *largest = set ? &sizes : NULL;
     CpsiArena arena = {0};
     layout(&arena, scene, largest);
     const size_t bytes = arena.used;
@@ -411,7 +411,7 @@ static void plan(CpsEvolution *evolution) {
 
 /* Statics: lines laid find their first equilibrium. The others take a load step under the ends as
  * they are. */
-static void lay(CpsEvolution *evolution) {
+static void place_statically(CpsEvolution *evolution) {
     snprintf(evolution->step_name, CPSI_STEP_NAME, "laid");
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int i = 0; i < evolution->line_count; i++) {
@@ -421,12 +421,12 @@ static void lay(CpsEvolution *evolution) {
         for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
         if (!evolution->is_laid[i]) {
-            cpsi_line_advance(line, &evolution->program, &options, move, &evolution->room, false);
+            cpsi_line_substeps(line, &evolution->program, &options, move, &evolution->room, false);
             continue;
         }
         options.frictionless = true;
         options.contact = CPS_CONTACT_GAINED;
-        cpsi_line_lay(line, &evolution->program, &options, &evolution->room);
+        cpsi_line_place_statically(line, &evolution->program, &options, &evolution->room);
     }
 }
 
@@ -441,7 +441,7 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     if (line->parts > step->parts) step->parts = line->parts;
     step->snaps += line->snaps;
     if (line->places > step->places) step->places = line->places;
-    step->jump = cpsi_larger(step->jump, line->jump);
+    step->jump = cpsi_max_nan(step->jump, line->jump);
     step->unaccounted += line->unaccounted;
     to->primal += from->primal;
     to->dual += from->dual;
@@ -450,15 +450,15 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->friction_residual += from->friction_residual;
     to->law_residual += from->law_residual;
     to->contact_residual += from->contact_residual;
-    to->tension_bound = cpsi_larger(to->tension_bound, from->tension_bound);
-    to->tension_estimate = cpsi_larger(to->tension_estimate, from->tension_estimate);
-    to->force_residual = cpsi_larger(to->force_residual, from->force_residual);
-    to->largest_force = cpsi_larger(to->largest_force, from->largest_force);
-    to->element_push = cpsi_larger(to->element_push, from->element_push);
-    to->elongation_residual = cpsi_larger(to->elongation_residual, from->elongation_residual);
-    to->stretch_residual = cpsi_larger(to->stretch_residual, from->stretch_residual);
-    to->penetration = cpsi_larger(to->penetration, from->penetration);
-    to->element_penetration = cpsi_larger(to->element_penetration, from->element_penetration);
+    to->tension_bound = cpsi_max_nan(to->tension_bound, from->tension_bound);
+    to->tension_estimate = cpsi_max_nan(to->tension_estimate, from->tension_estimate);
+    to->force_residual = cpsi_max_nan(to->force_residual, from->force_residual);
+    to->largest_force = cpsi_max_nan(to->largest_force, from->largest_force);
+    to->element_push = cpsi_max_nan(to->element_push, from->element_push);
+    to->elongation_residual = cpsi_max_nan(to->elongation_residual, from->elongation_residual);
+    to->stretch_residual = cpsi_max_nan(to->stretch_residual, from->stretch_residual);
+    to->penetration = cpsi_max_nan(to->penetration, from->penetration);
+    to->element_penetration = cpsi_max_nan(to->element_penetration, from->element_penetration);
 }
 
 static double seconds(void) {
@@ -508,12 +508,12 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     if (evolution->interrupt.asked) cps_evolution_save(evolution, evolution->before);
     evolution->interrupt.seen = false;
     if (laying) {
-        lay(evolution);
+        place_statically(evolution);
     } else {
         plan(evolution);
         for (int i = 0; i < evolution->line_count; i++)
-            cpsi_line_advance(&evolution->line[i], &evolution->program, &evolution->options,
-                              &evolution->move[i], &evolution->room, evolution->done > 0);
+            cpsi_line_substeps(&evolution->line[i], &evolution->program, &evolution->options,
+                               &evolution->move[i], &evolution->room, evolution->done > 0);
     }
     if (evolution->part == 0) find_ranges(evolution);
     if (evolution->interrupt.seen) {

@@ -6,7 +6,7 @@
 #include "cable/force_set.h"
 #include "cable/friction_set.h"
 #include "cable/least_motion.h"
-#include "evolve/advance.h"
+#include "evolve/substeps.h"
 
 enum { CPSI_STEP_NAME = 96 };
 
@@ -36,7 +36,7 @@ struct CpsEvolution {
     CpsiFrictionSet **set;      /* (obstacle_count) those given as sets, NULL where none is */
     double *angle;              /* (obstacle_count) [rad] by which each turns in the step */
     CpsiMove *move;             /* (line_count) what the step does to each line */
-    CpsiAdvance room;
+    CpsiSubsteps room;
     CpsiLine *line;            /* (line_count) */
     CpsiEvolutionStage *stage; /* (stage_count) */
     bool laid;                 /* the first step is the statics of lines laid */

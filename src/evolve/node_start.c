@@ -8,7 +8,7 @@
 
 #include "base/status.h"
 #include "base/vec3.h"
-#include "cable/rub_set.h"
+#include "cable/friction_law.h"
 #include "evolve/friction_zone.h"
 #include "geometry/obstacle.h"
 
@@ -171,11 +171,11 @@ void cpsi_node_start(CpsiLine *line, const CpsLine *def) {
         line->state[j] = CPS_NODE_FREE;
         if (!(fabs(gap) <= TOUCH * line->length)) continue;
         line->state[j] = CPS_NODE_STICK;
-        if (line->follows) line->on[j] = on;
+        if (line->has_local_axes) line->on[j] = on;
         if (start->reaction) {
             line->reaction[j] = start->reaction[j];
         } else if (start->friction_bound) {
-            const double friction = cpsi_rub_set(line, j).friction;
+            const double friction = cpsi_friction_law(line, j).friction;
             line->reaction[j] = friction > 0 ? start->friction_bound[j] / friction : 0;
         } else {
             line->reaction[j] = balance(line, def, j, cpsi_obstacle_normal(&line->obstacle[on], x));

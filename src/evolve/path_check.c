@@ -20,8 +20,8 @@ double cpsi_path_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to, double 
     return depth > fmax(touch, -cpsi_obstacle_gap(obstacle, from)) ? depth : 0;
 }
 
-static CpsStatus check_way(const CpsScene *scene, int stage, const CpsChange *change,
-                           const double *from, CpsError *err) {
+static CpsStatus check_path(const CpsScene *scene, int stage, const CpsChange *change,
+                            const double *from, CpsError *err) {
     const CpsLine *line = &scene->line[change->line];
     const double *to = change->to.value;
     for (int k = 0; k < scene->obstacle_count; k++) {
@@ -60,7 +60,7 @@ CpsStatus cpsi_path_check(const CpsScene *scene, CpsError *err) {
             const CpsChange *change = &stage->change[i];
             double *at = place[change->line].end[change->end];
             const bool held = change->to.kind == CPS_END_HELD;
-            if (held && !isnan(at[0])) status = check_way(scene, k, change, at, err);
+            if (held && !isnan(at[0])) status = check_path(scene, k, change, at, err);
             memcpy(at, change->to.value, sizeof place->end[0]);
             if (!held) at[0] = NAN;
         }

@@ -36,7 +36,7 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
     CpsEnd from[2] = {before[0], before[1]};
     with.drag = FIRST_DRAG;
     with.least = NULL;
-    with.centrings = 2;
+    with.centering_steps = 2;
     *done = (CpsiRelaxation){0};
     for (int k = 0; k < STEPS && !cpsi_interrupt_seen(program->base.interrupt); k++) {
         const CpsiLedgerStart start = cpsi_ledger_start(line, from, known);

@@ -34,7 +34,7 @@ static bool is_placed(const CpsEnd *end) {
 }
 
 /* ends of the first guess of a laid line, of which at least one is held */
-static void laid_guess(const CpsLine *line, Vec3 guess[2]) {
+static void statics_guess(const CpsLine *line, Vec3 guess[2]) {
     for (int k = 0; k < 2; k++) guess[k] = vec3_load(line->end[k].value);
     for (int k = 0; k < 2; k++) {
         if (is_placed(&line->end[k])) continue;
@@ -50,7 +50,7 @@ CpsiStartWalk cpsi_start_walk(const CpsLine *line) {
     if (line->start.kind == CPS_START_ARC) walk.arc = cpsi_start_arc(line);
     if (line->start.kind == CPS_START_LAID) {
         Vec3 guess[2];
-        laid_guess(line, guess);
+        statics_guess(line, guess);
         walk.from = guess[0];
         walk.to = guess[1];
     }

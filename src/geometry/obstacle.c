@@ -107,7 +107,7 @@ Vec3 cpsi_obstacle_move(const CpsiObstacle *o, Vec3 x, Vec3 u) {
     return vec3_add(vec3_axpy(reach, arm, centre), straight);
 }
 
-Vec3 cpsi_obstacle_way(const CpsiObstacle *o, Vec3 from, Vec3 to) {
+Vec3 cpsi_obstacle_slip(const CpsiObstacle *o, Vec3 from, Vec3 to) {
     if (o->kind == CPS_OBSTACLE_PLANE) return reject(vec3_sub(to, from), o->frame.axis[2]);
     const Vec3 n0 = cpsi_obstacle_normal(o, from), n1 = cpsi_obstacle_normal(o, to),
                axis = o->frame.axis[2];

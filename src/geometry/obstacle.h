@@ -52,7 +52,7 @@ Vec3 cpsi_obstacle_move(const CpsiObstacle *obstacle, Vec3 x, Vec3 u);
 /* The way from one point's foot to another's along the surface, as a tangent vector at the second:
  * its length is that of the geodesic, its direction the one of arrival. The shorter way round; of
  * two points half round apart, one of them. */
-Vec3 cpsi_obstacle_way(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
+Vec3 cpsi_obstacle_slip(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 
 /* [rad] The angle between two normals of a round obstacle: about a cylinder's axis by the
  * right-hand rule, from -pi to pi; on a ball that of the great circle, from 0 to pi. 0 on a

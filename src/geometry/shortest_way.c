@@ -44,8 +44,8 @@ static Vec3 onward(const CpsiObstacle *o, Vec3 e, Vec3 b, double turn) {
     return vec3_scale(1 / vec3_norm(across), across);
 }
 
-bool cpsi_shortest_way(const CpsiObstacle *o, Vec3 a, Vec3 b, double turn, CpsiPolygon polygon,
-                       CpsiShortestWay *out) {
+bool cpsi_shortest_path(const CpsiObstacle *o, Vec3 a, Vec3 b, double turn, CpsiPolygon polygon,
+                        CpsiShortestPath *out) {
     if (o->kind == CPS_OBSTACLE_PLANE) return false;
     const bool ball = o->kind == CPS_OBSTACLE_SPHERE;
     const Vec3 from = cpsi_obstacle_spoke(o, a), to = cpsi_obstacle_spoke(o, b);

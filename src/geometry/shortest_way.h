@@ -12,17 +12,17 @@ typedef struct CpsiPolygon {
     double length, nearest; /* [m] */
 } CpsiPolygon;
 
-typedef struct CpsiShortestWay {
+typedef struct CpsiShortestPath {
     double length;   /* [m] no polygon is shorter */
     double rounding; /* [m] what arithmetic may have added to it */
     Vec3 leaves; /* the direction, of length 1, in which the shortest way round the obstacle leaves
                     its first end */
-} CpsiShortestWay;
+} CpsiShortestPath;
 
 /* The shortest way from a to b round a cylinder or a ball (docs/theory.md 5). `turn` [rad]: by
  * which the way goes about the axis of a cylinder, right-hand rule; a ball has one way only. False
  * where the obstacle is not in the way, and for a plane. */
-bool cpsi_shortest_way(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double turn,
-                       CpsiPolygon polygon, CpsiShortestWay *out);
+bool cpsi_shortest_path(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double turn,
+                        CpsiPolygon polygon, CpsiShortestPath *out);
 
 #endif

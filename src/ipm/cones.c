@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "ipm/cone_step.h"
+#include "ipm/cone.h"
 
 void cpsi_cones_layout(CpsiArena *arena, CpsiCones *cones, int rows, int count, int largest) {
     const size_t m = (size_t)rows;
@@ -44,7 +44,7 @@ double cpsi_cones_step(CpsiCones *cones) {
         const double step =
             cpsi_cone_step(cones->dim[k], &cones->w[i], cones->g[k], &cones->s[i], &cones->z[i],
                            &cones->ds[i], &cones->dz[i], cones->scratch);
-        inverse = cpsi_larger(inverse, step);
+        inverse = cpsi_max_nan(inverse, step);
     }
     return inverse;
 }

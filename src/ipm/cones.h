@@ -2,7 +2,7 @@
 /* The cones of a program, one after the other: pairs (s, z), their Nesterov-Todd scaling, steps and
  * corrections.
  *
- * A half-line is a cone of dimension 1 with W = 1 and g = z/s; for the others see cone/soc.h. H = g
+ * A half-line is a cone of dimension 1 with W = 1 and g = z/s; for the others see ipm/soc.h. H = g
  * W^-2. */
 #ifndef CAPSTAN_SRC_IPM_CONES_H
 #define CAPSTAN_SRC_IPM_CONES_H

@@ -84,10 +84,10 @@ static double step_length(const CpsiSums *sums, double fraction) {
  * their rounding goes with. */
 static double judge(CpsiProgram *program, const CpsiSums *sums, const CpsiIpmOptions *options,
                     CpsiIpmReport *report) {
-    report->imbalance = program->imbalance(program) / cpsi_larger(1, sums->largest);
+    report->imbalance = program->imbalance(program) / cpsi_max_nan(1, sums->largest);
     report->gap = sums->sz / (options->scale + sums->scale);
     report->residual = sums->residual;
-    return report->gap + cpsi_larger(report->imbalance, report->residual);
+    return report->gap + cpsi_max_nan(report->imbalance, report->residual);
 }
 
 /* From an iterate at the target: steps to the centre, at the mu reached, then below. That near,
@@ -97,8 +97,8 @@ static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const Cp
                    CpsiIpmReport *report) {
     const int sharpenings = sums->bound > 0 ? options->sharpenings : 0;
     double mu = sums->sz / sums->weight;
-    for (int k = 0; k < options->centrings + sharpenings; k++) {
-        if (k >= options->centrings) mu *= SHARPER;
+    for (int k = 0; k < options->centering_steps + sharpenings; k++) {
+        if (k >= options->centering_steps) mu *= SHARPER;
         if (!scale_and_factor(program)) return;
         for (int i = 0; i < program->kind_count; i++) program->kind[i]->centre(program, mu);
         const CpsiSums step = direction(program, 1, false);
@@ -131,7 +131,7 @@ static bool dual_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
     double size = 0, gain = 0;
     for (int i = 0; i < program->size; i++) {
         gain += program->load[i] * program->u[i];
-        size = cpsi_larger(size, fabs(program->u[i]));
+        size = cpsi_max_nan(size, fabs(program->u[i]));
     }
     return size > FAR && gain > sums->scale + size / FAR;
 }

@@ -18,10 +18,10 @@ typedef struct CpsiIpmOptions {
     double target; /* relative complementarity gap to reach */
     double scale;  /* > 0: what the gap is at least compared with */
     int max_iterations;
-    int patience;    /* steps without halving the best gap before the loop gives up; 0: as many as
-                        serves most programs */
-    int centrings;   /* steps to the centre once the target is reached: they turn each dual to its
-                        primal, which a gap does not see */
+    int patience; /* steps without halving the best gap before the loop gives up; 0: as many as
+                     serves most programs */
+    int centering_steps; /* steps to the centre once the target is reached: they turn each dual to
+                      its primal, which a gap does not see */
     int sharpenings; /* so many more where forces are bounded by friction, each towards a smaller
                         product: what rests and what slips part */
 } CpsiIpmOptions;

@@ -2,7 +2,7 @@
 /* The other side of resistance laws: phi*(-F), velocities, and how far a pair is from the law.
  *
  * phi* of a sum is the least sum of the terms' conjugates over all ways of sharing F among them
- * (sum.c). Closed forms:
+ * (conjugate_sum.c). Closed forms:
  *
  *   one term h(g)               h*(gauge of C at F)
  *   viscous                     <F, D^-1 F>/2, V = -D^-1 F
@@ -146,7 +146,7 @@ static CpsStatus term_conjugate(const CpsResistance *law, const double *force, d
     }
     if (!velocity) return CPS_OK;
     CpsSetAnswer split;
-    status = cpsi_sum_conjugate(law, force, velocity, NULL, &split, err);
+    status = cpsi_conjugate_sum(law, force, velocity, NULL, &split, err);
     if (status == CPS_OK) answer->outcome = split.outcome;
     return status;
 }
@@ -169,7 +169,7 @@ CpsStatus cps_resistance_conjugate(const CpsResistance *law, const double *force
         status = quadratic_conjugate(law, force, velocity, &closed, answer, err);
     if (status != CPS_OK || closed) return status;
     if (law->count == 1 && !quadratic) return term_conjugate(law, force, velocity, answer, err);
-    return cpsi_sum_conjugate(law, force, velocity, NULL, answer, err);
+    return cpsi_conjugate_sum(law, force, velocity, NULL, answer, err);
 }
 
 /* ---- a pair ---- */

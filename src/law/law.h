@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "capstan/law.h"
-#include "linsys/small.h"
+#include "linalg/dense.h"
 
 /* C, and the factors it is a product of (itself, where it is none): the composition rule looks at
  * each on its own. */

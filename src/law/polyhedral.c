@@ -3,7 +3,7 @@
  * polyhedra (Rockafellar 19), so the leaves decide; a set of R is an interval, however it came
  * about. */
 #include "law/law.h"
-#include "set/node.h"
+#include "set/set.h"
 
 bool cpsi_law_polyhedral(const CpsSet *set) {
     if (set->n == 1) return true;

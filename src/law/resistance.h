@@ -50,9 +50,9 @@ CpsStatus cpsi_function_check(const CpsiTerm *term, CpsError *err);
 /* False for a power without factor and a table of zeros: no force at any speed. */
 bool cpsi_term_resists(const CpsiTerm *term);
 
-/* cps_resistance_conjugate for any sum of terms (sum.c). share (count, n) or NULL: the terms'
- * shares of the force at least cost. */
-CpsStatus cpsi_sum_conjugate(const CpsResistance *law, const double *force, double *velocity,
+/* cps_resistance_conjugate for any sum of terms (conjugate_sum.c). share (count, n) or NULL: the
+ * terms' shares of the force at least cost. */
+CpsStatus cpsi_conjugate_sum(const CpsResistance *law, const double *force, double *velocity,
                              double *share, CpsSetAnswer *answer, CpsError *err);
 
 /* The sum of the dry terms' sets. */

@@ -176,7 +176,7 @@ CpsStatus cps_resistance_velocities(const CpsResistance *law, const double *forc
         if (law->count == 1)
             memcpy(share, force, n * sizeof *share);
         else
-            status = cpsi_sum_conjugate(law, force, NULL, share, &shared, err);
+            status = cpsi_conjugate_sum(law, force, NULL, share, &shared, err);
         if (status == CPS_OK && shared.outcome != CPS_SET_ANSWERED)
             answer->outcome = shared.outcome;
         else if (status == CPS_OK)

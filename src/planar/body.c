@@ -251,16 +251,17 @@ int cps_planar_patches(const CpsPlanar *body) { return body ? body->count : 0; }
 
 /* ---- the law ---- */
 
-CpsStatus cpsi_planar_rub(const CpsPlanar *body, const double twist[3], double wrench[3],
-                          double *by_patch, CpsSetAnswer *answer, CpsError *err) {
+CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist[3],
+                                       double wrench[3], double *by_patch, CpsSetAnswer *answer,
+                                       CpsError *err) {
     double total[3] = {0, 0, 0};
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
     for (int k = 0; k < body->count; k++) {
         const CpsiPatch *patch = &body->patch[k];
-        CpsiRub rub;
+        CpsiFrictionDisc rub;
         double velocity[2];
         cpsi_patch_velocity(patch, twist, velocity);
-        const CpsStatus status = cpsi_patch_rub(patch, velocity, twist[2], &rub, err);
+        const CpsStatus status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &rub, err);
         if (status != CPS_OK) return status;
         if (rub.outcome != CPS_SET_ANSWERED) answer->outcome = rub.outcome;
         answer->exact = answer->exact && rub.exact;
@@ -283,7 +284,9 @@ CpsStatus cps_planar_dissipation(const CpsPlanar *body, const double twist[3], d
                                  double *by_patch, CpsSetAnswer *answer, CpsError *err) {
     if (!body || !answer) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body or answer is NULL");
     const CpsStatus status = cpsi_planar_finite("twist", 3, twist, err);
-    return status == CPS_OK ? cpsi_planar_rub(body, twist, wrench, by_patch, answer, err) : status;
+    return status == CPS_OK
+               ? cpsi_planar_dissipation_rate(body, twist, wrench, by_patch, answer, err)
+               : status;
 }
 
 CpsStatus cps_planar_wheel(const CpsPlanar *body, int patch, const double twist[3],

@@ -87,8 +87,8 @@ CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double
                 found.outcome = CPS_SET_INACCURATE;
             continue;
         }
-        CpsiRub rub;
-        status = cpsi_patch_rub(patch, velocity, twist[2], &rub, err);
+        CpsiFrictionDisc rub;
+        status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &rub, err);
         if (status != CPS_OK) break;
         if (rub.outcome != CPS_SET_ANSWERED) found.outcome = rub.outcome;
         const double slack = rub.gap + ROUNDING * rub.power;

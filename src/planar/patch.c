@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "base/math.h"
-#include "planar/elliptic.h"
+#include "linalg/elliptic.h"
 #include "planar/planar.h"
 
 /* Where the centre of rotation lies farther than this many sizes from the patch's middle, Gauss's
@@ -50,7 +50,7 @@ static Line along_line(double d, double y0, double y1) {
 
 /* Friction of strength q at r, added to the rub. */
 static void add_point(double q, const double r[2], const double velocity[2], double w,
-                      CpsiRub *rub) {
+                      CpsiFrictionDisc *rub) {
     const double v[2] = {velocity[0] - w * r[1], velocity[1] + w * r[0]}, speed = hypot(v[0], v[1]);
     if (!(speed > 0)) return;
     const double f[2] = {-q * v[0] / speed, -q * v[1] / speed};
@@ -73,7 +73,7 @@ static void from_axis(const CpsiPatch *patch, const double v[2], double out[2]) 
     out[1] = patch->axis[1] * v[0] + patch->axis[0] * v[1];
 }
 
-static CpsStatus rub_law(const CpsiPatch *patch, const double velocity[2], CpsiRub *rub,
+static CpsStatus rub_law(const CpsiPatch *patch, const double velocity[2], CpsiFrictionDisc *rub,
                          CpsError *err) {
     double local[2], force[2] = {0, 0};
     CpsSetAnswer answer;
@@ -110,7 +110,7 @@ CpsWheelMotion cpsi_wheel_motion(const CpsiPatch *patch, const double velocity[2
     return motion;
 }
 
-static void rub_wheel(const CpsiPatch *patch, const double velocity[2], CpsiRub *rub) {
+static void rub_wheel(const CpsiPatch *patch, const double velocity[2], CpsiFrictionDisc *rub) {
     const double r = patch->strength, s = patch->strip;
     const CpsWheelMotion motion = cpsi_wheel_motion(patch, velocity);
     const double wi = motion.velocity[0], wj = motion.velocity[1], speed = hypot(wi, wj);
@@ -132,11 +132,12 @@ static void rub_wheel(const CpsiPatch *patch, const double velocity[2], CpsiRub 
 /* ---- rod ---- */
 
 /* q = q0 (1 + tilt s) at s from -a to a. With y = vy + w s, the speed is hypot(vx, y). */
-static void rub_rod(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
+static void rub_rod(const CpsiPatch *patch, const double velocity[2], double w,
+                    CpsiFrictionDisc *rub) {
     const double a = patch->size, tilt = patch->tilt[0], q0 = patch->strength / (2 * a);
     double v[2];
     to_axis(patch, velocity, v);
-    CpsiRub local = {0};
+    CpsiFrictionDisc local = {0};
     if (fabs(w) * a * FAR <= hypot(v[0], v[1])) {
         for (int i = 0; i < GAUSS; i++) {
             const double s = a * GAUSS_NODE[i];
@@ -197,7 +198,8 @@ static Round round_axes(const CpsiPatch *patch, const double velocity[2], double
 
 /* The unit vectors away from the centre of rotation add up to (u1, u2): friction is these, turned
  * back by a right angle. */
-static void set_round_force(const Round *round, double u1, double u2, double w, CpsiRub *rub) {
+static void set_round_force(const Round *round, double u1, double u2, double w,
+                            CpsiFrictionDisc *rub) {
     const double turn = copysign(1, w);
     rub->force[0] = turn * (u1 * round->e1[1] + u2 * round->e2[1]);
     rub->force[1] = -turn * (u1 * round->e1[0] + u2 * round->e2[0]);
@@ -206,7 +208,8 @@ static void set_round_force(const Round *round, double u1, double u2, double w, 
 /* q = N (1 + tilt . r)/(2 pi): integrals of q rho, q (r - c)/rho and q r.(r - c)/rho round the
  * circle; 4/(u + v) times K, k^2 C and K - 4 i are those of 1/rho with 1, cos x, cos^2 x, in units
  * of |w|. */
-static void rub_ring(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
+static void rub_ring(const CpsiPatch *patch, const double velocity[2], double w,
+                     CpsiFrictionDisc *rub) {
     if (velocity[0] == 0 && velocity[1] == 0 && w == 0) return;
     const Round r = round_axes(patch, velocity, w);
     const double sum = r.u + r.v, n = patch->strength * 2 / CPSI_PI, m = n / sum;
@@ -219,7 +222,8 @@ static void rub_ring(const CpsiPatch *patch, const double velocity[2], double w,
 }
 
 /* Circles of Gauss's radii with 24 points each, which leave FAR^-24. */
-static void disc_far(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
+static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
+                     CpsiFrictionDisc *rub) {
     enum { AROUND = 24 };
     for (int i = 0; i < AROUND; i++)
         for (int j = 0; j < GAUSS; j++) {
@@ -239,7 +243,8 @@ static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
  *
  * rho0, rho1, rho2: integrals of rho with 1, cos x, cos^2 x in units of a^2. (Uniform: Farkas et
  * al. 2003.) */
-static void disc_near(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
+static void disc_near(const CpsiPatch *patch, const double velocity[2], double w,
+                      CpsiFrictionDisc *rub) {
     const Round r = round_axes(patch, velocity, w);
     const double d = r.v / r.u, p = patch->strength / CPSI_PI, four = 4 * (1 + d);
     const double sine = four * 4 * (r.i + 0.5 * (r.q.e - r.k2 * r.i)) / 5;
@@ -253,7 +258,8 @@ static void disc_near(const CpsiPatch *patch, const double velocity[2], double w
     rub->torque = -copysign(r.a, w) * (whole + d * u1);
 }
 
-static void rub_disc(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
+static void rub_disc(const CpsiPatch *patch, const double velocity[2], double w,
+                     CpsiFrictionDisc *rub) {
     if (fabs(w) * patch->size * FAR <= hypot(velocity[0], velocity[1]))
         disc_far(patch, velocity, w, rub);
     else if (w != 0)
@@ -263,7 +269,8 @@ static void rub_disc(const CpsiPatch *patch, const double velocity[2], double w,
 /* ---- polygon ---- */
 
 /* Triangles from the centroid to each side, Gauss's rule in both directions. */
-static void polygon_far(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
+static void polygon_far(const CpsiPatch *patch, const double velocity[2], double w,
+                        CpsiFrictionDisc *rub) {
     const double density = patch->strength / patch->area;
     for (int i = 0; i < patch->corner_count; i++) {
         const double *a = patch->corner + 2 * i,
@@ -287,7 +294,8 @@ static void polygon_far(const CpsiPatch *patch, const double velocity[2], double
  *     integral of p rho          = d (p(c)/3 + d g.n/4) i0 + d g.t i1/4
  *     integral of p r/rho (n)    = d^2 (p(c)/2 + d g.n/3) j0 + d^2 g.t j1/3
  *     integral of p r/rho (t)    = d (p(c)/2 + d g.n/3) j1 + d g.t j2/3  */
-static void polygon_near(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
+static void polygon_near(const CpsiPatch *patch, const double velocity[2], double w,
+                         CpsiFrictionDisc *rub) {
     const double density = patch->strength / patch->area,
                  c[2] = {-velocity[1] / w, velocity[0] / w};
     const double g[2] = {density * patch->tilt[0], density * patch->tilt[1]};
@@ -314,16 +322,17 @@ static void polygon_near(const CpsiPatch *patch, const double velocity[2], doubl
     rub->torque = -(rub->power + rub->force[0] * velocity[0] + rub->force[1] * velocity[1]) / w;
 }
 
-static void rub_polygon(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub) {
+static void rub_polygon(const CpsiPatch *patch, const double velocity[2], double w,
+                        CpsiFrictionDisc *rub) {
     if (fabs(w) * patch->size * FAR <= hypot(velocity[0], velocity[1]))
         polygon_far(patch, velocity, w, rub);
     else
         polygon_near(patch, velocity, w, rub);
 }
 
-CpsStatus cpsi_patch_rub(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub,
-                         CpsError *err) {
-    *rub = (CpsiRub){.outcome = CPS_SET_ANSWERED, .exact = true};
+CpsStatus cpsi_patch_dissipation_rate(const CpsiPatch *patch, const double velocity[2], double w,
+                                      CpsiFrictionDisc *rub, CpsError *err) {
+    *rub = (CpsiFrictionDisc){.outcome = CPS_SET_ANSWERED, .exact = true};
     switch (patch->kind) {
     case CPS_PATCH_POINT:
         if (patch->set) return rub_law(patch, velocity, rub, err);

@@ -29,16 +29,16 @@ struct CpsPlanar {
 
 /* Power and friction wrench of a patch about its position, in body axes: power = -(force . velocity
  * + torque w). */
-typedef struct CpsiRub {
+typedef struct CpsiFrictionDisc {
     CpsSetOutcome outcome;
     bool exact;
     double power, gap;
     double force[2], torque;
-} CpsiRub;
+} CpsiFrictionDisc;
 
 /* Closed form of a patch whose position moves with `velocity` while it turns with w. */
-CpsStatus cpsi_patch_rub(const CpsiPatch *patch, const double velocity[2], double w, CpsiRub *rub,
-                         CpsError *err);
+CpsStatus cpsi_patch_dissipation_rate(const CpsiPatch *patch, const double velocity[2], double w,
+                                      CpsiFrictionDisc *rub, CpsError *err);
 
 /* M77 section 11 for a wheel whose centre moves with `velocity` (body axes). */
 CpsWheelMotion cpsi_wheel_motion(const CpsiPatch *patch, const double velocity[2]);
@@ -58,7 +58,8 @@ static inline bool cpsi_patch_is_area(const CpsiPatch *patch) {
 CpsStatus cpsi_planar_finite(const char *what, int n, const double *a, CpsError *err);
 
 /* phi and a wrench of the law at a twist. Unchecked. */
-CpsStatus cpsi_planar_rub(const CpsPlanar *body, const double twist[3], double wrench[3],
-                          double *by_patch, CpsSetAnswer *answer, CpsError *err);
+CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist[3],
+                                       double wrench[3], double *by_patch, CpsSetAnswer *answer,
+                                       CpsError *err);
 
 #endif

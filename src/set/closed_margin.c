@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 /* The length s of the rows of a map whose rows are normal to each other and of one length, to
  * rounding; else 0. */

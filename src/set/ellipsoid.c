@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 /* Turn columns j and k of w and of v (n, n) until those of w are normal to each other; false where
  * they were. */

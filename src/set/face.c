@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 /* Directions of a face below this share of the largest, and lengths below this share of the form's,
  * are rounding. */
@@ -23,7 +23,7 @@ static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSe
 /* ---- conic forms ---- */
 
 /* Directions that x can take over the form: the rank of P beside the lines, and one direction. */
-static int directions(const CpsiForm *form, double *first, double *scratch) {
+static int directions(const CpsiConicForm *form, double *first, double *scratch) {
     const size_t n = (size_t)form->n, u = (size_t)form->unknowns;
     size_t count = 0;
     double most = 0;
@@ -44,7 +44,7 @@ static int directions(const CpsiForm *form, double *first, double *scratch) {
 }
 
 /* The simplest set that a form is: a point, a segment, or the form itself, which is taken over. */
-static CpsStatus simplest(CpsiForm *form, const double *x, CpsSet **out, CpsError *err) {
+static CpsStatus simplest(CpsiConicForm *form, const double *x, CpsSet **out, CpsError *err) {
     const int n = form->n;
     CpsiSolution end[2] = {{.outcome = CPS_SET_INACCURATE}, {.outcome = CPS_SET_INACCURATE}};
     double *d = malloc((1 + (size_t)form->unknowns + (size_t)form->lines) * (size_t)n * sizeof *d);
@@ -58,7 +58,7 @@ static CpsStatus simplest(CpsiForm *form, const double *x, CpsSet **out, CpsErro
     if (!done && rank == 1) {
         for (int k = 0; !status && k < 2; k++) {
             for (int i = 0; i < n; i++) d[i] = -d[i];
-            status = cpsi_form_minimise(form, d, &end[k], err);
+            status = cpsi_conic_form_minimise(form, d, &end[k], err);
         }
         if (!status && end[0].outcome == CPS_SET_ANSWERED && end[1].outcome == CPS_SET_ANSWERED) {
             double length = 0;
@@ -74,23 +74,23 @@ static CpsStatus simplest(CpsiForm *form, const double *x, CpsSet **out, CpsErro
         cpsi_solution_free(&end[1]);
     }
     free(d);
-    if (!done) return cpsi_set_from_form(form, out, err);
-    cpsi_form_free(form);
+    if (!done) return cpsi_set_from_conic_form(form, out, err);
+    cpsi_conic_form_free(form);
     return status;
 }
 
 static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, CpsSet **out,
                             CpsSetAnswer *answer, CpsError *err) {
     const int n = set->n;
-    const CpsiForm *form;
-    CpsiForm *made, *face = NULL;
+    const CpsiConicForm *form;
+    CpsiConicForm *made, *face = NULL;
     CpsiSolution solution = {.outcome = CPS_SET_INACCURATE};
     double *c = malloc((size_t)n * sizeof *c);
     if (!c) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
     for (int i = 0; i < n; i++) c[i] = -w[i];
-    CpsStatus status = cpsi_set_form(set, &form, &made, err);
-    if (!status) status = cpsi_form_minimise(form, c, &solution, err);
-    if (!status) cpsi_judge_attained(form, c, &solution);
+    CpsStatus status = cpsi_set_conic_form(set, &form, &made, err);
+    if (!status) status = cpsi_conic_form_minimise(form, c, &solution, err);
+    if (!status) cpsi_check_attained(form, c, &solution);
     if (!status && solution.outcome == CPS_SET_ANSWERED) {
         const double angle = fmax(slack / cpsi_norm(n, w), CPSI_LEAST_ANGLE);
         *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED,
@@ -101,12 +101,12 @@ static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, Cp
         if (!solution.s)
             *out = cps_set_retain(set);
         else
-            status = cpsi_form_restrict(form, &solution, angle, &face, err);
+            status = cpsi_conic_form_restrict(form, &solution, angle, &face, err);
         if (!status && face) status = simplest(face, solution.x, out, err);
     } else if (!status)
         *answer = (CpsSetAnswer){.outcome = solution.outcome};
     cpsi_solution_free(&solution);
-    cpsi_form_free(made);
+    cpsi_conic_form_free(made);
     free(c);
     return status;
 }

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "linsys/small.h"
+#include "linalg/dense.h"
 
 /* Points nearer to the span of others than this share of the size lie in it. */
 static const double FLAT = 1e-12;

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 static const double TURN = 6.283185307179586476925;
 

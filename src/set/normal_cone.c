@@ -14,8 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 /* Equations that differ by less than this share are one. A point off by `tolerance` turns a normal
  * by tolerance/radius, for radii down to a hundredth of the set. */
@@ -34,19 +34,19 @@ static Touch touch_of(const double *s, int d, double tolerance) {
  * takes s as far inside as it goes: tau = 0 for p on the boundary, and where rounding has put p
  * beside it the solution is still unique and well conditioned. tau >= -1 ends what has no boundary.
  * Fills s (rows of the form). */
-static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetOutcome *outcome,
-                       CpsError *err) {
+static CpsStatus fibre(const CpsiConicForm *form, const double *p, double *s,
+                       CpsSetOutcome *outcome, CpsError *err) {
     const int n = form->n, u = form->unknowns;
-    CpsiRaw *raw = NULL;
-    CpsiForm *reduced = NULL;
+    CpsiConicRows *conic = NULL;
+    CpsiConicForm *reduced = NULL;
     const CpsiCount count = {.unknowns = (size_t)u + 1,
                              .equations = (size_t)n,
                              .rows = (size_t)form->rows + 1,
                              .cones = (size_t)form->cones + 1};
-    CpsStatus status = cpsi_raw_new(count, u + 1, &raw, err);
+    CpsStatus status = cpsi_conic_rows_new(count, u + 1, &conic, err);
     if (status) return status;
     for (int i = 0; i < n; i++) {
-        double *row = cpsi_raw_equation(raw), gap = p[i] - form->origin[i];
+        double *row = cpsi_conic_rows_equation(conic), gap = p[i] - form->origin[i];
         /* what p has along the lines does not matter */
         for (int l = 0; l < form->lines; l++)
             for (int j = 0; j < n; j++)
@@ -54,26 +54,27 @@ static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetO
         memcpy(row, &form->p[(size_t)i * (size_t)u], (size_t)u * sizeof *row);
         row[u + 1] = -gap;
         if (cpsi_norm(u, row) <= 1e-12 * form->size) {
-            raw->equations--;
+            conic->equations--;
             memset(row, 0, ((size_t)u + 2) * sizeof *row);
         }
     }
     for (int k = 0, i = 0; k < form->cones; k++) {
-        double *rows = cpsi_raw_cone(raw, form->dim[k]);
+        double *rows = cpsi_conic_rows_cone(conic, form->dim[k]);
         rows[u] = 1;
-        for (int r = 0; r < form->dim[k]; r++, i++, rows += raw->width) {
+        for (int r = 0; r < form->dim[k]; r++, i++, rows += conic->width) {
             memcpy(rows, &form->a[(size_t)i * (size_t)u], (size_t)u * sizeof *rows);
             rows[u + 1] = form->b[i];
         }
     }
-    double *last = cpsi_raw_cone(raw, 1);
+    double *last = cpsi_conic_rows_cone(conic, 1);
     last[u] = last[u + 1] = 1;
-    double *map = calloc(((size_t)u + 1) * (size_t)raw->width, sizeof *map);
+    double *map = calloc(((size_t)u + 1) * (size_t)conic->width, sizeof *map);
     if (!map) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
-    for (size_t j = 0; map && j <= (size_t)u; j++) map[j * (size_t)raw->width + j] = 1;
-    if (!status) status = cpsi_form_reduce(raw, u + 1, map, 0, NULL, SAME_EQUATION, &reduced, err);
+    for (size_t j = 0; map && j <= (size_t)u; j++) map[j * (size_t)conic->width + j] = 1;
+    if (!status)
+        status = cpsi_conic_form_reduce(conic, u + 1, map, 0, NULL, SAME_EQUATION, &reduced, err);
     free(map);
-    cpsi_raw_free(raw);
+    cpsi_conic_rows_free(conic);
     if (status) return status;
 
     /* v at the deepest point of the fibre */
@@ -83,20 +84,20 @@ static CpsStatus fibre(const CpsiForm *form, const double *p, double *s, CpsSetO
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     else {
         c[u] = 1;
-        status = cpsi_form_minimise(reduced, c, &solution, err);
+        status = cpsi_conic_form_minimise(reduced, c, &solution, err);
     }
     *outcome = solution.outcome;
     if (!status && solution.outcome == CPS_SET_ANSWERED)
         for (int i = 0; i < form->rows; i++)
             s[i] = cpsi_dot(u, &form->a[(size_t)i * (size_t)u], solution.x) + form->b[i];
     cpsi_solution_free(&solution);
-    cpsi_form_free(reduced);
+    cpsi_conic_form_free(reduced);
     free(c);
     return status;
 }
 
 /* A simplicial cone of half-lines is its rays: {P v : A v >= 0} = columns of P A^-1. */
-static CpsStatus as_rays(CpsiForm *form, CpsSet **out, CpsError *err) {
+static CpsStatus as_rays(CpsiConicForm *form, CpsSet **out, CpsError *err) {
     const size_t n = (size_t)form->n, u = (size_t)form->unknowns, lines = (size_t)form->lines;
     bool simple = form->rows == form->unknowns && form->largest_cone <= 1;
     double *inverse = malloc((u * u + u + (u + 2 * lines) * n + 1) * sizeof *inverse),
@@ -133,92 +134,92 @@ static CpsStatus as_rays(CpsiForm *form, CpsSet **out, CpsError *err) {
     }
     free(inverse);
     free(pivot);
-    if (!simple && !status) return cpsi_set_from_form(form, out, err);
-    cpsi_form_free(form);
+    if (!simple && !status) return cpsi_set_from_conic_form(form, out, err);
+    cpsi_conic_form_free(form);
     return status;
 }
 
 /* The z of one cone as new unknowns: its part of P'w + A'z = 0, and what keeps it in the cone. */
-static void write_touch(CpsiRaw *raw, const CpsiForm *form, const double *s, int i, int d,
-                        Touch touch, double *equations) {
+static void write_touch(CpsiConicRows *conic, const CpsiConicForm *form, const double *s, int i,
+                        int d, Touch touch, double *equations) {
     const int u = form->unknowns;
     if (touch == FREE) return;
     const int count = touch == RAY || d == 1 ? 1 : d;
-    double *rows = cpsi_raw_cone(raw, count);
+    double *rows = cpsi_conic_rows_cone(conic, count);
     const double size = cpsi_norm(d - 1, s + 1);
-    for (int k = 0; k < count; k++, raw->next++) {
-        rows[(size_t)k * (size_t)raw->width + (size_t)raw->next] = 1;
+    for (int k = 0; k < count; k++, conic->next++) {
+        rows[(size_t)k * (size_t)conic->width + (size_t)conic->next] = 1;
         for (int r = 0; r < d; r++) {
             const double z = count > 1 || d == 1 ? r == k : r ? -s[r] / size : 1;
             for (int j = 0; z != 0 && j < u; j++)
-                equations[(size_t)j * (size_t)raw->width + (size_t)raw->next] +=
+                equations[(size_t)j * (size_t)conic->width + (size_t)conic->next] +=
                     z * form->a[(size_t)(i + r) * (size_t)u + (size_t)j];
         }
     }
 }
 
-static CpsStatus build_cone(const CpsiForm *form, const double *s, double tolerance, double same,
-                            CpsSet **out, CpsError *err) {
+static CpsStatus build_cone(const CpsiConicForm *form, const double *s, double tolerance,
+                            double same, CpsSet **out, CpsError *err) {
     const int n = form->n, u = form->unknowns;
-    CpsiRaw *raw = NULL;
-    CpsiForm *reduced = NULL;
+    CpsiConicRows *conic = NULL;
+    CpsiConicForm *reduced = NULL;
     CpsiCount count = {.unknowns = (size_t)(n + form->rows),
                        .equations = (size_t)(u + form->lines),
                        .rows = (size_t)form->rows,
                        .cones = (size_t)form->cones};
-    CpsStatus status = cpsi_raw_new(count, n, &raw, err);
+    CpsStatus status = cpsi_conic_rows_new(count, n, &conic, err);
     if (status) return status;
     /* P'w + A'z = 0, divided by the length in P */
-    double *equations = raw->equation;
+    double *equations = conic->equation;
     for (int j = 0; j < u; j++) {
-        double *row = cpsi_raw_equation(raw);
+        double *row = cpsi_conic_rows_equation(conic);
         for (int i = 0; i < n; i++)
             row[i] = form->p[(size_t)i * (size_t)u + (size_t)j] / form->size;
     }
     for (int l = 0; l < form->lines; l++)
-        memcpy(cpsi_raw_equation(raw), &form->q[l * n], (size_t)n * sizeof *form->q);
+        memcpy(cpsi_conic_rows_equation(conic), &form->q[l * n], (size_t)n * sizeof *form->q);
     for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
-        write_touch(raw, form, &s[i], i, form->dim[k], touch_of(&s[i], form->dim[k], tolerance),
+        write_touch(conic, form, &s[i], i, form->dim[k], touch_of(&s[i], form->dim[k], tolerance),
                     equations);
     /* unknowns that no cone took stay 0 */
-    CpsiRaw *whole = NULL;
-    count = (CpsiCount){.unknowns = (size_t)raw->next,
-                        .equations = (size_t)raw->equations,
-                        .rows = (size_t)raw->rows,
-                        .cones = (size_t)raw->cones};
-    status = cpsi_raw_new(count, raw->next, &whole, err);
+    CpsiConicRows *whole = NULL;
+    count = (CpsiCount){.unknowns = (size_t)conic->next,
+                        .equations = (size_t)conic->equations,
+                        .rows = (size_t)conic->rows,
+                        .cones = (size_t)conic->cones};
+    status = cpsi_conic_rows_new(count, conic->next, &whole, err);
     double *map = status ? NULL : calloc((size_t)n * (size_t)whole->width, sizeof *map);
     if (!status && !map) status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     if (!status) {
-        for (int i = 0; i < raw->equations; i++) {
-            double *row = cpsi_raw_equation(whole);
-            memcpy(row, &raw->equation[(size_t)i * (size_t)raw->width],
-                   (size_t)raw->next * sizeof *row);
-            if (cpsi_norm(raw->next, row) <= 0.01 * same) {
+        for (int i = 0; i < conic->equations; i++) {
+            double *row = cpsi_conic_rows_equation(whole);
+            memcpy(row, &conic->equation[(size_t)i * (size_t)conic->width],
+                   (size_t)conic->next * sizeof *row);
+            if (cpsi_norm(conic->next, row) <= 0.01 * same) {
                 whole->equations--;
-                memset(row, 0, (size_t)raw->next * sizeof *row);
+                memset(row, 0, (size_t)conic->next * sizeof *row);
             }
         }
-        for (int k = 0, i = 0; k < raw->cones; k++) {
-            double *rows = cpsi_raw_cone(whole, raw->dim[k]);
-            for (int r = 0; r < raw->dim[k]; r++, i++, rows += whole->width)
-                memcpy(rows, &raw->row[(size_t)i * (size_t)raw->width],
-                       (size_t)raw->next * sizeof *rows);
+        for (int k = 0, i = 0; k < conic->cones; k++) {
+            double *rows = cpsi_conic_rows_cone(whole, conic->dim[k]);
+            for (int r = 0; r < conic->dim[k]; r++, i++, rows += whole->width)
+                memcpy(rows, &conic->row[(size_t)i * (size_t)conic->width],
+                       (size_t)conic->next * sizeof *rows);
         }
         for (int i = 0; i < n; i++) map[(size_t)i * (size_t)whole->width + (size_t)i] = 1;
-        status = cpsi_form_reduce(whole, n, map, 0, NULL, same, &reduced, err);
+        status = cpsi_conic_form_reduce(whole, n, map, 0, NULL, same, &reduced, err);
     }
     free(map);
-    cpsi_raw_free(whole);
-    cpsi_raw_free(raw);
+    cpsi_conic_rows_free(whole);
+    cpsi_conic_rows_free(conic);
     return status ? status : as_rays(reduced, out, err);
 }
 
 static CpsStatus conic_cone(const CpsSet *set, const double *p, double tolerance, CpsSet **out,
                             CpsSetAnswer *answer, CpsError *err) {
-    const CpsiForm *form;
-    CpsiForm *made;
-    CpsStatus status = cpsi_set_form(set, &form, &made, err);
+    const CpsiConicForm *form;
+    CpsiConicForm *made;
+    CpsStatus status = cpsi_set_conic_form(set, &form, &made, err);
     if (status) return status;
     double *s = calloc((size_t)form->rows + 1, sizeof *s);
     if (!s)
@@ -228,7 +229,7 @@ static CpsStatus conic_cone(const CpsSet *set, const double *p, double tolerance
     if (!status && answer->outcome == CPS_SET_ANSWERED)
         status = build_cone(form, s, tolerance, fmax(SAME_EQUATION, TURN * tolerance), out, err);
     free(s);
-    cpsi_form_free(made);
+    cpsi_conic_form_free(made);
     return status;
 }
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "set/node.h"
+#include "set/set.h"
 
 /* Parts there, as many as allowed; all of the same space unless it is a product. */
 static CpsStatus check_parts(bool product, int count, const CpsSet *const *parts, int *n,
@@ -34,9 +34,10 @@ static CpsStatus check_parts(bool product, int count, const CpsSet *const *parts
 static CpsStatus finish(CpsSet *set, CpsSet **out, CpsError *err) {
     CpsStatus status = CPS_OK;
     if (!cpsi_set_has_user(set)) {
-        if (set->kind == CPSI_SET_POLAR) status = cpsi_form_make(set->part[0], &set->dual, err);
-        if (!status) status = cpsi_form_make(set, &set->form, err);
-        if (!status) status = cpsi_form_deepen(&set->form, &set->touching, err);
+        if (set->kind == CPSI_SET_POLAR)
+            status = cpsi_conic_form_make(set->part[0], &set->dual, err);
+        if (!status) status = cpsi_conic_form_make(set, &set->form, err);
+        if (!status) status = cpsi_conic_form_deepen(&set->form, &set->touching, err);
     }
     if (status)
         cps_set_release(set);

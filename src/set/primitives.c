@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 /* Segments and triangles are written by their points, as what lies in spaces that are larger. */
 enum { LEAST_POINTS = 4, MOST_COMPONENTS = 64 };

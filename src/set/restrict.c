@@ -14,14 +14,14 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "linsys/small.h"
-#include "set/form.h"
+#include "linalg/dense.h"
+#include "set/conic_form.h"
 
 /* Coefficients of rows of size one below this are rounding. */
 static const double NOISE = 1e-9;
 
 /* Affine row over dv: a'(A dv) + constant, a over d rows of the form from i on. */
-static void combine(const CpsiForm *form, int i, int d, const double *a, double constant,
+static void combine(const CpsiConicForm *form, int i, int d, const double *a, double constant,
                     double *row) {
     const int u = form->unknowns;
     for (int r = 0; r < d; r++)
@@ -31,28 +31,29 @@ static void combine(const CpsiForm *form, int i, int d, const double *a, double 
 }
 
 /* An equation; rows of nothing but rounding are left out. */
-static void equation(CpsiRaw *raw, const CpsiForm *form, int i, int d, const double *a) {
-    double *row = cpsi_raw_equation(raw);
+static void equation(CpsiConicRows *conic, const CpsiConicForm *form, int i, int d,
+                     const double *a) {
+    double *row = cpsi_conic_rows_equation(conic);
     combine(form, i, d, a, 0, row);
     if (cpsi_norm(form->unknowns, row) > NOISE) return;
-    memset(row, 0, (size_t)raw->width * sizeof *row);
-    raw->equations--;
+    memset(row, 0, (size_t)conic->width * sizeof *row);
+    conic->equations--;
 }
 
 /* The rows of one cone on the face. a (d) is scratch. */
-static void cone_on_face(CpsiRaw *raw, const CpsiForm *form, const CpsiSolution *at, int i, int d,
-                         double angle, double *a) {
+static void cone_on_face(CpsiConicRows *conic, const CpsiConicForm *form, const CpsiSolution *at,
+                         int i, int d, double angle, double *a) {
     const double *s = &at->s[i], *z = &at->z[i];
     double *rows, size = cpsi_norm(d - 1, z + 1);
     if (z[0] <= angle) { /* not pressed */
-        rows = cpsi_raw_cone(raw, d);
+        rows = cpsi_conic_rows_cone(conic, d);
         for (int r = 0; r < d; r++)
             combine(form, i + r, 1, (const double[]){1}, s[r],
-                    &rows[(size_t)r * (size_t)raw->width]);
+                    &rows[(size_t)r * (size_t)conic->width]);
         return;
     }
     if (d == 1 || z[0] - size > angle) { /* at the tip */
-        for (int r = 0; r < d; r++) equation(raw, form, i + r, 1, (const double[]){1});
+        for (int r = 0; r < d; r++) equation(conic, form, i + r, 1, (const double[]){1});
         return;
     }
     /* on the ray (1, -z1/|z1|)/sqrt 2 */
@@ -60,42 +61,43 @@ static void cone_on_face(CpsiRaw *raw, const CpsiForm *form, const CpsiSolution 
         /* component k less its part along the ray */
         const double along = k ? -z[k] / size : 1;
         for (int r = 0; r < d; r++) a[r] = (r == k) - 0.5 * along * (r ? -z[r] / size : 1);
-        equation(raw, form, i, d, a);
+        equation(conic, form, i, d, a);
     }
     double pull = s[0];
     for (int r = 0; r < d; r++) {
         a[r] = r ? -z[r] / size : 1;
         pull += r ? a[r] * s[r] : 0;
     }
-    combine(form, i, d, a, pull, cpsi_raw_cone(raw, 1));
+    combine(form, i, d, a, pull, cpsi_conic_rows_cone(conic, 1));
 }
 
-CpsStatus cpsi_form_restrict(const CpsiForm *form, const CpsiSolution *at, double angle,
-                             CpsiForm **out, CpsError *err) {
+CpsStatus cpsi_conic_form_restrict(const CpsiConicForm *form, const CpsiSolution *at, double angle,
+                                   CpsiConicForm **out, CpsError *err) {
     const int n = form->n, u = form->unknowns;
-    CpsiRaw *raw = NULL;
+    CpsiConicRows *conic = NULL;
     const CpsiCount count = {.unknowns = (size_t)u,
                              .equations = (size_t)form->rows + 1,
                              .rows = (size_t)form->rows,
                              .cones = (size_t)form->cones};
-    CpsStatus status = cpsi_raw_new(count, u, &raw, err);
+    CpsStatus status = cpsi_conic_rows_new(count, u, &conic, err);
     if (status) return status;
     double *map =
-        calloc((size_t)n * (size_t)raw->width + (size_t)form->largest_cone + 1, sizeof *map);
+        calloc((size_t)n * (size_t)conic->width + (size_t)form->largest_cone + 1, sizeof *map);
     if (!map)
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a face");
     else {
         for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
-            cone_on_face(raw, form, at, i, form->dim[k], angle,
-                         &map[(size_t)n * (size_t)raw->width]);
+            cone_on_face(conic, form, at, i, form->dim[k], angle,
+                         &map[(size_t)n * (size_t)conic->width]);
         for (int i = 0; i < n; i++) {
-            memcpy(&map[(size_t)i * (size_t)raw->width], &form->p[(size_t)i * (size_t)u],
+            memcpy(&map[(size_t)i * (size_t)conic->width], &form->p[(size_t)i * (size_t)u],
                    (size_t)u * sizeof *map);
-            map[(size_t)i * (size_t)raw->width + (size_t)u] = at->x[i];
+            map[(size_t)i * (size_t)conic->width + (size_t)u] = at->x[i];
         }
-        status = cpsi_form_reduce(raw, n, map, form->lines, form->q, CPSI_SAME_EQUATION, out, err);
+        status = cpsi_conic_form_reduce(conic, n, map, form->lines, form->q, CPSI_SAME_EQUATION,
+                                        out, err);
     }
     free(map);
-    cpsi_raw_free(raw);
+    cpsi_conic_rows_free(conic);
     return status;
 }

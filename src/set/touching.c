@@ -15,8 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 /* Parts that overlap, or miss each other, by less than this share of their size touch: what the
  * depth is known to. A lens of this thickness is as wide as its root. */
@@ -25,10 +25,10 @@ static const double TOUCH = 1e-13;
 static const double CLEAR = 1e-6;
 
 /* The program for the depth as a form of its own, over (v, t). */
-static CpsiForm *depth_form(const CpsiForm *form) {
+static CpsiConicForm *depth_form(const CpsiConicForm *form) {
     const size_t u = (size_t)form->unknowns, w = u + 1, m = (size_t)form->rows;
-    CpsiForm *depth =
-        cpsi_form_new(form->unknowns + 1, form->unknowns + 1, 0, form->rows + 1, form->cones + 1);
+    CpsiConicForm *depth = cpsi_conic_form_new(form->unknowns + 1, form->unknowns + 1, 0,
+                                               form->rows + 1, form->cones + 1);
     if (!depth) return NULL;
     for (size_t i = 0; i < w; i++) depth->p[i * w + i] = 1;
     for (size_t i = 0; i < m; i++) memcpy(&depth->a[i * w], &form->a[i * u], u * sizeof *depth->a);
@@ -47,7 +47,7 @@ static CpsiForm *depth_form(const CpsiForm *form) {
 }
 
 /* Are the cones' parts of s all this deep inside? */
-static bool all_inside(const CpsiForm *form, const double *s) {
+static bool all_inside(const CpsiConicForm *form, const double *s) {
     for (int k = 0; k < form->cones; s += form->dim[k++])
         if (!(s[0] - cpsi_norm(form->dim[k] - 1, s + 1) > CLEAR)) return false;
     return true;
@@ -55,11 +55,12 @@ static bool all_inside(const CpsiForm *form, const double *s) {
 
 /* Is an inner point seen at once, at v = 0 or where the solver ends that has nothing to
  * minimise? */
-static CpsStatus is_clear(const CpsiForm *form, const double *nothing, bool *clear, CpsError *err) {
+static CpsStatus is_clear(const CpsiConicForm *form, const double *nothing, bool *clear,
+                          CpsError *err) {
     *clear = all_inside(form, form->b);
     if (*clear) return CPS_OK;
     CpsiSolution at = {.outcome = CPS_SET_INACCURATE};
-    const CpsStatus status = cpsi_form_minimise(form, nothing, &at, err);
+    const CpsStatus status = cpsi_conic_form_minimise(form, nothing, &at, err);
     *clear = status == CPS_OK && at.outcome == CPS_SET_ANSWERED && at.s && all_inside(form, at.s);
     cpsi_solution_free(&at);
     return status;
@@ -67,43 +68,43 @@ static CpsStatus is_clear(const CpsiForm *form, const double *nothing, bool *cle
 
 /* One round: *reduced, or NULL where the form has an interior, is empty, or the depth is not
  * known. */
-static CpsStatus reduce_once(const CpsiForm *form, CpsiForm **reduced, CpsError *err) {
+static CpsStatus reduce_once(const CpsiConicForm *form, CpsiConicForm **reduced, CpsError *err) {
     const size_t u = (size_t)form->unknowns;
     CpsiSolution at = {.outcome = CPS_SET_INACCURATE};
     bool clear = false;
     double *cost = calloc(u + 1 + (size_t)form->n, sizeof *cost);
-    CpsiForm *depth = NULL;
+    CpsiConicForm *depth = NULL;
     CpsStatus status = cost ? is_clear(form, cost, &clear, err) : CPS_OK;
     if (!status && !clear) depth = depth_form(form);
     if (!status && !clear && (!depth || !cost))
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");
     if (!status && !clear) {
         cost[u] = -1;
-        status = cpsi_form_minimise(depth, cost, &at, err);
+        status = cpsi_conic_form_minimise(depth, cost, &at, err);
     }
     if (!status && at.outcome == CPS_SET_ANSWERED && fabs(at.value) <= TOUCH) {
         double *x = &cost[u + 1];
         for (int i = 0; i < form->n; i++)
             x[i] = form->origin[i] + cpsi_dot(form->unknowns, &form->p[(size_t)i * u], at.x);
         const CpsiSolution touching = {.s = at.s, .z = at.z, .x = x};
-        status = cpsi_form_restrict(form, &touching, CPSI_LEAST_ANGLE, reduced, err);
+        status = cpsi_conic_form_restrict(form, &touching, CPSI_LEAST_ANGLE, reduced, err);
     }
     cpsi_solution_free(&at);
-    cpsi_form_free(depth);
+    cpsi_conic_form_free(depth);
     free(cost);
     return status;
 }
 
-CpsStatus cpsi_form_deepen(CpsiForm **form, bool *touching, CpsError *err) {
+CpsStatus cpsi_conic_form_deepen(CpsiConicForm **form, bool *touching, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (int round = (*form)->unknowns;
          !status && round > 0 && (*form)->unknowns > 0 && (*form)->rows > 0; round--) {
-        CpsiForm *reduced = NULL;
+        CpsiConicForm *reduced = NULL;
         if ((*form)->empty) break;
         status = reduce_once(*form, &reduced, err);
         if (status || !reduced) break;
         *touching = true;
-        cpsi_form_free(*form);
+        cpsi_conic_form_free(*form);
         *form = reduced;
     }
     return status;

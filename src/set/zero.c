@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "linsys/small.h"
-#include "set/node.h"
+#include "linalg/dense.h"
+#include "set/set.h"
 
 /* By a closed margin with a ball round 0; a box or product that is flat in some components has 0 in
  * its relative interior all the same. */
@@ -86,7 +86,7 @@ static size_t most_components(const CpsSet *set) {
     return most;
 }
 
-CpsStatus cpsi_known_zero(const CpsSet *set, CpsiZero *known, CpsError *err) {
+CpsStatus cpsi_set_locate_zero(const CpsSet *set, CpsiZero *known, CpsError *err) {
     CpsiScratch scratch;
     const size_t most = most_components(set);
     double *zero = cpsi_scratch_take(&scratch, most);

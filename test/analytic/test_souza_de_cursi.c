@@ -23,7 +23,7 @@ static void example(Case *c, int elements, double friction, Shape shape) {
 
 /* minimum and tip of the first step; the figures have seven and six decimals, so half a unit of the
  * last plus the solver's own 1e-8 of the scale */
-static void first_step(double friction, CpsFriction law, double minimum, const double *tip,
+static void first_step(double friction, CpsFrictionPolicy law, double minimum, const double *tip,
                        double digits) {
     Case c;
     example(&c, 800, friction, STRAIGHT);

@@ -51,7 +51,7 @@ const char *cpsi_number(char out[CPSI_NUMBER_SIZE], double x) {
     return out;
 }
 
-void cpsi_put_json_string(FILE *out, const char *text) {
+void cpsi_write_json_string(FILE *out, const char *text) {
     fputc('"', out);
     while (*text) {
         const size_t length = cpsi_utf8_length(text);
@@ -70,13 +70,13 @@ void cpsi_put_json_string(FILE *out, const char *text) {
     fputc('"', out);
 }
 
-void cpsi_put_json_number(FILE *out, double x) {
+void cpsi_write_json_number(FILE *out, double x) {
     char buffer[CPSI_NUMBER_SIZE];
     fputs(isfinite(x) ? cpsi_number(buffer, x) : "null", out);
 }
 
 /* one character of XML or CSV text that is not special there */
-static size_t put_plain(FILE *out, const char *text) {
+static size_t write_plain(FILE *out, const char *text) {
     const size_t length = cpsi_utf8_length(text);
     if (length == 0 || is_control(text, length))
         fputs(REPLACEMENT, out);
@@ -85,7 +85,7 @@ static size_t put_plain(FILE *out, const char *text) {
     return length ? length : 1;
 }
 
-void cpsi_put_xml(FILE *out, const char *text) {
+void cpsi_write_xml(FILE *out, const char *text) {
     while (*text) {
         switch (*text) {
         case '&':
@@ -108,12 +108,12 @@ void cpsi_put_xml(FILE *out, const char *text) {
             fputs("&#39;", out);
             ++text;
             break;
-        default: text += put_plain(out, text);
+        default: text += write_plain(out, text);
         }
     }
 }
 
-void cpsi_put_csv(FILE *out, const char *text) {
+void cpsi_write_csv(FILE *out, const char *text) {
     fputc('"', out);
     if (*text && strchr("=+-@\t\r", *text)) fputc('\'', out);
     while (*text) {
@@ -121,13 +121,13 @@ void cpsi_put_csv(FILE *out, const char *text) {
             fputs("\"\"", out);
             ++text;
         } else {
-            text += put_plain(out, text);
+            text += write_plain(out, text);
         }
     }
     fputc('"', out);
 }
 
-void cpsi_put_csv_number(FILE *out, double x) {
+void cpsi_write_csv_number(FILE *out, double x) {
     char buffer[CPSI_NUMBER_SIZE];
     fputs(cpsi_number(buffer, x), out);
 }
@@ -135,9 +135,9 @@ void cpsi_put_csv_number(FILE *out, double x) {
 /* ---- for other programs ---- */
 
 void cps_json_text(FILE *out, const char *text) {
-    if (out) cpsi_put_json_string(out, text ? text : "");
+    if (out) cpsi_write_json_string(out, text ? text : "");
 }
 
 void cps_json_number(FILE *out, double x) {
-    if (out) cpsi_put_json_number(out, x);
+    if (out) cpsi_write_json_number(out, x);
 }

@@ -24,11 +24,11 @@ size_t cpsi_utf8_cut(const char *text, size_t size);
  * out. */
 const char *cpsi_number(char out[CPSI_NUMBER_SIZE], double x);
 
-void cpsi_put_json_string(FILE *out, const char *text);
-void cpsi_put_json_number(FILE *out, double x); /* null when x is not finite */
-void cpsi_put_xml(FILE *out, const char *text);
+void cpsi_write_json_string(FILE *out, const char *text);
+void cpsi_write_json_number(FILE *out, double x); /* null when x is not finite */
+void cpsi_write_xml(FILE *out, const char *text);
 /* A cell in quotes; one that a spreadsheet would take for a formula gets an apostrophe in front. */
-void cpsi_put_csv(FILE *out, const char *text);
-void cpsi_put_csv_number(FILE *out, double x); /* empty when x is not finite */
+void cpsi_write_csv(FILE *out, const char *text);
+void cpsi_write_csv_number(FILE *out, double x); /* empty when x is not finite */
 
 #endif

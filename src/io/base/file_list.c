@@ -41,7 +41,7 @@ static bool sum_up(int fd, const uint32_t table[256], unsigned char *chunk, uint
     return true;
 }
 
-CpsStatus cpsi_result_list_put(const CpsiDirectory *directory, FILE *out, CpsError *err) {
+CpsStatus cpsi_result_list_add(const CpsiDirectory *directory, FILE *out, CpsError *err) {
     uint32_t table[256];
     make_table(table);
     unsigned char *chunk = malloc(CHUNK);
@@ -62,7 +62,7 @@ CpsStatus cpsi_result_list_put(const CpsiDirectory *directory, FILE *out, CpsErr
         if (fd >= 0) close(fd);
         if (status != CPS_OK) break;
         fputs(i ? ",\n    {\"name\": " : "\n    {\"name\": ", out);
-        cpsi_put_json_string(out, name);
+        cpsi_write_json_string(out, name);
         fprintf(out, ", \"bytes\": %" PRIu64 ", \"crc32\": \"%08" PRIx32 "\"}", bytes, crc);
     }
     fputs("\n  ]\n", out);

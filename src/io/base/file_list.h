@@ -8,6 +8,6 @@
 
 /* "files": [..], of all files begun in the directory but the last, which is the summary itself.
  * They are closed by now. Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
-CpsStatus cpsi_result_list_put(const CpsiDirectory *directory, FILE *out, CpsError *err);
+CpsStatus cpsi_result_list_add(const CpsiDirectory *directory, FILE *out, CpsError *err);
 
 #endif

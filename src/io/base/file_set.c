@@ -14,7 +14,7 @@ static bool nothing_stale(const char *name) {
 
 void cpsi_file_set_title(const void *title, FILE *out) {
     fprintf(out, "{\n  \"capstan\": \"%s\",\n  \"title\": ", cps_version());
-    cpsi_put_json_string(out, title);
+    cpsi_write_json_string(out, title);
 }
 
 static CpsStatus write_file(CpsiDirectory *directory, const CpsiFile *file, bool listed,
@@ -25,7 +25,7 @@ static CpsStatus write_file(CpsiDirectory *directory, const CpsiFile *file, bool
     file->put(file->what, out);
     if (listed) {
         fputs(",\n", out);
-        status = cpsi_result_list_put(directory, out, err);
+        status = cpsi_result_list_add(directory, out, err);
         fputs("}\n", out);
     }
     const CpsStatus closed =
@@ -54,7 +54,7 @@ CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int c
     return status;
 }
 
-CpsStatus cpsi_file_set_put(const CpsiFile *summary, FILE *out, CpsError *err) {
+CpsStatus cpsi_file_set_write_member(const CpsiFile *summary, FILE *out, CpsError *err) {
     CpsiNumbers numbers;
     if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     summary->put(summary->what, out);

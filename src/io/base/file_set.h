@@ -23,6 +23,6 @@ CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int c
 void cpsi_file_set_title(const void *title, FILE *out);
 
 /* The summary by itself, without a list, into a stream that is open. */
-CpsStatus cpsi_file_set_put(const CpsiFile *summary, FILE *out, CpsError *err);
+CpsStatus cpsi_file_set_write_member(const CpsiFile *summary, FILE *out, CpsError *err);
 
 #endif

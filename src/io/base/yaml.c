@@ -282,7 +282,7 @@ static CpsStatus refuse_token(const Parse *p, struct fy_token *token, const char
 }
 
 /* A scalar or the beginning of a collection. */
-static CpsStatus take_value(Parse *p, struct fy_event *event, int line, int column) {
+static CpsStatus read_value(Parse *p, struct fy_event *event, int line, int column) {
     struct fy_token *anchor = fy_event_get_anchor_token(event),
                     *tag = fy_event_get_tag_token(event);
     if (anchor) return refuse_token(p, anchor, "an anchor ('&'): write the value out instead");
@@ -318,7 +318,7 @@ static CpsStatus take_value(Parse *p, struct fy_event *event, int line, int colu
     return status;
 }
 
-static CpsStatus take_event(Parse *p, struct fy_event *event) {
+static CpsStatus read_event(Parse *p, struct fy_event *event) {
     const struct fy_mark *mark = fy_event_start_mark(event);
     /* what is not written has no place: that of what stands before it */
     if (mark) {
@@ -340,7 +340,7 @@ static CpsStatus take_event(Parse *p, struct fy_event *event) {
     case FYET_ALIAS: return refuse(p, line, column, "an alias ('*'): write the value out instead");
     case FYET_SCALAR:
     case FYET_MAPPING_START:
-    case FYET_SEQUENCE_START: return take_value(p, event, line, column);
+    case FYET_SEQUENCE_START: return read_value(p, event, line, column);
     case FYET_MAPPING_END: return check_duplicates(p, p->open[--p->depth].node);
     case FYET_SEQUENCE_END: p->depth--; return CPS_OK;
     default: return CPS_OK;
@@ -358,12 +358,12 @@ static CpsStatus syntax_error(const Parse *p, struct fy_diag *diag) {
                         error->msg);
 }
 
-static CpsStatus take_all(Parse *p, struct fy_parser *parser, struct fy_diag *diag) {
+static CpsStatus read_all(Parse *p, struct fy_parser *parser, struct fy_diag *diag) {
     for (bool ended = false; !ended;) {
         struct fy_event *event = fy_parser_parse(parser);
         if (!event) return syntax_error(p, diag);
         ended = event->type == FYET_STREAM_END;
-        const CpsStatus status = take_event(p, event);
+        const CpsStatus status = read_event(p, event);
         fy_parser_event_free(parser, event);
         if (status != CPS_OK) return status;
     }
@@ -403,7 +403,7 @@ CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes,
     if (!parser || !p.open || fy_parser_set_string(parser, bytes, size) != 0)
         status = out_of_memory(&p);
     else
-        status = take_all(&p, parser, diag);
+        status = read_all(&p, parser, diag);
     if (parser) fy_parser_destroy(parser);
     if (diag) fy_diag_destroy(diag);
     if (status == CPS_OK) *root = p.root;

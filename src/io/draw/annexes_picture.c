@@ -24,16 +24,16 @@ static const char *const STEP_STYLE = "stroke=\"#1b6ca8\" stroke-width=\"2\"";
 typedef double Along(const CpsStudyFiles *files, int element);
 
 static double step_strain(const CpsStudyFiles *files, int i) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     return step.tension[i] / step.stiffness;
 }
 
 static double step_tension(const CpsStudyFiles *files, int i) {
-    return cps_classic_step(files->classic).tension[i];
+    return cps_regularized_step(files->classic).tension[i];
 }
 
 static Vec3 tangent(const CpsStudyFiles *files, int i) {
-    const double *x = cps_classic_step(files->classic).reference + 3 * (size_t)i;
+    const double *x = cps_regularized_step(files->classic).reference + 3 * (size_t)i;
     const Vec3 d = vec3_sub(vec3_load(x + 3), vec3_load(x));
     const double length = vec3_norm(d);
     return length > 0 ? vec3_scale(1 / length, d) : d;
@@ -46,7 +46,7 @@ static double linear_tension(const CpsStudyFiles *files, int i) {
 
 /* strain of the reference, as far as P10.1 sees one, and its change */
 static double linear_strain(const CpsStudyFiles *files, int i) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     const double *x = step.reference + 3 * (size_t)i;
     const double reference = vec3_norm(vec3_sub(vec3_load(x + 3), vec3_load(x))) /
                                  (step.arc_length[i + 1] - step.arc_length[i]) -
@@ -54,9 +54,9 @@ static double linear_strain(const CpsStudyFiles *files, int i) {
     return fmax(0, reference) + cps_first_order_view(files->first_order).strain[i];
 }
 
-static void put_curve(const CpsStudyFiles *files, const CpsiFrame *frame, Along *value,
-                      double factor, const char *style, FILE *out) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+static void draw_curve(const CpsStudyFiles *files, const CpsiFrame *frame, Along *value,
+                       double factor, const char *style, FILE *out) {
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     fprintf(out, "<polyline fill=\"none\" %s points=\"", style);
     for (int i = 0; i < step.elements; ++i)
         fprintf(out, "%.1f,%.1f ",
@@ -67,7 +67,7 @@ static void put_curve(const CpsStudyFiles *files, const CpsiFrame *frame, Along 
 
 static void draw_pair(const CpsStudyFiles *files, int panel, Along *linear, Along *exact,
                       const char *base, FILE *out) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     double range[2] = {0, 0};
     for (int i = 0; i < step.elements; ++i) {
         cpsi_range_include(range, linear(files, i));
@@ -93,14 +93,14 @@ static void draw_pair(const CpsStudyFiles *files, int panel, Along *linear, Alon
             frame.left, zero, frame.width, fmax(0, bottom - zero));
     cpsi_frame_axes(out, &frame, "natural length from A to B (m)", label);
     cpsi_frame_begin(out, &frame, panel);
-    put_curve(files, &frame, exact, unit.factor, STEP_STYLE, out);
-    put_curve(files, &frame, linear, unit.factor, FIRST_ORDER_STYLE, out);
+    draw_curve(files, &frame, exact, unit.factor, STEP_STYLE, out);
+    draw_curve(files, &frame, linear, unit.factor, FIRST_ORDER_STYLE, out);
     cpsi_frame_end(out);
 }
 
 /* Where a place is along the way from end A to end B of the reference: a line that turns over
  * itself comes back there. */
-static double along_reference(const CpsClassicStep *step, Vec3 x) {
+static double along_reference(const CpsRegularizedStep *step, Vec3 x) {
     const Vec3 from = vec3_load(step->reference),
                way = vec3_sub(vec3_load(step->reference + 3 * (size_t)step->elements), from);
     const double length = vec3_norm(way);
@@ -111,7 +111,7 @@ static double along_reference(const CpsClassicStep *step, Vec3 x) {
 typedef enum Configuration { EXACT, LINEAR, REFERENCE } Configuration;
 
 static double node_along(const CpsStudyFiles *files, Configuration of, int j) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     const size_t k = 3 * (size_t)j;
     Vec3 x = vec3_load((of == EXACT ? step.position : step.reference) + k);
     if (of == LINEAR)
@@ -121,7 +121,7 @@ static double node_along(const CpsStudyFiles *files, Configuration of, int j) {
 
 static void draw_places(const CpsStudyFiles *files, int panel, bool linear, FILE *out) {
     static const char REFERENCE_STYLE[] = "stroke=\"#bbb\" stroke-width=\"5\"";
-    const CpsClassicStep step = cps_classic_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     const Configuration shown[] = {REFERENCE, EXACT, LINEAR};
     const char *const style[] = {REFERENCE_STYLE, STEP_STYLE, FIRST_ORDER_STYLE};
     const int count = linear ? 3 : 2;
@@ -191,8 +191,8 @@ static double energy(double stiffness, double alpha, bool relaxed) {
     return stiffness / 2 * (relaxed && strain < 0 ? 0 : strain * strain) + alpha;
 }
 
-static void put_energy(const CpsiFrame *frame, double stiffness, bool relaxed, const char *style,
-                       FILE *out) {
+static void draw_energy(const CpsiFrame *frame, double stiffness, bool relaxed, const char *style,
+                        FILE *out) {
     fprintf(out, "<polyline fill=\"none\" %s points=\"", style);
     for (int i = 0; i < CURVE_POINTS; ++i) {
         const double alpha = frame->x[0] + (frame->x[1] - frame->x[0]) * i / (CURVE_POINTS - 1);
@@ -203,7 +203,7 @@ static void put_energy(const CpsiFrame *frame, double stiffness, bool relaxed, c
 }
 
 void cpsi_picture_relaxed(const CpsStudyFiles *files, FILE *out) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     double largest = 0;
     for (int i = 0; i < step.elements; ++i) largest = fmax(largest, step.tension[i]);
     if (!(largest > 0)) largest = step.force;
@@ -226,8 +226,8 @@ void cpsi_picture_relaxed(const CpsStudyFiles *files, FILE *out) {
                                                     1.05}};
     cpsi_frame_axes(out, &frame, "\xCE\xB1", "energy");
     cpsi_frame_begin(out, &frame, 0);
-    put_energy(&frame, stiffness, false, "stroke=\"#c2410c\" stroke-width=\"4\"", out);
-    put_energy(&frame, stiffness, true, "stroke=\"#1b6ca8\" stroke-width=\"2\"", out);
+    draw_energy(&frame, stiffness, false, "stroke=\"#c2410c\" stroke-width=\"4\"", out);
+    draw_energy(&frame, stiffness, true, "stroke=\"#1b6ca8\" stroke-width=\"2\"", out);
     fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#1a1a1a\"/>\n",
             cpsi_frame_x(&frame, place), cpsi_frame_y(&frame, least));
     cpsi_frame_end(out);

@@ -48,7 +48,7 @@ static CpsStatus shadow(const CpsDriveBody *body, int i, int k, double axis[2], 
     return CPS_OK;
 }
 
-static CpsStatus put_surface(FILE *out, const BodyPicture *p, int column, int k, CpsError *err) {
+static CpsStatus draw_surface(FILE *out, const BodyPicture *p, int column, int k, CpsError *err) {
     static const char *const LABEL[] = {"Fx", "Fy", "M"};
     double point[2 * AROUND], ellipse[2 * AROUND], axis[2];
     const CpsStatus status = shadow(p->body, 0, k, axis, point, err);
@@ -78,12 +78,12 @@ static CpsStatus put_surface(FILE *out, const BodyPicture *p, int column, int k,
                      k == 2 ? "limit surface, seen along Fy" : "limit surface, seen along M");
     cpsi_frame_axes(out, &frame, x, y);
     cpsi_frame_begin(out, &frame, 1 + column);
-    cpsi_put_curve(out, &frame, AROUND, ellipse, true,
-                   "fill=\"none\" stroke=\"" CPSI_ORANGE
-                   "\" stroke-width=\"1.4\" stroke-dasharray=\"6 4\"");
-    cpsi_put_curve(out, &frame, AROUND, point, true,
-                   "fill=\"#dfe9f6\" fill-opacity=\"0.7\" stroke=\"" CPSI_BLUE
-                   "\" stroke-width=\"1.8\"");
+    cpsi_draw_curve(out, &frame, AROUND, ellipse, true,
+                    "fill=\"none\" stroke=\"" CPSI_ORANGE
+                    "\" stroke-width=\"1.4\" stroke-dasharray=\"6 4\"");
+    cpsi_draw_curve(out, &frame, AROUND, point, true,
+                    "fill=\"#dfe9f6\" fill-opacity=\"0.7\" stroke=\"" CPSI_BLUE
+                    "\" stroke-width=\"1.8\"");
     cpsi_frame_end(out);
     return CPS_OK;
 }
@@ -106,21 +106,21 @@ static void reach(const CpsDriveBody *body, double x[2], double y[2]) {
 }
 
 /* one push: an arrow, and the centre of rotation joined to it */
-static void put_push(FILE *out, const CpsiFrame *frame, const CpsDrivePush *push,
-                     const double center[2], bool turns, double unit, const char *colour) {
+static void draw_push(FILE *out, const CpsiFrame *frame, const CpsDrivePush *push,
+                      const double center[2], bool turns, double unit, const char *colour) {
     const double along[2] = {push->way[0] * unit, push->way[1] * unit};
     char style[80];
-    if (push->at_point) cpsi_put_arrow(out, frame, push->point, along, colour, 2.2);
+    if (push->at_point) cpsi_draw_arrow(out, frame, push->point, along, colour, 2.2);
     if (!turns) return;
     snprintf(style, sizeof style, "fill=\"#fff\" stroke=\"%s\" stroke-width=\"2\"", colour);
-    cpsi_put_dot(out, frame, center, 5, style);
+    cpsi_draw_dot(out, frame, center, 5, style);
     if (!push->at_point) return;
     const double line[4] = {push->point[0], push->point[1], center[0], center[1]};
     snprintf(style, sizeof style, "fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 3\"", colour);
-    cpsi_put_curve(out, frame, 2, line, false, style);
+    cpsi_draw_curve(out, frame, 2, line, false, style);
 }
 
-static CpsStatus put_pushes(FILE *out, const BodyPicture *p, int column, CpsError *err) {
+static CpsStatus draw_pushes(FILE *out, const BodyPicture *p, int column, CpsError *err) {
     CpsiFrame frame = {.left = LEFT + column * (SIDE + GAP),
                        .top = TOP,
                        .width = SIDE,
@@ -157,12 +157,12 @@ static CpsStatus put_pushes(FILE *out, const BodyPicture *p, int column, CpsErro
     cpsi_frame_axes(out, &frame, "x (m)", "y (m)");
     cpsi_frame_begin(out, &frame, 1 + column);
     const double here[3] = {0, 0, 0};
-    cpsi_put_body(out, &frame, p->body, here, CPSI_BLUE, 0.9);
+    cpsi_draw_body(out, &frame, p->body, here, CPSI_BLUE, 0.9);
     for (int i = 0; i < count && status == CPS_OK; i++) {
         const CpsiColour colour =
             cpsi_colour(CPSI_SCALE_TENSION, count > 1 ? 0.3 + 0.6 * i / (count - 1) : 0.6);
         const bool turns = hypot(motion[i].center[0], motion[i].center[1]) < 1e6 * size;
-        put_push(out, &frame, &p->body->push[i], motion[i].center, turns, unit, colour.hex);
+        draw_push(out, &frame, &p->body->push[i], motion[i].center, turns, unit, colour.hex);
     }
     cpsi_frame_end(out);
     free(motion);
@@ -171,7 +171,7 @@ static CpsStatus put_pushes(FILE *out, const BodyPicture *p, int column, CpsErro
 
 /* ---- tow ---- */
 
-static void put_way(FILE *out, const BodyPicture *p, double width) {
+static void draw_way(FILE *out, const BodyPicture *p, double width) {
     CpsiFrame frame = {.left = LEFT, .top = TOP + SIDE + 110, .width = width, .height = WAY};
     double x[2], y[2];
     reach(p->body, x, y);
@@ -197,8 +197,8 @@ static void put_way(FILE *out, const BodyPicture *p, double width) {
                          : "towed: the way of the hitch, and the body");
     cpsi_frame_axes(out, &frame, "x (m)", "y (m)");
     cpsi_frame_begin(out, &frame, 9);
-    cpsi_put_curve(out, &frame, p->count, p->end, false,
-                   "fill=\"none\" stroke=\"" CPSI_PLUM "\" stroke-width=\"1.6\"");
+    cpsi_draw_curve(out, &frame, p->count, p->end, false,
+                    "fill=\"none\" stroke=\"" CPSI_PLUM "\" stroke-width=\"1.6\"");
     for (int shot = 0; shot < POSES; shot++) {
         const size_t i = (size_t)((long long)(p->count - 1) * shot / (POSES - 1));
         const double *pose = p->pose + 3 * i, *hitch = p->body->tow.start.hitch;
@@ -206,11 +206,11 @@ static void put_way(FILE *out, const BodyPicture *p, double width) {
         const double line[4] = {pose[0] + c * hitch[0] - s * hitch[1],
                                 pose[1] + s * hitch[0] + c * hitch[1], p->end[2 * i],
                                 p->end[2 * i + 1]};
-        cpsi_put_body(out, &frame, p->body, pose,
-                      cpsi_colour(CPSI_SCALE_STEP, (double)shot / (POSES - 1)).hex, 0.9);
+        cpsi_draw_body(out, &frame, p->body, pose,
+                       cpsi_colour(CPSI_SCALE_STEP, (double)shot / (POSES - 1)).hex, 0.9);
         if (p->body->tow.start.rope > 0)
-            cpsi_put_curve(out, &frame, 2, line, false, "fill=\"none\" stroke=\"#666\"");
-        cpsi_put_dot(out, &frame, line + 2, 2.5, "fill=\"" CPSI_PLUM "\"");
+            cpsi_draw_curve(out, &frame, 2, line, false, "fill=\"none\" stroke=\"#666\"");
+        cpsi_draw_dot(out, &frame, line + 2, 2.5, "fill=\"" CPSI_PLUM "\"");
     }
     cpsi_frame_end(out);
 }
@@ -226,9 +226,9 @@ static CpsStatus draw_body(void *what, FILE *out, CpsError *err) {
                    : p->body->vehicle ? "vehicle"
                                       : "body on a plane",
                    "what friction can do to it, and what it does when it is driven");
-    CpsStatus status = put_surface(out, p, 0, 2, err);
-    if (status == CPS_OK) status = put_surface(out, p, 1, 1, err);
-    if (status == CPS_OK) status = put_pushes(out, p, 2, err);
+    CpsStatus status = draw_surface(out, p, 0, 2, err);
+    if (status == CPS_OK) status = draw_surface(out, p, 1, 1, err);
+    if (status == CPS_OK) status = draw_pushes(out, p, 2, err);
     double x = LEFT;
     const double y = TOP + SIDE + 62;
     cpsi_legend(
@@ -244,7 +244,7 @@ static CpsStatus draw_body(void *what, FILE *out, CpsError *err) {
         cpsi_legend(out, &x, y,
                     "<circle r=\"5\" fill=\"#fff\" stroke=\"" CPSI_PLUM "\" stroke-width=\"2\"/>",
                     "centre of rotation");
-    if (status == CPS_OK && towed) put_way(out, p, width);
+    if (status == CPS_OK && towed) draw_way(out, p, width);
     cpsi_svg_finish(out);
     return status;
 }

@@ -24,8 +24,8 @@ void cpsi_range_points(double x[2], double y[2], int count, const double *point)
     }
 }
 
-void cpsi_put_curve(FILE *out, const CpsiFrame *frame, int count, const double *point, bool closed,
-                    const char *style) {
+void cpsi_draw_curve(FILE *out, const CpsiFrame *frame, int count, const double *point, bool closed,
+                     const char *style) {
     fprintf(out, "<%s %s stroke-linejoin=\"round\" points=\"", closed ? "polygon" : "polyline",
             style);
     double lx = INFINITY, ly = INFINITY;
@@ -40,8 +40,8 @@ void cpsi_put_curve(FILE *out, const CpsiFrame *frame, int count, const double *
     fputs("\"/>\n", out);
 }
 
-void cpsi_put_arrow(FILE *out, const CpsiFrame *frame, const double from[2], const double along[2],
-                    const char *colour, double width) {
+void cpsi_draw_arrow(FILE *out, const CpsiFrame *frame, const double from[2], const double along[2],
+                     const char *colour, double width) {
     const double x0 = cpsi_frame_x(frame, from[0]), y0 = cpsi_frame_y(frame, from[1]);
     const double x1 = cpsi_frame_x(frame, from[0] + along[0]),
                  y1 = cpsi_frame_y(frame, from[1] + along[1]);
@@ -55,8 +55,8 @@ void cpsi_put_arrow(FILE *out, const CpsiFrame *frame, const double from[2], con
             x1 - head * ux + 0.4 * head * uy, y1 - head * uy - 0.4 * head * ux);
 }
 
-void cpsi_put_dot(FILE *out, const CpsiFrame *frame, const double at[2], double radius,
-                  const char *style) {
+void cpsi_draw_dot(FILE *out, const CpsiFrame *frame, const double at[2], double radius,
+                   const char *style) {
     fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" %s/>\n", cpsi_frame_x(frame, at[0]),
             cpsi_frame_y(frame, at[1]), radius, style);
 }
@@ -95,8 +95,8 @@ static void place(const double pose[3], double x[2]) {
     x[1] = pose[1] + s * u + c * v;
 }
 
-void cpsi_put_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
-                   const double pose[3], const char *colour, double opacity) {
+void cpsi_draw_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
+                    const double pose[3], const char *colour, double opacity) {
     char style[160];
     /* a vehicle's wheels are joined by its frame */
     double hub[4][2];
@@ -111,7 +111,7 @@ void cpsi_put_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
         }
         if (p->kind == CPS_PATCH_POINT) {
             snprintf(style, sizeof style, "fill=\"%s\" opacity=\"%.2f\"", colour, opacity);
-            cpsi_put_dot(out, frame, at, 4, style);
+            cpsi_draw_dot(out, frame, at, 4, style);
             continue;
         }
         const int n = outline(p, x);
@@ -124,7 +124,7 @@ void cpsi_put_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
                  "fill=\"%s\" fill-opacity=\"%.2f\" stroke=\"%s\" stroke-width=\"%.1f\" "
                  "stroke-opacity=\"%.2f\"",
                  colour, open ? 0 : 0.25 * opacity, colour, open ? 2.5 : 1.2, opacity);
-        cpsi_put_curve(out, frame, n, x, true, style);
+        cpsi_draw_curve(out, frame, n, x, true, style);
     }
     if (!body->vehicle || body->patches < 2) return;
     snprintf(style, sizeof style,
@@ -134,7 +134,7 @@ void cpsi_put_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
     for (int i = 0; i < n; i++)
         for (int k = i + 1; k < n; k++) {
             const double line[4] = {hub[i][0], hub[i][1], hub[k][0], hub[k][1]};
-            cpsi_put_curve(out, frame, 2, line, false, style);
+            cpsi_draw_curve(out, frame, 2, line, false, style);
         }
 }
 

@@ -21,22 +21,22 @@ void cpsi_range_points(double x[2], double y[2], int count, const double *point)
 
 /* A polyline, closed or not; `style` is more attributes. Points nearer than half a pixel are left
  * out. */
-void cpsi_put_curve(FILE *out, const CpsiFrame *frame, int count, const double *point, bool closed,
-                    const char *style);
+void cpsi_draw_curve(FILE *out, const CpsiFrame *frame, int count, const double *point, bool closed,
+                     const char *style);
 
 /* An arrow from a point along (dx, dy) in data, with a head of some pixels. */
-void cpsi_put_arrow(FILE *out, const CpsiFrame *frame, const double from[2], const double along[2],
-                    const char *colour, double width);
+void cpsi_draw_arrow(FILE *out, const CpsiFrame *frame, const double from[2], const double along[2],
+                     const char *colour, double width);
 
-void cpsi_put_dot(FILE *out, const CpsiFrame *frame, const double at[2], double radius,
-                  const char *style);
+void cpsi_draw_dot(FILE *out, const CpsiFrame *frame, const double at[2], double radius,
+                   const char *style);
 
 /* A heading above a frame. */
 void cpsi_frame_title(FILE *out, const CpsiFrame *frame, const char *text);
 
 /* A body's patches at a pose, filled pale. */
-void cpsi_put_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
-                   const double pose[3], const char *colour, double opacity);
+void cpsi_draw_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
+                    const double pose[3], const char *colour, double opacity);
 
 /* Let `draw` write with decimal points whatever the locale. */
 CpsStatus cpsi_draw_plain(CpsStatus (*draw)(void *what, FILE *out, CpsError *err), void *what,

@@ -95,7 +95,7 @@ static double in_frame(const Graph *g, double force) {
 }
 
 /* The velocities at a force: a dot, or a thick line. */
-static CpsStatus put_force(const Graph *g, double force) {
+static CpsStatus draw_force(const Graph *g, double force) {
     CpsSet *velocities = NULL;
     CpsSetAnswer answer;
     CpsSetExtent extent;
@@ -107,16 +107,16 @@ static CpsStatus put_force(const Graph *g, double force) {
         status = cps_set_extent(velocities, (double[]){1}, &extent, g->err);
     if (status == CPS_OK && velocities) {
         const double low = fmax(extent.low, -2 * g->most), high = fmin(extent.high, 2 * g->most);
-        cpsi_put_curve(g->out, &g->frame, 2, (double[]){low, y, high, y}, false,
-                       "fill=\"none\" stroke=\"" CPSI_ORANGE "\" stroke-width=\"5\"");
+        cpsi_draw_curve(g->out, &g->frame, 2, (double[]){low, y, high, y}, false,
+                        "fill=\"none\" stroke=\"" CPSI_ORANGE "\" stroke-width=\"5\"");
         if (low == high)
-            cpsi_put_dot(g->out, &g->frame, (double[]){low, y}, 5, "fill=\"" CPSI_ORANGE "\"");
+            cpsi_draw_dot(g->out, &g->frame, (double[]){low, y}, 5, "fill=\"" CPSI_ORANGE "\"");
     }
     cps_set_release(velocities);
     return status;
 }
 
-static void put_axis_lines(const Graph *g) {
+static void draw_axis_lines(const Graph *g) {
     fprintf(g->out,
             "<path d=\"M%.1f %.1fH%.1f M%.1f %.1fV%.1f\" stroke=\"#aaa\" stroke-width=\"1\"/>\n",
             g->frame.left, cpsi_frame_y(&g->frame, 0), g->frame.left + g->frame.width,
@@ -142,16 +142,16 @@ static CpsStatus draw_graph(Graph *g) {
         snprintf(label, sizeof label, "force (%s, of a torque %s m)", g->unit.name, g->unit.name);
         cpsi_frame_axes(g->out, &g->frame, "velocity (m/s, of an angle rad/s)", label);
         cpsi_frame_begin(g->out, &g->frame, 1);
-        put_axis_lines(g);
+        draw_axis_lines(g);
         for (int i = 0; i <= STEPS; i++)
             for (int k = 0; k < 2 && !isnan(end[i][k]); k++, points++) {
                 curve[2 * points] = g->most * (2.0 * i / STEPS - 1);
                 curve[2 * points + 1] = in_frame(g, end[i][k]);
             }
-        cpsi_put_curve(g->out, &g->frame, points, curve, false,
-                       "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2.2\"");
+        cpsi_draw_curve(g->out, &g->frame, points, curve, false,
+                        "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2.2\"");
         for (int i = 0; status == CPS_OK && i < g->picture->force_count; i++)
-            status = put_force(g, g->picture->force[i]);
+            status = draw_force(g, g->picture->force[i]);
         for (int i = 0; status == CPS_OK && i < g->picture->velocity_count; i++) {
             CpsSet *forces = NULL;
             CpsSetAnswer answer;
@@ -162,10 +162,10 @@ static CpsStatus draw_graph(Graph *g) {
                 status = cps_set_extent(forces, (double[]){1}, &extent, g->err);
             if (status == CPS_OK && forces) {
                 const double at[4] = {v, in_frame(g, extent.low), v, in_frame(g, extent.high)};
-                cpsi_put_curve(g->out, &g->frame, 2, at, false,
-                               "fill=\"none\" stroke=\"" CPSI_PLUM "\" stroke-width=\"5\"");
+                cpsi_draw_curve(g->out, &g->frame, 2, at, false,
+                                "fill=\"none\" stroke=\"" CPSI_PLUM "\" stroke-width=\"5\"");
                 if (extent.low == extent.high)
-                    cpsi_put_dot(g->out, &g->frame, at, 5, "fill=\"" CPSI_PLUM "\"");
+                    cpsi_draw_dot(g->out, &g->frame, at, 5, "fill=\"" CPSI_PLUM "\"");
             }
             cps_set_release(forces);
         }
@@ -240,7 +240,7 @@ static CpsStatus draw_speeds(Graph *g) {
                        "forces at some speeds in all directions");
         cpsi_frame_axes(g->out, &g->frame, labels[0], labels[1]);
         cpsi_frame_begin(g->out, &g->frame, 1);
-        put_axis_lines(g);
+        draw_axis_lines(g);
         for (int k = 0; k < SPEEDS; k++) {
             double *one = curve + 2 * k * DIRECTIONS;
             int points = 0;
@@ -251,7 +251,7 @@ static CpsStatus draw_speeds(Graph *g) {
                 }
             snprintf(style, sizeof style, "fill=\"none\" stroke=\"%s\" stroke-width=\"2\"",
                      cpsi_colour(CPSI_SCALE_STEP, k / (SPEEDS - 1.0)).hex);
-            cpsi_put_curve(g->out, &g->frame, points, one, points == DIRECTIONS, style);
+            cpsi_draw_curve(g->out, &g->frame, points, one, points == DIRECTIONS, style);
         }
         cpsi_frame_end(g->out);
         for (int k = 0; k < SPEEDS; k++) {

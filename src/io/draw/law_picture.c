@@ -170,7 +170,7 @@ static bool is_beyond(const Sheet *s, const double x[2]) {
     return s->limit > 0 && fmax(fabs(x[0]), fabs(x[1])) > s->limit * (1 + 1e-9);
 }
 
-static void put_curve(const Sheet *s, const Curve *curve, const char *style) {
+static void draw_curve(const Sheet *s, const Curve *curve, const char *style) {
     fprintf(s->out, "<polygon %s stroke-linejoin=\"round\" points=\"", style);
     double lx = INFINITY, ly = INFINITY;
     for (int i = 0; i < curve->count; i++) {
@@ -184,8 +184,8 @@ static void put_curve(const Sheet *s, const Curve *curve, const char *style) {
     fputs("\"/>\n", s->out);
 }
 
-static void put_arrow(const Sheet *s, const double from[2], const double direction[2],
-                      double length, const char *colour) {
+static void draw_arrow(const Sheet *s, const double from[2], const double direction[2],
+                       double length, const char *colour) {
     const double x0 = px(s, from[0]), y0 = py(s, from[1]);
     const double x1 = px(s, from[0] + length * direction[0]),
                  y1 = py(s, from[1] + length * direction[1]);
@@ -203,15 +203,15 @@ static void put_arrow(const Sheet *s, const double from[2], const double directi
 
 /* a cone of R^2 with its apex at a point: a sector up to the whole disc, an arrow, a line with two
  * heads; *dimension: its own */
-static CpsStatus put_cone(const Sheet *s, const CpsSet *cone, const double apex[2], bool arrow,
-                          const char *style, int *dimension) {
+static CpsStatus draw_cone(const Sheet *s, const CpsSet *cone, const double apex[2], bool arrow,
+                           const char *style, int *dimension) {
     CpsiPlanarCone found;
     const CpsStatus status = cpsi_planar_cone(cone, &found, s->err);
     *dimension = found.dimension;
     const double r = SECTOR * s->size;
     for (int side = 1; found.dimension == 1 && arrow && side >= (found.line ? -1 : 1); side -= 2)
-        put_arrow(s, apex, (double[]){side * cos(found.start), side * sin(found.start)}, r,
-                  "#c98a1b");
+        draw_arrow(s, apex, (double[]){side * cos(found.start), side * sin(found.start)}, r,
+                   "#c98a1b");
     if (status != CPS_OK || found.dimension < 2) return status;
     fprintf(s->out, "<polygon %s points=\"", style);
     if (found.turn < 2 * CPSI_PI) fprintf(s->out, "%.2f,%.2f ", px(s, apex[0]), py(s, apex[1]));
@@ -224,7 +224,7 @@ static CpsStatus put_cone(const Sheet *s, const CpsSet *cone, const double apex[
 }
 
 /* the corners of what is seen of a set of R^2, each with the set's sector of normals */
-static CpsStatus put_corners(Sheet *s, const CpsSet *seen, const CpsSet *set) {
+static CpsStatus draw_corners(Sheet *s, const CpsSet *seen, const CpsSet *set) {
     double *corner = malloc(2 * MOST_CORNERS * sizeof *corner);
     if (!corner) return out_of_memory(s->err);
     int count = 0;
@@ -239,7 +239,7 @@ static CpsStatus put_corners(Sheet *s, const CpsSet *seen, const CpsSet *set) {
         if (is_beyond(s, at)) continue;
         status = cps_set_normal_cone(set, at, 0, &cone, &answer, s->err);
         if (status == CPS_OK && cone)
-            status = put_cone(
+            status = draw_cone(
                 s, cone, at, false,
                 "fill=\"#f6dca6\" fill-opacity=\"0.75\" stroke=\"#c98a1b\" stroke-width=\"0.8\"",
                 &dimension);
@@ -260,7 +260,7 @@ static CpsiColour colour_of(const Sheet *s, int i) {
     return cpsi_colour(CPSI_SCALE_TENSION, count > 1 ? 0.35 + 0.6 * i / (count - 1) : 0.6);
 }
 
-static void put_line(const Sheet *s, int line, const char *colour, const char *text) {
+static void draw_line(const Sheet *s, int line, const char *colour, const char *text) {
     char style[80];
     snprintf(style, sizeof style, "font-size=\"12\" fill=\"%s\"", colour);
     cpsi_svg_text(s->out, LEFT + SIDE + 24, TOP + 12 + 17.0 * line, CPSI_START, style, text);
@@ -280,12 +280,12 @@ static void list_velocity(const Sheet *s, int i, const double *velocity, const C
     char text[160], vector[100];
     if (i > MOST_LISTED) return;
     if (i == MOST_LISTED) {
-        put_line(s, 3 * i, "#666", "and more");
+        draw_line(s, 3 * i, "#666", "and more");
         return;
     }
     vector_text(s->n, velocity, vector, sizeof vector);
     snprintf(text, sizeof text, "V = %s m/s", vector);
-    put_line(s, 3 * i, colour_of(s, i).hex, text);
+    draw_line(s, 3 * i, colour_of(s, i).hex, text);
     double speed = 0; /* below the rounding of forces times speed phi is 0 */
     for (int k = 0; k < s->n; k++) speed = fmax(speed, fabs(velocity[k]));
     if (phi->outcome == CPS_SET_ANSWERED)
@@ -296,7 +296,7 @@ static void list_velocity(const Sheet *s, int i, const double *velocity, const C
         snprintf(text, sizeof text, "   no force: phi is infinite");
     else
         snprintf(text, sizeof text, "   no force: %s", cps_set_outcome_sentence(phi->outcome));
-    put_line(s, 3 * i + 1, "#555", text);
+    draw_line(s, 3 * i + 1, "#555", text);
 }
 
 /* the middle of what is seen of a planar set */
@@ -309,8 +309,8 @@ static CpsStatus find_middle(const Sheet *s, const CpsSet *flat, Curve *curve, d
     return status;
 }
 
-static CpsStatus put_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFacts *facts,
-                                   const char *colour, double center[2]) {
+static CpsStatus draw_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFacts *facts,
+                                    const char *colour, double center[2]) {
     char style[120];
     if (facts->dimension == 0) {
         fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"5.5\" fill=\"%s\" stroke=\"#fff\"/>\n",
@@ -327,7 +327,7 @@ static CpsStatus put_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFa
                  "fill=\"%s\" fill-opacity=\"0.35\" stroke=\"%s\" stroke-width=\"4\"", colour,
                  colour);
         fputs("<g clip-path=\"url(#frame1)\">\n", s->out); /* as of cpsi_frame_begin in put_axes */
-        put_curve(s, curve, style);
+        draw_curve(s, curve, style);
         fputs("</g>\n", s->out);
     }
     free(curve);
@@ -335,19 +335,19 @@ static CpsStatus put_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFa
 }
 
 /* a set of forces in the plane: a dot, a thick line, or an area; its middle goes to center */
-static CpsStatus put_forces(const Sheet *s, const CpsSet *forces, const char *colour,
-                            double center[2]) {
+static CpsStatus draw_forces(const Sheet *s, const CpsSet *forces, const char *colour,
+                             double center[2]) {
     CpsSet *flat = NULL;
     CpsSetFacts facts;
     CpsStatus status = plane_set(s, forces, false, &flat);
     if (status == CPS_OK) status = cps_set_facts(flat, 0, &facts, center, NULL, s->err);
     if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED && (facts.bounded || s->limit > 0))
-        status = put_planar_forces(s, &flat, &facts, colour, center);
+        status = draw_planar_forces(s, &flat, &facts, colour, center);
     cps_set_release(flat);
     return status;
 }
 
-static CpsStatus put_velocity(const Sheet *s, int i) {
+static CpsStatus draw_velocity(const Sheet *s, int i) {
     const double *velocity = s->picture->velocity + (size_t)i * (size_t)s->n;
     const CpsiColour colour = colour_of(s, i);
     CpsSet *forces = NULL;
@@ -356,7 +356,7 @@ static CpsStatus put_velocity(const Sheet *s, int i) {
     CpsStatus status = cps_law_forces(s->set, velocity, 0, &forces, &answer, s->err);
     if (status == CPS_OK && forces) status = cps_set_facts(forces, 0, &facts, NULL, NULL, s->err);
     double center[2] = {0, 0};
-    if (status == CPS_OK && forces) status = put_forces(s, forces, colour.hex, center);
+    if (status == CPS_OK && forces) status = draw_forces(s, forces, colour.hex, center);
     cps_set_release(forces);
     if (status != CPS_OK) return status;
 
@@ -365,13 +365,13 @@ static CpsStatus put_velocity(const Sheet *s, int i) {
                  l = hypot(v[0], v[1]);
     const double direction[2] = {l > 0 ? v[0] / l : 0, l > 0 ? v[1] / l : 0};
     if (answer.outcome == CPS_SET_ANSWERED)
-        put_arrow(s, center, direction, ARROW * s->size, colour.hex);
+        draw_arrow(s, center, direction, ARROW * s->size, colour.hex);
     list_velocity(s, i, velocity, &answer, facts.dimension < 0 ? 0 : facts.dimension);
     return CPS_OK;
 }
 
 /* a force, and the cone of -V, of more components its shadow */
-static CpsStatus put_force(const Sheet *s, int i) {
+static CpsStatus draw_force(const Sheet *s, int i) {
     const double *force = s->picture->force + (size_t)i * (size_t)s->n;
     const double at[2] = {force[s->picture->axis[0]], force[s->picture->axis[1]]};
     int dimension;
@@ -380,7 +380,7 @@ static CpsStatus put_force(const Sheet *s, int i) {
     CpsStatus status = cps_set_normal_cone(s->set, force, 0, &cone, &answer, s->err);
     if (status == CPS_OK && cone) status = plane_set(s, cone, false, &flat);
     if (status == CPS_OK && flat)
-        status = put_cone(
+        status = draw_cone(
             s, flat, at, true,
             "fill=\"#f0b429\" fill-opacity=\"0.6\" stroke=\"#8a5a00\" stroke-width=\"1.2\"",
             &dimension);
@@ -424,7 +424,7 @@ static void fit_frame(Sheet *s, const Curve *curve) {
                            .y = {cy - half * share, cy + half * share}};
 }
 
-static void put_axes(const Sheet *s) {
+static void draw_axes(const Sheet *s) {
     char x[64], y[64];
     if (s->n == 2) {
         snprintf(x, sizeof x, "force, component %d (%s)", s->picture->axis[0] + 1, s->unit.name);
@@ -442,7 +442,7 @@ static void put_axes(const Sheet *s) {
             s->frame.left, py(s, 0), SIDE, px(s, 0), s->frame.top, s->frame.height);
 }
 
-static void put_legend(const Sheet *s, bool some) {
+static void draw_legend(const Sheet *s, bool some) {
     double x = LEFT, y = TOP + s->frame.height + 58;
     cpsi_legend(
         s->out, &x, y,
@@ -478,8 +478,8 @@ static CpsStatus frame_shadow(Sheet *s, const CpsSet *shadow, Curve *curve) {
 }
 
 /* `whole` is the section; it and the shadow cut off, where they have no bounds, beyond the frame */
-static CpsStatus put_all(Sheet *s, const CpsSet *whole, const CpsSet *section, const CpsSet *shadow,
-                         Curve *curve) {
+static CpsStatus draw_all(Sheet *s, const CpsSet *whole, const CpsSet *section,
+                          const CpsSet *shadow, Curve *curve) {
     CpsStatus status = trace(shadow, curve, s->err);
     if (status != CPS_OK) return status;
     const int asked = s->picture->velocity_count;
@@ -491,9 +491,9 @@ static CpsStatus put_all(Sheet *s, const CpsSet *whole, const CpsSet *section, c
                    s->in_space    ? "section through 0, and shadow, of the set of forces"
                    : s->limit > 0 ? "set of forces, which goes on beyond the frame"
                                   : "set of forces");
-    put_axes(s);
+    draw_axes(s);
     if (s->in_space) {
-        put_curve(
+        draw_curve(
             s, curve,
             "fill=\"#f6f8fc\" stroke=\"#2b5fa8\" stroke-width=\"1\" stroke-dasharray=\"5 4\"");
         status = trace(section, curve, s->err);
@@ -501,13 +501,13 @@ static CpsStatus put_all(Sheet *s, const CpsSet *whole, const CpsSet *section, c
     /* the plane through 0 may miss a set that a load has moved: its shadow is left */
     const bool some = curve->count > 0;
     if (status == CPS_OK && some)
-        put_curve(s, curve, "fill=\"#dfe9f6\" stroke=\"#2b5fa8\" stroke-width=\"1.8\"");
-    if (status == CPS_OK && some) status = put_corners(s, section, whole);
-    for (int i = 0; i < s->picture->force_count && status == CPS_OK; i++) status = put_force(s, i);
+        draw_curve(s, curve, "fill=\"#dfe9f6\" stroke=\"#2b5fa8\" stroke-width=\"1.8\"");
+    if (status == CPS_OK && some) status = draw_corners(s, section, whole);
+    for (int i = 0; i < s->picture->force_count && status == CPS_OK; i++) status = draw_force(s, i);
     cpsi_frame_end(s->out);
     for (int i = 0; i < s->picture->velocity_count && status == CPS_OK; i++)
-        status = put_velocity(s, i);
-    put_legend(s, some);
+        status = draw_velocity(s, i);
+    draw_legend(s, some);
     cpsi_svg_finish(s->out);
     return status;
 }
@@ -523,7 +523,7 @@ static CpsStatus draw(Sheet *s) {
     if (status == CPS_OK) status = frame_shadow(s, shadow, curve);
     if (status == CPS_OK) status = cut_off(s, BEYOND, &section);
     if (status == CPS_OK) status = cut_off(s, BEYOND, &shadow);
-    if (status == CPS_OK) status = put_all(s, whole, section, shadow, curve);
+    if (status == CPS_OK) status = draw_all(s, whole, section, shadow, curve);
     cps_set_release(whole);
     cps_set_release(section);
     cps_set_release(shadow);

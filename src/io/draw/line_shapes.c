@@ -70,20 +70,20 @@ typedef struct Pen {
     FILE *out;
 } Pen;
 
-static void put_point(const Pen *pen, const double position[3]) {
+static void draw_point(const Pen *pen, const double position[3]) {
     const Vec3 place = vec3_load(position);
     fprintf(pen->out, "%.1f,%.1f ", cpsi_frame_x(pen->frame, vec3_dot(pen->view->right, place)),
             cpsi_frame_y(pen->frame, vec3_dot(pen->view->up, place)));
 }
 
 /* points first..last of an array (points, 3) */
-static void put_polyline(const Pen *pen, const double *position, int first, int last,
-                         const char *colour, double width, const char *more) {
+static void draw_polyline(const Pen *pen, const double *position, int first, int last,
+                          const char *colour, double width, const char *more) {
     fprintf(pen->out,
             "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-linejoin=\"round\" "
             "%s points=\"",
             colour, width, more);
-    for (int i = first; i <= last; ++i) put_point(pen, position + 3 * (size_t)i);
+    for (int i = first; i <= last; ++i) draw_point(pen, position + 3 * (size_t)i);
     fputs("\"/>\n", pen->out);
 }
 
@@ -109,7 +109,7 @@ static void draw_states(const Pen *pen, const CpsiShape *shape) {
         /* a band reaches half way to its neighbours; to the next point is near enough */
         const int to = last + 1 < shape->points ? last + 1 : last;
         if (state != CPS_NODE_FREE && to > first)
-            put_polyline(pen, shape->position, first, to, band_colour(state), 11, "");
+            draw_polyline(pen, shape->position, first, to, band_colour(state), 11, "");
         first = last + 1;
     }
 }
@@ -125,9 +125,9 @@ static void draw_tension(const Pen *pen, const CpsiShape *shape, const double ra
         const int level = level_of(shape->tension[first], range);
         int last = first + 1;
         while (last + 1 < shape->points && level_of(shape->tension[last], range) == level) ++last;
-        put_polyline(pen, shape->position, first, last,
-                     cpsi_colour(CPSI_SCALE_TENSION, (level + 0.5) / COLOUR_LEVELS).hex, 3.4,
-                     "stroke-linecap=\"round\"");
+        draw_polyline(pen, shape->position, first, last,
+                      cpsi_colour(CPSI_SCALE_TENSION, (level + 0.5) / COLOUR_LEVELS).hex, 3.4,
+                      "stroke-linecap=\"round\"");
         first = last;
     }
 }
@@ -233,8 +233,8 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
     const Pen pen = {view, &frame, out};
     cpsi_frame_begin(out, &frame, 1);
     for (int l = 0; l < results->line_count; ++l)
-        put_polyline(&pen, start_of(results, snapshot, l), 0, snapshot->shape[l].points - 1,
-                     COLOUR_START, 2, "");
+        draw_polyline(&pen, start_of(results, snapshot, l), 0, snapshot->shape[l].points - 1,
+                      COLOUR_START, 2, "");
     for (int l = 0; l < results->line_count; ++l) draw_states(&pen, &snapshot->shape[l]);
     for (int l = 0; l < results->line_count; ++l) draw_tension(&pen, &snapshot->shape[l], range);
     cpsi_frame_end(out);
@@ -258,13 +258,13 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
     const Pen pen = {view, &frame, out};
     cpsi_frame_begin(out, &frame, 1);
     for (int l = 0; l < results->line_count; ++l)
-        put_polyline(&pen, start_of(results, &results->snapshot[0], l), 0,
-                     results->snapshot[0].shape[l].points - 1, COLOUR_START, 3, "");
+        draw_polyline(&pen, start_of(results, &results->snapshot[0], l), 0,
+                      results->snapshot[0].shape[l].points - 1, COLOUR_START, 3, "");
     for (int s = 0; s < results->snapshot_count; ++s)
         for (int l = 0; l < results->line_count; ++l)
-            put_polyline(&pen, results->snapshot[s].shape[l].position, 0,
-                         results->snapshot[s].shape[l].points - 1, cpsi_step_colour(results, s).hex,
-                         cpsi_step_width(results, s), "");
+            draw_polyline(&pen, results->snapshot[s].shape[l].position, 0,
+                          results->snapshot[s].shape[l].points - 1,
+                          cpsi_step_colour(results, s).hex, cpsi_step_width(results, s), "");
     cpsi_frame_end(out);
     cpsi_step_list(results, &frame, out);
     double x = CPSI_FRAME_LEFT;

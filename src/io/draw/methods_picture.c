@@ -73,8 +73,8 @@ static void make_even(CpsiFrame *frame) {
     narrow[1] += more;
 }
 
-static void put_point(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int point,
-                      int up, FILE *out) {
+static void draw_point(const CpsiMethods *m, const CpsiFrame *frame, int method, int step,
+                       int point, int up, FILE *out) {
     const double *x = place(m, method, step, point);
     fprintf(out, "%.1f,%.1f ", cpsi_frame_x(frame, x[0]), cpsi_frame_y(frame, x[up]));
 }
@@ -98,8 +98,8 @@ static double width_of(const CpsiMethods *m, int step, bool near) {
 }
 
 /* End B after a step, as a ring: rings of steps that end in one place lie in each other. */
-static void put_ring(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up,
-                     FILE *out) {
+static void draw_ring(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up,
+                      FILE *out) {
     const double *x = place(m, method, step, m->points - 1);
     fprintf(out,
             "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" "
@@ -109,7 +109,7 @@ static void put_ring(const CpsiMethods *m, const CpsiFrame *frame, int method, i
 }
 
 /* The nodes of a short piece: as many elements as there are dots, however close. */
-static void put_dots(const CpsiMethods *m, const CpsiFrame *frame, int method, FILE *out) {
+static void draw_dots(const CpsiMethods *m, const CpsiFrame *frame, int method, FILE *out) {
     for (int p = 0; p < m->points && m->points <= DOTTED; ++p) {
         const double *x = place(m, method, 0, p);
         fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2\" fill=\"%s\"/>\n",
@@ -120,13 +120,13 @@ static void put_dots(const CpsiMethods *m, const CpsiFrame *frame, int method, F
 /* Some 150 points are enough for a whole line, and what is inside the frame for the rest; more only
  * make files large.
  */
-static void put_curve(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up,
-                      bool near, FILE *out) {
+static void draw_curve(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up,
+                       bool near, FILE *out) {
     const int last = m->points - 1;
     const int stride = !near && !m->plan_only && last > NARROW / 2 ? last / (NARROW / 2) : 1;
     for (int p = near ? first_inside(m, frame, method, step, up) : 0; p < last; p += stride)
-        put_point(m, frame, method, step, p, up, out);
-    put_point(m, frame, method, step, last, up, out);
+        draw_point(m, frame, method, step, p, up, out);
+    draw_point(m, frame, method, step, last, up, out);
 }
 
 static bool is_near(int row) { return row >= PLAN_NEAR; }
@@ -163,12 +163,12 @@ static void draw_frame(const Sheet *sheet, int method, int row, FILE *out) {
         if (!is_drawn(m, s)) continue;
         fprintf(out, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" points=\"",
                 step_colour(m, s).hex, width_of(m, s, is_near(row)));
-        put_curve(m, &frame, method, s, up, is_near(row), out);
+        draw_curve(m, &frame, method, s, up, is_near(row), out);
         fputs("\"/>\n", out);
     }
     for (int s = 1; s < m->steps && is_near(row) && m->steps <= RINGED; ++s)
-        put_ring(m, &frame, method, s, up, out);
-    if (m->plan_only) put_dots(m, &frame, method, out);
+        draw_ring(m, &frame, method, s, up, out);
+    if (m->plan_only) draw_dots(m, &frame, method, out);
     cpsi_frame_end(out);
     if (!is_plan(row)) return;
     char name[96];

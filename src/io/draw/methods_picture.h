@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-#include "capstan/classic_io.h"
+#include "capstan/regularized_io.h"
 
 typedef struct CpsiMethods {
     const char *title, *note;

@@ -54,8 +54,8 @@ static Polygon cut(const Polygon *from, double a, double b, double c) {
     return out;
 }
 
-static void put_polygon(const CpsiFrame *frame, const Polygon *polygon, const char *fill,
-                        const char *edge, FILE *out) {
+static void draw_polygon(const CpsiFrame *frame, const Polygon *polygon, const char *fill,
+                         const char *edge, FILE *out) {
     if (polygon->count == 0) return;
     fprintf(out, "<polygon fill=\"%s\" stroke=\"%s\" points=\"", fill, edge);
     for (int i = 0; i < polygon->count; ++i)
@@ -65,7 +65,7 @@ static void put_polygon(const CpsiFrame *frame, const Polygon *polygon, const ch
 }
 
 /* an arrow down the slope: the horizontal part of the normal */
-static void put_slope(const CpsiFrame *frame, double a, double b, FILE *out) {
+static void draw_slope(const CpsiFrame *frame, double a, double b, FILE *out) {
     char label[48];
     const double x = frame->left + 46, y = frame->top + 46;
     snprintf(label, sizeof label, "downhill, %.3g\xC2\xB0", degrees(asin(hypot(a, b))));
@@ -86,15 +86,15 @@ static void draw_plane(const CpsObstacle *plane, const CpsiView *view, const Cps
         vec3_dot(normal, vec3_load(plane->point)) - vec3_dot(normal, view->toward) * view->cut;
     const Polygon all = whole(frame), section = cut(&all, a, b, c);
     if (from_above)
-        put_polygon(frame, &all, SEEN_FROM_ABOVE, "none", out);
+        draw_polygon(frame, &all, SEEN_FROM_ABOVE, "none", out);
     else
-        put_polygon(frame, &section, FILL, EDGE, out);
-    if (from_above && tilt >= 1e-3) put_slope(frame, a, b, out);
+        draw_polygon(frame, &section, FILL, EDGE, out);
+    if (from_above && tilt >= 1e-3) draw_slope(frame, a, b, out);
 }
 
 /* A spoke that was upright at the start, and the angle turned since then. */
-static void put_spoke(const CpsObstacle *obstacle, double turned, const CpsiView *view,
-                      const CpsiFrame *frame, FILE *out) {
+static void draw_spoke(const CpsObstacle *obstacle, double turned, const CpsiView *view,
+                       const CpsiFrame *frame, FILE *out) {
     const Vec3 axis = unit(obstacle->axis), centre = vec3_load(obstacle->point);
     const Vec3 upright = vec3_axpy(-vec3_dot(view->up, axis), axis, view->up);
     const Vec3 spoke =
@@ -137,7 +137,7 @@ static void draw_band(const CpsObstacle *obstacle, double along_x, double along_
     const double c = a * vec3_dot(view->right, centre) + b * vec3_dot(view->up, centre);
     const Polygon all = whole(frame), half = cut(&all, a, b, c + obstacle->radius);
     const Polygon band = cut(&half, -a, -b, obstacle->radius - c);
-    put_polygon(frame, &band, ROUND_FILL, EDGE, out);
+    draw_polygon(frame, &band, ROUND_FILL, EDGE, out);
 }
 
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view) {
@@ -169,6 +169,6 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
                       out);
         const bool end_on = hypot(vec3_dot(axis, view->right), vec3_dot(axis, view->up)) < END_ON;
         if (step >= 0 && end_on && ever_turns(results, k))
-            put_spoke(obstacle, cpsi_results_turned(results, step, k), view, frame, out);
+            draw_spoke(obstacle, cpsi_results_turned(results, step, k), view, frame, out);
     }
 }

@@ -58,12 +58,13 @@ static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
                    *p->file->title ? p->file->title : "polar planimeter", text);
     cpsi_frame_axes(out, &frame, "x (m)", "y (m)");
     cpsi_frame_begin(out, &frame, 1);
-    cpsi_put_curve(out, &frame, d->points, d->point, true,
-                   "fill=\"#dfe9f6\" stroke=\"" CPSI_BLUE "\" stroke-width=\"1.6\"");
-    cpsi_put_curve(out, &frame, 3, arms, false, "fill=\"none\" stroke=\"#555\" stroke-width=\"3\"");
-    cpsi_put_dot(out, &frame, m->pole, 6, "fill=\"#333\"");
-    cpsi_put_dot(out, &frame, hinge, 4, "fill=\"#fff\" stroke=\"#555\" stroke-width=\"2\"");
-    cpsi_put_dot(out, &frame, tracer, 4, "fill=\"" CPSI_PLUM "\"");
+    cpsi_draw_curve(out, &frame, d->points, d->point, true,
+                    "fill=\"#dfe9f6\" stroke=\"" CPSI_BLUE "\" stroke-width=\"1.6\"");
+    cpsi_draw_curve(out, &frame, 3, arms, false,
+                    "fill=\"none\" stroke=\"#555\" stroke-width=\"3\"");
+    cpsi_draw_dot(out, &frame, m->pole, 6, "fill=\"#333\"");
+    cpsi_draw_dot(out, &frame, hinge, 4, "fill=\"#fff\" stroke=\"#555\" stroke-width=\"2\"");
+    cpsi_draw_dot(out, &frame, tracer, 4, "fill=\"" CPSI_PLUM "\"");
 
     /* the wheel, across its arm */
     const double nx = -(tracer[1] - hinge[1]) / m->tracer_arm,
@@ -71,7 +72,7 @@ static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
     const double half = 0.06 * (frame.x[1] - frame.x[0]) * 0.6;
     const double rim[4] = {wheel[0] - half * nx, wheel[1] - half * ny, wheel[0] + half * nx,
                            wheel[1] + half * ny};
-    cpsi_put_curve(out, &frame, 2, rim, false, "stroke=\"" CPSI_ORANGE "\" stroke-width=\"7\"");
+    cpsi_draw_curve(out, &frame, 2, rim, false, "stroke=\"" CPSI_ORANGE "\" stroke-width=\"7\"");
     cpsi_frame_end(out);
     double x = LEFT;
     const double y = TOP + SIDE + 62;
@@ -102,8 +103,8 @@ typedef struct SweepPicture {
 } SweepPicture;
 
 /* one component: a value over the moved end */
-static void put_loop(FILE *out, const SweepPicture *p, int column, const double *value,
-                     const char *label, const char *colour, double *room) {
+static void draw_loop(FILE *out, const SweepPicture *p, int column, const double *value,
+                      const char *label, const char *colour, double *room) {
     CpsiFrame frame = {.left = LEFT + column * (SIDE - 60.0),
                        .top = TOP,
                        .width = SIDE - 160,
@@ -121,13 +122,13 @@ static void put_loop(FILE *out, const SweepPicture *p, int column, const double 
     cpsi_frame_axes(out, &frame, "moved end of the spring (m)", label);
     cpsi_frame_begin(out, &frame, 1 + column);
     snprintf(style, sizeof style, "fill=\"none\" stroke=\"%s\" stroke-width=\"2\"", colour);
-    cpsi_put_curve(out, &frame, p->count, room, false, style);
-    cpsi_put_dot(out, &frame, room, 4, "fill=\"#333\"");
+    cpsi_draw_curve(out, &frame, p->count, room, false, style);
+    cpsi_draw_dot(out, &frame, room, 4, "fill=\"#333\"");
     cpsi_frame_end(out);
 }
 
 /* two: the way of the block and of the end, with springs */
-static void put_plane(FILE *out, const SweepPicture *p) {
+static void draw_plane(FILE *out, const SweepPicture *p) {
     CpsiFrame frame = {.left = LEFT, .top = TOP, .width = SIDE, .height = SIDE};
     frame.x[0] = frame.y[0] = INFINITY;
     frame.x[1] = frame.y[1] = -INFINITY;
@@ -142,13 +143,13 @@ static void put_plane(FILE *out, const SweepPicture *p) {
         const size_t i = (size_t)((long long)(p->count - 1) * shot / 12);
         const double line[4] = {p->position[2 * i], p->position[2 * i + 1], p->end[2 * i],
                                 p->end[2 * i + 1]};
-        cpsi_put_curve(out, &frame, 2, line, false,
-                       "fill=\"none\" stroke=\"" CPSI_GREY "\" stroke-dasharray=\"2 2\"");
-        cpsi_put_dot(out, &frame, line, 3, "fill=\"" CPSI_BLUE "\"");
+        cpsi_draw_curve(out, &frame, 2, line, false,
+                        "fill=\"none\" stroke=\"" CPSI_GREY "\" stroke-dasharray=\"2 2\"");
+        cpsi_draw_dot(out, &frame, line, 3, "fill=\"" CPSI_BLUE "\"");
     }
-    cpsi_put_curve(out, &frame, p->count, p->end, false, WAY);
-    cpsi_put_curve(out, &frame, p->count, p->position, false,
-                   "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2\"");
+    cpsi_draw_curve(out, &frame, p->count, p->end, false, WAY);
+    cpsi_draw_curve(out, &frame, p->count, p->position, false,
+                    "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2\"");
     cpsi_frame_end(out);
     double x = LEFT;
     const double y = TOP + SIDE + 62;
@@ -174,10 +175,10 @@ static CpsStatus draw_sweep(void *what, FILE *out, CpsError *err) {
                          "spring pulls hard enough"
                        : "the play operator: position and force over the moved end of the spring");
     if (plane) {
-        put_plane(out, p);
+        draw_plane(out, p);
     } else {
-        put_loop(out, p, 0, p->position, "block (m)", CPSI_BLUE, room);
-        put_loop(out, p, 1, p->force, "friction on the block (N)", CPSI_PLUM, room);
+        draw_loop(out, p, 0, p->position, "block (m)", CPSI_BLUE, room);
+        draw_loop(out, p, 1, p->force, "friction on the block (N)", CPSI_PLUM, room);
     }
     cpsi_svg_finish(out);
     free(room);

@@ -27,7 +27,7 @@ static double fastest(const RopePicture *p) {
     return most;
 }
 
-static void put_shape(FILE *out, const RopePicture *p) {
+static void draw_shape(FILE *out, const RopePicture *p) {
     const CpsRope *rope = &p->rope->rope;
     const double *v = cps_motion_velocity(p->motion), most = fastest(p);
     CpsiFrame frame = {.left = LEFT, .top = TOP, .width = SHAPE, .height = HEIGHT};
@@ -47,30 +47,30 @@ static void put_shape(FILE *out, const RopePicture *p) {
     cpsi_frame_title(out, &frame, "velocities; grey: resting");
     cpsi_frame_axes(out, &frame, "x (m)", "y (m)");
     cpsi_frame_begin(out, &frame, 1);
-    cpsi_put_curve(out, &frame, rope->nodes, rope->node, false,
-                   "fill=\"none\" stroke=\"#bbb\" stroke-width=\"5\"");
+    cpsi_draw_curve(out, &frame, rope->nodes, rope->node, false,
+                    "fill=\"none\" stroke=\"#bbb\" stroke-width=\"5\"");
     /* runs of sliding nodes */
     for (int i = 0; i < rope->nodes;) {
         int end = i;
         while (end < rope->nodes && hypot(v[2 * end], v[2 * end + 1]) > REST * most) end++;
         if (end > i + 1)
-            cpsi_put_curve(out, &frame, end - i, rope->node + 2 * (size_t)i, false,
-                           "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"5\"");
+            cpsi_draw_curve(out, &frame, end - i, rope->node + 2 * (size_t)i, false,
+                            "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"5\"");
         i = end + 1;
     }
     for (int k = 0; k <= ARROWS; k++) {
         const int i = (int)((long long)(rope->nodes - 1) * k / ARROWS);
         const double along[2] = {unit * v[2 * i], unit * v[2 * i + 1]};
-        cpsi_put_arrow(out, &frame, rope->node + 2 * (size_t)i, along, CPSI_PLUM, 1.3);
+        cpsi_draw_arrow(out, &frame, rope->node + 2 * (size_t)i, along, CPSI_PLUM, 1.3);
     }
     for (int k = 0; k < 2; k++)
         if (rope->driven[k])
-            cpsi_put_dot(out, &frame, rope->node + (k ? 2 * (size_t)(rope->nodes - 1) : 0), 4.5,
-                         "fill=\"#fff\" stroke=\"#333\" stroke-width=\"1.6\"");
+            cpsi_draw_dot(out, &frame, rope->node + (k ? 2 * (size_t)(rope->nodes - 1) : 0), 4.5,
+                          "fill=\"#fff\" stroke=\"#333\" stroke-width=\"1.6\"");
     cpsi_frame_end(out);
 }
 
-static CpsStatus put_tension(FILE *out, const RopePicture *p, CpsError *err) {
+static CpsStatus draw_tension(FILE *out, const RopePicture *p, CpsError *err) {
     const CpsRope *rope = &p->rope->rope;
     double *point = malloc(2 * (size_t)rope->nodes * sizeof *point), along = 0;
     if (!point) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
@@ -92,15 +92,15 @@ static CpsStatus put_tension(FILE *out, const RopePicture *p, CpsError *err) {
     cpsi_frame_title(out, &frame, "tension");
     cpsi_frame_axes(out, &frame, "along the rope, from end A (m)", "tension (N)");
     cpsi_frame_begin(out, &frame, 2);
-    cpsi_put_curve(out, &frame, rope->nodes - 1, point, false,
-                   "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2\"");
+    cpsi_draw_curve(out, &frame, rope->nodes - 1, point, false,
+                    "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2\"");
     cpsi_frame_end(out);
     free(point);
     return CPS_OK;
 }
 
 /* shapes side by side, all to one scale, each over the pale ones before it */
-static void put_strip(FILE *out, const RopePicture *p, double width) {
+static void draw_strip(FILE *out, const RopePicture *p, double width) {
     const size_t nodes = (size_t)p->rope->rope.nodes;
     const int columns = p->count < 6 ? p->count : 6;
     const double side = (width - 14.0 * (columns - 1)) / columns;
@@ -123,16 +123,16 @@ static void put_strip(FILE *out, const RopePicture *p, double width) {
                 "stroke=\"#ccc\"/>\n",
                 frame.left, frame.top, side, (int)STRIP);
         cpsi_frame_begin(out, &frame, 10 + k);
-        cpsi_put_curve(out, &frame, p->rope->points, p->rope->path, false,
-                       "fill=\"none\" stroke=\"" CPSI_PLUM
-                       "\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
+        cpsi_draw_curve(out, &frame, p->rope->points, p->rope->path, false,
+                        "fill=\"none\" stroke=\"" CPSI_PLUM
+                        "\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
         for (int before = 0; before < k; before++)
-            cpsi_put_curve(out, &frame, (int)nodes, p->shot + (size_t)before * 2 * nodes, false,
-                           "fill=\"none\" stroke=\"#d5dbe6\" stroke-width=\"1.2\"");
-        cpsi_put_curve(out, &frame, (int)nodes, p->shot + (size_t)k * 2 * nodes, false,
-                       "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2.4\"");
-        cpsi_put_dot(out, &frame, p->shot + (size_t)(k + 1) * 2 * nodes - 2, 3.5,
-                     "fill=\"" CPSI_PLUM "\"");
+            cpsi_draw_curve(out, &frame, (int)nodes, p->shot + (size_t)before * 2 * nodes, false,
+                            "fill=\"none\" stroke=\"#d5dbe6\" stroke-width=\"1.2\"");
+        cpsi_draw_curve(out, &frame, (int)nodes, p->shot + (size_t)k * 2 * nodes, false,
+                        "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2.4\"");
+        cpsi_draw_dot(out, &frame, p->shot + (size_t)(k + 1) * 2 * nodes - 2, 3.5,
+                      "fill=\"" CPSI_PLUM "\"");
         cpsi_frame_end(out);
         snprintf(text, sizeof text, k ? "%.0f %% of the path" : "start",
                  p->count > 1 ? 100.0 * k / (p->count - 1) : 0);
@@ -152,9 +152,9 @@ static CpsStatus draw_rope(void *what, FILE *out, CpsError *err) {
     cpsi_svg_begin(out, LEFT + width + 40,
                    TOP + HEIGHT + 60 + rows * (STRIP + 30.0) + (rows ? 30 : 0),
                    *p->file->title ? p->file->title : "rope on a table", text);
-    put_shape(out, p);
-    const CpsStatus status = put_tension(out, p, err);
-    if (status == CPS_OK && rows) put_strip(out, p, width);
+    draw_shape(out, p);
+    const CpsStatus status = draw_tension(out, p, err);
+    if (status == CPS_OK && rows) draw_strip(out, p, width);
     cpsi_svg_finish(out);
     return status;
 }

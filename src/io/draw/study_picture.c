@@ -29,8 +29,8 @@ static CpsiColour stage_colour(int stage) {
 
 /* ---- tensions ---- */
 
-static void put_tension(FILE *out, const CpsiFrame *frame, int cells, const double *arc,
-                        const double *tension, double factor, const char *style) {
+static void draw_tension(FILE *out, const CpsiFrame *frame, int cells, const double *arc,
+                         const double *tension, double factor, const char *style) {
     fprintf(out, "<polyline fill=\"none\" %s points=\"", style);
     for (int i = 0; i < cells; ++i)
         fprintf(out, "%.1f,%.1f ", cpsi_frame_x(frame, (arc[i] + arc[i + 1]) / 2),
@@ -39,11 +39,11 @@ static void put_tension(FILE *out, const CpsiFrame *frame, int cells, const doub
 }
 
 static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     double range[2] = {0, 0};
     for (int i = 0; i < step.elements; ++i) cpsi_range_include(range, step.tension[i]);
     for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
-        const CpsClassicView view = cps_study_stage_end(files->study, (CpsStudyStage)s);
+        const CpsRegularizedView view = cps_study_stage_end(files->study, (CpsStudyStage)s);
         for (int i = 0; i < view.cells; ++i) cpsi_range_include(range, view.tension[i]);
     }
     const CpsiUnit unit = cpsi_unit("N", range[1]);
@@ -58,14 +58,15 @@ static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
     snprintf(label, sizeof label, "tension (%s)", unit.name);
     cpsi_frame_axes(out, &frame, "natural length from A to B (m)", label);
     cpsi_frame_begin(out, &frame, 0);
-    put_tension(out, &frame, step.elements, step.arc_length, step.tension, unit.factor,
-                "stroke=\"#bbb\" stroke-width=\"7\" stroke-linejoin=\"round\"");
+    draw_tension(out, &frame, step.elements, step.arc_length, step.tension, unit.factor,
+                 "stroke=\"#bbb\" stroke-width=\"7\" stroke-linejoin=\"round\"");
     for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
-        const CpsClassicView view = cps_study_stage_end(files->study, (CpsStudyStage)s);
+        const CpsRegularizedView view = cps_study_stage_end(files->study, (CpsStudyStage)s);
         snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"%.1f\"", stage_colour(s).hex,
                  3.4 - 0.6 * s);
         if (view.cells > 0)
-            put_tension(out, &frame, view.cells, view.arc_length, view.tension, unit.factor, style);
+            draw_tension(out, &frame, view.cells, view.arc_length, view.tension, unit.factor,
+                         style);
     }
     cpsi_frame_end(out);
 
@@ -98,7 +99,8 @@ static const struct {
                    {"push / force", "#b91c1c", "stroke-dasharray=\"5 3\""},
                    {"force without a carrier / force", "#555555", "stroke-dasharray=\"5 3\""}};
 
-static double curve_value(int curve, const CpsClassicReport *r, const CpsClassicStep *step) {
+static double curve_value(int curve, const CpsRegularizedReport *r,
+                          const CpsRegularizedStep *step) {
     const double value[CURVES] = {fabs(r->energy_error) / (step->force * step->length),
                                   r->tension_rms / step->force,
                                   r->penetration / step->length,
@@ -108,7 +110,7 @@ static double curve_value(int curve, const CpsClassicReport *r, const CpsClassic
     return log10(fmax(value[curve], FLOOR));
 }
 
-static void put_stages(FILE *out, const CpsiFrame *frame, const CpsStudy *study) {
+static void draw_stages(FILE *out, const CpsiFrame *frame, const CpsStudy *study) {
     const int rows = cps_study_row_count(study);
     for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
         int first = rows, last = -1;
@@ -130,7 +132,7 @@ static void put_stages(FILE *out, const CpsiFrame *frame, const CpsStudy *study)
 }
 
 static void draw_errors(const CpsStudyFiles *files, FILE *out) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     const int rows = cps_study_row_count(files->study);
     double range[2] = {INFINITY, -INFINITY};
     for (int i = 0; i < rows; ++i)
@@ -145,7 +147,7 @@ static void draw_errors(const CpsStudyFiles *files, FILE *out) {
                              .height = ERROR_HEIGHT,
                              .x = {-0.5, rows - 0.5},
                              .y = {range[0], range[1]}};
-    put_stages(out, &frame, files->study);
+    draw_stages(out, &frame, files->study);
     cpsi_frame_axes(out, &frame, "solve, in the order h, \xCE\xBB, n, \xCE\xB4",
                     "log10 of what is left");
     cpsi_frame_begin(out, &frame, 1);

@@ -51,12 +51,12 @@ CpsiUnit cpsi_unit(const char *base, double largest) {
 }
 
 /* put text, cut to `size` bytes with an ellipsis */
-static void put_cut(FILE *out, const char *text, size_t size) {
+static void draw_cut(FILE *out, const char *text, size_t size) {
     char part[256];
     const size_t cut = cpsi_utf8_cut(text, size < sizeof part ? size : sizeof part - 1);
     memcpy(part, text, cut);
     part[cut] = '\0';
-    cpsi_put_xml(out, part);
+    cpsi_write_xml(out, part);
     if (text[cut]) fputs("\xE2\x80\xA6", out);
 }
 
@@ -67,13 +67,13 @@ void cpsi_svg_begin(FILE *out, double width, double height, const char *title,
             "0 %.0f %.0f\" font-family=\"'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu "
             "Sans', sans-serif\" font-size=\"12\" fill=\"#333\">\n<title>",
             width, height, width, height);
-    put_cut(out, title, 200);
+    draw_cut(out, title, 200);
     fputs("</title>\n", out);
     fprintf(out, "<rect width=\"%.0f\" height=\"%.0f\" fill=\"#fff\"/>\n", width, height);
     fputs("<text x=\"24\" y=\"32\" font-size=\"18\" font-weight=\"bold\" fill=\"#1a1a1a\">", out);
-    put_cut(out, title, 84);
+    draw_cut(out, title, 84);
     fputs("</text>\n<text x=\"24\" y=\"52\" font-size=\"13\" fill=\"#666\">", out);
-    put_cut(out, subtitle, 140);
+    draw_cut(out, subtitle, 140);
     fputs("</text>\n", out);
 }
 
@@ -83,7 +83,7 @@ void cpsi_svg_text(FILE *out, double x, double y, CpsiAnchor anchor, const char 
                    const char *text) {
     static const char *const ANCHOR[] = {"start", "middle", "end"};
     fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, ANCHOR[anchor], style);
-    put_cut(out, text, 100);
+    draw_cut(out, text, 100);
     fputs("</text>\n", out);
 }
 

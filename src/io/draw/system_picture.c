@@ -74,8 +74,8 @@ static int level(double x, const double range[2]) {
 /* a field as square cells, one path for all of a colour, runs of a row together; the frame is GRID
  * cells wide and high
  */
-static void put_field(FILE *out, const CpsiFrame *frame, const double *value, int stride,
-                      CpsiScale scale) {
+static void draw_field(FILE *out, const CpsiFrame *frame, const double *value, int stride,
+                       CpsiScale scale) {
     double range[2] = {INFINITY, -INFINITY};
     for (int i = 0; i < GRID * GRID; i++)
         cpsi_range_include(range, value[(size_t)i * (size_t)stride]);
@@ -104,8 +104,8 @@ static void put_field(FILE *out, const CpsiFrame *frame, const double *value, in
 }
 
 /* the range of a field as a bar below it */
-static void put_scale(FILE *out, const CpsiFrame *frame, const double *value, int stride,
-                      CpsiScale scale, const char *unit) {
+static void draw_scale(FILE *out, const CpsiFrame *frame, const double *value, int stride,
+                       CpsiScale scale, const char *unit) {
     double range[2] = {INFINITY, -INFINITY};
     char text[40];
     for (int i = 0; i < GRID * GRID; i++)
@@ -123,7 +123,7 @@ static void put_scale(FILE *out, const CpsiFrame *frame, const double *value, in
 }
 
 /* -G at every fourth point, all to one scale */
-static void put_arrows(FILE *out, const CpsiFrame *frame, const Maps *m) {
+static void draw_arrows(FILE *out, const CpsiFrame *frame, const Maps *m) {
     const CpsDriveSystem *s = &m->file->system;
     double most = 0;
     for (int i = 0; i < GRID * GRID; i++) {
@@ -135,11 +135,11 @@ static void put_arrows(FILE *out, const CpsiFrame *frame, const Maps *m) {
         for (int ix = ARROWS / 2; ix < GRID; ix += ARROWS) {
             const double *g = m->resistance + 2 * (size_t)(iy * GRID + ix);
             const double at[2] = {grid(s, ix), grid(s, iy)}, along[2] = {g[0] * unit, g[1] * unit};
-            if (isfinite(along[0])) cpsi_put_arrow(out, frame, at, along, "#1a1a1a", 1.1);
+            if (isfinite(along[0])) cpsi_draw_arrow(out, frame, at, along, "#1a1a1a", 1.1);
         }
 }
 
-static void put_map(FILE *out, const Maps *m, int index, int columns) {
+static void draw_map(FILE *out, const Maps *m, int index, int columns) {
     const CpsDriveSystem *s = &m->file->system;
     const double half = s->map_radius * (1 + 1.0 / (GRID - 1));
     const CpsiFrame frame = {.left = 84 + (SIDE + GAP) * (double)(index % columns),
@@ -154,14 +154,14 @@ static void put_map(FILE *out, const Maps *m, int index, int columns) {
     const CpsiScale scale = index ? CPSI_SCALE_STEP : CPSI_SCALE_TENSION;
     cpsi_frame_axes(out, &frame, s->drive[0], s->drive[1]);
     cpsi_frame_begin(out, &frame, index);
-    put_field(out, &frame, value, stride, scale);
-    if (index == 0) put_arrows(out, &frame, m);
+    draw_field(out, &frame, value, stride, scale);
+    if (index == 0) draw_arrows(out, &frame, m);
     cpsi_frame_end(out);
     snprintf(text, sizeof text,
              index ? "velocity map: %.60s" : "force map: gamma, and the resistance G as arrows",
              index ? s->parameter[index - 1] : "");
     cpsi_frame_title(out, &frame, text);
-    put_scale(out, &frame, value, stride, scale, index ? "" : "W");
+    draw_scale(out, &frame, value, stride, scale, index ? "" : "W");
 }
 
 static CpsStatus draw_maps(void *what, FILE *out, CpsError *err) {
@@ -184,7 +184,7 @@ static CpsStatus draw_maps(void *what, FILE *out, CpsError *err) {
             out, 84 + columns * (SIDE + GAP) - GAP + 60, TOP + rows * (SIDE + 130) - 40,
             *m->file->title ? m->file->title : "driven system",
             "by least dissipation, at every driving velocity W (m/s; of an angle rad/s)");
-        for (int i = 0; i < maps; i++) put_map(out, m, i, columns);
+        for (int i = 0; i < maps; i++) draw_map(out, m, i, columns);
         cpsi_svg_finish(out);
     }
     free(m->gamma);

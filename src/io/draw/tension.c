@@ -5,8 +5,8 @@
 
 enum { MAX_PANELS = 6 };
 
-static void put_curve(FILE *out, const CpsiFrame *frame, const CpsiShape *shape, double factor,
-                      double width, const char *colour) {
+static void draw_curve(FILE *out, const CpsiFrame *frame, const CpsiShape *shape, double factor,
+                       double width, const char *colour) {
     fprintf(out,
             "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-linejoin=\"round\" "
             "points=\"",
@@ -57,8 +57,8 @@ void cpsi_picture_tension(const CpsResults *results, FILE *out) {
         cpsi_frame_axes(out, &frame, label, y_label);
         cpsi_frame_begin(out, &frame, l);
         for (int s = 0; s < results->snapshot_count; ++s)
-            put_curve(out, &frame, &results->snapshot[s].shape[l], unit.factor,
-                      cpsi_step_width(results, s), cpsi_step_colour(results, s).hex);
+            draw_curve(out, &frame, &results->snapshot[s].shape[l], unit.factor,
+                       cpsi_step_width(results, s), cpsi_step_colour(results, s).hex);
         cpsi_frame_end(out);
         if (l == 0) cpsi_step_list(results, &frame, out);
     }

@@ -51,7 +51,7 @@ bool cps_law_file_composition(const CpsLawFile *file, CpsComposition *compositio
     return file->has_preimage;
 }
 
-static CpsStatus take_load(const CpsiLawFile *f, const CpsiLawValue *load, CpsLawFile *out) {
+static CpsStatus read_load(const CpsiLawFile *f, const CpsiLawValue *load, CpsLawFile *out) {
     CpsError found;
     if (!load->node) return CPS_OK;
     if (!out->law)
@@ -64,7 +64,7 @@ static CpsStatus take_load(const CpsiLawFile *f, const CpsiLawValue *load, CpsLa
     return cpsi_law_place(f, load->node, &found);
 }
 
-static CpsStatus take_resistance(const CpsiLawFile *f, const CpsiLawValue *terms, CpsLawFile *out) {
+static CpsStatus read_resistance(const CpsiLawFile *f, const CpsiLawValue *terms, CpsLawFile *out) {
     CpsError found;
     if (cps_resistance_sum(terms->count, (const CpsResistance *const *)terms->term, &out->resistance, &found) == CPS_OK)
         return CPS_OK;
@@ -84,9 +84,9 @@ static CpsStatus build(CpsiLawBuild *b, const CpsiYaml *root, CpsLawFile *out) {
         if (law->node)
             out->law = law->law[0], law->law[0] = NULL;
         else
-            status = take_resistance(&b->file, terms, out);
+            status = read_resistance(&b->file, terms, out);
     }
-    if (status == CPS_OK) status = take_load(&b->file, &value[CPSI_LAW_LOAD], out);
+    if (status == CPS_OK) status = read_load(&b->file, &value[CPSI_LAW_LOAD], out);
     cpsi_law_release(value);
     return status;
 }

@@ -94,7 +94,7 @@ static CpsStatus read_nodes(const Build *b, const CpsiYaml *node, CpsiNodeFile *
 }
 
 /* The elements of the file where the scene gives none; else both have the same. */
-static CpsStatus take_elements(Build *b, const CpsiYaml *line_node, const CpsiNodeFile *file, CpsLine *line) {
+static CpsStatus read_elements(Build *b, const CpsiYaml *line_node, const CpsiNodeFile *file, CpsLine *line) {
     const CpsiYaml *given = cpsi_yaml_child(line_node, "elements");
     const double *arc = file->arc_length;
     if (!given) {
@@ -124,7 +124,7 @@ static CpsStatus take_elements(Build *b, const CpsiYaml *line_node, const CpsiNo
 static CpsStatus build_nodes(Build *b, const CpsiYaml *line_node, const CpsiYaml *node, CpsLine *line) {
     CpsiNodeFile file = {0};
     CpsStatus status = read_nodes(b, node, &file);
-    if (status == CPS_OK) status = take_elements(b, line_node, &file, line);
+    if (status == CPS_OK) status = read_elements(b, line_node, &file, line);
     line->start = (CpsStart){.kind = CPS_START_NODES,
                              .point_count = file.nodes,
                              .point = file.position,

@@ -162,7 +162,7 @@ static CpsStatus build_contact(CpsiLawBuild *b, const CpsiYaml *node, int i, Cps
 /* ---- values ---- */
 
 /* room for `count` sets, laws or terms, all NULL */
-static CpsStatus take_parts(const CpsiLawFile *f, CpsiValue type, int count, CpsiLawValue *value) {
+static CpsStatus read_parts(const CpsiLawFile *f, CpsiValue type, int count, CpsiLawValue *value) {
     bool room;
     switch (type) {
     case CPSI_SET:
@@ -203,7 +203,7 @@ static CpsStatus read_value(CpsiLawBuild *b, const CpsiYaml *node, const CpsiKey
     value->node = node;
     if (type < CPSI_SET) return cpsi_law_value(&b->file, node, key, what, value);
     if (type == CPSI_SET || type == CPSI_LAW) {
-        const CpsStatus status = take_parts(&b->file, type, 1, value);
+        const CpsStatus status = read_parts(&b->file, type, 1, value);
         return status ? status : build_part(b, node, type, 0, value);
     }
     if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
@@ -213,7 +213,7 @@ static CpsStatus read_value(CpsiLawBuild *b, const CpsiYaml *node, const CpsiKey
                                   ? "a list of contacts, as in [{map: [[1, 0]], of: {interval: 5}}]"
                               : type == CPSI_LAWS ? "a list of laws, as in [{interval: 60}, {disc: 500}]"
                                                       : "a list of sets, as in [{interval: 60}, {disc: 500}]");
-    CpsStatus status = take_parts(&b->file, type, node->count, value);
+    CpsStatus status = read_parts(&b->file, type, node->count, value);
     int i = 0;
     for (const CpsiYaml *item = node->child; item && status == CPS_OK; item = item->next)
         status = build_part(b, item, type, i++, value);

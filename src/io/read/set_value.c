@@ -47,7 +47,7 @@ static CpsStatus numbers(const CpsiLawFile *f, const CpsiYaml *node, const CpsiK
     return status;
 }
 
-static CpsStatus take_count(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
+static CpsStatus read_count(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                             double *out) {
     char expected[80];
     double x = NAN;
@@ -61,7 +61,7 @@ static CpsStatus take_count(const CpsiLawFile *f, const CpsiYaml *node, const Cp
 }
 
 /* room for the value's numbers */
-static CpsStatus take_room(const CpsiLawFile *f, CpsiLawValue *value, int rows, int columns) {
+static CpsStatus read_room(const CpsiLawFile *f, CpsiLawValue *value, int rows, int columns) {
     value->rows = rows, value->columns = columns;
     value->x = CPSI_POOL_TAKE(f->pool, (size_t)rows * (size_t)columns, double);
     return value->x ? CPS_OK : cpsi_law_no_memory(f);
@@ -69,17 +69,17 @@ static CpsStatus take_room(const CpsiLawFile *f, CpsiLawValue *value, int rows, 
 
 /* ---- lists of numbers ---- */
 
-static CpsStatus take_vector(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
+static CpsStatus read_vector(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                              CpsiLawValue *value) {
     if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
         return cpsi_law_wrong(f, node, what, "a list of numbers, as in [1, 2]");
     if (node->count > key->most) return too_many(f, node, what, node->count, key->most);
-    const CpsStatus status = take_room(f, value, 1, node->count);
+    const CpsStatus status = read_room(f, value, 1, node->count);
     return status ? status : numbers(f, node, key, what, value->x);
 }
 
 /* rows, equally long */
-static CpsStatus take_matrix(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
+static CpsStatus read_matrix(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                              CpsiLawValue *value) {
     static const char EXPECTED[] = "rows of numbers, all equally long, as in [[1, 0], [0, 1]]";
     if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1 || node->child->kind != CPSI_YAML_SEQUENCE)
@@ -94,7 +94,7 @@ static CpsStatus take_matrix(const CpsiLawFile *f, const CpsiYaml *node, const C
                             what, node->count, CPS_SET_MAX_ITEMS);
     if (key->type == CPSI_SQUARE && columns != node->count) return cpsi_law_wrong(f, node, what, "a square matrix");
     if (key->type == CPSI_ENDS_OF_SEGMENT && node->count != 2) return cpsi_law_wrong(f, node, what, "its two ends");
-    CpsStatus status = take_room(f, value, node->count, columns);
+    CpsStatus status = read_room(f, value, node->count, columns);
     double *x = value->x;
     for (const CpsiYaml *row = node->child; row && status == CPS_OK; row = row->next, x += columns)
         status = numbers(f, row, key, what, x);
@@ -102,13 +102,13 @@ static CpsStatus take_matrix(const CpsiLawFile *f, const CpsiYaml *node, const C
 }
 
 /* [[x, y], ..] */
-static CpsStatus take_pairs(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
+static CpsStatus read_pairs(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                             CpsiLawValue *value) {
     CpsiLawValue given = {.node = node};
-    CpsStatus status = take_matrix(f, node, key, what, &given);
+    CpsStatus status = read_matrix(f, node, key, what, &given);
     if (status == CPS_OK && given.columns != 2)
         return cpsi_law_wrong(f, node->child, what, "pairs, as in [[0, 1], [2, 1.5]]");
-    if (status == CPS_OK) status = take_room(f, value, given.rows, 2);
+    if (status == CPS_OK) status = read_room(f, value, given.rows, 2);
     for (int i = 0; status == CPS_OK && i < given.rows; i++)
         value->x[i] = given.x[2 * i], value->x[given.rows + i] = given.x[2 * i + 1];
     return status;
@@ -125,7 +125,7 @@ static CpsStatus end_of_side(const CpsiLawFile *f, const CpsiYaml *node, const C
 }
 
 /* b for [-b, b], or [low, high] */
-static CpsStatus take_side(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
+static CpsStatus read_side(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                            double *low, double *high) {
     static const CpsiKey HALF = {.low = 0};
     if (node->kind == CPSI_YAML_SCALAR) {
@@ -139,16 +139,16 @@ static CpsStatus take_side(const CpsiLawFile *f, const CpsiYaml *node, const Cps
     return status ? status : end_of_side(f, node->child->next, key, what, INFINITY, high);
 }
 
-static CpsStatus take_sides(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
+static CpsStatus read_sides(const CpsiLawFile *f, const CpsiYaml *node, const CpsiKey *key, const char *what,
                             CpsiLawValue *value) {
     if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
         return cpsi_law_wrong(f, node, what, "half widths, as in [300, 100], or sides, as in [[-1, 2], [0, 5]]");
     const int n = node->count;
     if (n > CPSI_LAW_MOST_COMPONENTS) return too_many(f, node, what, n, CPSI_LAW_MOST_COMPONENTS);
-    CpsStatus status = take_room(f, value, 2, n);
+    CpsStatus status = read_room(f, value, 2, n);
     int i = 0;
     for (const CpsiYaml *side = node->child; side && status == CPS_OK; side = side->next, i++)
-        status = take_side(f, side, key, what, &value->x[i], &value->x[n + i]);
+        status = read_side(f, side, key, what, &value->x[i], &value->x[n + i]);
     return status;
 }
 
@@ -162,22 +162,22 @@ CpsStatus cpsi_law_value(const CpsiLawFile *f, const CpsiYaml *node, const CpsiK
         value->text = node->text;
         return CPS_OK;
     case CPSI_INTEGER:
-        status = take_room(f, value, 1, 1);
-        return status ? status : take_count(f, node, key, what, value->x);
+        status = read_room(f, value, 1, 1);
+        return status ? status : read_count(f, node, key, what, value->x);
     case CPSI_NUMBER:
-        status = take_room(f, value, 1, 1);
+        status = read_room(f, value, 1, 1);
         return status ? status : number(f, node, key, what, value->x);
     case CPSI_VECTOR:
-        return take_vector(f, node, key, what, value);
+        return read_vector(f, node, key, what, value);
     case CPSI_PAIRS:
-        return take_pairs(f, node, key, what, value);
+        return read_pairs(f, node, key, what, value);
     case CPSI_SIDE:
-        status = take_room(f, value, 2, 1);
-        return status ? status : take_side(f, node, key, what, &value->x[0], &value->x[1]);
+        status = read_room(f, value, 2, 1);
+        return status ? status : read_side(f, node, key, what, &value->x[0], &value->x[1]);
     case CPSI_SIDES:
-        return take_sides(f, node, key, what, value);
+        return read_sides(f, node, key, what, value);
     default:
-        return take_matrix(f, node, key, what, value);
+        return read_matrix(f, node, key, what, value);
     }
 }
 

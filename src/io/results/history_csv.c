@@ -66,7 +66,7 @@ static double member(const void *report, const Column *column) {
     return *(const double *)(const void *)((const char *)report + column->offset);
 }
 
-static void put_heads(FILE *out, const CpsResults *results) {
+static void write_heads(FILE *out, const CpsResults *results) {
     fputs("step,name,outcome,iterations,parts,snaps,places_not_unique", out);
     for (int i = 0; i < STEP_COLUMNS; ++i) fprintf(out, ",%s", STEP_COLUMN[i].name);
     for (int l = 0; l < results->line_count; ++l) {
@@ -74,7 +74,7 @@ static void put_heads(FILE *out, const CpsResults *results) {
             char name[256];
             snprintf(name, sizeof name, "%.200s.%s", results->line_name[l], LINE_COLUMN[i].name);
             fputc(',', out);
-            cpsi_put_csv(out, name);
+            cpsi_write_csv(out, name);
         }
     }
     fputs("\n1,,,1,1,1,1", out);
@@ -85,22 +85,22 @@ static void put_heads(FILE *out, const CpsResults *results) {
 }
 
 void cpsi_history_write(const CpsResults *results, FILE *out) {
-    put_heads(out, results);
+    write_heads(out, results);
     for (int r = 0; r < results->row_count; ++r) {
         const CpsiRow *row = &results->row[r];
         fprintf(out, "%d,", row->report.index);
-        cpsi_put_csv(out, row->name);
+        cpsi_write_csv(out, row->name);
         fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_key(row->report.outcome),
                 row->report.iterations, row->report.parts, row->report.snaps,
                 (int)row->report.places);
         for (int i = 0; i < STEP_COLUMNS; ++i) {
             fputc(',', out);
-            cpsi_put_csv_number(out, member(&row->report, &STEP_COLUMN[i]));
+            cpsi_write_csv_number(out, member(&row->report, &STEP_COLUMN[i]));
         }
         for (int l = 0; l < results->line_count; ++l) {
             for (int i = 0; i < LINE_COLUMNS; ++i) {
                 fputc(',', out);
-                cpsi_put_csv_number(out, member(&row->line[l].report, &LINE_COLUMN[i]));
+                cpsi_write_csv_number(out, member(&row->line[l].report, &LINE_COLUMN[i]));
             }
         }
         fputs("\n", out);

@@ -11,9 +11,9 @@
 
 enum { MAX_METHODS = 4 };
 
-static void put_number(FILE *out, double x) {
+static void write_number(FILE *out, double x) {
     fputc(',', out);
-    cpsi_put_csv_number(out, x);
+    cpsi_write_csv_number(out, x);
 }
 
 /* ---- a history by several methods ---- */
@@ -37,11 +37,11 @@ static void methods_table(const void *what, FILE *out) {
     fputs("step,method,B.x,B.y,B.z,farthest_from_first\n,,m,m,m,m\n", out);
     for (int s = 0; s < m->steps; ++s)
         for (int k = 0; k < m->methods; ++k) {
-            cpsi_put_csv(out, m->step_name[s]);
+            cpsi_write_csv(out, m->step_name[s]);
             fputc(',', out);
-            cpsi_put_csv(out, m->method[k].name);
-            for (int x = 0; x < 3; ++x) put_number(out, place(m, k, s, m->points - 1)[x]);
-            put_number(out, farthest(m, k, s));
+            cpsi_write_csv(out, m->method[k].name);
+            for (int x = 0; x < 3; ++x) write_number(out, place(m, k, s, m->points - 1)[x]);
+            write_number(out, farthest(m, k, s));
             fputc('\n', out);
         }
 }
@@ -103,11 +103,11 @@ static void completed_table(const void *what, FILE *out) {
     const CpsLineView *view = c->view;
     fputs("arc_length,x,y,z,tension,reaction\nm,m,m,m,N,N\n", out);
     for (int j = 0; j <= view->elements; ++j) {
-        cpsi_put_csv_number(out, view->arc_length[j]);
+        cpsi_write_csv_number(out, view->arc_length[j]);
         for (int x = 0; x < 3; ++x)
-            put_number(out, view->origin[x] + c->position[c->chosen][3 * (size_t)j + (size_t)x]);
-        put_number(out, j > 0 ? view->tension[j - 1] : NAN);
-        put_number(out, view->reaction[j]);
+            write_number(out, view->origin[x] + c->position[c->chosen][3 * (size_t)j + (size_t)x]);
+        write_number(out, j > 0 ? view->tension[j - 1] : NAN);
+        write_number(out, view->reaction[j]);
         fputc('\n', out);
     }
 }

@@ -51,15 +51,15 @@ static bool measure(const CpsEvolution *evolution, Layout *out) {
     return true;
 }
 
-static void put_array(FILE *out, const Layout *layout, Block block, const char *type,
-                      const char *name, int components) {
+static void write_array(FILE *out, const Layout *layout, Block block, const char *type,
+                        const char *name, int components) {
     fprintf(out,
             "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" "
             "format=\"appended\" offset=\"%llu\"/>\n",
             type, name, components, (unsigned long long)layout->offset[block]);
 }
 
-static void put_header(FILE *out, const Layout *layout) {
+static void write_header(FILE *out, const Layout *layout) {
     const uint16_t probe = 1;
     const bool little = *(const unsigned char *)&probe == 1;
     fprintf(out,
@@ -71,18 +71,18 @@ static void put_header(FILE *out, const Layout *layout) {
             "      <Points>\n",
             little ? "LittleEndian" : "BigEndian", (unsigned long long)layout->points,
             layout->lines);
-    put_array(out, layout, BLOCK_POINTS, "Float64", "Points", 3);
+    write_array(out, layout, BLOCK_POINTS, "Float64", "Points", 3);
     fputs("      </Points>\n      <Lines>\n", out);
-    put_array(out, layout, BLOCK_CONNECTIVITY, "Int64", "connectivity", 1);
-    put_array(out, layout, BLOCK_OFFSETS, "Int64", "offsets", 1);
+    write_array(out, layout, BLOCK_CONNECTIVITY, "Int64", "connectivity", 1);
+    write_array(out, layout, BLOCK_OFFSETS, "Int64", "offsets", 1);
     fputs("      </Lines>\n      <PointData Scalars=\"tension_N\" Vectors=\"contact_force_N\">\n",
           out);
-    put_array(out, layout, BLOCK_TENSION, "Float64", "tension_N", 1);
-    put_array(out, layout, BLOCK_CONTACT_FORCE, "Float64", "contact_force_N", 3);
-    put_array(out, layout, BLOCK_FRICTION_STATE, "UInt8", "friction_state", 1);
-    put_array(out, layout, BLOCK_DISPLACEMENT, "Float64", "displacement_m", 3);
+    write_array(out, layout, BLOCK_TENSION, "Float64", "tension_N", 1);
+    write_array(out, layout, BLOCK_CONTACT_FORCE, "Float64", "contact_force_N", 3);
+    write_array(out, layout, BLOCK_FRICTION_STATE, "UInt8", "friction_state", 1);
+    write_array(out, layout, BLOCK_DISPLACEMENT, "Float64", "displacement_m", 3);
     fputs("      </PointData>\n      <CellData Scalars=\"line_id\">\n", out);
-    put_array(out, layout, BLOCK_LINE_ID, "Int32", "line_id", 1);
+    write_array(out, layout, BLOCK_LINE_ID, "Int32", "line_id", 1);
     fputs("      </CellData>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_",
           out);
 }
@@ -102,7 +102,7 @@ static void contact_force(const CpsLineView *view, int j, double force[3]) {
             force[k] += view->reaction[c] * view->normal[3 * c + k] + view->friction[3 * c + k];
 }
 
-static void put_node(FILE *out, const CpsLineView *view, Block block, int j) {
+static void write_node(FILE *out, const CpsLineView *view, Block block, int j) {
     double value[3] = {0};
     size_t count = 1;
     for (size_t k = 0; k < 3; ++k) {
@@ -124,7 +124,8 @@ static void put_node(FILE *out, const CpsLineView *view, Block block, int j) {
     fwrite(value, sizeof value[0], count, out);
 }
 
-static void put_block(FILE *out, const CpsEvolution *evolution, const Layout *layout, Block block) {
+static void write_block(FILE *out, const CpsEvolution *evolution, const Layout *layout,
+                        Block block) {
     fwrite(&layout->bytes[block], sizeof(uint64_t), 1, out);
     int64_t node = 0;
     for (int32_t i = 0; i < layout->lines; ++i) {
@@ -142,7 +143,7 @@ static void put_block(FILE *out, const CpsEvolution *evolution, const Layout *la
             break;
         case BLOCK_LINE_ID: fwrite(&i, sizeof i, 1, out); break;
         default:
-            for (int j = 0; j <= view.elements; ++j) put_node(out, &view, block, j);
+            for (int j = 0; j <= view.elements; ++j) write_node(out, &view, block, j);
         }
         node += (int64_t)view.elements + 1;
     }
@@ -158,8 +159,8 @@ CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution,
     snprintf(name, sizeof name, "step-%05d.vtp", results->row_count - 1);
     const CpsStatus status = cpsi_directory_create(results->directory, name, &out, err);
     if (status) return status;
-    put_header(out, &layout);
-    for (int b = 0; b < BLOCKS; ++b) put_block(out, evolution, &layout, (Block)b);
+    write_header(out, &layout);
+    for (int b = 0; b < BLOCKS; ++b) write_block(out, evolution, &layout, (Block)b);
     fputs("\n  </AppendedData>\n</VTKFile>\n", out);
     return cpsi_directory_close_file(results->directory, out, err);
 }
@@ -177,7 +178,7 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err) {
         if (cpsi_paraview_obstacles_turn(results, i)) cpsi_paraview_obstacles_name(i, surfaces);
         fprintf(out, "    <DataSet timestep=\"%d\" part=\"0\" file=\"step-%05d.vtp\" name=\"", i,
                 i);
-        cpsi_put_xml(out, results->row[i].name);
+        cpsi_write_xml(out, results->row[i].name);
         fputs("\"/>\n", out);
         if (results->obstacle_count > 0)
             fprintf(out,

@@ -90,7 +90,7 @@ static Vec3 point_of(const Patch *patch, int row, int column) {
     return place;
 }
 
-static void put_points(int patches, const Patch *patch, FILE *out) {
+static void write_points(int patches, const Patch *patch, FILE *out) {
     for (const Patch *p = patch; p < patch + patches; ++p)
         for (int row = 0; row <= p->rows; ++row)
             for (int column = 0; column <= p->columns; ++column) {
@@ -102,7 +102,7 @@ static void put_points(int patches, const Patch *patch, FILE *out) {
 typedef enum CellData { CONNECTIVITY, OFFSETS, OBSTACLE_ID, SECTOR } CellData;
 
 /* one row of text per quadrilateral */
-static void put_cells(int patches, const Patch *patch, CellData what, FILE *out) {
+static void write_cells(int patches, const Patch *patch, CellData what, FILE *out) {
     int first = 0, cells = 0;
     for (int k = 0; k < patches; ++k) {
         const int columns = patch[k].columns, width = columns + 1;
@@ -118,14 +118,14 @@ static void put_cells(int patches, const Patch *patch, CellData what, FILE *out)
     }
 }
 
-static void put_array(int patches, const Patch *patch, const char *type, const char *name,
-                      CellData what, FILE *out) {
+static void write_array(int patches, const Patch *patch, const char *type, const char *name,
+                        CellData what, FILE *out) {
     fprintf(out, "        <DataArray type=\"%s\" Name=\"%s\" format=\"ascii\">\n", type, name);
-    put_cells(patches, patch, what, out);
+    write_cells(patches, patch, what, out);
     fputs("        </DataArray>\n", out);
 }
 
-static void put_obstacles(int patches, const Patch *patch, FILE *out) {
+static void write_obstacles(int patches, const Patch *patch, FILE *out) {
     int points = 0, cells = 0;
     for (int k = 0; k < patches; ++k) {
         points += (patch[k].rows + 1) * (patch[k].columns + 1);
@@ -139,13 +139,13 @@ static void put_obstacles(int patches, const Patch *patch, FILE *out) {
             "        <DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" "
             "format=\"ascii\">\n",
             points, cells);
-    put_points(patches, patch, out);
+    write_points(patches, patch, out);
     fputs("        </DataArray>\n      </Points>\n      <Polys>\n", out);
-    put_array(patches, patch, "Int64", "connectivity", CONNECTIVITY, out);
-    put_array(patches, patch, "Int64", "offsets", OFFSETS, out);
+    write_array(patches, patch, "Int64", "connectivity", CONNECTIVITY, out);
+    write_array(patches, patch, "Int64", "offsets", OFFSETS, out);
     fputs("      </Polys>\n      <CellData Scalars=\"obstacle_id\">\n", out);
-    put_array(patches, patch, "Int32", "obstacle_id", OBSTACLE_ID, out);
-    put_array(patches, patch, "Int32", "sector", SECTOR, out);
+    write_array(patches, patch, "Int32", "obstacle_id", OBSTACLE_ID, out);
+    write_array(patches, patch, "Int32", "sector", SECTOR, out);
     fputs("      </CellData>\n    </Piece>\n  </PolyData>\n</VTKFile>\n", out);
 }
 
@@ -164,7 +164,7 @@ bool cpsi_paraview_obstacles_turn(const CpsResults *results, int step) {
 }
 
 /* after a step; before the first one, step is -1 */
-static CpsStatus put_file(CpsResults *results, int step, Patch *patch, CpsError *err) {
+static CpsStatus write_file(CpsResults *results, int step, Patch *patch, CpsError *err) {
     char name[32];
     FILE *out = NULL;
     cpsi_paraview_obstacles_name(step, name);
@@ -172,7 +172,7 @@ static CpsStatus put_file(CpsResults *results, int step, Patch *patch, CpsError 
     if (status) return status;
     for (int k = 0; k < results->obstacle_count; ++k)
         patch[k].turned = cpsi_results_turned(results, step, k);
-    put_obstacles(results->obstacle_count, patch, out);
+    write_obstacles(results->obstacle_count, patch, out);
     return cpsi_directory_close_file(results->directory, out, err);
 }
 
@@ -182,10 +182,10 @@ CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err) {
     if (!patch) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the surfaces of obstacles");
     for (int k = 0; k < results->obstacle_count; ++k)
         patch[k] = patch_of(results, &results->obstacle[k]);
-    CpsStatus status = put_file(results, -1, patch, err);
+    CpsStatus status = write_file(results, -1, patch, err);
     for (int step = 0; step < results->row_count && !status; ++step)
         if (cpsi_paraview_obstacles_turn(results, step))
-            status = put_file(results, step, patch, err);
+            status = write_file(results, step, patch, err);
     free(patch);
     return status;
 }

@@ -15,11 +15,11 @@ static const char *const WARRANT =
 
 typedef struct Column {
     const char *name, *unit;
-    size_t offset; /* of a double in CpsClassicReport */
+    size_t offset; /* of a double in CpsRegularizedReport */
     bool left;     /* one of the residuals of the summary */
 } Column;
 
-#define REPORT(member) offsetof(CpsClassicReport, member)
+#define REPORT(member) offsetof(CpsRegularizedReport, member)
 
 static const Column COLUMN[] = {
     {"gradient", "N", REPORT(gradient), false},
@@ -41,7 +41,7 @@ static const Column COLUMN[] = {
 };
 enum { COLUMNS = sizeof COLUMN / sizeof COLUMN[0] };
 
-static double value_of(const CpsClassicReport *report, int column) {
+static double value_of(const CpsRegularizedReport *report, int column) {
     return *(const double *)(const void *)((const char *)report + COLUMN[column].offset);
 }
 
@@ -51,25 +51,25 @@ static const double *tip(const CpsRegularizedLine *line, int step) {
 
 /* ---- history.csv ---- */
 
-static void put_number(FILE *out, double x) {
+static void write_number(FILE *out, double x) {
     fputc(',', out);
-    cpsi_put_csv_number(out, x);
+    cpsi_write_csv_number(out, x);
 }
 
-static void put_row(const CpsRegularizedRun *run, int s, const CpsRegularizedLine *line,
-                    FILE *out) {
-    const CpsClassicParameters *p = &line->parameters[s];
-    const CpsClassicReport *r = &line->report[s];
-    cpsi_put_csv(out, run->step_name[s]);
+static void write_row(const CpsRegularizedRun *run, int s, const CpsRegularizedLine *line,
+                      FILE *out) {
+    const CpsRegularizedParameters *p = &line->parameters[s];
+    const CpsRegularizedReport *r = &line->report[s];
+    cpsi_write_csv(out, run->step_name[s]);
     fputc(',', out);
-    cpsi_put_csv(out, line->name);
+    cpsi_write_csv(out, line->name);
     fprintf(out, ",%d,%d", r->converged, r->iterations);
-    put_number(out, p->penalty);
-    put_number(out, p->stiffness);
-    put_number(out, p->delta);
-    for (int k = 0; k < 2; ++k) put_number(out, line->tension[2 * s + k]);
-    for (int x = 0; x < 3; ++x) put_number(out, tip(line, s)[x]);
-    for (int i = 0; i < COLUMNS; ++i) put_number(out, value_of(r, i));
+    write_number(out, p->penalty);
+    write_number(out, p->stiffness);
+    write_number(out, p->delta);
+    for (int k = 0; k < 2; ++k) write_number(out, line->tension[2 * s + k]);
+    for (int x = 0; x < 3; ++x) write_number(out, tip(line, s)[x]);
+    for (int i = 0; i < COLUMNS; ++i) write_number(out, value_of(r, i));
     fputc('\n', out);
 }
 
@@ -81,45 +81,45 @@ static void history(const void *what, FILE *out) {
     for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].unit);
     fputc('\n', out);
     for (int s = 1; s < run->steps; ++s)
-        for (int i = 0; i < run->lines; ++i) put_row(run, s, &run->line[i], out);
+        for (int i = 0; i < run->lines; ++i) write_row(run, s, &run->line[i], out);
 }
 
 /* ---- summary.json ---- */
 
-static void put_key(FILE *out, const char *key, const char *unit) {
+static void write_key(FILE *out, const char *key, const char *unit) {
     char text[64];
     const bool bare = unit[0] == '-' || unit[0] == '\0';
     snprintf(text, sizeof text, "%s%s%s", key, bare ? "" : "_", bare ? "" : unit);
-    cpsi_put_json_string(out, text);
+    cpsi_write_json_string(out, text);
     fputs(": ", out);
 }
 
-static void put_line(const CpsRegularizedLine *line, int s, FILE *out) {
-    const CpsClassicParameters *p = &line->parameters[s];
-    const CpsClassicReport *r = &line->report[s];
+static void write_line(const CpsRegularizedLine *line, int s, FILE *out) {
+    const CpsRegularizedParameters *p = &line->parameters[s];
+    const CpsRegularizedReport *r = &line->report[s];
     fputs("        ", out);
-    cpsi_put_json_string(out, line->name);
+    cpsi_write_json_string(out, line->name);
     fprintf(
         out,
         ": {\"converged\": %s, \"iterations\": %d,\n          \"parameters\": {\"lambda_N/m2\": ",
         r->converged ? "true" : "false", r->iterations);
-    cpsi_put_json_number(out, p->penalty);
+    cpsi_write_json_number(out, p->penalty);
     fputs(", \"1/n_Nm2\": ", out);
-    cpsi_put_json_number(out, p->stiffness);
+    cpsi_write_json_number(out, p->stiffness);
     fputs(", \"delta_m\": ", out);
-    cpsi_put_json_number(out, p->delta);
+    cpsi_write_json_number(out, p->delta);
     fputs("},\n          \"B_m\": ", out);
     for (int x = 0; x < 3; ++x) {
         fputs(x ? ", " : "[", out);
-        cpsi_put_json_number(out, tip(line, s)[x]);
+        cpsi_write_json_number(out, tip(line, s)[x]);
     }
     fputs("],\n          \"left\": {", out);
     const char *between = "";
     for (int i = 0; i < COLUMNS; ++i) {
         if (!COLUMN[i].left) continue;
         fputs(between, out);
-        put_key(out, COLUMN[i].name, COLUMN[i].unit);
-        cpsi_put_json_number(out, value_of(r, i));
+        write_key(out, COLUMN[i].name, COLUMN[i].unit);
+        cpsi_write_json_number(out, value_of(r, i));
         between = ", ";
     }
     fputs("}}", out);
@@ -132,22 +132,22 @@ static void summary(const void *what, FILE *out) {
         for (int s = 1; s < run->steps; ++s)
             converged = converged && run->line[i].report[s].converged;
     fputs("{\n  \"capstan\": ", out);
-    cpsi_put_json_string(out, cps_version());
+    cpsi_write_json_string(out, cps_version());
     fputs(",\n  \"title\": ", out);
-    cpsi_put_json_string(out, run->title);
+    cpsi_write_json_string(out, run->title);
     fputs(",\n  \"method\": \"regularized\",\n  \"certificate\": ", out);
-    cpsi_put_json_string(out, WARRANT);
+    cpsi_write_json_string(out, WARRANT);
     fprintf(out, ",\n  \"converged\": %s,\n  \"complete\": %s,\n  \"wall_s\": ",
             converged ? "true" : "false", run->complete ? "true" : "false");
-    cpsi_put_json_number(out, run->wall);
+    cpsi_write_json_number(out, run->wall);
     fputs(",\n  \"steps\": [", out);
     for (int s = 1; s < run->steps; ++s) {
         fputs(s > 1 ? ",\n    {\"name\": " : "\n    {\"name\": ", out);
-        cpsi_put_json_string(out, run->step_name[s]);
+        cpsi_write_json_string(out, run->step_name[s]);
         fputs(",\n      \"lines\": {\n", out);
         for (int i = 0; i < run->lines; ++i) {
             if (i) fputs(",\n", out);
-            put_line(&run->line[i], s, out);
+            write_line(&run->line[i], s, out);
         }
         fputs("}}", out);
     }
@@ -202,7 +202,7 @@ CpsStatus cps_regularized_summary(const CpsRegularizedRun *run, FILE *out, CpsEr
     if (status != CPS_OK) return status;
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL");
     const CpsiFile file = {"summary.json", summary, run};
-    return cpsi_file_set_put(&file, out, err);
+    return cpsi_file_set_write_member(&file, out, err);
 }
 
 CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *run,

@@ -43,13 +43,13 @@ static const Column COLUMN[] = {
 };
 enum { COLUMNS = sizeof COLUMN / sizeof COLUMN[0] };
 
-static void put_number(FILE *out, double x) {
+static void write_number(FILE *out, double x) {
     fputc(',', out);
-    cpsi_put_csv_number(out, x);
+    cpsi_write_csv_number(out, x);
 }
 
-static void put_study(const CpsStudyFiles *files, FILE *out) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+static void write_study(const CpsStudyFiles *files, FILE *out) {
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     fputs("stage,cells,h,converged,iterations,gradients", out);
     for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].name);
     fputs("\n,,m,,,", out);
@@ -59,19 +59,20 @@ static void put_study(const CpsStudyFiles *files, FILE *out) {
         const CpsStudyRow *row = cps_study_row(files->study, r);
         const int cells = row->parameters.cells > 0 ? row->parameters.cells : step.elements;
         fprintf(out, "%s,%d", cps_study_stage_key(row->stage), cells);
-        put_number(out, step.length / cells);
+        write_number(out, step.length / cells);
         fprintf(out, ",%d,%d,%d", row->report.converged, row->report.iterations,
                 row->report.evaluations);
         for (int i = 0; i < COLUMNS; ++i)
-            put_number(out, *(const double *)(const void *)((const char *)row + COLUMN[i].offset));
+            write_number(out,
+                         *(const double *)(const void *)((const char *)row + COLUMN[i].offset));
         fputc('\n', out);
     }
 }
 
 /* P10.1 beside P2.1: a row per node; what belongs to an element stands beside the node it ends
  * at */
-static void put_first_order(const CpsStudyFiles *files, FILE *out) {
-    const CpsClassicStep step = cps_classic_step(files->classic);
+static void write_first_order(const CpsStudyFiles *files, FILE *out) {
+    const CpsRegularizedStep step = cps_regularized_step(files->classic);
     const CpsFirstOrderView view = cps_first_order_view(files->first_order);
     fputs(
         "arc_length,reference.x,reference.y,reference.z,P2.1.x,P2.1.y,P2.1.z,u.x,u.y,u.z,friction."
@@ -82,20 +83,21 @@ static void put_first_order(const CpsStudyFiles *files, FILE *out) {
         const size_t k = 3 * (size_t)j;
         const double *const vector[] = {step.reference + k, step.position + k,
                                         view.displacement + k, view.friction + k};
-        cpsi_put_csv_number(out, view.arc_length[j]);
+        cpsi_write_csv_number(out, view.arc_length[j]);
         for (size_t v = 0; v < sizeof vector / sizeof *vector; ++v)
-            for (int x = 0; x < 3; ++x) put_number(out, vector[v][x]);
-        put_number(out, view.reaction[j]);
-        put_number(out, j > 0 ? view.strain[j - 1] : NAN);
-        for (int x = 0; x < 3; ++x) put_number(out, j > 0 ? view.tension[k - 3 + (size_t)x] : NAN);
-        put_number(out, j > 0 ? step.tension[j - 1] : NAN);
+            for (int x = 0; x < 3; ++x) write_number(out, vector[v][x]);
+        write_number(out, view.reaction[j]);
+        write_number(out, j > 0 ? view.strain[j - 1] : NAN);
+        for (int x = 0; x < 3; ++x)
+            write_number(out, j > 0 ? view.tension[k - 3 + (size_t)x] : NAN);
+        write_number(out, j > 0 ? step.tension[j - 1] : NAN);
         fputc('\n', out);
     }
 }
 
-static void study_table(const void *files, FILE *out) { put_study(files, out); }
+static void study_table(const void *files, FILE *out) { write_study(files, out); }
 static void study_picture(const void *files, FILE *out) { cpsi_picture_study(files, out); }
-static void first_order_table(const void *files, FILE *out) { put_first_order(files, out); }
+static void first_order_table(const void *files, FILE *out) { write_first_order(files, out); }
 static void first_order_picture(const void *files, FILE *out) {
     cpsi_picture_first_order(files, out);
 }

@@ -9,12 +9,12 @@
 
 static const char *alias_of(int mapping) { return cpsi_drive_word((CpsiDriveMapping)mapping)->alias; }
 
-static void put_word(FILE *out, const CpsiDriveWord *word) {
+static void write_word(FILE *out, const CpsiDriveWord *word) {
     const int count = cpsi_drive_word_count(word);
     fputs("\"type\": \"object\", \"additionalProperties\": false,\n      \"properties\": {", out);
     for (int i = 0; i < count; i++) {
         fprintf(out, "%s\n        \"%s\": ", i ? "," : "", word->key[i].name);
-        cpsi_put_key(out, &word->key[i], alias_of);
+        cpsi_draw_key(out, &word->key[i], alias_of);
     }
     fputs("\n      },\n      \"required\": [", out);
     for (int i = 0, written = 0; i < count; i++)
@@ -23,22 +23,22 @@ static void put_word(FILE *out, const CpsiDriveWord *word) {
     if (word->also) fprintf(out, ",\n      %s", word->also);
 }
 
-static void put_schema(FILE *out) {
+static void write_schema(FILE *out) {
     fputs("{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
           "  \"title\": \"capstan driven system, format version 1\",\n  ",
           out);
-    put_word(out, cpsi_drive_word(CPSI_DRIVE_FILE));
+    write_word(out, cpsi_drive_word(CPSI_DRIVE_FILE));
     fputs(",\n  \"$defs\": {\n", out);
     for (int k = CPSI_DRIVE_FILE + 1; k < CPSI_DRIVE_MAPPINGS; k++) {
         fprintf(out, "    \"%s\": {\n      ", alias_of(k));
-        put_word(out, cpsi_drive_word((CpsiDriveMapping)k));
+        write_word(out, cpsi_drive_word((CpsiDriveMapping)k));
         fputs("\n    },\n", out);
     }
     fputs("    \"parameter\": {\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 1},\n"
           "    \"by_parameter\": {\"type\": \"object\", \"additionalProperties\": {\"type\": \"number\"}},\n",
           out);
-    cpsi_put_law_definitions(out);
+    cpsi_write_law_definitions(out);
     fputs("  }\n}\n", out);
 }
 
-CpsStatus cps_drive_write_schema(FILE *out, CpsError *err) { return cpsi_write_schema(out, put_schema, err); }
+CpsStatus cps_drive_write_schema(FILE *out, CpsError *err) { return cpsi_write_schema(out, write_schema, err); }

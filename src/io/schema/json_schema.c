@@ -8,32 +8,32 @@
 #include "io/base/numbers.h"
 
 /* What values a row accepts. */
-static void put_range(FILE *out, const CpsiKey *key) {
+static void write_range(FILE *out, const CpsiKey *key) {
     if (key->low > -CPSI_LARGEST) {
         fprintf(out, ", \"%s\": ", key->open ? "exclusiveMinimum" : "minimum");
-        cpsi_put_json_number(out, key->low);
+        cpsi_write_json_number(out, key->low);
     }
     if (key->high < CPSI_LARGEST) {
         fputs(", \"maximum\": ", out);
-        cpsi_put_json_number(out, key->high);
+        cpsi_write_json_number(out, key->high);
     }
 }
 
-static void put_words(FILE *out, const char *words) {
+static void write_words(FILE *out, const char *words) {
     fputs("\"enum\": [\"", out);
     for (const char *c = words; *c; c++) fputs(*c == ' ' ? "\", \"" : (char[]){*c, '\0'}, out);
     fputs("\"]", out);
 }
 
 /* a mapping, or what else may stand in its place */
-static void put_mapping(FILE *out, const CpsiKey *key, CpsiName name) {
+static void write_mapping(FILE *out, const CpsiKey *key, CpsiName name) {
     const bool number = key->type == CPSI_NUMBER_OR_MAPPING, either = number || key->words;
     if (either) fputs("\"oneOf\": [{", out);
     if (number) {
         fputs("\"type\": \"number\"", out);
-        put_range(out, key);
+        write_range(out, key);
     } else if (key->words) {
-        put_words(out, key->words);
+        write_words(out, key->words);
     }
     if (either) fputs("}, {", out);
     fprintf(out, "\"$ref\": \"#/$defs/%s\"", name(key->inside));
@@ -41,20 +41,20 @@ static void put_mapping(FILE *out, const CpsiKey *key, CpsiName name) {
 }
 
 /* `least` rows or more of `columns` numbers, of any one number where that is 0 */
-static void put_rows(FILE *out, int least, int columns) {
+static void write_rows(FILE *out, int least, int columns) {
     fprintf(out, "\"$ref\": \"#/$defs/matrix\", \"minItems\": %d", least);
     if (columns > 0) fprintf(out, ", \"items\": {\"minItems\": %d, \"maxItems\": %d}", columns, columns);
 }
 
 /* such rows, or a mapping */
-static void put_rows_or(FILE *out, int least, int columns, const char *name) {
+static void write_rows_or(FILE *out, int least, int columns, const char *name) {
     fputs("\"oneOf\": [{", out);
-    put_rows(out, least, columns);
+    write_rows(out, least, columns);
     fprintf(out, "}, {\"$ref\": \"#/$defs/%s\"}]", name);
 }
 
 /* a list of mappings of one word, that of a patch */
-static void put_patches(FILE *out, int first, CpsiName name) {
+static void write_patches(FILE *out, int first, CpsiName name) {
     fputs("\"type\": \"array\", \"minItems\": 1, \"items\": {\"type\": \"object\", \"minProperties\": 1, "
           "\"maxProperties\": 1, "
           "\"additionalProperties\": false, \"properties\": {",
@@ -93,7 +93,7 @@ static const char *const ALWAYS[] = {
     [CPSI_FILE_NAME] = "\"type\": \"string\", \"minLength\": 1",
 };
 
-void cpsi_put_value(FILE *out, const CpsiKey *key, CpsiName name) {
+void cpsi_write_value(FILE *out, const CpsiKey *key, CpsiName name) {
     switch (key->type) {
     case CPSI_TEXT:
         if (key->most > 0)
@@ -104,10 +104,10 @@ void cpsi_put_value(FILE *out, const CpsiKey *key, CpsiName name) {
     case CPSI_INTEGER:
     case CPSI_NUMBER:
         fprintf(out, "\"type\": \"%s\"", key->type == CPSI_NUMBER ? "number" : "integer");
-        put_range(out, key);
+        write_range(out, key);
         break;
     case CPSI_WORD:
-        put_words(out, key->words);
+        write_words(out, key->words);
         break;
     case CPSI_POINT:
         fprintf(out, "\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": %d, \"maxItems\": %d", key->most,
@@ -115,7 +115,7 @@ void cpsi_put_value(FILE *out, const CpsiKey *key, CpsiName name) {
         break;
     case CPSI_VECTOR:
         fputs("\"type\": \"array\", \"items\": {\"type\": \"number\"", out);
-        put_range(out, key);
+        write_range(out, key);
         fprintf(out, "}, \"minItems\": 1, \"maxItems\": %d", key->most);
         break;
     case CPSI_SIDES:
@@ -123,23 +123,23 @@ void cpsi_put_value(FILE *out, const CpsiKey *key, CpsiName name) {
         break;
     case CPSI_MAPPING:
     case CPSI_NUMBER_OR_MAPPING:
-        put_mapping(out, key, name);
+        write_mapping(out, key, name);
         break;
     case CPSI_LIST:
         fprintf(out, "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/%s\"}", name(key->inside));
         if (key->most > 0) fprintf(out, ", \"minItems\": %d", key->most);
         break;
     case CPSI_PATCHES:
-        put_patches(out, key->inside, name);
+        write_patches(out, key->inside, name);
         break;
     case CPSI_ROWS:
-        put_rows(out, (int)key->low, key->most);
+        write_rows(out, (int)key->low, key->most);
         break;
     case CPSI_PATH:
-        put_rows_or(out, 1, 0, name(key->inside));
+        write_rows_or(out, 1, 0, name(key->inside));
         break;
     case CPSI_CURVE:
-        put_rows_or(out, 3, 2, name(key->inside));
+        write_rows_or(out, 3, 2, name(key->inside));
         break;
     case CPSI_NAMES:
         fprintf(out,
@@ -152,13 +152,13 @@ void cpsi_put_value(FILE *out, const CpsiKey *key, CpsiName name) {
     }
 }
 
-void cpsi_put_key(FILE *out, const CpsiKey *key, CpsiName name) {
+void cpsi_draw_key(FILE *out, const CpsiKey *key, CpsiName name) {
     char text[512];
     snprintf(text, sizeof text, "%s%s%s%s", key->unit[0] ? "[" : "", key->unit, key->unit[0] ? "] " : "", key->help);
     fputc('{', out);
-    cpsi_put_value(out, key, name);
+    cpsi_write_value(out, key, name);
     fputs(", \"description\": ", out);
-    cpsi_put_json_string(out, text);
+    cpsi_write_json_string(out, text);
     if (key->fallback) fprintf(out, ", \"default\": %s", key->fallback);
     fputc('}', out);
 }

@@ -11,8 +11,8 @@
 typedef const char *(*CpsiName)(int mapping);
 
 /* What values a row accepts, without braces; and the same with description and default, as an object. */
-void cpsi_put_value(FILE *out, const CpsiKey *key, CpsiName name);
-void cpsi_put_key(FILE *out, const CpsiKey *key, CpsiName name);
+void cpsi_write_value(FILE *out, const CpsiKey *key, CpsiName name);
+void cpsi_draw_key(FILE *out, const CpsiKey *key, CpsiName name);
 
 /* Let `put` write all of it, with decimal points whatever the locale. Returns CPS_OK, CPS_ERR_ARGUMENT (out is NULL),
  * CPS_ERR_IO or CPS_ERR_MEMORY. */

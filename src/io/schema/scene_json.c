@@ -22,28 +22,28 @@ static const char *pattern_of(const CpsiKey *key) {
 }
 
 /* Keys with a fixed name (or, if `patterns`, those of a form), one line each. */
-static int put_rows(FILE *out, const CpsiKey *keys, int count, bool patterns) {
+static int write_rows(FILE *out, const CpsiKey *keys, int count, bool patterns) {
     int written = 0;
     for (int i = 0; i < count; i++) {
         const char *pattern = pattern_of(&keys[i]);
         if ((pattern != NULL) != patterns) continue;
         fprintf(out, "%s\n        ", written++ ? "," : "");
-        cpsi_put_json_string(out, pattern ? pattern : keys[i].name);
+        cpsi_write_json_string(out, pattern ? pattern : keys[i].name);
         fprintf(out, ": ");
-        cpsi_put_key(out, &keys[i], name_of);
+        cpsi_draw_key(out, &keys[i], name_of);
     }
     return written;
 }
 
-static void put_object(FILE *out, CpsiObject object) {
+static void write_object(FILE *out, CpsiObject object) {
     int count, rows = 0;
     const CpsiKey *keys = cpsi_keys(object, &count);
     fprintf(out, "    ");
-    cpsi_put_json_string(out, cpsi_object_name(object));
+    cpsi_write_json_string(out, cpsi_object_name(object));
     fprintf(out, ": {\n      \"type\": \"object\", \"additionalProperties\": false,\n      \"properties\": {");
-    rows = put_rows(out, keys, count, false);
+    rows = write_rows(out, keys, count, false);
     fprintf(out, "%s},\n      \"patternProperties\": {", rows ? "\n      " : "");
-    rows = put_rows(out, keys, count, true);
+    rows = write_rows(out, keys, count, true);
     fprintf(out, "%s},\n      \"required\": [", rows ? "\n      " : "");
     for (int i = 0, n = 0; i < count; i++)
         if (keys[i].need == CPSI_REQUIRED) fprintf(out, "%s\"%s\"", n++ ? ", " : "", keys[i].name);
@@ -55,17 +55,17 @@ static void put_object(FILE *out, CpsiObject object) {
     fprintf(out, "%s\n    }", alternatives ? "]" : "");
 }
 
-static void put_schema(FILE *out) {
+static void write_schema(FILE *out) {
     fprintf(out, "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
                  "  \"title\": \"capstan scene, format version 1\",\n  ");
     fprintf(out, "\"$ref\": \"#/$defs/%s\"", name_of(CPSI_SCENE));
     fprintf(out, ",\n  \"$defs\": {\n");
     for (int i = 0; i < CPSI_OBJECT_COUNT; i++) {
-        put_object(out, (CpsiObject)i);
+        write_object(out, (CpsiObject)i);
         fprintf(out, ",\n");
     }
-    cpsi_put_set_definitions(out);
+    cpsi_write_set_definitions(out);
     fprintf(out, "  }\n}\n");
 }
 
-CpsStatus cps_scene_write_schema(FILE *out, CpsError *err) { return cpsi_write_schema(out, put_schema, err); }
+CpsStatus cps_scene_write_schema(FILE *out, CpsError *err) { return cpsi_write_schema(out, write_schema, err); }

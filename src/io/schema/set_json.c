@@ -7,19 +7,19 @@
 #include "io/schema/json_schema.h"
 #include "io/schema/set_json.h"
 
-static void put_description(FILE *out, const char *help) {
+static void write_description(FILE *out, const char *help) {
     fputs(", \"description\": ", out);
-    cpsi_put_json_string(out, help);
+    cpsi_write_json_string(out, help);
 }
 
 /* "type": "object" with the word's keys */
-static void put_keys(FILE *out, const CpsiLawWord *word) {
+static void write_keys(FILE *out, const CpsiLawWord *word) {
     const CpsiKey *key = word->key;
     const int count = cpsi_law_key_count(word);
     fputs("\"type\": \"object\", \"additionalProperties\": false, \"properties\": {", out);
     for (int i = 0; i < count; i++) {
         fprintf(out, "%s\"%s\": ", i ? ", " : "", key[i].name);
-        cpsi_put_key(out, &key[i], NULL);
+        cpsi_draw_key(out, &key[i], NULL);
     }
     fputs("}, \"required\": [", out);
     for (int i = 0, written = 0; i < count; i++)
@@ -28,17 +28,17 @@ static void put_keys(FILE *out, const CpsiLawWord *word) {
 }
 
 /* the words of a group that another has not, one line each */
-static void put_words(FILE *out, CpsiLawGroup group, CpsiLawGroup other, int *written) {
+static void write_words(FILE *out, CpsiLawGroup group, CpsiLawGroup other, int *written) {
     int count;
     const CpsiLawWord *word = cpsi_law_words(group, &count);
     for (int i = 0; i < count; i++) {
         if (group != other && cpsi_law_word(other, word[i].name)) continue;
         fprintf(out, "%s\n        \"%s\": {", (*written)++ ? "," : "", word[i].name);
         if (word[i].key[0].name)
-            put_keys(out, &word[i]);
+            write_keys(out, &word[i]);
         else
-            cpsi_put_value(out, word[i].key, NULL);
-        put_description(out, word[i].help);
+            cpsi_write_value(out, word[i].key, NULL);
+        write_description(out, word[i].help);
         fputc('}', out);
     }
 }
@@ -47,14 +47,14 @@ static void put_words(FILE *out, CpsiLawGroup group, CpsiLawGroup other, int *wr
 static const char ONE_WORD[] = ": {\n      \"type\": \"object\", \"minProperties\": 1, \"maxProperties\": 1, "
                                "\"additionalProperties\": false,\n      \"properties\": {";
 
-void cpsi_put_set_definitions(FILE *out) {
+void cpsi_write_set_definitions(FILE *out) {
     int written = 0;
     fputs("    \"set\"", out);
     fputs(ONE_WORD, out);
-    put_words(out, CPSI_LAW_SET_WORDS, CPSI_LAW_SET_WORDS, &written);
-    put_words(out, CPSI_LAW_LAW_WORDS, CPSI_LAW_SET_WORDS, &written);
+    write_words(out, CPSI_LAW_SET_WORDS, CPSI_LAW_SET_WORDS, &written);
+    write_words(out, CPSI_LAW_LAW_WORDS, CPSI_LAW_SET_WORDS, &written);
     fputs("\n      }\n    },\n    \"contact\": {", out);
-    put_keys(out, &cpsi_law_contact_word);
+    write_keys(out, &cpsi_law_contact_word);
     fprintf(
         out,
         "},\n    \"matrix\": {\"type\": \"array\", \"minItems\": 1, \"maxItems\": %d, \"items\": {\"type\": \"array\", "
@@ -65,25 +65,25 @@ void cpsi_put_set_definitions(FILE *out) {
           out);
 }
 
-void cpsi_put_law_definitions(FILE *out) {
+void cpsi_write_law_definitions(FILE *out) {
     int written = 0;
     fputs("    \"term\"", out);
     fputs(ONE_WORD, out);
-    put_words(out, CPSI_LAW_TERM_WORDS, CPSI_LAW_TERM_WORDS, &written);
+    write_words(out, CPSI_LAW_TERM_WORDS, CPSI_LAW_TERM_WORDS, &written);
     fputs("\n      }\n    },\n", out);
-    cpsi_put_set_definitions(out);
+    cpsi_write_set_definitions(out);
 }
 
-static void put_schema(FILE *out) {
+static void write_schema(FILE *out) {
     fprintf(out, "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
                  "  \"title\": \"capstan law, format version 1\",\n  ");
-    put_keys(out, &cpsi_law_file_word);
+    write_keys(out, &cpsi_law_file_word);
     fputs(",\n  \"oneOf\": [{\"required\": [\"law\"]}, {\"required\": [\"resistance\"], \"not\": {\"required\": "
           "[\"load\"]}}],\n"
           "  \"$defs\": {\n",
           out);
-    cpsi_put_law_definitions(out);
+    cpsi_write_law_definitions(out);
     fputs("  }\n}\n", out);
 }
 
-CpsStatus cps_law_write_schema(FILE *out, CpsError *err) { return cpsi_write_schema(out, put_schema, err); }
+CpsStatus cps_law_write_schema(FILE *out, CpsError *err) { return cpsi_write_schema(out, write_schema, err); }

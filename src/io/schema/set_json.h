@@ -6,9 +6,9 @@
 #include <stdio.h>
 
 /* The definitions of sets and of what they are made of, the last ones of "$defs". */
-void cpsi_put_set_definitions(FILE *out);
+void cpsi_write_set_definitions(FILE *out);
 
 /* The same with those of the terms of resistance laws before them. */
-void cpsi_put_law_definitions(FILE *out);
+void cpsi_write_law_definitions(FILE *out);
 
 #endif

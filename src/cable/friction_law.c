@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ellipse, box and given set of friction forces (friction_law.h). With B = diag(ratio) an ellipse
+ * is B times the disc of radius w: phi(u) = w |B u|, and F = B f with |f| <= w. */
+#include "cable/friction_law.h"
+
+/* |f||u| + f.u in the plane, without cancellation. */
+static double defect(const double f[2], const double u[2]) {
+    const double product = hypot(f[0], f[1]) * hypot(u[0], u[1]), dot = f[0] * u[0] + f[1] * u[1];
+    if (!(dot < 0)) return product + dot;
+    const double cross = f[0] * u[1] - f[1] * u[0];
+    return cross * cross / (product - dot);
+}
+
+/* f with F = B f; 0 where the set has no width. */
+static void unmap(const CpsiFrictionLaw *set, const double force[2], double f[2]) {
+    for (int a = 0; a < 2; a++) f[a] = set->ratio[a] > 0 ? force[a] / set->ratio[a] : 0;
+}
+
+double cpsi_friction_law_gap(const CpsiFrictionLaw *set, double bound, const double force[2],
+                             const double slip[2]) {
+    if (set->given)
+        return cpsi_friction_law_dissipation(set, bound, slip) + force[0] * slip[0] +
+               force[1] * slip[1];
+    double f[2], u[2], gap = 0;
+    unmap(set, force, f);
+    for (int a = 0; a < 2; a++) u[a] = set->ratio[a] * slip[a];
+    if (!set->box) return (bound - hypot(f[0], f[1])) * hypot(u[0], u[1]) + defect(f, u);
+    for (int a = 0; a < 2; a++) {
+        const double f1[2] = {f[a], 0}, u1[2] = {u[a], 0};
+        gap += (bound - fabs(f[a])) * fabs(u[a]) + defect(f1, u1);
+    }
+    return gap;
+}
+
+double cpsi_friction_law_dissipation(const CpsiFrictionLaw *set, double bound,
+                                     const double slip[2]) {
+    if (set->given) return bound > 0 ? bound * cpsi_friction_set_phi(set->given, slip) : 0;
+    const double u[2] = {set->ratio[0] * slip[0], set->ratio[1] * slip[1]};
+    return bound * (set->box ? fabs(u[0]) + fabs(u[1]) : hypot(u[0], u[1]));
+}
+
+/* The gauge of the set at F, times w. */
+static double size(const CpsiFrictionLaw *set, const double force[2]) {
+    double f[2];
+    unmap(set, force, f);
+    return set->box ? fmax(fabs(f[0]), fabs(f[1])) : hypot(f[0], f[1]);
+}
+
+void cpsi_friction_law_clip(const CpsiFrictionLaw *set, double within, double bound,
+                            double force[2]) {
+    if (set->given) { /* 0 is in it, and the sets are multiples of each other */
+        for (int a = 0; a < 2 && within > bound; a++) force[a] *= bound / within;
+        return;
+    }
+    const double found = size(set, force), keep = found > bound ? bound / found : 1;
+    for (int a = 0; a < 2; a++) force[a] = set->ratio[a] > 0 ? keep * force[a] : 0;
+}
+
+double cpsi_friction_law_margin(const CpsiFrictionLaw *set, double bound, const double force[2]) {
+    if (set->given) return 0;
+    return fmax(0, bound - size(set, force)) * fmin(set->ratio[0], set->ratio[1]);
+}

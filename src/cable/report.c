@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The report of a step (report.h). */
+#include "cable/report.h"
+
+#include <string.h>
+
+#include "cable/certificate.h"
+#include "cable/contact.h"
+#include "cable/friction_law.h"
+#include "chain/frame.h"
+
+/* [J] by friction in the step. */
+static double dissipated(const CpsiLine *line) {
+    double sum = 0;
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+        if (!(line->friction_bound[c] > 0)) continue;
+        double slide[3], slip[3];
+        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+        vec3_store(slide, cpsi_line_slide(line, c));
+        cpsi_frame_to(slip, cpsi_line_axes(line, c), slide);
+        sum += cpsi_friction_law_dissipation(&set, line->friction_bound[c], slip);
+    }
+    return sum;
+}
+
+/* Free, stick or slip, and slack: of two complementary quantities, the one that is larger at its
+ * own scale is the one that is not zero. */
+void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
+    const double weight = vec3_norm(vec3_load(line->weight));
+    const double density =
+        weight > 0 ? weight : line->report.certificate.largest_force / line->length;
+    CpsLineReport *report = &line->report;
+    memset(line->state, CPS_NODE_FREE, (size_t)cpsi_line_all_contacts(line));
+    for (int k = 0; k < program->unilateral.count; k++) {
+        const int c = program->unilateral.contact[k];
+        if (line->reaction[c] >
+            density * cpsi_line_contact_share(line, c) * program->unilateral.s[k])
+            line->state[c] = CPS_NODE_STICK;
+    }
+    for (int k = 0; k < program->disc.count; k++) {
+        const int c = program->disc.contact[k];
+        const double *z = program->disc.z[k], *s = program->disc.s[k],
+                     slide = sqrt(s[1] * s[1] + s[2] * s[2]);
+        if (line->state[c] == CPS_NODE_STICK &&
+            slide * z[0] > z[0] - sqrt(z[1] * z[1] + z[2] * z[2]))
+            line->state[c] = CPS_NODE_SLIP;
+    }
+    for (int k = 0; k < program->conic.count; k++) {
+        const int c = program->conic.contact[k];
+        if (line->state[c] == CPS_NODE_STICK &&
+            cpsi_friction_conic_slip(program, k) > cpsi_friction_conic_margin(&program->conic, k))
+            line->state[c] = CPS_NODE_SLIP;
+    }
+    report->dissipated = dissipated(line);
+    for (int i = 1; i < line->n; i++) {
+        const double *s = program->segment.s[i], *z = program->segment.z[i];
+        if (z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]))
+            report->slack += line->element_length[i - 1];
+    }
+}
+
+static int end_node(const CpsiLine *line, int end) { return end == CPS_END_A ? 0 : line->n - 1; }
+
+Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k) {
+    const int j = end_node(line, end);
+    const CpsiObstacle *obstacle = &line->obstacle[k];
+    const Vec3 from = vec3_load(&line->reference[3 * j]), to = vec3_load(&line->position[3 * j]);
+    return cpsi_obstacle_slip(obstacle, cpsi_obstacle_turn(obstacle, from, line->turn[k]), to);
+}
+
+/* v in the plane with normal `from`, turned with the normal to that of `to`; no two normals here
+ * are opposite. */
+static Vec3 turned(Vec3 v, Vec3 from, Vec3 to) {
+    const double cosine = vec3_dot(from, to);
+    return cosine > -0.5 ? vec3_axpy(-vec3_dot(to, v) / (1 + cosine), vec3_add(from, to), v)
+                         : vec3(0, 0, 0);
+}
+
+/* The friction of the half element beside an end that is held where it lies on obstacle k, with
+ * normal n and a reaction: that of the neighbouring node, F per length of the line, with the end's
+ * own zone factor. It is no larger part of its bound than F, and where the end slides no friction
+ * drives it along. */
+static Vec3 half_friction(const CpsiLine *line, int end, int k, Vec3 n, double reaction) {
+    const Vec3 none = vec3(0, 0, 0);
+    const int j = end_node(line, end), next = end == CPS_END_A ? 1 : line->n - 2;
+    for (int c = next; c < cpsi_line_contacts(line); c += line->n) {
+        const double bound = line->friction_bound[c];
+        if (cpsi_line_obstacle(line, c) != &line->obstacle[k] || !(bound > 0)) continue;
+        const double zone =
+            line->friction_factor ? line->friction_factor[j] / line->friction_factor[next] : 1;
+        const double density = zone * cpsi_line_share(line, j) / cpsi_line_share(line, next);
+        const double part = fmin(density, cpsi_friction_law(line, j).friction * reaction / bound);
+        const Vec3 force =
+            turned(vec3_load(&line->friction_force[3 * c]), cpsi_line_friction_normal(line, c), n);
+        const Vec3 slide = cpsi_line_end_slide(line, end, k);
+        const bool drives =
+            vec3_dot(force, slide) > 0 && vec3_norm(slide) > CPSI_TOUCH * line->length;
+        return drives ? none : vec3_scale(part, force);
+    }
+    return none;
+}
+
+/* A held end that lies on an obstacle is carried by it, and its half element rubs there: what is
+ * left of `force` for the support. */
+static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
+    const int j = end_node(line, end);
+    const Vec3 x = vec3_load(&line->position[3 * j]);
+    double gap;
+    const int on = cpsi_line_nearest(line, x, &gap);
+    const Vec3 n = on < 0 ? vec3(0, 0, 0) : cpsi_obstacle_normal(&line->obstacle[on], x);
+    const double up = vec3_dot(force, n);
+    if (!(up > 0) || !(gap <= CPSI_TOUCH * line->length)) return force;
+    line->reaction[j] = up;
+    vec3_store(&line->normal[3 * j], n);
+    if (line->has_local_axes) line->on[j] = on;
+    line->state[j] = CPS_NODE_STICK; /* let go in the next step, it starts with its friction */
+    const Vec3 friction = half_friction(line, end, on, n, up);
+    vec3_store(line->report.end[end].friction, friction);
+    line->report.dissipated -= vec3_dot(friction, cpsi_line_end_slide(line, end, on));
+    return vec3_sub(vec3_axpy(-up, n, force), friction);
+}
+
+void cpsi_line_report_ends(CpsiLine *line) {
+    for (int end = 0; end < 2; end++) {
+        const int j = end_node(line, end), e = end == CPS_END_A ? 0 : line->n - 2;
+        CpsEndReport *out = &line->report.end[end];
+        memcpy(out->position, &line->position[3 * j], sizeof out->position);
+        Vec3 force = vec3_load(line->end[end].value);
+        if (line->end[end].kind == CPS_END_HELD) {
+            /* what the support does: the opposite of the element's pull, the node's own weight and
+             * what the element's contact does on it */
+            const Vec3 pull =
+                vec3_scale(end == CPS_END_A ? 1 : -1, vec3_load(&line->segment_force[3 * e]));
+            const Vec3 others = cpsi_add_element_contacts(line, j, vec3_load(&line->load[3 * j]));
+            force = rest_on_obstacle(line, end, vec3_scale(-1, vec3_add(pull, others)));
+        }
+        vec3_store(out->force, force);
+        out->tension = vec3_norm(force);
+    }
+}
+
+/* Does node j touch obstacle k?  Its reaction per length there, where the caller wants it. */
+static bool touches(const CpsiLine *line, int j, const CpsiObstacle *k, double *density) {
+    if (j < 0 || j >= line->n) return false;
+    for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
+        if (line->state[c] == CPS_NODE_FREE || cpsi_line_obstacle(line, c) != k) continue;
+        *density = line->reaction[c] / cpsi_line_share(line, j);
+        return true;
+    }
+    return false;
+}
+
+/* The part of its length with which a touching node lies on the obstacle of contact c: all of it
+ * inside a piece that lies there. Where the piece ends, as much as its reaction can be of: on a
+ * plane the weight on so much of the line, on a curved obstacle what the next node inside the piece
+ * bears per length. All of it where that says nothing. */
+static double grounded_part(const CpsiLine *line, int c) {
+    const int j = cpsi_line_node(line, c);
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    double density = 0, other = 0;
+    const bool before = touches(line, j - 1, obstacle, &density),
+               after = touches(line, j + 1, obstacle, &density);
+    if (before && after) return 1;
+    if (obstacle->kind == CPS_OBSTACLE_PLANE)
+        density = -vec3_dot(vec3_load(line->weight), vec3_load(&line->normal[3 * c]));
+    else if (before == after || !touches(line, before ? j - 2 : j + 2, obstacle, &other))
+        return 1;
+    const double bears = density * cpsi_line_share(line, j);
+    return line->reaction[c] < bears ? line->reaction[c] / bears : 1;
+}
+
+/* Has the node of contact c slid?  A held end lies on its obstacle as it is imposed. */
+static bool has_slid(const CpsiLine *line, int c) {
+    const int j = cpsi_line_node(line, c), end = j == 0 ? CPS_END_A : CPS_END_B;
+    if (!cpsi_line_is_held(line, j)) return line->state[c] == CPS_NODE_SLIP;
+    const int k = line->has_local_axes ? line->on[c] : 0;
+    return vec3_norm(cpsi_line_end_slide(line, end, k)) > CPSI_TOUCH * line->length;
+}
+
+void cpsi_line_report_lengths(CpsiLine *line) {
+    for (int j = 0; j < line->n; j++) {
+        double part = 0;
+        bool slips = false;
+        for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
+            if (line->state[c] == CPS_NODE_FREE) continue;
+            part = fmax(part, grounded_part(line, c));
+            slips = slips || has_slid(line, c);
+        }
+        line->report.grounded += part * cpsi_line_share(line, j);
+        if (slips) line->report.slipping += part * cpsi_line_share(line, j);
+    }
+}

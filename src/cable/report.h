@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a step leaves to be told: the state of each node, lengths and sums, the ends. */
+#ifndef CAPSTAN_SRC_CABLE_REPORT_H
+#define CAPSTAN_SRC_CABLE_REPORT_H
+
+#include "cable/line.h"
+#include "chain/chain_program.h"
+
+/* Free, stick or slip, and slack, from the pairs of the solution; slack length, dissipation. */
+void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program);
+
+/* Forces and tensions at the ends, and what the friction of their half elements dissipates. */
+void cpsi_line_report_ends(CpsiLine *line);
+
+/* Lengths that lie on an obstacle and that slid there, the ends having been reported. */
+void cpsi_line_report_lengths(CpsiLine *line);
+
+/* [m] The way of an end on obstacle k in this step: that of the node, less that of an obstacle that
+ * turns. */
+Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k);
+
+#endif

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A program over a chain: where its arrays lie (one function, run once to measure and once to
+ * place), and its linear system. */
+#include "chain/chain_program.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/larger.h"
+#include "chain/frame.h"
+
+static void layout_segment(CpsiSegment *st, CpsiArena *arena, int n) {
+    st->length = CPSI_TAKE(arena, n, double);
+    st->s = cpsi_arena_take(arena, (size_t)n, sizeof *st->s);
+    st->z = cpsi_arena_take(arena, (size_t)n, sizeof *st->z);
+    st->w = cpsi_arena_take(arena, (size_t)n, sizeof *st->w);
+    st->g = CPSI_TAKE(arena, n, double);
+    st->inverse_w = CPSI_TAKE(arena, n, double);
+    st->q = cpsi_arena_take(arena, (size_t)n, sizeof *st->q);
+    st->ds = cpsi_arena_take(arena, (size_t)n, sizeof *st->ds);
+    st->dz = cpsi_arena_take(arena, (size_t)n, sizeof *st->dz);
+}
+
+static void layout_disc(CpsiFrictionDisc *disc, CpsiArena *arena, int n) {
+    disc->node = CPSI_TAKE(arena, n, int);
+    disc->contact = CPSI_TAKE(arena, n, int);
+    disc->weight = CPSI_TAKE(arena, n, double);
+    disc->s = cpsi_arena_take(arena, (size_t)n, sizeof *disc->s);
+    disc->z = cpsi_arena_take(arena, (size_t)n, sizeof *disc->z);
+    disc->w = cpsi_arena_take(arena, (size_t)n, sizeof *disc->w);
+    disc->unilateral = CPSI_TAKE(arena, n, int);
+    disc->friction = CPSI_TAKE(arena, n, double);
+    disc->g = CPSI_TAKE(arena, n, double);
+    disc->q = cpsi_arena_take(arena, (size_t)n, sizeof *disc->q);
+    disc->ds = cpsi_arena_take(arena, (size_t)n, sizeof *disc->ds);
+    disc->dz = cpsi_arena_take(arena, (size_t)n, sizeof *disc->dz);
+}
+
+static void layout_unilateral(CpsiUnilateral *unilateral, CpsiArena *arena, int n) {
+    unilateral->node = CPSI_TAKE(arena, n, int);
+    unilateral->contact = CPSI_TAKE(arena, n, int);
+    unilateral->second = CPSI_TAKE(arena, n, bool);
+    unilateral->weight = CPSI_TAKE(arena, n, double);
+    unilateral->gap = CPSI_TAKE(arena, n, double);
+    unilateral->s = CPSI_TAKE(arena, n, double);
+    unilateral->z = CPSI_TAKE(arena, n, double);
+    unilateral->q = CPSI_TAKE(arena, n, double);
+    unilateral->ds = CPSI_TAKE(arena, n, double);
+    unilateral->dz = CPSI_TAKE(arena, n, double);
+}
+
+static void clear(CpsiProgram *program) {
+    CpsiMatrix *matrix = &cpsi_chain(program)->matrix;
+    const size_t places = (size_t)matrix->n * (matrix->share ? 2 : 1);
+    memset(matrix->diagonal, 0, 6 * places * sizeof *matrix->diagonal);
+    memset(matrix->skew, 0, 2 * places * sizeof *matrix->skew);
+    if (!matrix->second) return;
+    memset(matrix->second->row, 0, 3 * (size_t)matrix->n * sizeof *matrix->second->row);
+    memset(matrix->second->column, 0, 3 * (size_t)matrix->n * sizeof *matrix->second->column);
+}
+
+static bool factor(CpsiProgram *program) {
+    CpsiChainProgram *chain = cpsi_chain(program);
+    chain->matrix.frame = chain->conic.count > 0 ? chain->conic.frame : chain->frame;
+    return chain->ops->factor(chain->linsys, &chain->matrix);
+}
+
+/* The rows of the tensions have nothing on their right: residuals of elements are condensed with
+ * their privates. */
+static void solve(CpsiProgram *program) {
+    CpsiChainProgram *chain = cpsi_chain(program);
+    memset(chain->dt, 0, (size_t)chain->n * sizeof *chain->dt);
+    cpsi_friction_conic_turn(&chain->conic, program->du);
+    chain->ops->solve(chain->linsys, &chain->matrix, program->du, chain->dt,
+                      chain->matrix.second ? chain->node_frames.second_reaction_change : NULL);
+    cpsi_friction_conic_turn_back(&chain->conic, program->du);
+}
+
+/* The share that node `node` has in the point of element i; 0 where there is none. */
+static double share_of(const CpsiChainProgram *chain, int i, int node) {
+    if (i < 1 || i >= chain->n || !cpsi_point_is_set(&chain->matrix, i)) return 0;
+    return node == i ? chain->matrix.share[i] : 1 - chain->matrix.share[i];
+}
+
+/* The residual of node j, with what the points of its elements leave to it. */
+static void node_residual(const CpsiChainProgram *chain, int j, double out[3]) {
+    memcpy(out, &chain->base.residual[3 * j], 3 * sizeof *out);
+    for (int i = j; i <= j + 1 && chain->matrix.share; i++) {
+        const double share = share_of(chain, i, j);
+        if (share == 0) continue;
+        double common[3], here[3];
+        cpsi_frame_from(common, &chain->frame[9 * (chain->n + i)],
+                        &chain->base.residual[3 * (chain->n + i)]);
+        cpsi_frame_to(here, &chain->frame[9 * j], common);
+        for (int a = 0; a < 3; a++) out[a] += share * here[a];
+    }
+}
+
+static double imbalance(const CpsiProgram *program) {
+    const CpsiChainProgram *chain = (const CpsiChainProgram *)program;
+    double largest = 0;
+    for (int j = 0; j < chain->n; j++) {
+        double residual[3];
+        if (chain->held[j]) continue;
+        node_residual(chain, j, residual);
+        for (int a = 0; a < 3; a++) largest = cpsi_max_nan(largest, fabs(residual[a]));
+    }
+    return largest;
+}
+
+void cpsi_chain_point_place(const CpsiChainProgram *program, int i, double *u) {
+    const int p = program->n + i;
+    double common[3] = {0}, own[3];
+    for (int node = i - 1; node <= i; node++) {
+        const double share =
+            node == i ? program->node_frames.share[i] : 1 - program->node_frames.share[i];
+        cpsi_frame_from(own, &program->frame[9 * node], &u[3 * node]);
+        for (int a = 0; a < 3; a++) common[a] += share * own[a];
+    }
+    cpsi_frame_to(&u[3 * p], &program->frame[9 * p], common);
+}
+
+void cpsi_chain_program_use_points(CpsiChainProgram *program) {
+    const int n = program->n;
+    program->matrix.share = program->node_frames.share;
+    program->base.size = 6 * n;
+    memset(&program->base.load[3 * n], 0, 3 * (size_t)n * sizeof *program->base.load);
+    memset(&program->base.u[3 * n], 0, 3 * (size_t)n * sizeof *program->base.u);
+    for (int i = 1; i < n; i++)
+        if (program->node_frames.share[i] > 0) cpsi_chain_point_place(program, i, program->base.u);
+}
+
+bool cpsi_chain_program_couple_bounds(CpsiChainProgram *program) {
+    CpsiProgram *base = &program->base;
+    CpsiFrictionDisc *disc = &program->disc;
+    CpsiSums unused = {0};
+    disc->follow = true;
+    clear(base);
+    for (int k = 0; k < base->kind_count; k++) base->kind[k]->scale(base);
+    /* dA = friction dR + (friction R - A): the mismatch stands where q0 stands */
+    memset(program->segment.q, 0, (size_t)program->n * sizeof *program->segment.q);
+    memset(program->unilateral.q, 0,
+           (size_t)program->unilateral.count * sizeof *program->unilateral.q);
+    for (int k = 0; k < disc->count; k++) {
+        disc->q[k][0] =
+            disc->z[k][0] - disc->friction[k] * program->unilateral.z[disc->unilateral[k]];
+        disc->q[k][1] = disc->q[k][2] = 0;
+    }
+    cpsi_friction_conic_predict_bounds(&program->conic, &program->unilateral);
+    if (!factor(base)) return false;
+    memset(base->du, 0, (size_t)base->size * sizeof *base->du);
+    for (int k = 0; k < base->kind_count; k++) base->kind[k]->load(base, 0);
+    solve(base);
+    for (int k = 0; k < base->kind_count; k++) base->kind[k]->direct(base, 0, false, &unused);
+    return true;
+}
+
+static void layout_own(CpsiChainProgram *program, CpsiArena *arena, int nodes, int contacts,
+                       bool points) {
+    const size_t n = (size_t)nodes, stops = n * (size_t)(contacts + points),
+                 second = contacts > 1 ? n : 0;
+    program->node_frames.frame = CPSI_TAKE(arena, 9 * n * (points ? 2 : 1), double);
+    program->node_frames.share = points ? CPSI_TAKE(arena, n, double) : NULL;
+    program->node_frames.offset =
+        cpsi_arena_take(arena, 2 * stops, sizeof *program->node_frames.offset);
+    program->node_frames.map = cpsi_arena_take(arena, 2 * stops, sizeof *program->node_frames.map);
+    program->node_frames.normal =
+        cpsi_arena_take(arena, stops, sizeof *program->node_frames.normal);
+    program->node_frames.curvature =
+        cpsi_arena_take(arena, stops, sizeof *program->node_frames.curvature);
+    program->node_frames.second =
+        (CpsiMatrixSecond){.column = CPSI_TAKE(arena, 3 * second, double),
+                           .row = CPSI_TAKE(arena, 3 * second, double),
+                           .compliance = CPSI_TAKE(arena, second, double)};
+    program->node_frames.second_reaction_change = CPSI_TAKE(arena, second, double);
+    program->node_frames.has_second_contacts = contacts > 1;
+}
+
+void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes) {
+    program->n = program->matrix.n = n;
+    program->base.size = 3 * n;
+    program->frame = own_axes ? program->node_frames.frame : NULL;
+    program->disc.offset = own_axes ? program->node_frames.offset : NULL;
+    program->disc.map = own_axes ? program->node_frames.map : NULL;
+    program->unilateral.normal = own_axes ? program->node_frames.normal : NULL;
+    program->unilateral.curvature = own_axes ? program->node_frames.curvature : NULL;
+    program->matrix.second =
+        own_axes && program->node_frames.has_second_contacts ? &program->node_frames.second : NULL;
+    program->matrix.share = NULL;
+}
+
+void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
+                               bool points, const CpsiConicSet *largest, const CpsiLinsysOps *ops) {
+    static const CpsiKind *const kinds[] = {&cpsi_segment, &cpsi_drag, &cpsi_unilateral,
+                                            &cpsi_friction_disc, &cpsi_friction_conic};
+    const int all = sizeof kinds / sizeof *kinds;
+    const size_t places = (size_t)n * (points ? 2 : 1), size = 3 * places;
+    const int stops = (contacts > 1 ? contacts * n : n) + (points ? n : 0);
+    program->base = (CpsiProgram){
+        .load = CPSI_TAKE(arena, size, double),
+        .u = CPSI_TAKE(arena, size, double),
+        .du = CPSI_TAKE(arena, size, double),
+        .residual = CPSI_TAKE(arena, size, double),
+        .kind_count = largest ? all : all - 1,
+        .kind = kinds,
+        .clear = clear,
+        .factor = factor,
+        .solve = solve,
+        .imbalance = imbalance,
+    };
+    layout_segment(&program->segment, arena, n);
+    program->drag = 0;
+    layout_disc(&program->disc, arena, contacts > 0 ? 2 * stops : n);
+    layout_unilateral(&program->unilateral, arena, stops);
+    program->conic = (CpsiFrictionConic){0};
+    if (largest) cpsi_friction_conic_layout(&program->conic, arena, (int)places, stops, largest);
+    memset(&program->node_frames, 0, sizeof program->node_frames);
+    if (contacts > 0) layout_own(program, arena, n, contacts, points);
+    program->held = CPSI_TAKE(arena, n, unsigned char);
+    program->dt = CPSI_TAKE(arena, n, double);
+    program->matrix = (CpsiMatrix){
+        .held = program->held,
+        .diagonal = CPSI_TAKE(arena, 6 * places, double),
+        .skew = CPSI_TAKE(arena, 2 * places, double),
+        .stiffness = CPSI_TAKE(arena, n, double),
+        .direction = CPSI_TAKE(arena, 3 * (size_t)n, double),
+        .compliance = CPSI_TAKE(arena, n, double),
+    };
+    program->ops = ops;
+    program->linsys = ops->layout(arena, n, contacts > 1, points);
+    cpsi_chain_program_resize(program, n, false);
+}

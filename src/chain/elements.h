@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The elements of a program over a chain (chain_program.h): the arrays of each kind, the program
+ * that holds them, and what one kind needs of another. Each kind is a file: segment.c, drag.c,
+ * unilateral.c, friction_disc.c, friction_conic.c; chain_program.c puts them together. */
+#ifndef CAPSTAN_SRC_CHAIN_ELEMENTS_H
+#define CAPSTAN_SRC_CHAIN_ELEMENTS_H
+
+#include "chain/chain_system.h"
+#include "ipm/program.h"
+
+/* Element i = 1..n-1 between nodes i-1 and i; index 0 is unused. */
+typedef struct CpsiSegment {
+    double *length;    /* (n) l_i > 0, their sum is 1 */
+    double compliance; /* c >= 0, of every element */
+    double (*s)[4];    /* (n) (1 + d, e) */
+    double (*z)[4];    /* (n) (T, -p) */
+    double (*w)[4];    /* (n) Nesterov-Todd scaling */
+    double *g;         /* (n) and its factor */
+    double *inverse_w; /* (n) 1/|w1| */
+    double (*q)[4];    /* (n) right-hand side of the complementarity equation */
+    double (*ds)[4];   /* (n) direction */
+    double (*dz)[4];   /* (n) */
+} CpsiSegment;
+
+typedef struct CpsiFrictionDisc {
+    int count;
+    int *node;
+    int *contact;        /* (count) the caller's number */
+    double *weight;      /* (count) w_k > 0, that of its stop */
+    double (*s)[3];      /* (count) (t, u_x, u_y) */
+    double (*z)[3];      /* (count) (A, F_x, F_y) */
+    double (*offset)[2]; /* (count) o_k; NULL: none */
+    double (*map)[6]; /* (count) B_k (2, 3) row by row; NULL: the first two rows of the identity */
+    bool follow; /* the bounds follow the reactions, A = friction R, those of shapes too; else A is
+                    given and stays */
+    int *unilateral;  /* (count) the stop whose reaction bounds it, where they follow */
+    double *friction; /* (count) */
+    double (*w)[3];
+    double *g;
+    double (*q)[3], (*ds)[3], (*dz)[3];
+} CpsiFrictionDisc;
+
+typedef struct CpsiUnilateral {
+    int count;
+    int *node;
+    int *contact;        /* (count) the caller's number */
+    double *weight;      /* (count) w_k > 0 */
+    double *gap;         /* (count) g_k >= 0 */
+    bool *second;        /* (count) of two at a node */
+    double (*normal)[3]; /* (count) n_k; of a first stop z. NULL: all are z, and none is second */
+    double (*curvature)[6]; /* (count) R0 times the curvature of the surface, xx, xy, yy, xz, yz,
+                               zz: the force R n gains that times u; with `normal` */
+    double *s, *z;          /* (count) distance, reaction */
+    double *q, *ds, *dz;
+} CpsiUnilateral;
+
+/* A planar set of forces { origin + P v : A v + b in K }, K a product of half-lines (dimension 1)
+ * and second-order cones. */
+typedef struct CpsiConicSet {
+    int unknowns, rows, cones;
+    int spread;           /* rows, and one more for each second-order cone */
+    const int *dim;       /* (cones) */
+    const double *a, *b;  /* (rows, unknowns) of full column rank, (rows) */
+    const double *p;      /* (2, unknowns) */
+    const double *origin; /* (2) */
+    const double *centre; /* (unknowns) the analytic centre: A'z^-1 = 0 for z = A v + b */
+    double reach;         /* no point of the set has a larger norm */
+} CpsiConicSet;
+
+typedef struct CpsiFrictionConic {
+    int count;
+    int *node;
+    int *contact;              /* (count) the caller's number */
+    double *weight;            /* (count) w_k > 0, that of its stop */
+    const CpsiConicSet **form; /* (count) */
+    double *bound;             /* (count) a: the forces are a times the set */
+    double (*offset)[2];       /* (count) o_k */
+    double (*tangent)[6]; /* (count) the tangents (2, 3) of its stop row by row: x and y of a first
+                             one */
+    bool *second;         /* (count) as its stop */
+    int *unilateral;      /* (count) as of a rub, where the bounds follow */
+    double *friction;     /* (count) */
+    double *d_bound, *shift; /* (count) direction of a, and what it has beside that of friction R */
+    double (*turn)[2]; /* (count) cosine and sine of the turn of the node's tangents in the linear
+                          system */
+    double (*du)[2];   /* (count) the direction in these */
+    double *frame;     /* (n, 9) the axes of the nodes, so turned */
+    double *data, *scratch; /* (count, stride) what each element holds (friction_conic.c) */
+    int *index;             /* (count, index_stride) */
+    size_t stride, index_stride;
+} CpsiFrictionConic;
+
+typedef struct CpsiChainProgram {
+    CpsiProgram base;    /* u (n, or 2 n with points, 3) and so on: node after node */
+    int n;               /* nodes */
+    unsigned char *held; /* (n) */
+    double *frame; /* (n, or 2 n, 9) axes of the nodes (chain/frame.h); NULL: the common axes */
+    struct {
+        double *frame, (*offset)[2], (*map)[6], (*normal)[3], (*curvature)[6];
+        double *share; /* (n) where on its way element i has a point, 0: none; NULL: there is no
+                          room for points */
+        CpsiMatrixSecond second;
+        double *second_reaction_change; /* (n) w (z/s) n.du of second stops */
+        bool has_second_contacts;       /* there is room for second stops */
+    } node_frames;                      /* room for what only nodes with axes of their own have */
+    CpsiSegment segment;
+    double drag; /* d >= 0: a force -d w_j u_j on node j, w_j its share of the line */
+    CpsiFrictionDisc disc;
+    CpsiUnilateral unilateral;
+    CpsiFrictionConic conic; /* laid out only where asked for */
+    double *dt;              /* (n) direction of the tension unknowns (index 0 unused) */
+    CpsiMatrix matrix;
+    const CpsiLinsysOps *ops;
+    CpsiLinsys *linsys;
+} CpsiChainProgram;
+
+static inline CpsiChainProgram *cpsi_chain(CpsiProgram *program) {
+    return (CpsiChainProgram *)program;
+}
+
+/* n.u of stop k, for a field u of the nodes. */
+static inline double cpsi_unilateral_rise(const CpsiUnilateral *unilateral, int k,
+                                          const double *u) {
+    const double *v = &u[3 * unilateral->node[k]];
+    if (!unilateral->normal || !unilateral->second[k]) return v[2];
+    const double *n = unilateral->normal[k];
+    return n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+}
+
+/* rho = gap + n.u - s of stop k. */
+static inline double cpsi_unilateral_residual(const CpsiChainProgram *program, int k) {
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    return unilateral->gap[k] + cpsi_unilateral_rise(unilateral, k, program->base.u) -
+           unilateral->s[k];
+}
+
+/* Add by x B^T M B to D; B (2, 3), M as xx, xy, yy, D as xx, xy, yy, xz, yz, zz. */
+static inline void cpsi_add_mapped(double *d, double by, const double b[6], const double m[3]) {
+    static const int ROW[6] = {0, 0, 1, 0, 1, 2}, COLUMN[6] = {0, 1, 1, 2, 2, 2};
+    for (int i = 0; i < 6; i++) {
+        const double *p = &b[ROW[i]], *q = &b[COLUMN[i]];
+        d[i] += by * (p[0] * (m[0] * q[0] + m[1] * q[3]) + p[3] * (m[1] * q[0] + m[2] * q[3]));
+    }
+}
+
+/* Friction that follows stop k: (c times the change of the bound) acts on the node, c in its axes;
+ * the bound is friction R. Adds what goes with du to the matrix. */
+static inline void cpsi_unilateral_couple_bound(CpsiChainProgram *program, int k, double weight,
+                                                double friction, const double c[3]) {
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    const int node = unilateral->node[k];
+    if (unilateral->normal && unilateral->second[k]) { /* compliance s/(w z): friction c over it */
+        for (int a = 0; a < 3; a++)
+            program->node_frames.second.column[3 * node + a] +=
+                weight / unilateral->weight[k] * friction * c[a];
+        return;
+    }
+    for (int a = 0; a < 2; a++)
+        program->matrix.skew[2 * node + a] +=
+            weight * friction * unilateral->z[k] / unilateral->s[k] * c[a];
+}
+
+/* ---- shapes (friction_conic.c) ---- */
+
+/* The arrays of at most `count` shapes on n nodes. */
+void cpsi_friction_conic_layout(CpsiFrictionConic *conic, CpsiArena *arena, int n, int count,
+                                const CpsiConicSet *largest);
+/* F of shape k, per unit weight. */
+void cpsi_friction_conic_force(const CpsiFrictionConic *conic, int k, double force[2]);
+/* |o + u_xy| of shape k. */
+double cpsi_friction_conic_slip(const CpsiChainProgram *program, int k);
+/* How far F is inside the set, 0 on its boundary, of order one at the centre. */
+double cpsi_friction_conic_margin(const CpsiFrictionConic *conic, int k);
+/* Tangential components of nodes to the turned tangents of their shapes; a direction back, and
+ * kept. */
+void cpsi_friction_conic_turn(const CpsiFrictionConic *conic, double *x);
+void cpsi_friction_conic_turn_back(CpsiFrictionConic *conic, double *du);
+/* The shapes' part of cpsi_chain_program_couple_bounds: every bound moves to friction R. */
+void cpsi_friction_conic_predict_bounds(CpsiFrictionConic *conic, const CpsiUnilateral *unilateral);
+
+/* In this order: a rub and a shape read the pass of their stop. */
+extern const CpsiKind cpsi_segment, cpsi_drag, cpsi_unilateral, cpsi_friction_disc,
+    cpsi_friction_conic;
+
+#endif

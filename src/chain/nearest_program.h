@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The point of a convex set over a chain that is nearest to a given one:
+ *
+ *     min   sum_j h_j |u_j|^2/(2 V)
+ *     s.t.  |e_i| <= 1,            e_i = e_i^0 + (u_i - u_{i-1})/l_i
+ *         one link per element i = 1..n-1
+ *           g_k + n_k.u >= 0       at node k
+ *               half-spaces, any number at a node
+ *           u_j in the span of its first `freedom` axes, 0 at held nodes
+ *
+ * The links are stretch elements of chain_program.h with compliance 0. V > 0 is the size of u to
+ * expect, so that the duals are of order one. The objective is strongly convex: the solution is
+ * unique. */
+#ifndef CAPSTAN_SRC_CHAIN_NEAREST_PROGRAM_H
+#define CAPSTAN_SRC_CHAIN_NEAREST_PROGRAM_H
+
+#include "chain/chain_program.h"
+
+typedef struct CpsiHalfSpace {
+    int count, capacity;
+    int *node;
+    double *weight;      /* (count) > 0 */
+    double *gap;         /* (count) g_k */
+    double (*normal)[3]; /* (count) n_k in the axes of its node, 0 along axes that are not free */
+    double *s, *z, *q, *ds, *dz; /* (count) */
+} CpsiHalfSpace;
+
+typedef struct CpsiNearestProgram {
+    CpsiChainProgram chain; /* first: its kinds see the chain; without rubs, stops and shapes */
+    CpsiHalfSpace half;
+    double *weight; /* (n) h_j */
+    int *freedom;   /* (n) free axes of the node, 1..3 */
+    double size;    /* V */
+} CpsiNearestProgram;
+
+/* Place a program for at most n nodes and `halves` half-spaces in the arena. */
+void cpsi_nearest_program_layout(CpsiNearestProgram *program, CpsiArena *arena, int n, int halves,
+                                 const CpsiLinsysOps *ops);
+
+#endif

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Stop: unilateral contact along the normal n, s = gap + n.u >= 0 with reaction z >= 0, s z = 0.
+ *
+ * On a curved obstacle the reaction turns with the normal as the node moves along it (`curvature`,
+ * see chain_program.h).
+ *
+ * Linearised: dz = q - (z/s) ds,  ds = n.du + rho,  rho = gap + n.u - s. So the node's block gains
+ * w (z/s) n n^T: of a first stop at zz, of a second as a direction kept apart (chain_system.h). */
+#include <math.h>
+
+#include "base/larger.h"
+#include "chain/elements.h"
+
+static void start(CpsiProgram *base, double mu, double margin) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++) {
+        const double distance = unilateral->gap[k] + cpsi_unilateral_rise(unilateral, k, base->u);
+        unilateral->s[k] = distance > margin ? distance : margin;
+        unilateral->z[k] = mu / unilateral->s[k];
+    }
+}
+
+/* Add by x n to the node's force. */
+static inline void push(const CpsiUnilateral *unilateral, int k, double by, double *force) {
+    double *f = &force[3 * unilateral->node[k]];
+    if (!unilateral->normal || !unilateral->second[k])
+        f[2] += by;
+    else
+        for (int a = 0; a < 3; a++) f[a] += by * unilateral->normal[k][a];
+}
+
+static void measure(CpsiProgram *base, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++) {
+        const double rho = fabs(cpsi_unilateral_residual(program, k));
+        sums->weight += unilateral->weight[k];
+        sums->sz += unilateral->weight[k] * unilateral->s[k] * unilateral->z[k];
+        sums->ray -= unilateral->weight[k] * unilateral->z[k] *
+                     (unilateral->s[k] + cpsi_unilateral_residual(program, k));
+        sums->residual = cpsi_max_nan(sums->residual, rho);
+        if (unilateral->z[k] > sums->largest) sums->largest = unilateral->z[k];
+        push(unilateral, k, unilateral->weight[k] * unilateral->z[k], base->residual);
+        if (unilateral->curvature) {
+            const double *b = unilateral->curvature[k], *u = &base->u[3 * unilateral->node[k]];
+            double *residual = &base->residual[3 * unilateral->node[k]];
+            residual[0] += unilateral->weight[k] * (b[0] * u[0] + b[1] * u[1] + b[3] * u[2]);
+            residual[1] += unilateral->weight[k] * (b[1] * u[0] + b[2] * u[1] + b[4] * u[2]);
+            residual[2] += unilateral->weight[k] * (b[3] * u[0] + b[4] * u[1] + b[5] * u[2]);
+        }
+    }
+}
+
+static void scale(CpsiProgram *base) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++) {
+        const int node = unilateral->node[k];
+        unilateral->q[k] = -unilateral->z[k];
+        for (int a = 0; unilateral->curvature && a < 6; a++)
+            program->matrix.diagonal[6 * node + a] -=
+                unilateral->weight[k] * unilateral->curvature[k][a];
+        if (!unilateral->normal || !unilateral->second[k]) {
+            program->matrix.diagonal[6 * node + 5] +=
+                unilateral->weight[k] * unilateral->z[k] / unilateral->s[k];
+            continue;
+        }
+        const CpsiMatrixSecond *second = &program->node_frames.second;
+        for (int a = 0; a < 3; a++)
+            second->row[3 * node + a] = second->column[3 * node + a] = unilateral->normal[k][a];
+        second->compliance[node] = unilateral->s[k] / (unilateral->weight[k] * unilateral->z[k]);
+    }
+}
+
+static void load(CpsiProgram *base, double keep) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++)
+        push(unilateral, k,
+             unilateral->weight[k] *
+                 (unilateral->q[k] - unilateral->z[k] / unilateral->s[k] * keep *
+                                         cpsi_unilateral_residual(program, k)),
+             base->du);
+}
+
+static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++) {
+        const double s = unilateral->s[k], z = unilateral->z[k];
+        const double rho = keep * cpsi_unilateral_residual(program, k);
+        double ds = cpsi_unilateral_rise(unilateral, k, base->du) + rho,
+               dz = unilateral->q[k] - z / s * ds;
+        if (unilateral->second[k] && z > s) { /* n.du lies across the axes of du: too few digits */
+            dz = unilateral->q[k] -
+                 program->node_frames.second_reaction_change[unilateral->node[k]] /
+                     unilateral->weight[k] -
+                 z / s * rho;
+            ds = (unilateral->q[k] - dz) * (s / z);
+        }
+        const double step_s = -ds / s, step_z = -dz / z, step = cpsi_max_nan(step_s, step_z);
+        unilateral->ds[k] = ds;
+        unilateral->dz[k] = dz;
+        if (predictor) unilateral->q[k] = ds * dz / s;
+        sums->inverse_step = cpsi_max_nan(sums->inverse_step, step);
+    }
+}
+
+/* q with s o z -> target e, less the second-order term that stands in q, or without it. */
+static void aim(CpsiProgram *base, double target, bool second_order) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++)
+        unilateral->q[k] =
+            -unilateral->z[k] + target / unilateral->s[k] - (second_order ? unilateral->q[k] : 0);
+}
+
+static void correct(CpsiProgram *base, double target) { aim(base, target, true); }
+
+static void centre(CpsiProgram *base, double target) { aim(base, target, false); }
+
+static void advance(CpsiProgram *base, double alpha) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++) {
+        unilateral->s[k] += alpha * unilateral->ds[k];
+        unilateral->z[k] += alpha * unilateral->dz[k];
+    }
+}
+
+const CpsiKind cpsi_unilateral = {start, measure, scale, load, direct, correct, centre, advance};

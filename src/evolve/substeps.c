@@ -1,0 +1,542 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A load step in parts (substeps.h).
+ *
+ * Friction depends on the path, and a step goes straight from one load to the next. A part of a
+ * step is accepted
+ *   - when it converged, if the path's accuracy is not asked for;
+ *   - when besides going it in two halves leads to the same place and tensions within the path
+ *       tolerance, and neither half goes nearly
+ *     all the way: the two halves are kept;
+ *   - in either case, when it accounts for its energy, or its halves do: equilibria before and
+ *       after that lie on different branches
+ *     differ by more than was put in. Then the halves are kept.
+ * Otherwise it is halved, at most `halvings` times. A part that small is accepted; if it still is
+ * not what its halves are it is a snap, and reported: the line jumps by a way that does not get
+ * smaller with the load. A part that small which does not converge is not cut further: the rest of
+ * the step slides without end, which is proved; or the line goes on as overdamped motion
+ * (relaxation.h), a snap as well, and from where it comes to rest as before; or the rest is taken
+ * in one go and reported as it is.
+ *
+ * A way round an obstacle is known only where neither the obstacle turns nor a node goes round it
+ * by more than a quarter of a turn (cable/contact.h). A step in which an obstacle turns farther is
+ * cut beforehand into equal stretches of a quarter at most, each of which is taken as above. A part
+ * in which a node with friction goes farther has not converged. */
+#include "evolve/substeps.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/larger.h"
+#include "cable/bend.h"
+#include "cable/contact.h"
+#include "evolve/ledger.h"
+#include "evolve/relaxation.h"
+
+/* A part whose halves agree this much better than asked is followed by one twice as long. */
+static const double EASY = 0.25;
+
+/* Motion that follows the load goes about half its way in each half of a part: 0.71 of it in the
+ * one before a limit load, where it grows like a square root, 0.75 where slip grows like the square
+ * of the load. A jump goes in one half all its way. */
+static const double SUDDEN = 0.9;
+
+/* A line slides without end where the power of its loads is beyond what friction can take by this
+ * share. A certified equilibrium may have forces askew by the root of its relative gap of 1e-8, and
+ * the power of its loads may be off by as much. */
+static const double SLIDES_LEAST = 1e-4;
+/* ... by so much that smaller parts need not be tried. */
+static const double SLIDES_CLEARLY = 0.01;
+
+/* A part that cannot account for more than this share of what it dissipates and of the positive
+ * work in it is taken in halves: of the imbalance that a coarse part leaves when it follows the
+ * path this is far above the common one. */
+static const double MUCH = 0.05;
+/* [-] Places are known to this much of the length: a node so near to an obstacle touches it. */
+static const double PLACES = CPSI_TOUCH;
+/* ... and strains to this, beside what their coordinates' last digits make. */
+static const double ROUNDED_STRAIN = 1e-12;
+/* After so many parts as small as may be that cannot either, no more of a step are cut for their
+ * energy: it would take all of them, and what is left is reported. */
+static const int JUMPS = 8;
+
+/* So many parts of a step may be gone as overdamped motion. */
+static const int RELAXATIONS = 8;
+/* This share of what is left of a step is not: its end is an equilibrium. */
+static const double LAST = 0.0625;
+
+/* So many iterations times nodes spent on parts that are not kept end the cutting of a step, unless
+ * its path is asked for: about a second of one processor. Each iteration costs as much as that of
+ * some nodes more; a given set of friction forces makes a node dearer. */
+static const double IN_VAIN = 2e6, NODES_BESIDE = 30, SET_COST = 30;
+
+/* An angle that is a whole number of quarters but for rounding is that number. */
+static const double ROUNDING = 1e-9;
+
+void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int contacts,
+                          bool path_tolerance) {
+    const size_t all = (size_t)contacts * (size_t)n;
+    scratch->reaction = CPSI_TAKE(arena, all, double);
+    scratch->tension = CPSI_TAKE(arena, n, double);
+    scratch->state = CPSI_TAKE(arena, all, unsigned char);
+    scratch->on = CPSI_TAKE(arena, all, int);
+    scratch->position = CPSI_TAKE(arena, 3 * (size_t)n, double);
+    scratch->trial = path_tolerance ? CPSI_TAKE(arena, 4 * (size_t)n, double) : NULL;
+}
+
+static void save(const CpsiLine *line, CpsiSubsteps *scratch) {
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
+    memcpy(scratch->reaction, line->reaction, contacts * sizeof *line->reaction);
+    memcpy(scratch->tension, line->tension, (n - 1) * sizeof *line->tension);
+    memcpy(scratch->state, line->state, contacts * sizeof *line->state);
+    if (line->has_local_axes) memcpy(scratch->on, line->on, contacts * sizeof *line->on);
+    memcpy(scratch->end, line->report.end, sizeof scratch->end);
+    memcpy(scratch->position, line->position, 3 * n * sizeof *line->position);
+}
+
+/* Back to the start of the part. */
+static void restore(CpsiLine *line, const CpsiSubsteps *scratch) {
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
+    memcpy(line->reaction, scratch->reaction, contacts * sizeof *line->reaction);
+    memcpy(line->tension, scratch->tension, (n - 1) * sizeof *line->tension);
+    memcpy(line->state, scratch->state, contacts * sizeof *line->state);
+    if (line->has_local_axes) memcpy(line->on, scratch->on, contacts * sizeof *line->on);
+    memcpy(line->report.end, scratch->end, sizeof scratch->end);
+    memcpy(line->position, scratch->position, 3 * n * sizeof *line->position);
+}
+
+/* What a part of a step did. */
+typedef struct Part {
+    CpsLineReport report;
+    CpsLedger ledger;
+} Part;
+
+/* A step under way: what it is of, and what has been done of it. */
+typedef struct Advance {
+    CpsiLine *line;
+    CpsiChainProgram *program;
+    const CpsiStepOptions *options;
+    const CpsiMove *move;
+    CpsiSubsteps *scratch;
+    bool known;     /* the forces at the ends are those of an equilibrium */
+    int iterations; /* of everything that was solved, kept or not */
+    double in_vain; /* iterations times nodes, of what was not kept, path tolerance apart */
+    int relaxed;    /* parts that were tried as overdamped motion */
+    int jumps;      /* parts as small as may be whose energy is open */
+    CpsLineReport whole;
+    CpsLedger ledger;
+} Advance;
+
+/* An end at a share of the move. */
+static CpsEnd end_at(const CpsiMove *move, int end, double share) {
+    CpsEnd at = move->to[end];
+    for (int a = 0; a < 3 && share < 1; a++) {
+        const double from = move->from[end].value[a];
+        at.value[a] = from + share * (at.value[a] - from);
+    }
+    return at;
+}
+
+/* The weight at a share of the move. */
+static void weigh(const CpsiMove *move, double share, double weight[3]) {
+    for (int a = 0; a < 3; a++) {
+        const double from = move->weight_from[a], to = move->weight_to[a];
+        weight[a] = share < 1 ? from + share * (to - from) : to;
+    }
+}
+
+/* What the part of the move from share `from` to share `to` imposes. */
+static void impose(const Advance *substeps, double from, double to) {
+    weigh(substeps->move, from, substeps->line->weight_before);
+    weigh(substeps->move, to, substeps->line->weight);
+    for (int end = 0; end < 2; end++) substeps->line->end[end] = end_at(substeps->move, end, to);
+    for (int k = 0; k < substeps->line->obstacle_count; k++)
+        substeps->scratch->turn[k] = (to - from) * substeps->move->angle[k];
+}
+
+/* What the mesh makes of a bend it makes in smaller parts as well. */
+static bool is_answer(CpsOutcome outcome) {
+    return cps_outcome_is_certified(outcome) || outcome == CPS_MESH_TOO_COARSE;
+}
+
+/* The part of the move from share `from` to share `to`. */
+static Part accept(Advance *substeps, double from, double to, bool known) {
+    CpsiLine *line = substeps->line;
+    const CpsiMove *move = substeps->move;
+    CpsEnd before[2];
+    for (int end = 0; end < 2; end++) before[end] = end_at(move, end, from);
+    impose(substeps, from, to);
+    const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
+    cpsi_line_step(line, substeps->program, substeps->options);
+    if (is_answer(line->report.outcome) && cpsi_contact_turns_too_far(line))
+        line->report.outcome = CPS_STALLED;
+    line->report.share = to - from;
+    substeps->iterations += line->report.iterations;
+    Part part = {0};
+    if (!cps_outcome_is_final(line->report.outcome)) part.ledger = cpsi_ledger_close(line, &start);
+    part.report = line->report;
+    return part;
+}
+
+static bool converged(const Part *part) { return is_answer(part->report.outcome); }
+
+/* Add a part to the whole: sums, the worst outcome, else the later state. */
+static void add(Advance *substeps, const Part *part) {
+    CpsLineReport *whole = &substeps->whole;
+    const CpsLineReport before = *whole;
+    *whole = part->report;
+    whole->parts = before.parts + 1;
+    whole->snaps = before.snaps;
+    whole->jump = before.jump;
+    whole->unaccounted = before.unaccounted;
+    whole->outcome = cps_outcome_worse(before.outcome, whole->outcome);
+    if (before.places > whole->places) whole->places = before.places;
+    if (cpsi_bend_is_sharper(&before.bend, &whole->bend)) whole->bend = before.bend;
+    whole->iterations = substeps->iterations;
+    whole->dissipated += before.dissipated;
+    for (int end = 0; end < 2; end++) whole->end[end].work += before.end[end].work;
+    cpsi_ledger_add(&substeps->ledger, &part->ledger);
+    whole->ledger = substeps->ledger;
+}
+
+static void keep_trial(const CpsiLine *line, double *trial) {
+    for (int j = 0; j < line->n; j++) {
+        memcpy(&trial[4 * j], &line->position[3 * j], 3 * sizeof *trial);
+        trial[4 * j + 3] = j > 0 ? line->tension[j - 1] : 0;
+    }
+}
+
+/* How far the line is from where the trial went. */
+typedef struct Difference {
+    double displacement; /* largest, per length of the line */
+    double tension;      /* largest, per largest force */
+} Difference;
+
+static Difference difference(const CpsiLine *line, const double *trial) {
+    double displacement = 0, tension = 0;
+    for (int j = 0; j < line->n; j++) {
+        displacement =
+            cpsi_max_nan(displacement, vec3_norm(vec3_sub(vec3_load(&line->position[3 * j]),
+                                                          vec3_load(&trial[4 * j]))));
+        if (j > 0) tension = cpsi_max_nan(tension, fabs(line->tension[j - 1] - trial[4 * j + 3]));
+    }
+    const double force = line->report.certificate.largest_force;
+    return (Difference){displacement / line->length, force > 0 ? tension / force : 0};
+}
+
+/* The energy that a part, or two of them, cannot account for: what it made, and where the path
+ * counts what it lost as well; but for what the certificate and the accuracy of places leave open
+ * of an energy. */
+typedef struct Open {
+    double energy, beside; /* [J] it, and dissipated plus positive work */
+    double noise;          /* [J] */
+} Open;
+
+/* [J] What rounding of coordinates makes of the elongation of a line on which no force acts. */
+static double rounding_energy(const CpsiLine *line) {
+    if (!(line->compliance > 0)) return 0;
+    double reach = 0, shortest = line->length;
+    for (int j = 0; j < line->n; j++)
+        reach = cpsi_max_nan(reach, vec3_norm(vec3_load(&line->position[3 * j])));
+    for (int e = 0; e + 1 < line->n; e++)
+        if (line->element_length[e] < shortest) shortest = line->element_length[e];
+    const double strain = ROUNDED_STRAIN + 8 * DBL_EPSILON * reach / shortest;
+    return 0.5 * line->length * strain * (strain / line->compliance);
+}
+
+static Open open_energy(const Advance *substeps, const Part *first, const Part *second) {
+    Open open = {0};
+    for (int k = 0; k < (second ? 2 : 1); k++) {
+        const Part *part = k ? second : first;
+        open.energy -= part->ledger.imbalance;
+        open.beside += cpsi_ledger_exchanged(&part->ledger);
+        const CpsCertificate *found = &part->report.certificate;
+        open.noise += found->gap + (found->largest_force > 0
+                                        ? PLACES * found->largest_force * substeps->line->length
+                                        : rounding_energy(substeps->line));
+    }
+    if (substeps->options->solver.path_tolerance > 0) open.energy = fabs(open.energy);
+    return open;
+}
+
+static bool is_open(const Open *open) {
+    return open->energy > MUCH * open->beside && open->energy > open->noise;
+}
+
+/* A part as it was taken, whole or in its two halves, and what is to be thought of it. */
+typedef struct Trial {
+    Part first, second;
+    bool halved; /* the line is at the end of the second half */
+    bool good;   /* converged */
+    bool agrees; /* with the halves, as far as they were asked for */
+    bool sudden;
+    Difference error;
+    double longest; /* [m] way of a node in one of the halves */
+    Open open;      /* of what is kept */
+} Trial;
+
+/* Take the halves of a part that was taken whole. */
+static void halve(Advance *substeps, double from, double middle, double to, Trial *trial) {
+    restore(substeps->line, substeps->scratch);
+    trial->first = accept(substeps, from, middle, substeps->known);
+    trial->longest = cpsi_line_largest_displacement(substeps->line, substeps->line->reference);
+    if (converged(&trial->first)) trial->second = accept(substeps, middle, to, true);
+    trial->good = converged(&trial->first) && converged(&trial->second);
+    trial->halved = true;
+}
+
+/* Do the halves account for the energy that the whole part left open? */
+static bool closes(const Advance *substeps, Trial *trial) {
+    const Open whole = trial->open;
+    trial->open = open_energy(substeps, &trial->first, &trial->second);
+    return !is_open(&whole) || (!is_open(&trial->open) && trial->open.energy < 0.5 * whole.energy);
+}
+
+/* The path is asked for: the halves are kept, where they lead to the same place. */
+static void compare(Advance *substeps, double from, double middle, double to, Trial *trial) {
+    const double tolerance = substeps->options->solver.path_tolerance,
+                 whole_way =
+                     cpsi_line_largest_displacement(substeps->line, substeps->line->reference);
+    keep_trial(substeps->line, substeps->scratch->trial);
+    halve(substeps, from, middle, to, trial);
+    if (trial->good) trial->error = difference(substeps->line, substeps->scratch->trial);
+    trial->longest =
+        cpsi_max_nan(trial->longest,
+                     cpsi_line_largest_displacement(substeps->line, substeps->line->reference));
+    trial->sudden =
+        trial->longest > SUDDEN * whole_way && trial->longest > tolerance * substeps->line->length;
+    trial->agrees = !trial->sudden && trial->error.displacement <= tolerance &&
+                    trial->error.tension <= tolerance;
+    if (trial->good && !closes(substeps, trial)) trial->agrees = false;
+}
+
+/* Energy is open: the halves are kept where they close it. If they do not converge the whole part
+ * is all there is. */
+static void divide(Advance *substeps, double from, double middle, double to, Trial *trial) {
+    const Trial whole = *trial;
+    halve(substeps, from, middle, to, trial);
+    trial->agrees = trial->good && closes(substeps, trial);
+    if (trial->good) return;
+    restore(substeps->line, substeps->scratch);
+    *trial = whole;
+    trial->first = accept(substeps, from, to, substeps->known);
+}
+
+/* May there be another branch that cutting finds?  With frozen friction a step is one convex
+ * problem by definition (S90 P2.1): friction of the reference may make energy in it, and the path
+ * says how much that matters, if it is asked for. */
+static bool may_branch(const Advance *substeps) {
+    return substeps->options->friction == CPS_FRICTION_CONSISTENT && substeps->jumps < JUMPS;
+}
+
+/* May the line jump?  Strict contact beside frozen friction has one convex problem for a step, and
+ * no path. */
+static bool may_relax(const Advance *substeps) {
+    const CpsiStepOptions *options = substeps->options;
+    const bool strict =
+        options->friction == CPS_FRICTION_FROZEN && options->contact == CPS_CONTACT_STRICT;
+    return !strict && substeps->relaxed < RELAXATIONS;
+}
+
+/* A part of the step; `cut`: it may be made smaller. */
+static Trial try_part(Advance *substeps, double from, double middle, double to, bool cut) {
+    save(substeps->line, substeps->scratch);
+    Trial trial = {.first = accept(substeps, from, to, substeps->known), .agrees = true};
+    trial.good = converged(&trial.first);
+    if (!trial.good) return trial;
+    trial.open = open_energy(substeps, &trial.first, NULL);
+    if (substeps->options->solver.path_tolerance > 0)
+        compare(substeps, from, middle, to, &trial);
+    else if (cut && may_branch(substeps) && is_open(&trial.open))
+        divide(substeps, from, middle, to, &trial);
+    return trial;
+}
+
+/* Keep a part, and say of it what cutting could not mend. */
+static void keep(Advance *substeps, const Trial *trial) {
+    CpsLineReport *whole = &substeps->whole;
+    add(substeps, &trial->first);
+    if (trial->halved) add(substeps, &trial->second);
+    substeps->known = true;
+    if (trial->sudden || trial->error.displacement > substeps->options->solver.path_tolerance) {
+        whole->snaps++;
+        whole->jump = cpsi_max_nan(whole->jump, trial->longest);
+    } else if (is_open(&trial->open)) {
+        whole->unaccounted += trial->open.energy;
+        substeps->jumps++;
+    }
+}
+
+/* A stretch of a step. */
+typedef struct Stretch {
+    double from, to; /* shares of the step */
+} Stretch;
+
+/* Where in the step a share of the stretch is. */
+static double within(const Stretch *stretch, double share) {
+    return share < 1 ? stretch->from + share * (stretch->to - stretch->from) : stretch->to;
+}
+
+/* From share `from` to share `to`, the end of a stretch, the line slides without end: what follows
+ * is no more than that. */
+static bool add_slide(Advance *substeps, double from, double to, double margin) {
+    impose(substeps, from, to);
+    if (!cpsi_line_step_slides_endlessly(substeps->line, substeps->options, margin)) return false;
+    Part part = {0};
+    part.report = substeps->line->report;
+    part.report.share = to - from;
+    add(substeps, &part);
+    return true;
+}
+
+/* From share `from` to share `to` as overdamped motion: from there on the line may have an
+ * equilibrium again. False where it may not go so, or does not come to rest; then it is where it
+ * was. */
+static bool relax(Advance *substeps, double from, double to) {
+    CpsiLine *line = substeps->line;
+    CpsLineReport *whole = &substeps->whole;
+    CpsiRelaxation done;
+    CpsEnd before[2];
+    if (!may_relax(substeps)) return false;
+    substeps->relaxed++;
+    for (int end = 0; end < 2; end++) before[end] = end_at(substeps->move, end, from);
+    impose(substeps, from, to);
+    const bool rests = cpsi_line_relax(line, substeps->program, substeps->options, before,
+                                       substeps->scratch->turn, substeps->known, &done);
+    substeps->iterations += done.iterations;
+    if (!rests) {
+        restore(line, substeps->scratch);
+        return false;
+    }
+    whole->parts++;
+    whole->snaps++;
+    whole->jump = cpsi_max_nan(whole->jump,
+                               cpsi_line_largest_displacement(line, substeps->scratch->position));
+    whole->dissipated += done.dissipated;
+    for (int end = 0; end < 2; end++) whole->end[end].work += done.work[end];
+    cpsi_ledger_add(&substeps->ledger, &done.ledger);
+    whole->ledger = substeps->ledger;
+    substeps->known = true;
+    return true;
+}
+
+/* Is the line too short for where its ends are to be at the end of the step?  Before anything is
+ * cut: ends that go straight meet this at the end, if at all, on the way round a cylinder
+ * (docs/theory.md 5). */
+static bool add_shortfall(Advance *substeps) {
+    impose(substeps, 0, 1);
+    if (!cpsi_line_step_falls_short(substeps->line, substeps->options)) return false;
+    Part part = {0};
+    part.report = substeps->line->report;
+    part.report.share = 1;
+    add(substeps, &part);
+    return true;
+}
+
+/* What has been solved since there were so many iterations: these times the nodes. What converged
+ * is cut alike whatever its friction is given as. */
+static double cost_of(const Advance *substeps, int before, bool good) {
+    const CpsiLine *line = substeps->line;
+    double nodes = line->n + NODES_BESIDE;
+    for (int k = 0; k < line->obstacle_count && !good; k++)
+        if (line->obstacle[k].has_set) nodes = fmax(nodes, SET_COST * line->n);
+    return (double)(substeps->iterations - before) * nodes;
+}
+
+/* As add_slide, from the start of the part, to which the line returns if it does not slide. */
+static bool end_in_slide(Advance *substeps, double from, double to) {
+    restore(substeps->line, substeps->scratch);
+    if (add_slide(substeps, from, to, SLIDES_LEAST)) return true;
+    restore(substeps->line, substeps->scratch);
+    return false;
+}
+
+/* The rest of a stretch in one go, as it is. */
+static void accept_rest(Advance *substeps, double from, double to) {
+    Trial rest = {.first = accept(substeps, from, to, substeps->known)};
+    if (converged(&rest.first)) rest.open = open_energy(substeps, &rest.first, NULL);
+    keep(substeps, &rest);
+}
+
+/* Take a stretch in parts, each halved up to `halvings` times. */
+static void advance_portion(Advance *substeps, Stretch stretch, int halvings) {
+    const double tolerance = substeps->options->solver.path_tolerance, least = ldexp(1, -halvings);
+    for (double at = 0, part = 1;
+         at < 1 && !cpsi_interrupt_seen(substeps->program->base.interrupt);) {
+        const double end = at + part < 1 ? at + part : 1,
+                     middle = within(&stretch, at + 0.5 * (end - at));
+        const double from = within(&stretch, at), to = within(&stretch, end);
+        const int before = substeps->iterations;
+        const Trial trial = try_part(substeps, from, middle, to, part > least);
+        if (cps_outcome_is_final(trial.first.report.outcome)) {
+            add(substeps, &trial.first);
+            return;
+        }
+        const bool kept = trial.good && trial.agrees;
+        if (!trial.good || (!kept && tolerance == 0))
+            substeps->in_vain += cost_of(substeps, before, trial.good);
+        if (!kept && part > least && substeps->in_vain < IN_VAIN) {
+            restore(substeps->line, substeps->scratch);
+            if (!trial.good && part == 1 && add_slide(substeps, from, stretch.to, SLIDES_CLEARLY))
+                return;
+            restore(substeps->line, substeps->scratch);
+            part *= 0.5;
+            continue;
+        }
+        if (!trial.good) { /* no smaller */
+            if (end_in_slide(substeps, from, stretch.to)) return;
+            const double jump = fmin(ldexp(part, substeps->relaxed), (1 - LAST) * (1 - at));
+            if (relax(substeps, from, within(&stretch, at + jump))) {
+                at += jump;
+                continue;
+            }
+            accept_rest(substeps, from, stretch.to);
+            return;
+        }
+        keep(substeps, &trial);
+        at = end;
+        if (trial.error.displacement <= EASY * tolerance && trial.error.tension <= EASY * tolerance)
+            part *= 2;
+    }
+}
+
+/* Equal stretches of a step in none of which an obstacle turns by more than a quarter. */
+static int portion_count(const CpsiLine *line, const CpsiMove *move) {
+    double most = 0;
+    for (int k = 0; k < line->obstacle_count; k++) most = cpsi_max_nan(most, fabs(move->angle[k]));
+    const double quarters = ceil(most / CPSI_QUARTER - ROUNDING);
+    return quarters > 1 ? (int)quarters : 1;
+}
+
+void cpsi_line_substeps(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                        const CpsiMove *move, CpsiSubsteps *scratch, bool known) {
+    Advance substeps = {line, program, options, move, scratch, .known = known};
+    const int count = add_shortfall(&substeps) ? 0 : portion_count(line, move);
+    for (int k = 0; k < count && !cps_outcome_is_final(substeps.whole.outcome); k++) {
+        /* once one part is not certified nothing is gained by cutting the rest */
+        const int halvings =
+            cps_outcome_is_certified(substeps.whole.outcome) ? options->solver.halvings : 0;
+        advance_portion(&substeps, (Stretch){(double)k / count, (double)(k + 1) / count}, halvings);
+    }
+    line->report = substeps.whole;
+}
+
+void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
+                                const CpsiStepOptions *options, CpsiSubsteps *scratch) {
+    CpsiRelaxation done;
+    save(line, scratch);
+    for (int k = 0; k < line->obstacle_count; k++) scratch->turn[k] = 0;
+    const bool short_of = cpsi_line_step_falls_short(line, options);
+    if (!short_of) cpsi_line_step(line, program, options);
+    int iterations = line->report.iterations;
+    if (line->report.outcome == CPS_STALLED) {
+        restore(line, scratch);
+        if (!cpsi_line_relax(line, program, options, line->end, scratch->turn, false, &done))
+            restore(line, scratch);
+        cpsi_line_step(line, program, options);
+        iterations += done.iterations + line->report.iterations;
+    }
+    line->report.iterations = iterations;
+    line->report.parts = 1;
+    line->report.share = 1;
+}

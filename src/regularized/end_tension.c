@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The tension of a regularised solution at an end, as that of an exact step is reported
+ * (src/cable/report.c): the pull of the last element, with the weight, the reaction and the
+ * friction of its half beside the end. The friction is the neighbouring node's per length, with the
+ * end's own zone factor. */
+#include <math.h>
+
+#include "regularized/band_blocks.h"
+#include "regularized/handle.h"
+
+/* An end this near to the obstacle, per length of the line, lies on it. */
+static const double TOUCH = 1e-9;
+
+/* Friction on place j. */
+static Vec3 friction(const CpsRegularized *classic, int j) {
+    const CpsiCells *c = &classic->cells;
+    const double delta = classic->f.parameters.delta;
+    const Vec3 u = vec3_sub(cpsi_at(classic->f.place, j), cpsi_at(c->reference, j)),
+               n = cpsi_at(c->normal, j);
+    const Vec3 slid = vec3_axpy(-vec3_dot(u, n), n, u);
+    return vec3_scale(-c->bound[j] / sqrt(delta * delta + vec3_dot(slid, slid)), slid);
+}
+
+/* The height of the held place j above the plane, by that of its neighbour. */
+static double height(const CpsiCells *c, const double *place, int j, int next) {
+    return c->gap[next] + vec3_dot(cpsi_at(c->normal, next),
+                                   vec3_sub(cpsi_at(place, j), cpsi_at(c->reference, next)));
+}
+
+/* What the support of the held place j gives [N]; *up the part of it along the normal where j lies
+ * on the obstacle and is pressed against it, else 0. */
+static Vec3 support(const CpsRegularized *classic, int j, double *up) {
+    const CpsiCells *c = &classic->cells;
+    const int next = j == 0 ? 1 : j - 1;
+    const double *place = classic->f.place;
+    const Vec3 dx = vec3_sub(cpsi_at(place, next), cpsi_at(place, j));
+    const double size = vec3_norm(dx), tension = classic->tension[j == 0 ? 0 : j - 1];
+    const Vec3 pull = vec3_scale(size > 0 ? tension / size : 0, dx);
+    const Vec3 force = vec3_scale(-1, vec3_add(pull, cpsi_at(c->load, j)));
+    const double across = vec3_dot(force, cpsi_at(c->normal, next));
+    *up = across > 0 && height(c, place, j, next) <= TOUCH * classic->step.length ? across : 0;
+    return force;
+}
+
+double cpsi_end_push(const CpsRegularized *classic, int end) {
+    double up;
+    support(classic, end == CPS_END_A ? 0 : classic->cells.cells, &up);
+    return up;
+}
+
+double cps_regularized_end_tension(const CpsRegularized *classic, int end) {
+    if (!classic || classic->asked < 0 || (end != CPS_END_A && end != CPS_END_B)) return NAN;
+    const CpsiCells *c = &classic->cells;
+    if (end == CPS_END_B && !classic->step.held)
+        return vec3_norm(vec3_load(classic->step.end_force));
+    const int j = end == CPS_END_A ? 0 : c->cells, next = end == CPS_END_A ? 1 : j - 1;
+    double up;
+    const Vec3 force = support(classic, j, &up);
+    if (!(up > 0)) return vec3_norm(force);
+    const Vec3 half = vec3_scale(cpsi_zone_ratio(c, j, next) * c->share[j] / c->share[next],
+                                 friction(classic, next));
+    return vec3_norm(vec3_sub(vec3_axpy(-up, cpsi_at(c->normal, next), force), half));
+}

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The method of S90 section 5 on a copied step (see capstan/regularized.h): memory, the way from
+ * coarse parameters to those asked for, the report. */
+#include "capstan/regularized.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "regularized/handle.h"
+
+enum { MAX_CELLS = 1000000, COARSE_CELLS = 25 };
+
+/* from the reference to the parameters asked for, by steps no larger than this */
+static const double CONTINUATION_FACTOR = 30;
+
+CpsStatus cps_regularized_create(const CpsLineView *step, CpsRegularized **out, CpsError *err) {
+    if (!step || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step or out is NULL");
+    *out = NULL;
+    CpsRegularized *classic = calloc(1, sizeof *classic);
+    if (!classic) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    const CpsStatus status = cpsi_step_copy(step, &classic->step, err);
+    classic->asked = -1;
+    if (status == CPS_OK)
+        *out = classic;
+    else
+        free(classic);
+    return status;
+}
+
+void cps_regularized_destroy(CpsRegularized *classic) {
+    if (!classic) return;
+    cpsi_arena_free(&classic->step.arena);
+    cpsi_arena_free(&classic->arena);
+    free(classic);
+}
+
+CpsRegularizedStep cps_regularized_step(const CpsRegularized *classic) {
+    if (!classic) return (CpsRegularizedStep){0};
+    const CpsiStep *step = &classic->step;
+    return (CpsRegularizedStep){.elements = step->own.cells,
+                                .length = step->length,
+                                .stiffness = 1 / step->compliance,
+                                .energy = step->energy,
+                                .force = step->force,
+                                .arc_length = step->own.arc,
+                                .reference = step->own.reference,
+                                .position = step->own.position,
+                                .tension = step->own.tension};
+}
+
+CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *classic) {
+    if (!classic) return (CpsRegularizedParameters){0};
+    const CpsiStep *step = &classic->step;
+    double load = 0;
+    for (int k = 0; k < 3 * (step->own.cells + 1); ++k) load += fabs(step->own.load[k]);
+    const double per_length = fmax(load, 1e-3 * step->force) / step->length;
+    return (CpsRegularizedParameters){
+        .cells = COARSE_CELLS,
+        .penalty = 10 * per_length / step->length,             /* sinks a tenth of the length */
+        .stiffness = 1e-3 * per_length * pow(step->length, 3), /* bends under its own weight */
+        .delta = 0.03 * step->length};
+}
+
+/* A corner of the line, as at the clamped end, is bent within an element of length w by a force of
+ * (1/n)/w^2: with more than 800 elements 1/n has to shrink as w^2, or what it leaves grows with the
+ * mesh. */
+CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *classic) {
+    if (!classic) return (CpsRegularizedParameters){0};
+    const CpsiStep *step = &classic->step;
+    CpsRegularizedParameters fine = cps_regularized_coarse(classic);
+    double shortest = step->length;
+    for (int i = 0; i < step->own.cells; ++i) shortest = fmin(shortest, step->own.width[i]);
+    const double finer = 800 * shortest / step->length;
+    fine.cells = 0;
+    fine.penalty *= 1e6;
+    fine.stiffness *= 1e-9;
+    fine.delta *= 1e-7;
+    if (finer < 1 - 1e-9)
+        fine.stiffness *= finer * finer; /* 800 equal elements are not finer by rounding */
+    return fine;
+}
+
+/* ---- memory of the cells ---- */
+
+static void layout(CpsRegularized *c, int cells, CpsiArena *arena) {
+    cpsi_cells_place(&c->cells, &c->step, cells, arena);
+    const size_t places = (size_t)c->cells.cells + 1;
+    c->f.place = CPSI_TAKE(arena, 3 * places, double);
+    c->f.gradient = CPSI_TAKE(arena, 3 * places, double);
+    c->unknown = CPSI_TAKE(arena, 3 * places, double);
+    c->work = CPSI_TAKE(arena, 3 * places * (4 + CPSI_REGULARIZED_BAND + 1), double);
+    c->tension = CPSI_TAKE(arena, places, double);
+}
+
+/* the places as they are at the start: the reference, or the last solution where the cells are the
+ * same */
+static CpsStatus prepare(CpsRegularized *c, int cells, CpsError *err) {
+    if (c->asked == cells) return CPS_OK;
+    CpsiArena arena = {0};
+    CpsRegularized next = *c;
+    layout(&next, cells, &arena);
+    if (!cpsi_arena_allocate(&arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    layout(&next, cells, &arena);
+    cpsi_arena_free(&c->arena);
+    next.arena = arena;
+    next.asked = cells;
+    *c = next;
+    c->f.step = &c->step;
+    c->f.cells = &c->cells;
+    c->f.unknowns = 3 * (c->cells.cells - (c->step.held ? 1 : 0));
+    memcpy(c->unknown, c->cells.reference + 3, (size_t)c->f.unknowns * sizeof(double));
+    return CPS_OK;
+}
+
+/* ---- one solve ---- */
+
+static double between(double from, double to, double t) { return from * pow(to / from, t); }
+
+/* 1/n on the way: without stiffness at its end, P5.1, down to a thousandth of the fine one; without
+ * one at its beginning there is none. */
+static double stiffness_between(const CpsRegularized *c, double from, double to, double t) {
+    if (!(from > 0)) return to;
+    return between(from, to > 0 ? to : 1e-3 * fmin(from, cps_regularized_fine(c).stiffness), t);
+}
+
+/* Minimise at parameters on the way, then at those asked for: a smaller smoothing or stiffness
+ * begins where the larger one ended. */
+static void follow(CpsRegularized *c, CpsRegularizedParameters from,
+                   const CpsRegularizedParameters *to, int max_iterations,
+                   CpsRegularizedReport *report) {
+    const double bent =
+        from.stiffness > 0 ? from.stiffness / stiffness_between(c, from.stiffness, to->stiffness, 1)
+                           : 1;
+    const double farthest = fmax(fmax(from.delta / to->delta, bent), to->penalty / from.penalty);
+    const int steps =
+        farthest > CONTINUATION_FACTOR ? (int)ceil(log(farthest) / log(CONTINUATION_FACTOR)) : 1;
+    CpsiSmooth smooth = cpsi_regularized_smooth(&c->f);
+    CpsiNewton newton = {0};
+    for (int k = 1; k <= steps; ++k) {
+        const double t = (double)k / steps;
+        c->f.parameters = *to;
+        if (k < steps) {
+            c->f.parameters.delta = between(from.delta, to->delta, t);
+            c->f.parameters.stiffness = stiffness_between(c, from.stiffness, to->stiffness, t);
+            c->f.parameters.penalty = between(from.penalty, to->penalty, t);
+        }
+        newton.tolerance = cpsi_regularized_limit(&c->f);
+        newton.max_iterations = max_iterations - report->iterations;
+        cpsi_newton_minimise(&smooth, c->unknown, &newton, c->work);
+        report->iterations += newton.iterations;
+        report->evaluations += newton.evaluations;
+    }
+    report->converged = newton.converged;
+    report->gradient = newton.residual;
+    report->gradient_limit = newton.tolerance;
+}
+
+static CpsStatus check(const CpsRegularizedParameters *p, int max_iterations, CpsError *err) {
+    if (p->cells != 0 && !(p->cells >= 2 && p->cells <= MAX_CELLS))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "cells: found %d, expected 0 (the step's elements) or 2 to %d", p->cells,
+                         (int)MAX_CELLS);
+    const struct {
+        const char *name;
+        double value;
+    } given[] = {{"penalty", p->penalty}, {"delta", p->delta}};
+    if (!(p->stiffness >= 0 && isfinite(p->stiffness)))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "stiffness: found %g, expected a finite number >= 0", p->stiffness);
+    for (size_t i = 0; i < sizeof given / sizeof *given; ++i)
+        if (!(given[i].value > 0 && isfinite(given[i].value)))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: found %g, expected a finite number > 0",
+                             given[i].name, given[i].value);
+    if (max_iterations < 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "max_iterations: found %d, expected at least 1",
+                         max_iterations);
+    return CPS_OK;
+}
+
+CpsStatus cps_regularized_solve(CpsRegularized *classic, const CpsRegularizedParameters *parameters,
+                                int max_iterations, CpsRegularizedReport *report, CpsError *err) {
+    if (!classic || !parameters || !report)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic, parameters or report is NULL");
+    CpsStatus status = check(parameters, max_iterations, err);
+    const bool again = classic->asked == parameters->cells;
+    const CpsRegularizedParameters from =
+        again ? classic->f.parameters : cps_regularized_coarse(classic);
+    if (status == CPS_OK) status = prepare(classic, parameters->cells, err);
+    if (status != CPS_OK) return status;
+    *report = (CpsRegularizedReport){0};
+    follow(classic, from, parameters, max_iterations, report);
+    cpsi_regularized_store(&classic->f, classic->unknown);
+    cpsi_regularized_measure(&classic->f, report);
+    for (int i = 0; i < classic->cells.cells; ++i)
+        classic->tension[i] = cpsi_regularized_tension(&classic->f, i);
+    return CPS_OK;
+}
+
+CpsRegularizedView cps_regularized_view(const CpsRegularized *classic) {
+    if (!classic || classic->asked < 0) return (CpsRegularizedView){0};
+    return (CpsRegularizedView){.cells = classic->cells.cells,
+                                .arc_length = classic->cells.arc,
+                                .position = classic->f.place,
+                                .tension = classic->tension,
+                                .exact = classic->cells.tension};
+}

@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The study of S90 annex 4: h, then lambda, then n, then delta to their limits (theorems 9.1 and
+ * 9.2, result 5.6).
+ *
+ * An order of convergence is taken from three successive values, |v0 - v1|/|v1 - v2| = factor^rate,
+ * which needs no limit. Tensions are compared where all cells of a stage have a middle: in stage h
+ * at multiples of its first h, then in the middles of the step's elements. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/status.h"
+#include "capstan/regularized.h"
+#include "regularized/step_data.h"
+
+enum { MAX_VALUES = 64, MAX_COARSEST = 100000, MAX_HALVINGS = 10, NEWTON_LIMIT = 2000 };
+
+/* A tension field kept: a copy of a view. */
+typedef struct Kept {
+    CpsiArena arena;
+    CpsRegularizedView view;
+} Kept;
+
+struct CpsStudy {
+    CpsStudyRow *row;
+    int rows, room;
+    Kept end[CPS_STUDY_STAGES];
+};
+
+/* The last values of a stage, newest first. */
+typedef struct Trail {
+    int count;
+    double energy[3];
+    int samples;
+    double *place;      /* (samples) [m] */
+    double *tension[3]; /* (samples) [N] */
+    double change;      /* rms between the newest two tensions */
+    double change_before;
+} Trail;
+
+const char *cps_study_stage_key(CpsStudyStage stage) {
+    static const char *const KEY[CPS_STUDY_STAGES] = {"h", "lambda", "n", "delta"};
+    return stage >= 0 && stage < CPS_STUDY_STAGES ? KEY[stage] : "unknown";
+}
+
+/* So many divisions by *factor, 10 at most, make `ratio`; 0 where that is 1 or less. */
+static int divisions(double ratio, double *factor) {
+    const double decades = log10(ratio);
+    const int count = (int)ceil(decades - 1e-9);
+    *factor = 10;
+    if (!(decades > 1e-9)) return 0;
+    if (fabs(decades - count) > 1e-9) *factor = pow(ratio, 1.0 / count);
+    return count;
+}
+
+CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
+                                     const CpsRegularizedParameters *to) {
+    if (!classic || !to) return (CpsStudyOptions){0};
+    CpsStudyOptions options = {.from = cps_regularized_coarse(classic),
+                               .factor = {2, 10, 10, 10},
+                               .max_iterations = NEWTON_LIMIT};
+    CpsRegularizedParameters *from = &options.from;
+    const int last = to->cells > 0 ? to->cells : 4 * cps_regularized_step(classic).elements;
+    int cells = from->cells;
+    for (options.values[CPS_STUDY_H] = 1;
+         cells < last && options.values[CPS_STUDY_H] < MAX_HALVINGS; cells *= 2)
+        ++options.values[CPS_STUDY_H];
+    if (to->cells >
+        0) { /* the first of them so that the last is the one asked for, or a few more */
+        const int halvings = 1 << (options.values[CPS_STUDY_H] - 1);
+        from->cells = (last + halvings - 1) / halvings;
+        if (from->cells < 2) from->cells = 2;
+    }
+    /* lambda begins with the first value, n and delta below it */
+    options.values[CPS_STUDY_LAMBDA] =
+        1 + divisions(to->penalty / from->penalty, &options.factor[CPS_STUDY_LAMBDA]);
+    options.values[CPS_STUDY_N] =
+        to->stiffness > 0 ? divisions(from->stiffness / to->stiffness, &options.factor[CPS_STUDY_N])
+                          : 1;
+    options.values[CPS_STUDY_DELTA] =
+        divisions(from->delta / to->delta, &options.factor[CPS_STUDY_DELTA]);
+    if (options.values[CPS_STUDY_LAMBDA] == 1) from->penalty = to->penalty;
+    if (!(to->stiffness > 0)) {
+        from->stiffness = 0;
+    } else if (options.values[CPS_STUDY_N] == 0) {
+        from->stiffness = 10 * to->stiffness;
+        options.values[CPS_STUDY_N] = 1;
+    }
+    if (options.values[CPS_STUDY_DELTA] == 0) {
+        from->delta = 10 * to->delta;
+        options.values[CPS_STUDY_DELTA] = 1;
+    }
+    return options;
+}
+
+CpsStudyOptions cps_study_options(const CpsRegularized *classic) {
+    if (!classic) return (CpsStudyOptions){0};
+    const CpsRegularizedParameters fine = cps_regularized_fine(classic);
+    return cps_study_options_to(classic, &fine);
+}
+
+/* ---- rates ---- */
+
+/* NaN where the changes do not keep their sign: no order shows there */
+static double rate_of(double change_before, double change, double factor) {
+    return change_before / change > 0 ? log(change_before / change) / log(factor) : NAN;
+}
+
+static double rms_between(int count, const double *a, const double *b) {
+    double sum = 0;
+    for (int i = 0; i < count; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(sum / count);
+}
+
+/* begin a stage: nothing to compare with on other cells; of another parameter the value at rest is
+ * the first */
+static void begin_stage(Trail *trail, CpsStudyStage stage, const CpsRegularizedStep *step,
+                        int coarsest) {
+    if (stage >= CPS_STUDY_N) {
+        trail->count = 1;
+        return;
+    }
+    trail->count = 0;
+    trail->samples = stage == CPS_STUDY_H ? coarsest - 1 : step->elements;
+    for (int i = 0; i < trail->samples; ++i)
+        trail->place[i] = stage == CPS_STUDY_H
+                              ? (i + 1) * step->length / coarsest
+                              : (step->arc_length[i] + step->arc_length[i + 1]) / 2;
+}
+
+static void sample(const CpsRegularized *classic, const Trail *trail, double *tension) {
+    const CpsRegularizedView view = cps_regularized_view(classic);
+    for (int i = 0; i < trail->samples; ++i)
+        tension[i] =
+            cpsi_between_middles(view.cells, view.arc_length, view.tension, trail->place[i]);
+}
+
+/* take the newest solution in and give the row its rates */
+static void follow(Trail *trail, const CpsRegularized *classic, double factor, CpsStudyRow *row) {
+    double *oldest = trail->tension[2];
+    trail->tension[2] = trail->tension[1];
+    trail->tension[1] = trail->tension[0];
+    trail->tension[0] = oldest;
+    trail->energy[2] = trail->energy[1];
+    trail->energy[1] = trail->energy[0];
+    trail->energy[0] = row->report.total;
+    sample(classic, trail, trail->tension[0]);
+    trail->change_before = trail->change;
+    trail->change = rms_between(trail->samples, trail->tension[0], trail->tension[1]);
+    ++trail->count;
+    row->rate_energy = row->rate_tension = NAN;
+    if (trail->count < 3) return;
+    row->rate_energy =
+        rate_of(trail->energy[2] - trail->energy[1], trail->energy[1] - trail->energy[0], factor);
+    row->rate_tension = rate_of(trail->change_before, trail->change, factor);
+}
+
+/* ---- the run ---- */
+
+static double seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void fill_view(CpsiArena *arena, int cells, CpsRegularizedView *view) {
+    *view = (CpsRegularizedView){.cells = cells,
+                                 .arc_length = CPSI_TAKE(arena, cells + 1, double),
+                                 .position = CPSI_TAKE(arena, 3 * ((size_t)cells + 1), double),
+                                 .tension = CPSI_TAKE(arena, cells, double),
+                                 .exact = CPSI_TAKE(arena, cells, double)};
+}
+
+static CpsStatus keep(Kept *kept, const CpsRegularizedView *view, CpsError *err) {
+    CpsRegularizedView copy;
+    CpsiArena arena = {0};
+    fill_view(&arena, view->cells, &copy);
+    if (!cpsi_arena_allocate(&arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    fill_view(&arena, view->cells, &copy);
+    const size_t cells = (size_t)view->cells * sizeof(double);
+    memcpy((double *)copy.arc_length, view->arc_length, cells + sizeof(double));
+    memcpy((double *)copy.position, view->position, 3 * (cells + sizeof(double)));
+    memcpy((double *)copy.tension, view->tension, cells);
+    memcpy((double *)copy.exact, view->exact, cells);
+    *kept = (Kept){arena, copy};
+    return CPS_OK;
+}
+
+/* value k of a stage: its own parameter carried on, the others where they came to rest */
+static void advance(CpsStudyStage stage, const CpsStudyOptions *options, int k,
+                    CpsRegularizedParameters *p) {
+    const double factor = options->factor[stage];
+    switch (stage) {
+    case CPS_STUDY_H:
+        if (k > 0) p->cells *= 2;
+        break;
+    case CPS_STUDY_LAMBDA:
+        if (k > 0)
+            p->penalty *= factor;
+        else
+            p->cells = 0; /* the step's elements from here on */
+        break;
+    case CPS_STUDY_N: p->stiffness /= factor; break;
+    case CPS_STUDY_DELTA: p->delta /= factor; break;
+    case CPS_STUDY_STAGES: break;
+    }
+}
+
+static CpsStatus run_stages(CpsRegularized *classic, const CpsStudyOptions *options,
+                            CpsStudyProgress *progress, void *user, Trail *trail, CpsStudy *study,
+                            CpsError *err) {
+    const CpsRegularizedStep step = cps_regularized_step(classic);
+    CpsRegularizedParameters p = options->from;
+    for (CpsStudyStage stage = CPS_STUDY_H; stage < CPS_STUDY_STAGES; ++stage) {
+        begin_stage(trail, stage, &step, options->from.cells);
+        for (int k = 0; k < options->values[stage]; ++k) {
+            advance(stage, options, k, &p);
+            CpsStudyRow *row = &study->row[study->rows];
+            *row = (CpsStudyRow){.stage = stage, .parameters = p};
+            const double begun = seconds();
+            const CpsStatus status =
+                cps_regularized_solve(classic, &p, options->max_iterations, &row->report, err);
+            if (status != CPS_OK) return status;
+            row->wall = seconds() - begun;
+            follow(trail, classic, options->factor[stage], row);
+            ++study->rows;
+            if (progress && !progress(user, row, study->rows, study->room)) return CPS_OK;
+        }
+        const CpsRegularizedView view = cps_regularized_view(classic);
+        const CpsStatus status = keep(&study->end[stage], &view, err);
+        if (status != CPS_OK) return status;
+    }
+    return CPS_OK;
+}
+
+static CpsStatus check(const CpsStudyOptions *options, CpsError *err) {
+    for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
+        const char *key = cps_study_stage_key((CpsStudyStage)s);
+        if (!(options->values[s] >= 1 && options->values[s] <= MAX_VALUES))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "values of stage %s: found %d, expected 1 to %d", key,
+                             options->values[s], (int)MAX_VALUES);
+        if (!(options->factor[s] > 1 && isfinite(options->factor[s])))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "factor of stage %s: found %g, expected a number > 1", key,
+                             options->factor[s]);
+    }
+    if (!(options->from.cells >= 2 && options->from.cells <= MAX_COARSEST))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "cells to begin with: found %d, expected 2 to %d",
+                         options->from.cells, (int)MAX_COARSEST);
+    if (options->factor[CPS_STUDY_H] != 2)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "factor of stage h: found %g, expected 2",
+                         options->factor[CPS_STUDY_H]);
+    return CPS_OK;
+}
+
+CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *options,
+                        CpsStudyProgress *progress, void *user, CpsStudy **out, CpsError *err) {
+    if (!classic || !options || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic, options or out is NULL");
+    *out = NULL;
+    CpsStatus status = check(options, err);
+    if (status != CPS_OK) return status;
+    CpsStudy *study = calloc(1, sizeof *study);
+    const int elements = cps_regularized_step(classic).elements;
+    const size_t samples =
+        (size_t)(elements > options->from.cells ? elements : options->from.cells);
+    double *trails = calloc(4 * samples, sizeof *trails);
+    if (study) {
+        for (int s = 0; s < CPS_STUDY_STAGES; ++s) study->room += options->values[s];
+        study->row = calloc((size_t)study->room, sizeof *study->row);
+    }
+    if (!study || !trails || !study->row) {
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    } else {
+        Trail trail = {.place = trails,
+                       .tension = {trails + samples, trails + 2 * samples, trails + 3 * samples}};
+        status = run_stages(classic, options, progress, user, &trail, study, err);
+    }
+    free(trails);
+    if (status == CPS_OK)
+        *out = study;
+    else
+        cps_study_destroy(study);
+    return status;
+}
+
+void cps_study_destroy(CpsStudy *study) {
+    if (!study) return;
+    for (int s = 0; s < CPS_STUDY_STAGES; ++s) cpsi_arena_free(&study->end[s].arena);
+    free(study->row);
+    free(study);
+}
+
+int cps_study_row_count(const CpsStudy *study) { return study ? study->rows : 0; }
+
+const CpsStudyRow *cps_study_row(const CpsStudy *study, int row) {
+    return study && row >= 0 && row < study->rows ? &study->row[row] : NULL;
+}
+
+CpsRegularizedView cps_study_stage_end(const CpsStudy *study, CpsStudyStage stage) {
+    return study && stage >= 0 && stage < CPS_STUDY_STAGES ? study->end[stage].view
+                                                           : (CpsRegularizedView){0};
+}

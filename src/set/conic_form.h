@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The conic form of a set and the solver on it.
+ *
+ * Every expression without user's sets is  { x : exists y, E (x, y) = e, A (x, y) + b in K },  K a
+ * product of half-lines and second-order cones, built node by node (conic_rows.c): "X in t C" for
+ * affine X and t of the unknowns is a list of rows for each kind of C. Eliminating the equations by
+ * an orthonormal basis of their null space leaves the reduced form
+ *
+ *     C = { origin + P v + Q' l :  A v + b in K },     A of full column rank, l free,
+ *
+ * on which all questions are small conic programs in v. */
+#ifndef CAPSTAN_SRC_SET_CONIC_FORM_H
+#define CAPSTAN_SRC_SET_CONIC_FORM_H
+
+#include <stdbool.h>
+
+#include "capstan/set.h"
+
+/* Reduced form; one block of memory. */
+typedef struct CpsiConicForm {
+    int n;        /* of x */
+    int unknowns; /* of v */
+    int lines;    /* rows of Q: directions in which the set is a line, whatever v */
+    int rows, cones, largest_cone;
+    bool empty;     /* the equations contradict each other */
+    int *dim;       /* (cones) */
+    double *origin; /* (n) */
+    double *p;      /* (n, unknowns) */
+    double *q;      /* (lines, n) orthonormal */
+    double *a, *b;  /* (rows, unknowns), (rows): each cone's rows of size one */
+    double size;    /* v is in units of this length */
+} CpsiConicForm;
+
+/* Rows over unknowns (x, y), while an expression is being written out. An affine expression is
+ * `width` numbers: the coefficients of the unknowns and then the constant. */
+typedef struct CpsiConicRows {
+    int unknowns, width;        /* width = unknowns + 1 */
+    int equations, rows, cones; /* written so far */
+    int next;                   /* first unknown not yet used */
+    double *equation;           /* (equations, width) = 0 */
+    double *row;                /* (rows, width) in K */
+    int *dim;                   /* (cones) */
+    double constant; /* largest one that went into an equation, before others cancelled it */
+    int max_equations, max_rows, max_cones;
+} CpsiConicRows;
+
+/* How much one expression needs. */
+typedef struct CpsiCount {
+    size_t unknowns, equations, rows, cones;
+} CpsiCount;
+
+/* Add what the rows of a set need. */
+void cpsi_conic_rows_count(const CpsSet *set, CpsiCount *count);
+/* Room for `count`, CPS_ERR_LIMIT where it is beyond what a dense solver should be asked; the first
+ * `used` unknowns are the caller's. */
+CpsStatus cpsi_conic_rows_new(CpsiCount count, int used, CpsiConicRows **out, CpsError *err);
+void cpsi_conic_rows_free(CpsiConicRows *conic);
+/* The next equation; the next cone's rows, `dim` of them; all zero. */
+double *cpsi_conic_rows_equation(CpsiConicRows *conic);
+double *cpsi_conic_rows_cone(CpsiConicRows *conic, int dim);
+/* Write "X in t set": X (set's n, width) and t (width) affine; the closure at t = 0. False: no
+ * memory. */
+bool cpsi_conic_rows_write(CpsiConicRows *conic, const CpsSet *set, const double *x,
+                           const double *t);
+
+/* The reduced form of { x (n, width) : the rows }. A row of the equations counts as dependent when
+ * no more than the share `tolerance` of it is left by the others. `lines` more rows q (lines, n) or
+ * NULL are directions known to be lines. */
+CpsStatus cpsi_conic_form_reduce(const CpsiConicRows *conic, int n, const double *x, int lines,
+                                 const double *q, double tolerance, CpsiConicForm **out,
+                                 CpsError *err);
+/* The reduced form of a set; the caller frees it (conic_make.c). */
+CpsStatus cpsi_conic_form_make(const CpsSet *set, CpsiConicForm **out, CpsError *err);
+/* A form of zeros with room for so many unknowns, lines, rows and cones; NULL: no memory. */
+CpsiConicForm *cpsi_conic_form_new(int n, int unknowns, int lines, int rows, int cones);
+void cpsi_conic_form_free(CpsiConicForm *form);
+
+/* A solution of  min <c, x>  over the form. */
+typedef struct CpsiSolution {
+    CpsSetOutcome outcome; /* ANSWERED, EMPTY, UNBOUNDED (x is a ray with <c, x> < 0), INACCURATE */
+    double value, gap;
+    double scale;  /* z belongs to the objective c/scale */
+    double *x;     /* (n) */
+    double *v;     /* (unknowns) */
+    double *s, *z; /* (rows) */
+    void *block;
+} CpsiSolution;
+CpsStatus cpsi_conic_form_minimise(const CpsiConicForm *form, const double *c,
+                                   CpsiSolution *solution, CpsError *err);
+void cpsi_solution_free(CpsiSolution *solution);
+/* Make the outcome CPS_SET_NOT_ATTAINED where the point that attains the value is too far away to
+ * be one. */
+void cpsi_check_attained(const CpsiConicForm *form, const double *c, CpsiSolution *solution);
+
+/* The solver's z are this sure: sqrt of its complementarity. No smaller angle is told from 0 on a
+ * conic form. */
+#define CPSI_LEAST_ANGLE 3e-8
+/* Equations of a face that differ by less than this share are one: the directions of z are known
+ * that well. */
+#define CPSI_SAME_EQUATION 1e-7
+/* The part of the form on the face of its cones that the multipliers z of `at` select, each known
+ * to `angle`, written round the point with s and x (restrict.c). */
+CpsStatus cpsi_conic_form_restrict(const CpsiConicForm *form, const CpsiSolution *at, double angle,
+                                   CpsiConicForm **out, CpsError *err);
+/* Replace a form without interior by one over the faces of its cones that it lies in; *touching
+ * becomes true then (touching.c). */
+CpsStatus cpsi_conic_form_deepen(CpsiConicForm **form, bool *touching, CpsError *err);
+
+#endif

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Is a configuration a solution of a solved step, and if not, why? S90 theorem 6.3, in the form of
+ * the local gaps of docs/theory.md (3): with forces p, F, R in balance,
+ *
+ *   J** + j at y - minimum = sum l (W(e) + W*(p) - p.e) + sum (A |u_T| + F.u_T) + sum R (n.u +
+ *       gap),
+ *
+ * up to the gap of the step itself. Each sum vanishes exactly where y has the tension field p,
+ * slides in the normal cone of F, and keeps contact where R > 0. Every term is written without
+ * cancellation. */
+#include <math.h>
+
+#include "base/larger.h"
+#include "base/status.h"
+#include "capstan/solutions.h"
+#include "regularized/band_blocks.h"
+
+static const struct {
+    const char *key, *sentence;
+} JUDGEMENT[] = {
+#define CPS_JUDGEMENT_TEXT(name, number, key, sentence) [number] = {key, sentence},
+    CPS_JUDGEMENT_LIST(CPS_JUDGEMENT_TEXT)
+#undef CPS_JUDGEMENT_TEXT
+};
+
+static bool known(CpsJudgement judgement) {
+    return (unsigned)judgement < sizeof JUDGEMENT / sizeof *JUDGEMENT;
+}
+
+const char *cps_judgement_key(CpsJudgement judgement) {
+    return known(judgement) ? JUDGEMENT[judgement].key : "unknown";
+}
+
+const char *cps_judgement_sentence(CpsJudgement judgement) {
+    return known(judgement) ? JUDGEMENT[judgement].sentence : "unknown judgement";
+}
+
+/* A sum, and where its largest term is. */
+typedef struct Worst {
+    double sum, most, arc;
+} Worst;
+
+static void accept(Worst *worst, double value, double arc) {
+    worst->sum += value;
+    if (value > worst->most || value != value) {
+        worst->most = value;
+        worst->arc = arc;
+    }
+}
+
+/* W(e) + W*(p) - p.e with W = ((|e| - 1)^+)^2/(2c), W* = |p| + c |p|^2/2. Written as the squares
+ * that are left: |p||e| - p.e = |p x e|^2/(|p||e| + p.e), and (d - c|p|)^2/(2c) or |p| (1 - |e|)
+ * with d = (|e| - 1)^+. Inextensible: d has to be 0, which is judged as a length. */
+static double segment_gap(double c, Vec3 e, Vec3 p) {
+    const double length = vec3_norm(e), force = vec3_norm(p), along = vec3_dot(p, e);
+    const Vec3 cross = vec3_cross(p, e);
+    const double turned =
+        along > 0 ? vec3_dot(cross, cross) / (force * length + along) : force * length - along;
+    const double longer = fmax(0, length - 1), shorter = fmax(0, 1 - length);
+    const double stretched = c > 0 ? (longer - c * force) * (longer - c * force) / (2 * c) : 0;
+    return turned + stretched + force * shorter;
+}
+
+/* A |u| + F.u, at least 0 for |F| <= A */
+static double slip_gap(double bound, Vec3 slid, Vec3 friction) {
+    const double length = vec3_norm(slid), force = vec3_norm(friction),
+                 along = vec3_dot(friction, slid);
+    const Vec3 cross = vec3_cross(friction, slid);
+    const double turned =
+        along < 0 ? vec3_dot(cross, cross) / (force * length - along) : force * length + along;
+    return fmax(0, bound - force) * length + turned;
+}
+
+/* No gap is asked to be less than this, per length and force, the largest or all loads together
+ * (docs/theory.md (5)). */
+static const double GAP_FLOOR = 1e-12;
+
+static bool held(const CpsLineView *step, int node) {
+    return (node == 0 && step->end[CPS_END_A].kind == CPS_END_HELD) ||
+           (node == step->elements && step->end[CPS_END_B].kind == CPS_END_HELD);
+}
+
+/* S of docs/theory.md (5), for the step's own solution */
+static double scale_of(const CpsLineView *step, double tolerance) {
+    double scale = 0, work = 0, moment = 0, loads = 0, largest = 0;
+    for (int i = 0; i < step->elements; ++i) {
+        const double force = vec3_norm(cpsi_at(step->segment_force, i));
+        scale += step->element_length[i] * (force + step->compliance * force * force);
+        largest = cpsi_max_nan(largest, force);
+    }
+    for (int j = 0; j <= step->elements; ++j) {
+        const Vec3 x = cpsi_at(step->position, j), u = vec3_sub(x, cpsi_at(step->reference, j)),
+                   n = cpsi_at(step->normal, j), b = cpsi_at(step->load, j);
+        if (!held(step, j))
+            scale += step->friction_bound[j] * vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
+        work += fabs(vec3_dot(b, u));
+        loads += vec3_norm(b);
+        moment += vec3_norm(b) * vec3_norm(vec3_sub(x, cpsi_at(step->position, 0)));
+        largest = cpsi_max_nan(largest, vec3_norm(cpsi_at(step->friction, j)));
+        if (!held(step, j)) largest = cpsi_max_nan(largest, step->reaction[j]);
+    }
+    work += GAP_FLOOR * cpsi_max_nan(loads, largest) * step->arc_length[step->elements] / tolerance;
+    return scale + (work <= moment ? work : moment);
+}
+
+typedef struct Case {
+    Worst tension, contact, sliding, sunk, end, shorter, longer;
+} Case;
+
+static void check_node(const CpsLineView *step, const double *position, int j, Case *c) {
+    const double arc = step->arc_length[j];
+    if (held(step, j)) {
+        accept(&c->end, vec3_norm(vec3_sub(cpsi_at(position, j), cpsi_at(step->position, j))), arc);
+        return;
+    }
+    const Vec3 u = vec3_sub(cpsi_at(position, j), cpsi_at(step->reference, j)),
+               n = cpsi_at(step->normal, j);
+    const double across = vec3_dot(u, n);
+    accept(&c->sliding,
+           slip_gap(step->friction_bound[j], vec3_axpy(-across, n, u), cpsi_at(step->friction, j)),
+           arc);
+    if (!isfinite(step->gap[j])) return;
+    accept(&c->contact, step->reaction[j] * fmax(0, across + step->gap[j]), arc);
+    accept(&c->sunk, fmax(0, -across - step->gap[j]), arc);
+}
+
+static void check_nodes(const CpsLineView *step, const double *position, Case *c) {
+    for (int i = 0; i < step->elements; ++i) {
+        const double l = step->element_length[i], arc = step->arc_length[i] + l / 2;
+        const Vec3 e = vec3_scale(1 / l, vec3_sub(cpsi_at(position, i + 1), cpsi_at(position, i)));
+        const double stretch = vec3_norm(e);
+        accept(&c->tension, l * segment_gap(step->compliance, e, cpsi_at(step->segment_force, i)),
+               arc);
+        accept(&c->shorter, fmax(0, 1 - stretch), arc);
+        accept(&c->longer, step->compliance > 0 ? 0 : fmax(0, stretch - 1), arc);
+    }
+    for (int j = 0; j <= step->elements; ++j) check_node(step, position, j, c);
+}
+
+CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, double tolerance,
+                             CpsJudgementReport *report, CpsError *err) {
+    if (!step || !position || !report || step->elements < 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "step, position or report is NULL, or the step has no elements");
+    if (!(tolerance > 0 && tolerance < 1))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "tolerance: found %g, expected a number between 0 and 1", tolerance);
+    if (step->slide)
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "line '%s': more than one obstacle, or one that is curved or has directions; only "
+            "planes with isotropic friction are judged",
+            step->name);
+    for (int j = 0; j <= step->elements; ++j)
+        if (!vec3_finite(position + 3 * (size_t)j))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "position of node %d is not finite", j);
+    Case c = {0};
+    check_nodes(step, position, &c);
+    const double scale = scale_of(step, tolerance), gap = tolerance * scale,
+                 strain = sqrt(tolerance);
+    const double length = tolerance * step->arc_length[step->elements];
+    const struct {
+        bool fails;
+        CpsJudgement judgement;
+        const Worst *worst;
+    } order[] = {{!(c.end.most <= length), CPS_JUDGED_ENDS, &c.end},
+                 {!(c.sunk.most <= length), CPS_JUDGED_PENETRATES, &c.sunk},
+                 {!(c.longer.most <= strain), CPS_JUDGED_TENSION, &c.longer},
+                 {!(c.tension.sum <= gap), CPS_JUDGED_TENSION, &c.tension},
+                 {!(c.contact.sum <= gap), CPS_JUDGED_CONTACT, &c.contact},
+                 {!(c.sliding.sum <= gap), CPS_JUDGED_SLIDING, &c.sliding},
+                 {!(c.shorter.most <= strain), CPS_JUDGED_RELAXED, &c.shorter}};
+    *report = (CpsJudgementReport){.scale = scale,
+                                   .energy = c.tension.sum + c.contact.sum + c.sliding.sum,
+                                   .tension = c.tension.sum,
+                                   .contact = c.contact.sum,
+                                   .sliding = c.sliding.sum,
+                                   .penetration = c.sunk.most,
+                                   .end_error = c.end.most,
+                                   .shortening = c.shorter.most};
+    for (size_t i = 0; i < sizeof order / sizeof *order; ++i)
+        if (order[i].fails) {
+            report->judgement = order[i].judgement;
+            report->arc_length = order[i].worst->arc;
+            break;
+        }
+    return CPS_OK;
+}

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The slack of a step and what holds it (see slack.h and capstan/solutions.h). */
+#include "solutions/slack.h"
+
+#include <math.h>
+
+#include "base/larger.h"
+#include "regularized/band_blocks.h"
+
+/* an element is slack with a tension below this part of the step's largest force: its complement,
+ * the slack, is then larger */
+static const double SLACK_TENSION = 1e-5;
+
+/* a friction force this part below its bound is at it: what a step's certificate of 1e-8 leaves of
+ * it */
+static const double AT_BOUND = 1e-6;
+
+/* a reaction below this part of it is none: a step leaves some 1e-13 where there is a distance */
+static const double NO_PUSH = 1e-11;
+
+/* directions [rad] and cosines that differ by less are the same; a slip shorter than the second,
+ * per length, is none */
+static const double SAME = 1e-6, SLIP = 1e-9;
+
+double cpsi_slack_force(const CpsLineView *step) {
+    double most = 0, sum = 0;
+    for (int i = 0; i < step->elements; ++i) most = cpsi_max_nan(most, step->tension[i]);
+    for (int j = 0; j <= step->elements; ++j) sum += vec3_norm(cpsi_at(step->load, j));
+    return cpsi_max_nan(most, sum);
+}
+
+double cpsi_element_stretch(const CpsLineView *step, const double *position, int i) {
+    return vec3_norm(vec3_sub(cpsi_at(position, i + 1), cpsi_at(position, i))) /
+           step->element_length[i];
+}
+
+static bool is_slack(const CpsLineView *step, int element, double force) {
+    return step->tension[element] <= SLACK_TENSION * force;
+}
+
+/* without friction, and without tension on either side; an end has to be free */
+static bool is_loose(const CpsLineView *step, int node, double force) {
+    const int n = step->elements;
+    if (node == 0 || node == n) {
+        const CpsEnd *end = &step->end[node == 0 ? CPS_END_A : CPS_END_B];
+        if (end->kind == CPS_END_HELD) return false;
+    }
+    return (node == 0 || is_slack(step, node - 1, force)) &&
+           (node == n || is_slack(step, node, force)) && !(step->friction_bound[node] > 0);
+}
+
+/* ---- pieces ---- */
+
+/* the plane on which the loose nodes of a piece lie, if there is one */
+static void find_plane(const CpsLineView *step, double force, CpsiPiece *piece) {
+    const int from = piece->first + !piece->open[0], to = piece->last + piece->open[1];
+    const Vec3 a = cpsi_at(step->position, piece->first),
+               b = cpsi_at(step->position, piece->last + 1);
+    piece->foot[0] = a;
+    piece->foot[1] = b;
+    for (int j = from; j <= to && !piece->grounded; ++j) {
+        if (!(step->reaction[j] > NO_PUSH * force) || !isfinite(step->gap[j])) continue;
+        piece->grounded = true;
+        piece->normal = cpsi_at(step->normal, j);
+        const double level = vec3_dot(piece->normal, cpsi_at(step->reference, j)) - step->gap[j];
+        for (int side = 0; side < 2; ++side) {
+            piece->height[side] = vec3_dot(piece->normal, piece->foot[side]) - level;
+            piece->foot[side] = vec3_axpy(-piece->height[side], piece->normal, piece->foot[side]);
+        }
+    }
+    if (piece->grounded) return;
+    /* in the air without load: any plane through the chord, a level one across it where that is
+     * told apart from it */
+    const Vec3 chord = vec3_sub(b, a), up = cpsi_at(step->normal, from <= to ? from : piece->first);
+    const Vec3 z = vec3_norm(up) > 0 ? up : vec3(0, 0, 1);
+    Vec3 side = vec3_cross(z, chord);
+    if (!(vec3_norm(side) > SAME * vec3_norm(chord))) side = vec3_cross(vec3(z.y, z.z, z.x), z);
+    const Vec3 along = vec3_norm(chord) > 0 ? chord : vec3_cross(side, z);
+    const Vec3 normal = vec3_cross(along, side);
+    piece->normal = vec3_scale(1 / vec3_norm(normal), normal);
+}
+
+CpsiPiece cpsi_piece_at(const CpsLineView *step, int element, double force) {
+    CpsiPiece piece = {.first = element, .last = element, .slack = is_slack(step, element, force)};
+    if (!piece.slack) return piece;
+    while (piece.last + 1 < step->elements && is_loose(step, piece.last + 1, force)) ++piece.last;
+    piece.open[0] = element == 0 && is_loose(step, 0, force);
+    piece.open[1] = piece.last == step->elements - 1 && is_loose(step, step->elements, force);
+    find_plane(step, force, &piece);
+    return piece;
+}
+
+double cpsi_piece_reach(const CpsLineView *step, const CpsiPiece *piece, int i) {
+    const double l = step->element_length[i];
+    const double h =
+        (i == piece->first ? piece->height[0] : 0) - (i == piece->last ? piece->height[1] : 0);
+    return sqrt(fmax(0, (l - h) * (l + h)));
+}
+
+bool cpsi_piece_moves(const CpsLineView *step, const CpsiPiece *piece) {
+    if (!piece->slack) return false;
+    if (piece->open[0] || piece->open[1]) return true;
+    if (piece->first == piece->last) return false;
+    double reach = 0;
+    for (int i = piece->first; i <= piece->last; ++i) reach += cpsi_piece_reach(step, piece, i);
+    return reach > vec3_norm(vec3_sub(piece->foot[1], piece->foot[0])) * (1 + CPSI_FULL);
+}
+
+/* ---- nodes that slide on ---- */
+
+static bool at_bound(const CpsLineView *step, int node) {
+    const double bound = step->friction_bound[node];
+    return bound > 0 && vec3_norm(cpsi_at(step->friction, node)) >= bound * (1 - AT_BOUND);
+}
+
+static bool is_held(const CpsLineView *step, int node) {
+    return (node == 0 && step->end[CPS_END_A].kind == CPS_END_HELD) ||
+           (node == step->elements && step->end[CPS_END_B].kind == CPS_END_HELD);
+}
+
+/* may a node go along the unit vector v of its plane by itself and leave a solution? Friction at
+ * its bound lets it slide on, or back as far as it has slid. */
+static bool may_go(const CpsLineView *step, int node, Vec3 v) {
+    if (is_held(step, node)) return false;
+    if (!(step->friction_bound[node] > 0)) return true;
+    if (!at_bound(step, node)) return false;
+    const Vec3 force = cpsi_at(step->friction, node), n = cpsi_at(step->normal, node);
+    const Vec3 u = vec3_sub(cpsi_at(step->position, node), cpsi_at(step->reference, node));
+    const double along = vec3_dot(force, v), size = vec3_norm(force);
+    if (!(vec3_norm(vec3_cross(force, v)) <= SAME * size)) return false;
+    const double slid = vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
+    return along < 0 || slid > SLIP * step->arc_length[step->elements];
+}
+
+/* does the element between a node that goes along v and the next one, on side 0 or 1, carry that
+ * one along? Not where it is short, or becomes so. */
+static bool carries(const CpsLineView *step, int node, int side, Vec3 v, double force) {
+    const int i = side == 0 ? node - 1 : node, other = side == 0 ? node - 1 : node + 1;
+    if (!is_slack(step, i, force)) return true;
+    const double stretch = cpsi_element_stretch(step, step->position, i);
+    if (stretch < 1 - CPSI_FULL) return false;
+    const Vec3 e = vec3_sub(cpsi_at(step->position, node), cpsi_at(step->position, other));
+    return !(vec3_dot(e, v) < -SAME * vec3_norm(e));
+}
+
+/* may a node, with all that it carries along, move along v? */
+static bool cluster_goes(const CpsLineView *step, int node, Vec3 v, double force) {
+    if (!may_go(step, node, v)) return false;
+    for (int side = 0; side < 2; ++side) {
+        const int end = side == 0 ? 0 : step->elements;
+        for (int j = node; j != end && carries(step, j, side, v, force);) {
+            j += side == 0 ? -1 : 1;
+            if (!may_go(step, j, v)) return false;
+        }
+    }
+    return true;
+}
+
+/* a node at its bound that may slide on or back */
+static bool may_slide(const CpsLineView *step, int node, double force) {
+    const Vec3 f = cpsi_at(step->friction, node);
+    const double size = vec3_norm(f);
+    return at_bound(step, node) && size > 0 &&
+           (cluster_goes(step, node, vec3_scale(-1 / size, f), force) ||
+            cluster_goes(step, node, vec3_scale(1 / size, f), force));
+}
+
+/* ---- the list ---- */
+
+/* what holds a node, added to its part */
+static void note_node(const CpsLineView *step, int j, double force, CpsSlackPart *part) {
+    part->grounded = part->grounded || step->reaction[j] > 0;
+    part->rubs = part->rubs || step->friction_bound[j] > 0;
+    part->at_bound = part->at_bound || at_bound(step, j);
+    part->sliding = part->sliding || may_slide(step, j, force);
+}
+
+int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part) {
+    if (!step || step->elements < 1 || (room > 0 && !part)) return 0;
+    const double force = cpsi_slack_force(step);
+    int parts = 0;
+    CpsSlackPart now = {.to = -1};
+    for (int i = 0; i < step->elements;) {
+        const CpsiPiece piece = cpsi_piece_at(step, i, force);
+        i = piece.last + 1;
+        if (!piece.slack) continue;
+        const bool moves = cpsi_piece_moves(step, &piece);
+        if (parts == 0 || now.to < step->arc_length[piece.first] || now.loose != moves) {
+            now = (CpsSlackPart){.from = step->arc_length[piece.first], .loose = moves};
+            ++parts;
+            note_node(step, piece.first, force, &now);
+        }
+        now.to = step->arc_length[i];
+        for (int j = piece.first + 1; j <= i; ++j) note_node(step, j, force, &now);
+        if (parts <= room) part[parts - 1] = now;
+    }
+    return parts;
+}

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* As misuse_test.c, of the library that reads and writes files. */
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "capstan/drive_io.h"
+#include "capstan/law_io.h"
+#include "capstan/regularized_io.h"
+#include "misuse.h"
+
+static const double ONE[9] = {1};
+static CpsError err;
+static volatile int i; /* of loops, which a crash must not disturb, as what follows */
+static const CpsDriveFile *volatile given;
+
+static void scenes(void **state) {
+    (void)state;
+    CpsSceneFile *file = NULL;
+    const CpsReadLimits none = {0}, negative = {.max_bytes = 1000,
+                                                .max_depth = -1,
+                                                .max_elements = -1,
+                                                .max_steps = -1};
+    REFUSED(cps_scene_read(NULL, NULL, &file, &err));
+    REFUSED(cps_scene_read("", NULL, NULL, &err));
+    GIVES(cps_scene_read("/nowhere/at/all.yaml", &none, &file, &err) != CPS_OK && file == NULL &&
+          err.message[0]);
+    GIVES(cps_scene_read(THIS_FILE, &none, &file, &err) != CPS_OK && file == NULL &&
+          err.message[0]);
+    GIVES(cps_scene_read(THIS_FILE, &negative, &file, &err) != CPS_OK && file == NULL &&
+          err.message[0]);
+    RUNS(cps_scene_file_destroy(NULL));
+    GIVES(cps_scene_file_scene(NULL) == NULL);
+    REFUSED(cps_scene_write_schema(NULL, &err));
+}
+
+static void results(void **state) {
+    (void)state;
+    CpsResults *opened = NULL;
+    CpsJournal *journal = NULL;
+    bool found;
+    const CpsResultsOptions options = {.fields = "no such field"};
+    const CpsScene scene = cps_scene_default();
+    REFUSED(cps_results_open(NULL, &scene, NULL, &opened, &err));
+    REFUSED(cps_results_open("results-misuse-io", NULL, NULL, &opened, &err));
+    REFUSED(cps_results_open("results-misuse-io", &scene, NULL, &opened, &err));
+    REFUSED(cps_results_open_with("results-misuse-io", &scene, NULL, &options, NULL, &err));
+    REFUSED(cps_results_check_options(&options, &err));
+    GIVES(cps_results_check_options(NULL, &err) == CPS_OK);
+    REFUSED(cps_results_prepare(NULL, false, &err));
+    REFUSED(cps_results_prepare("", true, &err));
+    REFUSED(cps_results_append(NULL, NULL, &err));
+    REFUSED(cps_results_finish(NULL, 0, &err));
+    RUNS(cps_results_destroy(NULL));
+    REFUSED(cps_results_write_summary(NULL, 0, stdout, &err));
+    REFUSED(cps_journal_open(NULL, NULL, CPS_JOURNAL_NEW, &journal, &err));
+    REFUSED(cps_journal_open("results-misuse-io", NULL, CPS_JOURNAL_NEW, &journal, &err));
+    REFUSED(cps_journal_open("results-misuse-io", NULL, CPS_JOURNAL_NEW, NULL, &err));
+    REFUSED(cps_journal_next(NULL, NULL, &found, &err));
+    REFUSED(cps_journal_append(NULL, NULL, &err));
+    REFUSED(cps_journal_sync(NULL, &err));
+    RUNS(cps_journal_sync_late(NULL));
+    RUNS(cps_journal_remove(NULL));
+    RUNS(cps_journal_destroy(NULL));
+}
+
+static void studies(void **state) {
+    (void)state;
+    const CpsStudyFiles files = {.title = "nothing of it"};
+    const CpsMethodHistory method = {"one", ONE}, empty = {NULL, NULL};
+    const char *const names[2] = {"a", NULL}, *const unnamed[1] = {NULL};
+    const CpsLineView nothing = {0};
+    const CpsCompletedLine line = {.title = "nothing of it", .view = &nothing};
+    CpsRegularizedRun run = {.title = "nothing of it", .steps = 1, .lines = 1, .step_name = names};
+    const CpsRegularizedLine bare = {.name = NULL};
+    REFUSED(cps_study_write(NULL, &files, &err));
+    REFUSED(cps_study_write("results-misuse-io", NULL, &err));
+    REFUSED(cps_study_write("results-misuse-io", &files, &err));
+    REFUSED(cps_methods_write(NULL, "", 1, &method, 1, 2, names, &err));
+    REFUSED(cps_methods_write("results-misuse-io", NULL, 1, &method, 1, 2, names, &err));
+    REFUSED(cps_methods_write("results-misuse-io", "", 1, NULL, 1, 2, names, &err));
+    REFUSED(cps_methods_write("results-misuse-io", "", 1, &empty, 1, 2, names, &err));
+    REFUSED(cps_methods_write("results-misuse-io", "", 1, &method, 1, 2, NULL, &err));
+    REFUSED(cps_methods_write("results-misuse-io", "", 1, &method, 1, 2, unnamed, &err));
+    REFUSED(cps_methods_write("results-misuse-io", "", 0, &method, 1, 2, names, &err));
+    REFUSED(cps_methods_write("results-misuse-io", "", 5, &method, 1, 2, names, &err));
+    REFUSED(cps_methods_write("results-misuse-io", "", 1, &method, 0, 2, names, &err));
+    REFUSED(cps_methods_write("results-misuse-io", "", 1, &method, 1, 1, names, &err));
+    REFUSED(cps_completed_write(NULL, &line, &err));
+    REFUSED(cps_completed_write("results-misuse-io", NULL, &err));
+    REFUSED(cps_completed_write("results-misuse-io", &line, &err));
+    REFUSED(cps_regularized_write(NULL, &run, &err));
+    REFUSED(cps_regularized_write("results-misuse-io", NULL, &err));
+    REFUSED(cps_regularized_write("results-misuse-io", &run, &err));
+    run.line = &bare;
+    REFUSED(cps_regularized_write("results-misuse-io", &run, &err));
+    REFUSED(cps_regularized_summary(NULL, stdout, &err));
+    REFUSED(cps_regularized_summary(&run, NULL, &err));
+}
+
+static void laws(void **state) {
+    (void)state;
+    CpsLawFile *file = NULL;
+    CpsComposition composition;
+    int line;
+    const CpsLawPicture picture = {.title = "", .axis = {0, 1}},
+                        axes = {.title = "", .axis = {0, 7}}, untitled = {.axis = {0, 1}},
+                        missing = {.title = "",
+                                   .axis = {0, 1},
+                                   .velocity_count = 2,
+                                   .force_count = 2};
+    CpsSet *disc = NULL;
+    SOUND(cps_set_ball(2, NULL, 1, &disc, &err));
+    FILE *out = tmpfile();
+    assert_non_null(out);
+    REFUSED(cps_law_read(NULL, NULL, &file, &err));
+    REFUSED(cps_law_read("", NULL, NULL, &err));
+    RUNS(cps_law_file_destroy(NULL));
+    GIVES(strcmp(cps_law_file_title(NULL), "") == 0 && cps_law_file_space(NULL) == 0 &&
+          cps_law_file_set(NULL) == NULL);
+    GIVES(cps_law_file_loaded(NULL) == NULL && cps_law_file_resistance(NULL) == NULL);
+    GIVES(!cps_law_file_composition(NULL, &composition, &line));
+    REFUSED(cps_law_write_schema(NULL, &err));
+    REFUSED(cps_law_draw(NULL, &picture, out, &err));
+    REFUSED(cps_law_draw(disc, NULL, out, &err));
+    REFUSED(cps_law_draw(disc, &picture, NULL, &err));
+    REFUSED(cps_law_draw(disc, &axes, out, &err));
+    REFUSED(cps_law_draw(disc, &missing, out, &err));
+    GIVES(cps_law_draw(disc, &untitled, out, &err) == CPS_OK || err.message[0]);
+    fclose(out);
+    cps_set_release(disc);
+}
+
+static void drives(void **state) {
+    (void)state;
+    static const CpsDriveKind KIND[] = {CPS_DRIVE_SYSTEM, CPS_DRIVE_BODY,  CPS_DRIVE_PLANIMETER,
+                                        CPS_DRIVE_ROPE,   CPS_DRIVE_SWEEP, (CpsDriveKind)77};
+    CpsDriveFile *file = NULL, empty = {.title = ""};
+    const CpsPlanimeterReading reading = {0};
+    double walked[4];
+    FILE *out = tmpfile();
+    assert_non_null(out);
+    REFUSED(cps_drive_read(NULL, NULL, &file, &err));
+    REFUSED(cps_drive_read("", NULL, NULL, &err));
+    RUNS(cps_drive_file_destroy(NULL));
+    REFUSED(cps_drive_write_schema(NULL, &err));
+    RUNS(cps_drive_walk(2, 2, NULL, 2, walked));
+    RUNS(cps_drive_walk(2, 2, ONE, 2, NULL));
+    RUNS(cps_drive_walk(2, 0, ONE, 2, walked));
+    RUNS(cps_drive_walk(2, 1, ONE, 2, walked));
+    RUNS(cps_drive_walk(2, 2, ONE, -1, walked));
+    RUNS(cps_drive_walk(-1, 2, ONE, 2, walked));
+    RUNS(cps_drive_walk(2, INT_MIN, ONE, INT_MIN, walked));
+    /* a file that is not there, of another kind, or with nothing in it */
+    for (i = -1; i < 6; ++i) {
+        if (i >= 0) empty.kind = KIND[i];
+        given = i < 0 ? NULL : &empty;
+        REFUSED(cps_drive_draw_system(given, NULL, NULL, out, &err));
+        REFUSED(cps_drive_draw_body(given, 0, NULL, NULL, out, &err));
+        REFUSED(cps_drive_draw_planimeter(given, &reading, out, &err));
+        REFUSED(cps_drive_draw_planimeter(given, NULL, out, &err));
+        REFUSED(cps_drive_draw_rope(given, NULL, 0, NULL, out, &err));
+        REFUSED(cps_drive_draw_sweep(given, 2, ONE, ONE, ONE, out, &err));
+        REFUSED(cps_drive_draw_sweep(given, 2, NULL, NULL, NULL, out, &err));
+    }
+    fclose(out);
+}
+
+static void clear(void **state) {
+    (void)state;
+    all_were_refused();
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scenes), cmocka_unit_test(results), cmocka_unit_test(studies),
+        cmocka_unit_test(laws),   cmocka_unit_test(drives),  cmocka_unit_test(clear),
+    };
+    return cmocka_run_group_tests_name("misuse of files", tests, NULL, NULL);
+}

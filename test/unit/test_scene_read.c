@@ -1,0 +1,340 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The scene reader: what is read, defaults, graded lists, ends, moves, numbers, limits, the
+ * locale. */
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "check.h"
+
+#include "capstan/io.h"
+#include "io/base/yaml.h"
+
+#define HEAD     "capstan: 1\nlines:\n  cable:\n    length: 10\n    stiffness: .inf\n    mass: 2\n"
+#define STRAIGHT "    start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}\n"
+#define ENDS     "    ends: {A: fixed, B: free}\n"
+
+/* read a text as a scene file */
+static CpsStatus read_text(const char *text, const CpsReadLimits *limits, CpsSceneFile **file,
+                           CpsError *err) {
+    char path[] = "scene_read_test_XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    assert_int_equal(write(fd, text, strlen(text)), strlen(text));
+    close(fd);
+    const CpsStatus status = cps_scene_read(path, limits, file, err);
+    unlink(path);
+    return status;
+}
+
+static CpsSceneFile *read_good(const char *text) {
+    CpsSceneFile *file = NULL;
+    CpsError err = {0};
+    if (read_text(text, NULL, &file, &err) != CPS_OK) {
+        print_error("%d:%d: %s\n", err.line, err.column, err.message);
+        fail();
+    }
+    return file;
+}
+
+static void reads_defaults(void **state) {
+    (void)state;
+    CpsSceneFile *file = read_good(HEAD STRAIGHT ENDS);
+    const CpsScene *scene = cps_scene_file_scene(file), usual = cps_scene_default();
+    assert_null(scene->title);
+    assert_memory_equal(scene->gravity, usual.gravity, sizeof usual.gravity);
+    assert_memory_equal(&scene->solver, &usual.solver, sizeof usual.solver);
+    assert_int_equal(scene->obstacle_count, 0);
+    assert_int_equal(scene->friction, usual.friction);
+    assert_int_equal(scene->stage_count, 0);
+    assert_int_equal(scene->contact, CPS_CONTACT_GAINED);
+    assert_int_equal(scene->line_count, 1);
+    const CpsLine *line = scene->line;
+    assert_string_equal(line->name, "cable");
+    assert_int_equal(line->elements, 100);
+    assert_null(line->element_length);
+    assert_true(line->length == 10 && isinf(line->stiffness) && line->stiffness > 0);
+    CHECK_NEAR(line->weight, 2 * 9.81, 1e-14); /* two roundings */
+    assert_int_equal(line->end[0].kind, CPS_END_HELD);
+    assert_true(isnan(line->end[0].value[0]));
+    assert_int_equal(line->end[1].kind, CPS_END_FREE);
+    assert_true(line->end[1].value[0] == 0 && line->end[1].value[1] == 0 &&
+                line->end[1].value[2] == 0);
+    cps_scene_file_destroy(file);
+    cps_scene_file_destroy(NULL);
+}
+
+static void reads_every_key(void **state) {
+    (void)state;
+    CpsSceneFile *file = read_good(
+        "# all keys\ncapstan: 1\ntitle: \"R\\u00fcgen: 'a'\"\ngravity: [0, 0, -10]\n"
+        "obstacles:\n  slope-1: {plane: {point: [1, 2, 3], normal: [0, -1, 1]}, friction: 0.25}\n"
+        "lines:\n"
+        "  one: {length: 5, elements: 7, weight: 3, stiffness: 1e3, start: laid,\n"
+        "        ends: {A: {fixed: [0, 0, 8]}, B: {force: [4, 5, 6]}}}\n"
+        "  two: {length: 3, elements: 0x10, mass: +1.5, stiffness: 2.E3, ends: {B: {fixed: [0, 1, "
+        "12]}, A: free},\n"
+        "        start: {polyline: [[0, 0, 10], [0, 0, 12], [0, 1, 12]]}}\n"
+        "  three: {length: 3.0, elements: 20, mass: 0, stiffness: .Inf, ends: {A: fixed, B: "
+        "fixed},\n"
+        "          start: {arc: {from: [0, 0, 10], center: [0, 0, 12], axis: [1, 0, 0]}}}\n"
+        "friction: frozen\ncontact: strict\nsolver: {tolerance: 1e-10, max_iterations: 33, "
+        "linear_system: dense}\n"
+        "history:\n- {name: up & down, steps: 4, two.B: {position: [0, 1, 13]}, one.B: {force: [0, "
+        "0, 9]}}\n- {}\n");
+    const CpsScene *scene = cps_scene_file_scene(file);
+    assert_string_equal(scene->title, "R\xc3\xbcgen: 'a'");
+    assert_true(scene->gravity[2] == -10);
+    assert_string_equal(scene->obstacle->name, "slope-1");
+    assert_true(scene->obstacle->point[2] == 3 && scene->obstacle->normal[1] == -1 &&
+                scene->obstacle->friction == 0.25);
+    assert_int_equal(scene->contact, CPS_CONTACT_STRICT);
+    assert_true(scene->solver.tolerance == 1e-10);
+    assert_int_equal(scene->solver.max_iterations, 33);
+    assert_int_equal(scene->solver.linear_system, CPS_LINEAR_SYSTEM_DENSE);
+
+    const CpsLine *one = &scene->line[0], *has_second_contacts = &scene->line[1],
+                  *three = &scene->line[2];
+    assert_int_equal(one->start.kind, CPS_START_LAID);
+    assert_true(one->weight == 3 && one->elements == 7 && one->end[0].value[2] == 8 &&
+                one->end[1].value[2] == 6);
+    assert_int_equal(has_second_contacts->start.kind, CPS_START_POLYLINE);
+    assert_int_equal(has_second_contacts->start.point_count, 3);
+    assert_true(has_second_contacts->elements == 16 && has_second_contacts->weight == 15 &&
+                has_second_contacts->stiffness == 2000 && has_second_contacts->start.point[7] == 1);
+    assert_int_equal(has_second_contacts->end[0].kind, CPS_END_FREE);
+    assert_int_equal(three->start.kind, CPS_START_ARC);
+    assert_true(three->start.point[5] == 12 && three->start.axis[0] == 1 &&
+                three->start.axis[2] == 0);
+
+    assert_int_equal(scene->stage_count, 2);
+    const CpsStage *stage = scene->stage;
+    assert_string_equal(stage->name, "up & down");
+    assert_int_equal(stage->steps, 4);
+    assert_int_equal(stage->change_count, 2);
+    assert_int_equal(stage->change[0].line, 1);
+    assert_int_equal(stage->change[0].to.kind, CPS_END_HELD);
+    assert_int_equal(stage->change[1].line, 0);
+    assert_int_equal(stage->change[1].to.kind, CPS_END_FREE);
+    assert_string_equal(stage[1].name, "entry 2");
+    assert_int_equal(stage[1].change_count, 0);
+    cps_scene_file_destroy(file);
+}
+
+/* every kind of obstacle, its defaults, both forms of friction; turns in degrees */
+static void reads_obstacles(void **state) {
+    (void)state;
+    CpsSceneFile *file = read_good(
+        HEAD
+        "    start: {straight: {from: [0, 0, 50], to: [10, 0, 50]}}\n" ENDS "obstacles:\n"
+        "  bed: {plane: {}, friction: {axial: 0.6, lateral: 0.8, shape: box, grain: [1, 2, 0]}}\n"
+        "  drum: {cylinder: {point: [1, 2, 3], axis: [0, 0, 5], radius: 0.5}, friction: 0.3}\n"
+        "  pipe: {cylinder: {radius: 2}, friction: {axial: 0.1}}\n"
+        "  ball: {sphere: {center: [4, 5, 6], radius: 7, axis: [1, 0, 0]}}\n"
+        "history:\n- {drum.turn: 90, cable.B: {force: [0, 0, 1]}, ball.turn: -360, steps: 2}\n- "
+        "{}\n");
+    const CpsScene *scene = cps_scene_file_scene(file);
+    const CpsObstacle usual = cps_obstacle_default(), *bed = scene->obstacle, *drum = bed + 1,
+                      *pipe = bed + 2, *ball = bed + 3;
+    assert_int_equal(scene->obstacle_count, 4);
+    assert_int_equal(bed->kind, CPS_OBSTACLE_PLANE);
+    assert_memory_equal(bed->normal, usual.normal, sizeof usual.normal);
+    assert_true(bed->friction == 0.6 && bed->friction_lateral == 0.8 && bed->grain[1] == 2);
+    assert_int_equal(bed->friction_shape, CPS_FRICTION_BOX);
+    assert_string_equal(drum->name, "drum");
+    assert_int_equal(drum->kind, CPS_OBSTACLE_CYLINDER);
+    CHECK_VECTOR(drum->point, ((double[]){1, 2, 3}), 0);
+    CHECK_VECTOR(drum->axis, ((double[]){0, 0, 5}), 0);
+    assert_true(drum->radius == 0.5 && drum->friction == 0.3 &&
+                drum->friction_lateral == usual.friction_lateral);
+    assert_memory_equal(pipe->axis, usual.axis, sizeof usual.axis);
+    assert_memory_equal(pipe->point, usual.point, sizeof usual.point);
+    assert_true(pipe->friction == 0.1 && pipe->friction_lateral == usual.friction_lateral);
+    assert_int_equal(pipe->friction_shape, CPS_FRICTION_ELLIPSE);
+    assert_int_equal(ball->kind, CPS_OBSTACLE_SPHERE);
+    assert_true(ball->radius == 7 && ball->point[1] == 5 && ball->axis[0] == 1 &&
+                ball->friction == 0);
+
+    const CpsStage *stage = scene->stage;
+    assert_int_equal(stage->turn_count, 2);
+    assert_int_equal(stage->change_count, 1);
+    assert_int_equal(stage->turn[0].obstacle, 1);
+    CHECK_NEAR(stage->turn[0].angle, acos(0), 1e-15); /* two roundings */
+    assert_int_equal(stage->turn[1].obstacle, 3);
+    CHECK_NEAR(stage->turn[1].angle, -2 * acos(-1), 1e-15);
+    assert_int_equal(stage[1].turn_count, 0);
+    cps_scene_file_destroy(file);
+}
+
+/* sets in the words of law files, the scene file holds them; stretches of a line */
+static void reads_friction_sets_and_zones(void **state) {
+    (void)state;
+    CpsSceneFile *file = read_good(
+        HEAD
+        "    start: {straight: {from: [0, 0, 50], to: [10, 0, 50]}}\n" ENDS
+        "    friction_zones: [{from: 0, to: 4, factor: 1.5}, {factor: 0, to: 10.0, from: 4.5}]\n"
+        "obstacles:\n"
+        "  bed: {plane: {}, friction: {set: {translate: {by: [0.1, 0], of: {ellipse: [0.6, "
+        "0.3]}}}, grain: [1, 2, 0]}}\n"
+        "  pipe: {cylinder: {radius: 2}, friction: {set: {coulomb: {friction: 0.4, load: 1}}}}\n"
+        "  ball: {sphere: {radius: 3}, friction: 0.2}\n");
+    const CpsScene *scene = cps_scene_file_scene(file);
+    CpsSetAnswer answer;
+    const double along[] = {1, 0}, across[] = {0, 1};
+    assert_int_equal(cps_set_support(scene->obstacle[0].friction_set, along, NULL, &answer, NULL),
+                     CPS_OK);
+    CHECK_NEAR(answer.value, 0.7, 1e-15); /* a rounding or two */
+    assert_int_equal(cps_set_support(scene->obstacle[0].friction_set, across, NULL, &answer, NULL),
+                     CPS_OK);
+    CHECK_NEAR(answer.value, 0.3, 1e-15);
+    assert_true(scene->obstacle[0].grain[1] == 2 && scene->obstacle[0].friction == 0);
+    assert_int_equal(cps_set_support(scene->obstacle[1].friction_set, across, NULL, &answer, NULL),
+                     CPS_OK);
+    CHECK_NEAR(answer.value, 0.4, 1e-15);
+    assert_null(scene->obstacle[2].friction_set);
+    const CpsLine *line = scene->line;
+    assert_int_equal(line->zone_count, 2);
+    assert_true(line->zone[0].from == 0 && line->zone[0].to == 4 && line->zone[0].factor == 1.5);
+    assert_true(line->zone[1].from == 4.5 && line->zone[1].to == 10 && line->zone[1].factor == 0);
+    cps_scene_file_destroy(file);
+
+    /* what was made before a fault is let go (the address sanitizer looks) */
+    CpsError err;
+    const char *bad =
+        HEAD STRAIGHT ENDS "obstacles:\n  a: {plane: {}, friction: {set: {disc: 1}}}\n"
+                           "  b: {plane: {}, friction: {set: {sum: [{disc: 1}, {disc: -1}]}}}\n";
+    assert_int_equal(read_text(bad, NULL, &file, &err), CPS_ERR_INPUT);
+    assert_int_equal(err.line, 11);
+    assert_int_equal(err.column, 53);
+    assert_null(file);
+}
+
+static void reads_graded_elements(void **state) {
+    (void)state;
+    CpsSceneFile *file = read_good(HEAD STRAIGHT ENDS "    elements: [0.5, [3, 4.5], [2, 4], 1]\n");
+    const CpsLine *line = cps_scene_file_scene(file)->line;
+    static const double want[] = {0.5, 1.5, 1.5, 1.5, 2, 2, 1};
+    assert_int_equal(line->elements, 7);
+    for (int i = 0; i < 7; i++)
+        CHECK_NEAR(line->element_length[i], want[i], 1e-15); /* exact in binary */
+    cps_scene_file_destroy(file);
+}
+
+/* a move is counted from where the entry before has put the end, from the start shape at first */
+static void adds_moves(void **state) {
+    (void)state;
+    CpsSceneFile *file =
+        read_good(HEAD STRAIGHT "    ends: {A: fixed, B: fixed}\n"
+                                "history:\n"
+                                "- {cable.B: {move: [-1, 0, 0]}}\n"
+                                "- {cable.B: {move: [0, 2, 0]}, cable.A: {move: [0, 0, 1]}}\n"
+                                "- {cable.B: {position: [5, 5, 5]}}\n"
+                                "- {cable.B: {move: [0, 0, -1]}}\n");
+    const CpsStage *stage = cps_scene_file_scene(file)->stage;
+    CHECK_VECTOR(stage[0].change[0].to.value, ((double[]){9, 0, 0}), 0);
+    CHECK_VECTOR(stage[1].change[0].to.value, ((double[]){9, 2, 0}), 0);
+    CHECK_VECTOR(stage[1].change[1].to.value, ((double[]){0, 0, 1}), 0);
+    CHECK_VECTOR(stage[3].change[0].to.value, ((double[]){5, 5, 4}), 0);
+    cps_scene_file_destroy(file);
+
+    CpsError err;
+    const char *released =
+        HEAD STRAIGHT "    ends: {A: fixed, B: fixed}\n"
+                      "history:\n- {cable.B: {force: [0, 0, 0]}}\n- {cable.B: {move: [0, 2, 0]}}\n";
+    assert_int_equal(read_text(released, NULL, &file, &err), CPS_ERR_INPUT);
+    assert_int_equal(err.line, 11);
+    assert_int_equal(err.column, 14);
+    assert_null(file);
+}
+
+/* the numbers of YAML 1.2's core schema, and what only looks like one */
+static void knows_numbers(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        double value;
+    } GOOD[] = {
+        {"0", 0},     {"-0", 0},     {"+12", 12},         {"1.5", 1.5},         {".5", 0.5},
+        {"5.", 5},    {"1e3", 1000}, {"1E-3", 0.001},     {"-1.e+2", -100},     {"0x1F", 31},
+        {"0o17", 15}, {"012", 12},   {"1e400", INFINITY}, {"-.inf", -INFINITY}, {"+.INF", INFINITY},
+        {"0.1", 0.1}};
+    static const char *const BAD[] = {"",      " 1",   "1 ",       "e3",   "1e",
+                                      "1e+",   ".",    "-",        "--1",  "1.2.3",
+                                      "1_000", "1,5",  "0x",       "0o8",  "0x1g",
+                                      "inf",   "nan",  "infinity", "1d3",  "1f",
+                                      "0b1",   "-0x1", ".infx",    "1:30", "\xef\xbc\x91",
+                                      "0x1p3", "5 m"};
+    for (size_t i = 0; i < sizeof GOOD / sizeof GOOD[0]; i++) {
+        double x = NAN;
+        if (!cpsi_yaml_number(GOOD[i].text, &x)) fail_msg("'%s' is a number", GOOD[i].text);
+        CHECK_NEAR(x, GOOD[i].value, 0);
+    }
+    double x = 0;
+    assert_true(cpsi_yaml_number(".NaN", &x) && isnan(x));
+    for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++)
+        if (cpsi_yaml_number(BAD[i], &x)) fail_msg("'%s' is no number", BAD[i]);
+}
+
+static void keeps_limits(void **state) {
+    (void)state;
+    const char *text = HEAD STRAIGHT ENDS "history: [{steps: 3}, {steps: 3}]\n";
+    CpsSceneFile *file;
+    CpsError err;
+    CpsReadLimits limits = cps_read_limits_default();
+    limits.max_bytes = strlen(text);
+    limits.max_depth = 6;
+    limits.max_elements = 100;
+    limits.max_steps = 6;
+    assert_int_equal(read_text(text, &limits, &file, &err), CPS_OK);
+    cps_scene_file_destroy(file);
+
+    /* one less of each is refused */
+    CpsReadLimits less = limits;
+    less.max_bytes--;
+    assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_LIMIT);
+    less = limits;
+    less.max_depth--;
+    assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_LIMIT);
+    assert_int_equal(err.line, 7);
+    less = limits;
+    less.max_elements--;
+    assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_LIMIT);
+    less = limits;
+    less.max_steps--;
+    assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_LIMIT);
+    less = limits;
+    less.max_depth = 0;
+    assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(read_text(text, NULL, NULL, &err), CPS_ERR_ARGUMENT);
+}
+
+/* a program whose locale has a decimal comma reads the same numbers, and keeps its locale */
+static void ignores_the_locale(void **state) {
+    (void)state;
+    static const char *const COMMA[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "fr_FR"};
+    bool found = false;
+    for (size_t i = 0; i < sizeof COMMA / sizeof COMMA[0] && !found; i++)
+        found = setlocale(LC_NUMERIC, COMMA[i]) != NULL;
+    if (!found) skip();
+    CpsSceneFile *file = read_good(HEAD STRAIGHT ENDS "    elements: [0.5, 9.5]\n");
+    assert_true(cps_scene_file_scene(file)->line->element_length[0] == 0.5);
+    cps_scene_file_destroy(file);
+    char number[16];
+    snprintf(number, sizeof number, "%.1f", 0.5);
+    setlocale(LC_NUMERIC, "C");
+    assert_string_equal(number, "0,5");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reads_defaults),        cmocka_unit_test(reads_every_key),
+        cmocka_unit_test(reads_obstacles),       cmocka_unit_test(reads_friction_sets_and_zones),
+        cmocka_unit_test(reads_graded_elements), cmocka_unit_test(adds_moves),
+        cmocka_unit_test(knows_numbers),         cmocka_unit_test(keeps_limits),
+        cmocka_unit_test(ignores_the_locale),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
