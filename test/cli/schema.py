@@ -20,7 +20,7 @@ import bad_drives  # noqa: E402
 import bad_laws  # noqa: E402
 
 # definitions that scenes share with laws
-OF_SETS = {"set", "contact", "matrix", "pair", "side"}
+OF_SETS = {"set", "contact"}
 EXAMPLES = ["souza-de-cursi-1990.yaml", "souza-de-cursi-1990-half-circle.yaml", "souza-de-cursi-1990-circle.yaml",
             "oc3-hywind-line.yaml", "grooved-slope.yaml", "rough-end.yaml"]
 
@@ -41,45 +41,23 @@ def references(value):
             yield from references(inner)
 
 
-def check_schema(schema, documentation):
-    used = set(references(schema))
-    assert used == {f"#/$defs/{name}" for name in schema["$defs"]}, used
-    definitions = {name: d for name, d in schema["$defs"].items() if "patternProperties" in d}
-    assert set(schema["$defs"]) - set(definitions) == OF_SETS, schema["$defs"].keys()
-    for name, definition in definitions.items():
-        assert definition["additionalProperties"] is False, name
-        assert set(definition["required"]) <= set(definition["properties"]), name
-        for key, row in definition["properties"].items():
-            assert row["description"], key
-            assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of {name}"
-    for pattern in (p for d in definitions.values() for p in d["patternProperties"]):
-        example = "cable.B" if "AB" in pattern else "drum.turn" if "turn" in pattern else "cable"
-        assert re.match(pattern, example) and not re.match(pattern, "9"), pattern
-
-
-def check_law_schema(schema, documentation):
+def check_definitions(schema, documentation):
+    """every definition is used and is a mapping with keys, each of which is described here and in docs/formats.md"""
     definitions = schema["$defs"]
     assert set(references(schema)) == {f"#/$defs/{name}" for name in definitions}, set(references(schema))
-    described = [schema, definitions["contact"], definitions["set"], definitions["term"]]
-    described += [word for name in ("set", "term") for word in definitions[name]["properties"].values() if "properties" in word]
-    for mapping in described:
-        assert mapping["additionalProperties"] is False and mapping["properties"], mapping
-        for key, row in mapping["properties"].items():
-            assert row["description"], key
-            assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of laws"
-
-
-def check_drive_schema(schema, documentation):
-    """one mapping each: the file, the definitions that are mappings with keys, and the words of laws, checked above"""
-    definitions = schema["$defs"]
-    assert set(references(schema)) == {f"#/$defs/{name}" for name in definitions}, set(references(schema))
-    mappings = {name: d for name, d in definitions.items() if "properties" in d and name not in OF_SETS | {"term"}}
-    assert len(mappings) > 20, mappings.keys()
-    for name, mapping in {"file": schema, **mappings}.items():
-        assert mapping["additionalProperties"] is False and set(mapping["required"]) <= set(mapping["properties"]), name
-        for key, row in mapping["properties"].items():
+    mappings = dict(definitions)
+    for name, mapping in definitions.items():  # the words of laws that have keys
+        mappings |= {f"{name} {word}": row for word, row in mapping.get("properties", {}).items() if "properties" in row}
+    for name, mapping in mappings.items():
+        assert mapping["additionalProperties"] is False and mapping.keys() & {"properties", "patternProperties"}, name
+        assert set(mapping.get("required", [])) <= set(mapping["properties"] if "properties" in mapping else []), name
+        for key, row in mapping.get("properties", {}).items():
             assert row["description"], (name, key)
             assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of {name}"
+        for pattern, row in mapping.get("patternProperties", {}).items():
+            example = "cable.B" if "A|B" in pattern else "drum.turn" if "turn" in pattern else "cable"
+            assert row["description"] and re.match(pattern, example) and not re.match(pattern, "9"), (name, pattern)
+    return mappings
 
 
 def core_loader():
@@ -165,7 +143,8 @@ def main():
     with open(os.path.join(source, "docs", "formats.md")) as f:
         documentation = f.read()
     schema = json.loads(output(capstan, "schema"))
-    check_schema(schema, documentation)
+    scenes = check_definitions(schema, documentation)
+    assert OF_SETS < set(scenes) and sum("patternProperties" in mapping for mapping in scenes.values()) == 3, scenes.keys()
 
     folder = os.path.join(source, "examples")
     found = {os.path.basename(path) for path in glob.glob(os.path.join(folder, "*.yaml"))}
@@ -175,11 +154,11 @@ def main():
     check_validation(schema, folder)
 
     law_schema = json.loads(output(capstan, "schema", "law"))
-    check_law_schema(law_schema, documentation)
+    assert {"file", "set", "contact", "term"} < set(check_definitions(law_schema, documentation))
     laws = check_words_validation(law_schema, os.path.join(folder, "laws"), [case[:2] for case in bad_laws.CASES],
                                   bad_laws.BEYOND_A_SCHEMA)
     drive_schema = json.loads(output(capstan, "schema", "drive"))
-    check_drive_schema(drive_schema, documentation)
+    assert len(set(check_definitions(drive_schema, documentation)) - OF_SETS - {"term"}) > 20, drive_schema["$defs"].keys()
     drives = check_words_validation(drive_schema, os.path.join(folder, "drive"), [case[:2] for case in bad_drives.FILES],
                                     bad_drives.BEYOND_A_SCHEMA)
     assert output(capstan, "schema") == output(capstan, "schema", "scene")

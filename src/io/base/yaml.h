@@ -18,13 +18,11 @@ typedef enum CpsiYamlKind { CPSI_YAML_SCALAR, CPSI_YAML_SEQUENCE, CPSI_YAML_MAPP
 
 typedef struct CpsiYaml {
     CpsiYamlKind kind;
-    bool plain;       /* scalar: written without quotes */
-    int line, column; /* of the value, from 1; in a mapping: of its key */
-    int count;        /* children */
-    const char *key;  /* in a mapping, else NULL */
-    const char *text; /* scalar, else NULL */
-    double
-        number; /* scalar: left by the validation (validate.h): its number, or which word it is */
+    bool plain;                    /* scalar: written without quotes */
+    int line, column;              /* of the value, from 1; in a mapping: of its key */
+    int count;                     /* children */
+    const char *key;               /* in a mapping, else NULL */
+    const char *text;              /* scalar, else NULL */
     struct CpsiYaml *child, *next; /* first child; next of the same parent */
 } CpsiYaml;
 

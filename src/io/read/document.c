@@ -2,16 +2,21 @@
 /* Bytes -> tree (yaml.h) -> what is built of it (see document.h). */
 #include "io/read/document.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "io/base/numbers.h"
 #include "io/base/read_file.h"
+#include "io/schema/keys.h"
 
 CpsReadLimits cps_read_limits_default(void) {
-    return (CpsReadLimits){
-        .max_bytes = (size_t)64 << 20, .max_depth = 64, .max_elements = 10000000, .max_steps = 1000000};
+    return (CpsReadLimits){.max_bytes = (size_t)64 << 20,
+                           .max_depth = 64,
+                           .max_elements = 10000000,
+                           .max_steps = 1000000};
 }
 
 static CpsStatus parse(CpsiDocument *d, CpsiFileKind kind) {
@@ -20,20 +25,25 @@ static CpsStatus parse(CpsiDocument *d, CpsiFileKind kind) {
     char *bytes = NULL;
     size_t size = 0;
     CpsiYaml *root = NULL;
-    CpsStatus status = cpsi_read_file(d->path, d->name, d->limits->max_bytes, &bytes, &size, d->err);
+    CpsStatus status =
+        cpsi_read_file(d->path, d->name, d->limits->max_bytes, &bytes, &size, d->err);
     if (status == CPS_OK)
-        status = cpsi_yaml_parse(d->name, WHAT[kind], bytes, size, d->limits->max_depth, d->pool, &root, d->err);
+        status = cpsi_yaml_parse(d->name, WHAT[kind], bytes, size, d->limits->max_depth, d->pool,
+                                 &root, d->err);
     free(bytes);
     d->root = root;
     return status ? status : cpsi_file_expect(d->name, root, kind, d->err);
 }
 
-CpsStatus cpsi_document_read(const char *path, const CpsReadLimits *limits, CpsiFileKind kind, CpsiPool *pool,
-                             CpsStatus (*build)(const CpsiDocument *document, void *out), void *out, CpsError *err) {
+CpsStatus cpsi_document_read(const char *path, const CpsReadLimits *limits, CpsiFileKind kind,
+                             CpsiPool *pool,
+                             CpsStatus (*build)(const CpsiDocument *document, void *out), void *out,
+                             CpsError *err) {
     const CpsReadLimits defaults = cps_read_limits_default();
     if (!limits) limits = &defaults;
     if (limits->max_depth < 1 || limits->max_elements < 1 || limits->max_steps < 1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "limits are not positive: start from cps_read_limits_default()");
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "limits are not positive: start from cps_read_limits_default()");
     CpsiNumbers numbers;
     if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     CpsiDocument document = {.path = path,
@@ -45,4 +55,33 @@ CpsStatus cpsi_document_read(const char *path, const CpsReadLimits *limits, Cpsi
     if (status == CPS_OK) status = build(&document, out);
     cpsi_numbers_end(&numbers);
     return status;
+}
+
+CpsStatus cpsi_document_fail(const CpsiDocument *d, CpsStatus status, const CpsiYaml *node,
+                             const char *format, ...) {
+    char message[sizeof d->err->message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    return cpsi_fail_at(d->err, status, d->name, node->line, node->column, "%s", message);
+}
+
+CpsStatus cpsi_document_wrong(const CpsiDocument *d, const CpsiYaml *node, const char *what,
+                              const char *expected) {
+    return cpsi_key_wrong(d->name, node, what, expected, d->err);
+}
+
+CpsStatus cpsi_document_place(const CpsiDocument *d, const CpsiYaml *node, const CpsError *found) {
+    const CpsStatus status = found->status == CPS_ERR_ARGUMENT ? CPS_ERR_INPUT : found->status;
+    const char *message = found->message;
+    if (found->line > 0)
+        return cpsi_fail_at(d->err, status, d->name, found->line, found->column, "%s", message);
+    if (!node->key) return cpsi_document_fail(d, status, node, "%s", message);
+    return cpsi_document_fail(d, status, node, "'%.64s': %s", node->key, message);
+}
+
+CpsStatus cpsi_document_no_memory(const CpsiDocument *d) {
+    return cpsi_fail_at(d->err, CPS_ERR_MEMORY, d->name, 0, 0,
+                        "out of memory while reading the file");
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* `body:` and `vehicle:` of a file of driven systems: patches or wheels, what is pushed, and a tow. */
+/* `body:` and `vehicle:` of a file of driven systems: patches or wheels, what is pushed, and a tow.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -8,166 +9,125 @@
 
 /* ---- patches ---- */
 
-static CpsStatus read_brake(CpsiDriveRead *r, const CpsiYaml *node, double *brake) {
-    if (node->kind == CPSI_YAML_SCALAR && strcmp(node->text, "locked") == 0) return *brake = INFINITY, CPS_OK;
-    double x = NAN;
-    if (node->kind == CPSI_YAML_SCALAR && node->plain && cpsi_yaml_number(node->text, &x) && x >= 0 && x <= 1e100)
-        return *brake = x, CPS_OK;
-    return cpsi_drive_wrong(r, node, "'brake'", "a torque of at least 0 in N m, or 'locked'");
-}
-
-/* the corners, law or brake of a patch whose numbers are read */
-static CpsStatus read_parts(CpsiDriveRead *r, const CpsiYaml *node, const CpsiPatchKeys *keys, CpsPatch *patch) {
-    static const char NEEDS[] = "'friction' and 'load', or 'law' without them";
-    CpsStatus status = CPS_OK;
-    if (keys->brake) status = read_brake(r, keys->brake, &patch->brake);
-    if (status == CPS_OK && keys->corners)
-        status = cpsi_drive_rows(r, keys->corners, "'corners'", 2, 3, &patch->corner_count, &patch->corner);
-    CpsLaw *own = NULL;
-    if (status == CPS_OK && keys->law) status = cpsi_drive_law(r, keys->law, &own);
-    patch->law = own;
+/* the law of a point, or its friction and load */
+static CpsStatus build_patch(CpsiSetBuild *b, const CpsiPatchValues *values, CpsPatch *patch) {
+    CpsLaw *law = NULL;
+    *patch = values->patch;
+    if (values->locked == 0) patch->brake = INFINITY;
+    patch->corner = values->corners.x;
+    patch->corner_count = values->corners.rows;
+    const CpsStatus status = values->law ? cpsi_build_law(b, values->law, &law) : CPS_OK;
+    patch->law = law;
     const bool load = !isnan(patch->load), friction = !isnan(patch->friction);
-    if (status == CPS_OK && (keys->law ? load || friction : !load || !friction))
-        return cpsi_drive_wrong(r, node, "'point'", NEEDS);
-    if (keys->law) patch->load = patch->friction = 0;
+    if (status == CPS_OK && (law ? load || friction : !load || !friction))
+        return cpsi_document_wrong(b->d, values->node->child, "'point'",
+                                   "'friction' and 'load', or 'law' without them");
+    if (law) patch->load = patch->friction = 0;
     return status;
 }
 
-static CpsStatus read_patch(CpsiDriveRead *r, const CpsiYaml *node, CpsPatchKind kind, CpsPatch *patch) {
-    CpsiPatchKeys keys = {.patch = {.kind = kind}};
-    /* not given, unless they are read; every other kind needs them */
-    if (kind == CPS_PATCH_POINT) keys.patch.friction = keys.patch.load = NAN;
-    const CpsStatus status = cpsi_drive_fields(r, node, (CpsiDriveMapping)(CPSI_DRIVE_PATCH + (int)kind), &keys);
-    *patch = keys.patch;
-    return status ? status : read_parts(r, node, &keys, patch);
-}
-
-/* {KIND: {..}} */
-static CpsStatus read_kind(CpsiDriveRead *r, const CpsiYaml *node, CpsPatch *patch) {
-    if (node->kind == CPSI_YAML_MAPPING && node->count == 1)
-        for (int k = CPS_PATCH_POINT; k <= CPS_PATCH_POLYGON; k++)
-            if (strcmp(node->child->key, cpsi_drive_word((CpsiDriveMapping)(CPSI_DRIVE_PATCH + k))->alias) == 0)
-                return read_patch(r, node->child, (CpsPatchKind)k, patch);
-    return cpsi_drive_wrong(r, node, "patch",
-                            "one of point, wheel, rod, ring, disc, polygon with its keys, as in "
-                            "{disc: {radius: 1, friction: 0.5, load: 10}}");
-}
-
 /* A patch that the library rejects is reported at its own line. */
-static CpsStatus check_patch(CpsiDriveRead *r, const CpsiYaml *node, const CpsPatch *patch) {
+static CpsStatus check_patch(const CpsiDocument *d, const CpsiYaml *node, const CpsPatch *patch) {
     CpsError found;
-    return cps_patch_check(patch, &found) == CPS_OK ? CPS_OK : cpsi_drive_place(r, node, &found);
+    return cps_patch_check(patch, &found) == CPS_OK ? CPS_OK : cpsi_document_place(d, node, &found);
 }
 
-static CpsStatus read_patches(CpsiDriveRead *r, const CpsiYaml *node, bool wheels, CpsDriveBody *out) {
-    if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
-        return cpsi_drive_wrong(r, node, wheels ? "'wheels'" : "'patches'",
-                                wheels ? "a list of wheels, as in [{radius: 0.3, friction: 0.8, load: 4000}]"
-                                       : "a list of patches, as in [{disc: {radius: 1, friction: 0.5, load: 10}}]");
-    CpsPatch *patch = CPSI_POOL_TAKE(r->build.file.pool, node->count, CpsPatch);
-    if (!patch) return cpsi_drive_no_memory(r);
+static CpsStatus build_patches(CpsiSetBuild *b, const CpsiList *list, CpsDriveBody *out) {
+    const CpsiPatchValues *values = list->item;
+    CpsPatch *patch = CPSI_POOL_TAKE(b->d->pool, list->count, CpsPatch);
+    if (!patch) return cpsi_document_no_memory(b->d);
     CpsStatus status = CPS_OK;
     out->patch = patch;
-    for (const CpsiYaml *item = node->child; item && status == CPS_OK; item = item->next) {
-        CpsPatch *next = &patch[out->patches++];
-        status = wheels ? read_patch(r, item, CPS_PATCH_WHEEL, next) : read_kind(r, item, next);
-        if (status == CPS_OK) status = check_patch(r, item, next);
+    for (int i = 0; i < list->count && status == CPS_OK; i++) {
+        out->patches++;
+        status = build_patch(b, &values[i], &patch[i]);
+        if (out->vehicle) patch[i].kind = CPS_PATCH_WHEEL;
+        if (status == CPS_OK) status = check_patch(b->d, values[i].node, &patch[i]);
     }
     CpsError found;
     if (status == CPS_OK && cps_planar_create(out->patches, patch, &out->planar, &found) != CPS_OK)
-        status = cpsi_drive_place(r, node, &found);
+        status = cpsi_document_place(b->d, list->node, &found);
     return status;
 }
 
 /* ---- pushes ---- */
 
-/* the rows of the velocity of a point in body axes, (1, 0, -y) and (0, 1, x), along `normal` or both */
+/* the rows of the velocity of a point in body axes, (1, 0, -y) and (0, 1, x), along `normal` or
+ * both */
 static void point_rows(const double at[2], const double *normal, CpsDrivePush *push) {
     const double row[2][3] = {{1, 0, -at[1]}, {0, 1, at[0]}};
     for (int k = 0; k < 3; k++) {
-        if (normal)
-            push->map[k] = normal[0] * row[0][k] + normal[1] * row[1][k];
-        else
-            push->map[k] = row[0][k], push->map[3 + k] = row[1][k];
+        push->map[k] = normal ? normal[0] * row[0][k] + normal[1] * row[1][k] : row[0][k];
+        if (!normal) push->map[3 + k] = row[1][k];
     }
 }
 
-static CpsStatus read_push(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePush *push) {
-    CpsiPushKeys keys = {.at = {NAN}, .velocity = {NAN}, .normal = {NAN}, .speed = NAN, .twist = {NAN}};
-    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PUSH, &keys);
-    if (status != CPS_OK) return status;
-    const double *at = keys.at, *velocity = keys.velocity, *twist = keys.twist, speed = keys.speed;
-    double *normal = keys.normal;
-    const bool has_at = !isnan(at[0]), both = !isnan(velocity[0]), one = !isnan(normal[0]) && !isnan(speed);
-    const bool partial = isnan(normal[0]) != isnan(speed);
+static CpsStatus build_push(const CpsiDocument *d, const CpsiPushValues *values,
+                            CpsDrivePush *push) {
+    const double *at = values->at, *velocity = values->velocity, speed = values->speed;
+    double normal[2] = {values->normal[0], values->normal[1]};
+    const bool has_at = !isnan(at[0]), both = !isnan(velocity[0]), turn = !isnan(values->twist[0]);
+    const bool one = !isnan(normal[0]) && !isnan(speed), partial = isnan(normal[0]) != isnan(speed);
     *push = (CpsDrivePush){.at_point = has_at, .point = {at[0], at[1]}};
-    if (!isnan(twist[0]) && !has_at && !both && !one && !partial) {
+    if (turn && !has_at && !both && !one && !partial) {
         push->rows = 3;
         push->map[0] = push->map[4] = push->map[8] = 1;
-        memcpy(push->velocity, twist, sizeof keys.twist);
+        memcpy(push->velocity, values->twist, sizeof values->twist);
         return CPS_OK;
     }
-    if (!isnan(twist[0]) || !has_at || both == one || partial)
-        return cpsi_drive_wrong(r, node, "push", "{at, velocity}, {at, normal, speed} or {twist}");
+    if (turn || !has_at || both == one || partial)
+        return cpsi_document_wrong(d, values->node, "push",
+                                   "{at, velocity}, {at, normal, speed} or {twist}");
     const double length = hypot(normal[0], normal[1]);
-    if (one && !(length > 0)) return cpsi_drive_wrong(r, node, "push", "a 'normal' that is not 0");
-    if (one) normal[0] /= length, normal[1] /= length;
+    if (one && !(length > 0))
+        return cpsi_document_wrong(d, values->node, "push", "a 'normal' that is not 0");
+    for (int k = 0; k < 2 && one; k++) normal[k] /= length;
     point_rows(at, one ? normal : NULL, push);
     push->rows = one ? 1 : 2;
     for (int k = 0; k < 2; k++) push->way[k] = one ? speed * normal[k] : velocity[k];
-    push->velocity[0] = one ? speed : velocity[0], push->velocity[1] = one ? 0 : velocity[1];
+    push->velocity[0] = one ? speed : velocity[0];
+    push->velocity[1] = one ? 0 : velocity[1];
     return CPS_OK;
 }
 
-static CpsStatus read_pushes(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBody *out) {
-    if (node->kind != CPSI_YAML_SEQUENCE || node->count < 1)
-        return cpsi_drive_wrong(r, node, "'push'", "a list of pushes, as in [{at: [1, 0], velocity: [0, 1]}]");
-    CpsDrivePush *push = CPSI_POOL_TAKE(r->build.file.pool, node->count, CpsDrivePush);
-    if (!push) return cpsi_drive_no_memory(r);
+static CpsStatus build_pushes(const CpsiDocument *d, const CpsiList *list, CpsDriveBody *out) {
+    const CpsiPushValues *values = list->item;
+    CpsDrivePush *push = CPSI_POOL_TAKE(d->pool, list->count, CpsDrivePush);
+    if (!push) return cpsi_document_no_memory(d);
     CpsStatus status = CPS_OK;
     out->push = push;
-    for (const CpsiYaml *item = node->child; item && status == CPS_OK; item = item->next)
-        status = read_push(r, item, &push[out->pushes++]);
+    out->pushes = list->count;
+    for (int i = 0; i < list->count && status == CPS_OK; i++)
+        status = build_push(d, &values[i], &push[i]);
     return status;
 }
 
 /* ---- tow ---- */
 
-static CpsStatus read_tow(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveTow *out) {
-    CpsiTowKeys keys = {.end = {NAN}};
-    CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_TOW, &keys);
-    if (status != CPS_OK) return status;
-    out->start = keys.start, out->steps = keys.steps;
+static CpsStatus build_tow(const CpsiDocument *d, const CpsiTowValues *values, CpsDriveTow *out) {
+    out->start = values->start;
+    out->steps = values->steps;
     CpsTow *tow = &out->start;
-    const double *end = keys.end;
+    const double *end = values->end;
     const double c = cos(tow->pose[2]), s = sin(tow->pose[2]);
     const double hitch[2] = {tow->pose[0] + c * tow->hitch[0] - s * tow->hitch[1],
                              tow->pose[1] + s * tow->hitch[0] + c * tow->hitch[1]};
     if ((tow->rope > 0) != !isnan(end[0]))
-        return cpsi_drive_wrong(r, node, "tow", "'rope' (its length) and 'end' (where its far end is) together or not");
+        return cpsi_document_wrong(
+            d, values->node, "'tow'",
+            "'rope' (its length) and 'end' (where its far end is) together or not");
     if (tow->rope > 0 && !(hypot(end[0] - hitch[0], end[1] - hitch[1]) <= tow->rope * (1 + 1e-9)))
-        return cpsi_drive_wrong(r, node, "tow", "an 'end' no farther from the hitch than the rope is long");
+        return cpsi_document_wrong(d, values->node, "'tow'",
+                                   "an 'end' no farther from the hitch than the rope is long");
     memcpy(tow->end, tow->rope > 0 ? end : hitch, sizeof tow->end);
-    status = cpsi_drive_read_path(r, keys.path, 2, tow->end, out->steps, &out->points, &out->path);
-    return status;
+    return cpsi_build_path(d, &values->path, 2, tow->end, out->steps, &out->points, &out->path);
 }
 
-/* ---- together ---- */
-
-static CpsStatus read_whole(CpsiDriveRead *r, const CpsiYaml *node, bool vehicle, CpsDriveBody *out) {
-    CpsiBodyKeys keys = {.patches = NULL};
+CpsStatus cpsi_build_body(CpsiSetBuild *b, const CpsiBodyValues *values, bool vehicle,
+                          CpsDriveBody *out) {
     out->vehicle = vehicle;
-    CpsStatus status = cpsi_drive_fields(r, node, vehicle ? CPSI_DRIVE_VEHICLE : CPSI_DRIVE_BODY, &keys);
-    if (status == CPS_OK) status = read_patches(r, keys.patches, vehicle, out);
-    if (status == CPS_OK && keys.push) status = read_pushes(r, keys.push, out);
-    if (status == CPS_OK && keys.tow) status = read_tow(r, keys.tow, &out->tow);
+    CpsStatus status = build_patches(b, &values->patches, out);
+    if (status == CPS_OK && values->pushes.node) status = build_pushes(b->d, &values->pushes, out);
+    if (status == CPS_OK && values->tow.node) status = build_tow(b->d, &values->tow, &out->tow);
     return status;
-}
-
-CpsStatus cpsi_drive_read_body(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBody *out) {
-    return read_whole(r, node, false, out);
-}
-
-CpsStatus cpsi_drive_read_vehicle(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBody *out) {
-    return read_whole(r, node, true, out);
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Read a file of driven systems: bytes -> tree (yaml.h) -> the kind that its key names. */
+/* Read a file of driven systems: bytes -> tree (yaml.h) -> values by the table of keys
+ * (key_reader.h) -> the kind that its key names. */
 #include "io/read/drive_file.h"
 
 #include <stdlib.h>
 
 #include "base/status.h"
-#include "io/read/document.h"
+#include "io/read/key_reader.h"
 
 /* The file and what its texts and arrays live in. */
 typedef struct Keep {
@@ -24,56 +25,43 @@ void cps_drive_file_destroy(CpsDriveFile *file) {
     free(keep);
 }
 
-static CpsStatus read_kind(CpsiDriveRead *r, const CpsiYaml *root, CpsDriveFile *out) {
-    enum { SYSTEM, BODY, VEHICLE, PLANIMETER, ROPE, SWEEP, KINDS };
-    CpsiFileKeys keys = {.title = ""};
-    static const CpsDriveKind KIND[KINDS] = {CPS_DRIVE_SYSTEM,     CPS_DRIVE_BODY, CPS_DRIVE_BODY,
-                                             CPS_DRIVE_PLANIMETER, CPS_DRIVE_ROPE, CPS_DRIVE_SWEEP};
-    const CpsiLawFile *f = &r->build.file;
-    const CpsStatus status = cpsi_drive_fields(r, root, CPSI_DRIVE_FILE, &keys);
-    if (status != CPS_OK) return status;
-    out->title = keys.title;
-    const CpsiYaml *const kind[KINDS] = {keys.system, keys.body, keys.vehicle, keys.planimeter, keys.rope, keys.sweep};
-    int given = 0, which = 0;
-    for (int k = 0; k < KINDS; k++)
-        if (kind[k]) given++, which = k;
-    if (given != 1)
-        return cpsi_fail_at(f->err, CPS_ERR_INPUT, f->name, root->line, root->column,
-                            "drive file: %s given, expected exactly one of 'system', 'body', 'vehicle', 'planimeter', "
-                            "'rope', 'sweep'",
-                            given ? "more than one" : "none");
-    out->kind = KIND[which];
-    switch (which) {
-    case SYSTEM:
-        return cpsi_drive_read_system(r, kind[which], &out->system);
-    case BODY:
-        return cpsi_drive_read_body(r, kind[which], &out->body);
-    case VEHICLE:
-        return cpsi_drive_read_vehicle(r, kind[which], &out->body);
-    case PLANIMETER:
-        return cpsi_drive_read_planimeter(r, kind[which], &out->planimeter);
-    case ROPE:
-        return cpsi_drive_read_rope(r, kind[which], &out->rope);
-    default:
-        return cpsi_drive_read_sweep(r, kind[which], &out->sweep);
+static CpsStatus build_kind(CpsiSetBuild *b, const CpsiDriveValues *values, CpsDriveFile *out) {
+    static const CpsDriveKind KIND[] = {
+        [CPSI_DRIVE_SYSTEM] = CPS_DRIVE_SYSTEM, [CPSI_DRIVE_BODY] = CPS_DRIVE_BODY,
+        [CPSI_DRIVE_VEHICLE] = CPS_DRIVE_BODY,  [CPSI_DRIVE_PLANIMETER] = CPS_DRIVE_PLANIMETER,
+        [CPSI_DRIVE_ROPE] = CPS_DRIVE_ROPE,     [CPSI_DRIVE_SWEEP] = CPS_DRIVE_SWEEP,
+    };
+    out->title = values->title;
+    out->kind = KIND[values->kind];
+    switch ((CpsiDriveKind)values->kind) {
+    case CPSI_DRIVE_SYSTEM: return cpsi_build_system(b, &values->system, &out->system);
+    case CPSI_DRIVE_BODY: return cpsi_build_body(b, &values->body, false, &out->body);
+    case CPSI_DRIVE_VEHICLE: return cpsi_build_body(b, &values->vehicle, true, &out->body);
+    case CPSI_DRIVE_PLANIMETER:
+        return cpsi_build_planimeter(b, &values->planimeter, &out->planimeter);
+    case CPSI_DRIVE_ROPE: return cpsi_build_rope(b, &values->rope, &out->rope);
+    default: return cpsi_build_sweep(b, &values->sweep, &out->sweep);
     }
 }
 
 static CpsStatus build(const CpsiDocument *d, void *out) {
-    CpsiDriveRead r = {.build = {.file = {.name = d->name, .pool = d->pool, .err = d->err}},
-                       .path = d->path,
-                       .max_bytes = d->limits->max_bytes};
-    return read_kind(&r, d->root, out);
+    CpsiSetBuild b = {.d = d};
+    CpsiDriveValues values = {.node = NULL};
+    const CpsStatus status =
+        cpsi_read_mapping(d, d->root, &cpsi_drive_file, cpsi_drive_file.name, &values);
+    return status ? status : build_kind(&b, &values, out);
 }
 
-CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out, CpsError *err) {
+CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out,
+                         CpsError *err) {
     if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
     *out = NULL;
     CpsError unused;
     if (!err) err = &unused;
     Keep *keep = calloc(1, sizeof *keep);
     if (!keep) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const CpsStatus status = cpsi_document_read(path, limits, CPSI_FILE_DRIVE, &keep->pool, build, &keep->file, err);
+    const CpsStatus status =
+        cpsi_document_read(path, limits, CPSI_FILE_DRIVE, &keep->pool, build, &keep->file, err);
     if (status == CPS_OK)
         *out = &keep->file;
     else

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The kinds of file that drive_file.c reads, one function each; what they make is let go with the file, also on
- * failure. */
+/* The kinds of driven system made of their values, one function each; what they make is let go with
+ * the file, also on failure. */
 #ifndef CAPSTAN_SRC_IO_READ_DRIVE_FILE_H
 #define CAPSTAN_SRC_IO_READ_DRIVE_FILE_H
 
 #include "capstan/drive_io.h"
-#include "io/read/drive_fields.h"
+#include "io/read/set_build.h"
+#include "io/schema/drive_keys.h"
 
-CpsStatus cpsi_drive_read_system(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSystem *out);
-CpsStatus cpsi_drive_read_body(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBody *out);
-CpsStatus cpsi_drive_read_vehicle(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveBody *out);
-CpsStatus cpsi_drive_read_planimeter(CpsiDriveRead *r, const CpsiYaml *node, CpsDrivePlanimeter *out);
-CpsStatus cpsi_drive_read_rope(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveRope *out);
-CpsStatus cpsi_drive_read_sweep(CpsiDriveRead *r, const CpsiYaml *node, CpsDriveSweep *out);
+CpsStatus cpsi_build_system(CpsiSetBuild *b, const CpsiSystemValues *values, CpsDriveSystem *out);
+CpsStatus cpsi_build_body(CpsiSetBuild *b, const CpsiBodyValues *values, bool vehicle,
+                          CpsDriveBody *out);
+CpsStatus cpsi_build_planimeter(CpsiSetBuild *b, const CpsiPlanimeterValues *values,
+                                CpsDrivePlanimeter *out);
+CpsStatus cpsi_build_rope(CpsiSetBuild *b, const CpsiRopeValues *values, CpsDriveRope *out);
+CpsStatus cpsi_build_sweep(CpsiSetBuild *b, const CpsiSweepValues *values, CpsDriveSweep *out);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A table of nodes as CSV (see node_file.h). Cells are cut in place, so that messages know their columns. */
+/* A table of nodes as CSV (see node_file.h). Cells are cut in place, so that messages know their
+ * columns. */
 #include "io/read/node_file.h"
 
 #include <math.h>
@@ -14,27 +15,37 @@ enum { ARC_LENGTH, X, Y, Z, TENSION, REACTION, FRICTION_BOUND, COLUMNS };
 
 static const struct {
     const char *name, *unit;
-} COLUMN[COLUMNS] = {[ARC_LENGTH] = {"arc_length", "m"}, [X] = {"x", "m"}, [Y] = {"y", "m"}, [Z] = {"z", "m"},
-                     [TENSION] = {"tension", "N"}, [REACTION] = {"reaction", "N"}, [FRICTION_BOUND] = {"friction_bound", "N"}};
+} COLUMN[COLUMNS] = {[ARC_LENGTH] = {"arc_length", "m"},
+                     [X] = {"x", "m"},
+                     [Y] = {"y", "m"},
+                     [Z] = {"z", "m"},
+                     [TENSION] = {"tension", "N"},
+                     [REACTION] = {"reaction", "N"},
+                     [FRICTION_BOUND] = {"friction_bound", "N"}};
 
-static const char NAMES[] = "x, y, z and, where they are known, arc_length, tension, reaction or friction_bound";
+static const char NAMES[] =
+    "x, y, z and, where they are known, arc_length, tension, reaction or friction_bound";
 
 typedef struct Table {
     const char *path;
     CpsError *err;
-    int line;             /* of the file, from 1 */
-    int columns;          /* found */
-    int column[COLUMNS];  /* what the k-th of them is */
+    int line;            /* of the file, from 1 */
+    int columns;         /* found */
+    int column[COLUMNS]; /* what the k-th of them is */
     bool has[COLUMNS];
     int rows;
     double *value[COLUMNS]; /* (rows) each, NULL: not there */
 } Table;
 
-static CpsStatus no_memory(const Table *t) { return cpsi_fail_at(t->err, CPS_ERR_MEMORY, t->path, 0, 0, "out of memory while reading the nodes"); }
+static CpsStatus no_memory(const Table *t) {
+    return cpsi_fail_at(t->err, CPS_ERR_MEMORY, t->path, 0, 0,
+                        "out of memory while reading the nodes");
+}
 
 /* ---- cells ---- */
 
-/* Cut `text` at commas: at most `room` cells without blanks around them. Returns how many there are, room + 1 if more. */
+/* Cut `text` at commas: at most `room` cells without blanks around them. Returns how many there
+ * are, room + 1 if more. */
 static int cut(char *text, char **cell, int room) {
     int count = 0;
     for (char *next = text; next;) {
@@ -58,22 +69,28 @@ static CpsStatus read_names(Table *t, char *text) {
         while (c < COLUMNS && strcmp(COLUMN[c].name, cell[k]) != 0) c++;
         const int place = (int)(cell[k] - text) + 1;
         if (c == COLUMNS)
-            return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, place, "found the column '%.40s', expected a line of names: %s", cell[k],
+            return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, place,
+                                "found the column '%.40s', expected a line of names: %s", cell[k],
                                 NAMES);
-        if (t->has[c]) return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, place, "the column '%s' is given twice", cell[k]);
+        if (t->has[c])
+            return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, place,
+                                "the column '%s' is given twice", cell[k]);
         t->has[c] = true;
         t->column[k] = c;
     }
     t->columns = count;
     if (count > COLUMNS || !t->has[X] || !t->has[Y] || !t->has[Z])
-        return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, 1, "found other columns than expected: %s", NAMES);
+        return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, 1,
+                            "found other columns than expected: %s", NAMES);
     if (!t->has[REACTION] || !t->has[FRICTION_BOUND]) return CPS_OK;
-    return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, 1, "found reaction and friction_bound, expected one of them: A = mu R");
+    return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, 1,
+                        "found reaction and friction_bound, expected one of them: A = mu R");
 }
 
 static bool are_units(const Table *t, char *const *cell, int count) {
     bool units = count == t->columns;
-    for (int k = 0; k < count && units; k++) units = strcmp(cell[k], COLUMN[t->column[k]].unit) == 0;
+    for (int k = 0; k < count && units; k++)
+        units = strcmp(cell[k], COLUMN[t->column[k]].unit) == 0;
     return units;
 }
 
@@ -82,15 +99,20 @@ static CpsStatus read_row(Table *t, char *text) {
     const int count = cut(text, cell, t->columns);
     if (t->rows == 0 && are_units(t, cell, count)) return CPS_OK;
     if (count != t->columns)
-        return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, 1, "found %s%d cells, expected %d as in the line of names",
-                            count > t->columns ? "more than " : "", count > t->columns ? t->columns : count, t->columns);
+        return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, 1,
+                            "found %s%d cells, expected %d as in the line of names",
+                            count > t->columns ? "more than " : "",
+                            count > t->columns ? t->columns : count, t->columns);
     for (int k = 0; k < count; k++) {
         const int c = t->column[k];
         const bool none = c == TENSION && t->rows == 0; /* no element ends at end A */
         double x = 0;
         if (none ? *cell[k] != '\0' : !cpsi_yaml_number(cell[k], &x) || !(fabs(x) <= 1e100))
-            return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, (int)(cell[k] - text) + 1, "%s: found '%.40s', expected %s%s", COLUMN[c].name,
-                                cell[k], none ? "nothing: no element ends at the first node" : "a number in ", none ? "" : COLUMN[c].unit);
+            return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, (int)(cell[k] - text) + 1,
+                                "%s: found '%.40s', expected %s%s", COLUMN[c].name, cell[k],
+                                none ? "nothing: no element ends at the first node"
+                                     : "a number in ",
+                                none ? "" : COLUMN[c].unit);
         t->value[c][t->rows] = x;
     }
     t->rows++;
@@ -118,7 +140,9 @@ static CpsStatus read_lines(Table *t, char *bytes, CpsiPool *pool) {
         }
     }
     if (status == CPS_OK && t->rows < 2)
-        status = cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, 0, 0, "found %d nodes, expected at least 2 below a line of names: %s", t->rows, NAMES);
+        status = cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, 0, 0,
+                              "found %d nodes, expected at least 2 below a line of names: %s",
+                              t->rows, NAMES);
     return status;
 }
 
@@ -127,25 +151,28 @@ static CpsStatus check_arc_length(const Table *t) {
     const double *a = t->value[ARC_LENGTH];
     for (int j = 0; a && j < t->rows; j++)
         if (j == 0 ? a[0] != 0 : !(a[j] > a[j - 1]))
-            return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, 0, 0, "arc_length of node %d is %.9g m, expected %s", j, a[j],
+            return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, 0, 0,
+                                "arc_length of node %d is %.9g m, expected %s", j, a[j],
                                 j == 0 ? "0" : "more than that of the node before");
     return CPS_OK;
 }
 
-CpsStatus cpsi_node_file_read(const char *path, size_t max_bytes, CpsiPool *pool, CpsiNodeFile *out, CpsError *err) {
+CpsStatus cpsi_node_file_read(const char *path, size_t max_bytes, CpsiPool *pool, CpsiNodeFile *out,
+                              CpsError *err) {
     Table t = {.path = path, .err = err};
     char *bytes = NULL;
     size_t size = 0;
     CpsStatus status = cpsi_read_file_itself(path, max_bytes, &bytes, &size, err);
-    if (status == CPS_OK && strlen(bytes) != size) status = cpsi_fail_at(err, CPS_ERR_INPUT, path, 0, 0, "found a zero byte: is this text?");
+    if (status == CPS_OK && strlen(bytes) != size)
+        status = cpsi_fail_at(err, CPS_ERR_INPUT, path, 0, 0, "found a zero byte: is this text?");
     if (status == CPS_OK) status = read_lines(&t, bytes, pool);
     free(bytes);
     if (status == CPS_OK) status = check_arc_length(&t);
     if (status != CPS_OK) return status;
-    double *x = CPSI_POOL_TAKE(pool, 3*(size_t)t.rows, double);
+    double *x = CPSI_POOL_TAKE(pool, 3 * (size_t)t.rows, double);
     if (!x) return no_memory(&t);
     for (int j = 0; j < t.rows; j++)
-        for (int a = 0; a < 3; a++) x[3*j + a] = t.value[X + a][j];
+        for (int a = 0; a < 3; a++) x[3 * j + a] = t.value[X + a][j];
     *out = (CpsiNodeFile){.nodes = t.rows,
                           .position = x,
                           .arc_length = t.value[ARC_LENGTH],

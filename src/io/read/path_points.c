@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "capstan/drive_io.h"
+#include "io/read/key_reader.h"
 
 void cps_drive_walk(int space, int points, const double *path, int count, double *out) {
     if (space < 1 || points < 2 || count < 1 || !path || !out) return;
@@ -30,50 +31,48 @@ void cps_drive_walk(int space, int points, const double *path, int count, double
                 if (s > here && i + 2 < points) break;
                 const double t = length > 0 ? fmin((s - before) / length, 1) : 1;
                 for (size_t k = 0; k < n; k++)
-                    out[(size_t)at * n + k] =
-                        t == 1 ? path[((size_t)i + 1) * n + k]
-                               : (1 - t) * path[(size_t)i * n + k] + t * path[((size_t)i + 1) * n + k];
+                    out[(size_t)at * n + k] = t == 1 ? path[((size_t)i + 1) * n + k]
+                                                     : (1 - t) * path[(size_t)i * n + k] +
+                                                           t * path[((size_t)i + 1) * n + k];
             }
             before = here;
         }
 }
 
-static CpsStatus read_arc(CpsiDriveRead *r, const CpsiYaml *node, const double *start, int steps, int *points,
-                          const double **path) {
-    CpsiPathArcKeys arc = {.turn = 0};
-    const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PATH_ARC, &arc);
-    if (status != CPS_OK) return status;
-    if (!(fabs(arc.turn) <= 1000)) return cpsi_drive_wrong(r, node, "'arc'", "a turn of at most 1000 rad");
+static CpsStatus build_arc(const CpsiDocument *d, const CpsiPathArcValues *arc, const double *start,
+                           int steps, int *points, const double **path) {
     /* corners where the steps end */
     const int sides = steps * (steps < CPSI_DRIVE_ARC_SIDES ? 1 + CPSI_DRIVE_ARC_SIDES / steps : 1);
-    double *x = CPSI_POOL_TAKE(r->build.file.pool, 2 * ((size_t)sides + 1), double);
-    if (!x) return cpsi_drive_no_memory(r);
-    const double dx = start[0] - arc.center[0], dy = start[1] - arc.center[1];
+    double *x = CPSI_POOL_TAKE(d->pool, 2 * ((size_t)sides + 1), double);
+    if (!x) return cpsi_document_no_memory(d);
+    const double dx = start[0] - arc->center[0], dy = start[1] - arc->center[1];
     for (int i = 0; i <= sides; i++) {
-        const double a = arc.turn * i / sides;
-        x[2 * i] = arc.center[0] + cos(a) * dx - sin(a) * dy;
-        x[2 * i + 1] = arc.center[1] + sin(a) * dx + cos(a) * dy;
+        const double a = arc->turn * i / sides;
+        x[2 * i] = arc->center[0] + cos(a) * dx - sin(a) * dy;
+        x[2 * i + 1] = arc->center[1] + sin(a) * dx + cos(a) * dy;
     }
-    *points = sides + 1, *path = x;
+    *points = sides + 1;
+    *path = x;
     return CPS_OK;
 }
 
-CpsStatus cpsi_drive_read_path(CpsiDriveRead *r, const CpsiYaml *node, int space, const double *start, int steps,
-                               int *points, const double **path) {
-    if (node->kind == CPSI_YAML_MAPPING) {
-        CpsiPathKeys keys = {.arc = NULL};
-        if (space != 2) return cpsi_drive_wrong(r, node, "'path'", "a list of points, as in [[0], [1]]");
-        const CpsStatus status = cpsi_drive_fields(r, node, CPSI_DRIVE_PATH, &keys);
-        return status ? status : read_arc(r, keys.arc, start, steps, points, path);
+CpsStatus cpsi_build_path(const CpsiDocument *d, const CpsiPathValues *values, int space,
+                          const double *start, int steps, int *points, const double **path) {
+    const CpsiRows *given = &values->points;
+    if (values->node) {
+        if (space != 2)
+            return cpsi_document_wrong(d, values->node, "'path'",
+                                       "a list of points, as in [[0], [1]]");
+        return build_arc(d, &values->arc, start, steps, points, path);
     }
-    int rows = 0;
-    const double *given = NULL;
-    const CpsStatus status = cpsi_drive_rows(r, node, "'path'", space, 1, &rows, &given);
+    const CpsStatus status = cpsi_expect_columns(d, given, "'path'", space);
     if (status != CPS_OK) return status;
-    double *x = CPSI_POOL_TAKE(r->build.file.pool, ((size_t)rows + 1) * (size_t)space, double);
-    if (!x) return cpsi_drive_no_memory(r);
-    memcpy(x, start, (size_t)space * sizeof *x);
-    memcpy(x + space, given, (size_t)rows * (size_t)space * sizeof *x);
-    *points = rows + 1, *path = x;
+    const size_t n = (size_t)space, rows = (size_t)given->rows;
+    double *x = CPSI_POOL_TAKE(d->pool, (rows + 1) * n, double);
+    if (!x) return cpsi_document_no_memory(d);
+    memcpy(x, start, n * sizeof *x);
+    memcpy(x + n, given->x, rows * n * sizeof *x);
+    *points = given->rows + 1;
+    *path = x;
     return CPS_OK;
 }

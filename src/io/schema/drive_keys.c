@@ -1,191 +1,366 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table (see drive_keys.h). */
+/* The table of keys of files of driven systems (see drive_keys.h). */
 #include "io/schema/drive_keys.h"
 
-#include <math.h>
-#include <stddef.h>
+#include "io/schema/rows.h"
+#include "io/schema/set_keys.h"
 
-/* clang-format off */
+/* ---- paths ---- */
 
-/* ranges: lowest, highest, lowest excluded */
-#define ANY          -INFINITY, CPSI_LARGEST, false
-#define NOT_NEGATIVE 0, CPSI_LARGEST, false
-#define POSITIVE     0, CPSI_LARGEST, true
+static const CpsiKey PATH_ARC_KEYS[] = {
+    {"center", REQUIRED, POINT(PathArc, center, 2), ANY, .unit = "m",
+     .help = "middle of the circle"},
+    {"turn", REQUIRED, NUMBER(PathArc, turn), -1000, 1000, false, .unit = "rad",
+     .help = "angle, counterclockwise"},
+};
+static const CpsiMapping PATH_ARC = {"arc", "path_arc", KEYS(PATH_ARC_KEYS), INTO(PathArc)};
 
-/* need, place, unit; and inside, words, default */
-#define NEEDED(type, field) CPSI_REQUIRED, offsetof(type, field), ""
-#define GIVEN(type, field)  CPSI_OPTIONAL, offsetof(type, field), ""
-#define INSIDE(mapping)     mapping, NULL, NULL
-#define PLAIN               0, NULL, NULL
+static const CpsiKey PATH_KEYS[] = {
+    {"arc", REQUIRED, MAPPING(Path, arc), .inside = &PATH_ARC, .help = "{center: .., turn: ..}"},
+};
+static const CpsiMapping PATH = {"path", KEYS(PATH_KEYS), INTO(Path)};
 
-#define ONE_OF_TWO(a, b) "\"oneOf\": [{\"required\": [\"" a "\"]}, {\"required\": [\"" b "\"]}]"
+/* ---- systems ---- */
 
-/* Each row: name, type, need, place, unit, range, most, inside, words, default, help; here those of every patch but a point. */
-#define PATCH \
-    {"position", CPSI_POINT, GIVEN(CpsiPatchKeys, patch.position), ANY, 2, PLAIN, "[x, y] of the patch in body axes, m; [0, 0] unless given"}, \
-    {"angle", CPSI_NUMBER, GIVEN(CpsiPatchKeys, patch.angle), ANY, 0, PLAIN, "by which it is turned, rad, counterclockwise; 0 unless given"}, \
-    {"friction", CPSI_NUMBER, NEEDED(CpsiPatchKeys, patch.friction), NOT_NEGATIVE, 0, PLAIN, "coefficient"}, \
-    {"load", CPSI_NUMBER, NEEDED(CpsiPatchKeys, patch.load), NOT_NEGATIVE, 0, PLAIN, "normal force, N"}
-#define TILT "slope of the pressure, mean x (1 + tilt . (r - centroid)), 1/m; 0 unless given"
+static const CpsiKey LAW_KEYS[] = {
+    {"name", OPTIONAL, TEXT(SystemLaw, name, CPSI_DRIVE_LONGEST_TEXT),
+     .help = "in answers; its number unless given"},
+    {"on", REQUIRED, COMBINATIONS(SystemLaw, on), .help = "what it acts on, as in [side, roll]"},
+    {"law", ONE_OF, EXPRESSION(SystemLaw, law), .inside = &cpsi_set_words,
+     .help = "a friction law, in the words of law files"},
+    {"resistance", ONE_OF, EXPRESSIONS(SystemLaw, resistance), .inside = &cpsi_term_words,
+     .help = "terms of a resistance law, in the words of law files"},
+};
+static const CpsiMapping LAW = {"law", "system_law", KEYS(LAW_KEYS), INTO(SystemLaw),
+                                .example = "{on: [omega], law: {interval: 60}}"};
 
-static const CpsiDriveWord WORD[] = {
-    [CPSI_DRIVE_FILE] = {"drive file", "file",
-        "\"oneOf\": [{\"required\": [\"system\"]}, {\"required\": [\"body\"]}, {\"required\": [\"vehicle\"]}, "
-        "{\"required\": [\"planimeter\"]}, {\"required\": [\"rope\"]}, {\"required\": [\"sweep\"]}]", {
-        {"capstan", CPSI_INTEGER, NEEDED(CpsiFileKeys, capstan), 1, 1, false, 0, PLAIN, "version of this file format"},
-        {"title", CPSI_TEXT, GIVEN(CpsiFileKeys, title), NOT_NEGATIVE, CPSI_DRIVE_LONGEST_TEXT, PLAIN, "heading of answers and pictures"},
-        {"system", CPSI_MAPPING, GIVEN(CpsiFileKeys, system), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_SYSTEM),
-         "laws on combinations of velocity parameters"},
-        {"body", CPSI_MAPPING, GIVEN(CpsiFileKeys, body), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_BODY), "a body that slides on a plane"},
-        {"vehicle", CPSI_MAPPING, GIVEN(CpsiFileKeys, vehicle), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_VEHICLE), "a body on wheels"},
-        {"planimeter", CPSI_MAPPING, GIVEN(CpsiFileKeys, planimeter), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_PLANIMETER),
-         "a polar planimeter that follows a closed curve"},
-        {"rope", CPSI_MAPPING, GIVEN(CpsiFileKeys, rope), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_ROPE), "a rope on a table, pulled at its ends"},
-        {"sweep", CPSI_MAPPING, GIVEN(CpsiFileKeys, sweep), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_SWEEP), "a block on a spring, drawn along a path"}}},
+static const CpsiKey SYSTEM_KEYS[] = {
+    {"parameters", REQUIRED, NAMES(System, parameters, CPSI_DRIVE_MOST_PARAMETERS),
+     .help = "names of the velocity parameters"},
+    {"laws", REQUIRED, LIST(System, laws, 1), .inside = &LAW,
+     .help = "laws, each on some parameters"},
+    {"constraints", OPTIONAL, COMBINATIONS(System, constraints), .help = "combinations that are 0"},
+    {"drive", OPTIONAL, COMBINATIONS(System, drive),
+     .help = "combinations that are imposed, the driving velocity"},
+    {"load", OPTIONAL, BY_NAME(System, load), .help = "constant forces dual to the parameters"},
+    {"velocity", OPTIONAL, ROWS(System, velocity, 0), 1, CPS_SET_MAX_ITEMS, false,
+     .help = "driving velocities to answer where none is asked on the command line"},
+    {"map_radius", OPTIONAL, NUMBER(System, map_radius), POSITIVE,
+     .help = "pictures show |W| up to it in both components; 1 unless given"},
+};
 
-    [CPSI_DRIVE_SYSTEM] = {"system", "system", NULL, {
-        {"parameters", CPSI_NAMES, NEEDED(CpsiSystemKeys, parameters), NOT_NEGATIVE, CPSI_DRIVE_MOST_PARAMETERS, PLAIN,
-         "names of the velocity parameters"},
-        {"laws", CPSI_LIST, NEEDED(CpsiSystemKeys, laws), NOT_NEGATIVE, 1, INSIDE(CPSI_DRIVE_LAW), "laws, each on some parameters"},
-        {"constraints", CPSI_MAP, GIVEN(CpsiSystemKeys, constraints), NOT_NEGATIVE, 0, PLAIN, "combinations that are 0"},
-        {"drive", CPSI_MAP, GIVEN(CpsiSystemKeys, drive), NOT_NEGATIVE, 0, PLAIN, "combinations that are imposed, the driving velocity"},
-        {"load", CPSI_BY_NAME, GIVEN(CpsiSystemKeys, load), NOT_NEGATIVE, 0, PLAIN, "constant forces dual to the parameters"},
-        {"velocity", CPSI_ROWS, GIVEN(CpsiSystemKeys, velocity), 1, CPSI_LARGEST, false, 0, PLAIN,
-         "driving velocities to answer where none is asked on the command line"},
-        {"map_radius", CPSI_NUMBER, GIVEN(CpsiSystemKeys, map_radius), POSITIVE, 0, PLAIN,
-         "pictures show |W| up to it in both components; 1 unless given"}}},
-    [CPSI_DRIVE_LAW] = {"law", "system_law", ONE_OF_TWO("law", "resistance"), {
-        {"name", CPSI_TEXT, GIVEN(CpsiLawKeys, name), NOT_NEGATIVE, CPSI_DRIVE_LONGEST_TEXT, PLAIN, "in answers; its number unless given"},
-        {"on", CPSI_MAP, NEEDED(CpsiLawKeys, on), NOT_NEGATIVE, 0, PLAIN, "what it acts on, as in [side, roll]"},
-        {"law", CPSI_LAW, GIVEN(CpsiLawKeys, law), NOT_NEGATIVE, 0, PLAIN, "a friction law, in the words of law files"},
-        {"resistance", CPSI_TERMS, GIVEN(CpsiLawKeys, resistance), NOT_NEGATIVE, 0, PLAIN, "terms of a resistance law, in the words of law files"}}},
+static void begin_system(void *values) { ((CpsiSystemValues *)values)->map_radius = 1; }
 
-    [CPSI_DRIVE_BODY] = {"body", "body", NULL, {
-        {"patches", CPSI_PATCHES, NEEDED(CpsiBodyKeys, patches), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_PATCH), "what it stands on"},
-        {"push", CPSI_LIST, GIVEN(CpsiBodyKeys, push), NOT_NEGATIVE, 1, INSIDE(CPSI_DRIVE_PUSH), "motions to answer, one at a time"},
-        {"tow", CPSI_MAPPING, GIVEN(CpsiBodyKeys, tow), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_TOW), "a path along which it is drawn"}}},
-    [CPSI_DRIVE_VEHICLE] = {"vehicle", "vehicle", NULL, {
-        {"wheels", CPSI_LIST, NEEDED(CpsiBodyKeys, patches), NOT_NEGATIVE, 1, INSIDE(CPSI_DRIVE_PATCH + 1), "what it stands on"},
-        {"push", CPSI_LIST, GIVEN(CpsiBodyKeys, push), NOT_NEGATIVE, 1, INSIDE(CPSI_DRIVE_PUSH), "motions to answer, one at a time"},
-        {"tow", CPSI_MAPPING, GIVEN(CpsiBodyKeys, tow), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_TOW), "a path along which it is drawn"}}},
-    [CPSI_DRIVE_PATCH] = {"'point'", "point",
+static const CpsiMapping SYSTEM = {"system", KEYS(SYSTEM_KEYS), INTO(System),
+                                   .begin = begin_system};
+
+/* ---- bodies ---- */
+
+/* The keys of every patch; only a point may do without friction and load. */
+#define PLACE_AND_LOAD(need)                                                                         \
+    {"position", OPTIONAL,    POINT(Patch, patch.position, 2),                                       \
+     ANY,        .unit = "m", .help = "[x, y] of the patch in body axes; [0, 0] unless given"},      \
+        {"angle", OPTIONAL,      NUMBER(Patch, patch.angle),                                         \
+         ANY,     .unit = "rad", .help = "by which it is turned, counterclockwise; 0 unless given"}, \
+        {"friction", need, NUMBER(Patch, patch.friction), NOT_NEGATIVE, .help = "coefficient"}, {    \
+        "load", need, NUMBER(Patch, patch.load), NOT_NEGATIVE, .unit = "N", .help = "normal force"   \
+    }
+#define TILT "slope of the pressure, mean x (1 + tilt . (r - centroid)); 0 unless given"
+
+static void begin_patch(void *values) {
+    CpsiPatchValues *patch = values;
+    patch->patch.friction = patch->patch.load = NAN;
+    patch->locked = -1;
+}
+
+static const CpsiKey POINT_PATCH_KEYS[] = {
+    PLACE_AND_LOAD(OPTIONAL),
+    {"law", OPTIONAL, EXPRESSION(Patch, law), .inside = &cpsi_set_words,
+     .help = "a bounded law of two components, in place of friction and load"},
+};
+static const CpsiMapping POINT_PATCH = {
+    "point", KEYS(POINT_PATCH_KEYS), INTO(Patch), .begin = begin_patch,
+    .also =
         "\"oneOf\": [{\"required\": [\"friction\", \"load\"], \"not\": {\"required\": [\"law\"]}}, "
         "{\"required\": [\"law\"], "
-        "\"not\": {\"anyOf\": [{\"required\": [\"friction\"]}, {\"required\": [\"load\"]}]}}]", {
-        {"position", CPSI_POINT, GIVEN(CpsiPatchKeys, patch.position), ANY, 2, PLAIN, "[x, y] of the patch in body axes, m; [0, 0] unless given"},
-        {"angle", CPSI_NUMBER, GIVEN(CpsiPatchKeys, patch.angle), ANY, 0, PLAIN, "by which it is turned, rad, counterclockwise; 0 unless given"},
-        {"friction", CPSI_NUMBER, GIVEN(CpsiPatchKeys, patch.friction), NOT_NEGATIVE, 0, PLAIN, "coefficient"},
-        {"load", CPSI_NUMBER, GIVEN(CpsiPatchKeys, patch.load), NOT_NEGATIVE, 0, PLAIN, "normal force, N"},
-        {"law", CPSI_LAW, GIVEN(CpsiPatchKeys, law), NOT_NEGATIVE, 0, PLAIN, "a bounded law of two components, in place of friction and load"}}},
-    [CPSI_DRIVE_PATCH + 1] = {"'wheel'", "wheel", NULL, {
-        PATCH,
-        {"radius", CPSI_NUMBER, NEEDED(CpsiPatchKeys, patch.size), POSITIVE, 0, PLAIN, "m"},
-        {"brake", CPSI_BRAKE, GIVEN(CpsiPatchKeys, brake), NOT_NEGATIVE, 0, PLAIN, "torque, N m, or locked; 0 unless given: it rolls freely"}}},
-    [CPSI_DRIVE_PATCH + 2] = {"'rod'", "rod", NULL, {
-        PATCH,
-        {"half_length", CPSI_NUMBER, NEEDED(CpsiPatchKeys, patch.size), POSITIVE, 0, PLAIN, "m"},
-        {"tilt", CPSI_NUMBER, GIVEN(CpsiPatchKeys, patch.tilt), ANY, 0, PLAIN, TILT}}},
-    [CPSI_DRIVE_PATCH + 3] = {"'ring'", "ring", NULL, {
-        PATCH,
-        {"radius", CPSI_NUMBER, NEEDED(CpsiPatchKeys, patch.size), POSITIVE, 0, PLAIN, "m"},
-        {"tilt", CPSI_POINT, GIVEN(CpsiPatchKeys, patch.tilt), ANY, 2, PLAIN, TILT}}},
-    [CPSI_DRIVE_PATCH + 4] = {"'disc'", "disc", NULL, {
-        PATCH,
-        {"radius", CPSI_NUMBER, NEEDED(CpsiPatchKeys, patch.size), POSITIVE, 0, PLAIN, "m"},
-        {"tilt", CPSI_POINT, GIVEN(CpsiPatchKeys, patch.tilt), ANY, 2, PLAIN, TILT}}},
-    [CPSI_DRIVE_PATCH + 5] = {"'polygon'", "polygon", NULL, {
-        PATCH,
-        {"corners", CPSI_ROWS, NEEDED(CpsiPatchKeys, corners), 3, CPSI_LARGEST, false, 2, PLAIN, "[[x, y], ..], m"},
-        {"tilt", CPSI_POINT, GIVEN(CpsiPatchKeys, patch.tilt), ANY, 2, PLAIN, TILT}}},
-    [CPSI_DRIVE_PUSH] = {"push", "push",
-        "\"oneOf\": [{\"required\": [\"at\", \"velocity\"], \"maxProperties\": 2}, "
-        "{\"required\": [\"at\", \"normal\", \"speed\"], "
-        "\"maxProperties\": 3}, {\"required\": [\"twist\"], \"maxProperties\": 1}]", {
-        {"at", CPSI_POINT, GIVEN(CpsiPushKeys, at), ANY, 2, PLAIN, "[x, y] of the point moved, in body axes, m"},
-        {"velocity", CPSI_POINT, GIVEN(CpsiPushKeys, velocity), ANY, 2, PLAIN, "of that point, m/s"},
-        {"normal", CPSI_POINT, GIVEN(CpsiPushKeys, normal), ANY, 2, PLAIN, "direction in which alone it is moved; of any length but zero"},
-        {"speed", CPSI_NUMBER, GIVEN(CpsiPushKeys, speed), ANY, 0, PLAIN, "along the normal, m/s"},
-        {"twist", CPSI_POINT, GIVEN(CpsiPushKeys, twist), ANY, 3, PLAIN, "[vx, vy, w] of the body, m/s and rad/s"}}},
-    [CPSI_DRIVE_TOW] = {"tow", "tow", "\"dependentRequired\": {\"end\": [\"rope\"]}", {
-        {"pose", CPSI_POINT, GIVEN(CpsiTowKeys, start.pose), ANY, 3, PLAIN, "[x, y, angle] where it starts, m and rad; 0 unless given"},
-        {"hitch", CPSI_POINT, GIVEN(CpsiTowKeys, start.hitch), ANY, 2, PLAIN, "[x, y] in body axes, m; 0 unless given"},
-        {"rope", CPSI_NUMBER, GIVEN(CpsiTowKeys, start.rope), NOT_NEGATIVE, 0, PLAIN, "length of a rope between hitch and end, m; 0 unless given"},
-        {"end", CPSI_POINT, GIVEN(CpsiTowKeys, end), ANY, 2, PLAIN, "[x, y] where the rope's far end starts, m"},
-        {"path", CPSI_PATH, NEEDED(CpsiTowKeys, path), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_PATH), "points that the hitch or the rope's end passes"},
-        {"steps", CPSI_INTEGER, NEEDED(CpsiTowKeys, steps), 1, CPSI_DRIVE_MOST_STEPS, false, 0, PLAIN, "equal steps along the path"}}},
+        "\"not\": {\"anyOf\": [{\"required\": [\"friction\"]}, {\"required\": [\"load\"]}]}}]"};
 
-    [CPSI_DRIVE_PLANIMETER] = {"planimeter", "planimeter", NULL, {
-        {"pole", CPSI_POINT, NEEDED(CpsiPlanimeterKeys, planimeter.pole), ANY, 2, PLAIN, "where the pole is, m"},
-        {"pole_arm", CPSI_NUMBER, NEEDED(CpsiPlanimeterKeys, planimeter.pole_arm), POSITIVE, 0, PLAIN, "length, m"},
-        {"tracer_arm", CPSI_NUMBER, NEEDED(CpsiPlanimeterKeys, planimeter.tracer_arm), POSITIVE, 0, PLAIN, "length, m"},
-        {"wheel", CPSI_NUMBER, NEEDED(CpsiPlanimeterKeys, planimeter.wheel), ANY, 0, PLAIN, "from the hinge towards the tracer, m"},
-        {"friction", CPSI_NUMBER, NEEDED(CpsiPlanimeterKeys, planimeter.friction), POSITIVE, 0, PLAIN,
-         "coefficient of the wheel: what turns it is friction"},
-        {"load", CPSI_NUMBER, NEEDED(CpsiPlanimeterKeys, planimeter.load), POSITIVE, 0, PLAIN, "on the wheel, N"},
-        {"left_elbow", CPSI_FLAG, GIVEN(CpsiPlanimeterKeys, planimeter.left_elbow), NOT_NEGATIVE, 0, PLAIN,
-         "the hinge lies left of the line from pole to tracer; false unless given"},
-        {"curve", CPSI_CURVE, NEEDED(CpsiPlanimeterKeys, curve), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_CURVE), "closed curve that the tracer follows"},
-        {"steps", CPSI_INTEGER, GIVEN(CpsiPlanimeterKeys, steps), 1, 10000, false, 0, PLAIN, "on each side of the curve; 1 unless given"}}},
-    [CPSI_DRIVE_CURVE] = {"'curve'", "curve", ONE_OF_TWO("circle", "file"), {
-        {"circle", CPSI_MAPPING, GIVEN(CpsiCurveKeys, circle), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_CIRCLE), "a regular polygon on a circle"},
-        {"file", CPSI_FILE_NAME, GIVEN(CpsiCurveKeys, file), NOT_NEGATIVE, 0, PLAIN, "of x, y in each line, beside this one"}}},
-    [CPSI_DRIVE_CIRCLE] = {"'circle'", "circle", "\"allOf\": [{\"properties\": {\"points\": {\"minimum\": 3}}}]", {
-        {"center", CPSI_POINT, NEEDED(CpsiCircleKeys, center), ANY, 2, PLAIN, "m"},
-        {"radius", CPSI_NUMBER, NEEDED(CpsiCircleKeys, radius), POSITIVE, 0, PLAIN, "m"},
-        {"points", CPSI_INTEGER, NEEDED(CpsiCircleKeys, points), 1, CPSI_DRIVE_MOST_STEPS, false, 0, PLAIN, "corners on it"}}},
-
-    [CPSI_DRIVE_ROPE] = {"rope", "rope", NULL, {
-        {"shape", CPSI_MAPPING, NEEDED(CpsiRopeKeys, shape), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_SHAPE), "{straight: ..}, {arc: ..} or {points: ..}"},
-        {"elements", CPSI_INTEGER, GIVEN(CpsiRopeKeys, elements), 1, CPSI_DRIVE_MOST_ELEMENTS, false, 0, PLAIN,
-         "straight ones, of equal length; 100 unless given"},
-        {"friction", CPSI_NUMBER, NEEDED(CpsiRopeKeys, friction), POSITIVE, 0, PLAIN, "coefficient"},
-        {"weight", CPSI_NUMBER, NEEDED(CpsiRopeKeys, weight), POSITIVE, 0, PLAIN, "N/m"},
-        {"ends", CPSI_MAPPING, NEEDED(CpsiRopeKeys, ends), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_ENDS), "what the ends do, as in {A: held, B: [1, 0]}"},
-        {"slack", CPSI_FLAG, GIVEN(CpsiRopeKeys, slack), NOT_NEGATIVE, 0, PLAIN,
-         "may elements become shorter, without tension?  Unless true, the velocity keeps every length"},
-        {"path", CPSI_PATH, GIVEN(CpsiRopeKeys, path), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_PATH), "points that end B then passes"},
-        {"steps", CPSI_INTEGER, GIVEN(CpsiRopeKeys, steps), 1, 10000, false, 0, PLAIN, "load steps along the path; 40 unless given"},
-        {"shots", CPSI_INTEGER, GIVEN(CpsiRopeKeys, shots), 1, 24, false, 0, PLAIN, "shapes along the path in the picture; 6 unless given"}}},
-    [CPSI_DRIVE_SHAPE] = {"'shape'", "shape", "\"minProperties\": 1, \"maxProperties\": 1", {
-        {"straight", CPSI_MAPPING, GIVEN(CpsiShapeKeys, straight), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_STRAIGHT), "a straight rope"},
-        {"arc", CPSI_MAPPING, GIVEN(CpsiShapeKeys, arc), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_ARC), "an arc of a circle"},
-        {"points", CPSI_ROWS, GIVEN(CpsiShapeKeys, points), 2, CPSI_LARGEST, false, 2, PLAIN, "[[x, y], ..] joined by straight pieces, m"}}},
-    [CPSI_DRIVE_STRAIGHT] = {"'straight'", "straight", NULL, {
-        {"from", CPSI_POINT, NEEDED(CpsiStraightKeys, from), ANY, 2, PLAIN, "first end, m"},
-        {"to", CPSI_POINT, NEEDED(CpsiStraightKeys, to), ANY, 2, PLAIN, "last end, m"}}},
-    [CPSI_DRIVE_ARC] = {"'arc'", "arc", NULL, {
-        {"center", CPSI_POINT, NEEDED(CpsiArcKeys, center), ANY, 2, PLAIN, "m"},
-        {"radius", CPSI_NUMBER, NEEDED(CpsiArcKeys, radius), POSITIVE, 0, PLAIN, "m"},
-        {"from", CPSI_NUMBER, NEEDED(CpsiArcKeys, from), ANY, 0, PLAIN, "angle of the first end, rad"},
-        {"turn", CPSI_NUMBER, NEEDED(CpsiArcKeys, turn), ANY, 0, PLAIN, "angle to the last end, rad, counterclockwise"}}},
-    [CPSI_DRIVE_ENDS] = {"'ends'", "ends", NULL, {
-        {"A", CPSI_END_MOTION, GIVEN(CpsiEndsKeys, A), NOT_NEGATIVE, 0, PLAIN, "the first end likewise; free unless given"},
-        {"B", CPSI_END_MOTION, NEEDED(CpsiEndsKeys, B), NOT_NEGATIVE, 0, PLAIN, "velocity [vx, vy] of the last end, m/s"}}},
-
-    [CPSI_DRIVE_SWEEP] = {"sweep", "sweep", NULL, {
-        {"law", CPSI_LAW, NEEDED(CpsiSweepKeys, law), NOT_NEGATIVE, 0, PLAIN, "friction law of the block, 1 or 2 components"},
-        {"stiffness", CPSI_NUMBER, NEEDED(CpsiSweepKeys, stiffness), POSITIVE, 0, PLAIN, "of the spring, N/m"},
-        {"position", CPSI_COMPONENTS, GIVEN(CpsiSweepKeys, position), NOT_NEGATIVE, 0, PLAIN, "where the block is at first, m; 0 unless given"},
-        {"end", CPSI_COMPONENTS, GIVEN(CpsiSweepKeys, end), NOT_NEGATIVE, 0, PLAIN,
-         "where the spring's far end is at first, m; where the block is unless given"},
-        {"path", CPSI_PATH, NEEDED(CpsiSweepKeys, path), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_PATH), "points that the spring's far end passes"},
-        {"steps", CPSI_INTEGER, NEEDED(CpsiSweepKeys, steps), 1, CPSI_DRIVE_MOST_STEPS, false, 0, PLAIN, "equal steps along the path"}}},
-
-    [CPSI_DRIVE_PATH] = {"'path'", "path", NULL, {
-        {"arc", CPSI_MAPPING, NEEDED(CpsiPathKeys, arc), NOT_NEGATIVE, 0, INSIDE(CPSI_DRIVE_PATH_ARC), "{center: .., turn: ..}"}}},
-    [CPSI_DRIVE_PATH_ARC] = {"'arc'", "path_arc",
-        "\"allOf\": [{\"properties\": {\"turn\": {\"minimum\": -1000, \"maximum\": 1000}}}]", {
-        {"center", CPSI_POINT, NEEDED(CpsiPathArcKeys, center), ANY, 2, PLAIN, "middle of the circle, m"},
-        {"turn", CPSI_NUMBER, NEEDED(CpsiPathArcKeys, turn), ANY, 0, PLAIN, "angle, rad, counterclockwise"}}},
+static const CpsiKey WHEEL_PATCH_KEYS[] = {
+    PLACE_AND_LOAD(REQUIRED),
+    {"radius", REQUIRED, NUMBER(Patch, patch.size), POSITIVE, .unit = "m", .help = "of the wheel"},
+    {"brake", OPTIONAL, WORD(Patch, locked), .words = "locked",
+     .other = &(const CpsiKey){.type = NUMBER(Patch, patch.brake), NOT_NEGATIVE}, .unit = "N m",
+     .help = "torque, or locked; 0 unless given: it rolls freely"},
 };
-/* clang-format on */
+static const CpsiMapping WHEEL_PATCH = {"wheel", KEYS(WHEEL_PATCH_KEYS), INTO(Patch),
+                                        .begin = begin_patch,
+                                        .example = "{radius: 0.3, friction: 0.8, load: 4000}"};
 
-_Static_assert(sizeof WORD / sizeof WORD[0] == CPSI_DRIVE_MAPPINGS, "one word per kind of mapping");
+static const CpsiKey ROD_PATCH_KEYS[] = {
+    PLACE_AND_LOAD(REQUIRED),
+    {"half_length", REQUIRED, NUMBER(Patch, patch.size), POSITIVE, .unit = "m",
+     .help = "half the length of the rod"},
+    {"tilt", OPTIONAL, NUMBER(Patch, patch.tilt[0]), ANY, .unit = "1/m", .help = TILT},
+};
+static const CpsiMapping ROD_PATCH = {"rod", KEYS(ROD_PATCH_KEYS), INTO(Patch),
+                                      .begin = begin_patch};
 
-const CpsiDriveWord *cpsi_drive_word(CpsiDriveMapping mapping) { return &WORD[mapping]; }
+static const CpsiKey RING_PATCH_KEYS[] = {
+    PLACE_AND_LOAD(REQUIRED),
+    {"radius", REQUIRED, NUMBER(Patch, patch.size), POSITIVE, .unit = "m", .help = "of the ring"},
+    {"tilt", OPTIONAL, POINT(Patch, patch.tilt, 2), ANY, .unit = "1/m", .help = TILT},
+};
+static const CpsiMapping RING_PATCH = {"ring", KEYS(RING_PATCH_KEYS), INTO(Patch),
+                                       .begin = begin_patch};
 
-int cpsi_drive_word_count(const CpsiDriveWord *word) {
-    int n = 0;
-    while (n < CPSI_DRIVE_MOST_KEYS && word->key[n].name) n++;
-    return n;
+static const CpsiKey DISC_PATCH_KEYS[] = {
+    PLACE_AND_LOAD(REQUIRED),
+    {"radius", REQUIRED, NUMBER(Patch, patch.size), POSITIVE, .unit = "m", .help = "of the disc"},
+    {"tilt", OPTIONAL, POINT(Patch, patch.tilt, 2), ANY, .unit = "1/m", .help = TILT},
+};
+static const CpsiMapping DISC_PATCH = {"disc", KEYS(DISC_PATCH_KEYS), INTO(Patch),
+                                       .begin = begin_patch};
+
+static const CpsiKey POLYGON_PATCH_KEYS[] = {
+    PLACE_AND_LOAD(REQUIRED),
+    {"corners", REQUIRED, ROWS(Patch, corners, 2), 3, CPS_SET_MAX_ITEMS, false, .unit = "m",
+     .help = "[[x, y], ..]"},
+    {"tilt", OPTIONAL, POINT(Patch, patch.tilt, 2), ANY, .unit = "1/m", .help = TILT},
+};
+static const CpsiMapping POLYGON_PATCH = {"polygon", KEYS(POLYGON_PATCH_KEYS), INTO(Patch),
+                                          .begin = begin_patch};
+
+static const CpsiKey PATCH_KEYS[] = {
+    {"point", ONE_OF, AROUND, .inside = &POINT_PATCH, .help = "a point"},
+    {"wheel", ONE_OF, AROUND, .inside = &WHEEL_PATCH,
+     .help = "a wheel that rolls along its first axis"},
+    {"rod", ONE_OF, AROUND, .inside = &ROD_PATCH, .help = "a rod"},
+    {"ring", ONE_OF, AROUND, .inside = &RING_PATCH, .help = "a circle"},
+    {"disc", ONE_OF, AROUND, .inside = &DISC_PATCH, .help = "a disc"},
+    {"polygon", ONE_OF, AROUND, .inside = &POLYGON_PATCH, .help = "a polygon"},
+};
+static const CpsiMapping PATCH = {"patch",
+                                  KEYS(PATCH_KEYS),
+                                  INTO(Patch),
+                                  .begin = begin_patch,
+                                  WHICH(Patch, patch.kind),
+                                  .word = "patch",
+                                  .example = "{disc: {radius: 1, friction: 0.5, load: 10}}"};
+
+static const CpsiKey PUSH_KEYS[] = {
+    {"at", OPTIONAL, POINT(Push, at, 2), ANY, .unit = "m",
+     .help = "[x, y] of the point moved, in body axes"},
+    {"velocity", OPTIONAL, POINT(Push, velocity, 2), ANY, .unit = "m/s", .help = "of that point"},
+    {"normal", OPTIONAL, POINT(Push, normal, 2), ANY,
+     .help = "direction in which alone it is moved; of any length but zero"},
+    {"speed", OPTIONAL, NUMBER(Push, speed), ANY, .unit = "m/s", .help = "along the normal"},
+    {"twist", OPTIONAL, POINT(Push, twist, 3), ANY, .unit = "m/s and rad/s",
+     .help = "[vx, vy, w] of the body"},
+};
+
+static void begin_push(void *values) {
+    CpsiPushValues *push = values;
+    push->at[0] = push->velocity[0] = push->normal[0] = push->speed = push->twist[0] = NAN;
 }
+
+static const CpsiMapping PUSH = {
+    "push",
+    KEYS(PUSH_KEYS),
+    INTO(Push),
+    .begin = begin_push,
+    .example = "{at: [1, 0], velocity: [0, 1]}",
+    .also = "\"oneOf\": [{\"required\": [\"at\", \"velocity\"], \"maxProperties\": 2}, "
+            "{\"required\": [\"at\", \"normal\", \"speed\"], "
+            "\"maxProperties\": 3}, {\"required\": [\"twist\"], \"maxProperties\": 1}]"};
+
+static const CpsiKey TOW_KEYS[] = {
+    {"pose", OPTIONAL, POINT(Tow, start.pose, 3), ANY, .unit = "m and rad",
+     .help = "[x, y, angle] where it starts; 0 unless given"},
+    {"hitch", OPTIONAL, POINT(Tow, start.hitch, 2), ANY, .unit = "m",
+     .help = "[x, y] in body axes; 0 unless given"},
+    {"rope", OPTIONAL, NUMBER(Tow, start.rope), NOT_NEGATIVE, .unit = "m",
+     .help = "length of a rope between hitch and end; 0 unless given"},
+    {"end", OPTIONAL, POINT(Tow, end, 2), ANY, .with = "rope", .unit = "m",
+     .help = "[x, y] where the rope's far end starts"},
+    {"path", REQUIRED, ROWS(Tow, path.points, 0), 1, CPS_SET_MAX_ITEMS, false,
+     .other = &(const CpsiKey){.type = MAPPING(Tow, path), .inside = &PATH},
+     .help = "points that the hitch or the rope's end passes"},
+    {"steps", REQUIRED, INTEGER(Tow, steps), 1, CPSI_DRIVE_MOST_STEPS, false,
+     .help = "equal steps along the path"},
+};
+
+static void begin_tow(void *values) { ((CpsiTowValues *)values)->end[0] = NAN; }
+
+static const CpsiMapping TOW = {"tow", KEYS(TOW_KEYS), INTO(Tow), .begin = begin_tow};
+
+static const CpsiKey BODY_KEYS[] = {
+    {"patches", REQUIRED, LIST(Body, patches, 1), .inside = &PATCH, .help = "what it stands on"},
+    {"push", OPTIONAL, LIST(Body, pushes, 1), .inside = &PUSH,
+     .help = "motions to answer, one at a time"},
+    {"tow", OPTIONAL, MAPPING(Body, tow), .inside = &TOW, .help = "a path along which it is drawn"},
+};
+static const CpsiMapping BODY = {"body", KEYS(BODY_KEYS), INTO(Body)};
+
+static const CpsiKey VEHICLE_KEYS[] = {
+    {"wheels", REQUIRED, LIST(Body, patches, 1), .inside = &WHEEL_PATCH,
+     .help = "what it stands on"},
+    {"push", OPTIONAL, LIST(Body, pushes, 1), .inside = &PUSH,
+     .help = "motions to answer, one at a time"},
+    {"tow", OPTIONAL, MAPPING(Body, tow), .inside = &TOW, .help = "a path along which it is drawn"},
+};
+static const CpsiMapping VEHICLE = {"vehicle", KEYS(VEHICLE_KEYS), INTO(Body)};
+
+/* ---- planimeters ---- */
+
+static const CpsiKey CIRCLE_KEYS[] = {
+    {"center", REQUIRED, POINT(Circle, center, 2), ANY, .unit = "m", .help = "of the circle"},
+    {"radius", REQUIRED, NUMBER(Circle, radius), POSITIVE, .unit = "m", .help = "of the circle"},
+    {"points", REQUIRED, INTEGER(Circle, points), 3, CPSI_DRIVE_MOST_STEPS, false,
+     .help = "corners on it"},
+};
+static const CpsiMapping CIRCLE = {"circle", KEYS(CIRCLE_KEYS), INTO(Circle)};
+
+static const CpsiKey CURVE_KEYS[] = {
+    {"circle", ONE_OF, MAPPING(Curve, circle), .inside = &CIRCLE,
+     .help = "a regular polygon on a circle"},
+    {"file", ONE_OF, TEXT(Curve, file, 0), .help = "of x, y in each line, beside this one"},
+};
+static const CpsiMapping CURVE = {"curve", KEYS(CURVE_KEYS), INTO(Curve)};
+
+static const CpsiKey PLANIMETER_KEYS[] = {
+    {"pole", REQUIRED, POINT(Planimeter, planimeter.pole, 2), ANY, .unit = "m",
+     .help = "where the pole is"},
+    {"pole_arm", REQUIRED, NUMBER(Planimeter, planimeter.pole_arm), POSITIVE, .unit = "m",
+     .help = "length"},
+    {"tracer_arm", REQUIRED, NUMBER(Planimeter, planimeter.tracer_arm), POSITIVE, .unit = "m",
+     .help = "length"},
+    {"wheel", REQUIRED, NUMBER(Planimeter, planimeter.wheel), ANY, .unit = "m",
+     .help = "from the hinge towards the tracer"},
+    {"friction", REQUIRED, NUMBER(Planimeter, planimeter.friction), POSITIVE,
+     .help = "coefficient of the wheel: what turns it is friction"},
+    {"load", REQUIRED, NUMBER(Planimeter, planimeter.load), POSITIVE, .unit = "N",
+     .help = "on the wheel"},
+    {"left_elbow", OPTIONAL, FLAG(Planimeter, planimeter.left_elbow),
+     .help = "the hinge lies left of the line from pole to tracer; false unless given"},
+    {"curve", REQUIRED, ROWS(Planimeter, curve.points, 2), 3, CPS_SET_MAX_ITEMS, false,
+     .other = &(const CpsiKey){.type = MAPPING(Planimeter, curve), .inside = &CURVE},
+     .help = "closed curve that the tracer follows"},
+    {"steps", OPTIONAL, INTEGER(Planimeter, steps), 1, 10000, false,
+     .help = "on each side of the curve; 1 unless given"},
+};
+
+static void begin_planimeter(void *values) { ((CpsiPlanimeterValues *)values)->steps = 1; }
+
+static const CpsiMapping PLANIMETER = {"planimeter", KEYS(PLANIMETER_KEYS), INTO(Planimeter),
+                                       .begin = begin_planimeter};
+
+/* ---- ropes ---- */
+
+static const CpsiKey STRAIGHT_KEYS[] = {
+    {"from", REQUIRED, POINT(RopeStraight, from, 2), ANY, .unit = "m", .help = "first end"},
+    {"to", REQUIRED, POINT(RopeStraight, to, 2), ANY, .unit = "m", .help = "last end"},
+};
+static const CpsiMapping STRAIGHT = {"straight", KEYS(STRAIGHT_KEYS), INTO(RopeStraight)};
+
+static const CpsiKey ARC_KEYS[] = {
+    {"center", REQUIRED, POINT(RopeArc, center, 2), ANY, .unit = "m", .help = "of the circle"},
+    {"radius", REQUIRED, NUMBER(RopeArc, radius), POSITIVE, .unit = "m", .help = "of the circle"},
+    {"from", REQUIRED, NUMBER(RopeArc, from), ANY, .unit = "rad", .help = "angle of the first end"},
+    {"turn", REQUIRED, NUMBER(RopeArc, turn), ANY, .unit = "rad",
+     .help = "angle to the last end, counterclockwise"},
+};
+static const CpsiMapping ARC = {"arc", KEYS(ARC_KEYS), INTO(RopeArc)};
+
+static const CpsiKey SHAPE_KEYS[] = {
+    {"straight", ONE_OF, MAPPING(RopeShape, straight), .inside = &STRAIGHT,
+     .help = "a straight rope"},
+    {"arc", ONE_OF, MAPPING(RopeShape, arc), .inside = &ARC, .help = "an arc of a circle"},
+    {"points", ONE_OF, ROWS(RopeShape, points, 2), 2, CPS_SET_MAX_ITEMS, false, .unit = "m",
+     .help = "[[x, y], ..] joined by straight pieces"},
+};
+static const CpsiMapping SHAPE = {"shape", KEYS(SHAPE_KEYS), INTO(RopeShape)};
+
+static const CpsiKey ENDS_KEYS[] = {
+    {"A", OPTIONAL, WORD(Rope, end[0]), .words = "free held",
+     .other = &(const CpsiKey){.type = POINT(Rope, velocity[0], 2), ANY},
+     .help = "the first end likewise; free unless given"},
+    {"B", REQUIRED, WORD(Rope, end[1]), .words = "free held",
+     .other = &(const CpsiKey){.type = POINT(Rope, velocity[1], 2), ANY}, .unit = "m/s",
+     .help = "velocity [vx, vy] of the last end"},
+};
+static const CpsiMapping ENDS = {"ends", KEYS(ENDS_KEYS)};
+
+static const CpsiKey ROPE_KEYS[] = {
+    {"shape", REQUIRED, MAPPING(Rope, shape), .inside = &SHAPE,
+     .help = "{straight: ..}, {arc: ..} or {points: ..}"},
+    {"elements", OPTIONAL, INTEGER(Rope, elements), 1, CPSI_DRIVE_MOST_ELEMENTS, false,
+     .help = "straight ones, of equal length; 100 unless given"},
+    {"friction", REQUIRED, NUMBER(Rope, friction), POSITIVE, .help = "coefficient"},
+    {"weight", REQUIRED, NUMBER(Rope, weight), POSITIVE, .unit = "N/m",
+     .help = "weight per length"},
+    {"ends", REQUIRED, AROUND, .inside = &ENDS,
+     .help = "what the ends do, as in {A: held, B: [1, 0]}"},
+    {"slack", OPTIONAL, FLAG(Rope, slack),
+     .help = "may elements become shorter, without tension?  Unless true, the velocity keeps "
+             "every length"},
+    {"path", OPTIONAL, ROWS(Rope, path.points, 0), 1, CPS_SET_MAX_ITEMS, false,
+     .other = &(const CpsiKey){.type = MAPPING(Rope, path), .inside = &PATH},
+     .help = "points that end B then passes"},
+    {"steps", OPTIONAL, INTEGER(Rope, steps), 1, 10000, false,
+     .help = "load steps along the path; 40 unless given"},
+    {"shots", OPTIONAL, INTEGER(Rope, shots), 1, 24, false,
+     .help = "shapes along the path in the picture; 6 unless given"},
+};
+
+static void begin_rope(void *values) {
+    CpsiRopeValues *rope = values;
+    rope->elements = 100;
+    rope->steps = 40;
+    rope->shots = 6;
+    rope->velocity[0][0] = rope->velocity[1][0] = NAN;
+}
+
+static const CpsiMapping ROPE = {"rope", KEYS(ROPE_KEYS), INTO(Rope), .begin = begin_rope};
+
+/* ---- sweeps, and the file ---- */
+
+static const CpsiKey SWEEP_KEYS[] = {
+    {"law", REQUIRED, EXPRESSION(Sweep, law), .inside = &cpsi_set_words,
+     .help = "friction law of the block, 1 or 2 components"},
+    {"stiffness", REQUIRED, NUMBER(Sweep, stiffness), POSITIVE, .unit = "N/m",
+     .help = "of the spring"},
+    {"position", OPTIONAL, VECTOR(Sweep, position, 2), ANY, .unit = "m",
+     .help = "where the block is at first; 0 unless given"},
+    {"end", OPTIONAL, VECTOR(Sweep, end, 2), ANY, .unit = "m",
+     .help = "where the spring's far end is at first; where the block is unless given"},
+    {"path", REQUIRED, ROWS(Sweep, path.points, 0), 1, CPS_SET_MAX_ITEMS, false,
+     .other = &(const CpsiKey){.type = MAPPING(Sweep, path), .inside = &PATH},
+     .help = "points that the spring's far end passes"},
+    {"steps", REQUIRED, INTEGER(Sweep, steps), 1, CPSI_DRIVE_MOST_STEPS, false,
+     .help = "equal steps along the path"},
+};
+static const CpsiMapping SWEEP = {"sweep", KEYS(SWEEP_KEYS), INTO(Sweep)};
+
+static const CpsiKey FILE_KEYS[] = {
+    {"capstan", REQUIRED, INTEGER(Drive, version), 1, 1, false,
+     .help = "version of this file format"},
+    {"title", OPTIONAL, TEXT(Drive, title, CPSI_DRIVE_LONGEST_TEXT),
+     .help = "heading of answers and pictures"},
+    {"system", ONE_OF, MAPPING(Drive, system), .inside = &SYSTEM,
+     .help = "laws on combinations of velocity parameters"},
+    {"body", ONE_OF, MAPPING(Drive, body), .inside = &BODY,
+     .help = "a body that slides on a plane"},
+    {"vehicle", ONE_OF, MAPPING(Drive, vehicle), .inside = &VEHICLE, .help = "a body on wheels"},
+    {"planimeter", ONE_OF, MAPPING(Drive, planimeter), .inside = &PLANIMETER,
+     .help = "a polar planimeter that follows a closed curve"},
+    {"rope", ONE_OF, MAPPING(Drive, rope), .inside = &ROPE,
+     .help = "a rope on a table, pulled at its ends"},
+    {"sweep", ONE_OF, MAPPING(Drive, sweep), .inside = &SWEEP,
+     .help = "a block on a spring, drawn along a path"},
+};
+
+static void begin_file(void *values) { ((CpsiDriveValues *)values)->title = ""; }
+
+const CpsiMapping cpsi_drive_file = {"drive file",        "file",
+                                     KEYS(FILE_KEYS),     INTO(Drive),
+                                     .begin = begin_file, WHICH(Drive, kind)};

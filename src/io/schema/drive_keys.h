@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of keys of files of driven systems: one list of rows per kind of mapping, and one struct that the rows put their values into.
- * Reading, suggestions and the JSON schema all come from it. To add a key: add its row, and the field of its struct. */
+/* What a file of driven systems is read into (drive_keys.c has the table of its keys). */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_DRIVE_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_DRIVE_KEYS_H
 
@@ -16,130 +15,150 @@ enum {
     CPSI_DRIVE_LONGEST_TEXT = 255
 };
 
-typedef enum CpsiDriveMapping {
-    CPSI_DRIVE_FILE,
-    CPSI_DRIVE_SYSTEM,
-    CPSI_DRIVE_LAW,
-    CPSI_DRIVE_BODY,
-    CPSI_DRIVE_VEHICLE,
-    CPSI_DRIVE_PATCH, /* six of these, in the order of CpsPatchKind */
-    CPSI_DRIVE_PUSH = CPSI_DRIVE_PATCH + 6,
-    CPSI_DRIVE_TOW,
-    CPSI_DRIVE_PLANIMETER,
-    CPSI_DRIVE_CURVE,
-    CPSI_DRIVE_CIRCLE,
-    CPSI_DRIVE_ROPE,
-    CPSI_DRIVE_SHAPE,
-    CPSI_DRIVE_STRAIGHT,
-    CPSI_DRIVE_ARC,
-    CPSI_DRIVE_ENDS,
-    CPSI_DRIVE_SWEEP,
-    CPSI_DRIVE_PATH,
-    CPSI_DRIVE_PATH_ARC,
-    CPSI_DRIVE_MAPPINGS
-} CpsiDriveMapping;
+/* A path: rows of numbers, or an arc. */
+typedef struct CpsiPathArcValues {
+    const CpsiYaml *node;
+    double center[2], turn;
+} CpsiPathArcValues;
 
-/* What each mapping is read into; keys that are not given leave their fields as they are. */
-typedef struct CpsiFileKeys {
-    int capstan;
-    const char *title;
-    const CpsiYaml *system, *body, *vehicle, *planimeter, *rope, *sweep;
-} CpsiFileKeys;
+typedef struct CpsiPathValues {
+    const CpsiYaml *node; /* NULL: rows, or nothing */
+    CpsiRows points;
+    CpsiPathArcValues arc;
+} CpsiPathValues;
 
-typedef struct CpsiSystemKeys {
-    const CpsiYaml *parameters, *laws, *constraints, *drive, *load, *velocity;
-    double map_radius;
-} CpsiSystemKeys;
+/* ---- systems ---- */
 
-typedef struct CpsiLawKeys {
-    const char *name;
+typedef struct CpsiSystemLawValues {
+    const CpsiYaml *node;
+    const char *name; /* NULL: its number */
     const CpsiYaml *on, *law, *resistance;
-} CpsiLawKeys;
+} CpsiSystemLawValues;
 
-typedef struct CpsiBodyKeys {
-    const CpsiYaml *patches, *push, *tow; /* the patches of a vehicle are its wheels */
-} CpsiBodyKeys;
+typedef struct CpsiSystemValues {
+    const CpsiYaml *node;
+    const CpsiYaml *parameters, *constraints, *drive, *load;
+    CpsiList laws; /* CpsiSystemLawValues */
+    CpsiRows velocity;
+    double map_radius;
+} CpsiSystemValues;
 
-typedef struct CpsiPatchKeys {
-    CpsPatch patch; /* its numbers */
-    const CpsiYaml *law, *brake, *corners;
-} CpsiPatchKeys;
+/* ---- bodies ---- */
 
-typedef struct CpsiPushKeys {
+typedef struct CpsiPatchValues {
+    const CpsiYaml *node;
+    CpsPatch patch; /* its numbers; friction and load NaN: not given */
+    int locked;     /* brake: 0: the word is given */
+    const CpsiYaml *law;
+    CpsiRows corners;
+} CpsiPatchValues;
+
+typedef struct CpsiPushValues { /* NaN: not given */
+    const CpsiYaml *node;
     double at[2], velocity[2], normal[2], speed, twist[3];
-} CpsiPushKeys;
+} CpsiPushValues;
 
-typedef struct CpsiTowKeys {
-    CpsTow start; /* without its end */
-    double end[2];
-    const CpsiYaml *path;
+typedef struct CpsiTowValues {
+    const CpsiYaml *node;
+    CpsTow start;  /* without its end */
+    double end[2]; /* NaN: not given */
+    CpsiPathValues path;
     int steps;
-} CpsiTowKeys;
+} CpsiTowValues;
 
-typedef struct CpsiPlanimeterKeys {
-    CpsPlanimeter planimeter;
-    const CpsiYaml *curve;
-    int steps;
-} CpsiPlanimeterKeys;
+typedef struct CpsiBodyValues {
+    const CpsiYaml *node;
+    CpsiList patches; /* CpsiPatchValues; of a vehicle: its wheels */
+    CpsiList pushes;  /* CpsiPushValues */
+    CpsiTowValues tow;
+} CpsiBodyValues;
 
-typedef struct CpsiCurveKeys {
-    const CpsiYaml *circle, *file;
-} CpsiCurveKeys;
+/* ---- planimeters, ropes, sweeps ---- */
 
-typedef struct CpsiCircleKeys {
+typedef struct CpsiCircleValues {
+    const CpsiYaml *node;
     double center[2], radius;
     int points;
-} CpsiCircleKeys;
+} CpsiCircleValues;
 
-typedef struct CpsiRopeKeys {
-    const CpsiYaml *shape, *ends, *path;
+typedef struct CpsiCurveValues {
+    const CpsiYaml *node; /* NULL: rows */
+    CpsiRows points;
+    CpsiCircleValues circle;
+    const char *file;
+} CpsiCurveValues;
+
+typedef struct CpsiPlanimeterValues {
+    const CpsiYaml *node;
+    CpsPlanimeter planimeter;
+    CpsiCurveValues curve;
+    int steps;
+} CpsiPlanimeterValues;
+
+typedef struct CpsiRopeStraightValues {
+    const CpsiYaml *node;
+    double from[2], to[2];
+} CpsiRopeStraightValues;
+
+typedef struct CpsiRopeArcValues {
+    const CpsiYaml *node;
+    double center[2], radius, from, turn;
+} CpsiRopeArcValues;
+
+typedef struct CpsiRopeShapeValues {
+    const CpsiYaml *node;
+    CpsiRopeStraightValues straight;
+    CpsiRopeArcValues arc;
+    CpsiRows points;
+} CpsiRopeShapeValues;
+
+/* What an end of a rope does. */
+typedef enum CpsiRopeEnd { CPSI_ROPE_END_FREE, CPSI_ROPE_END_HELD } CpsiRopeEnd;
+
+typedef struct CpsiRopeValues {
+    const CpsiYaml *node;
+    CpsiRopeShapeValues shape;
+    int end[2];            /* CpsiRopeEnd, free unless given, or .. */
+    double velocity[2][2]; /* .. NaN: not given */
+    CpsiPathValues path;
     int elements, steps, shots;
     double friction, weight;
     bool slack;
-} CpsiRopeKeys;
+} CpsiRopeValues;
 
-typedef struct CpsiShapeKeys {
-    const CpsiYaml *straight, *arc, *points;
-} CpsiShapeKeys;
-
-typedef struct CpsiStraightKeys {
-    double from[2], to[2];
-} CpsiStraightKeys;
-
-typedef struct CpsiArcKeys {
-    double center[2], radius, from, turn;
-} CpsiArcKeys;
-
-typedef struct CpsiEndsKeys {
-    const CpsiYaml *A, *B;
-} CpsiEndsKeys;
-
-typedef struct CpsiSweepKeys {
-    const CpsiYaml *law, *position, *end, *path;
+typedef struct CpsiSweepValues {
+    const CpsiYaml *node;
+    const CpsiYaml *law;
     double stiffness;
+    CpsiRows position, end;
+    CpsiPathValues path;
     int steps;
-} CpsiSweepKeys;
+} CpsiSweepValues;
 
-typedef struct CpsiPathKeys {
-    const CpsiYaml *arc;
-} CpsiPathKeys;
+/* ---- the file ---- */
 
-typedef struct CpsiPathArcKeys {
-    double center[2], turn;
-} CpsiPathArcKeys;
+/* Which of them it holds, in the order of the table. */
+typedef enum CpsiDriveKind {
+    CPSI_DRIVE_SYSTEM,
+    CPSI_DRIVE_BODY,
+    CPSI_DRIVE_VEHICLE,
+    CPSI_DRIVE_PLANIMETER,
+    CPSI_DRIVE_ROPE,
+    CPSI_DRIVE_SWEEP
+} CpsiDriveKind;
 
-enum { CPSI_DRIVE_MOST_KEYS = 10 };
+typedef struct CpsiDriveValues {
+    const CpsiYaml *node;
+    int version;
+    const char *title;
+    int kind; /* CpsiDriveKind */
+    CpsiSystemValues system;
+    CpsiBodyValues body, vehicle;
+    CpsiPlanimeterValues planimeter;
+    CpsiRopeValues rope;
+    CpsiSweepValues sweep;
+} CpsiDriveValues;
 
-typedef struct CpsiDriveWord {
-    const char *name;  /* in messages: "'arc'" */
-    const char *alias; /* in the schema: "path_arc" */
-    const char *also;  /* JSON schema of what keys go together; NULL: nothing more than their rows say */
-    CpsiKey key[CPSI_DRIVE_MOST_KEYS]; /* up to the first one without a name */
-} CpsiDriveWord;
-
-const CpsiDriveWord *cpsi_drive_word(CpsiDriveMapping mapping);
-
-/* How many keys it has. */
-int cpsi_drive_word_count(const CpsiDriveWord *word);
+extern const CpsiMapping cpsi_drive_file;
 
 #endif

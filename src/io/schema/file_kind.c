@@ -23,14 +23,15 @@ static const CpsiYaml *own_key(const CpsiYaml *root, const Kind *kind) {
     return given;
 }
 
-CpsStatus cpsi_file_expect(const char *file, const CpsiYaml *root, CpsiFileKind expected, CpsError *err) {
+CpsStatus cpsi_file_expect(const char *file, const CpsiYaml *root, CpsiFileKind expected,
+                           CpsError *err) {
     if (own_key(root, &KIND[expected])) return CPS_OK;
     for (int k = 0; k < KINDS; k++) {
         const CpsiYaml *given = own_key(root, &KIND[k]);
         if (given)
             return cpsi_fail_at(err, CPS_ERR_INPUT, file, given->line, given->column,
-                                "found %s ('%s'), which %s; expected %s", KIND[k].name, given->key, KIND[k].commands,
-                                KIND[expected].name);
+                                "found %s ('%s'), which %s; expected %s", KIND[k].name, given->key,
+                                KIND[k].commands, KIND[expected].name);
     }
     return CPS_OK;
 }

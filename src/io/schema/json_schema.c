@@ -1,13 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writing a JSON schema (see json_schema.h). */
-#include "io/schema/json_schema.h"
+/* The JSON schemas (draft 2020-12) of scenes, of laws and of driven systems, from their tables of
+ * keys: one definition for each kind of mapping. What does not depend on two values together, such
+ * as dimensions, is in them. */
+#include <stdio.h>
 
 #include "base/status.h"
-#include "capstan/planar.h"
+#include "capstan/drive_io.h"
+#include "capstan/io.h"
+#include "capstan/law_io.h"
 #include "io/base/escape.h"
 #include "io/base/numbers.h"
+#include "io/schema/drive_keys.h"
+#include "io/schema/scene_keys.h"
+#include "io/schema/set_keys.h"
 
-/* What values a row accepts. */
+static void write_mapping(FILE *out, const CpsiMapping *mapping);
+
+static const char *definition(const CpsiMapping *mapping) {
+    return mapping->definition ? mapping->definition : mapping->name;
+}
+
+/* ---- values ---- */
+
 static void write_range(FILE *out, const CpsiKey *key) {
     if (key->low > -CPSI_LARGEST) {
         fprintf(out, ", \"%s\": ", key->open ? "exclusiveMinimum" : "minimum");
@@ -19,156 +33,239 @@ static void write_range(FILE *out, const CpsiKey *key) {
     }
 }
 
+/* ["a", "b"] of words, or of the names of the keys of a need */
 static void write_words(FILE *out, const char *words) {
-    fputs("\"enum\": [\"", out);
+    fputs("[\"", out);
     for (const char *c = words; *c; c++) fputs(*c == ' ' ? "\", \"" : (char[]){*c, '\0'}, out);
     fputs("\"]", out);
 }
 
-/* a mapping, or what else may stand in its place */
-static void write_mapping(FILE *out, const CpsiKey *key, CpsiName name) {
-    const bool number = key->type == CPSI_NUMBER_OR_MAPPING, either = number || key->words;
-    if (either) fputs("\"oneOf\": [{", out);
-    if (number) {
-        fputs("\"type\": \"number\"", out);
-        write_range(out, key);
-    } else if (key->words) {
-        write_words(out, key->words);
-    }
-    if (either) fputs("}, {", out);
-    fprintf(out, "\"$ref\": \"#/$defs/%s\"", name(key->inside));
-    if (either) fputs("}]", out);
+static void write_number(FILE *out, const CpsiKey *key, const char *type) {
+    fprintf(out, "\"type\": \"%s\"", type);
+    write_range(out, key);
 }
 
-/* `least` rows or more of `columns` numbers, of any one number where that is 0 */
-static void write_rows(FILE *out, int least, int columns) {
-    fprintf(out, "\"$ref\": \"#/$defs/matrix\", \"minItems\": %d", least);
-    if (columns > 0) fprintf(out, ", \"items\": {\"minItems\": %d, \"maxItems\": %d}", columns, columns);
+#define ARRAY "\"type\": \"array\", \"minItems\": "
+
+/* `low` to `high` rows of `columns` numbers; of any number where that is 0 */
+static void write_rows(FILE *out, const CpsiKey *key) {
+    fprintf(out, ARRAY "%.0f, ", key->low);
+    if (key->high < CPSI_LARGEST) fprintf(out, "\"maxItems\": %.0f, ", key->high);
+    fprintf(out, "\"items\": {" ARRAY "%d, \"maxItems\": %d, \"items\": {\"type\": \"number\"}}",
+            key->most ? key->most : 1, key->most ? key->most : CPSI_LAW_MOST_COMPONENTS);
 }
 
-/* such rows, or a mapping */
-static void write_rows_or(FILE *out, int least, int columns, const char *name) {
-    fputs("\"oneOf\": [{", out);
-    write_rows(out, least, columns);
-    fprintf(out, "}, {\"$ref\": \"#/$defs/%s\"}]", name);
-}
-
-/* a list of mappings of one word, that of a patch */
-static void write_patches(FILE *out, int first, CpsiName name) {
-    fputs("\"type\": \"array\", \"minItems\": 1, \"items\": {\"type\": \"object\", \"minProperties\": 1, "
-          "\"maxProperties\": 1, "
-          "\"additionalProperties\": false, \"properties\": {",
-          out);
-    for (int k = CPS_PATCH_POINT; k <= CPS_PATCH_POLYGON; k++)
-        fprintf(out, "%s\"%s\": {\"$ref\": \"#/$defs/%s\"}", k ? ", " : "", name(first + k), name(first + k));
-    fputs("}}", out);
-}
+#define TWO_NUMBERS \
+    "{\"type\": \"array\", \"minItems\": 2, \"maxItems\": 2, \"items\": {\"type\": \"number\"}}"
+#define SIDE    "\"oneOf\": [{\"type\": \"number\", \"minimum\": 0}, " TWO_NUMBERS "]"
+#define NAME    "{\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 1}"
+#define BY_NAME "\"type\": \"object\", \"additionalProperties\": {\"type\": \"number\"}"
 
 /* What values look like whatever the row. */
 static const char *const ALWAYS[] = {
     [CPSI_FLAG] = "\"type\": \"boolean\"",
-    [CPSI_MATRIX] = "\"$ref\": \"#/$defs/matrix\"",
-    [CPSI_SQUARE] = "\"$ref\": \"#/$defs/matrix\"",
-    [CPSI_ENDS_OF_SEGMENT] = "\"$ref\": \"#/$defs/matrix\", \"minItems\": 2, \"maxItems\": 2",
-    [CPSI_PAIRS] = "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/pair\"}, \"minItems\": 1",
-    [CPSI_SIDE] = "\"$ref\": \"#/$defs/side\"",
-    [CPSI_SET] = "\"$ref\": \"#/$defs/set\"",
-    [CPSI_LAW] = "\"$ref\": \"#/$defs/set\"",
-    [CPSI_SETS] = "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/set\"}, \"minItems\": 1",
-    [CPSI_LAWS] = "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/set\"}, \"minItems\": 1",
-    [CPSI_CONTACTS] = "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/contact\"}, \"minItems\": 1",
-    [CPSI_TERMS] = "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/term\"}, \"minItems\": 1",
-    [CPSI_POINTS] = "\"type\": \"array\", \"items\": {\"type\": \"array\", \"items\": {\"type\": \"number\"}, "
-                    "\"minItems\": 3, \"maxItems\": 3}, \"minItems\": 2",
-    [CPSI_ELEMENTS] = "\"oneOf\": [{\"type\": \"integer\", \"minimum\": 1}, {\"type\": \"array\", \"minItems\": 1, \"items\": "
-                      "{\"oneOf\": [{\"type\": \"number\", \"exclusiveMinimum\": 0}, {\"type\": \"array\", \"prefixItems\": "
-                      "[{\"type\": \"integer\", \"minimum\": 1}, {\"type\": \"number\", \"exclusiveMinimum\": 0}], "
-                      "\"minItems\": 2, \"maxItems\": 2}]}}]",
-    [CPSI_COMPONENTS] = "\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": 1, \"maxItems\": 2",
-    [CPSI_MAP] = "\"type\": \"array\", \"items\": {\"oneOf\": [{\"$ref\": \"#/$defs/parameter\"}, "
-                 "{\"$ref\": \"#/$defs/by_parameter\"}]}, \"minItems\": 1",
-    [CPSI_BY_NAME] = "\"$ref\": \"#/$defs/by_parameter\"",
-    [CPSI_BRAKE] = "\"oneOf\": [{\"type\": \"number\", \"minimum\": 0}, {\"const\": \"locked\"}]",
-    [CPSI_END_MOTION] = "\"oneOf\": [{\"enum\": [\"free\", \"held\"]}, {\"$ref\": \"#/$defs/pair\"}]",
-    [CPSI_FILE_NAME] = "\"type\": \"string\", \"minLength\": 1",
+    [CPSI_SIDE] = SIDE,
+    [CPSI_ELEMENTS] =
+        ARRAY "1, \"items\": {\"oneOf\": [{\"type\": \"number\", \"exclusiveMinimum\": 0}, {" ARRAY
+              "2, \"maxItems\": 2, \"prefixItems\": [{\"type\": \"integer\", \"minimum\": 1}, "
+              "{\"type\": \"number\", \"exclusiveMinimum\": 0}]}]}",
+    [CPSI_COMBINATIONS] = ARRAY "1, \"items\": {\"oneOf\": [" NAME ", {" BY_NAME "}]}",
+    [CPSI_BY_NAME] = BY_NAME,
 };
 
-void cpsi_write_value(FILE *out, const CpsiKey *key, CpsiName name) {
+/* What a form of the value accepts, without braces. */
+static void write_form(FILE *out, const CpsiKey *key) {
+    const char *inside = key->inside ? definition(key->inside) : NULL;
     switch (key->type) {
     case CPSI_TEXT:
         if (key->most > 0)
-            fprintf(out, "\"type\": [\"string\", \"number\", \"boolean\", \"null\"], \"maxLength\": %d", key->most);
+            fprintf(out,
+                    "\"type\": [\"string\", \"number\", \"boolean\", \"null\"], \"maxLength\": %d",
+                    key->most);
         else
             fputs("\"type\": [\"string\", \"number\"], \"minLength\": 1", out);
         break;
     case CPSI_INTEGER:
-    case CPSI_NUMBER:
-        fprintf(out, "\"type\": \"%s\"", key->type == CPSI_NUMBER ? "number" : "integer");
-        write_range(out, key);
-        break;
+    case CPSI_COUNT: write_number(out, key, "integer"); break;
+    case CPSI_NUMBER: write_number(out, key, "number"); break;
     case CPSI_WORD:
+        fputs("\"enum\": ", out);
         write_words(out, key->words);
         break;
     case CPSI_POINT:
-        fprintf(out, "\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": %d, \"maxItems\": %d", key->most,
-                key->most);
-        break;
     case CPSI_VECTOR:
-        fputs("\"type\": \"array\", \"items\": {\"type\": \"number\"", out);
-        write_range(out, key);
-        fprintf(out, "}, \"minItems\": 1, \"maxItems\": %d", key->most);
-        break;
-    case CPSI_SIDES:
-        fprintf(out, "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/side\"}, \"minItems\": 1, \"maxItems\": %d", key->most);
-        break;
-    case CPSI_MAPPING:
-    case CPSI_NUMBER_OR_MAPPING:
-        write_mapping(out, key, name);
-        break;
-    case CPSI_LIST:
-        fprintf(out, "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/%s\"}", name(key->inside));
-        if (key->most > 0) fprintf(out, ", \"minItems\": %d", key->most);
-        break;
-    case CPSI_PATCHES:
-        write_patches(out, key->inside, name);
+        fprintf(out, ARRAY "%d, \"maxItems\": %d, \"items\": {",
+                key->type == CPSI_POINT ? key->most : 1, key->most);
+        write_number(out, key, "number");
+        fputc('}', out);
         break;
     case CPSI_ROWS:
-        write_rows(out, (int)key->low, key->most);
-        break;
-    case CPSI_PATH:
-        write_rows_or(out, 1, 0, name(key->inside));
-        break;
-    case CPSI_CURVE:
-        write_rows_or(out, 3, 2, name(key->inside));
+    case CPSI_SQUARE: write_rows(out, key); break;
+    case CPSI_SIDES:
+        fprintf(out, ARRAY "1, \"maxItems\": %d, \"items\": {" SIDE "}", key->most);
         break;
     case CPSI_NAMES:
-        fprintf(out,
-                "\"type\": \"array\", \"items\": {\"$ref\": \"#/$defs/parameter\"}, \"minItems\": 1, "
-                "\"maxItems\": %d, \"uniqueItems\": true",
+        fprintf(out, ARRAY "1, \"maxItems\": %d, \"uniqueItems\": true, \"items\": " NAME,
                 key->most);
         break;
-    default:
-        if (ALWAYS[key->type]) fputs(ALWAYS[key->type], out);
+    case CPSI_EXPRESSION:
+    case CPSI_MAPPING:
+        if (inside)
+            fprintf(out, "\"$ref\": \"#/$defs/%s\"", inside);
+        else
+            write_mapping(out, key->inside);
+        break;
+    case CPSI_EXPRESSIONS:
+    case CPSI_LIST:
+        fprintf(out, ARRAY "%d, \"items\": {\"$ref\": \"#/$defs/%s\"}",
+                key->type == CPSI_LIST ? key->most : 1, inside);
+        break;
+    default: fputs(ALWAYS[key->type], out);
     }
 }
 
-void cpsi_draw_key(FILE *out, const CpsiKey *key, CpsiName name) {
+/* ---- mappings ---- */
+
+static void write_key(FILE *out, const CpsiKey *key) {
     char text[512];
-    snprintf(text, sizeof text, "%s%s%s%s", key->unit[0] ? "[" : "", key->unit, key->unit[0] ? "] " : "", key->help);
+    const char *unit = key->unit ? key->unit : "";
     fputc('{', out);
-    cpsi_write_value(out, key, name);
+    if (key->other) fputs("\"oneOf\": [{", out);
+    for (const CpsiKey *form = key; form; form = form->other) {
+        write_form(out, form);
+        if (form->other) fputs("}, {", out);
+    }
+    if (key->other) fputs("}]", out);
+    snprintf(text, sizeof text, "%s%s%s%s", *unit ? "[" : "", unit, *unit ? "] " : "", key->help);
     fputs(", \"description\": ", out);
     cpsi_write_json_string(out, text);
     if (key->fallback) fprintf(out, ", \"default\": %s", key->fallback);
     fputc('}', out);
 }
 
-CpsStatus cpsi_write_schema(FILE *out, void (*put)(FILE *out), CpsError *err) {
-    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected an open file");
+/* The name of a row, or its form as a regular expression. */
+static void write_name(FILE *out, const CpsiKey *key) {
+    if (!key->owner) {
+        fprintf(out, "\"%s\": ", key->name);
+        return;
+    }
+    fputs("\"^[A-Za-z][A-Za-z0-9_-]{0,63}", out);
+    for (const char *c = key->after; c && *c; c++) {
+        if (c == key->after) fputs("\\\\.(", out);
+        fputc(*c == ' ' ? '|' : *c, out);
+        if (!c[1]) fputc(')', out);
+    }
+    fputs("$\": ", out);
+}
+
+/* "properties": all keys with a fixed name, or those of a form */
+static void write_keys(FILE *out, const CpsiMapping *mapping, bool forms) {
+    int written = 0;
+    for (int i = 0; i < mapping->count; i++) {
+        const CpsiKey *key = &mapping->key[i];
+        if ((key->owner != NULL) != forms) continue;
+        if (!written++)
+            fprintf(out, ",\n      \"%s\": {", forms ? "patternProperties" : "properties");
+        else
+            fputc(',', out);
+        fputs("\n        ", out);
+        write_name(out, key);
+        write_key(out, key);
+    }
+    if (written) fputs("\n      }", out);
+}
+
+/* "required": [..], or as many schemas that require one key each */
+static void write_needs(FILE *out, const CpsiMapping *mapping, CpsiNeed need) {
+    const bool all = need == CPSI_REQUIRED;
+    int written = 0;
+    for (int i = 0; i < mapping->count; i++) {
+        const CpsiKey *key = &mapping->key[i];
+        if (key->need != need) continue;
+        if (written++)
+            fputs(", ", out);
+        else
+            fputs(all ? ",\n      \"required\": [" : ",\n      \"oneOf\": [", out);
+        fprintf(out, all ? "\"%s\"" : "{\"required\": [\"%s\"]}", key->name);
+    }
+    if (written) fputc(']', out);
+}
+
+static void write_companions(FILE *out, const CpsiMapping *mapping) {
+    int written = 0;
+    for (int i = 0; i < mapping->count; i++) {
+        const CpsiKey *key = &mapping->key[i];
+        if (!key->with) continue;
+        fputs(written++ ? ", " : ",\n      \"dependentRequired\": {", out);
+        fprintf(out, "\"%s\": [\"%s\"]", key->name, key->with);
+    }
+    if (written) fputc('}', out);
+}
+
+static void write_mapping(FILE *out, const CpsiMapping *mapping) {
+    fputs("\"type\": \"object\", \"additionalProperties\": false", out);
+    if (mapping->word) fputs(", \"minProperties\": 1, \"maxProperties\": 1", out);
+    write_keys(out, mapping, false);
+    write_keys(out, mapping, true);
+    if (mapping->word) return;
+    write_needs(out, mapping, CPSI_REQUIRED);
+    write_needs(out, mapping, CPSI_ONE_OF);
+    write_companions(out, mapping);
+    if (mapping->also) fprintf(out, ",\n      %s", mapping->also);
+}
+
+/* ---- files ---- */
+
+enum { MOST_DEFINITIONS = 64 };
+
+typedef struct Definitions {
+    const CpsiMapping *mapping[MOST_DEFINITIONS];
+    int count;
+} Definitions;
+
+/* All mappings that this one leads to, each once; those without a name are written where they
+ * stand. */
+static void collect(Definitions *found, const CpsiMapping *mapping) {
+    for (int k = 0; k < found->count; k++)
+        if (found->mapping[k] == mapping) return;
+    if (mapping->name && found->count < MOST_DEFINITIONS) found->mapping[found->count++] = mapping;
+    for (int i = 0; i < mapping->count; i++)
+        for (const CpsiKey *form = &mapping->key[i]; form; form = form->other)
+            if (form->inside) collect(found, form->inside);
+}
+
+static CpsStatus write_schema(FILE *out, const char *title, const CpsiMapping *file,
+                              CpsError *err) {
     CpsiNumbers numbers;
+    Definitions found = {.count = 0};
+    if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected an open file");
     if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    put(out);
+    collect(&found, file);
+    fprintf(out,
+            "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
+            "  \"title\": \"capstan %s, format version 1\",\n"
+            "  \"$ref\": \"#/$defs/%s\",\n  \"$defs\": {\n",
+            title, definition(file));
+    for (int k = 0; k < found.count; k++) {
+        fprintf(out, "    \"%s\": {\n      ", definition(found.mapping[k]));
+        write_mapping(out, found.mapping[k]);
+        fprintf(out, "\n    }%s\n", k + 1 < found.count ? "," : "");
+    }
+    fputs("  }\n}\n", out);
     cpsi_numbers_end(&numbers);
-    if (fflush(out) != 0 || ferror(out)) return cpsi_fail(err, CPS_ERR_IO, "the schema could not be written");
+    if (fflush(out) != 0 || ferror(out))
+        return cpsi_fail(err, CPS_ERR_IO, "the schema could not be written");
     return CPS_OK;
+}
+
+CpsStatus cps_scene_write_schema(FILE *out, CpsError *err) {
+    return write_schema(out, "scene", &cpsi_scene_file, err);
+}
+
+CpsStatus cps_law_write_schema(FILE *out, CpsError *err) {
+    return write_schema(out, "law", &cpsi_law_file, err);
+}
+
+CpsStatus cps_drive_write_schema(FILE *out, CpsError *err) {
+    return write_schema(out, "driven system", &cpsi_drive_file, err);
 }

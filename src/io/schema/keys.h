@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of tables of keys: what may stand in a mapping of a file, and where reading puts it. The vocabularies of scenes, of laws and of driven
- * systems are tables of these; messages, suggestions and JSON schemas all come from the rows. */
+/* Rows of tables of keys: what may stand in a mapping of a file, and where reading puts it. The
+ * vocabularies of scenes (scene_keys.c), of laws (set_keys.c) and of driven systems (drive_keys.c)
+ * are tables of these rows. One reader (read/keys_reader.c) checks a file against them and fills
+ * structs; suggestions, messages and JSON schemas come from the same rows. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_KEYS_H
 
@@ -9,48 +11,33 @@
 
 #include "io/base/yaml.h"
 
-/* What stands under a key, and what reading stores at its offset. */
+/* What stands under a key, and the type that reading stores at its offset. */
 typedef enum CpsiValue {
-    CPSI_NOTHING,           /* behind the last key */
-    CPSI_TEXT,              /* const char *; at most `most` bytes, not empty where that is 0 */
-    CPSI_INTEGER,           /* int of the range */
-    CPSI_NUMBER,            /* double of the range */
-    CPSI_FLAG,              /* bool: true, false */
-    CPSI_WORD,              /* int: which of `words`, from 0 */
-    CPSI_POINT,             /* double[most]: exactly so many numbers */
+    CPSI_TEXT,    /* const char *; at most `most` bytes, or not empty where `most` is 0 */
+    CPSI_INTEGER, /* int of the range, which int holds */
+    CPSI_COUNT,   /* double: a whole number of the range, which may be beyond any int */
+    CPSI_NUMBER,  /* double of the range */
+    CPSI_FLAG,    /* bool: true, false */
+    CPSI_WORD,    /* int: which of `words`, from 0 */
+    CPSI_POINT,   /* double[most]: exactly so many numbers of the range */
 
-    /* sets and laws, as CpsiLawValue (set_words.h) */
-    CPSI_VECTOR,            /* [x, ..], at most `most` numbers of the range */
-    CPSI_MATRIX,            /* [[x, ..], ..]: rows of components, all equally long */
-    CPSI_SQUARE,            /* a matrix with as many rows as columns */
-    CPSI_ENDS_OF_SEGMENT,   /* [[x, ..], [x, ..]]: a matrix of two rows */
-    CPSI_PAIRS,             /* [[x, y], ..]; kept as all x, then all y */
-    CPSI_SIDE,              /* b for [-b, b], or [low, high] */
-    CPSI_SIDES,             /* [side, ..]; kept as all low ends, then all high ends */
-    CPSI_SET,               /* {WORD: value} */
-    CPSI_SETS,              /* [set, ..] */
-    CPSI_LAW,               /* a set that must contain 0 */
-    CPSI_LAWS,              /* [law, ..] */
-    CPSI_CONTACTS,          /* [{map: B, of: law}, ..] */
-    CPSI_TERMS,             /* [{TERM: value}, ..] */
+    /* CpsiRows */
+    CPSI_VECTOR, /* [x, ..]: one row of at most `most` numbers of the range */
+    CPSI_ROWS,   /* [[x, ..], ..]: `low` to `high` rows of `most` numbers; 0: all equally long */
+    CPSI_SQUARE, /* as many rows as columns */
+    CPSI_SIDE,   /* b for [-b, b], or [low, high]: two rows of one number */
+    CPSI_SIDES,  /* [side, ..]: all low ends, then all high ends */
 
-    /* the node itself, const CpsiYaml *, for the caller to read */
-    CPSI_MAPPING,           /* with the keys `inside`, or one of `words` in its place */
-    CPSI_LIST,              /* of such mappings, at least `most` */
-    CPSI_NUMBER_OR_MAPPING, /* a number of the range in its place */
-    CPSI_POINTS,            /* [[x, y, z], ...], at least two */
-    CPSI_ELEMENTS,          /* a count, or a list of lengths and of [count, length] */
-    CPSI_PATCHES,           /* list of {WORD: mapping}, one of the kinds of patch each */
-    CPSI_COMPONENTS,        /* as many numbers as the law has components */
-    CPSI_ROWS,              /* at least `low` rows of `most` numbers, of any one number where that is 0 */
-    CPSI_PATH,              /* rows of numbers, or a mapping */
-    CPSI_CURVE,             /* at least 3 rows of 2 numbers, or a mapping */
-    CPSI_NAMES,             /* names of parameters, at most `most` */
-    CPSI_MAP,               /* combinations of parameters */
-    CPSI_BY_NAME,           /* numbers by parameter */
-    CPSI_BRAKE,             /* a torque of at least 0, or "locked" */
-    CPSI_END_MOTION,        /* "free", "held" or a velocity of 2 numbers */
-    CPSI_FILE_NAME          /* of a file */
+    /* const CpsiYaml *: checked in part, and read later */
+    CPSI_EXPRESSION,   /* {WORD: value}: one of the keys `inside`, a set, a law, .. */
+    CPSI_EXPRESSIONS,  /* [{WORD: value}, ..] */
+    CPSI_ELEMENTS,     /* [length, [count, length], ..] */
+    CPSI_NAMES,        /* names of parameters, at most `most` */
+    CPSI_COMBINATIONS, /* [name, {name: factor, ..}, ..] */
+    CPSI_BY_NAME,      /* {name: number, ..} */
+
+    CPSI_MAPPING, /* with the keys `inside`, read into the struct that begins at the offset */
+    CPSI_LIST     /* CpsiList: [mapping, ..] with the keys `inside`, at least `most` of them */
 } CpsiValue;
 
 typedef enum CpsiNeed {
@@ -59,32 +46,81 @@ typedef enum CpsiNeed {
     CPSI_ONE_OF /* exactly one of the mapping's keys marked so */
 } CpsiNeed;
 
-/* The offset of a value that the reader takes from the tree itself. */
-#define CPSI_BY_HAND ((size_t)-1)
+struct CpsiSetValues;
+struct CpsiSetMade;
 
+/* A row. Fields that it does not give are 0. */
 typedef struct CpsiKey {
-    const char *name; /* NULL: what stands behind a word of law files itself. Scenes: see scene_keys.h for names of a form */
-    CpsiValue type;
+    const char *name;
     CpsiNeed need;
-    size_t offset;    /* in the struct that the mapping is read into; of a mapping: its keys go to the same struct */
-    const char *unit; /* "" without */
-    double low, high; /* range of numbers; a high of INFINITY allows .inf */
-    bool open;        /* low itself is excluded */
-    int most;
-    int inside;           /* number of the mapping in its vocabulary */
-    const char *words;    /* separated by spaces, in the order of the enum they stand for */
-    const char *fallback; /* default as JSON, NULL: none */
+    CpsiValue type;
+    int most;                         /* see CpsiValue */
+    size_t offset;                    /* of the value in the struct that the mapping is read into */
+    double low, high;                 /* range of numbers; a high of INFINITY allows .inf */
+    bool open;                        /* low itself is excluded */
+    const char *words;                /* separated by spaces, in the order of the enum */
+    const struct CpsiMapping *inside; /* what a mapping, list or expression holds */
+    const struct CpsiKey *other;      /* another form that the value may have; NULL: none */
+    const char *with;                 /* the key without which this one says nothing; NULL: none */
+    const char *unit;                 /* NULL: none */
+    const char *fallback;             /* default as JSON; NULL: none */
     const char *help;
+
+    /* A name written as ITS.OWN: owner "" for any name, "lines" for the name of one of the lines, a
+     * dot and one of `after`. Values are items of a CpsiList at the offset. NULL: the name as it
+     * is. */
+    const char *owner;
+    const char *after;
+
+    /* Of a word of laws: makes it of its values (set_keys.h). */
+    CpsStatus (*make)(const struct CpsiSetValues *values, struct CpsiSetMade *made, CpsError *err);
+    bool solved; /* questions about it solve a conic program over all its parts */
 } CpsiKey;
+
+/* A kind of mapping: its table of keys. */
+typedef struct CpsiMapping {
+    const char *name; /* in messages and JSON schemas: "line", "entry"; NULL: that of its key */
+    const char *definition; /* in JSON schemas, where it is not the name */
+    const CpsiKey *key;
+    int count;
+    size_t size; /* of its struct, which begins with a const CpsiYaml *: the mapping,
+                    NULL where it is not given. 0: keys go to the struct around */
+    void (*begin)(void *values); /* fills the struct with defaults; NULL: zeros */
+    const size_t *which; /* where to store, as an int from 0, which of the keys CPSI_ONE_OF is
+                            given; NULL: nowhere */
+    const char *word;    /* exactly one key stands in it, which is called a "word" .. */
+    const char *example; /* .. or a list of it: one of them, "{disc: 500}" */
+    const char *also;    /* JSON schema of what else goes together; NULL: nothing */
+} CpsiMapping;
+
+/* What CPSI_LIST and names of a form are read into. */
+typedef struct CpsiList {
+    const CpsiYaml *node; /* NULL: not given */
+    int count;
+    void *item; /* (count) structs of the mapping's size, or CpsiNumberItem */
+} CpsiList;
+
+/* An item of a list of numbers, as of "OBSTACLE.turn". */
+typedef struct CpsiNumberItem {
+    const CpsiYaml *node;
+    double number;
+} CpsiNumberItem;
+
+/* Rows of numbers. */
+typedef struct CpsiRows {
+    const CpsiYaml *node; /* NULL: not given */
+    int rows, columns;
+    double *x; /* (rows, columns) */
+} CpsiRows;
 
 /* Beyond it squares would overflow (cps_scene_check); .inf where a range allows it. */
 #define CPSI_LARGEST 1e100
 
-/* The number of a word in a row's words, from 0; -1: none of them. */
-int cpsi_key_word(const CpsiKey *key, const char *written);
+/* The row for a key as it is written; NULL: there is none. A name of a form is told by its form. */
+const CpsiKey *cpsi_key_find(const CpsiMapping *mapping, const char *written);
 
-/* "a, b, c". Returns text. */
-const char *cpsi_key_list(const CpsiKey *key, int count, char *text, size_t size);
+/* The number of a word in a row's words, from 0; -1: none of them. */
+int cpsi_key_word(const char *words, const char *written);
 
 /* Keep the nearest of the candidates offered one after the other: start with {.word = written}. */
 typedef struct CpsiSuggestion {
@@ -93,11 +129,19 @@ typedef struct CpsiSuggestion {
 } CpsiSuggestion;
 void cpsi_suggest(CpsiSuggestion *suggestion, const char *candidate);
 
+/* What a row accepts, for messages: "a number in m, greater than 0".
+ * text   (size) written, always terminated; returns text */
+const char *cpsi_key_expected(const CpsiKey *key, char *text, size_t size);
+
 /* WHAT: unknown key 'lenght'; did you mean 'length'?  Returns CPS_ERR_INPUT. */
-CpsStatus cpsi_key_unknown(const char *file, const CpsiYaml *node, const char *what, const CpsiKey *key, int count, CpsError *err);
-/* WHAT: 'length' is missing: [m] unstretched length.  Returns CPS_ERR_INPUT. */
-CpsStatus cpsi_key_missing(const char *file, const CpsiYaml *node, const char *what, const CpsiKey *key, CpsError *err);
+CpsStatus cpsi_key_unknown(const char *file, const CpsiYaml *node, const char *what,
+                           const CpsiMapping *mapping, CpsError *err);
 /* WHAT: found '3', expected ..  Returns CPS_ERR_INPUT. */
-CpsStatus cpsi_key_wrong(const char *file, const CpsiYaml *node, const char *what, const char *expected, CpsError *err);
+CpsStatus cpsi_key_wrong(const char *file, const CpsiYaml *node, const char *what,
+                         const char *expected, CpsError *err);
+/* WHAT: 'length' is missing: [m] unstretched length; or: nothing given, expected exactly one of ..
+ * Returns CPS_OK or CPS_ERR_INPUT. */
+CpsStatus cpsi_key_needs(const char *file, const CpsiYaml *node, const char *what,
+                         const CpsiMapping *mapping, CpsError *err);
 
 #endif

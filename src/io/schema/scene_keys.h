@@ -1,54 +1,90 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of a scene file's keys. It drives the validation and its messages (validate.c), the reading of what needs no more than a row
- * (cpsi_scene_store), the suggestions for unknown keys and the JSON schema (scene_json.c).
- *
- * Keys of a form: "NAME" stands for any name, "LINE.END" for an end of a line, as cable.B, "OBSTACLE.turn" for drum.turn. */
+/* What a scene file is read into (scene_keys.c has the table of its keys): the scene's own structs
+ * where a value can go there as it is, and beside them what scene_build.c turns into the rest. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_SCENE_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_SCENE_KEYS_H
 
+#include "capstan/scene.h"
 #include "io/schema/keys.h"
 
-/* The mappings of a scene file; their keys are in scene_keys.c. */
-typedef enum CpsiObject {
-    CPSI_SCENE,
-    CPSI_OBSTACLES, /* {NAME: obstacle} */
-    CPSI_OBSTACLE,
-    CPSI_PLANE,
-    CPSI_CYLINDER,
-    CPSI_SPHERE,
-    CPSI_FRICTION,
-    CPSI_LINES, /* {NAME: line} */
-    CPSI_LINE,
-    CPSI_ZONE,
-    CPSI_START,
-    CPSI_STRAIGHT,
-    CPSI_ARC,
-    CPSI_ENDS,
-    CPSI_END,
-    CPSI_SOLVER,
-    CPSI_STAGE,
-    CPSI_CHANGE,
-    CPSI_OBJECT_COUNT
-} CpsiObject;
+typedef struct CpsiSceneValues {
+    const CpsiYaml *node;
+    int version;
+    CpsScene scene;     /* without its lists */
+    CpsiList obstacles; /* CpsiObstacleValues */
+    CpsiList lines;     /* CpsiLineValues */
+    CpsiList history;   /* CpsiStageValues */
+} CpsiSceneValues;
 
-/* The rows of an object: *count of them. */
-const CpsiKey *cpsi_keys(CpsiObject object, int *count);
+typedef struct CpsiObstacleValues {
+    const CpsiYaml *node; /* its key is the name */
+    CpsObstacle obstacle;
+    const CpsiYaml *set; /* of friction forces */
+} CpsiObstacleValues;
 
-/* What an object is called in messages and in the schema: "line", "entry", ... */
-const char *cpsi_object_name(CpsiObject object);
+typedef struct CpsiZoneValues {
+    const CpsiYaml *node;
+    CpsFrictionZone zone;
+} CpsiZoneValues;
 
-/* The row for a key written in an object; NULL: there is none. A name, LINE.END and OBSTACLE.turn are recognised by
- * their form alone. */
-const CpsiKey *cpsi_key_find(CpsiObject object, const char *written);
+typedef struct CpsiStraightValues {
+    const CpsiYaml *node;
+    double from[3], to[3];
+} CpsiStraightValues;
 
-/* The 'A' or 'B' after the last dot of LINE.END; 0: no such form. */
-char cpsi_key_end(const char *written);
+typedef struct CpsiArcValues {
+    const CpsiYaml *node;
+    double from[3], center[3], axis[3];
+} CpsiArcValues;
 
-/* Is this of the form OBSTACLE.turn? */
-bool cpsi_key_is_turn(const char *written);
+typedef struct CpsiStartValues {
+    const CpsiYaml *node; /* NULL: laid */
+    int word;             /* that of `laid` */
+    CpsiStraightValues straight;
+    CpsiRows polyline;
+    CpsiArcValues arc;
+    const char *nodes; /* name of a file */
+} CpsiStartValues;
 
-/* What a row accepts, for messages: "a number in m, greater than 0".
- * text   (size) written, always terminated; returns text */
-const char *cpsi_key_expected(const CpsiKey *key, char *text, size_t size);
+/* An end of a line: `fixed` or `free` in a word, or with its place or force. */
+typedef enum CpsiEndWord { CPSI_END_FIXED, CPSI_END_FREE } CpsiEndWord;
+
+typedef struct CpsiEndValues {
+    const CpsiYaml *node; /* NULL: a word */
+    int word;             /* CpsiEndWord, in either form */
+    double value[3];
+} CpsiEndValues;
+
+typedef struct CpsiLineValues {
+    const CpsiYaml *node; /* its key is the name */
+    CpsLine line;
+    double mass, count;       /* count: of elements; NaN: not given */
+    const CpsiYaml *elements; /* a list of them */
+    CpsiList zones;           /* CpsiZoneValues */
+    CpsiStartValues start;
+    CpsiEndValues end[2];
+} CpsiLineValues;
+
+/* What happens to an end of a line. */
+typedef enum CpsiChangeKind {
+    CPSI_CHANGE_POSITION,
+    CPSI_CHANGE_MOVE,
+    CPSI_CHANGE_FORCE
+} CpsiChangeKind;
+
+typedef struct CpsiChangeValues {
+    const CpsiYaml *node; /* its key is LINE.END */
+    int kind;             /* CpsiChangeKind */
+    double value[3];
+} CpsiChangeValues;
+
+typedef struct CpsiStageValues {
+    const CpsiYaml *node;
+    CpsStage stage;   /* gravity NaN: not given */
+    CpsiList changes; /* CpsiChangeValues */
+    CpsiList turns;   /* CpsiNumberItem, whose key is OBSTACLE.turn */
+} CpsiStageValues;
+
+extern const CpsiMapping cpsi_scene_file;
 
 #endif
