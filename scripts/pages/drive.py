@@ -81,9 +81,9 @@ LOOSELY = {"times": same_times}
 SENTENCES = [
     ("means bounds within `tolerance` ({}) of the power scale", lambda p: p.constant("drive/motion.c", r"\.tolerance = (\S+), \.boundary")),
     ("the load factor is 1 within `boundary` ({})", lambda p: p.constant("drive/motion.c", r"\.boundary = (\S+),")),
-    ("a friction of {}, and of {}, of the forces' size", lambda p: [p.constant("drive/attained.c", rf"\b{name} = ([^,;]+)[,;]") for name in ("STRONG", "WEAK")]),
-    ("and {} times as fast as the drive, velocities", lambda p: p.constant("drive/attained.c", r"\bFAR = (\d+);")),
-    ("more than about {} times as fast as the drive is not told", lambda p: p.constant("drive/attained.c", r"less than (\S+) times the driving")),
+    ("a friction of {}, and of {}, of the forces' size", lambda p: [p.constant("drive/attainment.c", rf"\b{name} = ([^,;]+)[,;]") for name in ("STRONG", "WEAK")]),
+    ("and {} times as fast as the drive, velocities", lambda p: p.constant("drive/attainment.c", r"\bFAR = (\d+);")),
+    ("more than about {} times as fast as the drive is not told", lambda p: p.constant("drive/attainment.c", r"less than (\S+) times the driving")),
     ("The tolerance (default {}) decides", lambda p: p.constant("drive/solutions.c", r"TOLERANCE = (\S+);")),
     ("limited to {} entries", lambda p: short(int(p.constant("sparse_program.c", r"MOST_ENTRIES = \(size_t\) ?(\d+) << 20")) * 2 ** 20)),
     ("Of the {} of every run, with {} motions, each one was certified with a gap of at most {} of its power scale; of {} sets of all solutions {} had", random_systems),

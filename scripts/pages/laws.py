@@ -85,9 +85,9 @@ PICTURES = {f"law-{name}": drawn(*asked) for name, asked in ASKED.items()}
 ALIKE = same
 SENTENCES = [
     ("with relative tolerance {}. A factor counts", lambda p: p.constant("law/law.c", r"BOUNDARY_TOLERANCE = (\S+);")),
-    ("whose gap is more than {} of phi(V)", lambda p: p.constant("law/sum.c", r"PROMISE = (\S+);")),
+    ("whose gap is more than {} of phi(V)", lambda p: p.constant("law/conjugate_sum.c", r"PROMISE = (\S+);")),
     ("{} at the gap of {} that passes aim at, {} at {}, where they may end", lambda p: accuracies(
-        p.constant("law/sum.c", r"TARGET = (\S+),"), p.constant("law/sum.c", r"ENOUGH = (\S+),"))),
-    ("A force outside by less than {} of its length", lambda p: p.constant("law/sum.c", r"ON_BOUNDARY = (\S+);")),
+        p.constant("law/conjugate_sum.c", r"TARGET = (\S+),"), p.constant("law/conjugate_sum.c", r"ENOUGH = (\S+),"))),
+    ("A force outside by less than {} of its length", lambda p: p.constant("law/conjugate_sum.c", r"ON_BOUNDARY = (\S+);")),
 ]
 GIVEN = []

@@ -97,13 +97,13 @@ SENTENCES = [
     ("over ever finer cells until they are {} apart", lambda p: p.constant("planar/bounds.c", r"TOLERANCE = (\S+);")),
     ("falls as 1/cells, about {}/cells for a disc", lambda p: f"{of(p, 'cells')[0][1]:.1f}"),
     ("by up to {} % along a ray: at {} of it for v/(R w) = {}", ellipsoid),
-    ("On {} random bodies", lambda p: p.constant("unit/planar_test.c", r"i < (5\d*); i\+\+")),
-    ("all are solved, bounds {} apart or nearer", lambda p: p.constant("unit/planar_test.c", r"motion\.upper - motion\.lower, (\S+) ?\* ?fmax")),
+    ("On {} random bodies", lambda p: p.constant("unit/test_planar.c", r"i < (5\d*); i\+\+")),
+    ("all are solved, bounds {} apart or nearer", lambda p: p.constant("unit/test_planar.c", r"motion\.upper - motion\.lower, (\S+) ?\* ?fmax")),
     ("comes out the same, to {}, as the sum", lambda p: p.constant("analytic/test_planar.c", r"answer\.value, expected, (1e-9)\)")),
     ("with errors of {}, {}, {} m at {}, {}, {} steps and no dissipation", lambda p: errors(p, "axle", 1)),
     ("keeps the rope's length to {} m", lambda p: p.constant("test_planar_paths.c", r"towed\[2\]\.worst_hitch, (\S+)\)")),
     ("with errors {}, {} and {} at {}, {} and {} steps: first order", lambda p: errors(p, "spring", 2)),
     ("takes 4 fN (A - fN/k) = 6 J, to {} at any", lambda p: p.constant("test_planar_paths.c", r"sweep\.dissipated - dissipated, 6, (\S+)\)")),
-    ("looked for up to {} times the driven speed", lambda p: p.constant("planar/drive.c", r"\bFAR = (\S+);")),
+    ("looked for up to {} times the driven speed", lambda p: p.constant("planar/motion.c", r"\bFAR = (\S+);")),
 ]
 GIVEN = ["A car of 18 kN with parallel steering at 0.2 rad and all brakes on, drawn by its nose 30 m along an arc of 15 m", "tracer arm 1.3, wheel at 0.4"]

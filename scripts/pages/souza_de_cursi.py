@@ -270,7 +270,7 @@ SENTENCES = [
      lambda p: short(9.81 ** 2 * 6.28 / 2 / max(float(r["lambda"]) for r in study(p, "souza-de-cursi-1990", "Y2")[1]))),
     ("Y4 lets {} mm of line down", slack_of_y4_mm),
     ("the tension being {} N", tension_of_y2),
-    ("So beyond {} elements the study ends", lambda p: p.constant("classic.c", r"finer = (\d+) ?\* ?shortest")),
+    ("So beyond {} elements the study ends", lambda p: p.constant("regularized/method.c", r"finer = (\d+) ?\* ?shortest")),
     ("(EA/T = {}, step `surge out`) the study ends with tensions {} N rms off, of some {} kN", steel_line),
     ("between frozen and consistent friction, {} to {} cm", apart),
     ("It prints its tolerance, {} or that", lambda p: p.constant("study_solutions.c", r"if \(!text\)\s+return (\S+);")),

@@ -16,7 +16,7 @@ def numbers(*constants):
 
 
 def in_vain(p):
-    most, beside, sets = numbers(*(("evolve/advance.c", n) for n in ("IN_VAIN", "NODES_BESIDE", "SET_COST")))(p)
+    most, beside, sets = numbers(*(("evolve/substeps.c", n) for n in ("IN_VAIN", "NODES_BESIDE", "SET_COST")))(p)
     return [f"{float(most) / 1e6:g}", beside, sets]
 
 
@@ -44,22 +44,22 @@ FIGURES = {}
 SENTENCES = [
     ("psi(x_R) = 0 }, to {} of the length", number(".h", "CPS_TOUCH")),
     ("at mu theta = 6 pi, a ratio of tensions of {}", lambda p: short(math.exp(6 * math.pi))),
-    ("axes turned by more than {} rad", number("cable/rounds.c", "SETTLED")),
+    ("axes turned by more than {} rad", number("cable/rounds.c", "AXES_TOL")),
     ("inside an obstacle; after {}, or {} if they close in, they begin anew and go on slowly, up to {} without foresight",
-     numbers(("cable/rounds.c", "ROUNDS"), ("cable/rounds.c", "MORE_ROUNDS"), ("cable/rounds.c", "SLOW_ROUNDS"))),
+     numbers(("cable/rounds.c", "MAX_ROUNDS"), ("cable/rounds.c", "MAX_CONVERGING_ROUNDS"), ("cable/rounds.c", "MAX_SLOW_ROUNDS"))),
     ("its certificate is asked every {}.", number("cable/rounds.c", "SLOW_PATIENCE")),
-    ("up to {} rounds go on from the reference", number("cable/rounds.c", "DRAG_ROUNDS")),
+    ("up to {} rounds go on from the reference", number("cable/rounds.c", "MAX_DRAG_ROUNDS")),
     ("its reaction below {} of the unit of force", number("cable/line_solve.c", "LEAST_REACTION")),
     ("The drag begins with {} units of force", number("evolve/relaxation.c", "FIRST_DRAG")),
     ("drag times motion is below {} of the unit of force, and the motion below {} of the length",
      numbers(("evolve/relaxation.c", "REST_FORCE"), ("evolve/relaxation.c", "REST_WAY"))),
-    ("the motion ends at {}/{} at most", lambda p: [f"{1 / float(number('evolve/advance.c', 'LAST')(p)) - 1:g}", f"{1 / float(number('evolve/advance.c', 'LAST')(p)):g}"]),
+    ("the motion ends at {}/{} at most", lambda p: [f"{1 / float(number('evolve/substeps.c', 'LAST')(p)) - 1:g}", f"{1 / float(number('evolve/substeps.c', 'LAST')(p)):g}"]),
     ("Normals that differ by less than {} make", number("cable/step_program.c", "PARALLEL")),
     ("have cost {} 10^6 iterations times nodes ({} added to them, or {} times as many", in_vain),
-    ("a part with E above {} % of that", percent("evolve/advance.c", "MUCH")),
+    ("a part with E above {} % of that", percent("evolve/substeps.c", "MUCH")),
     ("what the certificate and places known to {} of the length leave of an energy (gap + {} F L)",
      lambda p: [number(".h", "CPS_TOUCH")(p)] * 2),
-    ("is below half of the part's and below {} %;", percent("evolve/advance.c", "MUCH")),
+    ("is below half of the part's and below {} %;", percent("evolve/substeps.c", "MUCH")),
     ("is largest; beyond {} % a caution", percent("cable/bend.c", "TOLD")),
     ("the turn at which they differ by {} %. With mu tan(d/2) >= {}, k = {},", lambda p: [percent("cable/bend.c", "TOLD")(p), *locked(p)]),
     ("no gap is asked to be less than {} F0 L", number("cable/certificate.c", "GAP_FLOOR")),
@@ -74,10 +74,10 @@ SENTENCES = [
     ("If the sum exceeds L (1 + {})", number("cable/line_solve.h", "CPSI_TAUT")),
     ("exactly straight (within {} of its length)", number("cable/line_solve.h", "CPSI_TAUT")),
     ("a line longer by one part in {}:", lambda p: f"{1 / float(number('cable/line_solve.c', 'TAUT_SLACK')(p)):.0e}".replace("+0", "")),
-    ("P_k must exceed {} of the sum", number("evolve/advance.c", "SLIDES_LEAST")),
-    ("farther than {} lengths from where the step began", number("cable/line_solve.c", "AFAR")),
+    ("P_k must exceed {} of the sum", number("evolve/substeps.c", "SLIDES_LEAST")),
+    ("farther than {} lengths from where the step began", number("cable/line_solve.c", "MAX_DISPLACEMENT")),
     ("The loop runs down to a relative gap of {},", number("cable/line_solve.h", "CPSI_TARGET")),
-    ("is not aimed below {} of s0 z0", number("cone/soc.h", "CPSI_SOC_ROUNDING")),
+    ("is not aimed below {} of s0 z0", number("ipm/soc.h", "CPSI_SOC_ROUNDING")),
     ("= 0.0255 x 1 x 9.81 = {} N/m", lambda p: f"{0.0255 * 9.81:.6f}"),
     ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),
 ]
