@@ -3,6 +3,7 @@
 
 A check that never objects proves nothing: every fault below has to be reported, and a clean tree has to pass.
 """
+import json
 import os
 import shutil
 import subprocess
@@ -135,6 +136,15 @@ def main():
             subprocess.run([CC, "-fPIC", "-O1", "-c", source, "-o", thing], check=True)
             subprocess.run(["ar", "rc", library, thing], check=True)
             wrong += expect(f"check-names {text}", *check("check-names", *options, library), wanted)
+
+    for width, wanted in (("int", None), ("long long", "error:")):  # a long holds either with 64 bits
+        with tempfile.TemporaryDirectory() as root:
+            write(root, "src/base/wide.c", f"long wide({width} x) {{\n    return x;\n}}\n")
+            entry = {"directory": root, "file": os.path.join(root, "src/base/wide.c"),
+                     "command": f"{CC} -std=c17 -O2 -Wconversion -o wide.o -c src/base/wide.c"}
+            write(root, "compile_commands.json", json.dumps([entry]))
+            code, words = check("check-32-bits", root, root)
+            wrong += 0 if code == 77 else expect(f"check-32-bits {width}", code, words, wanted)
     sys.exit(1 if wrong else 0)
 
 
