@@ -20,6 +20,7 @@ typedef struct CpsReadLimits {
     size_t max_bytes;     /* file size, default 64 MiB */
     int max_depth;        /* nesting of mappings and sequences, default 64 */
     int64_t max_elements; /* of all lines together, default 10 000 000 */
+    int64_t max_pairs;    /* elements of all lines times obstacles, default 100 000 000 */
     int64_t max_steps;    /* load steps of the history, default 1 000 000 */
 } CpsReadLimits;
 CPS_API CpsReadLimits cps_read_limits_default(void);

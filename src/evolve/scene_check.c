@@ -181,6 +181,9 @@ static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
     return CPS_OK;
 }
 
+/* So many nodes are held against an obstacle together: it is prepared for them once. */
+enum { NODES_AT_ONCE = 256 };
+
 /* [m] distance of a point above the nearest obstacle and its name; INFINITY without one. */
 static double height(const CpsScene *scene, Vec3 x, const char **name) {
     double least = INFINITY;
@@ -338,6 +341,19 @@ static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
     return CPS_OK;
 }
 
+/* The first of some nodes that lies below an obstacle; `count`: none. */
+static int first_below(const CpsScene *scene, const CpsLine *line, int count, const Vec3 *x) {
+    double least[NODES_AT_ONCE];
+    int first = count;
+    for (int i = 0; i < count; i++) least[i] = -place_tolerance(line, x[i]);
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
+        for (int i = 0; i < first; i++)
+            if (!(cpsi_obstacle_gap(&obstacle, x[i]) >= least[i])) first = i;
+    }
+    return first;
+}
+
 /* No node of the start shape below the obstacle; statics keeps a laid line above by itself. With
  * strict contact given nodes may have gone through it. */
 static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, CpsError *err) {
@@ -345,15 +361,19 @@ static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, 
         line->start.kind == CPS_START_NODES && scene->contact == CPS_CONTACT_STRICT;
     if (scene->obstacle_count == 0 || line->start.kind == CPS_START_LAID || through) return CPS_OK;
     CpsiStartWalk walk = cpsi_start_walk(line);
-    for (int i = 0; i <= line->elements; i++) {
+    for (int first = 0; first <= line->elements; first += NODES_AT_ONCE) {
+        Vec3 x[NODES_AT_ONCE];
+        const int left = line->elements + 1 - first;
+        const int count = left < NODES_AT_ONCE ? left : NODES_AT_ONCE;
+        for (int i = 0; i < count; i++) x[i] = cpsi_start_next(&walk);
+        const int low = first_below(scene, line, count, x);
+        if (low == count) continue;
         const char *name = "";
-        const Vec3 x = cpsi_start_next(&walk);
-        const double above = height(scene, x, &name);
-        if (!(above >= -place_tolerance(line, x)))
-            return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                           "line '%s': start: node %d lies %g m below obstacle '%s': lift the "
-                           "shape, or turn the normal",
-                           line->name, i, -above, name);
+        const double above = height(scene, x[low], &name);
+        return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
+                       "line '%s': start: node %d lies %g m below obstacle '%s': lift the shape, "
+                       "or turn the normal",
+                       line->name, first + low, -above, name);
     }
     return CPS_OK;
 }

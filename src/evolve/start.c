@@ -77,6 +77,16 @@ static Vec3 arc_point(const CpsiArc *arc, double angle) {
     return vec3_axpy(arc->radius * sin(angle), arc->e2, x);
 }
 
+/* On to the next node. Equal elements: by a product, so that the abscissa does not drift. */
+static void go_on(CpsiStartWalk *walk) {
+    const CpsLine *line = walk->line;
+    const double l = element_length(line, walk->node);
+    if (line->start.kind == CPS_START_ARC) walk->angle += 2 * asin(l / (2 * walk->arc.radius));
+    walk->node++;
+    walk->natural =
+        line->element_length ? walk->natural + l : line->length * walk->node / line->elements;
+}
+
 Vec3 cpsi_start_next(CpsiStartWalk *walk) {
     const CpsLine *line = walk->line;
     Vec3 x = {0, 0, 0};
@@ -91,15 +101,13 @@ Vec3 cpsi_start_next(CpsiStartWalk *walk) {
         break;
     }
 
-    /* on to the next node; equal elements: by a product, so that the abscissa does not drift */
-    if (walk->node < line->elements) {
-        const double l = element_length(line, walk->node);
-        if (line->start.kind == CPS_START_ARC) walk->angle += 2 * asin(l / (2 * walk->arc.radius));
-        walk->node++;
-        walk->natural =
-            line->element_length ? walk->natural + l : line->length * walk->node / line->elements;
-    }
+    if (walk->node < line->elements) go_on(walk);
     return x;
+}
+
+/* On to the last node, without the places of those before. */
+static void to_last(CpsiStartWalk *walk) {
+    while (walk->node < walk->line->elements) go_on(walk);
 }
 
 void cpsi_start_place(const CpsLine *line, double *position) {
@@ -113,8 +121,6 @@ void cpsi_start_end(const CpsLine *line, int end, double position[3]) {
         return;
     }
     CpsiStartWalk walk = cpsi_start_walk(line);
-    Vec3 x = cpsi_start_next(&walk);
-    if (end == CPS_END_B)
-        for (int i = 0; i < line->elements; i++) x = cpsi_start_next(&walk);
-    vec3_store(position, x);
+    if (end == CPS_END_B) to_last(&walk);
+    vec3_store(position, cpsi_start_next(&walk));
 }

@@ -305,6 +305,14 @@ static void keeps_limits(void **state) {
     less = limits;
     less.max_steps--;
     assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_LIMIT);
+    const char *beside = HEAD STRAIGHT ENDS "obstacles: {a: {plane: {normal: [0, 0, 1]}}, "
+                                            "b: {plane: {normal: [0, 0, 1]}}}\n";
+    less = cps_read_limits_default();
+    less.max_pairs = 200;
+    assert_int_equal(read_text(beside, &less, &file, &err), CPS_OK);
+    cps_scene_file_destroy(file);
+    less.max_pairs--;
+    assert_int_equal(read_text(beside, &less, &file, &err), CPS_ERR_LIMIT);
     less = limits;
     less.max_depth = 0;
     assert_int_equal(read_text(text, &less, &file, &err), CPS_ERR_ARGUMENT);

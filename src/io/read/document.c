@@ -16,6 +16,7 @@ CpsReadLimits cps_read_limits_default(void) {
     return (CpsReadLimits){.max_bytes = (size_t)64 << 20,
                            .max_depth = 64,
                            .max_elements = 10000000,
+                           .max_pairs = 100000000,
                            .max_steps = 1000000};
 }
 
@@ -41,7 +42,8 @@ CpsStatus cpsi_document_read(const char *path, const CpsReadLimits *limits, Cpsi
                              CpsError *err) {
     const CpsReadLimits defaults = cps_read_limits_default();
     if (!limits) limits = &defaults;
-    if (limits->max_depth < 1 || limits->max_elements < 1 || limits->max_steps < 1)
+    if (limits->max_depth < 1 || limits->max_elements < 1 || limits->max_pairs < 1 ||
+        limits->max_steps < 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "limits are not positive: start from cps_read_limits_default()");
     CpsiNumbers numbers;

@@ -34,7 +34,27 @@ static void copy_vector(double out[3], const double x[3]) { memcpy(out, x, 3 * s
 
 /* ---- elements ---- */
 
-/* Count the elements, within the limit, before room for them is made. */
+/* The elements of the lines so far are within the limits, and so are they beside each obstacle,
+ * which is what the time of everything goes with. */
+static CpsStatus check_size(const Build *b, const CpsiYaml *place) {
+    const double most = fmin((double)b->d->limits->max_elements, 1e9);
+    const double pairs = b->elements * b->scene->obstacle_count;
+    if (!(b->elements <= most))
+        return cpsi_document_fail(b->d, CPS_ERR_LIMIT, place,
+                                  "elements: %.15g elements in all lines so far, the limit is "
+                                  "%.15g: use fewer, longer elements",
+                                  b->elements, most);
+    if (!(pairs <= (double)b->d->limits->max_pairs))
+        return cpsi_document_fail(b->d, CPS_ERR_LIMIT, place,
+                                  "elements: %.15g elements in all lines so far beside %d "
+                                  "obstacles, %.15g pairs, the limit is %lld: use fewer, longer "
+                                  "elements",
+                                  b->elements, b->scene->obstacle_count, pairs,
+                                  (long long)b->d->limits->max_pairs);
+    return CPS_OK;
+}
+
+/* Count the elements, within the limits, before room for them is made. */
 static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
     const CpsiYaml *list = values->elements, *given = cpsi_yaml_child(values->node, "elements");
     double count = isnan(values->count) ? line->elements : values->count;
@@ -45,14 +65,9 @@ static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine 
         count += each;
     }
     b->elements += count;
-    const double limit = fmin((double)b->d->limits->max_elements, 1e9);
-    if (!(b->elements <= limit))
-        return cpsi_document_fail(b->d, CPS_ERR_LIMIT, given ? given : values->node,
-                                  "elements: %.15g elements in all lines so far, the limit is "
-                                  "%.15g: use fewer, longer elements",
-                                  b->elements, limit);
-    line->elements = (int)count;
-    return CPS_OK;
+    const CpsStatus status = check_size(b, given ? given : values->node);
+    if (status == CPS_OK) line->elements = (int)count;
+    return status;
 }
 
 static CpsStatus build_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
@@ -92,10 +107,8 @@ static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const Cps
         b->elements += file->nodes - 1 - line->elements;
         line->elements = file->nodes - 1;
     }
-    if (!(b->elements <= (double)b->d->limits->max_elements))
-        return cpsi_document_fail(b->d, CPS_ERR_LIMIT, values->node,
-                                  "elements: %.15g elements in all lines so far, the limit is %lld",
-                                  b->elements, (long long)b->d->limits->max_elements);
+    const CpsStatus status = check_size(b, values->node);
+    if (status != CPS_OK) return status;
     if (given && line->elements != file->nodes - 1)
         return cpsi_document_fail(
             b->d, CPS_ERR_INPUT, given,
