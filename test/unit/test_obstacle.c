@@ -229,7 +229,7 @@ static void half_round(void **state) {
      * opposite */
     for (int kind = CPS_OBSTACLE_CYLINDER; kind <= CPS_OBSTACLE_SPHERE; kind++) {
         CpsObstacle def = cps_obstacle_default();
-        def.kind = kind;
+        def.kind = (CpsObstacleKind)kind;
         def.radius = 2;
         const CpsiObstacle o = cpsi_obstacle(&def); /* about the y axis */
         const Vec3 way = cpsi_obstacle_slip(&o, vec3(2, 0, 0), vec3(-2, 0, 0));
