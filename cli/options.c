@@ -120,13 +120,14 @@ static bool unknown_option(const char *command_name, unsigned command, const cha
     cli_printf(stderr, "unknown option '%s'", given);
     const Option *best = NULL;
     int shared = 0;
-    for (int i = 0; i < OPTION_COUNT && given[1] == '-'; i++) {
-        int n = cli_common_prefix(given + 2, OPTIONS[i].name);
-        if ((OPTIONS[i].commands & command) && n > shared) {
-            shared = n;
-            best = &OPTIONS[i];
+    if (given[1] == '-')
+        for (int i = 0; i < OPTION_COUNT; i++) {
+            int n = cli_common_prefix(given + 2, OPTIONS[i].name);
+            if ((OPTIONS[i].commands & command) && n > shared) {
+                shared = n;
+                best = &OPTIONS[i];
+            }
         }
-    }
     if (best) fprintf(stderr, "; did you mean '--%s'?", best->name);
     return end_message(command_name);
 }

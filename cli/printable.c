@@ -20,7 +20,8 @@ void cli_print_text(FILE *out, const char *text, int width, bool pad) {
         }
         ++used;
     }
-    while (pad && used++ < width) fputc(' ', out);
+    if (pad)
+        while (used++ < width) fputc(' ', out);
 }
 
 void cli_printf(FILE *out, const char *format, ...) {

@@ -144,10 +144,11 @@ static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const A
         law_print_vector(n, cps_motion_law_force(motion, k));
         printf(", dissipates %.10g W",
                tidy(cps_motion_law_share(motion, k)->dissipated, cps_motion_report(motion)->scale));
-        for (int i = 0; i < n && all->set.outcome == CPS_SET_ANSWERED; i++, at++)
-            if (is_open(all, at))
-                printf("; component %d from %.6g to %.6g N", i + 1, all->low[at] + 0.0,
-                       all->high[at] + 0.0);
+        if (all->set.outcome == CPS_SET_ANSWERED)
+            for (int i = 0; i < n; i++, at++)
+                if (is_open(all, at))
+                    printf("; component %d from %.6g to %.6g N", i + 1, all->low[at] + 0.0,
+                           all->high[at] + 0.0);
         puts("");
     }
 }
@@ -473,10 +474,12 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
     empty = empty || facts.outcome == CPS_SET_EMPTY;
     good = good && (empty ? print_empty(run) : print_elimination(run, set, composition));
     if (run->json) fputs(",\n  \"answers\": [", stdout);
-    for (int i = 0; i < velocity->count && good && !empty; i++)
-        good = print_reduced(run, set, velocity->row + (size_t)i * n, true, i);
-    for (int i = 0; i < force->count && good && !empty; i++)
-        good = print_reduced(run, set, force->row + (size_t)i * n, false, velocity->count + i);
+    if (!empty) {
+        for (int i = 0; i < velocity->count && good; i++)
+            good = print_reduced(run, set, velocity->row + (size_t)i * n, true, i);
+        for (int i = 0; i < force->count && good; i++)
+            good = print_reduced(run, set, force->row + (size_t)i * n, false, velocity->count + i);
+    }
     if (run->json) putchar(']');
     int code = good ? EXIT_OK : cli_report(&run->err);
     if (code == EXIT_OK && run->options->plot && !empty)

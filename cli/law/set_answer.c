@@ -103,14 +103,15 @@ CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *e
     }
     CpsStatus status = cps_set_facts(set, 0, &a->facts, a->center, a->basis, err);
     if (status != CPS_OK || a->facts.outcome != CPS_SET_ANSWERED) return status;
-    for (int i = 0; i < a->facts.dimension && status == CPS_OK && !cone; i++) {
-        CpsSetExtent extent;
-        status = cps_set_extent(set, a->basis + (size_t)i * (size_t)a->n, &extent, err);
-        if (status != CPS_OK) break;
-        a->low[i] = extent.low;
-        a->high[i] = extent.high;
-        a->gap = fmax(a->gap, extent.gap);
-    }
+    if (!cone)
+        for (int i = 0; i < a->facts.dimension && status == CPS_OK; i++) {
+            CpsSetExtent extent;
+            status = cps_set_extent(set, a->basis + (size_t)i * (size_t)a->n, &extent, err);
+            if (status != CPS_OK) break;
+            a->low[i] = extent.low;
+            a->high[i] = extent.high;
+            a->gap = fmax(a->gap, extent.gap);
+        }
     if (status == CPS_OK && !cone && a->facts.dimension == 1 && a->facts.bounded) take_middle(a);
 
     /* what can be listed; a cone's rays, else the corners of what is bounded */
@@ -236,7 +237,8 @@ static void print_sum(int n, const double *x, double factor, const double *d) {
 static void print_line(const SetAnswer *a) {
     const bool down = isfinite(a->high[0]), ends = down || isfinite(a->low[0]);
     double along = down ? a->high[0] : ends ? a->low[0] : 0;
-    for (int i = 0; i < a->n && ends; i++) along -= a->basis[i] * a->center[i];
+    if (ends)
+        for (int i = 0; i < a->n; i++) along -= a->basis[i] * a->center[i];
     fputs(ends ? "a half-line from " : "a line through ", stdout);
     print_sum(a->n, a->center, along, a->basis);
     fputs(" along ", stdout);

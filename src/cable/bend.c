@@ -122,10 +122,11 @@ static CpsBend bend_of(const CpsiLine *line, int c) {
 
 CpsBend cpsi_line_bend(const CpsiLine *line) {
     CpsBend worst = {0};
-    for (int c = 0; line->has_local_axes && c < cpsi_line_all_contacts(line); c++) {
-        const CpsBend bend = bend_of(line, c);
-        if (cpsi_bend_is_sharper(&bend, &worst)) worst = bend;
-    }
+    if (line->has_local_axes)
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+            const CpsBend bend = bend_of(line, c);
+            if (cpsi_bend_is_sharper(&bend, &worst)) worst = bend;
+        }
     if (!(worst.turn > 0)) return worst;
     worst.ratio = exp(held(worst.friction, worst.turn));
     worst.coulomb = exp(worst.friction * worst.turn);

@@ -42,13 +42,14 @@ static double angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
 static Vec3 tangential(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
 
 Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
-    for (int e = j - 1; e <= j && line->element_contacts > 0; e++) {
-        const int c = cpsi_line_contacts(line) + e;
-        if (e < 0 || e + 1 >= line->n || line->on[c] < 0) continue;
-        const double part = cpsi_line_part(line, e, j);
-        sum = vec3_axpy(part, vec3_load(&line->friction_force[3 * c]), sum);
-        sum = vec3_axpy(part * line->reaction[c], vec3_load(&line->normal[3 * c]), sum);
-    }
+    if (line->element_contacts > 0)
+        for (int e = j - 1; e <= j; e++) {
+            const int c = cpsi_line_contacts(line) + e;
+            if (e < 0 || e + 1 >= line->n || line->on[c] < 0) continue;
+            const double part = cpsi_line_part(line, e, j);
+            sum = vec3_axpy(part, vec3_load(&line->friction_force[3 * c]), sum);
+            sum = vec3_axpy(part * line->reaction[c], vec3_load(&line->normal[3 * c]), sum);
+        }
     return sum;
 }
 

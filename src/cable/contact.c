@@ -270,8 +270,9 @@ void cpsi_contact_clear(CpsiLine *line, int c) {
 
 void cpsi_contact_detect(CpsiLine *line, bool pressed) {
     for (int j = 0; j < line->n; j++) detect(line, j, pressed);
-    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)
-        if (!(pressed && line->pressed[cpsi_line_contacts(line) + e])) detect_element(line, e);
+    if (line->element_contacts > 0)
+        for (int e = 0; e + 1 < line->n; e++)
+            if (!(pressed && line->pressed[cpsi_line_contacts(line) + e])) detect_element(line, e);
 }
 
 /* What contact c has gone round its obstacle, where its normal was `before` at the last look; that
@@ -289,11 +290,12 @@ static void wind_round(CpsiLine *line, int c, Vec3 before) {
 }
 
 void cpsi_contact_update_geometry(CpsiLine *line) {
-    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) {
-        const int on = line->on[cpsi_line_contacts(line) + e];
-        double share, gap;
-        if (on >= 0 && clearance(line, line->base, e, on, &share, &gap)) line->beta[e] = share;
-    }
+    if (line->element_contacts > 0)
+        for (int e = 0; e + 1 < line->n; e++) {
+            const int on = line->on[cpsi_line_contacts(line) + e];
+            double share, gap;
+            if (on >= 0 && clearance(line, line->base, e, on, &share, &gap)) line->beta[e] = share;
+        }
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const int k = line->on[c];
         const Vec3 before = vec3_load(&line->normal[3 * c]);
@@ -364,15 +366,16 @@ void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
 }
 
 void cpsi_contact_plane_slip(CpsiLine *line) {
-    for (int c = 0; line->has_local_axes && c < cpsi_line_all_contacts(line); c++) {
-        const Vec3 to = cpsi_line_place(line, line->position, c);
-        vec3_store(&line->slide[3 * c], plane_slip(line, c, to));
-        const int k = line->on[c];
-        if (k < 0) continue;
-        const Vec3 from = reference_normal(line, k, c),
-                   there = cpsi_obstacle_normal(&line->obstacle[k], to);
-        line->round[c] = cpsi_obstacle_angle(&line->obstacle[k], from, there);
-    }
+    if (line->has_local_axes)
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+            const Vec3 to = cpsi_line_place(line, line->position, c);
+            vec3_store(&line->slide[3 * c], plane_slip(line, c, to));
+            const int k = line->on[c];
+            if (k < 0) continue;
+            const Vec3 from = reference_normal(line, k, c),
+                       there = cpsi_obstacle_normal(&line->obstacle[k], to);
+            line->round[c] = cpsi_obstacle_angle(&line->obstacle[k], from, there);
+        }
 }
 
 /* [rad] From where its obstacle has carried the reference to the node of contact c, the shorter way
@@ -393,15 +396,15 @@ void cpsi_contact_clear_undetermined_slip(CpsiLine *line) {
 }
 
 bool cpsi_contact_turns_too_far(const CpsiLine *line) {
-    for (int c = 0; line->has_local_axes && c < cpsi_line_all_contacts(line); c++) {
-        if (line->on[c] < 0 || !(line->friction_bound[c] > 0)) continue;
-        if (line->frozen && !(line->reaction[c] > 0))
-            continue; /* it has left the surface, and its way is one in the plane of the reference
-                       */
-        if (!(fabs(line->round[c]) <= CPSI_QUARTER + QUARTER_ROUNDING) ||
-            !(apart(line, c) < HALF_ROUND))
-            return true;
-    }
+    if (line->has_local_axes)
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+            if (line->on[c] < 0 || !(line->friction_bound[c] > 0)) continue;
+            /* it has left the surface, and its way is one in the plane of the reference */
+            if (line->frozen && !(line->reaction[c] > 0)) continue;
+            if (!(fabs(line->round[c]) <= CPSI_QUARTER + QUARTER_ROUNDING) ||
+                !(apart(line, c) < HALF_ROUND))
+                return true;
+        }
     return false;
 }
 
@@ -417,8 +420,9 @@ double cpsi_contact_shorten(CpsiLine *line, bool sides) {
         if (way * share > LEAP * within) share = LEAP * within / way;
     }
     if (sides) share = cpsi_obstacle_side_share(line, line->base, line->position, share);
-    for (int i = 0; i < 3 * line->n && share < 1; i++)
-        line->position[i] = line->base[i] + share * (line->position[i] - line->base[i]);
+    if (share < 1)
+        for (int i = 0; i < 3 * line->n; i++)
+            line->position[i] = line->base[i] + share * (line->position[i] - line->base[i]);
     return share;
 }
 
@@ -522,8 +526,8 @@ double cpsi_contact_move_base(CpsiLine *line, bool sides) {
     if (sides && cpsi_obstacle_side_share(line, line->base, line->position, 1) < 1)
         memcpy(line->position, line->slide, places);
     double turned = line->gains && line->element_contacts > 0 ? turn_of_deepest(line) : 0;
-    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)
-        turned = fmax(turned, turn_of_element(line, e));
+    if (line->element_contacts > 0)
+        for (int e = 0; e + 1 < line->n; e++) turned = fmax(turned, turn_of_element(line, e));
     for (int j = 0; j < line->n; j++) turned = fmax(turned, turn_of(line, j));
     memcpy(line->base, line->position, 3 * (size_t)line->n * sizeof *line->base);
     return turned;

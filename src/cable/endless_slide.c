@@ -184,8 +184,8 @@ static bool rests_between(const CpsiLine *line) {
 
 static bool slides_to(CpsiLine *line, bool to_a, double margin) {
     Along a = {.line = line, .to_a = to_a, .factor = line->friction_factor ? 0 : 1};
-    for (int j = 0; line->friction_factor && j < line->n; j++)
-        a.factor = fmax(a.factor, line->friction_factor[j]);
+    if (line->friction_factor)
+        for (int j = 0; j < line->n; j++) a.factor = fmax(a.factor, line->friction_factor[j]);
     const double power = fill_motion(&a) && goes_on(&a) ? least_power(&a, margin) : 0;
     if (power > 0) {
         line->report.proof_value = power;

@@ -154,11 +154,12 @@ static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit,
         if (slips && !(reaction > 0)) return true;
         double disc[2] = {0, 0};
         Vec3 slip = n;
-        for (int a = 0; a < 2 && slips; a++) {
-            if (free[a]) continue;
-            disc[a] = force[a] / reaction;
-            slip = vec3_axpy(disc[a], vec3_load(&axes[3 * a]), slip);
-        }
+        if (slips)
+            for (int a = 0; a < 2; a++) {
+                if (free[a]) continue;
+                disc[a] = force[a] / reaction;
+                slip = vec3_axpy(disc[a], vec3_load(&axes[3 * a]), slip);
+            }
         add_column(out, slip, 1, disc);
     }
     const bool normal = out->columns > 0;

@@ -49,7 +49,8 @@ static double size(const CpsiFrictionLaw *set, const double force[2]) {
 void cpsi_friction_law_clip(const CpsiFrictionLaw *set, double within, double bound,
                             double force[2]) {
     if (set->given) { /* 0 is in it, and the sets are multiples of each other */
-        for (int a = 0; a < 2 && within > bound; a++) force[a] *= bound / within;
+        if (within > bound)
+            for (int a = 0; a < 2; a++) force[a] *= bound / within;
         return;
     }
     const double found = size(set, force), keep = found > bound ? bound / found : 1;

@@ -85,9 +85,11 @@ static void read_round(const CpsiLine *line, CpsiLeastMotion *least,
                        const CpsiChainProgram *program) {
     const int contacts = cpsi_line_contacts(line);
     memset(least->mark, 0, (size_t)contacts);
-    for (int c = 0; !program && c < contacts; c++)
-        if (line->friction_bound[c] > 0) least->mark[c] = RUBS;
-    for (int i = 1; !program && i < line->n; i++) least->slack[i] = true;
+    if (!program) {
+        for (int c = 0; c < contacts; c++)
+            if (line->friction_bound[c] > 0) least->mark[c] = RUBS;
+        for (int i = 1; i < line->n; i++) least->slack[i] = true;
+    }
     if (!program) return;
     const CpsiUnilateral *unilateral = &program->unilateral;
     for (int k = 0; k < unilateral->count; k++)
@@ -390,8 +392,9 @@ static void accept_places(CpsiLine *line, const CpsiLeastMotion *least) {
 /* Are elements kept out of obstacles in this round?  Their contacts tie two nodes each, which
  * clusters do not know. */
 static bool ties_nodes(const CpsiLine *line, const CpsiChainProgram *program) {
-    for (int k = 0; program && k < program->unilateral.count; k++)
-        if (program->unilateral.contact[k] >= cpsi_line_contacts(line)) return true;
+    if (program)
+        for (int k = 0; k < program->unilateral.count; k++)
+            if (program->unilateral.contact[k] >= cpsi_line_contacts(line)) return true;
     return false;
 }
 

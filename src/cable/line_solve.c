@@ -161,11 +161,12 @@ void cpsi_line_certify(CpsiLine *line, const CpsiStepOptions *options, const Cps
 /* The tension of the reference by its own strain; 0 of an inextensible line. */
 static double reference_tension(const CpsiLine *line) {
     double most = 0;
-    for (int e = 0; e + 1 < line->n && line->compliance > 0; e++) {
-        const Vec3 dx =
-            vec3_sub(vec3_load(&line->reference[3 * (e + 1)]), vec3_load(&line->reference[3 * e]));
-        most = fmax(most, (vec3_norm(dx) / line->element_length[e] - 1) / line->compliance);
-    }
+    if (line->compliance > 0)
+        for (int e = 0; e + 1 < line->n; e++) {
+            const Vec3 dx = vec3_sub(vec3_load(&line->reference[3 * (e + 1)]),
+                                     vec3_load(&line->reference[3 * e]));
+            most = fmax(most, (vec3_norm(dx) / line->element_length[e] - 1) / line->compliance);
+        }
     return most;
 }
 
@@ -177,8 +178,8 @@ double cpsi_line_unit_force(const CpsiLine *line, CpsiBounds bounds) {
     if (before > PRESTRESS_FACTOR * force &&
         (force > 0 || before * line->compliance > LEAST_STRAIN))
         force = before;
-    for (int c = 0; c < cpsi_line_all_contacts(line) && bounds == CPSI_BOUNDS_TRIAL; c++)
-        all += line->friction_bound[c];
+    if (bounds == CPSI_BOUNDS_TRIAL)
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) all += line->friction_bound[c];
     return fmax(force, all);
 }
 

@@ -194,8 +194,9 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
     for (int end = 0; end < 2; end++) {
         const double *at = &line->reference[end == CPS_END_A ? 0 : 3 * (line->n - 1)],
                      *to = line->end[end].value;
-        for (int a = 0; line->end[end].kind == CPS_END_HELD && a < 3; a++)
-            if (at[a] != to[a]) return false;
+        if (line->end[end].kind == CPS_END_HELD)
+            for (int a = 0; a < 3; a++)
+                if (at[a] != to[a]) return false;
     }
     for (int k = 0; k < line->obstacle_count; k++)
         if (line->turn[k] != 0) return false;

@@ -35,15 +35,16 @@ static double until(Vec3 d, Vec3 arm, Vec3 way, double least) {
 static double share_of(double radius, Vec3 a, Vec3 b, Vec3 u, Vec3 v, double most) {
     const double least = NEAREST * fmin(radius, vec3_norm(nearest(a, b)));
     double share = 0;
-    for (int i = 0; i < PLANES && share < most && least > 0; i++) {
-        const Vec3 a_now = vec3_axpy(share, u, a), b_now = vec3_axpy(share, v, b),
-                   point = nearest(a_now, b_now);
-        const double distance = vec3_norm(point);
-        if (!(distance > (1 + CLOSE) * least)) return share;
-        const Vec3 d = vec3_scale(1 / distance, point);
-        share += fmin(until(d, a_now, u, least), until(d, b_now, v, least));
-        if (share >= most) return most;
-    }
+    if (least > 0)
+        for (int i = 0; i < PLANES && share < most; i++) {
+            const Vec3 a_now = vec3_axpy(share, u, a), b_now = vec3_axpy(share, v, b),
+                       point = nearest(a_now, b_now);
+            const double distance = vec3_norm(point);
+            if (!(distance > (1 + CLOSE) * least)) return share;
+            const Vec3 d = vec3_scale(1 / distance, point);
+            share += fmin(until(d, a_now, u, least), until(d, b_now, v, least));
+            if (share >= most) return most;
+        }
     return least > 0 ? share : most;
 }
 

@@ -109,9 +109,10 @@ static void accelerate(CpsiLine *line, bool sides, double turned) {
         return;
     }
     memcpy(line->carries, line->reaction, (size_t)line->n * sizeof *line->carries);
-    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++)
-        for (int j = e; j <= e + 1; j++)
-            line->carries[j] += line->reaction[cpsi_line_contacts(line) + e];
+    if (line->element_contacts > 0)
+        for (int e = 0; e + 1 < line->n; e++)
+            for (int j = e; j <= e + 1; j++)
+                line->carries[j] += line->reaction[cpsi_line_contacts(line) + e];
     cpsi_anderson_accelerate(&line->anderson, line->n, line->carries, line->base);
     if (sides && cpsi_obstacle_side_share(line, line->position, line->base, 1) < 1)
         memcpy(line->base, line->position, 3 * (size_t)line->n * sizeof *line->base);

@@ -36,8 +36,9 @@ static double open_gap(const CpsiLine *line, int c) {
                                 cpsi_line_place(line, line->reference, c));
         return gap + vec3_dot(vec3_load(&line->normal[3 * c]), u);
     }
-    for (int a = 0; line->has_local_axes && a < 3; a++)
-        gap += line->normal[3 * c + a] * (line->base[3 * j + a] - line->reference[3 * j + a]);
+    if (line->has_local_axes)
+        for (int a = 0; a < 3; a++)
+            gap += line->normal[3 * c + a] * (line->base[3 * j + a] - line->reference[3 * j + a]);
     return gap;
 }
 
@@ -169,11 +170,12 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
         disc->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;
         disc->friction[k] = set.friction;
         disc->z[k][0] = trial_bound_or(scale, line->friction_bound[c] / (scale->force * share));
-        for (int a = 0; line->has_local_axes && a < 2; a++) {
-            const double ratio = !set.box || i == a ? set.ratio[a] : 0;
-            for (int b = 0; b < 3; b++) disc->map[k][3 * a + b] = ratio * axes[3 * a + b];
-            disc->offset[k][a] = ratio * slip[a] / line->length;
-        }
+        if (line->has_local_axes)
+            for (int a = 0; a < 2; a++) {
+                const double ratio = !set.box || i == a ? set.ratio[a] : 0;
+                for (int b = 0; b < 3; b++) disc->map[k][3 * a + b] = ratio * axes[3 * a + b];
+                disc->offset[k][a] = ratio * slip[a] / line->length;
+            }
     }
 }
 
@@ -277,7 +279,8 @@ void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
                             const CpsiStepScale *scale) {
     cpsi_chain_program_resize(program, line->n, line->has_local_axes);
     program->drag = scale->drag;
-    for (int j = 0; line->has_local_axes && j < line->n; j++) fill_axes(line, program, j);
+    if (line->has_local_axes)
+        for (int j = 0; j < line->n; j++) fill_axes(line, program, j);
     initial_guess(line, program);
     fill_nodes(line, program, scale);
     if (line->element_contacts > 0) fill_points(line, program, scale);

@@ -118,11 +118,12 @@ static void inverse_with_second(double out[9], ChainSecond *second, const double
         int best = k;
         for (int i = k + 1; i < 4; i++)
             if (fabs(m[i][k]) > fabs(m[best][k])) best = i;
-        for (int l = 0; l < 8 && best != k; l++) {
-            const double swap = m[k][l];
-            m[k][l] = m[best][l];
-            m[best][l] = swap;
-        }
+        if (best != k)
+            for (int l = 0; l < 8; l++) {
+                const double swap = m[k][l];
+                m[k][l] = m[best][l];
+                m[best][l] = swap;
+            }
         if (fabs(m[k][k]) < DBL_MIN) m[k][k] = DBL_MIN;
         for (int i = k + 1; i < 4; i++) {
             const double by = m[i][k] / m[k][k];

@@ -50,12 +50,13 @@ static void fill_border(double s[SIZE][SIZE], const CpsiMatrix *a, int j, const 
     for (int p = 0; p < BORDER; p++) {
         double cn[3]; /* C N of this unknown */
         for (int i = 0; i < NODE; i++) cn[i] = dot(&c[3 * i], border.there[p]);
-        for (int i = 0; i < NODE && !a->held[j]; i++) {
-            const double *reads = border.reads_there[p];
-            s[i][NODE + p] = border.here[p][i] + k * cn[i];
-            s[NODE + p][i] = border.reads[p][i] +
-                             k * (c[i] * reads[0] + c[3 + i] * reads[1] + c[6 + i] * reads[2]);
-        }
+        if (!a->held[j])
+            for (int i = 0; i < NODE; i++) {
+                const double *reads = border.reads_there[p];
+                s[i][NODE + p] = border.here[p][i] + k * cn[i];
+                s[NODE + p][i] = border.reads[p][i] +
+                                 k * (c[i] * reads[0] + c[3 + i] * reads[1] + c[6 + i] * reads[2]);
+            }
         for (int q = 0; q < BORDER; q++) s[NODE + q][NODE + p] = -dot(border.reads_there[q], cn);
     }
     s[NODE][NODE] -= a->compliance[j];
@@ -72,10 +73,11 @@ bool cpsi_chain_point_factor(CpsiChainPoint *point, const CpsiMatrix *a, int j, 
         for (int l = 0; l < NODE; l++) s[i][l] = a->held[j] ? i == l : x[3 * i + l];
     fill_border(s, a, j, c, m);
     s[SIZE - 1][SIZE - 1] = second ? -a->second->compliance[j] : 1;
-    for (int i = 0; i < NODE && second; i++) {
-        s[SIZE - 1][i] = a->second->row[3 * j + i];
-        s[i][SIZE - 1] = a->second->column[3 * j + i];
-    }
+    if (second)
+        for (int i = 0; i < NODE; i++) {
+            s[SIZE - 1][i] = a->second->row[3 * j + i];
+            s[i][SIZE - 1] = a->second->column[3 * j + i];
+        }
     if (!cpsi_lu_factor(SIZE, s[0], pivot)) return false;
     for (int l = 0; l < SIZE; l++) {
         double column[SIZE] = {0};
@@ -83,7 +85,8 @@ bool cpsi_chain_point_factor(CpsiChainPoint *point, const CpsiMatrix *a, int j, 
         cpsi_lu_solve(SIZE, s[0], pivot, column);
         for (int i = 0; i < SIZE; i++) point->inverse[SIZE * i + l] = column[i];
     }
-    for (int i = 0; i < NODE && a->held[j]; i++) point->inverse[(SIZE + 1) * i] = 0;
+    if (a->held[j])
+        for (int i = 0; i < NODE; i++) point->inverse[(SIZE + 1) * i] = 0;
     return true;
 }
 

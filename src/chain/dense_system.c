@@ -50,16 +50,18 @@ static double node_entry(const CpsiMatrix *a, int j, int r, int c) {
 /* r.x_j - a f_j = 0 and c f_j on the node; f_j = 0 where there is none. */
 static void fill_second(double *m, const CpsiMatrix *a) {
     const size_t n = (size_t)a->n, size = unknowns(a);
-    for (size_t j = 0; a->second && j < n; j++) {
-        const double *r = &a->second->row[3 * j], *c = &a->second->column[3 * j];
-        const size_t f = 4 * n + j;
-        const bool set = !a->held[j] && (r[0] != 0 || r[1] != 0 || r[2] != 0);
-        m[f * size + f] = set ? -a->second->compliance[j] : 1;
-        for (size_t i = 0; i < 3 && set; i++) {
-            m[f * size + 3 * j + i] = r[i];
-            m[(3 * j + i) * size + f] = c[i];
+    if (a->second)
+        for (size_t j = 0; j < n; j++) {
+            const double *r = &a->second->row[3 * j], *c = &a->second->column[3 * j];
+            const size_t f = 4 * n + j;
+            const bool set = !a->held[j] && (r[0] != 0 || r[1] != 0 || r[2] != 0);
+            m[f * size + f] = set ? -a->second->compliance[j] : 1;
+            if (set)
+                for (size_t i = 0; i < 3; i++) {
+                    m[f * size + 3 * j + i] = r[i];
+                    m[(3 * j + i) * size + f] = c[i];
+                }
         }
-    }
 }
 
 /* The equations of a point's force, and that force on the nodes by their shares; 0 where there is
@@ -75,18 +77,19 @@ static void fill_points(double *m, const CpsiMatrix *a) {
             m[(at + i) * size + at + i] -= 1 / law.size[i];
             if (i < 2) m[(at + i) * size + at + 2] += law.c[i] / law.size[i];
         }
-        for (size_t node = j - 1; set && node <= j; node++) {
-            const double share = node == j ? a->share[j] : 1 - a->share[j];
-            double turn[9];
-            if (a->held[node]) continue;
-            cpsi_point_turn(a, (int)node, law.axes, turn);
-            for (size_t i = 0; i < 3; i++)
-                for (size_t l = 0; l < 3; l++) {
-                    m[(3 * node + l) * size + at + i] = share * turn[3 * l + i];
-                    m[(at + i) * size + 3 * node + l] =
-                        law.e[i] / law.size[i] * share * turn[3 * l + i];
-                }
-        }
+        if (set)
+            for (size_t node = j - 1; node <= j; node++) {
+                const double share = node == j ? a->share[j] : 1 - a->share[j];
+                double turn[9];
+                if (a->held[node]) continue;
+                cpsi_point_turn(a, (int)node, law.axes, turn);
+                for (size_t i = 0; i < 3; i++)
+                    for (size_t l = 0; l < 3; l++) {
+                        m[(3 * node + l) * size + at + i] = share * turn[3 * l + i];
+                        m[(at + i) * size + 3 * node + l] =
+                            law.e[i] / law.size[i] * share * turn[3 * l + i];
+                    }
+            }
     }
 }
 
@@ -121,9 +124,10 @@ static void dense_fill(Dense *dense, const CpsiMatrix *a) {
             if (!a->held[j]) m[tj * size + xj + i] = m[(xj + i) * size + tj] = here[i];
             if (!a->held[j - 1])
                 m[tj * size + xj - 3 + i] = m[(xj - 3 + i) * size + tj] = -there[i];
-            for (size_t l = 0; l < 3 && !a->held[j] && !a->held[j - 1]; l++)
-                m[(xj + i) * size + xj - 3 + l] = m[(xj - 3 + l) * size + xj + i] =
-                    -k * turn[3 * i + l];
+            if (!a->held[j] && !a->held[j - 1])
+                for (size_t l = 0; l < 3; l++)
+                    m[(xj + i) * size + xj - 3 + l] = m[(xj - 3 + l) * size + xj + i] =
+                        -k * turn[3 * i + l];
         }
     }
 }
@@ -159,8 +163,8 @@ static bool dense_factor(CpsiLinsys *self, const CpsiMatrix *matrix) {
         if (!isfinite(lu[k * size + k]) || lu[k * size + k] == 0) return false;
         for (size_t i = k + 1; i < size; i++) {
             const double l = lu[i * size + k] /= lu[k * size + k];
-            for (size_t c = k + 1; c < size && l != 0; c++)
-                lu[i * size + c] -= l * lu[k * size + c];
+            if (l != 0)
+                for (size_t c = k + 1; c < size; c++) lu[i * size + c] -= l * lu[k * size + c];
         }
     }
     return true;

@@ -12,21 +12,23 @@ static double weight(const CpsiChainProgram *program, int j) {
 static void measure(CpsiProgram *base, CpsiSums *sums) {
     const CpsiChainProgram *program = cpsi_chain(base);
     (void)sums;
-    for (int j = 0; program->drag > 0 && j < program->n; j++)
-        for (int a = 0; a < 3; a++)
-            base->residual[3 * j + a] -= weight(program, j) * base->u[3 * j + a];
+    if (program->drag > 0)
+        for (int j = 0; j < program->n; j++)
+            for (int a = 0; a < 3; a++)
+                base->residual[3 * j + a] -= weight(program, j) * base->u[3 * j + a];
 }
 
 static void scale(CpsiProgram *base) {
     static const int XX = 0, YY = 2, ZZ = 5;
     CpsiChainProgram *program = cpsi_chain(base);
-    for (int j = 0; program->drag > 0 && j < program->n; j++) {
-        double *block = &program->matrix.diagonal[6 * j];
-        const double d = weight(program, j);
-        block[XX] += d;
-        block[YY] += d;
-        block[ZZ] += d;
-    }
+    if (program->drag > 0)
+        for (int j = 0; j < program->n; j++) {
+            double *block = &program->matrix.diagonal[6 * j];
+            const double d = weight(program, j);
+            block[XX] += d;
+            block[YY] += d;
+            block[ZZ] += d;
+        }
 }
 
 /* The rest is what the linear system does with it. */

@@ -55,8 +55,9 @@ CpsiPointLaw cpsi_point_law(const CpsiMatrix *a, int j) {
                                   law.turn[3 * i + 2] * q[6 + k];
         law.size[i] = fmax(1, fabs(law.e[i]));
     }
-    for (int i = 0; i < 2 && d[5] > 0; i++)
-        law.c[i] = (law.turn[3 * i] * skew[0] + law.turn[3 * i + 1] * skew[1]) / d[5];
+    if (d[5] > 0)
+        for (int i = 0; i < 2; i++)
+            law.c[i] = (law.turn[3 * i] * skew[0] + law.turn[3 * i + 1] * skew[1]) / d[5];
     return law;
 }
 

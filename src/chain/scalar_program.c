@@ -196,8 +196,9 @@ static void solve(CpsiProgram *base) {
             own[a] /= l[CPSI_SITE_OWN * a + a];
         }
         for (int s = 0; s < 2; s++)
-            for (int a = 0; a < site->own && site->scalar[s] >= 0; a++)
-                du[site->scalar[s]] -= site->couple[CPSI_SITE_OWN * s + a] * own[a];
+            if (site->scalar[s] >= 0)
+                for (int a = 0; a < site->own; a++)
+                    du[site->scalar[s]] -= site->couple[CPSI_SITE_OWN * s + a] * own[a];
     }
     for (int g = 1; g < program->scalars; g++)
         du[g] -= program->off[g] / program->pivot[g - 1] * du[g - 1];

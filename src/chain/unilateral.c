@@ -58,9 +58,10 @@ static void scale(CpsiProgram *base) {
     for (int k = 0; k < unilateral->count; k++) {
         const int node = unilateral->node[k];
         unilateral->q[k] = -unilateral->z[k];
-        for (int a = 0; unilateral->curvature && a < 6; a++)
-            program->matrix.diagonal[6 * node + a] -=
-                unilateral->weight[k] * unilateral->curvature[k][a];
+        if (unilateral->curvature)
+            for (int a = 0; a < 6; a++)
+                program->matrix.diagonal[6 * node + a] -=
+                    unilateral->weight[k] * unilateral->curvature[k][a];
         if (!unilateral->normal || !unilateral->second[k]) {
             program->matrix.diagonal[6 * node + 5] +=
                 unilateral->weight[k] * unilateral->z[k] / unilateral->s[k];

@@ -98,10 +98,11 @@ static CpsStatus with_friction(const CpsMotion *motion, double s, double *veloci
         status = cps_system_add_friction(system, "at rest", law, 1, &(CpsEntry){0, j, 1}, err);
     if (status == CPS_OK)
         status = cpsi_motion_find(system, motion->driving, &options, &found, &kinematics, err);
-    for (int j = 0; status == CPS_OK && j < motion->system->n; j++) {
-        velocity[j] = found->velocity[j];
-        *size = cpsi_max_nan(*size, fabs(velocity[j]));
-    }
+    if (status == CPS_OK)
+        for (int j = 0; j < motion->system->n; j++) {
+            velocity[j] = found->velocity[j];
+            *size = cpsi_max_nan(*size, fabs(velocity[j]));
+        }
     cpsi_kinematics_free(kinematics);
     cps_motion_destroy(found);
     cps_law_destroy(law);

@@ -45,19 +45,21 @@ static CpsStatus gather(const CpsSystem *system, CpsSet **out, CpsError *err) {
         status = of_piece(piece, &cone, &bounded, err);
         map = calloc(n * m, sizeof *map);
         if (status == CPS_OK && !map) status = out_of_memory(err);
-        for (size_t i = 0; status == CPS_OK && i < m; i++) {
-            memset(row, 0, n * sizeof *row);
-            cpsi_rows_add(&system->map, system->law[piece->law].first + piece->offset + (int)i, 1,
-                          row);
-            for (size_t j = 0; j < n; j++) map[j * m + i] = row[j];
-        }
+        if (status == CPS_OK)
+            for (size_t i = 0; i < m; i++) {
+                memset(row, 0, n * sizeof *row);
+                cpsi_rows_add(&system->map, system->law[piece->law].first + piece->offset + (int)i,
+                              1, row);
+                for (size_t j = 0; j < n; j++) map[j * m + i] = row[j];
+            }
         if (status == CPS_OK) status = cps_set_image(system->n, map, cone, &part[k], err);
         free(map);
         cps_set_release(cone);
     }
     if (status == CPS_OK && !bounded)
         status = cps_set_sum(system->pieces, (const CpsSet *const *)part, out, err);
-    for (int k = 0; part && k < system->pieces; k++) cps_set_release(part[k]);
+    if (part)
+        for (int k = 0; k < system->pieces; k++) cps_set_release(part[k]);
     free(part);
     free(row);
     return status;

@@ -42,7 +42,8 @@ static CpsStatus carry_drive(const CpsSystem *system, double *carried, CpsError 
         rhs[j] = 1;
         status = cpsi_system_kernel(system, rhs, &rank, &all, err);
         double size = 0;
-        for (int i = 0; status == CPS_OK && i < rows; i++) size = fmax(size, fabs(rhs[i]));
+        if (status == CPS_OK)
+            for (int i = 0; i < rows; i++) size = fmax(size, fabs(rhs[i]));
         for (int i = rank; status == CPS_OK && i < rows; i++)
             if (fabs(rhs[i]) > DEPENDENT * size)
                 status = cpsi_fail(
@@ -50,10 +51,11 @@ static CpsStatus carry_drive(const CpsSystem *system, double *carried, CpsError 
                     "row %d of the drive depends on the constraints and its other rows: its "
                     "velocity is not free, so no law ties it to a force of its own; leave it out",
                     j);
-        for (int i = 0; status == CPS_OK && i < rank; i++)
-            for (int k = 0; k < n; k++)
-                carried[(size_t)j * (size_t)n + (size_t)k] +=
-                    rhs[i] * all[(size_t)i * (size_t)n + (size_t)k];
+        if (status == CPS_OK)
+            for (int i = 0; i < rank; i++)
+                for (int k = 0; k < n; k++)
+                    carried[(size_t)j * (size_t)n + (size_t)k] +=
+                        rhs[i] * all[(size_t)i * (size_t)n + (size_t)k];
         free(all);
     }
     free(rhs);

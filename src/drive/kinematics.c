@@ -64,11 +64,14 @@ static void list_lines(const CpsSystem *system, int first, CpsiAdjoint *adjoint,
     for (int k = 0; k < system->pieces; k++) {
         const CpsiPiece *piece = &system->piece[k];
         const CpsiConicForm *form = piece->term ? NULL : system->form[piece->form];
-        for (int l = 0; form && l < form->lines; l++, first++) {
-            cpsi_adjoint_apply(adjoint, system, piece, &form->q[(size_t)l * (size_t)form->n], 1, 1);
-            for (int i = 0; i < adjoint->count; i++)
-                *(*to)++ = (CpsEntry){first, adjoint->column[i], adjoint->sum[adjoint->column[i]]};
-        }
+        if (form)
+            for (int l = 0; l < form->lines; l++, first++) {
+                cpsi_adjoint_apply(adjoint, system, piece, &form->q[(size_t)l * (size_t)form->n], 1,
+                                   1);
+                for (int i = 0; i < adjoint->count; i++)
+                    *(*to)++ =
+                        (CpsEntry){first, adjoint->column[i], adjoint->sum[adjoint->column[i]]};
+            }
     }
 }
 

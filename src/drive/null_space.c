@@ -43,18 +43,19 @@ static CpsStatus balance(const CpsSystem *system, CpsiDense *d, CpsError *err) {
     CpsStatus status = rows && rhs && d->start ? CPS_OK : out_of_memory(err);
     double largest = 0, load = system->load ? cpsi_norm(d->n, system->load) : 0;
     for (size_t i = 0; i < c; i++) largest = fmax(largest, cpsi_norm(d->n, &d->map[i * n]));
-    for (size_t j = 0; status == CPS_OK && j < q; j++) {
-        for (size_t i = 0; i < c; i++) {
-            rows[j * c + i] = cpsi_dot(d->n, &d->map[i * n], &d->kernel[j * n]);
-            cpsi_dense_round(1, cpsi_norm(d->n, &d->map[i * n]), &rows[j * c + i]);
+    if (status == CPS_OK)
+        for (size_t j = 0; j < q; j++) {
+            for (size_t i = 0; i < c; i++) {
+                rows[j * c + i] = cpsi_dot(d->n, &d->map[i * n], &d->kernel[j * n]);
+                cpsi_dense_round(1, cpsi_norm(d->n, &d->map[i * n]), &rows[j * c + i]);
+            }
+            rhs[j] = system->load ? -cpsi_dot(d->n, system->load, &d->kernel[j * n]) : 0;
+            /* what no law resists must carry no load; what is left of a row is its rounding */
+            if (cpsi_norm(d->components, &rows[j * c]) > DEPENDENT * largest) continue;
+            memset(&rows[j * c], 0, c * sizeof *rows);
+            if (fabs(rhs[j]) > CONTRADICTION * load) d->contradiction = true;
+            rhs[j] = 0;
         }
-        rhs[j] = system->load ? -cpsi_dot(d->n, system->load, &d->kernel[j * n]) : 0;
-        /* what no law resists must carry no load; what is left of a row is its rounding */
-        if (cpsi_norm(d->components, &rows[j * c]) > DEPENDENT * largest) continue;
-        memset(&rows[j * c], 0, c * sizeof *rows);
-        if (fabs(rhs[j]) > CONTRADICTION * load) d->contradiction = true;
-        rhs[j] = 0;
-    }
     if (status == CPS_OK && c > 0) {
         const int rank = cpsi_orthonormal_rows(d->free, d->components, rows, rhs, DEPENDENT);
         for (size_t j = (size_t)rank; j < q; j++)

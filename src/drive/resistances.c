@@ -36,8 +36,10 @@ static CpsStatus combine_rows(const CpsSystem *system, double *carried, double *
         memset(rhs, 0, rows * sizeof *rhs);
         rhs[j] = 1;
         status = cpsi_system_kernel(system, rhs, &rank, &all, err);
-        for (int i = 0; status == CPS_OK && i < rank; i++)
-            for (size_t k = 0; k < n; k++) carried[j * n + k] += rhs[i] * all[(size_t)i * n + k];
+        if (status == CPS_OK)
+            for (int i = 0; i < rank; i++)
+                for (size_t k = 0; k < n; k++)
+                    carried[j * n + k] += rhs[i] * all[(size_t)i * n + k];
         *count = status == CPS_OK ? (int)rows - rank : 0;
         for (int i = 0; i < *count; i++)
             dependent[(size_t)i * m + j] = rhs[(size_t)rank + (size_t)i];
@@ -56,8 +58,9 @@ static CpsStatus compose(const CpsMotion *motion, const CpsSolutionSet *forces, 
     double *shift = malloc(m * sizeof *shift);
     CpsStatus status = shift ? CPS_OK : out_of_memory(err);
     /* G of the motion goes with its F */
-    for (size_t j = 0; status == CPS_OK && j < m; j++)
-        shift[j] = motion->resistance[j] - cpsi_dot((int)c, &map[j * c], motion->law_force);
+    if (status == CPS_OK)
+        for (size_t j = 0; j < m; j++)
+            shift[j] = motion->resistance[j] - cpsi_dot((int)c, &map[j * c], motion->law_force);
     if (status == CPS_OK) status = cps_set_image((int)m, map, forces->set, &image, err);
     if (status == CPS_OK) status = cps_set_translate(shift, image, &moved, err);
     if (status == CPS_OK && lines > 0) status = cps_set_subspace((int)m, lines, line, &open, err);
@@ -89,9 +92,10 @@ CpsStatus cps_motion_resistances(const CpsMotion *motion, double tolerance, CpsS
            *line = map + m * c, *direction = line + rows * m;
     if (!carried) status = out_of_memory(err);
     if (status == CPS_OK) status = combine_rows(system, carried, line, &lines, err);
-    for (size_t j = 0; status == CPS_OK && j < m; j++)
-        for (size_t i = 0; i < c; i++)
-            map[j * c + i] = cpsi_rows_times(&system->map, (int)i, &carried[j * n]);
+    if (status == CPS_OK)
+        for (size_t j = 0; j < m; j++)
+            for (size_t i = 0; i < c; i++)
+                map[j * c + i] = cpsi_rows_times(&system->map, (int)i, &carried[j * n]);
     if (status == CPS_OK) cpsi_dense_round(m * c, cpsi_norm((int)(m * c), map), map);
     for (int i = 0; i < lines; i++)
         if (cpsi_norm((int)m, &line[(size_t)i * m]) > ROUNDING)
@@ -99,14 +103,15 @@ CpsStatus cps_motion_resistances(const CpsMotion *motion, double tolerance, CpsS
     if (status == CPS_OK) status = compose(motion, &forces, map, kept, line, &all->set, err);
     if (status == CPS_OK)
         status = cps_set_facts(all->set, forces.tolerance, &facts, NULL, NULL, err);
-    for (size_t j = 0; status == CPS_OK && facts.outcome == CPS_SET_ANSWERED && j < m; j++) {
-        CpsSetExtent extent;
-        memset(direction, 0, m * sizeof *direction);
-        direction[j] = 1;
-        status = cps_set_extent(all->set, direction, &extent, err);
-        if (low) low[j] = extent.low;
-        if (high) high[j] = extent.high;
-    }
+    if (facts.outcome == CPS_SET_ANSWERED)
+        for (size_t j = 0; status == CPS_OK && j < m; j++) {
+            CpsSetExtent extent;
+            memset(direction, 0, m * sizeof *direction);
+            direction[j] = 1;
+            status = cps_set_extent(all->set, direction, &extent, err);
+            if (low) low[j] = extent.low;
+            if (high) high[j] = extent.high;
+        }
     all->outcome = facts.outcome;
     all->dimension = facts.dimension;
     all->bounded = facts.bounded;

@@ -292,8 +292,9 @@ CpsStatus cps_system_set_load(CpsSystem *system, const double *load, CpsError *e
 }
 
 bool cpsi_system_loaded(const CpsSystem *system) {
-    for (int i = 0; system->load && i < system->n; i++)
-        if (system->load[i] != 0) return true;
+    if (system->load)
+        for (int i = 0; i < system->n; i++)
+            if (system->load[i] != 0) return true;
     return false;
 }
 

@@ -21,7 +21,8 @@ static CpsStatus out_of_memory(CpsError *err) {
 
 void cpsi_drive_program_clear(CpsiDriveProgram *p) {
     cpsi_sparse_program_free(p->program);
-    for (int k = 0; p->own && k < p->system->pieces; k++) cpsi_conic_form_free(p->own[k]);
+    if (p->own)
+        for (int k = 0; k < p->system->pieces; k++) cpsi_conic_form_free(p->own[k]);
     void *part[] = {p->form, p->own, p->first, p->block, p->c};
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) free(part[k]);
     cpsi_rows_free(&p->equation);
@@ -136,12 +137,13 @@ static CpsStatus write_equations(CpsiDriveProgram *p, CpsiAim aim, CpsError *err
     for (int k = 0; done && k < system->pieces; k++) done = push_piece(p, k, &adjoint, &list);
     done = done && push_transposed(&system->drive, p->resistance, &list) &&
            push_transposed(&system->constraint, p->constraint, &list);
-    for (int i = 0; done && system->load && i < system->n; i++) {
-        if (aim == CPSI_AIM_FACTOR)
-            done = push(&list, i, p->factor, system->load[i]);
-        else
-            p->h[i] += system->load[i];
-    }
+    if (system->load)
+        for (int i = 0; done && i < system->n; i++) {
+            if (aim == CPSI_AIM_FACTOR)
+                done = push(&list, i, p->factor, system->load[i]);
+            else
+                p->h[i] += system->load[i];
+        }
     if (!done) status = out_of_memory(err);
     if (status == CPS_OK)
         status = cpsi_rows_append(&p->equation, "equilibrium", p->unknowns, system->n,
@@ -187,10 +189,11 @@ static void scale(CpsiDriveProgram *p, bool even) {
     }
     total = fmax(total, force);
     for (int j = 0; j < p->unknowns; j++) p->column_scale[j] = 1;
-    for (int k = 0; total > 0 && k < p->system->pieces; k++)
-        for (int j = p->first[k]; is_cone(p->form[k]) && j < p->first[k] + p->form[k]->unknowns;
-             j++)
-            if (largest[j] > 0) p->column_scale[j] = total / largest[j];
+    if (total > 0)
+        for (int k = 0; k < p->system->pieces; k++)
+            for (int j = p->first[k]; is_cone(p->form[k]) && j < p->first[k] + p->form[k]->unknowns;
+                 j++)
+                if (largest[j] > 0) p->column_scale[j] = total / largest[j];
     for (int i = 0; i < n; i++) {
         double most = 0;
         for (size_t k = e->start[i]; k < e->start[i + 1]; k++) {
@@ -213,15 +216,16 @@ static void scale(CpsiDriveProgram *p, bool even) {
 
 static void write_objective(CpsiDriveProgram *p, CpsiAim aim, const double *driving) {
     if (aim == CPSI_AIM_FACTOR) p->c[p->factor] = -1;
-    for (int j = 0; aim == CPSI_AIM_MOTION && j < p->system->drive.rows; j++)
-        p->c[p->resistance + j] = driving[j];
-    for (int k = 0; aim == CPSI_AIM_MOTION && k < p->system->pieces; k++) {
-        const CpsiConicForm *form = p->own[k];
-        if (!form) continue;
-        const size_t last = (size_t)form->n - 1, u = (size_t)form->unknowns;
-        for (size_t j = 0; j < u; j++) p->c[(size_t)p->first[k] + j] = form->p[last * u + j];
-        for (size_t l = 0; l < (size_t)form->lines; l++)
-            p->c[(size_t)p->line[k] + l] = form->q[(l + 1) * (last + 1) - 1];
+    if (aim == CPSI_AIM_MOTION) {
+        for (int j = 0; j < p->system->drive.rows; j++) p->c[p->resistance + j] = driving[j];
+        for (int k = 0; k < p->system->pieces; k++) {
+            const CpsiConicForm *form = p->own[k];
+            if (!form) continue;
+            const size_t last = (size_t)form->n - 1, u = (size_t)form->unknowns;
+            for (size_t j = 0; j < u; j++) p->c[(size_t)p->first[k] + j] = form->p[last * u + j];
+            for (size_t l = 0; l < (size_t)form->lines; l++)
+                p->c[(size_t)p->line[k] + l] = form->q[(l + 1) * (last + 1) - 1];
+        }
     }
     p->power = 0;
     for (int j = 0; j < p->unknowns; j++)

@@ -152,7 +152,8 @@ static CpsStatus gauge_form(int n, const CpsiTerm *term, double speed, CpsiConic
         const double size = cpsi_set_size(term->set);
         for (int k = 0; k < ramps; k++) ramp_rows(raw, &ramp[k], speed * size, t, e);
         /* no ramp, no force */
-        for (int i = 0; ramps == 0 && i < n; i++) cpsi_conic_rows_equation(raw)[i] = 1;
+        if (ramps == 0)
+            for (int i = 0; i < n; i++) cpsi_conic_rows_equation(raw)[i] = 1;
         if (ramps > 0 && !cpsi_conic_rows_write(raw, term->set, x, t)) status = out_of_memory(err);
         if (status == CPS_OK)
             status = cpsi_conic_form_reduce(raw, n + 1, x, 0, NULL, 1e-11, out, err);

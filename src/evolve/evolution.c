@@ -51,7 +51,8 @@ static bool scene_keeps_elements_out(const CpsScene *scene) {
 }
 
 static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
-    for (int k = 0; set && k < scene->obstacle_count; k++) cpsi_friction_set_free(set[k]);
+    if (set)
+        for (int k = 0; k < scene->obstacle_count; k++) cpsi_friction_set_free(set[k]);
     free(set);
 }
 
@@ -192,7 +193,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
             def->element_length ? def->element_length[e] : def->length / def->elements;
     cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);
-    for (int c = 0; line->has_local_axes && c < cpsi_line_all_contacts(line); c++) line->on[c] = -1;
+    if (line->has_local_axes)
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->on[c] = -1;
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
@@ -295,8 +297,9 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
 
 void cps_evolution_destroy(CpsEvolution *evolution) {
     if (!evolution) return;
-    for (int k = 0; evolution->set && k < evolution->obstacle_count; k++)
-        cpsi_friction_set_free(evolution->set[k]);
+    if (evolution->set)
+        for (int k = 0; k < evolution->obstacle_count; k++)
+            cpsi_friction_set_free(evolution->set[k]);
     free(evolution->set);
     free(evolution->before);
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
@@ -327,9 +330,10 @@ static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
 static CpsEnd end_at(const CpsiChange *change, int part, int steps) {
     CpsEnd end = change->to;
     const double share = (double)part / steps;
-    for (int a = 0; a < 3 && part < steps; a++)
-        end.value[a] =
-            change->from.value[a] + share * (change->to.value[a] - change->from.value[a]);
+    if (part < steps)
+        for (int a = 0; a < 3; a++)
+            end.value[a] =
+                change->from.value[a] + share * (change->to.value[a] - change->from.value[a]);
     return end;
 }
 
@@ -337,30 +341,31 @@ static CpsEnd end_at(const CpsiChange *change, int part, int steps) {
  * through an obstacle. */
 static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
     const CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
-    for (int i = 0; i < stage->change_count && evolution->part == 0; i++) {
-        const CpsiChange *change = &stage->change[i];
-        const CpsiLine *line = &evolution->line[change->line];
-        if (change->to.kind != CPS_END_HELD || line->end[change->end].kind == CPS_END_HELD)
-            continue;
-        const CpsEnd from = end_now(line, change->end, CPS_END_HELD);
-        const double *a = from.value, *b = change->to.value, *o = evolution->origin;
-        /* that of the data: coordinates of the scene */
-        const double rounding =
-            cpsi_place_rounding(line->length, vec3_add(vec3_load(o), vec3_load(b)));
-        for (int k = 0; k < evolution->obstacle_count; k++) {
-            const double depth =
-                cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b),
-                                CPSI_PATH_TOUCH * line->length + rounding);
-            if (depth > 0)
-                return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                                 "stage '%.64s': %s.%s is grabbed at (%g, %g, %g) m and goes "
-                                 "straight to (%g, %g, %g) m, through obstacle "
-                                 "'%s', up to %g m deep: add way points around it",
-                                 stage->name, line->name, change->end == CPS_END_A ? "A" : "B",
-                                 o[0] + a[0], o[1] + a[1], o[2] + a[2], o[0] + b[0], o[1] + b[1],
-                                 o[2] + b[2], evolution->obstacle_name[k], depth);
+    if (evolution->part == 0)
+        for (int i = 0; i < stage->change_count; i++) {
+            const CpsiChange *change = &stage->change[i];
+            const CpsiLine *line = &evolution->line[change->line];
+            if (change->to.kind != CPS_END_HELD || line->end[change->end].kind == CPS_END_HELD)
+                continue;
+            const CpsEnd from = end_now(line, change->end, CPS_END_HELD);
+            const double *a = from.value, *b = change->to.value, *o = evolution->origin;
+            /* that of the data: coordinates of the scene */
+            const double rounding =
+                cpsi_place_rounding(line->length, vec3_add(vec3_load(o), vec3_load(b)));
+            for (int k = 0; k < evolution->obstacle_count; k++) {
+                const double depth =
+                    cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b),
+                                    CPSI_PATH_TOUCH * line->length + rounding);
+                if (depth > 0)
+                    return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                     "stage '%.64s': %s.%s is grabbed at (%g, %g, %g) m and goes "
+                                     "straight to (%g, %g, %g) m, through obstacle "
+                                     "'%s', up to %g m deep: add way points around it",
+                                     stage->name, line->name, change->end == CPS_END_A ? "A" : "B",
+                                     o[0] + a[0], o[1] + a[1], o[2] + a[2], o[0] + b[0],
+                                     o[1] + b[1], o[2] + b[2], evolution->obstacle_name[k], depth);
+            }
         }
-    }
     return CPS_OK;
 }
 

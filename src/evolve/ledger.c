@@ -68,14 +68,16 @@ static double end_work(const CpsEndReport *before, const CpsEndReport *after, bo
 /* The same of the half elements at held ends. */
 static double end_obstacle_work(const CpsiLine *line) {
     double work = 0;
-    for (int end = 0; line->has_local_axes && end < 2; end++) {
-        const int j = end == CPS_END_A ? 0 : line->n - 1, k = line->on[j];
-        if (!cpsi_line_is_held(line, j) || k < 0 || line->turn[k] == 0) continue;
-        const Vec3 own = cpsi_obstacle_slip(&line->obstacle[k], vec3_load(&line->reference[3 * j]),
-                                            vec3_load(&line->position[3 * j]));
-        work += vec3_dot(vec3_load(line->report.end[end].friction),
-                         vec3_sub(own, cpsi_line_end_slide(line, end, k)));
-    }
+    if (line->has_local_axes)
+        for (int end = 0; end < 2; end++) {
+            const int j = end == CPS_END_A ? 0 : line->n - 1, k = line->on[j];
+            if (!cpsi_line_is_held(line, j) || k < 0 || line->turn[k] == 0) continue;
+            const Vec3 own =
+                cpsi_obstacle_slip(&line->obstacle[k], vec3_load(&line->reference[3 * j]),
+                                   vec3_load(&line->position[3 * j]));
+            work += vec3_dot(vec3_load(line->report.end[end].friction),
+                             vec3_sub(own, cpsi_line_end_slide(line, end, k)));
+        }
     return work;
 }
 
@@ -83,15 +85,16 @@ static double end_obstacle_work(const CpsiLine *line) {
  * node's own way less the way slid. */
 static double obstacle_work(const CpsiLine *line) {
     double work = 0;
-    for (int c = 0; line->has_local_axes && c < cpsi_line_all_contacts(line); c++) {
-        const int k = line->on[c];
-        if (k < 0 || line->turn[k] == 0) continue;
-        const Vec3 x = cpsi_line_place(line, line->position, c),
-                   from = cpsi_line_place(line, line->reference, c);
-        const Vec3 own = cpsi_contact_slip_between(line, c, from, x);
-        work += vec3_dot(vec3_load(&line->friction_force[3 * c]),
-                         vec3_sub(own, cpsi_line_slide(line, c)));
-    }
+    if (line->has_local_axes)
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+            const int k = line->on[c];
+            if (k < 0 || line->turn[k] == 0) continue;
+            const Vec3 x = cpsi_line_place(line, line->position, c),
+                       from = cpsi_line_place(line, line->reference, c);
+            const Vec3 own = cpsi_contact_slip_between(line, c, from, x);
+            work += vec3_dot(vec3_load(&line->friction_force[3 * c]),
+                             vec3_sub(own, cpsi_line_slide(line, c)));
+        }
     return work + end_obstacle_work(line);
 }
 

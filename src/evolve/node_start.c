@@ -51,12 +51,13 @@ static CpsStatus check_lengths(const CpsLine *line, CpsError *err) {
 /* Forces of an array, from its `from`th node or element. */
 static CpsStatus check_forces(const CpsLine *line, const double *force, int count, const char *what,
                               const char *where, CpsError *err) {
-    for (int i = 0; force && i < count; i++)
-        if (!(force[i] >= 0 && force[i] <= LARGEST))
-            return cpsi_fail(
-                err, CPS_ERR_ARGUMENT,
-                "line '%s': start: the %s %s %d is %g N, expected a finite number >= 0", line->name,
-                what, where, i, force[i]);
+    if (force)
+        for (int i = 0; i < count; i++)
+            if (!(force[i] >= 0 && force[i] <= LARGEST))
+                return cpsi_fail(
+                    err, CPS_ERR_ARGUMENT,
+                    "line '%s': start: the %s %s %d is %g N, expected a finite number >= 0",
+                    line->name, what, where, i, force[i]);
     return CPS_OK;
 }
 
@@ -72,38 +73,43 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
     const char *what = start->reaction ? "reaction" : "friction bound";
     double at = 0, largest = 0;
     int first = 0;
-    for (int j = 0; force && j <= line->elements; j++) largest = fmax(largest, force[j]);
-    for (int j = 0; force && j <= line->elements; j++) {
-        const double before = j > 0 ? element_length(line, j - 1) : 0,
-                     after = j < line->elements ? element_length(line, j) : 0;
-        at += before;
-        const double factor =
-            cpsi_zone_factor(line, &first, at - 0.5 * before, 0.5 * (before + after));
-        const CpsObstacle *nearest = NULL;
-        double gap = INFINITY;
-        for (int k = 0; k < scene->obstacle_count; k++) {
-            const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
-            const double distance = cpsi_obstacle_gap(&obstacle, vec3_load(&start->point[3 * j]));
-            if (distance < gap) {
-                gap = distance;
-                nearest = &scene->obstacle[k];
+    if (force) {
+        for (int j = 0; j <= line->elements; j++) largest = fmax(largest, force[j]);
+        for (int j = 0; j <= line->elements; j++) {
+            const double before = j > 0 ? element_length(line, j - 1) : 0,
+                         after = j < line->elements ? element_length(line, j) : 0;
+            at += before;
+            const double factor =
+                cpsi_zone_factor(line, &first, at - 0.5 * before, 0.5 * (before + after));
+            const CpsObstacle *nearest = NULL;
+            double gap = INFINITY;
+            for (int k = 0; k < scene->obstacle_count; k++) {
+                const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
+                const double distance =
+                    cpsi_obstacle_gap(&obstacle, vec3_load(&start->point[3 * j]));
+                if (distance < gap) {
+                    gap = distance;
+                    nearest = &scene->obstacle[k];
+                }
             }
+            if (!(force[j] > NOTHING * largest)) continue;
+            /* one below the obstacle is refused as such, unless contact is strict, where it may be
+             * there and is pushed no more */
+            const bool near =
+                gap <= TOUCH * line->length &&
+                (scene->contact == CPS_CONTACT_GAINED || gap >= -TOUCH * line->length);
+            if (!nearest || !near)
+                return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                 "line '%s': start: the %s of node %d is %g N, but it touches no "
+                                 "obstacle, expected 0",
+                                 line->name, what, j, force[j]);
+            if (start->friction_bound && !(factor * coefficient(nearest) > 0))
+                return cpsi_fail(
+                    err, CPS_ERR_ARGUMENT,
+                    "line '%s': start: the %s of node %d is %g N, but obstacle '%s' has "
+                    "no friction there, expected 0",
+                    line->name, what, j, force[j], nearest->name);
         }
-        if (!(force[j] > NOTHING * largest)) continue;
-        /* one below the obstacle is refused as such, unless contact is strict, where it may be
-         * there and is pushed no more */
-        const bool near = gap <= TOUCH * line->length &&
-                          (scene->contact == CPS_CONTACT_GAINED || gap >= -TOUCH * line->length);
-        if (!nearest || !near)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "line '%s': start: the %s of node %d is %g N, but it touches no "
-                             "obstacle, expected 0",
-                             line->name, what, j, force[j]);
-        if (start->friction_bound && !(factor * coefficient(nearest) > 0))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "line '%s': start: the %s of node %d is %g N, but obstacle '%s' has "
-                             "no friction there, expected 0",
-                             line->name, what, j, force[j], nearest->name);
     }
     return CPS_OK;
 }

@@ -10,8 +10,9 @@
 #include <string.h>
 
 static bool all_finite(const double *x, size_t count) {
-    for (size_t i = 0; x && i < count; i++)
-        if (!isfinite(x[i])) return false;
+    if (x)
+        for (size_t i = 0; i < count; i++)
+            if (!isfinite(x[i])) return false;
     return true;
 }
 

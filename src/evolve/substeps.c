@@ -130,10 +130,11 @@ typedef struct Advance {
 /* An end at a share of the move. */
 static CpsEnd end_at(const CpsiMove *move, int end, double share) {
     CpsEnd at = move->to[end];
-    for (int a = 0; a < 3 && share < 1; a++) {
-        const double from = move->from[end].value[a];
-        at.value[a] = from + share * (at.value[a] - from);
-    }
+    if (share < 1)
+        for (int a = 0; a < 3; a++) {
+            const double from = move->from[end].value[a];
+            at.value[a] = from + share * (at.value[a] - from);
+        }
     return at;
 }
 
@@ -438,8 +439,9 @@ static bool add_shortfall(Advance *substeps) {
 static double cost_of(const Advance *substeps, int before, bool good) {
     const CpsiLine *line = substeps->line;
     double nodes = line->n + NODES_BESIDE;
-    for (int k = 0; k < line->obstacle_count && !good; k++)
-        if (line->obstacle[k].has_set) nodes = fmax(nodes, SET_COST * line->n);
+    if (!good)
+        for (int k = 0; k < line->obstacle_count; k++)
+            if (line->obstacle[k].has_set) nodes = fmax(nodes, SET_COST * line->n);
     return (double)(substeps->iterations - before) * nodes;
 }
 

@@ -227,7 +227,8 @@ static CpsStatus bound_above(Sum *sum, CpsError *err) {
     CpsStatus status = choose_bearer(sum, ROUNDING, cost, &bearer, &more, err);
     if (status == CPS_OK && bearer < 0)
         status = choose_bearer(sum, ON_BOUNDARY, cost, &bearer, &more, err);
-    for (size_t a = 0; bearer >= 0 && a < n; a++) sum->share[bearer].force[a] += lack[a];
+    if (bearer >= 0)
+        for (size_t a = 0; a < n; a++) sum->share[bearer].force[a] += lack[a];
     sum->now.upper += more;
     return status;
 }
@@ -488,8 +489,9 @@ CpsStatus cpsi_conjugate_sum(const CpsResistance *law, const double *force, doub
         status = conjugate(&sum, velocity, answer, err);
     }
     const size_t n = (size_t)law->n;
-    for (int i = 0; status == CPS_OK && share && i < sum.count; i++)
-        memcpy(&share[(size_t)sum.place[i] * n], &sum.kept[(size_t)i * n], n * sizeof *share);
+    if (status == CPS_OK)
+        for (int i = 0; share && i < sum.count; i++)
+            memcpy(&share[(size_t)sum.place[i] * n], &sum.kept[(size_t)i * n], n * sizeof *share);
     sum_free(&sum);
     return status;
 }

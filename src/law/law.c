@@ -241,14 +241,14 @@ static CpsStatus find_composition(int n, const double *map, const CpsLaw *law,
     *composition = CPS_COMPOSE_INTERIOR;
     if (status == CPS_OK && facts.outcome != CPS_SET_ANSWERED)
         *composition = CPS_COMPOSE_NOT_SATISFIED;
-    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED)
+    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED) {
         for (int i = 0; i < rows; i++) force[i] = cpsi_dot(n, map + (size_t)i * (size_t)n, center);
-    for (int i = 0, at = 0;
-         i < law->factor_count && status == CPS_OK && facts.outcome == CPS_SET_ANSWERED; i++) {
-        CpsComposition place;
-        status = place_in_factor(law->factor[i], force + at, &place, err);
-        if (place > *composition) *composition = place;
-        at += cps_set_space(law->factor[i]);
+        for (int i = 0, at = 0; i < law->factor_count && status == CPS_OK; i++) {
+            CpsComposition place;
+            status = place_in_factor(law->factor[i], force + at, &place, err);
+            if (place > *composition) *composition = place;
+            at += cps_set_space(law->factor[i]);
+        }
     }
     free(center);
     return status;

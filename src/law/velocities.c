@@ -33,13 +33,14 @@ static CpsStatus speeds(const CpsiTerm *term, double s, double tolerance, double
                         CpsError *err) {
     CpsiTermDual below = {0}, above = {0};
     /* the slopes of a table are known */
-    for (int i = 0; term->kind == CPSI_TABLE && i < term->count; i++) {
-        const double slope = term->data[term->count + i];
-        if (fabs(s - slope) <= tolerance * slope) {
-            s = slope;
-            tolerance = 0;
+    if (term->kind == CPSI_TABLE)
+        for (int i = 0; i < term->count; i++) {
+            const double slope = term->data[term->count + i];
+            if (fabs(s - slope) <= tolerance * slope) {
+                s = slope;
+                tolerance = 0;
+            }
         }
-    }
     CpsStatus status = cpsi_term_dual(term, s * (1 - tolerance), &below, err);
     if (status == CPS_OK) status = cpsi_term_dual(term, s * (1 + tolerance), &above, err);
     *low = below.low;
@@ -63,7 +64,8 @@ CpsStatus cpsi_term_velocities(int n, const CpsiTerm *term, const double *force,
         status == CPS_OK && gauge.outcome == CPS_SET_ANSWERED && isfinite(gauge.value);
     if (known) status = speeds(term, gauge.value, tolerance, &low, &high, err);
     const bool moves = high > 0 && gauge.value > tolerance;
-    for (int i = 0; known && moves && i < n; i++) point[i] = force[i] / gauge.value;
+    if (known && moves)
+        for (int i = 0; i < n; i++) point[i] = force[i] / gauge.value;
     if (status == CPS_OK && known && isfinite(low))
         status = cps_law_velocities(term->set, point, tolerance, &cone, &answer, err);
     if (status == CPS_OK && cone && moves && isfinite(high))
@@ -145,8 +147,9 @@ static CpsStatus simplest(CpsSet *set, int n, const double *velocity, CpsSet **o
 }
 
 bool cps_resistance_is_dry(const CpsResistance *law) {
-    for (int i = 0; law && i < law->count; i++)
-        if (law->term[i].kind != CPSI_DRY) return false;
+    if (law)
+        for (int i = 0; i < law->count; i++)
+            if (law->term[i].kind != CPSI_DRY) return false;
     return law != NULL;
 }
 

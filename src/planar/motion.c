@@ -346,12 +346,14 @@ CpsStatus cps_planar_motions(const CpsPlanar *body, int rows, const double *map,
         const double share = rows < 3 ? orthogonalise(self.q, rows, unit, NULL) : 0;
         const bool moves = share > INDEPENDENT;
         if (moves) complete(self.q, rows + 1);
-        for (int side = 0; side < 2 && moves; side++)
-            if (!extent(&self, middle, level, side ? 1 : -1, &ends[side]))
-                return self.status != CPS_OK ? self.status
-                                             : cpsi_fail(err, CPS_ERR_ARGUMENT,
-                                                         "there is no motion to look around: %s",
-                                                         cps_set_outcome_sentence(self.outcome));
+        if (moves)
+            for (int side = 0; side < 2; side++)
+                if (!extent(&self, middle, level, side ? 1 : -1, &ends[side]))
+                    return self.status != CPS_OK
+                               ? self.status
+                               : cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                           "there is no motion to look around: %s",
+                                           cps_set_outcome_sentence(self.outcome));
         const double unit_size = component < 2 ? 1 : body->reach;
         low[component] = motion.twist[component] - share * ends[0] / unit_size;
         high[component] = motion.twist[component] + share * ends[1] / unit_size;

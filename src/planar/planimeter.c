@@ -40,9 +40,10 @@ static CpsStatus check(const CpsPlanimeter *p, int count, const double *point, i
     if (count < 3 || steps < 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d points and %d steps, expected at least 3 and 1",
                          count, steps);
-    for (int i = 0; i < count && point; i++)
-        if (!isfinite(point[2 * i]) || !isfinite(point[2 * i + 1]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "point %d is not finite", i);
+    if (point)
+        for (int i = 0; i < count; i++)
+            if (!isfinite(point[2 * i]) || !isfinite(point[2 * i + 1]))
+                return cpsi_fail(err, CPS_ERR_ARGUMENT, "point %d is not finite", i);
     return point ? CPS_OK : cpsi_fail(err, CPS_ERR_ARGUMENT, "the points are NULL");
 }
 

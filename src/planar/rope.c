@@ -89,8 +89,9 @@ static CpsStatus set_drive(CpsSystem *system, const CpsRope *rope, CpsError *err
     CpsEntry map[4];
     int rows = 0;
     for (int end = 0; end < 2; end++)
-        for (int k = 0; k < 2 && rope->driven[end]; k++, rows++)
-            map[rows] = (CpsEntry){rows, (end ? 2 * (rope->nodes - 1) : 0) + k, 1};
+        if (rope->driven[end])
+            for (int k = 0; k < 2; k++, rows++)
+                map[rows] = (CpsEntry){rows, (end ? 2 * (rope->nodes - 1) : 0) + k, 1};
     return rows ? cps_system_set_drive(system, rows, rows, map, err) : CPS_OK;
 }
 

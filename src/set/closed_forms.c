@@ -254,8 +254,9 @@ static bool project_moved(const CpsSet *set, const double *p, double *nearest) {
     double *y = cpsi_scratch_take(&scratch, (size_t)n);
     for (int i = 0; y && i < n; i++) y[i] = shift ? p[i] - set->a[i] : p[i] / set->scalar;
     const bool done = y && cpsi_closed_project(set->part[0], y, nearest);
-    for (int i = 0; done && i < n; i++)
-        nearest[i] = shift ? nearest[i] + set->a[i] : nearest[i] * set->scalar;
+    if (done)
+        for (int i = 0; i < n; i++)
+            nearest[i] = shift ? nearest[i] + set->a[i] : nearest[i] * set->scalar;
     cpsi_scratch_give(&scratch);
     return done;
 }

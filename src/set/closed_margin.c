@@ -46,7 +46,8 @@ static bool sum_margin(const CpsSet *set, const double *p, double *separating, d
     if (!q) return false;
     memcpy(q, p, (size_t)n * sizeof *q);
     for (int k = 0; k < set->count; k++)
-        for (int i = 0; set->part[k] != other && i < n; i++) q[i] -= set->part[k]->a[i];
+        if (set->part[k] != other)
+            for (int i = 0; i < n; i++) q[i] -= set->part[k]->a[i];
     bool done = true;
     if (other)
         done = cpsi_closed_margin(other, q, separating, &distance);
@@ -74,15 +75,17 @@ static bool mapped_margin(const CpsSet *set, const double *p, double *separating
     if (!q) return false;
     for (int i = 0; i < m; i++) {
         q[i] = image ? 0 : cpsi_dot(n, &set->a[i * n], p) + set->b[i];
-        for (int j = 0; image && j < n; j++) q[i] += set->a[j * n + i] * p[j] / size / size;
+        if (image)
+            for (int j = 0; j < n; j++) q[i] += set->a[j * n + i] * p[j] / size / size;
     }
     const bool done = cpsi_closed_margin(part, q, separating ? away : NULL, margin);
     if (done) *margin = image ? *margin * size : *margin / size;
-    for (int i = 0; done && separating && i < n; i++) {
-        separating[i] = 0;
-        for (int j = 0; j < m; j++)
-            separating[i] += (image ? set->a[i * m + j] : set->a[j * n + i]) * away[j] / size;
-    }
+    if (done)
+        for (int i = 0; separating && i < n; i++) {
+            separating[i] = 0;
+            for (int j = 0; j < m; j++)
+                separating[i] += (image ? set->a[i * m + j] : set->a[j * n + i]) * away[j] / size;
+        }
     cpsi_scratch_give(&scratch);
     return done;
 }
@@ -95,8 +98,8 @@ static bool moved_margin(const CpsSet *set, const double *p, double *separating,
     for (int i = 0; y && i < n; i++) y[i] = shift ? p[i] - set->a[i] : p[i] / set->scalar;
     const bool done = y && cpsi_closed_margin(set->part[0], y, separating, margin);
     if (done && !shift) *margin *= fabs(set->scalar);
-    for (int i = 0; done && !shift && separating && i < n; i++)
-        separating[i] *= copysign(1, set->scalar);
+    if (done && !shift)
+        for (int i = 0; separating && i < n; i++) separating[i] *= copysign(1, set->scalar);
     cpsi_scratch_give(&scratch);
     return done;
 }
@@ -176,14 +179,16 @@ bool cpsi_closed_margin(const CpsSet *set, const double *p, double *separating, 
     CpsiScratch scratch;
     double *nearest = cpsi_scratch_take(&scratch, (size_t)n);
     bool done = nearest && cpsi_closed_project(set, p, nearest);
-    for (int i = 0; done && i < n; i++) distance = hypot(distance, p[i] - nearest[i]);
+    if (done)
+        for (int i = 0; i < n; i++) distance = hypot(distance, p[i] - nearest[i]);
     if (done && distance > 0)
         *margin = -distance;
     else if (done)
         done = inner_radius(set, p, margin);
     if (done && !(distance > 0)) *margin = fmax(*margin, 0);
-    for (int i = 0; done && separating && i < n; i++)
-        separating[i] = distance > 0 ? (p[i] - nearest[i]) / distance : 0;
+    if (done)
+        for (int i = 0; separating && i < n; i++)
+            separating[i] = distance > 0 ? (p[i] - nearest[i]) / distance : 0;
     cpsi_scratch_give(&scratch);
     return done;
 }

@@ -333,11 +333,12 @@ static bool mapped_rows(CpsiConicRows *conic, const CpsSet *set, const double *x
             break; /* scale by a factor other than 0 */
         }
     }
-    for (int i = 0; set->kind == CPSI_SET_IMAGE && i < n; i++) {
-        double *equation = cpsi_conic_rows_equation(conic);
-        balance(conic, -1, &x[(size_t)i * w], equation);
-        add_product(conic, part->n, 1, &set->a[(size_t)i * (size_t)part->n], y, equation);
-    }
+    if (set->kind == CPSI_SET_IMAGE)
+        for (int i = 0; i < n; i++) {
+            double *equation = cpsi_conic_rows_equation(conic);
+            balance(conic, -1, &x[(size_t)i * w], equation);
+            add_product(conic, part->n, 1, &set->a[(size_t)i * (size_t)part->n], y, equation);
+        }
     const bool done = cpsi_conic_rows_write(conic, part, y, t);
     free(y);
     return done;

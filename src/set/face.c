@@ -138,10 +138,11 @@ static CpsStatus face_of_points(const CpsSet *set, const double *w, double slack
 static CpsStatus face_of_box(const CpsSet *set, const double *w, double slack, CpsSet **out,
                              CpsError *err) {
     const CpsStatus status = cps_set_box(set->n, set->a, set->b, out, err);
-    for (int i = 0; !status && i < set->n; i++) {
-        if (w[i] > slack) (*out)->a[i] = (*out)->b[i];
-        if (w[i] < -slack) (*out)->b[i] = (*out)->a[i];
-    }
+    if (!status)
+        for (int i = 0; i < set->n; i++) {
+            if (w[i] > slack) (*out)->a[i] = (*out)->b[i];
+            if (w[i] < -slack) (*out)->b[i] = (*out)->a[i];
+        }
     return status;
 }
 

@@ -169,15 +169,17 @@ static CpsiHull *polygon(int n, int count, const double *points, const double *b
     const int corners = order ? cpsi_polygon(count, c, size, order, corner) : 0;
     CpsiHull *hull = corners > 0 ? hull_new(n, 2, corners, corners) : NULL;
     if (hull) place_span(hull, points, basis);
-    for (int k = 0; hull && k < corners; k++) {
-        const double *p = &c[2 * corner[k]], *q = &c[2 * corner[(k + 1) % corners]],
-                     length = hypot(q[0] - p[0], q[1] - p[1]);
-        const double normal[2] = {(q[1] - p[1]) / length, (p[0] - q[0]) / length};
-        memcpy(&hull->piece[4 * k], p, 2 * sizeof *p);
-        memcpy(&hull->piece[4 * k + 2], q, 2 * sizeof *q);
-        place_row(hull, k, normal,
-                  fmax(normal[0] * p[0] + normal[1] * p[1], normal[0] * q[0] + normal[1] * q[1]));
-    }
+    if (hull)
+        for (int k = 0; k < corners; k++) {
+            const double *p = &c[2 * corner[k]], *q = &c[2 * corner[(k + 1) % corners]],
+                         length = hypot(q[0] - p[0], q[1] - p[1]);
+            const double normal[2] = {(q[1] - p[1]) / length, (p[0] - q[0]) / length};
+            memcpy(&hull->piece[4 * k], p, 2 * sizeof *p);
+            memcpy(&hull->piece[4 * k + 2], q, 2 * sizeof *q);
+            place_row(hull, k, normal,
+                      fmax(normal[0] * p[0] + normal[1] * p[1],
+                           normal[0] * q[0] + normal[1] * q[1]));
+        }
     free(order);
     return hull;
 }
@@ -231,13 +233,16 @@ static CpsiHull *polyhedron(int n, const double *points, const double *basis, co
         }
     CpsiHull *hull = hull_new(n, 3, rows, pieces);
     if (hull) place_span(hull, points, basis);
-    for (int t = 0, piece = 0, row = 0; hull && t < triangles; t++) {
-        if (triangle[t].gone) continue;
-        for (int k = 0; k < 3; k++)
-            memcpy(&hull->piece[9 * piece + 3 * k], &c[3 * triangle[t].corner[k]], 3 * sizeof *c);
-        piece++;
-        if (root_of(root, t) == t) place_row(hull, row++, triangle[t].normal, triangle[t].offset);
-    }
+    if (hull)
+        for (int t = 0, piece = 0, row = 0; t < triangles; t++) {
+            if (triangle[t].gone) continue;
+            for (int k = 0; k < 3; k++)
+                memcpy(&hull->piece[9 * piece + 3 * k], &c[3 * triangle[t].corner[k]],
+                       3 * sizeof *c);
+            piece++;
+            if (root_of(root, t) == t)
+                place_row(hull, row++, triangle[t].normal, triangle[t].offset);
+        }
     free(root);
     return hull;
 }
@@ -252,14 +257,15 @@ CpsiHull *cpsi_hull_new(int n, int count, const double *points, bool *known) {
     if (!basis) return NULL;
     const int d = span(n, count, points, basis, start, &size);
     *known = d >= 1 && d <= 3;
-    for (int k = 0; *known && k < count; k++)
-        for (int j = 0; j < d; j++) {
-            double along = 0;
-            for (size_t i = 0; i < w; i++)
-                along += (d == n ? (double)(i == (size_t)j) : basis[(size_t)j * w + i]) *
-                         (points[(size_t)k * w + i] - points[i]);
-            c[k * d + j] = along;
-        }
+    if (*known)
+        for (int k = 0; k < count; k++)
+            for (int j = 0; j < d; j++) {
+                double along = 0;
+                for (size_t i = 0; i < w; i++)
+                    along += (d == n ? (double)(i == (size_t)j) : basis[(size_t)j * w + i]) *
+                             (points[(size_t)k * w + i] - points[i]);
+                c[k * d + j] = along;
+            }
     CpsiTriangle *triangle = NULL;
     if (d == 1) hull = segment(n, count, points, basis);
     if (d == 2) hull = polygon(n, count, points, basis, c, size);
@@ -355,18 +361,19 @@ void cpsi_hull_project(const CpsiHull *hull, const double *p, double *nearest) {
     }
     if (inside) memcpy(best, c, sizeof best);
     if (d == 1 && !inside) best[0] = fmin(hull->piece[1], fmax(hull->piece[0], c[0]));
-    for (int k = 0; d > 1 && !inside && k < hull->pieces; k++) {
-        if (d == 2)
-            nearest_on_edge(2, &hull->piece[4 * k], &hull->piece[4 * k + 2], c, x);
-        else
-            nearest_on_triangle(&hull->piece[9 * k], c, x);
-        double square = 0;
-        for (int i = 0; i < d; i++) square += (c[i] - x[i]) * (c[i] - x[i]);
-        if (square < least) {
-            least = square;
-            memcpy(best, x, sizeof best);
+    if (d > 1 && !inside)
+        for (int k = 0; k < hull->pieces; k++) {
+            if (d == 2)
+                nearest_on_edge(2, &hull->piece[4 * k], &hull->piece[4 * k + 2], c, x);
+            else
+                nearest_on_triangle(&hull->piece[9 * k], c, x);
+            double square = 0;
+            for (int i = 0; i < d; i++) square += (c[i] - x[i]) * (c[i] - x[i]);
+            if (square < least) {
+                least = square;
+                memcpy(best, x, sizeof best);
+            }
         }
-    }
     for (size_t i = 0; i < n; i++) {
         nearest[i] = hull->origin[i];
         for (int j = 0; j < d; j++) nearest[i] += best[j] * hull->basis[(size_t)j * n + i];

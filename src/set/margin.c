@@ -62,10 +62,11 @@ static CpsStatus planar_margin(const CpsSet *set, const double *p, CpsSetAnswer 
                                  .to = first + (count + 1) * TURN / STARTS};
         *found = look(set, p, sector[count].from, sector[count].x, &most, &asked, &status, err);
     }
-    for (int k = 0; *found && k < STARTS; k++) {
-        memcpy(sector[k].y, sector[(k + 1) % STARTS].x, sizeof sector[k].y);
-        sector[k].least = chord_distance(sector[k].x, sector[k].y);
-    }
+    if (*found)
+        for (int k = 0; k < STARTS; k++) {
+            memcpy(sector[k].y, sector[(k + 1) % STARTS].x, sizeof sector[k].y);
+            sector[k].least = chord_distance(sector[k].x, sector[k].y);
+        }
     for (; *found; count++) {
         for (int k = worst = 0; k < count; k++)
             worst = sector[k].least < sector[worst].least ? k : worst;

@@ -125,11 +125,12 @@ static CpsStatus as_rays(CpsiConicForm *form, CpsSet **out, CpsError *err) {
             for (size_t i = 0; i < n; i++) ray[i] = size > 0 ? ray[i] / size : 0;
             simple = simple && size > 0; /* a combination of the unknowns that P does not see */
         }
-        for (size_t l = 0; l < lines && simple; l++)
-            for (size_t i = 0; i < n; i++) {
-                rays[(u + 2 * l) * n + i] = form->q[l * n + i];
-                rays[(u + 2 * l + 1) * n + i] = -form->q[l * n + i];
-            }
+        if (simple)
+            for (size_t l = 0; l < lines; l++)
+                for (size_t i = 0; i < n; i++) {
+                    rays[(u + 2 * l) * n + i] = form->q[l * n + i];
+                    rays[(u + 2 * l + 1) * n + i] = -form->q[l * n + i];
+                }
         if (simple) status = cps_set_cone_of_rays(form->n, (int)(u + 2 * lines), rays, out, err);
     }
     free(inverse);
@@ -151,9 +152,10 @@ static void write_touch(CpsiConicRows *conic, const CpsiConicForm *form, const d
         rows[(size_t)k * (size_t)conic->width + (size_t)conic->next] = 1;
         for (int r = 0; r < d; r++) {
             const double z = count > 1 || d == 1 ? r == k : r ? -s[r] / size : 1;
-            for (int j = 0; z != 0 && j < u; j++)
-                equations[(size_t)j * (size_t)conic->width + (size_t)conic->next] +=
-                    z * form->a[(size_t)(i + r) * (size_t)u + (size_t)j];
+            if (z != 0)
+                for (int j = 0; j < u; j++)
+                    equations[(size_t)j * (size_t)conic->width + (size_t)conic->next] +=
+                        z * form->a[(size_t)(i + r) * (size_t)u + (size_t)j];
         }
     }
 }

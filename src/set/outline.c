@@ -239,9 +239,10 @@ CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, C
 static void store_point(const CpsiWalk *walk, const double x[2], int capacity, double *points,
                         int *count) {
     const int n = walk->set->n;
-    for (int i = 0; *count < capacity && i < n; i++)
-        points[*count * n + i] =
-            walk->center[i] + x[0] * walk->basis[i] + (n > 1 ? x[1] * walk->basis[n + i] : 0);
+    if (*count < capacity)
+        for (int i = 0; i < n; i++)
+            points[*count * n + i] =
+                walk->center[i] + x[0] * walk->basis[i] + (n > 1 ? x[1] * walk->basis[n + i] : 0);
     ++*count;
 }
 
@@ -358,7 +359,8 @@ static CpsStatus probe(const PlanarCone *cone, double t, double *distance, CpsSe
 
 static void store_ray(int n, const double *ray, int capacity, double *rays, int *count) {
     const double size = cpsi_norm(n, ray);
-    for (int i = 0; i < n && *count < capacity; i++) rays[*count * n + i] = ray[i] / size;
+    if (*count < capacity)
+        for (int i = 0; i < n; i++) rays[*count * n + i] = ray[i] / size;
     ++*count;
 }
 
@@ -441,17 +443,17 @@ CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double
         for (int k = 0; k < sides * set->count; k++, ++*count) {
             const double *ray = &set->a[(size_t)(k / sides) * n],
                          size = cpsi_norm(set->n, ray) * (sides == 2 && k % 2 ? -1 : 1);
-            for (size_t i = 0; *count < capacity && i < n; i++)
-                rays[(size_t)k * n + i] = ray[i] / size;
+            if (*count < capacity)
+                for (size_t i = 0; i < n; i++) rays[(size_t)k * n + i] = ray[i] / size;
         }
         return CPS_OK;
     }
     if (set->kind == CPSI_SET_SCALE) { /* by a factor other than 0 */
         const CpsStatus status =
             cps_set_rays(set->part[0], tolerance, capacity, rays, count, answer, err);
-        for (size_t i = 0;
-             set->scalar < 0 && i < n * (size_t)(*count < capacity ? *count : capacity); i++)
-            rays[i] = -rays[i];
+        if (set->scalar < 0)
+            for (size_t i = 0; i < n * (size_t)(*count < capacity ? *count : capacity); i++)
+                rays[i] = -rays[i];
         return status;
     }
     double *room = malloc((n * n + 3 * n) * sizeof *room);

@@ -168,8 +168,9 @@ static int put(Work *w, int from, int p) {
         old->gone = true;
         for (int q = old->first, next; q >= 0; q = next) {
             next = w->next[q];
-            for (int t = first; q != p && t < w->triangles; t++)
-                if (take(w, t, q)) break;
+            if (q != p)
+                for (int t = first; t < w->triangles; t++)
+                    if (take(w, t, q)) break;
         }
         old->first = -1;
     }

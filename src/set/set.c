@@ -71,7 +71,8 @@ CpsSet *cps_set_retain(const CpsSet *set) {
 
 void cps_set_release(CpsSet *set) {
     if (!set || atomic_fetch_sub(&set->refcount, 1) > 1) return;
-    for (int k = 0; set->part && k < set->count; k++) cps_set_release(set->part[k]);
+    if (set->part)
+        for (int k = 0; k < set->count; k++) cps_set_release(set->part[k]);
     cpsi_conic_form_free(set->form);
     cpsi_conic_form_free(set->dual);
     cpsi_hull_free(set->hull);
@@ -90,8 +91,9 @@ CpsStatus cpsi_set_finite(const char *name, size_t count, const double *numbers,
 
 bool cpsi_set_has_user(const CpsSet *set) {
     if (set->kind == CPSI_SET_USER) return true;
-    for (int k = 0; set->part && k < set->count; k++)
-        if (cpsi_set_has_user(set->part[k])) return true;
+    if (set->part)
+        for (int k = 0; k < set->count; k++)
+            if (cpsi_set_has_user(set->part[k])) return true;
     return false;
 }
 
@@ -244,10 +246,11 @@ static void write_set(Text *text, const CpsSet *set) {
         break;
     default: break;
     }
-    for (size_t k = 0; set->part && k < count; k++) {
-        put(text, "%s", k ? ", " : "");
-        write_set(text, set->part[k]);
-    }
+    if (set->part)
+        for (size_t k = 0; k < count; k++) {
+            put(text, "%s", k ? ", " : "");
+            write_set(text, set->part[k]);
+        }
     put(text, ")");
 }
 

@@ -101,7 +101,8 @@ static CpsStatus support_parts(const CpsSet *set, const double *w, double *point
         if (status) break;
         const bool ray = one.outcome == CPS_SET_UNBOUNDED;
         if (point && ray && bounded) memset(point, 0, (size_t)n * sizeof *point);
-        for (int i = 0; point && (bounded || ray) && i < part->n; i++) point[at + i] += piece[i];
+        if (bounded || ray)
+            for (int i = 0; point && i < part->n; i++) point[at + i] += piece[i];
         join(answer, &one);
         if (product) at += part->n;
     }
@@ -133,7 +134,8 @@ static CpsStatus support_image(const CpsSet *set, const double *w, double *point
     if (!back) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
     cpsi_pull_back(set, w, back);
     const CpsStatus status = cpsi_support(part, back, point ? piece : NULL, answer, err);
-    for (int i = 0; !status && point && i < n; i++) point[i] = cpsi_dot(m, &set->a[i * m], piece);
+    if (!status)
+        for (int i = 0; point && i < n; i++) point[i] = cpsi_dot(m, &set->a[i * m], piece);
     cpsi_scratch_give(&scratch);
     return status;
 }
@@ -149,8 +151,9 @@ static CpsStatus support_moved(const CpsSet *set, const double *w, double *point
     for (int i = 0; i < n; i++) turned[i] = shift ? w[i] : w[i] * set->scalar;
     const CpsStatus status = cpsi_support(set->part[0], turned, point, answer, err);
     const bool ray = answer->outcome == CPS_SET_UNBOUNDED;
-    for (int i = 0; !status && point && i < n; i++)
-        point[i] = shift ? point[i] + (ray ? 0 : set->a[i]) : point[i] * set->scalar;
+    if (!status)
+        for (int i = 0; point && i < n; i++)
+            point[i] = shift ? point[i] + (ray ? 0 : set->a[i]) : point[i] * set->scalar;
     if (!status && shift) answer->value += cpsi_dot(n, w, set->a);
     cpsi_scratch_give(&scratch);
     return status;

@@ -315,16 +315,17 @@ Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *v)
         add_element(v, j, j, sum);
         if (force > 0) audit.balance = fmax(audit.balance, norm(sum) / force);
     }
-    for (int e = 0; v->element_obstacle && e < v->elements; e++) {
-        double sum[3], told[3];
-        if (v->element_obstacle[e] < 0) continue;
-        audit_element(&audit, scene, turn, v, e, sum);
-        /* the normal of the view is the obstacle's there */
-        for (int i = 0; i < 3; i++)
-            told[i] = sum[i] - v->element_friction[3 * e + i] -
-                      v->element_reaction[e] * v->element_normal[3 * e + i];
-        if (force > 0) audit.balance = fmax(audit.balance, norm(told) / force);
-    }
+    if (v->element_obstacle)
+        for (int e = 0; e < v->elements; e++) {
+            double sum[3], told[3];
+            if (v->element_obstacle[e] < 0) continue;
+            audit_element(&audit, scene, turn, v, e, sum);
+            /* the normal of the view is the obstacle's there */
+            for (int i = 0; i < 3; i++)
+                told[i] = sum[i] - v->element_friction[3 * e + i] -
+                          v->element_reaction[e] * v->element_normal[3 * e + i];
+            if (force > 0) audit.balance = fmax(audit.balance, norm(told) / force);
+        }
     if (audit.bounds > 0) audit.bound /= audit.bounds;
     return audit;
 }

@@ -48,7 +48,8 @@ static double slide(double mu, double theta, int n, double angle) {
     rig_turn(&rig, 0, angle);
     RigRun run = rig_open(&rig);
     const CpsLineView view = rig_step(&run);
-    for (int j = 1; j <= n && mu * theta < 10; j++) CHECK_INT(view.state[j], CPS_NODE_SLIP);
+    if (mu * theta < 10)
+        for (int j = 1; j <= n; j++) CHECK_INT(view.state[j], CPS_NODE_SLIP);
     const double ratio = rig_tension(&view, n) / rig_tension(&view, 0);
     rig_close(&run);
     return ratio;

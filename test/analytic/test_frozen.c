@@ -182,10 +182,11 @@ static double nearest(const CpsObstacle *o, const double *a, const double *b) {
     }
     const double axis = size(o->axis), rise = dot(d0, o->axis) / axis,
                  lift = dot(d1, o->axis) / axis;
-    for (int k = 0; k < 3 && o->kind == CPS_OBSTACLE_CYLINDER; k++) {
-        d0[k] -= rise * o->axis[k] / axis;
-        d1[k] -= lift * o->axis[k] / axis;
-    }
+    if (o->kind == CPS_OBSTACLE_CYLINDER)
+        for (int k = 0; k < 3; k++) {
+            d0[k] -= rise * o->axis[k] / axis;
+            d1[k] -= lift * o->axis[k] / axis;
+        }
     return -dot(d0, d1) / dot(d1, d1);
 }
 
@@ -216,13 +217,14 @@ static void look_at_element(const Rig *rig, const CpsLineView *v, const Before *
 
 /* What the contacts of the elements beside node j do on it. */
 static void add_elements(const CpsLineView *v, int j, double *sum) {
-    for (int e = j - 1; v->element_obstacle && e <= j; e++) {
-        if (e < 0 || e >= v->elements || v->element_obstacle[e] < 0) continue;
-        const double part = e == j ? 1 - v->element_share[e] : v->element_share[e];
-        for (int a = 0; a < 3; a++)
-            sum[a] += part * (v->element_friction[3 * e + a] +
-                              v->element_reaction[e] * v->element_normal[3 * e + a]);
-    }
+    if (v->element_obstacle)
+        for (int e = j - 1; e <= j; e++) {
+            if (e < 0 || e >= v->elements || v->element_obstacle[e] < 0) continue;
+            const double part = e == j ? 1 - v->element_share[e] : v->element_share[e];
+            for (int a = 0; a < 3; a++)
+                sum[a] += part * (v->element_friction[3 * e + a] +
+                                  v->element_reaction[e] * v->element_normal[3 * e + a]);
+        }
 }
 
 static void audit(const Rig *rig, const CpsLineView *v, const CpsLineReport *report,
@@ -252,11 +254,12 @@ static void audit(const Rig *rig, const CpsLineView *v, const CpsLineReport *rep
             look_at_node(rig, v, before, c, largest, sum, w, &law);
         w->balance = fmax(w->balance, size(sum) / largest);
     }
-    for (int e = 0; v->element_obstacle && e < v->elements; e++) {
-        double unused[3] = {0};
-        if (v->element_obstacle[e] >= 0)
-            look_at_element(rig, v, before, e, largest, unused, w, &law);
-    }
+    if (v->element_obstacle)
+        for (int e = 0; e < v->elements; e++) {
+            double unused[3] = {0};
+            if (v->element_obstacle[e] >= 0)
+                look_at_element(rig, v, before, e, largest, unused, w, &law);
+        }
     CHECK_LESS(law, 1e-8 * report->certificate.scale + 1e-300); /* what the certificate promises */
 }
 
@@ -266,9 +269,10 @@ static void remember(const CpsLineView *v, Before *before) {
     before->known = true;
     for (int c = 0; c < v->contacts * n; c++)
         before->reaction[obstacle_of(v, c)][c % n] = v->reaction[c];
-    for (int e = 0; v->element_obstacle && e < v->elements; e++)
-        if (v->element_obstacle[e] >= 0)
-            before->element[v->element_obstacle[e]][e] = v->element_reaction[e];
+    if (v->element_obstacle)
+        for (int e = 0; e < v->elements; e++)
+            if (v->element_obstacle[e] >= 0)
+                before->element[v->element_obstacle[e]][e] = v->element_reaction[e];
 }
 
 static void check_worst(const Worst *w, uint64_t seed) {

@@ -161,8 +161,9 @@ static void shorten(double *x0, double *x1, double w0, double w1, double l) {
 static void dykstra(int n, double *x, const double *l, int flat, int floor) {
     double kept[N][6] = {{0}}, up[N] = {0}, h[N];
     for (int j = 0; j < n; j++) h[j] = 0.5 * ((j > 0 ? l[j] : 0) + (j + 1 < n ? l[j + 1] : 0));
-    for (int j = 1; flat && j + 1 < n; j++)
-        x[3 * j + 2] = 0; /* a subspace: once, all else moves in it */
+    if (flat)
+        for (int j = 1; j + 1 < n; j++)
+            x[3 * j + 2] = 0; /* a subspace: once, all else moves in it */
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         double moved = 0;
         for (int i = 1; i < n; i++) {
@@ -182,12 +183,13 @@ static void dykstra(int n, double *x, const double *l, int flat, int floor) {
                 *to = pair[a];
             }
         }
-        for (int j = 1; floor && j + 1 < n; j++) {
-            const double z = x[3 * j + 2] + up[j], to = z > 0 ? z : 0;
-            up[j] = z - to;
-            moved = fmax(moved, fabs(x[3 * j + 2] - to));
-            x[3 * j + 2] = to;
-        }
+        if (floor)
+            for (int j = 1; j + 1 < n; j++) {
+                const double z = x[3 * j + 2] + up[j], to = z > 0 ? z : 0;
+                up[j] = z - to;
+                moved = fmax(moved, fabs(x[3 * j + 2] - to));
+                x[3 * j + 2] = to;
+            }
         if (moved < 1e-13) return;
     }
 }

@@ -521,9 +521,10 @@ static void wind(Rig *rig, uint64_t *seed) {
         const double size = both ? 0.1 * lengths : forces;
         double to[3] = {uniform(seed, -0.3, 0.3) * size, uniform(seed, -0.3, 0.3) * size,
                         uniform(seed, 0, 0.3) * size};
-        for (int a = 0; a < 2 && both; a++)
-            to[a] =
-                at[1 - first][a] + 0.3 * (at[first][a] - at[1 - first][a]) * uniform(seed, 0, 1);
+        if (both)
+            for (int a = 0; a < 2; a++)
+                to[a] = at[1 - first][a] +
+                        0.3 * (at[first][a] - at[1 - first][a]) * uniform(seed, 0, 1);
         if (both) to[2] = to[0] * tan(slope) + 1e-3 * lengths; /* a little above the bed */
         if (uniform(seed, 0, 1) < 0.7)
             rig_change(rig, 1 - first, both ? CPS_END_HELD : CPS_END_FREE, to[0], to[1], to[2]);

@@ -167,9 +167,10 @@ static void inextensible(void **state) {
         Case c = make(100, false, slack);
         arc(&c, 1, 1);
         value[slack] = solve(&c, (double[]){sin(1), -cos(1)})->value;
-        for (int i = 0; i < 100 && !slack; i++)
-            CHECK_NEAR(cps_motion_law_velocity(c.motion, c.rope.nodes + i)[0], 0,
-                       1e-9); /* linear residual */
+        if (!slack)
+            for (int i = 0; i < 100; i++)
+                CHECK_NEAR(cps_motion_law_velocity(c.motion, c.rope.nodes + i)[0], 0,
+                           1e-9); /* linear residual */
         finish(&c);
     }
     CHECK_GREATER(value[0], 10 * value[1]);

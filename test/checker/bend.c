@@ -122,11 +122,12 @@ Bend bend_of_record(const Source *source, const Record *r, bool reached, double 
     Real worst = 0, arc = 0, length = 0;
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
     for (size_t j = 0; j < r->nodes; arc += j < r->elements ? r->element_length[j] : 0, j++) {
-        for (size_t c = j; source->surfaces > 0 && c < r->contacts * r->nodes; c += r->nodes) {
-            Real turn, friction;
-            bend_at(source, r, reached, j, c, 1e-9L * largest_force, &turn, &friction);
-            take_bend(r, turn, friction, arc, length, &worst, &bend);
-        }
+        if (source->surfaces > 0)
+            for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) {
+                Real turn, friction;
+                bend_at(source, r, reached, j, c, 1e-9L * largest_force, &turn, &friction);
+                take_bend(r, turn, friction, arc, length, &worst, &bend);
+            }
         if (!r->has_elements || j >= r->elements) continue;
         Real turn, friction;
         bend_on(source, r, reached, j, 1e-9L * largest_force, &turn, &friction);

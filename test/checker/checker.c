@@ -494,8 +494,8 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
     }
     // where nothing has weight: a node that only just touches has a reaction and a distance of
     // about the root of the loop's 1e-13 each
-    for (size_t i = 0; i < r->elements && !source->consistent; i++)
-        largest = fmax(largest, 1e-4 * before->tension[i]);
+    if (!source->consistent)
+        for (size_t i = 0; i < r->elements; i++) largest = fmax(largest, 1e-4 * before->tension[i]);
     // which nodes a step that is not certified left free is no claim of it either
     const bool known = claims_something(before) || before->outcome == OUTCOME_COARSE;
     // what is not certified claims nothing; where nothing is found, the reactions are still those

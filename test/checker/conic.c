@@ -246,7 +246,8 @@ bool conic_prepare(Conic *set) {
     if (set->unknowns == 0) return true;
     Real room = find_room(set);
     if (!(room > -WIDER / 2)) return false;
-    for (size_t i = 0; i < set->rows && room < LEAST_ROOM; i += set->cone[i]) set->b[i] += WIDER;
+    if (room < LEAST_ROOM)
+        for (size_t i = 0; i < set->rows; i += set->cone[i]) set->b[i] += WIDER;
 
     // the centre: no cost at all
     Program p;

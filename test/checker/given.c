@@ -191,7 +191,8 @@ typedef struct Imposed {
 
 /* What is imposed, places about the origin of the file; NaN stays NaN. */
 static CpsEnd about(const Source *source, CpsEnd end) {
-    for (int k = 0; k < 3 && end.kind == CPS_END_HELD; k++) end.value[k] -= source->origin[k];
+    if (end.kind == CPS_END_HELD)
+        for (int k = 0; k < 3; k++) end.value[k] -= source->origin[k];
     return end;
 }
 
@@ -226,7 +227,8 @@ static void start_place(const Source *source, const CpsLine *line, int e, const 
                                 : r->reference[e ? r->elements : 0];
     memcpy(place, point, 3 * sizeof *place);
     if (arc && e) arc_end(line, r, place);
-    for (int k = 0; k < 3 && drawn; k++) place[k] -= source->origin[k];
+    if (drawn)
+        for (int k = 0; k < 3; k++) place[k] -= source->origin[k];
 }
 
 /* Where the end starts: a held end without a place of its own is where the start puts it. */
@@ -234,8 +236,9 @@ static CpsEnd first_end(const Source *source, const CpsLine *line, int e, const 
     CpsEnd end = about(source, line->end[e]);
     double place[3];
     start_place(source, line, e, r, place);
-    for (int k = 0; k < 3 && end.kind == CPS_END_HELD; k++)
-        if (isnan(end.value[k])) end.value[k] = place[k];
+    if (end.kind == CPS_END_HELD)
+        for (int k = 0; k < 3; k++)
+            if (isnan(end.value[k])) end.value[k] = place[k];
     return end;
 }
 
@@ -249,10 +252,11 @@ static void impose(const Source *source, Imposed *end, const CpsStage *stage, in
         if (part == 1) end->from = end->now;
         const double *place = before ? before->position[e ? before->elements : 0] : start;
         if (part == 1 && before) end->noise = COPIED;
-        for (int k = 0; k < 3 && part == 1 && change->to.kind != end->now.kind; k++)
-            end->from.value[k] = change->to.kind == CPS_END_HELD ? place[k]
-                                 : before                        ? before->end_force[e][k]
-                                                                 : 0;
+        if (part == 1 && change->to.kind != end->now.kind)
+            for (int k = 0; k < 3; k++)
+                end->from.value[k] = change->to.kind == CPS_END_HELD ? place[k]
+                                     : before                        ? before->end_force[e][k]
+                                                                     : 0;
         const double share = (double)part / stage->steps;
         const CpsEnd to = about(source, change->to);
         end->now.kind = to.kind;
@@ -287,11 +291,12 @@ static void compare_end(Compare *compare, const CpsLine *line, int e, const Impo
 static void gravity_at(const Compare *compare, bool staged, int stage, int part, double g[3]) {
     const CpsScene *scene = compare->scene;
     memcpy(g, scene->gravity, 3 * sizeof *g);
-    for (int s = 0; staged && s <= stage; s++) {
-        const double share = s < stage ? 1 : (double)part / scene->stage[s].steps;
-        for (int k = 0; scene->stage[s].gravity_changes && k < 3; k++)
-            g[k] += share * (scene->stage[s].gravity[k] - g[k]);
-    }
+    if (staged)
+        for (int s = 0; s <= stage; s++) {
+            const double share = s < stage ? 1 : (double)part / scene->stage[s].steps;
+            if (scene->stage[s].gravity_changes)
+                for (int k = 0; k < 3; k++) g[k] += share * (scene->stage[s].gravity[k] - g[k]);
+        }
 }
 
 /* Weight, half of each element to each of its nodes, and the forces at free ends; and the weight
@@ -308,10 +313,11 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
         return;
     const double pull = size(compare->scene->gravity), weight = pull > 0 ? line->weight / pull : 0,
                  most = weight * fmax(size(g), size(was));
-    for (int k = 0; k < 3 && r->has_weight_before && r->parts == 1; k++)
-        if (!(fabs(r->weight_before[k] - weight * was[k]) <= COPIED * most))
-            find(compare, "weight_before of %s, step %zu, is %.17g, in the scene %.17g", line->name,
-                 step, r->weight_before[k], weight * was[k]);
+    if (r->has_weight_before && r->parts == 1)
+        for (int k = 0; k < 3; k++)
+            if (!(fabs(r->weight_before[k] - weight * was[k]) <= COPIED * most))
+                find(compare, "weight_before of %s, step %zu, is %.17g, in the scene %.17g",
+                     line->name, step, r->weight_before[k], weight * was[k]);
     for (size_t j = 0; j < r->nodes; j++) {
         const double share = ((j > 0 ? r->element_length[j - 1] : 0) +
                               (j < r->elements ? r->element_length[j] : 0)) /
@@ -381,10 +387,11 @@ static void compare_turns(Compare *compare, size_t step, const Record *r) {
     const bool staged = stage_of(compare, step, &stage, &part);
     for (int k = 0; k < compare->scene->obstacle_count; k++) {
         double angle = 0;
-        for (int i = 0; staged && i < compare->scene->stage[stage].turn_count; i++) {
-            const CpsTurn *turn = &compare->scene->stage[stage].turn[i];
-            if (turn->obstacle == k) angle = turn->angle / compare->scene->stage[stage].steps;
-        }
+        if (staged)
+            for (int i = 0; i < compare->scene->stage[stage].turn_count; i++) {
+                const CpsTurn *turn = &compare->scene->stage[stage].turn[i];
+                if (turn->obstacle == k) angle = turn->angle / compare->scene->stage[stage].steps;
+            }
         if (!(fabs(r->turn[k] - angle) <= COPIED * fabs(angle)))
             find(compare, "obstacle_turn of %s, step %zu, is %.17g, in the scene %.17g",
                  compare->scene->obstacle[k].name, step, r->turn[k], angle);
@@ -401,19 +408,20 @@ static int compare_steps(Compare *compare, int index) {
     for (size_t step = 0; step < compare->source.steps && !bad && compare->findings == 0; step++) {
         bad = record_read(&compare->source, line->name, step, &now, compare->log);
         int stage, part;
-        for (int e = 0; e < 2 && !bad; e++) {
-            if (step == 0) {
-                end[e].now = first_end(&compare->source, line, e, &now);
-                end[e].noise = line->start.kind == CPS_START_ARC ? COMPUTED : COPIED;
+        if (!bad)
+            for (int e = 0; e < 2; e++) {
+                if (step == 0) {
+                    end[e].now = first_end(&compare->source, line, e, &now);
+                    end[e].noise = line->start.kind == CPS_START_ARC ? COMPUTED : COPIED;
+                }
+                const CpsEnd was = end[e].now;
+                double start[3];
+                start_place(&compare->source, line, e, &now, start);
+                if (stage_of(compare, step, &stage, &part))
+                    impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e,
+                           step > 0 ? &before : NULL, start);
+                compare_end(compare, line, e, &end[e], &was, step, &now);
             }
-            const CpsEnd was = end[e].now;
-            double start[3];
-            start_place(&compare->source, line, e, &now, start);
-            if (stage_of(compare, step, &stage, &part))
-                impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e,
-                       step > 0 ? &before : NULL, start);
-            compare_end(compare, line, e, &end[e], &was, step, &now);
-        }
         if (!bad && step == 0) compare_nodes(compare, line, &now);
         if (!bad) compare_loads(compare, line, step, &now);
         if (!bad && index == 0) compare_turns(compare, step, &now);

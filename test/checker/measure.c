@@ -266,7 +266,8 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     }
     seat.gap = where->reached ? surface_distance(seat.surface, x) - dot(seat.normal, u)
                               : fmaxl(0, surface_distance(seat.surface, reference));
-    for (int k = 0; k < 3 && turn == 0; k++) seat.own[k] = seat.slide[k];
+    if (turn == 0)
+        for (int k = 0; k < 3; k++) seat.own[k] = seat.slide[k];
     subtract(nodes[j < r->elements ? j + 1 : j], nodes[j > 0 ? j - 1 : j], along);
     seat.has_axes = surface_axes(seat.surface, seat.plane, along, seat.axes);
     return seat;
@@ -289,11 +290,12 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     bool round = seat->surface && seat->surface->kind != SURFACE_PLANE;
     raise_to(&m->normal_error, size(n) / (1 + (round ? where->reach / seat->surface->radius : 0)));
     raise_to(&m->slide_error, size(slide));
-    for (size_t k = 0; k < where->source->surfaces && c == j; k++) {
-        Real depth = -surface_distance(&where->source->surface[k], x);
-        raise_to(&m->depth, depth);
-        if (!held(r, j)) raise_to(&m->sunk, depth);
-    }
+    if (c == j)
+        for (size_t k = 0; k < where->source->surfaces; k++) {
+            Real depth = -surface_distance(&where->source->surface[k], x);
+            raise_to(&m->depth, depth);
+            if (!held(r, j)) raise_to(&m->sunk, depth);
+        }
     if (held(r, j) || !seat->surface) return;
     Triple from;
     widen(r->reference[j], from);
@@ -432,7 +434,8 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
         for (int k = 0; k < 3; k++) seat.slide[k] -= rise * seat.plane[k];
     }
     surface_way(&within, reference, x, seat.own);
-    for (int k = 0; k < 3 && turn == 0; k++) seat.own[k] = seat.slide[k];
+    if (turn == 0)
+        for (int k = 0; k < 3; k++) seat.own[k] = seat.slide[k];
     seat.gap = surface_distance(on, x) + depth - dot(seat.normal, u);
     seat.has_axes = surface_axes(on, seat.plane, along, seat.axes);
     return seat;
@@ -508,14 +511,14 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
     widen(r->load[j], weight);
     subtract(r->position[j], r->reference[j], u);
     for (int e = 0; e < 2; e++)
-        for (int k = 0; k < 3 && j == (e ? r->elements : 0) && r->end_kind[e] == END_FREE; k++)
-            weight[k] -= r->end_value[e][k];
+        if (j == (e ? r->elements : 0) && r->end_kind[e] == END_FREE)
+            for (int k = 0; k < 3; k++) weight[k] -= r->end_value[e][k];
     // where gravity changes the weight works with the mean of what it was and what it is
     const Real share = ((j > 0 ? (Real)r->element_length[j - 1] : 0) +
                         (j < r->elements ? (Real)r->element_length[j] : 0)) /
                        2;
-    for (int k = 0; k < 3 && r->has_weight_before; k++)
-        weight[k] = (weight[k] + share * r->weight_before[k]) / 2;
+    if (r->has_weight_before)
+        for (int k = 0; k < 3; k++) weight[k] = (weight[k] + share * r->weight_before[k]) / 2;
     add(&s->gravity, -dot(weight, u));
 }
 

@@ -272,8 +272,8 @@ int source_open(const char *path, Source *source, FILE *log) {
 void source_close(Source *source) {
     for (size_t i = 0; i < source->lines; i++) free(source->line_name[i]);
     free(source->line_name);
-    for (size_t k = 0; k < source->surfaces && source->surface; k++)
-        conic_free(source->surface[k].set);
+    if (source->surface)
+        for (size_t k = 0; k < source->surfaces; k++) conic_free(source->surface[k].set);
     free(source->surface);
     if (source->line_name || source->nc >= 0) nc_close(source->nc);
     *source = (Source){.nc = -1};
@@ -443,12 +443,14 @@ void record_destroy(Record *record) {
 }
 
 void record_element_forces(const Record *r, size_t j, Real *sum) {
-    for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < r->elements && r->has_elements; i++) {
-        const size_t c = r->contacts * r->nodes + i;
-        const Real part = i == j ? 1 - (Real)r->share_of[i] : r->share_of[i];
-        for (int k = 0; k < 3 && r->obstacle[c] >= 0; k++)
-            sum[k] += part * (r->friction[c][k] + (Real)r->reaction[c] * r->normal[c][k]);
-    }
+    if (r->has_elements)
+        for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < r->elements; i++) {
+            const size_t c = r->contacts * r->nodes + i;
+            const Real part = i == j ? 1 - (Real)r->share_of[i] : r->share_of[i];
+            if (r->obstacle[c] >= 0)
+                for (int k = 0; k < 3; k++)
+                    sum[k] += part * (r->friction[c][k] + (Real)r->reaction[c] * r->normal[c][k]);
+        }
 }
 
 /* numbers that stand alone in a step */
@@ -539,8 +541,9 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
         record->has_elements |= source->surface[k].kind != SURFACE_PLANE && !source->strict;
-    for (size_t k = 0; k < 8 && record->has_elements; k++)
-        bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);
+    if (record->has_elements)
+        for (size_t k = 0; k < 8; k++)
+            bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);
     for (size_t i = from; i < from + n && !bad; i++) {
         const double obstacle = record->obstacle[i];
         if (!record->has_elements)

@@ -463,9 +463,10 @@ static int write_drum(const char *path, double factor) {
     const Wound w = wind();
     Field field[MAX_FIELDS];
     size_t count = describe_wound(&w, field);
-    for (size_t k = 0; k < count && factor > 0; k++)
-        for (int j = 0; j < NODES && strcmp(field[k].name, "friction_bound") == 0; j++)
-            field[k].value[j] *= factor / MU;
+    if (factor > 0)
+        for (size_t k = 0; k < count; k++)
+            for (int j = 0; j < NODES && strcmp(field[k].name, "friction_bound") == 0; j++)
+                field[k].value[j] *= factor / MU;
     int nc, dims[3], status = begin_file(path, "wound", "consistent", &nc, dims);
     if (status) return status;
     status = write_beds(nc, dims, &drum, 1);
@@ -716,10 +717,11 @@ static size_t describe_fall(Field *field) {
     for (size_t k = 0; k < n; k++) {
         Field *f = &field[k];
         const bool places = strcmp(f->name, "reference") == 0 || strcmp(f->name, "position") == 0;
-        for (int j = 0; j < NODES && places; j++) {
-            f->value[3 * j] = ALONG[j];
-            f->value[3 * j + 2] = -1.5;
-        }
+        if (places)
+            for (int j = 0; j < NODES; j++) {
+                f->value[3 * j] = ALONG[j];
+                f->value[3 * j + 2] = -1.5;
+            }
         for (int j = 0; j < NODES && strcmp(f->name, "load") == 0; j++) {
             f->value[3 * j] = f->value[3 * j + 1] = 0;
             f->value[3 * j + 2] = -1;
@@ -789,10 +791,11 @@ int sample_poke(const char *path, const char *variable, size_t index, double val
     if (!status) status = nc_inq_varndims(nc, id, &rank);
     if (!status) status = nc_inq_vardimid(nc, id, dimension);
     for (int k = 0; k < rank && !status; k++) status = nc_inq_dimlen(nc, dimension[k], &length[k]);
-    for (int k = rank - 1; k >= 0 && !status; k--) {
-        at[k] = index % length[k];
-        index /= length[k];
-    }
+    if (!status)
+        for (int k = rank - 1; k >= 0; k--) {
+            at[k] = index % length[k];
+            index /= length[k];
+        }
     if (!status) status = nc_put_var1_double(nc, id, at, &value);
     int closed = nc_close(nc);
     return status ? status : closed;

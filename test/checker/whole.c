@@ -21,14 +21,15 @@ static int is_interrupted(const char *path, const char *wanted) {
     char line[512], last[512];
     int interrupted = 0;
     FILE *marker = open_beside(path, ".capstan");
-    while (marker && fgets(line, sizeof line, marker)) {
-        if (strncmp(line, "x ", 2) != 0 || sscanf(line + 2, "%511s", last) != 1 ||
-            strcmp(last, wanted) != 0)
-            continue;
-        FILE *there = open_beside(path, last);
-        if (there) fclose(there);
-        interrupted = interrupted || !there;
-    }
+    if (marker)
+        while (fgets(line, sizeof line, marker)) {
+            if (strncmp(line, "x ", 2) != 0 || sscanf(line + 2, "%511s", last) != 1 ||
+                strcmp(last, wanted) != 0)
+                continue;
+            FILE *there = open_beside(path, last);
+            if (there) fclose(there);
+            interrupted = interrupted || !there;
+        }
     if (marker) fclose(marker);
     return interrupted;
 }
@@ -93,11 +94,12 @@ static int against_list(const char *path, const char *summary, const char *name,
     int findings = 0;
     FILE *list = open_beside(path, summary);
     *listed = 0;
-    while (list && fgets(line, sizeof line, list)) {
-        if (!read_entry(line, &entry) || (name && strcmp(entry.name, name) != 0)) continue;
-        ++*listed;
-        findings += differs(path, &entry, out);
-    }
+    if (list)
+        while (fgets(line, sizeof line, list)) {
+            if (!read_entry(line, &entry) || (name && strcmp(entry.name, name) != 0)) continue;
+            ++*listed;
+            findings += differs(path, &entry, out);
+        }
     if (list) fclose(list);
     return findings;
 }

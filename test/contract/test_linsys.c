@@ -194,47 +194,49 @@ static void element_force(const Case *c, const double *x, const double *t, int i
  * the terms. */
 static double of_points(const Case *c, const double *x, int j, int a, double *terms) {
     double sum = 0;
-    for (int i = j; i <= j + 1 && c->pointed; i++) {
-        if (i < 1 || i >= c->n || c->share[i] == 0) continue;
-        const double share = i == j ? c->share[i] : 1 - c->share[i];
-        const int p = c->n + i;
-        double force[3], common[3];
-        for (int r = 0; r < 3; r++) {
-            force[r] = -c->f[3 * p + r];
-            for (int b = 0; b < 3; b++) {
-                const double term = matrix_entry(c, p, r, b) * x[3 * p + b];
-                force[r] += term;
-                *terms += share * fabs(term);
+    if (c->pointed)
+        for (int i = j; i <= j + 1; i++) {
+            if (i < 1 || i >= c->n || c->share[i] == 0) continue;
+            const double share = i == j ? c->share[i] : 1 - c->share[i];
+            const int p = c->n + i;
+            double force[3], common[3];
+            for (int r = 0; r < 3; r++) {
+                force[r] = -c->f[3 * p + r];
+                for (int b = 0; b < 3; b++) {
+                    const double term = matrix_entry(c, p, r, b) * x[3 * p + b];
+                    force[r] += term;
+                    *terms += share * fabs(term);
+                }
             }
+            for (int k = 0; k < 3; k++) {
+                common[k] = 0;
+                for (int r = 0; r < 3; r++) common[k] += c->frame[9 * p + 3 * r + k] * force[r];
+            }
+            const double *q = &c->frame[9 * j + 3 * a];
+            for (int k = 0; k < 3; k++) sum += share * q[k] * common[k];
+            for (int r = 0; r < 3; r++) *terms += share * fabs(c->f[3 * p + r]);
         }
-        for (int k = 0; k < 3; k++) {
-            common[k] = 0;
-            for (int r = 0; r < 3; r++) common[k] += c->frame[9 * p + 3 * r + k] * force[r];
-        }
-        const double *q = &c->frame[9 * j + 3 * a];
-        for (int k = 0; k < 3; k++) sum += share * q[k] * common[k];
-        for (int r = 0; r < 3; r++) *terms += share * fabs(c->f[3 * p + r]);
-    }
     return sum;
 }
 
 /* How far points are from where their nodes have them, per size of the nodes' places. */
 static double astray(const Case *c, const double *x) {
     double worst = 0;
-    for (int i = 1; i < c->n && c->pointed; i++) {
-        double size = 0, off = 0;
-        for (int a = 0; a < 3; a++) {
-            const double far = common(c, x, i, a), near = common(c, x, i - 1, a);
-            double at = 0;
-            for (int r = 0; r < 3; r++)
-                at += c->frame[9 * (c->n + i) + 3 * r + a] * x[3 * (c->n + i) + r];
-            size += fabs(far) + fabs(near);
-            off =
-                fmax(off, fabs(at - (c->share[i] > 0 ? (1 - c->share[i]) * near + c->share[i] * far
-                                                     : 0)));
+    if (c->pointed)
+        for (int i = 1; i < c->n; i++) {
+            double size = 0, off = 0;
+            for (int a = 0; a < 3; a++) {
+                const double far = common(c, x, i, a), near = common(c, x, i - 1, a);
+                double at = 0;
+                for (int r = 0; r < 3; r++)
+                    at += c->frame[9 * (c->n + i) + 3 * r + a] * x[3 * (c->n + i) + r];
+                size += fabs(far) + fabs(near);
+                off = fmax(off,
+                           fabs(at - (c->share[i] > 0 ? (1 - c->share[i]) * near + c->share[i] * far
+                                                      : 0)));
+            }
+            worst = fmax(worst, off / (size > 0 ? size : 1));
         }
-        worst = fmax(worst, off / (size > 0 ? size : 1));
-    }
     return worst;
 }
 
@@ -249,21 +251,23 @@ static double residual(const Case *c, const double *x, const double *t, const do
         double before[3] = {0}, after[3] = {0}, pulls = 0;
         if (j > 0) element_force(c, x, t, j, before, &pulls);
         if (j + 1 < c->n) element_force(c, x, t, j + 1, after, &pulls);
-        for (int a = 0; a < 3 && !c->held[j]; a++) {
-            double sum = own(c, before, j, a) - own(c, after, j, a) - c->f[3 * j + a],
-                   terms = fabs(c->f[3 * j + a]) + pulls;
-            for (int b = 0; b < 3; b++) {
-                const double term = matrix_entry(c, j, a, b) * x[3 * j + b];
-                sum += term;
-                terms += fabs(term);
+        if (!c->held[j])
+            for (int a = 0; a < 3; a++) {
+                double sum = own(c, before, j, a) - own(c, after, j, a) - c->f[3 * j + a],
+                       terms = fabs(c->f[3 * j + a]) + pulls;
+                for (int b = 0; b < 3; b++) {
+                    const double term = matrix_entry(c, j, a, b) * x[3 * j + b];
+                    sum += term;
+                    terms += fabs(term);
+                }
+                sum += of_points(c, x, j, a, &terms);
+                const double pressed = has_second(c, j) ? c->column[3 * j + a] * f[j] : 0;
+                sum += pressed;
+                terms += fabs(pressed);
+                worst = fmax(worst, fabs(sum) / terms);
             }
-            sum += of_points(c, x, j, a, &terms);
-            const double pressed = has_second(c, j) ? c->column[3 * j + a] * f[j] : 0;
-            sum += pressed;
-            terms += fabs(pressed);
-            worst = fmax(worst, fabs(sum) / terms);
-        }
-        for (int a = 0; a < 3 && c->held[j]; a++) assert_true(x[3 * j + a] == 0);
+        if (c->held[j])
+            for (int a = 0; a < 3; a++) assert_true(x[3 * j + a] == 0);
         if (has_second(c, j)) { /* f = r.x/a */
             double sum = -c->second[j] * f[j], terms = fabs(sum);
             for (int a = 0; a < 3; a++) {

@@ -26,9 +26,10 @@ static const char TEXT[] =
 static bool has_temporary(void) {
     DIR *listing = opendir(OUT);
     bool found = false;
-    for (struct dirent *entry; listing && (entry = readdir(listing)) != NULL;)
-        found =
-            found || strstr(entry->d_name, ".part") || strcmp(entry->d_name, ".capstan.run") == 0;
+    if (listing)
+        for (struct dirent *entry; (entry = readdir(listing)) != NULL;)
+            found = found || strstr(entry->d_name, ".part") ||
+                    strcmp(entry->d_name, ".capstan.run") == 0;
     if (listing) closedir(listing);
     return found;
 }

@@ -235,8 +235,9 @@ static void go_on(CpsEvolution *evolution, bool step) {
         must(cps_outcome_key(report.outcome)[0] && report.bend.obstacle < of->obstacle_count &&
              report.pierced < of->obstacle_count);
         for (int j = 0; j < 3 * (view.elements + 1); ++j) sum += view.position[j];
-        for (int c = 0; view.obstacle && c < view.contacts * (view.elements + 1); ++c)
-            must(view.obstacle[c] < of->obstacle_count && view.state[c] <= 2);
+        if (view.obstacle)
+            for (int c = 0; c < view.contacts * (view.elements + 1); ++c)
+                must(view.obstacle[c] < of->obstacle_count && view.state[c] <= 2);
     }
     must(isfinite(sum) || isinf(sum));
     if (step && cps_evolution_remaining(evolution) > 0) (void)cps_evolution_step(evolution, NULL);

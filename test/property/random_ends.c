@@ -61,11 +61,12 @@ static void exchange(RandomScene *s) {
             turn_round(s->point[i],
                        line->start.kind == CPS_START_STRAIGHT ? 2 : line->start.point_count);
         double *length = s->element_length[i];
-        for (int k = 0, last = line->elements - 1; line->element_length && k < last - k; k++) {
-            const double keep = length[k];
-            length[k] = length[last - k];
-            length[last - k] = keep;
-        }
+        if (line->element_length)
+            for (int k = 0, last = line->elements - 1; k < last - k; k++) {
+                const double keep = length[k];
+                length[k] = length[last - k];
+                length[last - k] = keep;
+            }
     }
     for (int k = 0; k < s->scene.stage_count; k++)
         for (int i = 0; i < s->stage[k].change_count; i++)
@@ -139,8 +140,9 @@ static void run_pair(Count *count, int class_index, int seed, bool coarse) {
     CpsEvolution *run[2] = {NULL, NULL};
     CpsError err = {0};
     for (int k = 0; k < 2; k++) random_scene_make(class_index, (uint64_t)seed, &scene[k]);
-    for (int k = 0; k < scene[0].scene.stage_count && coarse; k++)
-        scene[0].stage[k].steps = scene[1].stage[k].steps = 1;
+    if (coarse)
+        for (int k = 0; k < scene[0].scene.stage_count; k++)
+            scene[0].stage[k].steps = scene[1].stage[k].steps = 1;
     bool open = by_nodes(&scene[0], nodes[0], false) && by_nodes(&scene[1], nodes[1], true);
     exchange(&scene[1]);
     for (int k = 0; k < 2; k++)

@@ -524,9 +524,10 @@ static void wheel_motion(const Wheel *wheel, double *v) {
  * one found, where that is said to be the only one. */
 static void belongs(const char *what, const CpsSolutionSet *all, int n, const double *expected,
                     const double *low, const double *high, const double *allowed) {
-    for (int i = 0; all->outcome == CPS_SET_ANSWERED && i < n; i++)
-        if (!(low[i] - allowed[i] <= expected[i] && expected[i] <= high[i] + allowed[i]))
-            fail(what, low[i], expected[i]);
+    if (all->outcome == CPS_SET_ANSWERED)
+        for (int i = 0; i < n; i++)
+            if (!(low[i] - allowed[i] <= expected[i] && expected[i] <= high[i] + allowed[i]))
+                fail(what, low[i], expected[i]);
 }
 
 static void try_wheel(void) {
@@ -568,7 +569,8 @@ static void try_wheel(void) {
      * straight on, the brake does */
     double force[3] = {0, 0, 0};
     bool known = length > 0;
-    for (int i = 0; known && i < 2; i++) force[1 + i] = -wheel.ground * v[1 + i] / length;
+    if (known)
+        for (int i = 0; i < 2; i++) force[1 + i] = -wheel.ground * v[1 + i] / length;
     if (!known && v[0] != 0) {
         force[0] = -copysign(wheel.brake, v[0]);
         force[2] = -2 * force[0];

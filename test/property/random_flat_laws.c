@@ -54,7 +54,8 @@ static Integer divisor(Integer a, Integer b) {
 static void shorten(int n, Integer *row) {
     Integer common = 0;
     for (int j = 0; j < n; j++) common = divisor(common, row[j]);
-    for (int j = 0; j < n && common > 1; j++) row[j] /= common;
+    if (common > 1)
+        for (int j = 0; j < n; j++) row[j] /= common;
 }
 
 /* Reduced row echelon form over the integers, each row divided by its divisor; returns the rank,
@@ -65,11 +66,12 @@ static int echelon(int rows, int n, int usable, Integer a[][MOST_N + 1], int *pi
         int best = rank;
         while (best < rows && a[best][column] == 0) best++;
         if (best == rows) continue;
-        for (int j = 0; j < n && best != rank; j++) {
-            const Integer keep = a[rank][j];
-            a[rank][j] = a[best][j];
-            a[best][j] = keep;
-        }
+        if (best != rank)
+            for (int j = 0; j < n; j++) {
+                const Integer keep = a[rank][j];
+                a[rank][j] = a[best][j];
+                a[best][j] = keep;
+            }
         for (int i = 0; i < rows; i++) {
             const Integer p = a[rank][column], q = a[i][column];
             if (i == rank || q == 0) continue;

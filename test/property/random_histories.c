@@ -109,7 +109,8 @@ static void wound(Rig *rig) {
         const double what = uniform(0, 1);
         rig_stage(rig, 2 + (int)uniform(0, 5));
         /* B stays clear of the drum */
-        for (int a = 0; a < 3 && what < 0.2; a++) x[a] += uniform(-0.1, 0.1);
+        if (what < 0.2)
+            for (int a = 0; a < 3; a++) x[a] += uniform(-0.1, 0.1);
         const double out = fmax(1, 1.001 / hypot(x[0], x[2]));
         x[0] *= out;
         x[2] *= out;
@@ -273,7 +274,8 @@ int main(int argc, char **argv) {
     Count count[CLASSES + 1] = {0}, *all = &count[CLASSES];
     const int histories = (int)(HISTORIES * share);
     if (seed > 0) run_one(count, (uint64_t)seed, halvings, class);
-    for (int k = 1; seed == 0 && k <= histories; k++) run_one(count, (uint64_t)k, halvings, class);
+    if (seed == 0)
+        for (int k = 1; k <= histories; k++) run_one(count, (uint64_t)k, halvings, class);
     for (int c = 0; c <= CLASSES; c++) {
         const Count *one = &count[c];
         if (c < CLASSES && one->steps == 0) continue;

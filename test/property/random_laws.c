@@ -251,16 +251,16 @@ static void check_velocity(const CpsSet *set, const double *velocity) {
             check_velocities(set, center, velocity);
         }
         /* the ends of the set of forces along its first direction */
-        for (int side = -1; side <= 1 && facts.outcome == CPS_SET_ANSWERED && facts.dimension > 0;
-             side += 2) {
-            for (int i = 0; i < n; i++) twice[i] = side * basis[i];
-            DO(cps_set_support(forces, twice, end, &at, &err));
-            if (!is_answered(at.outcome)) continue;
-            double gap = phi.value;
-            for (int i = 0; i < n; i++) gap += velocity[i] * end[i];
-            check(set, "Fenchel-Young at an end", fabs(gap),
-                  POWER_TOLERANCE * (size + norm(n, velocity) * norm(n, end)));
-        }
+        if (facts.outcome == CPS_SET_ANSWERED && facts.dimension > 0)
+            for (int side = -1; side <= 1; side += 2) {
+                for (int i = 0; i < n; i++) twice[i] = side * basis[i];
+                DO(cps_set_support(forces, twice, end, &at, &err));
+                if (!is_answered(at.outcome)) continue;
+                double gap = phi.value;
+                for (int i = 0; i < n; i++) gap += velocity[i] * end[i];
+                check(set, "Fenchel-Young at an end", fabs(gap),
+                      POWER_TOLERANCE * (size + norm(n, velocity) * norm(n, end)));
+            }
     }
     cps_set_release(forces);
 }

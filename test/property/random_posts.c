@@ -439,7 +439,8 @@ int main(int argc, char **argv) {
     }
     snprintf(command, sizeof command, "rm -rf '%s'", directory);
     setvbuf(stdout, NULL, _IOLBF, 0); /* what a time limit ends has told so far */
-    for (int k = 0; only < 0 && k < SCENES * share; k++) run(k, directory, tally);
+    if (only < 0)
+        for (int k = 0; k < SCENES * share; k++) run(k, directory, tally);
     if (only >= 0) run(only, directory, tally);
     if (system(command) != 0) printf("%s is left behind\n", directory);
     const bool enough = tell("consistent friction", &tally[CPS_FRICTION_CONSISTENT]) &

@@ -568,31 +568,34 @@ static void check_velocities(const System *s, const CpsMotion *motion) {
     need(cps_motion_velocities(motion, 0, &all, NULL, NULL, &err), "all velocities");
     asked++;
     open += all.outcome != CPS_SET_ANSWERED;
-    for (int t = 0; all.set && t < 3; t++) {
-        double point[MOST_N], forbidden = 0;
-        if (!extreme(all.set, v, s->n, speed, point)) continue;
-        const double size = fmax(1, largest(s->n, point) / speed);
-        check("extreme V: kinematics", kinematics(s, point, 1), PUSH * size * speed);
-        check("extreme V: value", objective(s, point, &forbidden) - report->value,
-              PUSH * size * fmax(scale, 1e-9));
-        check("extreme V: forbidden", forbidden, PUSH * size * speed);
-    }
-    for (int t = 0; all.set && t < 3; t++) {
-        double other[MOST_N], forbidden = 0;
-        CpsSetAnswer inside;
-        admissible(s, true, other);
-        /* also along one parameter alone, which often nothing resists */
-        for (int j = 0, only = below(s->n); t > 0 && j < s->n; j++)
-            other[j] = j == only ? other[j] : 0;
-        for (int j = 0; j < s->n; j++) other[j] = v[j] + 0.1 * speed * other[j];
-        if (kinematics(s, other, 1) > LINEAR * speed ||
-            objective(s, other, &forbidden) > report->value)
-            continue;
-        if (forbidden > 0) continue;
-        need(cps_set_contains(all.set, other, NULL, &inside, &err), "contains");
-        if (inside.outcome == CPS_SET_ANSWERED) {
-            check("a V left out", -inside.value, PUSH * speed);
-            pushed++;
+    if (all.set) {
+        for (int t = 0; t < 3; t++) {
+            double point[MOST_N], forbidden = 0;
+            if (!extreme(all.set, v, s->n, speed, point)) continue;
+            const double size = fmax(1, largest(s->n, point) / speed);
+            check("extreme V: kinematics", kinematics(s, point, 1), PUSH * size * speed);
+            check("extreme V: value", objective(s, point, &forbidden) - report->value,
+                  PUSH * size * fmax(scale, 1e-9));
+            check("extreme V: forbidden", forbidden, PUSH * size * speed);
+        }
+        for (int t = 0; t < 3; t++) {
+            double other[MOST_N], forbidden = 0;
+            CpsSetAnswer inside;
+            admissible(s, true, other);
+            /* also along one parameter alone, which often nothing resists */
+            if (t > 0)
+                for (int j = 0, only = below(s->n); j < s->n; j++)
+                    other[j] = j == only ? other[j] : 0;
+            for (int j = 0; j < s->n; j++) other[j] = v[j] + 0.1 * speed * other[j];
+            if (kinematics(s, other, 1) > LINEAR * speed ||
+                objective(s, other, &forbidden) > report->value)
+                continue;
+            if (forbidden > 0) continue;
+            need(cps_set_contains(all.set, other, NULL, &inside, &err), "contains");
+            if (inside.outcome == CPS_SET_ANSWERED) {
+                check("a V left out", -inside.value, PUSH * speed);
+                pushed++;
+            }
         }
     }
     cps_solution_set_clear(&all);
@@ -608,18 +611,19 @@ static void check_forces(const System *s, const CpsMotion *motion) {
     asked++;
     open += all.outcome != CPS_SET_ANSWERED;
     const double force = fmax(largest(s->components, at), largest(s->n, s->load));
-    for (int t = 0; all.set && t < 3; t++) {
-        if (!extreme(all.set, at, s->components, force, point)) continue;
-        const double own = largest(s->components, point);
-        for (int k = 0, i = 0; k < s->laws; i += s->law[k++].dim)
-            check("extreme F: outside", outside(&s->law[k], &point[i]),
-                  PUSH * fmax(own, s->law[k].size));
-        /* its power is that of the motion, M77 (8) */
-        gather(s, point, 1, r);
-        if (!s->resistance)
-            check("extreme F: power", fabs(dot(s->n, r, v) + report->value),
-                  PUSH * scale * fmax(1, own / fmax(force, 1e-300)));
-    }
+    if (all.set)
+        for (int t = 0; t < 3; t++) {
+            if (!extreme(all.set, at, s->components, force, point)) continue;
+            const double own = largest(s->components, point);
+            for (int k = 0, i = 0; k < s->laws; i += s->law[k++].dim)
+                check("extreme F: outside", outside(&s->law[k], &point[i]),
+                      PUSH * fmax(own, s->law[k].size));
+            /* its power is that of the motion, M77 (8) */
+            gather(s, point, 1, r);
+            if (!s->resistance)
+                check("extreme F: power", fabs(dot(s->n, r, v) + report->value),
+                      PUSH * scale * fmax(1, own / fmax(force, 1e-300)));
+        }
     cps_solution_set_clear(&all);
 }
 

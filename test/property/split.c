@@ -167,7 +167,8 @@ static void spread(int n, int count, const Normal *list, const double *w, double
             factor[use[stop]] = 0;
             use[stop] = use[--used];
         }
-        for (int j = 0; j < count && used > 0; j++) barred[j] = j == best && factor[j] == 0;
+        if (used > 0)
+            for (int j = 0; j < count; j++) barred[j] = j == best && factor[j] == 0;
     }
 }
 

@@ -243,11 +243,12 @@ CpsStatus cpsi_marker_begin(int folder, const char *path, int *notes, CpsError *
     CpsStatus status;
     FILE *list = open_list(folder, path, NOTES, &status, err);
     char letter, name[CPSI_NAME_SIZE], part[CPSI_NAME_SIZE + 8];
-    while (list && next_line(list, &letter, name)) {
-        if (letter != 'p') continue;
-        snprintf(part, sizeof part, ".%s.part", name);
-        unlinkat(folder, part, 0);
-    }
+    if (list)
+        while (next_line(list, &letter, name)) {
+            if (letter != 'p') continue;
+            snprintf(part, sizeof part, ".%s.part", name);
+            unlinkat(folder, part, 0);
+        }
     if (list) fclose(list);
     /* an empty one is of a run that was killed in its first moment */
     struct stat about;

@@ -342,8 +342,9 @@ CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const ch
     bool replaces;
     CpsiNames own = {0};
     CpsStatus status = look_ahead(directory, &replaces, err);
-    for (size_t i = 0; i < directory->count && directory->late && status == CPS_OK; ++i)
-        status = cpsi_directory_sync(directory, directory->name[i], err);
+    if (directory->late)
+        for (size_t i = 0; i < directory->count && status == CPS_OK; ++i)
+            status = cpsi_directory_sync(directory, directory->name[i], err);
     if (status == CPS_OK) status = list_names(directory, &own, err);
     if (status == CPS_OK) status = replace(directory, &own, stale, replaces, err);
     cpsi_names_free(&own);

@@ -158,12 +158,13 @@ static CpsStatus draw_pushes(FILE *out, const BodyPicture *p, int column, CpsErr
     cpsi_frame_begin(out, &frame, 1 + column);
     const double here[3] = {0, 0, 0};
     cpsi_draw_body(out, &frame, p->body, here, CPSI_BLUE, 0.9);
-    for (int i = 0; i < count && status == CPS_OK; i++) {
-        const CpsiColour colour =
-            cpsi_colour(CPSI_SCALE_TENSION, count > 1 ? 0.3 + 0.6 * i / (count - 1) : 0.6);
-        const bool turns = hypot(motion[i].center[0], motion[i].center[1]) < 1e6 * size;
-        draw_push(out, &frame, &p->body->push[i], motion[i].center, turns, unit, colour.hex);
-    }
+    if (status == CPS_OK)
+        for (int i = 0; i < count; i++) {
+            const CpsiColour colour =
+                cpsi_colour(CPSI_SCALE_TENSION, count > 1 ? 0.3 + 0.6 * i / (count - 1) : 0.6);
+            const bool turns = hypot(motion[i].center[0], motion[i].center[1]) < 1e6 * size;
+            draw_push(out, &frame, &p->body->push[i], motion[i].center, turns, unit, colour.hex);
+        }
     cpsi_frame_end(out);
     free(motion);
     return status;

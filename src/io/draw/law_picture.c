@@ -147,10 +147,9 @@ static CpsStatus choose_limit(Sheet *s, const CpsSet *shadow) {
         most = fmax(most, fabs(answer.value));
     if (status == CPS_OK)
         status = cps_set_vertices(shadow, 0, MOST_CORNERS, corner, &corners, &answer, s->err);
-    for (int i = 0; status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && i < 2 * corners &&
-                    i < 2 * MOST_CORNERS;
-         i++)
-        most = fmax(most, fabs(corner[i]));
+    if (status == CPS_OK && answer.outcome == CPS_SET_ANSWERED)
+        for (int i = 0; i < 2 * corners && i < 2 * MOST_CORNERS; i++)
+            most = fmax(most, fabs(corner[i]));
     for (int i = 0; i < s->picture->force_count; i++)
         for (int k = 0; k < 2; k++)
             most = fmax(
@@ -209,9 +208,10 @@ static CpsStatus draw_cone(const Sheet *s, const CpsSet *cone, const double apex
     const CpsStatus status = cpsi_planar_cone(cone, &found, s->err);
     *dimension = found.dimension;
     const double r = SECTOR * s->size;
-    for (int side = 1; found.dimension == 1 && arrow && side >= (found.line ? -1 : 1); side -= 2)
-        draw_arrow(s, apex, (double[]){side * cos(found.start), side * sin(found.start)}, r,
-                   "#c98a1b");
+    if (found.dimension == 1 && arrow)
+        for (int side = 1; side >= (found.line ? -1 : 1); side -= 2)
+            draw_arrow(s, apex, (double[]){side * cos(found.start), side * sin(found.start)}, r,
+                       "#c98a1b");
     if (status != CPS_OK || found.dimension < 2) return status;
     fprintf(s->out, "<polygon %s points=\"", style);
     if (found.turn < 2 * CPSI_PI) fprintf(s->out, "%.2f,%.2f ", px(s, apex[0]), py(s, apex[1]));

@@ -110,11 +110,12 @@ static void draw_ring(const CpsiMethods *m, const CpsiFrame *frame, int method, 
 
 /* The nodes of a short piece: as many elements as there are dots, however close. */
 static void draw_dots(const CpsiMethods *m, const CpsiFrame *frame, int method, FILE *out) {
-    for (int p = 0; p < m->points && m->points <= DOTTED; ++p) {
-        const double *x = place(m, method, 0, p);
-        fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2\" fill=\"%s\"/>\n",
-                cpsi_frame_x(frame, x[0]), cpsi_frame_y(frame, x[1]), step_colour(m, 0).hex);
-    }
+    if (m->points <= DOTTED)
+        for (int p = 0; p < m->points; ++p) {
+            const double *x = place(m, method, 0, p);
+            fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2\" fill=\"%s\"/>\n",
+                    cpsi_frame_x(frame, x[0]), cpsi_frame_y(frame, x[1]), step_colour(m, 0).hex);
+        }
 }
 
 /* Some 150 points are enough for a whole line, and what is inside the frame for the rest; more only
@@ -166,8 +167,8 @@ static void draw_frame(const Sheet *sheet, int method, int row, FILE *out) {
         draw_curve(m, &frame, method, s, up, is_near(row), out);
         fputs("\"/>\n", out);
     }
-    for (int s = 1; s < m->steps && is_near(row) && m->steps <= RINGED; ++s)
-        draw_ring(m, &frame, method, s, up, out);
+    if (m->steps <= RINGED)
+        for (int s = 1; s < m->steps && is_near(row); ++s) draw_ring(m, &frame, method, s, up, out);
     if (m->plan_only) draw_dots(m, &frame, method, out);
     cpsi_frame_end(out);
     if (!is_plan(row)) return;

@@ -301,9 +301,10 @@ static void define_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
     for (int k = 0; k < scene->obstacle_count; ++k) size += strlen(scene->obstacle[k].name) + 1;
     char *names = calloc(size, 1), *next = names;
     if (!names) keep(nc, NC_ENOMEM);
-    for (int k = 0; names && k < scene->obstacle_count; ++k)
-        next += snprintf(next, size - (size_t)(next - names), "%s%s", k ? " " : "",
-                         scene->obstacle[k].name);
+    if (names)
+        for (int k = 0; k < scene->obstacle_count; ++k)
+            next += snprintf(next, size - (size_t)(next - names), "%s%s", k ? " " : "",
+                             scene->obstacle[k].name);
     add_text(nc, NC_GLOBAL, "obstacles", names ? names : "");
     free(names);
     nc->obstacle_count = scene->obstacle_count;
@@ -629,7 +630,8 @@ static void write_sets(CpsiNetcdf *nc, const CpsScene *scene) {
         const CpsSetConic *set = &nc->set[k];
         double *cone = calloc(rows, sizeof *cone), *next = cone;
         if (!cone) keep(nc, NC_ENOMEM);
-        for (int c = 0; cone && c < set->cones; next += set->dim[c++]) *next = set->dim[c];
+        if (cone)
+            for (int c = 0; c < set->cones; next += set->dim[c++]) *next = set->dim[c];
         write_padded(nc, SET_ORIGIN, k, (size_t[]){TANGENTS, 1}, set->space, 0, set->origin);
         write_padded(nc, SET_MAP, k, (size_t[]){TANGENTS, unknowns}, set->space, set->unknowns,
                      set->p);
@@ -689,9 +691,10 @@ static char *join_names(const CpsEvolution *evolution, int count) {
     size_t size = 1;
     for (int i = 0; i < count; ++i) size += strlen(cps_evolution_line_view(evolution, i).name) + 1;
     char *names = calloc(size, 1), *next = names;
-    for (int i = 0; names && i < count; ++i)
-        next += snprintf(next, size - (size_t)(next - names), "%s%s", i ? " " : "",
-                         cps_evolution_line_view(evolution, i).name);
+    if (names)
+        for (int i = 0; i < count; ++i)
+            next += snprintf(next, size - (size_t)(next - names), "%s%s", i ? " " : "",
+                             cps_evolution_line_view(evolution, i).name);
     return names;
 }
 
