@@ -191,9 +191,9 @@ static void scale(CpsiDriveProgram *p, bool even) {
     for (int j = 0; j < p->unknowns; j++) p->column_scale[j] = 1;
     if (total > 0)
         for (int k = 0; k < p->system->pieces; k++)
-            for (int j = p->first[k]; is_cone(p->form[k]) && j < p->first[k] + p->form[k]->unknowns;
-                 j++)
-                if (largest[j] > 0) p->column_scale[j] = total / largest[j];
+            if (is_cone(p->form[k]))
+                for (int j = p->first[k]; j < p->first[k] + p->form[k]->unknowns; j++)
+                    if (largest[j] > 0) p->column_scale[j] = total / largest[j];
     for (int i = 0; i < n; i++) {
         double most = 0;
         for (size_t k = e->start[i]; k < e->start[i + 1]; k++) {

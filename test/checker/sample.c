@@ -23,6 +23,7 @@ typedef struct SampleLine {
     double claim[CLAIMS];
 } SampleLine;
 
+static const double ONES[ELEMENTS] = {1, 1, 1, 1};
 static const double C = 1.0 / 1024, TOLERANCE = 1e-8;
 
 /* The least part of the scale that a line's loads and its largest force have, by its length. */
@@ -280,7 +281,6 @@ static int begin_file(const char *path, const char *names, const char *friction,
 }
 
 int sample_write(const char *path) {
-    static const double ONES[ELEMENTS] = {1, 1, 1, 1};
     static const Bed BED = {.axis = {0, 0, 2}, .axial = 0.5, .lateral = 0.5};
     SampleLine line[4];
     fill(line);
@@ -640,7 +640,6 @@ int sample_write_post(const char *path) {
 }
 
 int sample_write_corner(const char *path) {
-    static const double ONES[ELEMENTS] = {1, 1, 1, 1};
     static const Bed BEDS[3] = {
         {.axis = {0, 0, 2}, .axial = 0.5, .lateral = 0.5},
         {.axis = {0, 1, 0}, .axial = 0.25, .lateral = 0.25},
@@ -739,7 +738,6 @@ static size_t describe_fall(Field *field) {
 
 int sample_write_fall(const char *path) {
     Field field[MAX_FIELDS];
-    static const double ONES[ELEMENTS] = {1, 1, 1, 1};
     const size_t count = describe_fall(field);
     return write_alone(path, "fall", &DRUM, ONES, C, field, count);
 }
@@ -777,7 +775,6 @@ static size_t describe_reel(Field *field) {
 }
 
 int sample_write_reel(const char *path) {
-    static const double ONES[ELEMENTS] = {1, 1, 1, 1};
     Field field[MAX_FIELDS];
     const size_t count = describe_reel(field);
     return write_alone(path, "reel", &DRUM, ONES, 0, field, count);

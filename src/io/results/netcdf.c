@@ -322,10 +322,6 @@ static void define_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
     define_sets(nc, scene);
 }
 
-static bool is_far(const double origin[XYZ]) {
-    return origin[0] != 0 || origin[1] != 0 || origin[2] != 0;
-}
-
 static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origin[XYZ],
                        const char *names) {
     add_text(nc, NC_GLOBAL, "Conventions", "CF-1.8");
@@ -343,7 +339,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     if (nc->status == NC_NOERR)
         keep(nc, nc->library.put_att_double(nc->file, NC_GLOBAL, "tolerance", NC_DOUBLE, 1,
                                             &scene->solver.tolerance));
-    if (nc->status == NC_NOERR && is_far(origin))
+    if (nc->status == NC_NOERR && (origin[0] != 0 || origin[1] != 0 || origin[2] != 0))
         keep(nc, nc->library.put_att_double(nc->file, NC_GLOBAL, "origin", NC_DOUBLE, 3, origin));
 
     nc->step = add_dimension(nc, "step", NC_UNLIMITED);
