@@ -14,6 +14,7 @@
 #include "base/arena.h"
 #include "base/status.h"
 #include "conic/dense_program.h"
+#include "ipm/cones.h"
 #include "ipm/soc.h"
 #include "linalg/dense.h"
 #include "set/set.h"
@@ -104,8 +105,7 @@ static double find_margin(const CpsiConicForm *form, const Work *work, double *v
         memcpy(&work->a[i * width], &form->a[i * n], n * sizeof *work->a);
     memcpy(work->b, form->b, m * sizeof *work->b);
     memcpy(work->dim, form->dim, (size_t)form->cones * sizeof *work->dim);
-    for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
-        work->a[(size_t)i * width + n] = -1;
+    CPSI_FOR_CONES(k, i, form->cones, form->dim) work->a[(size_t)i * width + n] = -1;
     work->a[m * width + n] = -1;
     work->b[m] = 1;
     work->dim[form->cones] = 1;
@@ -128,7 +128,7 @@ static bool differentiate(const CpsiConicForm *form, const Work *work, const dou
     memset(work->hessian, 0, n * n * sizeof *work->hessian);
     for (int i = 0; i < form->rows; i++)
         work->z[i] = cpsi_dot(form->unknowns, &form->a[(size_t)i * n], v) + form->b[i];
-    for (int k = 0, i = 0; k < form->cones; i += form->dim[k++]) {
+    CPSI_FOR_CONES(k, i, form->cones, form->dim) {
         const int d = form->dim[k];
         const double *z = &work->z[i], *a = &form->a[(size_t)i * n];
         if (!(z[0] > (d == 1 ? 0 : cpsi_norm(d - 1, z + 1)))) return false;

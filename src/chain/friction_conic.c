@@ -35,6 +35,7 @@
 #include "base/larger.h"
 #include "chain/elements.h"
 #include "ipm/cone.h"
+#include "ipm/cones.h"
 #include "linalg/dense.h"
 
 /* The arrays of one element inside its share of `data` and `index`. */
@@ -182,7 +183,7 @@ static void push(const CpsiFrictionConic *conic, int k, double a, const double *
 double cpsi_friction_conic_margin(const CpsiFrictionConic *conic, int k) {
     const Element e = element(conic, k);
     double least = INFINITY;
-    for (int c = 0, i = 0; c < e.form->cones; i += e.form->dim[c++])
+    CPSI_FOR_CONES(c, i, e.form->cones, e.form->dim)
         least = fmin(least, e.z[i] - cpsi_norm(e.form->dim[c] - 1, &e.z[i + 1]));
     return least / conic->bound[k];
 }
@@ -203,7 +204,7 @@ static void start(CpsiProgram *base, double mu, double margin) {
         for (int i = 0; i < form->rows; i++)
             e.z[i] = a * (cpsi_dot(form->unknowns, &form->a[i * form->unknowns], form->centre) +
                           form->b[i]);
-        for (int c = 0, i = 0; c < form->cones; i += form->dim[c++]) {
+        CPSI_FOR_CONES(c, i, form->cones, form->dim) {
             const int d = form->dim[c];
             const double inverse = d == 1 ? mu / (e.z[i] * e.z[i]) : mu / cpsi_soc_det(&e.z[i], d);
             e.s[i] = inverse * e.z[i];
@@ -347,7 +348,7 @@ static void scale(CpsiProgram *base) {
         const CpsiConicSet *form = e.form;
         const int n = form->unknowns, node = conic->node[k], unilateral = conic->unilateral[k];
         const double weight = conic->weight[k];
-        for (int c = 0, i = 0; c < form->cones; i += form->dim[c++])
+        CPSI_FOR_CONES(c, i, form->cones, form->dim)
             e.g[c] = cpsi_cone_scale(&e.w[i], &e.s[i], &e.z[i], form->dim[c]);
         for (int i = 0; i < form->rows; i++) e.q[i] = -e.z[i];
         conic->shift[k] = 0;
@@ -432,7 +433,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         for (int i = 0; i < form->rows; i++)
             e.dz[i] = cpsi_dot(n, &form->a[i * n], e.dv) + form->b[i] * da;
         conic->d_bound[k] = da;
-        for (int c = 0, i = 0; c < form->cones; i += form->dim[c++]) {
+        CPSI_FOR_CONES(c, i, form->cones, form->dim) {
             const double step = cpsi_cone_step(form->dim[c], &e.w[i], e.g[c], &e.s[i], &e.z[i],
                                                &e.ds[i], &e.dz[i], conic->scratch);
             sums->inverse_step = cpsi_max_nan(sums->inverse_step, step);
@@ -444,7 +445,7 @@ static void correct(CpsiProgram *base, double target) {
     CpsiFrictionConic *conic = &cpsi_chain(base)->conic;
     for (int k = 0; k < conic->count; k++) {
         const Element e = element(conic, k);
-        for (int c = 0, i = 0; c < e.form->cones; i += e.form->dim[c++]) {
+        CPSI_FOR_CONES(c, i, e.form->cones, e.form->dim) {
             const double aim = e.form->dim[c] > 1 ? cpsi_soc_aim(target, &e.s[i], &e.z[i]) : target;
             cpsi_cone_correct(&e.q[i], e.form->dim[c], &e.w[i], e.g[c], &e.s[i], &e.z[i], &e.ds[i],
                               &e.dz[i], aim, conic->scratch);

@@ -18,6 +18,7 @@
 #include "base/larger.h"
 #include "base/status.h"
 #include "drive/motion.h"
+#include "ipm/cones.h"
 #include "linalg/dense.h"
 
 /* Velocities that one-sided laws forbid count as on the boundary up to this share of the largest
@@ -123,7 +124,7 @@ static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, in
         part.forbidden = fmax(part.forbidden, fabs(e) / form->size);
         part.missing += fabs(e) * unit * (1 + fabs(v[j])); /* v is of order one */
     }
-    for (int c = 0, i = 0; c < form->cones; i += form->dim[c++]) {
+    CPSI_FOR_CONES(c, i, form->cones, form->dim) {
         double first = 0, rest = 0;
         for (int r = 0; r < form->dim[c]; r++) {
             const double s =

@@ -6,6 +6,7 @@
 
 #include "base/status.h"
 #include "drive/motion.h"
+#include "ipm/cones.h"
 #include "linalg/dense.h"
 
 static CpsStatus out_of_memory(CpsError *err) {
@@ -34,8 +35,8 @@ static CpsStatus full_dimension(const CpsiConicForm *form, int space, bool *full
 /* The least margin of a piece's cones, which are of size one. */
 static double margin_of(const CpsiConicForm *form, const double *s) {
     double least = INFINITY;
-    for (int c = 0; c < form->cones; s += form->dim[c++])
-        least = fmin(least, s[0] - cpsi_norm(form->dim[c] - 1, s + 1));
+    CPSI_FOR_CONES(c, i, form->cones, form->dim)
+        least = fmin(least, s[i] - cpsi_norm(form->dim[c] - 1, &s[i + 1]));
     return least;
 }
 

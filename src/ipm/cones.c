@@ -21,14 +21,14 @@ void cpsi_cones_layout(CpsiArena *arena, CpsiCones *cones, int rows, int count, 
 void cpsi_cones_start(CpsiCones *cones, double mu) {
     memset(cones->s, 0, (size_t)cones->rows * sizeof *cones->s);
     memset(cones->z, 0, (size_t)cones->rows * sizeof *cones->z);
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
+    CPSI_FOR_CONES(k, i, cones->count, cones->dim) {
         cones->s[i] = 1;
         cones->z[i] = mu;
     }
 }
 
 void cpsi_cones_scale(CpsiCones *cones) {
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++])
+    CPSI_FOR_CONES(k, i, cones->count, cones->dim)
         cones->g[k] = cpsi_cone_scale(&cones->w[i], &cones->s[i], &cones->z[i], cones->dim[k]);
     for (int i = 0; i < cones->rows; i++) cones->q[i] = -cones->z[i];
 }
@@ -40,7 +40,7 @@ void cpsi_cones_apply(const CpsiCones *cones, int k, int i, double sign, double 
 
 double cpsi_cones_step(CpsiCones *cones) {
     double inverse = 0;
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
+    CPSI_FOR_CONES(k, i, cones->count, cones->dim) {
         const double step =
             cpsi_cone_step(cones->dim[k], &cones->w[i], cones->g[k], &cones->s[i], &cones->z[i],
                            &cones->ds[i], &cones->dz[i], cones->scratch);
@@ -50,7 +50,7 @@ double cpsi_cones_step(CpsiCones *cones) {
 }
 
 void cpsi_cones_correct(CpsiCones *cones, double target) {
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++])
+    CPSI_FOR_CONES(k, i, cones->count, cones->dim)
         cpsi_cone_correct(&cones->q[i], cones->dim[k], &cones->w[i], cones->g[k], &cones->s[i],
                           &cones->z[i], &cones->ds[i], &cones->dz[i], target, cones->scratch);
 }

@@ -10,6 +10,9 @@
 #include "base/arena.h"
 #include "ipm/program.h"
 
+/* Each cone k of `count`, with the first of its dim[k] rows i. */
+#define CPSI_FOR_CONES(k, i, count, dim) for (int k = 0, i = 0; k < (count); i += (dim)[k], k++)
+
 typedef struct CpsiCones {
     int rows, count;
     const int *dim;          /* (count) */

@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/status.h"
+#include "ipm/cones.h"
 #include "linalg/dense.h"
 
 /* Unknowns, and numbers in one matrix, that a dense solver takes. */
@@ -184,7 +185,7 @@ static void collect_cones(const CpsiConicRows *conic, int left, const double *ro
                           CpsiConicForm *form) {
     const size_t w = (size_t)left + 1;
     double size = 0;
-    for (int k = 0, i = 0; k < conic->cones; i += conic->dim[k++]) {
+    CPSI_FOR_CONES(k, i, conic->cones, conic->dim) {
         const int d = conic->dim[k];
         double most = 0, shift = 0, before = 0;
         for (int r = i; r < i + d; r++) {

@@ -110,8 +110,8 @@ static CpsStatus search_all(Search *search, double *rays, CpsSetOutcome *outcome
         status = probe(search, outcome, err);
         const bool ray = !search->bounded;
         search->bounded = bounded && !ray;
-        for (size_t i = 0; !status && ray && search->dimension > before && i < n; i++)
-            rays[i] += search->plus[i];
+        if (!status && ray && search->dimension > before)
+            for (size_t i = 0; i < n; i++) rays[i] += search->plus[i];
     }
     return status;
 }

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ipm/cones.h"
 #include "linalg/dense.h"
 #include "set/set.h"
 
@@ -180,7 +181,7 @@ static CpsStatus build_cone(const CpsiConicForm *form, const double *s, double t
     }
     for (int l = 0; l < form->lines; l++)
         memcpy(cpsi_conic_rows_equation(conic), &form->q[l * n], (size_t)n * sizeof *form->q);
-    for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
+    CPSI_FOR_CONES(k, i, form->cones, form->dim)
         write_touch(conic, form, &s[i], i, form->dim[k], touch_of(&s[i], form->dim[k], tolerance),
                     equations);
     /* unknowns that no cone took stay 0 */

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "ipm/cones.h"
 #include "linalg/dense.h"
 #include "set/conic_form.h"
 
@@ -86,7 +87,7 @@ CpsStatus cpsi_conic_form_restrict(const CpsiConicForm *form, const CpsiSolution
     if (!map)
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a face");
     else {
-        for (int k = 0, i = 0; k < form->cones; i += form->dim[k++])
+        CPSI_FOR_CONES(k, i, form->cones, form->dim)
             cone_on_face(conic, form, at, i, form->dim[k], angle,
                          &map[(size_t)n * (size_t)conic->width]);
         for (int i = 0; i < n; i++) {

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ipm/cones.h"
 #include "linalg/dense.h"
 #include "set/set.h"
 
@@ -33,7 +34,7 @@ static CpsiConicForm *depth_form(const CpsiConicForm *form) {
     for (size_t i = 0; i < w; i++) depth->p[i * w + i] = 1;
     for (size_t i = 0; i < m; i++) memcpy(&depth->a[i * w], &form->a[i * u], u * sizeof *depth->a);
     memcpy(depth->b, form->b, m * sizeof *depth->b);
-    for (int k = 0, i = 0; k < form->cones; i += form->dim[k++]) {
+    CPSI_FOR_CONES(k, i, form->cones, form->dim) {
         depth->a[(size_t)i * w + u] = -1;
         depth->dim[k] = form->dim[k];
     }
@@ -48,8 +49,8 @@ static CpsiConicForm *depth_form(const CpsiConicForm *form) {
 
 /* Are the cones' parts of s all this deep inside? */
 static bool all_inside(const CpsiConicForm *form, const double *s) {
-    for (int k = 0; k < form->cones; s += form->dim[k++])
-        if (!(s[0] - cpsi_norm(form->dim[k] - 1, s + 1) > CLEAR)) return false;
+    CPSI_FOR_CONES(k, i, form->cones, form->dim)
+        if (!(s[i] - cpsi_norm(form->dim[k] - 1, &s[i + 1]) > CLEAR)) return false;
     return true;
 }
 

@@ -33,6 +33,10 @@ CLEAN = {
                          'void cpsi_commas(int x, double (*f)(int, int)) {\n'
                          '    CpsOne *p = 0, *q[2] = {p, p}, *r = (CpsOne *)f(x, (x));\n'
                          '    for (int i = 0, j = 1; i < j; i++, j--) q[i] = r ? p : r;\n'
+                         '    for (int i = 0; i < x && a < 3; i++) a += i;\n'
+                         '    for (int i = 0; i < x && p->size > 1; i++) f(p, i);\n'
+                         '    for (int i = 0, ok = 1; ok && i < x; i++) ok = c[i];\n'
+                         '    do f(a, b);\n    while (x && a++ < 3);\n'
                          '    switch (x) {\n    case 1: f(a, b); break;\n    default: (*f)(c[0], 1);\n    }\n'
                          '}\n',
     "cli/main.c": '#include "capstan/scene.h"\n',
@@ -61,6 +65,10 @@ FAULTS = [
     ("src/base/body.h", "void f(int a) {\n    while (a--) g(a, a), g(a, 1);\n}\n", "check-idioms", "body.h:2: a comma"),
     ("src/base/macro.h", "#define TWICE(f) f(), f()\n#define G(a) ((a)++, 1)\n", "check-idioms", "macro.h:2: a comma"),
     ("src/base/choice.c", "void f(int a) { a ? g(), h() : g(); }\n", "check-idioms", "a comma operator"),
+    ("src/base/kept.c", "int f(int n, int good) {\n    for (int i = 0; good && i < n; i++) g(i);\n    return 0;\n}\n",
+     "check-idioms", "kept.c:2: a condition that the loop does not change"),
+    ("src/base/member.h", "int f(CpsOne *a, int *x) {\n    while (next(x) && a->y.z == CPS_ONE) g(a->x);\n    return 0;\n}\n",
+     "check-idioms", "member.h:2: a condition that the loop"),
     ("src/base/ugly.c", "int  f( int a ) { return a*2; }\n", "format --check", "src/base/ugly.c: not as clang-format"),
     ("src/base/wide.c", "int f(int a) { return a; } /* " + "word " * 20 + "*/\n", "format --check", "src/base/wide.c"),
     ("docs/page.md", "See [there](nowhere.md).\n", "check-links", "no docs/nowhere.md"),
