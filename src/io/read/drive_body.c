@@ -81,7 +81,8 @@ static CpsStatus build_push(const CpsiDocument *d, const CpsiPushValues *values,
     const double length = hypot(normal[0], normal[1]);
     if (one && !(length > 0))
         return cpsi_document_wrong(d, values->node, "push", "a 'normal' that is not 0");
-    for (int k = 0; k < 2 && one; k++) normal[k] /= length;
+    if (one)
+        for (int k = 0; k < 2; k++) normal[k] /= length;
     point_rows(at, one ? normal : NULL, push);
     push->rows = one ? 1 : 2;
     for (int k = 0; k < 2; k++) push->way[k] = one ? speed * normal[k] : velocity[k];

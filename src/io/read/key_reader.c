@@ -314,7 +314,8 @@ CpsStatus cpsi_read_value(const CpsiDocument *d, const CpsiYaml *node, const Cps
                           const char *what, void *out) {
     const Value v = {d, key, what};
     const CpsiKey *form = key;
-    while (form && key->other && !has_form(node, form)) form = form->other;
+    if (key->other)
+        while (form && !has_form(node, form)) form = form->other;
     return form ? read_form(&v, node, form, (char *)out + form->offset) : wrong(&v, node, "");
 }
 

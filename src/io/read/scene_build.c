@@ -222,11 +222,12 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
     if (status == CPS_OK)
         status = values->start.nodes ? build_nodes(b, values, line)
                                      : build_start(b, &values->start, &line->start);
-    for (int end = 0; end < 2 && status == CPS_OK; end++) {
+    if (status != CPS_OK) return status;
+    for (int end = 0; end < 2; end++) {
         line->end[end] = build_end(&values->end[end]);
         first_position(line, end, held[end]);
     }
-    return status;
+    return CPS_OK;
 }
 
 static CpsStatus build_lines(Build *b, const CpsiList *lines) {
