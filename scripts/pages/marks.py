@@ -107,8 +107,8 @@ class Program:
         return {path: re.sub(r"\s+", " ", re.sub(r"\n \* ?", " ", read(path))) for path in files}  # comments run on
 
     def constant(self, where, pattern):
-        """The number that a file of the sources whose name ends so has where the pattern has a group; any white space is one blank."""
-        found = {m[1] for path, text in self.sources().items() if path.endswith(where) for m in re.finditer(pattern, text)}
+        """The number that the files of the sources with `where` in their path have where the pattern has a group; any white space is one blank."""
+        found = {m[1] for path, text in self.sources().items() if where in path for m in re.finditer(pattern, text)}
         if len(found) != 1:
             sys.exit(f"figures: {where}: '{pattern}' is found {len(found)} times")
         return found.pop()
@@ -211,141 +211,6 @@ class Page:
         """Where the words are, whatever is in the place of each {}."""
         parts = [r"\s+".join(re.escape(w) for w in re.split(r"\s+", part)) for part in words.split("{}")]
         return list(re.finditer(("(" + NUMBER.pattern + ")").join(parts), text))
-
-    @functools.lru_cache(None)
-    def output(self, *command):
-        """What a program of the build prints, `command` being its path and options."""
-        path = [word for word in command if not word.startswith("--") and not word.isdigit()]
-        return subprocess.run([os.path.join(self.build, *path), *command[len(path):]], capture_output=True, text=True, check=True).stdout
-
-    def example(self, name, **changes):
-        """A scene of examples/, with the values of some keys changed."""
-        path = os.path.join("examples", name + ".yaml")
-        if not changes:
-            return path
-        text = read(os.path.join(self.root, path))
-        for key, value in changes.items():
-            text = re.sub(rf"\b{key}: [^\s,}}]+", f"{key}: {value}", text)
-        return self.file("-".join([name, *(f"{k}-{v}" for k, v in changes.items())]) + ".yaml", text)
-
-    def file(self, name, text):
-        path = os.path.join(self.folder, name)
-        write(path, text)
-        return path
-
-    @functools.lru_cache(None)
-    def sources(self):
-        files = [os.path.join(at, name) for top in ("src", "cli", "include", "test") for at, _, names in os.walk(os.path.join(self.root, top))
-                 for name in names if name.endswith((".c", ".h", ".py", ".txt"))]
-        return {path: re.sub(r"\s+", " ", re.sub(r"\n \* ?", " ", read(path))) for path in files}  # comments run on
-
-    def constant(self, where, pattern):
-        """The number that a file of the sources whose name ends so has where the pattern has a group; any white space is one blank."""
-        found = {m[1] for path, text in self.sources().items() if path.endswith(where) for m in re.finditer(pattern, text)}
-        if len(found) != 1:
-            sys.exit(f"figures: {where}: '{pattern}' is found {len(found)} times")
-        return found.pop()
-
-
-# ---- comparing ----
-
-def unit_of(text):
-    """Of the last digit, and how many digits there are."""
-    mantissa, _, exponent = text.partition("e")
-    decimals = len(mantissa.partition(".")[2])
-    return 10.0 ** (int(exponent or 0) - decimals), len(mantissa.lstrip("-").replace(".", "").lstrip("0"))
-
-
-def same(old, new):
-    if NUMBER.sub("#", old) != NUMBER.sub("#", new):
-        return False
-    for a, b in zip(NUMBER.findall(old), NUMBER.findall(new)):
-        x, y = float(a), float(b)
-        unit, digits = unit_of(a)
-        if abs(x - y) > (max(abs(x), abs(y)) / 3 if digits <= 2 and "." in a + b or "e" in a + b else 2 * unit) and max(abs(x), abs(y)) > 1e-12:
-            return False
-    return True
-
-
-def colours(text):
-    """Colours such as 6e8000 in letters, so that they are no numbers."""
-    return re.sub(r"#[0-9a-f]{6}\b", lambda m: "#" + m[0][1:].translate(str.maketrans("0123456789", "ghijklmnop")), text)
-
-
-def same_picture(old, new):
-    """Numbers are pixels, to a tenth, and may be off by two: some curves show what rounding leaves, on a scale of powers of ten. Maps are made
-    of pixels: a few that lie between two colours may have the other one."""
-    if PIXEL.search(old):
-        here, there = (len(PIXEL.findall(text)) for text in (old, new))
-        if abs(here - there) > 0.01 * here:
-            return False
-        old, new = (re.sub(r"<path fill=\"#+\w+\" d=\"[Mhvz\d -]*\"/>\n?", "", text) for text in (old, new))
-    if NUMBER.sub("#", old) != NUMBER.sub("#", new):
-        return False
-    return all(a == b or abs(float(a) - float(b)) <= 2 for a, b in zip(NUMBER.findall(old), NUMBER.findall(new)))
-
-
-# ---- a page ----
-
-class Page:
-    """docs/NAME.md and what its module of scripts/pages says of it: FIGURES {name: function of the program -> lines}, SENTENCES [(words with {}
-    for each number, function -> numbers as text)], PICTURES {name: function -> path}, GIVEN [words with numbers that the page gives]."""
-
-    def __init__(self, program, name, module):
-        self.program, self.name = program, name
-        self.path = os.path.join(program.root, "docs", name + ".md")
-        self.has = lambda what, none: getattr(module, what, none) if module else none
-        self.statement = hasattr(module, "GIVEN")
-        self.commands = 0
-
-    def counted(self):
-        counts = ((len(self.has("FIGURES", {})), "tables"), (sum(w.count("{}") for w, _ in self.has("SENTENCES", [])), "numbers in sentences"),
-                  (len(self.has("PICTURES", {})), "pictures"), (self.commands, "commands"))
-        return ", ".join(f"{n} {what}" for n, what in counts if n)
-
-    def faults(self, check):
-        """What is not as it should be; without `check` the page and its pictures are written instead."""
-        old = read(self.path)
-        faults, text = self.blocks(old)
-        more, text = self.sentences(text)
-        faults += more
-        more, text = self.prints(text)
-        faults += more
-        if not check:
-            write(self.path, text)
-            faults = []
-        faults += self.pictures(check)
-        return faults + (self.unwritten(text) if self.statement else [])
-
-    def fault(self, what, old, new):
-        return f"docs/{self.name}.md, {what}:\n  page {old}\n  run  {new}"
-
-    def blocks(self, text):
-        lines, out, faults, k, figures = text.split("\n"), [], [], 0, self.has("FIGURES", {})
-        used = set()
-        while k < len(lines):
-            out.append(lines[k])
-            found = re.fullmatch(r"<!-- figures: ([\w-]+) -->", lines[k])
-            k += 1
-            if not found:
-                continue
-            end = lines.index("<!-- end -->", k)
-            old, new = lines[k:end], ["", *figures[found[1]](self.program), ""]
-            alike = self.has("LOOSELY", {}).get(found[1], same)
-            used.add(found[1])
-            if len(old) != len(new):
-                faults.append(f"docs/{self.name}.md, {found[1]}: {len(old)} lines, expected {len(new)}")
-            faults += [self.fault(found[1], a, b) for a, b in zip(old, new) if not alike(a, b)]
-            out += new
-            k = end
-        return faults + [f"docs/{self.name}.md: {name} is not on the page" for name in figures if name not in used], "\n".join(out)
-
-    def find(self, words, text):
-        """Where the words are, whatever is in the place of each {}."""
-        parts = [r"\s+".join(re.escape(w) for w in re.split(r"\s+", part)) for part in words.split("{}")]
-        found = list(re.finditer("(" + NUMBER.pattern + ")".join([""]) + ("(" + NUMBER.pattern + ")").join(parts), text)) if False else \
-            list(re.finditer(("(" + NUMBER.pattern + ")").join(parts), text))
-        return found
 
     def sentences(self, text):
         faults = []
