@@ -323,6 +323,9 @@ CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tol
     *cone = NULL;
     *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE, .tolerance = share};
     if (cpsi_set_has_user(set)) return CPS_OK;
+    bool known;
+    status = cpsi_smooth_sum_cone(set, point, share, &known, cone, answer, err);
+    if (status || known) return status;
 
     /* how far off is the point?  Of a cone, which has no size, the point's own length is what
      * lengths are compared with, unless the caller has chosen a tolerance */

@@ -118,6 +118,10 @@ void cpsi_pull_back(const CpsSet *image, const double *w, double *back);
 CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSetAnswer *answer,
                      CpsError *err);
 CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, CpsError *err);
+/* The normal cone at p of a sum of many balls and their images, where formulas give it: *known is
+ * false where they do not (smooth_sum.c). */
+CpsStatus cpsi_smooth_sum_cone(const CpsSet *set, const double *p, double share, bool *known,
+                               CpsSet **cone, CpsSetAnswer *answer, CpsError *err);
 /* The recession cone of a set without users' parts. */
 CpsStatus cpsi_set_recession(const CpsSet *set, CpsSet **out, CpsError *err);
 /* The form of a set: its own, or one made for the caller, who frees *made. */
