@@ -14,6 +14,8 @@ import time
 from checks import expect, faults, write
 
 CAPSTAN = sys.argv[1]
+# times are those of a release; others are built for looking for faults
+SLOWER = 1 if "-O3" in subprocess.run([CAPSTAN, "--version"], capture_output=True, text=True).stdout else 8
 SCENE = """capstan: 1
 title: a rope
 obstacles:
@@ -88,7 +90,7 @@ def end_within_a_step():
     expect("signal in a step: after the first one", said.startswith("step 1 of 3"), said)
     expect("signal in a step: what is said", "stopped by a signal after 1 of 3 steps; --resume goes on from there" in rest, rest)
     # the step takes some 8 s, the files that are written at the end 0.05 s
-    expect("signal in a step: time of the processor until the end", after - before < 1, after - before)
+    expect("signal in a step: time of the processor until the end", after - before < SLOWER, after - before)
 
 
 def pipe_to_judge():
@@ -166,7 +168,7 @@ def slow_lines():
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = 0
         # 2 s as in the promise; what is refused here takes 0.01 s, and it took minutes
-        expect(f"{what}: seconds", used.ru_utime + used.ru_stime < 2, used.ru_utime)
+        expect(f"{what}: seconds", used.ru_utime + used.ru_stime < 2 * SLOWER, used.ru_utime)
         expect(f"{what}: status", os.WIFEXITED(status) and os.WEXITSTATUS(status) in ((0, 3, 6) if what.startswith("ten million") else (3, 6)), status)
 
 

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A journal whose system calls fail, one after the other: an error with a message or the same
+ * steps, and no step that it had before is lost. The calls are replaced (linked with --wrap). */
+#include <errno.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "capstan/capstan.h"
+#include "capstan/io.h"
+
+ssize_t __real_pread(int file, void *to, size_t size, off_t at);
+ssize_t __real_pwrite(int file, const void *from, size_t size, off_t at);
+int __real_fstat(int file, struct stat *about);
+int __real_fsync(int file);
+int __real_fdatasync(int file);
+int __real_ftruncate(int file, off_t size);
+ssize_t __wrap_pread(int file, void *to, size_t size, off_t at);
+ssize_t __wrap_pwrite(int file, const void *from, size_t size, off_t at);
+int __wrap_fstat(int file, struct stat *about);
+int __wrap_fsync(int file);
+int __wrap_fdatasync(int file);
+int __wrap_ftruncate(int file, off_t size);
+
+/* The call that fails, counted from 0, and how; `most`: bytes that are read or written at once. */
+static int calls, fails_at = -1, why;
+static size_t most = SIZE_MAX;
+
+static bool fails(void) {
+    if (calls++ != fails_at) return false;
+    errno = why;
+    return true;
+}
+
+ssize_t __wrap_pread(int file, void *to, size_t size, off_t at) {
+    return fails() ? -1 : __real_pread(file, to, size < most ? size : most, at);
+}
+ssize_t __wrap_pwrite(int file, const void *from, size_t size, off_t at) {
+    return fails() ? -1 : __real_pwrite(file, from, size < most ? size : most, at);
+}
+int __wrap_fstat(int file, struct stat *about) { return fails() ? -1 : __real_fstat(file, about); }
+int __wrap_fsync(int file) { return fails() ? -1 : __real_fsync(file); }
+int __wrap_fdatasync(int file) { return fails() ? -1 : __real_fdatasync(file); }
+int __wrap_ftruncate(int file, off_t size) { return fails() ? -1 : __real_ftruncate(file, size); }
+
+enum { STEPS = 4, FIRST = 2, ELEMENTS = 4, NUMBERS = 3 * (ELEMENTS + 1) };
+
+static char folder[] = "journal-calls-XXXXXX";
+
+static CpsEvolution *make_evolution(void) {
+    const double point[6] = {0, 0, 0, 6, 0, 0};
+    const CpsChange change = {0, CPS_END_B, {CPS_END_HELD, {5.9, 0.2, 0}}};
+    const CpsStage stage = {.name = "there", .steps = STEPS, .change_count = 1, .change = &change};
+    CpsLine line = cps_line_default();
+    line.name = "rope";
+    line.length = 6;
+    line.elements = ELEMENTS;
+    line.weight = 10;
+    line.stiffness = 1e4;
+    line.start =
+        (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 0, 1}};
+    line.end[CPS_END_B] = (CpsEnd){CPS_END_HELD, {6, 0, 0}};
+    CpsScene scene = cps_scene_default();
+    scene.line_count = scene.stage_count = 1;
+    scene.line = &line;
+    scene.stage = &stage;
+    CpsEvolution *evolution = NULL;
+    assert_int_equal(cps_evolution_create(&scene, &evolution, NULL), CPS_OK);
+    return evolution;
+}
+
+/* Places after each step, undisturbed. */
+static double place[STEPS][NUMBERS];
+
+static void expect_place(const CpsEvolution *evolution) {
+    const int index = cps_evolution_report(evolution).index;
+    const CpsLineView view = cps_evolution_line_view(evolution, 0);
+    assert_in_range(index, 0, STEPS - 1);
+    assert_memory_equal(view.position, place[index], sizeof place[index]);
+}
+
+/* Go on to step `to`, from what the journal has; *had: so many steps it had. */
+static CpsStatus go_on(CpsJournalMode mode, int to, int *had, bool late, CpsError *err) {
+    CpsEvolution *evolution = make_evolution();
+    CpsJournal *journal = NULL;
+    CpsStatus status = cps_journal_open(folder, evolution, mode, &journal, err);
+    assert_int_equal(status == CPS_OK, journal != NULL);
+    if (!status && late) cps_journal_sync_late(journal);
+    *had = 0;
+    for (bool found = mode == CPS_JOURNAL_RESUME; !status && found;) {
+        status = cps_journal_next(journal, evolution, &found, err);
+        if (status || !found) break;
+        expect_place(evolution);
+        ++*had;
+    }
+    for (int k = *had; !status && k < to; k++) {
+        assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
+        expect_place(evolution);
+        status = cps_journal_append(journal, evolution, err);
+    }
+    if (!status && late) status = cps_journal_sync(journal, err);
+    if (!status && to == STEPS) cps_journal_remove(journal);
+    cps_journal_destroy(journal);
+    cps_evolution_destroy(evolution);
+    return status;
+}
+
+/* The k-th call of a first part, or of one that goes on, fails; false: there are not so many. */
+static bool refuse_call(int k, bool second, bool late) {
+    CpsError err = {0};
+    int had, before;
+    assert_int_equal(go_on(CPS_JOURNAL_REPLACE, second ? FIRST : 0, &had, false, &err), CPS_OK);
+    calls = 0;
+    fails_at = k;
+    const CpsStatus status = second ? go_on(CPS_JOURNAL_RESUME, STEPS, &before, late, &err)
+                                    : go_on(CPS_JOURNAL_REPLACE, FIRST, &before, late, &err);
+    const bool reached = calls > k;
+    fails_at = -1;
+    if (status) assert_true(status == CPS_ERR_IO && strstr(err.message, ".journal") != NULL);
+    if (!reached) assert_int_equal(status, CPS_OK);
+    assert_int_equal(go_on(CPS_JOURNAL_RESUME, STEPS, &had, false, &err), CPS_OK);
+    if (second && status) assert_true(had >= FIRST); /* nothing that was there is lost */
+    return reached;
+}
+
+static void refuse_each(int error, size_t at_once) {
+    why = error;
+    most = at_once;
+    for (int part = 0; part < 2; part++)
+        for (int late = 0; late < 2; late++) {
+            int k = 0;
+            while (refuse_call(k, part == 1, late == 1)) k++;
+            assert_true(k >= 5); /* head, its two syncs, and each step at least one */
+        }
+    most = SIZE_MAX;
+}
+
+static void broken_disk(void **state) {
+    (void)state;
+    refuse_each(EIO, SIZE_MAX);
+}
+
+static void full_disk(void **state) {
+    (void)state;
+    refuse_each(ENOSPC, 64);
+}
+
+/* What a signal interrupts is done again. */
+static void interrupted(void **state) {
+    (void)state;
+    refuse_each(EINTR, SIZE_MAX);
+}
+
+/* A file system that cannot sync a directory. */
+static void no_sync(void **state) {
+    (void)state;
+    refuse_each(EINVAL, SIZE_MAX);
+}
+
+static int begin(void **state) {
+    (void)state;
+    CpsEvolution *evolution = make_evolution();
+    for (int k = 0; k < STEPS; k++) {
+        if (cps_evolution_step(evolution, NULL) != CPS_OK) return -1;
+        memcpy(place[k], cps_evolution_line_view(evolution, 0).position, sizeof place[k]);
+    }
+    cps_evolution_destroy(evolution);
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int end(void **state) {
+    (void)state;
+    return rmdir(folder);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(broken_disk), cmocka_unit_test(full_disk),
+                                       cmocka_unit_test(interrupted), cmocka_unit_test(no_sync)};
+    return cmocka_run_group_tests(tests, begin, end);
+}
