@@ -249,16 +249,20 @@ static CpsStatus read_point(const Value *v, const CpsiYaml *node, const CpsiKey 
     return read_numbers(v, node, form, out);
 }
 
+/* [mapping, ..] or {name: mapping, ..} */
 static CpsStatus read_list(const Value *v, const CpsiYaml *node, const CpsiKey *form,
                            CpsiList *out) {
     const CpsiMapping *each = form->inside;
-    if (node->kind != CPSI_YAML_SEQUENCE || node->count < form->most) return wrong(v, node, "");
-    char *item = cpsi_pool_take(v->d->pool, (size_t)node->count, each->size);
+    const bool named = form->type == CPSI_NAMED;
+    if (node->kind != (named ? CPSI_YAML_MAPPING : CPSI_YAML_SEQUENCE) || node->count < form->most)
+        return wrong(v, node, "");
+    char *item = cpsi_pool_take(v->d->pool, (size_t)node->count, each->size), what[160];
     *out = (CpsiList){.node = node, .count = node->count, .item = item};
     if (!item) return cpsi_document_no_memory(v->d);
     CpsStatus status = CPS_OK;
     for (const CpsiYaml *child = node->child; child && status == CPS_OK; child = child->next) {
-        status = cpsi_read_mapping(v->d, child, each, each->name, item);
+        snprintf(what, sizeof what, named ? "%s '%.64s'" : "%s", each->name, child->key);
+        status = cpsi_read_mapping(v->d, child, each, what, item);
         item += each->size;
     }
     return status;
@@ -279,7 +283,8 @@ static bool has_form(const CpsiYaml *node, const CpsiKey *form) {
     case CPSI_FLAG: return node->kind == CPSI_YAML_SCALAR;
     case CPSI_EXPRESSION:
     case CPSI_BY_NAME:
-    case CPSI_MAPPING: return node->kind == CPSI_YAML_MAPPING;
+    case CPSI_MAPPING:
+    case CPSI_NAMED: return node->kind == CPSI_YAML_MAPPING;
     default: return node->kind == CPSI_YAML_SEQUENCE;
     }
 }
@@ -305,7 +310,8 @@ static CpsStatus read_form(const Value *v, const CpsiYaml *node, const CpsiKey *
     case CPSI_MAPPING:
         if (node->kind != CPSI_YAML_MAPPING) return wrong(v, node, "");
         return cpsi_read_mapping(v->d, node, form->inside, v->what, to);
-    case CPSI_LIST: return read_list(v, node, form, to);
+    case CPSI_LIST:
+    case CPSI_NAMED: return read_list(v, node, form, to);
     default: return keep_node(v, node, form, to);
     }
 }
@@ -361,8 +367,8 @@ static CpsStatus check_owner(const CpsiDocument *d, const CpsiYaml *node, const 
                               node->key, letters, owner, owner);
 }
 
-/* Room in the lists of keys of a form for as many as are given. */
-static CpsStatus reserve_named(const CpsiDocument *d, const CpsiYaml *node,
+/* Room in the lists of keys with an owner for as many as are given. */
+static CpsStatus reserve_owned(const CpsiDocument *d, const CpsiYaml *node,
                                const CpsiMapping *mapping, char *out) {
     for (int i = 0; i < mapping->count; i++) {
         const CpsiKey *key = &mapping->key[i];
@@ -376,20 +382,17 @@ static CpsStatus reserve_named(const CpsiDocument *d, const CpsiYaml *node,
     return CPS_OK;
 }
 
-/* The value of a key of a form: one more item of its list. */
-static CpsStatus read_named(const CpsiDocument *d, const CpsiYaml *node, const CpsiKey *key,
+/* The value of a key with an owner: one more item of its list. */
+static CpsStatus read_owned(const CpsiDocument *d, const CpsiYaml *node, const CpsiKey *key,
                             CpsiList *list) {
-    char what[160];
+    char what[90];
     const size_t size = key->inside ? key->inside->size : sizeof(CpsiNumberItem);
     CpsiNumberItem *number = (CpsiNumberItem *)list->item;
     CpsiKey item = *key;
     item.offset = 0;
-    const CpsStatus status = *key->owner ? check_owner(d, node, key->owner) : CPS_OK;
+    const CpsStatus status = check_owner(d, node, key->owner);
     if (status != CPS_OK) return status;
-    if (*key->owner)
-        snprintf(what, sizeof what, "'%.80s'", node->key);
-    else
-        snprintf(what, sizeof what, "%s '%.64s'", key->inside->name, node->key);
+    snprintf(what, sizeof what, "'%.80s'", node->key);
     if (key->inside)
         return cpsi_read_value(d, node, &item, what,
                                (char *)list->item + size * (size_t)list->count++);
@@ -420,13 +423,13 @@ CpsStatus cpsi_read_mapping(const CpsiDocument *d, const CpsiYaml *node, const C
         if (!cpsi_key_find(mapping, child->key))
             return cpsi_key_unknown(d->name, child, what, mapping, d->err);
     if (mapping->begin) mapping->begin(out);
-    CpsStatus status = reserve_named(d, node, mapping, out);
+    CpsStatus status = reserve_owned(d, node, mapping, out);
     for (const CpsiYaml *child = node->child; child && status == CPS_OK; child = child->next) {
         const CpsiKey *key = cpsi_key_find(mapping, child->key);
         char name[90];
         snprintf(name, sizeof name, "'%.80s'", child->key);
         if (key->owner)
-            status = read_named(d, child, key, (CpsiList *)(void *)((char *)out + key->offset));
+            status = read_owned(d, child, key, (CpsiList *)(void *)((char *)out + key->offset));
         else
             status = cpsi_read_value(d, child, key, name, out);
     }

@@ -33,7 +33,7 @@ static void write_range(FILE *out, const CpsiKey *key) {
     }
 }
 
-/* ["a", "b"] of words, or of the names of the keys of a need */
+/* ["a", "b"] of words */
 static void write_words(FILE *out, const char *words) {
     fputs("[\"", out);
     for (const char *c = words; *c; c++) fputs(*c == ' ' ? "\", \"" : (char[]){*c, '\0'}, out);
@@ -45,7 +45,8 @@ static void write_number(FILE *out, const CpsiKey *key, const char *type) {
     write_range(out, key);
 }
 
-#define ARRAY "\"type\": \"array\", \"minItems\": "
+#define ANY_NAME "[A-Za-z][A-Za-z0-9_-]{0,63}"
+#define ARRAY    "\"type\": \"array\", \"minItems\": "
 
 /* `low` to `high` rows of `columns` numbers; of any number where that is 0 */
 static void write_rows(FILE *out, const CpsiKey *key) {
@@ -115,6 +116,12 @@ static void write_form(FILE *out, const CpsiKey *key) {
         else
             write_mapping(out, key->inside);
         break;
+    case CPSI_NAMED:
+        fprintf(out,
+                "\"type\": \"object\", \"additionalProperties\": false, \"patternProperties\": "
+                "{\"^" ANY_NAME "$\": {\"$ref\": \"#/$defs/%s\"}}",
+                inside);
+        break;
     case CPSI_EXPRESSIONS:
     case CPSI_LIST:
         fprintf(out, ARRAY "%d, \"items\": {\"$ref\": \"#/$defs/%s\"}",
@@ -149,8 +156,8 @@ static void write_name(FILE *out, const CpsiKey *key) {
         fprintf(out, "\"%s\": ", key->name);
         return;
     }
-    fputs("\"^[A-Za-z][A-Za-z0-9_-]{0,63}", out);
-    for (const char *c = key->after; c && *c; c++) {
+    fputs("\"^" ANY_NAME, out);
+    for (const char *c = key->after; *c; c++) {
         if (c == key->after) fputs("\\\\.(", out);
         fputc(*c == ' ' ? '|' : *c, out);
         if (!c[1]) fputc(')', out);

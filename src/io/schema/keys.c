@@ -23,7 +23,7 @@ int cpsi_key_word(const char *words, const char *written) {
 static bool has_name(const CpsiKey *key, const char *written) {
     if (!key->owner) return strcmp(key->name, written) == 0;
     const char *dot = strrchr(written, '.');
-    return !*key->owner || (dot && dot > written && cpsi_key_word(key->after, dot + 1) >= 0);
+    return dot && dot > written && cpsi_key_word(key->after, dot + 1) >= 0;
 }
 
 const CpsiKey *cpsi_key_find(const CpsiMapping *mapping, const char *written) {
@@ -167,6 +167,7 @@ static void write_form(Text *out, const CpsiKey *key, const char *unit) {
         put(out, "a list of at least one %s with its value, as in [%s]", key->inside->word,
             key->inside->example);
         break;
+    case CPSI_NAMED: put(out, "a mapping with a name for each %s", key->inside->name); break;
     case CPSI_LIST:
         put(out, "a list, as in [%s]",
             key->inside->example ? key->inside->example : "{...}, {...}");

@@ -37,7 +37,8 @@ typedef enum CpsiValue {
     CPSI_BY_NAME,      /* {name: number, ..} */
 
     CPSI_MAPPING, /* with the keys `inside`, read into the struct that begins at the offset */
-    CPSI_LIST     /* CpsiList: [mapping, ..] with the keys `inside`, at least `most` of them */
+    CPSI_LIST,    /* CpsiList: [mapping, ..] with the keys `inside`, at least `most` of them */
+    CPSI_NAMED    /* CpsiList: {name: mapping, ..} with the keys `inside` */
 } CpsiValue;
 
 typedef enum CpsiNeed {
@@ -66,9 +67,8 @@ typedef struct CpsiKey {
     const char *fallback;             /* default as JSON; NULL: none */
     const char *help;
 
-    /* A name written as ITS.OWN: owner "" for any name, "lines" for the name of one of the lines, a
-     * dot and one of `after`. Values are items of a CpsiList at the offset. NULL: the name as it
-     * is. */
+    /* A name written as ITS.OWN: owner "lines" for the name of one of the lines, a dot and one of
+     * `after`. Values are items of a CpsiList at the offset. NULL: the name as it is. */
     const char *owner;
     const char *after;
 
@@ -93,7 +93,7 @@ typedef struct CpsiMapping {
     const char *also;    /* JSON schema of what else goes together; NULL: nothing */
 } CpsiMapping;
 
-/* What CPSI_LIST and names of a form are read into. */
+/* What CPSI_LIST, CPSI_NAMED and names of a form are read into. */
 typedef struct CpsiList {
     const CpsiYaml *node; /* NULL: not given */
     int count;

@@ -37,17 +37,19 @@
 #define COMBINATIONS(kind, field)  CPSI_COMBINATIONS, 0, TREE(kind, field)
 #define BY_NAME(kind, field)       CPSI_BY_NAME, 0, TREE(kind, field)
 #define LIST(kind, field, least)   CPSI_LIST, least, TYPED(CpsiList *, kind, field)
+#define NAMED(kind, field)         CPSI_NAMED, 0, TYPED(CpsiList *, kind, field)
 
 /* an int, or an enum of the same size */
 #define WORD(kind, field) \
     CPSI_WORD, 0,         \
         (AT(kind, field) + 0 * sizeof(char[sizeof *FIELD(kind, field) == sizeof(int) ? 1 : -1]))
 
-/* a mapping with a struct of its own; one whose keys go to the struct around; values of any name */
+/* a mapping with a struct of its own; one whose keys go to the struct around; values of a key with
+ * an owner */
 #define MAPPING(kind, field)       CPSI_MAPPING, 0, AT(kind, field)
 #define AROUND                     CPSI_MAPPING, 0, 0
-#define NAMED(kind, field)         CPSI_MAPPING, 0, TYPED(CpsiList *, kind, field)
-#define NAMED_NUMBERS(kind, field) CPSI_NUMBER, 0, TYPED(CpsiList *, kind, field)
+#define OWNED(kind, field)         CPSI_MAPPING, 0, TYPED(CpsiList *, kind, field)
+#define OWNED_NUMBERS(kind, field) CPSI_NUMBER, 0, TYPED(CpsiList *, kind, field)
 
 /* ranges: lowest, highest, lowest excluded */
 #define ANY          -CPSI_LARGEST, CPSI_LARGEST, false

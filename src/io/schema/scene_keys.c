@@ -72,12 +72,6 @@ static void begin_obstacle(void *values) {
 static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obstacle),
                                      .begin = begin_obstacle, WHICH(Obstacle, obstacle.kind)};
 
-static const CpsiKey OBSTACLES_KEYS[] = {
-    {"NAME", OPTIONAL, NAMED(Scene, obstacles), .owner = "", .inside = &OBSTACLE,
-     .help = "an obstacle"},
-};
-static const CpsiMapping OBSTACLES = {"obstacles", KEYS(OBSTACLES_KEYS)};
-
 /* ---- lines ---- */
 
 static const CpsiKey STRAIGHT_KEYS[] = {
@@ -167,12 +161,6 @@ static void begin_line(void *values) {
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};
 
-static const CpsiKey LINES_KEYS[] = {
-    {"NAME", OPTIONAL, NAMED(Scene, lines), .owner = "", .inside = &LINE,
-     .help = "a line from its end A to its end B"},
-};
-static const CpsiMapping LINES = {"lines", KEYS(LINES_KEYS)};
-
 /* ---- the scene ---- */
 
 static const CpsiKey SOLVER_KEYS[] = {
@@ -212,10 +200,10 @@ static const CpsiKey STAGE_KEYS[] = {
     {"gravity", OPTIONAL, POINT(Stage, stage.gravity, 3), ANY, .unit = "m/s2",
      .help = "what gravity becomes in this entry, evenly over its steps; the weight of all "
              "lines goes with it"},
-    {"LINE.END", OPTIONAL, NAMED(Stage, changes), .owner = "lines", .after = "A B",
+    {"LINE.END", OPTIONAL, OWNED(Stage, changes), .owner = "lines", .after = "A B",
      .inside = &CHANGE,
      .help = "what happens to an end of a line, as in cable.B; all other ends stay as they are"},
-    {"OBSTACLE.turn", OPTIONAL, NAMED_NUMBERS(Stage, turns), ANY, .owner = "obstacles",
+    {"OBSTACLE.turn", OPTIONAL, OWNED_NUMBERS(Stage, turns), ANY, .owner = "obstacles",
      .after = "turn", .unit = "degrees",
      .help = "turn a cylinder or ball by so much in this entry, as in drum.turn, by the "
              "right-hand rule about its axis"},
@@ -235,10 +223,10 @@ static const CpsiKey SCENE_KEYS[] = {
     {"gravity", OPTIONAL, POINT(Scene, scene.gravity, 3), ANY, .unit = "m/s2",
      .fallback = "[0, 0, -9.81]",
      .help = "acceleration of gravity; its direction is that of the lines' weight"},
-    {"obstacles", OPTIONAL, AROUND, .inside = &OBSTACLES, .fallback = "{}",
+    {"obstacles", OPTIONAL, NAMED(Scene, obstacles), .inside = &OBSTACLE, .fallback = "{}",
      .help = "what the lines lie on, by name; each node rests on the nearest one, or on the two "
              "nearest"},
-    {"lines", REQUIRED, AROUND, .inside = &LINES,
+    {"lines", REQUIRED, NAMED(Scene, lines), .inside = &LINE,
      .help = "the lines by name; they do not touch one another"},
     {"friction", OPTIONAL, WORD(Scene, scene.friction), .words = "frozen consistent",
      .fallback = "\"consistent\"",
