@@ -80,7 +80,7 @@ def accuracies(*gaps):
     return [text for gap in gaps for text in (short(math.sqrt(float(gap))), gap)]
 
 
-FIGURES = {"gallery": gallery, "random-laws": lambda p: random_tests(p, ("random_sets", "random_laws", "random_resistances", "random_extremes"))}
+FIGURES = {"gallery": gallery, "random-laws": lambda p: random_tests(p, ("random_sets", "random_laws", "random_resistances", "random_extremes", "random_contacts"))}
 PICTURES = {f"law-{name}": drawn(*asked) for name, asked in ASKED.items()}
 ALIKE = same
 SENTENCES = [
@@ -89,5 +89,6 @@ SENTENCES = [
     ("{} at the gap of {} that passes aim at, {} at {}, where they may end", lambda p: accuracies(
         p.constant("law/conjugate_sum.c", r"TARGET = (\S+),"), p.constant("law/conjugate_sum.c", r"ENOUGH = (\S+),"))),
     ("A force outside by less than {} of its length", lambda p: p.constant("law/conjugate_sum.c", r"ON_BOUNDARY = (\S+);")),
+    ("asks bodies on {} to {} contacts", lambda p: [p.constant("random_contacts.c", rf"\b{name} = (\d+)") for name in ("FEWEST", "MOST")]),
 ]
 GIVEN = []
