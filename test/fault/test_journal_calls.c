@@ -2,6 +2,7 @@
 /* A journal whose system calls fail, one after the other: an error with a message or the same
  * steps, and no step that it had before is lost. The calls are replaced (linked with --wrap). */
 #include <errno.h>
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -29,6 +30,8 @@ int __wrap_fstat(int file, struct stat *about);
 int __wrap_fsync(int file);
 int __wrap_fdatasync(int file);
 int __wrap_ftruncate(int file, off_t size);
+int __real_openat(int at, const char *path, int how, ...);
+int __wrap_openat(int at, const char *path, int how, ...);
 
 /* The call that fails, counted from 0, and how; `most`: bytes that are read or written at once. */
 static int calls, fails_at = -1, why;
@@ -50,6 +53,10 @@ int __wrap_fstat(int file, struct stat *about) { return fails() ? -1 : __real_fs
 int __wrap_fsync(int file) { return fails() ? -1 : __real_fsync(file); }
 int __wrap_fdatasync(int file) { return fails() ? -1 : __real_fdatasync(file); }
 int __wrap_ftruncate(int file, off_t size) { return fails() ? -1 : __real_ftruncate(file, size); }
+
+int __wrap_openat(int at, const char *path, int how, ...) {
+    return fails() ? -1 : __real_openat(at, path, how, 0666);
+}
 
 enum { STEPS = 4, FIRST = 2, ELEMENTS = 4, NUMBERS = 3 * (ELEMENTS + 1) };
 
@@ -165,6 +172,46 @@ static void no_sync(void **state) {
     refuse_each(EINVAL, SIZE_MAX);
 }
 
+/* What is not there, and arguments that are none. */
+static void nothing(void **state) {
+    (void)state;
+    CpsError err;
+    CpsEvolution *evolution = make_evolution();
+    CpsJournal *journal = NULL;
+    bool found;
+    assert_int_equal(cps_journal_open("no-such-folder", evolution, CPS_JOURNAL_NEW, &journal, &err),
+                     CPS_ERR_IO);
+    assert_null(journal);
+    assert_int_equal(cps_journal_open(folder, evolution, CPS_JOURNAL_NEW, &journal, &err), CPS_OK);
+    assert_int_equal(cps_journal_next(NULL, evolution, &found, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_journal_next(journal, NULL, &found, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_journal_next(journal, evolution, NULL, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_journal_sync(NULL, &err), CPS_ERR_ARGUMENT);
+    cps_journal_remove(NULL);
+    cps_journal_destroy(NULL);
+    cps_journal_destroy(journal);
+    cps_evolution_destroy(evolution);
+}
+
+/* A file that took the journal's name meanwhile is another's, and stays. */
+static void replaced(void **state) {
+    (void)state;
+    CpsEvolution *evolution = make_evolution();
+    CpsJournal *journal = NULL;
+    char path[64];
+    snprintf(path, sizeof path, "%s/.journal", folder);
+    assert_int_equal(cps_journal_open(folder, evolution, CPS_JOURNAL_NEW, &journal, NULL), CPS_OK);
+    assert_int_equal(unlink(path), 0);
+    cps_journal_remove(journal); /* nothing has its name */
+    const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    assert_true(file >= 0);
+    close(file);
+    cps_journal_remove(journal);
+    cps_journal_destroy(journal);
+    assert_int_equal(unlink(path), 0);
+    cps_evolution_destroy(evolution);
+}
+
 static int begin(void **state) {
     (void)state;
     CpsEvolution *evolution = make_evolution();
@@ -183,6 +230,7 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(broken_disk), cmocka_unit_test(full_disk),
-                                       cmocka_unit_test(interrupted), cmocka_unit_test(no_sync)};
+                                       cmocka_unit_test(interrupted), cmocka_unit_test(no_sync),
+                                       cmocka_unit_test(nothing),     cmocka_unit_test(replaced)};
     return cmocka_run_group_tests(tests, begin, end);
 }
