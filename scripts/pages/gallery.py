@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of docs/gallery.md, of driven systems."""
+"""The pictures of docs/gallery.md: of the first scene of README.md, and of driven systems."""
 import os
 import re
+
+from marks import read
 
 
 def driven(name, *arguments):
@@ -12,7 +14,15 @@ def driven(name, *arguments):
     return draw
 
 
+def first_scene(program):
+    """The plan of the last step of the scene in README.md."""
+    scene = re.search(r"```yaml\n(.*?)```", read(os.path.join(program.root, "README.md")), re.S)[1]
+    _, place = program.run("run", program.file("rope.yaml", scene))
+    return os.path.join(place, "step-00004-plan.svg")
+
+
 PICTURES = {
+    "run-rope": first_scene,
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),
     "drive-disc": driven("disc"), "drive-plate": driven("plate"), "drive-car": driven("car"), "drive-planimeter": driven("planimeter"),
