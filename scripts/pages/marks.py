@@ -270,7 +270,8 @@ class Page:
             if not re.search(spaced, text):
                 faults.append(f"docs/{self.name}.md: '{words}' is said to be given there and is not")
             text = re.sub(spaced, hide, text)
-        for pattern in (r"<!-- figures:.*?<!-- end -->", r"```.*?```", r"(?m)^ {4,}\S.*$", r"`[^`]*`", r"\]\([^)]*\)", r"\[\w+ \d+\]"):
+        for pattern in (r"<!-- figures:.*?<!-- end -->", r"```.*?```", r"(?m)^ {4,}\S.*$", r"`[^`]*`", r"\]\([^)]*\)", r"\[\w+ \d+\]",
+                        r"(?m)^#+ \d+\.\d+ "):
             text = re.sub(pattern, hide, text, flags=re.S if "figures" in pattern or "```" in pattern else 0)
         text = CITATION.sub(hide, text)
         for m in FIGURE.finditer(text):

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rounds: a step on curved obstacles, or with friction along the line, is a sequence of programs,
  * each on the tangent planes and in the axes of the place where the last one ended. They come to
- * rest where the equilibrium is stable (docs/theory.md 2a). */
+ * rest where the equilibrium is stable (docs/theory.md 2.4). */
 #ifndef CAPSTAN_SRC_CABLE_ROUNDS_H
 #define CAPSTAN_SRC_CABLE_ROUNDS_H
 
