@@ -14,10 +14,10 @@
  * On curved obstacles, or where friction follows the line's direction, each round is such a program
  * on the tangent planes where the last one ended: the inequalities are kept whole, normals and axes
  * turn from round to round. Rounds come to rest where the equilibrium is stable (docs/theory.md
- * 2.4); they look ahead (anderson.h), and where that does not settle they go slowly, or with a drag.
- * What the last round leaves is in the certificate, which is taken at the place reached, with its
- * own normals. Frozen friction keeps the bounds and axes of the reference, as S90 has it; strict
- * contact beside it the planes of the reference too. */
+ * 2.4); they look ahead (anderson.h), and where that does not settle they go slowly, or with a
+ * drag. What the last round leaves is in the certificate, which is taken at the place reached, with
+ * its own normals. Frozen friction keeps the bounds and axes of the reference, as S90 has it;
+ * strict contact beside it the planes of the reference too. */
 #include "cable/line_step.h"
 
 #include <math.h>
