@@ -110,14 +110,12 @@ static double find_margin(const CpsiConicForm *form, const Work *work, double *v
     work->b[m] = 1;
     work->dim[form->cones] = 1;
     work->c[n] = -1;
-    CpsiConicProgram *program = work->program;
-    program->dim = work->dim;
-    program->a = work->a;
-    program->b = work->b;
-    program->c = work->c;
-    if (cpsi_conic_solve(program, ACCEPT).outcome != CPSI_CONIC_SOLVED) return 0;
-    memcpy(v, program->base.u, n * sizeof *v);
-    return program->base.u[n];
+    work->program->data =
+        (CpsiConicData){.dim = work->dim, .a = work->a, .b = work->b, .c = work->c};
+    const CpsiConicResult result = cpsi_conic_solve(work->program, ACCEPT);
+    if (result.outcome != CPSI_CONIC_SOLVED) return 0;
+    memcpy(v, result.x, n * sizeof *v);
+    return result.x[n];
 }
 
 /* z = A v + b, its gradient A'z^-1 and the Hessian A'(2 (Jz)(Jz)'/det^2 - J/det) A of the barrier.
@@ -214,11 +212,8 @@ static void describe(CpsiFrictionSet *set, double reach) {
                                 .centre = set->centre,
                                 .reach = reach};
     for (int k = 0; k < form->cones; k++) set->shape.spread += form->dim[k] > 1;
-    CpsiConicProgram *program = set->program;
-    program->dim = form->dim;
-    program->a = form->a;
-    program->b = form->b;
-    program->c = set->cost;
+    set->program->data =
+        (CpsiConicData){.dim = form->dim, .a = form->a, .b = form->b, .c = set->cost};
 }
 
 /* The largest norm in a box round the set. */
@@ -298,5 +293,5 @@ double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]) {
     for (int j = 0; j < form->unknowns; j++) set->cost[j] /= largest;
     const CpsiConicResult result = cpsi_conic_solve(set->program, ACCEPT);
     if (result.outcome != CPSI_CONIC_SOLVED) return NAN;
-    return here - size * largest * cpsi_dot(form->unknowns, set->cost, set->program->base.u);
+    return here - size * largest * cpsi_dot(form->unknowns, set->cost, result.x);
 }

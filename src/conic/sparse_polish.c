@@ -1,15 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The last digits of a solution: Newton's method on the active constraints, as in dense_polish.c, with a sparse factor.
+/* The last digits of a solution: Newton's method on the active constraints, as in dense_polish.c,
+ * with a sparse factor.
  *
- * Where the loop ends, s and z of a second-order cone are known to the root of rounding only; but how each cone is
- * active is certain:
- *
- *     free   z = 0                               where z is the smaller of both
- *     tip    s = 0,  z unknown                   where s is
- *     ray    s0 = |s1|,  z = l (1, -n),  n = s1/|s1|,  l unknown
- *
- * With G the rows of A of tips and a0 - n'A1 of rays, m = (z of tips, l of rays), stationarity c - A'z - E'y = 0 and
- * E x + h = 0, a step is
+ * With G the gradients of active cones (active_cone.h), m their multipliers (z of tips, l of rays),
+ * stationarity c - A'z - E'y = 0 and E x + h = 0, a step is
  *
  *     [ H  E'  G' ] [ dx]
  *     [ E  0   0  ] [-dy] = - values,     H = sum over rays of (l/|s1|) A1'(1 - n n')A1
@@ -17,14 +11,16 @@
  *
  * regular where x, y and z are unique; EASE on the diagonals leaves the rest where it is.
  *
- * Of a cone that is hardly active, or whose force is far smaller than the others, the loop may end with the wrong kind. Steps
- * then leave it, and the side on which they do tells the other kind, with which they begin anew; or they do not settle, and the
- * cone whose force they take away most is tried without. */
+ * Of a cone that is hardly active, or whose force is far smaller than the others, the loop may end
+ * with the wrong kind. Steps then leave it, and the side on which they do tells the other kind,
+ * with which they begin anew; or they do not settle, and the cone whose force they take away most
+ * is tried without. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/larger.h"
+#include "conic/active_cone.h"
 #include "conic/sparse_program.h"
 #include "linalg/dense.h"
 
@@ -37,94 +33,101 @@ static const double ROUNDING = 1e-15;
 /* Entries of the factor, as for the program itself. */
 static const size_t MOST_ENTRIES = (size_t)500 << 20;
 
-typedef enum Active { FREE, TIP, RAY } Active;
-
 typedef struct Polish {
     CpsiSparseProgram *program;
-    unsigned char *active;      /* (cones) Active */
-    unsigned char *other;       /* (cones) Active, of those that steps have left the kind that the side tells */
-    bool left_some;             /* is there one? */
-    double enough, best;        /* the residual that counts, and the least so far that did */
-    int multipliers, size;      /* m; all unknowns (x, -y, -m) */
-    size_t *start;              /* pattern */
+    CpsiActive *active;    /* (cones) */
+    CpsiActive *other;     /* (cones) of those that steps have left the kind that the side tells */
+    bool left_some;        /* is there one? */
+    double enough, best;   /* the residual that counts, and the least so far that did */
+    int multipliers, size; /* m; all unknowns (x, -y, -m) */
+    size_t *start;         /* pattern */
     int *index;
     size_t entries;
     double *value;
     signed char *sign;
     CpsiLdl *ldl;
     double *at, *step, *left, *fix; /* (size) */
-    double *s, *z;              /* (rows) at `at` */
+    double *s, *z;                  /* (rows) at `at` */
 } Polish;
 
-static Active active(const double *s, const double *z, int d) {
-    const double s1 = cpsi_norm(d - 1, s + 1), z1 = cpsi_norm(d - 1, z + 1);
-    if (z[0] + z1 < s[0] - s1) return FREE;
-    return d > 1 && s[0] + s1 > z[0] - z1 ? RAY : TIP;
-}
-
-/* Walk over cones with their block: first column x of the block, first row of the cone. */
+/* Walk over cones with their block. */
 typedef struct Walk {
-    int block, cone, all, x, inside, row; /* cone inside its block, and of all; its rows inside the block, and of all */
+    int block, x;    /* and the block's first column */
+    int cone, all;   /* inside its block, and of all */
+    int inside, row; /* its first row inside the block, and of all */
 } Walk;
 
 static bool next(const CpsiSparseData *d, Walk *w) {
-    w->row += d->block[w->block].dim[w->cone], w->inside += d->block[w->block].dim[w->cone];
-    w->all++, w->cone++;
+    w->row += d->block[w->block].dim[w->cone];
+    w->inside += d->block[w->block].dim[w->cone];
+    w->all++;
+    w->cone++;
     while (w->block < d->blocks && w->cone >= d->block[w->block].cones) {
         w->x += d->block[w->block].unknowns;
-        w->block++, w->cone = 0, w->inside = 0;
+        w->block++;
+        w->cone = 0;
+        w->inside = 0;
     }
     return w->block < d->blocks;
 }
 
 static void release(Polish *p) {
     cpsi_ldl_free(p->ldl);
-    free(p->start), free(p->index), free(p->value), free(p->sign), free(p->at);
-    p->ldl = NULL, p->start = NULL, p->index = NULL, p->value = NULL, p->sign = NULL, p->at = NULL;
+    free(p->start);
+    free(p->index);
+    free(p->value);
+    free(p->sign);
+    free(p->at);
+    p->ldl = NULL;
+    p->start = NULL;
+    p->index = NULL;
+    p->value = NULL;
+    p->sign = NULL;
+    p->at = NULL;
 }
 
 /* Room for these kinds of activity, and where to begin. */
 static bool begin(Polish *p) {
     const CpsiSparseProgram *program = p->program;
     const CpsiSparseData *d = &program->data;
-    const CpsiCones *cones = &program->cones;
-    p->entries = program->free_place + (size_t)(d->unknowns + d->equations) + d->start[d->equations];
-    p->multipliers = 0, p->left_some = false;
-    memcpy(p->other, p->active, (size_t)cones->count);
+    const CpsiCones *cones = &program->core.cones;
+    p->entries =
+        program->free_place + (size_t)(d->unknowns + d->equations) + d->start[d->equations];
+    p->multipliers = 0;
+    p->left_some = false;
+    memcpy(p->other, p->active, (size_t)cones->count * sizeof *p->other);
     Walk w = {0};
     for (int k = 0; k < cones->count; k++) {
-        const int rows = p->active[k] == FREE ? 0 : p->active[k] == TIP ? cones->dim[k] : 1;
+        const int rows = cpsi_active_count(p->active[k], cones->dim[k]);
         p->multipliers += rows;
-        p->entries += (size_t)rows*((size_t)d->block[w.block].unknowns + 1);
+        p->entries += (size_t)rows * ((size_t)d->block[w.block].unknowns + 1);
         next(d, &w);
     }
     p->size = d->unknowns + d->equations + p->multipliers;
     const size_t size = (size_t)p->size, rows = (size_t)cones->rows;
-    p->start = malloc((size + 1)*sizeof *p->start);
-    p->index = malloc((p->entries + 1)*sizeof *p->index);
-    p->value = malloc((p->entries + 1)*sizeof *p->value);
+    p->start = malloc((size + 1) * sizeof *p->start);
+    p->index = malloc((p->entries + 1) * sizeof *p->index);
+    p->value = malloc((p->entries + 1) * sizeof *p->value);
     p->sign = malloc(size + 1);
-    p->at = calloc(4*size + 2*rows + 1, sizeof *p->at);
+    p->at = calloc(4 * size + 2 * rows + 1, sizeof *p->at);
     if (!p->start || !p->index || !p->value || !p->sign || !p->at) return false;
-    p->step = p->at + size, p->left = p->step + size, p->fix = p->left + size, p->s = p->fix + size, p->z = p->s + rows;
-    memcpy(p->at, program->base.u, (size_t)(d->unknowns + d->equations)*sizeof *p->at);
+    p->step = p->at + size;
+    p->left = p->step + size;
+    p->fix = p->left + size;
+    p->s = p->fix + size;
+    p->z = p->s + rows;
+    memcpy(p->at, program->core.base.u, (size_t)(d->unknowns + d->equations) * sizeof *p->at);
     double *m = p->at + d->unknowns + d->equations;
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++])
-        for (int r = 0; p->active[k] != FREE && r < (p->active[k] == TIP ? cones->dim[k] : 1); r++)
+    CPSI_FOR_CONES(k, i, cones->count, cones->dim)
+        for (int r = 0; r < cpsi_active_count(p->active[k], cones->dim[k]); r++)
             *m++ = cones->z[i + r];
     memset(p->sign, 1, (size_t)d->unknowns);
     memset(p->sign + d->unknowns, -1, size - (size_t)d->unknowns);
     return true;
 }
 
-/* What a cone is that steps have left. */
-static Active corrected(Active kind, const double *z, int d) {
-    const bool curved = d > 1, pressed = z[0] + cpsi_norm(d - 1, z + 1) > 0;
-    if (kind == FREE) return curved ? RAY : TIP;
-    return !curved || !pressed ? FREE : kind == TIP ? RAY : TIP;
-}
-
-/* s and z at `at`; false where one of them has left its cone. The first time, these cones are noted. */
+/* s and z at `at`; false where one of them has left its cone. The first time, these cones are
+ * noted. */
 static bool place(Polish *p) {
     const CpsiSparseData *d = &p->program->data;
     const double *m = p->at + d->unknowns + d->equations;
@@ -132,27 +135,18 @@ static bool place(Polish *p) {
     Walk w = {0};
     do {
         const CpsiBlock *block = &d->block[w.block];
-        const Active kind = (Active)p->active[w.all];
+        const CpsiActive kind = p->active[w.all];
         const int dim = block->dim[w.cone];
-        bool in = true;
         double *s = &p->s[w.row], *z = &p->z[w.row];
         for (int r = 0; r < dim; r++)
-            s[r] = block->b[w.inside + r] +
-                   cpsi_dot(block->unknowns, &block->a[(size_t)(w.inside + r) * (size_t)block->unknowns], &p->at[w.x]);
-        const double size = cpsi_norm(dim - 1, s + 1);
-        memset(z, 0, (size_t)dim*sizeof *z);
-        switch (kind) {
-        case FREE: in = s[0] >= size; break;
-        case TIP:
-            for (int r = 0; r < dim; r++) z[r] = *m++;
-            in = z[0] >= cpsi_norm(dim - 1, z + 1);
-            break;
-        default:
-            z[0] = *m++;
-            in = size > 0 && z[0] >= 0;
-            for (int r = 1; size > 0 && r < dim; r++) z[r] = -z[0]*s[r]/size;
-        }
-        if (!in && !p->left_some) p->other[w.all] = (unsigned char)corrected(kind, z, dim);
+            s[r] =
+                block->b[w.inside + r] +
+                cpsi_dot(block->unknowns,
+                         &block->a[(size_t)(w.inside + r) * (size_t)block->unknowns], &p->at[w.x]);
+        memset(z, 0, (size_t)dim * sizeof *z);
+        for (int r = 0; r < cpsi_active_count(kind, dim); r++) z[r] = *m++;
+        const bool in = cpsi_active_place(kind, s, z, dim);
+        if (!in && !p->left_some) p->other[w.all] = cpsi_active_corrected(kind, z, dim);
         all_in = all_in && in;
     } while (next(d, &w));
     p->left_some = p->left_some || !all_in;
@@ -169,11 +163,9 @@ static double values(Polish *p) {
     cpsi_sparse_blocks_add(p->program, false, 1, p->z, left);
     cpsi_sparse_multiply(d, p->at, left + n);
     for (int i = 0; i < e; i++) left[n + i] = -left[n + i] - d->h[i];
-    for (int k = 0, i = 0; k < p->program->cones.count; i += p->program->cones.dim[k++]) {
-        const int dim = p->program->cones.dim[k];
-        if (p->active[k] == RAY) *m++ = cpsi_norm(dim - 1, &p->s[i + 1]) - p->s[i];
-        for (int r = 0; p->active[k] == TIP && r < dim; r++) *m++ = -p->s[i + r];
-    }
+    const CpsiCones *cones = &p->program->core.cones;
+    CPSI_FOR_CONES(k, i, cones->count, cones->dim)
+        m += cpsi_active_values(p->active[k], &p->s[i], cones->dim[k], m);
     for (int i = 0; i < p->size; i++) most = cpsi_max_nan(most, fabs(left[i]));
     return most;
 }
@@ -181,67 +173,68 @@ static double values(Polish *p) {
 /* The rows of G of one cone, one after the other in `g`; returns how many. */
 static int rows_of(const Polish *p, const Walk *w, double *g) {
     const CpsiBlock *block = &p->program->data.block[w->block];
-    const int dim = block->dim[w->cone], n = block->unknowns;
-    const double *a = &block->a[(size_t)w->inside*(size_t)n], *s = &p->s[w->row];
-    if (p->active[w->all] == FREE) return 0;
-    if (p->active[w->all] == TIP) {
-        memcpy(g, a, (size_t)dim*(size_t)n*sizeof *g);
-        return dim;
-    }
-    const double size = cpsi_norm(dim - 1, s + 1);
-    for (int j = 0; j < n; j++) {
-        g[j] = a[j];
-        for (int r = 1; r < dim; r++) g[j] -= s[r]/size*a[(size_t)r*(size_t)n + (size_t)j];
-    }
-    return 1;
+    const int n = block->unknowns;
+    return cpsi_active_gradients(p->active[w->all], n, &block->a[(size_t)w->inside * (size_t)n],
+                                 &p->s[w->row], block->dim[w->cone], (size_t)n, g);
 }
 
 /* Add the curvature of a ray to its block's triangle. */
 static void add_curvature(const Polish *p, const Walk *w, const double *g, double *triangle) {
     const CpsiBlock *block = &p->program->data.block[w->block];
     const int dim = block->dim[w->cone], n = block->unknowns;
-    const double *a = &block->a[(size_t)w->inside*(size_t)n];
-    const double factor = p->z[w->row]/cpsi_norm(dim - 1, &p->s[w->row + 1]);
+    const double *a = &block->a[(size_t)w->inside * (size_t)n];
+    const double factor = p->z[w->row] / cpsi_norm(dim - 1, &p->s[w->row + 1]);
     /* n'A1 = a0 - g */
     for (int j = 0; j < n; j++)
         for (int i = 0; i <= j; i++) {
-            double sum = -(a[i] - g[i])*(a[j] - g[j]);
-            for (int r = 1; r < dim; r++) sum += a[(size_t)r*(size_t)n + (size_t)i]*a[(size_t)r*(size_t)n + (size_t)j];
-            *triangle++ += factor*sum;
+            double sum = -(a[i] - g[i]) * (a[j] - g[j]);
+            for (int r = 1; r < dim; r++)
+                sum += a[(size_t)r * (size_t)n + (size_t)i] * a[(size_t)r * (size_t)n + (size_t)j];
+            *triangle++ += factor * sum;
         }
+}
+
+/* One more entry of the column that is being written. */
+static void add_entry(Polish *p, size_t *at, int row, double value) {
+    p->index[*at] = row;
+    p->value[(*at)++] = value;
 }
 
 /* The matrix at the point, regularised; with its pattern. False: no memory. */
 static bool write_matrix(Polish *p) {
     const CpsiSparseData *d = &p->program->data;
-    size_t at = 0;
+    size_t at = 0, largest = 1;
     int column = 0;
-    size_t largest = 1;
     for (int k = 0, first = 0; k < d->blocks; first += d->block[k++].unknowns) {
-        const size_t room = (size_t)d->block[k].rows*(size_t)d->block[k].unknowns;
-        if (room > largest) largest = room;
+        const size_t size = (size_t)d->block[k].rows * (size_t)d->block[k].unknowns;
+        if (size > largest) largest = size;
         for (int j = 0; j < d->block[k].unknowns; j++) {
             p->start[column++] = at;
-            for (int i = 0; i <= j; i++) p->index[at] = first + i, p->value[at++] = i == j ? EASE : 0;
+            for (int i = 0; i <= j; i++) add_entry(p, &at, first + i, i == j ? EASE : 0);
         }
     }
-    for (; column < d->unknowns; column++) p->start[column] = at, p->index[at] = column, p->value[at++] = EASE;
+    for (; column < d->unknowns; column++) {
+        p->start[column] = at;
+        add_entry(p, &at, column, EASE);
+    }
     for (int i = 0; i < d->equations; i++, column++) {
         p->start[column] = at;
         for (size_t e = d->start[i]; e < d->start[i + 1]; e++)
-            p->index[at] = d->column[e], p->value[at++] = d->value[e];
-        p->index[at] = column, p->value[at++] = -EASE;
+            add_entry(p, &at, d->column[e], d->value[e]);
+        add_entry(p, &at, column, -EASE);
     }
-    double *g = malloc(largest*sizeof *g);
+    double *g = malloc(largest * sizeof *g);
     if (!g) return false;
     Walk w = {0};
     do {
         const int rows = rows_of(p, &w, g), n = d->block[w.block].unknowns;
-        if (p->active[w.all] == RAY) add_curvature(p, &w, g, &p->value[p->program->place[w.block]]);
+        if (p->active[w.all] == CPSI_RAY)
+            add_curvature(p, &w, g, &p->value[p->program->place[w.block]]);
         for (int r = 0; r < rows; r++, column++) {
             p->start[column] = at;
-            for (int j = 0; j < n; j++) p->index[at] = w.x + j, p->value[at++] = g[(size_t)r*(size_t)n + (size_t)j];
-            p->index[at] = column, p->value[at++] = -EASE;
+            for (int j = 0; j < n; j++)
+                add_entry(p, &at, w.x + j, g[(size_t)r * (size_t)n + (size_t)j]);
+            add_entry(p, &at, column, -EASE);
         }
     } while (next(d, &w));
     p->start[column] = at;
@@ -254,9 +247,9 @@ static void subtract_product(const Polish *p, const double *x, double *out) {
     for (int j = 0; j < p->size; j++)
         for (size_t e = p->start[j]; e < p->start[j + 1]; e++) {
             const int i = p->index[e];
-            const double value = i == j ? p->value[e] - EASE*p->sign[j] : p->value[e];
-            out[i] -= value*x[j];
-            if (i != j) out[j] -= value*x[i];
+            const double value = i == j ? p->value[e] - EASE * p->sign[j] : p->value[e];
+            out[i] -= value * x[j];
+            if (i != j) out[j] -= value * x[i];
         }
 }
 
@@ -268,10 +261,10 @@ static bool solve(Polish *p) {
         size_t entries;
         p->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &entries);
     }
-    if (!p->ldl || !cpsi_ldl_factor(p->ldl, p->value, p->sign, 1e-3*EASE)) return false;
-    memset(p->step, 0, (size_t)p->size*sizeof *p->step);
+    if (!p->ldl || !cpsi_ldl_factor(p->ldl, p->value, p->sign, 1e-3 * EASE)) return false;
+    memset(p->step, 0, (size_t)p->size * sizeof *p->step);
     for (int round = 0; round < ROUNDS; round++) {
-        memcpy(p->fix, p->left, (size_t)p->size*sizeof *p->fix);
+        memcpy(p->fix, p->left, (size_t)p->size * sizeof *p->fix);
         subtract_product(p, p->step, p->fix);
         cpsi_ldl_solve(p->ldl, p->fix);
         for (int i = 0; i < p->size; i++) p->step[i] += p->fix[i];
@@ -279,8 +272,8 @@ static bool solve(Polish *p) {
     return true;
 }
 
-/* Newton's steps with these kinds: what is admissible, and no worse than before and than the loop's, is taken. False without
- * memory. */
+/* Newton's steps with these kinds: what is admissible, and no worse than before and than the
+ * loop's, is taken. False without memory. */
 static bool polish_steps(Polish *p) {
     CpsiSparseProgram *program = p->program;
     const CpsiSparseData *d = &program->data;
@@ -291,9 +284,10 @@ static bool polish_steps(Polish *p) {
         const double now = values(p);
         if (in && now <= p->enough && now < p->best) {
             p->best = now;
-            memcpy(program->base.u, p->at, (size_t)(d->unknowns + d->equations)*sizeof *p->at);
-            memcpy(program->cones.s, p->s, (size_t)program->cones.rows*sizeof *p->s);
-            memcpy(program->cones.z, p->z, (size_t)program->cones.rows*sizeof *p->z);
+            memcpy(program->core.base.u, p->at,
+                   (size_t)(d->unknowns + d->equations) * sizeof *p->at);
+            memcpy(program->core.cones.s, p->s, (size_t)program->core.cones.rows * sizeof *p->s);
+            memcpy(program->core.cones.z, p->z, (size_t)program->core.cones.rows * sizeof *p->z);
         }
         if (in && now <= p->enough) so_far = fmin(so_far, now);
         if (k == STEPS || !isfinite(now) || (k > 1 && now > so_far) || !solve(p)) break;
@@ -302,37 +296,40 @@ static bool polish_steps(Polish *p) {
     return true;
 }
 
-/* Steps that do not settle: the cone whose multiplier has lost the largest share, if one has, is tried without force. The
- * program's own z are those that steps began with, or better. */
+/* Steps that do not settle: the cone whose multiplier has lost the largest share, if one has, is
+ * tried without force. The program's own z are those that steps began with, or better. */
 static void doubt(Polish *p) {
-    const CpsiCones *cones = &p->program->cones;
+    const CpsiCones *cones = &p->program->core.cones;
     double least = 1;
     int which = -1;
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++]) {
-        if (p->active[k] == FREE || !(p->z[i] < least*cones->z[i])) continue;
-        least = p->z[i]/cones->z[i];
+    CPSI_FOR_CONES(k, i, cones->count, cones->dim) {
+        if (p->active[k] == CPSI_FREE || !(p->z[i] < least * cones->z[i])) continue;
+        least = p->z[i] / cones->z[i];
         which = k;
     }
-    if (which >= 0) p->other[which] = FREE, p->left_some = true;
+    if (which < 0) return;
+    p->other[which] = CPSI_FREE;
+    p->left_some = true;
 }
 
 void cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
-    const CpsiCones *cones = &program->cones;
+    const CpsiCones *cones = &program->core.cones;
     Polish p = {.program = program, .best = INFINITY};
     double largest = 0;
-    for (int j = 0; j < program->data.unknowns; j++) largest = fmax(largest, fabs(program->base.u[j]));
-    p.enough = fmax(residual, ROUNDING*(1 + largest));
-    p.active = cones->count > 0 ? malloc(2*(size_t)cones->count) : NULL;
+    for (int j = 0; j < program->data.unknowns; j++)
+        largest = fmax(largest, fabs(program->core.base.u[j]));
+    p.enough = fmax(residual, ROUNDING * (1 + largest));
+    p.active = cones->count > 0 ? malloc(2 * (size_t)cones->count * sizeof *p.active) : NULL;
     if (!p.active) return;
     p.other = p.active + cones->count;
-    for (int k = 0, i = 0; k < cones->count; i += cones->dim[k++])
-        p.active[k] = (unsigned char)active(&cones->s[i], &cones->z[i], cones->dim[k]);
+    CPSI_FOR_CONES(k, i, cones->count, cones->dim)
+        p.active[k] = cpsi_active(&cones->s[i], &cones->z[i], cones->dim[k]);
     for (int trial = 0; trial < TRIALS; trial++) {
-        const bool done = polish_steps(&p), settled = p.best <= ROUNDING*(1 + largest);
+        const bool done = polish_steps(&p), settled = p.best <= ROUNDING * (1 + largest);
         if (done && !settled && !p.left_some) doubt(&p);
         release(&p);
         if (!done || settled || !p.left_some) break;
-        memcpy(p.active, p.other, (size_t)cones->count);
+        memcpy(p.active, p.other, (size_t)cones->count * sizeof *p.active);
     }
     free(p.active);
 }

@@ -104,8 +104,8 @@ typedef struct Part {
 static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
                     const double *u) {
     const CpsiConicForm *form = program->form[k];
-    const double *z = cpsi_sparse_program_z(program->program) + program->row[k];
-    const double *v = cpsi_sparse_program_x(program->program) + program->first[k];
+    const double *z = program->result.z + program->row[k];
+    const double *v = program->result.x + program->first[k];
     const int space = motion->system->piece[k].space, n = form->unknowns;
     const double unit = n > 0 ? program->column_scale[program->first[k]] : 1,
                  power = program->power / unit; /* v in units of `unit` */

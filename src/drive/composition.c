@@ -49,7 +49,7 @@ CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary,
     cpsi_drive_program_solve(&program);
     *iterations += program.result.iterations;
     const bool known = program.result.outcome == CPSI_CONIC_SOLVED;
-    const double *s = cpsi_sparse_program_s(program.program);
+    const double *s = program.result.s;
     *composition = known ? CPS_COMPOSE_INTERIOR : CPS_COMPOSE_NOT_SATISFIED;
     bool full = true;
     if (known)

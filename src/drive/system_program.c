@@ -281,8 +281,7 @@ void cpsi_drive_program_solve(CpsiDriveProgram *p) {
 
 void cpsi_drive_program_force(const CpsiDriveProgram *p, int piece, double *force) {
     const CpsiConicForm *form = p->form[piece];
-    const double *x = cpsi_sparse_program_x(p->program), *v = &x[p->first[piece]],
-                 *l = &x[p->line[piece]];
+    const double *x = p->result.x, *v = &x[p->first[piece]], *l = &x[p->line[piece]];
     const double *of_v = &p->column_scale[p->first[piece]],
                  *of_l = &p->column_scale[p->line[piece]];
     const bool ray = p->result.outcome == CPSI_CONIC_UNBOUNDED;
@@ -296,13 +295,13 @@ void cpsi_drive_program_force(const CpsiDriveProgram *p, int piece, double *forc
 }
 
 void cpsi_drive_program_velocity(const CpsiDriveProgram *p, double *velocity) {
-    const double *y = cpsi_sparse_program_y(p->program);
+    const double *y = p->result.y;
     for (int i = 0; i < p->system->n; i++) velocity[i] = -p->power * p->row_scale[i] * y[i];
 }
 
 void cpsi_drive_program_multipliers(const CpsiDriveProgram *p, double *resistance,
                                     double *constraint) {
-    const double *x = cpsi_sparse_program_x(p->program);
+    const double *x = p->result.x;
     for (int j = 0; j < p->system->drive.rows; j++)
         resistance[j] = x[p->resistance + j] * p->column_scale[p->resistance + j];
     for (int j = 0; j < p->system->constraint.rows; j++)
@@ -310,5 +309,5 @@ void cpsi_drive_program_multipliers(const CpsiDriveProgram *p, double *resistanc
 }
 
 double cpsi_drive_program_factor(const CpsiDriveProgram *p) {
-    return cpsi_sparse_program_x(p->program)[p->factor] * p->column_scale[p->factor];
+    return p->result.x[p->factor] * p->column_scale[p->factor];
 }

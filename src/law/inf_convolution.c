@@ -289,10 +289,7 @@ static CpsSetOutcome solve(Program *p, CpsiConicProgram *conic, int count, CpsiS
                            double *velocity) {
     const double size = cpsi_norm(p->left, p->c), scale = size > 0 ? size : 1;
     for (int j = 0; j < p->left; j++) p->c[j] /= scale;
-    conic->dim = p->dim;
-    conic->a = p->row_left;
-    conic->b = p->b;
-    conic->c = p->c;
+    conic->data = (CpsiConicData){.dim = p->dim, .a = p->row_left, .b = p->b, .c = p->c};
     const CpsiConicResult result = cpsi_conic_solve(conic, ACCEPT);
     if (result.outcome == CPSI_CONIC_INFEASIBLE) return CPS_SET_OUTSIDE;
     if (result.outcome == CPSI_CONIC_UNBOUNDED) return CPS_SET_INACCURATE;
@@ -300,11 +297,11 @@ static CpsSetOutcome solve(Program *p, CpsiConicProgram *conic, int count, CpsiS
     const double *free_part = &p->basis[(size_t)p->rank * (size_t)p->unknowns];
     for (int j = 0; j < p->left; j++)
         for (int i = 0; i < p->unknowns; i++)
-            p->y[i] += conic->base.u[j] * free_part[(size_t)j * (size_t)p->unknowns + (size_t)i];
+            p->y[i] += result.x[j] * free_part[(size_t)j * (size_t)p->unknowns + (size_t)i];
     for (int i = 0; i < p->unknowns; i++)
         if (!isfinite(p->y[i])) return CPS_SET_INACCURATE;
     read_forces(p, count, share);
-    return read_velocity(p, conic->z, scale, velocity) ? CPS_SET_ANSWERED : CPS_SET_INACCURATE;
+    return read_velocity(p, result.z, scale, velocity) ? CPS_SET_ANSWERED : CPS_SET_INACCURATE;
 }
 
 CpsStatus cpsi_inf_convolution(int n, int count, CpsiShare *share, const double *force,

@@ -79,10 +79,10 @@ void cpsi_conic_form_free(CpsiConicForm *form);
 typedef struct CpsiSolution {
     CpsSetOutcome outcome; /* ANSWERED, EMPTY, UNBOUNDED (x is a ray with <c, x> < 0), INACCURATE */
     double value, gap;
-    double scale;  /* z belongs to the objective c/scale */
-    double *x;     /* (n) */
-    double *v;     /* (unknowns) */
-    double *s, *z; /* (rows) */
+    double scale;        /* z belongs to the objective c/scale */
+    double *x;           /* (n) */
+    const double *v;     /* (unknowns) */
+    const double *s, *z; /* (rows) */
     void *block;
 } CpsiSolution;
 CpsStatus cpsi_conic_form_minimise(const CpsiConicForm *form, const double *c,

@@ -69,7 +69,6 @@ static bool is_empty(const CpsiConicForm *form, const Layout *layout) {
 static void run(const CpsiConicForm *form, const double *c, const Layout *layout,
                 CpsiSolution *solution) {
     const int n = form->n, u = form->unknowns;
-    CpsiConicProgram *program = layout->program;
     for (int j = 0; j < u; j++) {
         double sum = 0;
         for (int i = 0; i < n; i++) sum += c[i] * form->p[(size_t)i * (size_t)u + (size_t)j];
@@ -79,13 +78,13 @@ static void run(const CpsiConicForm *form, const double *c, const Layout *layout
     solution->scale = size > floor ? size : 1;
     for (int j = 0; j < u; j++) layout->cost[j] = size > floor ? layout->cost[j] / size : 0;
 
-    const CpsiConicResult result = cpsi_conic_solve(program, ACCEPT);
+    const CpsiConicResult result = cpsi_conic_solve(layout->program, ACCEPT);
     static const CpsSetOutcome OUTCOME[] = {CPS_SET_ANSWERED, CPS_SET_EMPTY, CPS_SET_UNBOUNDED,
                                             CPS_SET_INACCURATE};
     solution->outcome = OUTCOME[result.outcome];
-    solution->v = program->base.u;
-    solution->s = program->s;
-    solution->z = program->z;
+    solution->v = result.x;
+    solution->s = result.s;
+    solution->z = result.z;
     place(form, solution->v, result.outcome == CPSI_CONIC_UNBOUNDED, solution->x);
     solution->value = cpsi_dot(n, c, solution->x);
     /* what the complementarity and the residuals leave open */
@@ -106,10 +105,8 @@ CpsStatus cpsi_conic_form_minimise(const CpsiConicForm *form, const double *c,
         return cpsi_fail(err, CPS_ERR_MEMORY, "no memory to solve on a set");
     *solution = (CpsiSolution){.outcome = CPS_SET_ANSWERED, .scale = 1, .block = arena.block};
     layout_program(&arena, &layout, form);
-    layout.program->dim = form->dim;
-    layout.program->a = form->a;
-    layout.program->b = form->b;
-    layout.program->c = layout.cost;
+    layout.program->data =
+        (CpsiConicData){.dim = form->dim, .a = form->a, .b = form->b, .c = layout.cost};
     solution->x = layout.x;
     solution->v = layout.cost;
     if (form->empty)
