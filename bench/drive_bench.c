@@ -50,8 +50,8 @@ static CpsSystem *rope(int n, bool one_sided) {
     need(cps_system_set_drive(system, 2, 2, (const CpsEntry[]){{0, 2 * n, 1}, {1, 2 * n + 1, 1}},
                               &err),
          &err);
-    cps_law_destroy(node);
-    cps_law_destroy(taut);
+    cps_law_release(node);
+    cps_law_release(taut);
     cps_set_release(pull);
     return system;
 }

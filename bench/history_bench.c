@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "capstan/evolve.h"
 #include "capstan/io.h"
 
 typedef struct Tally {

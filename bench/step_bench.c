@@ -155,7 +155,7 @@ static CpsEvolution *run(const Case *which, int elements, double tolerance, int 
     while (cps_evolution_remaining(evolution) > 0) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) die(which->name, err.message);
         *good = *good && (cps_evolution_remaining(evolution) == 0 ||
-                          cps_evolution_report(evolution).outcome == CPS_SOLVED);
+                          cps_evolution_report(evolution).outcome == CPS_OUTCOME_SOLVED);
     }
     return evolution;
 }
@@ -163,7 +163,7 @@ static CpsEvolution *run(const Case *which, int elements, double tolerance, int 
 static bool certified(const Case *which, int elements, double tolerance, int limit) {
     bool good;
     CpsEvolution *evolution = run(which, elements, tolerance, limit, &good);
-    good = good && cps_evolution_report(evolution).outcome == CPS_SOLVED;
+    good = good && cps_evolution_report(evolution).outcome == CPS_OUTCOME_SOLVED;
     cps_evolution_destroy(evolution);
     return good;
 }
@@ -256,7 +256,7 @@ static void print_row(const Case *which, const Row *row, bool table) {
     const double per_node =
         1e6 * row->seconds / ((row->elements + 1.0) * (row->iterations > 0 ? row->iterations : 1));
     const double median = 1e3 * row->seconds, least = 1e3 * row->least;
-    const char *outcome = cps_outcome_key(row->outcome);
+    const char *outcome = cps_outcome_name(row->outcome);
     if (table)
         printf("%-6s %9d %7d %10d %11.3f %11.3f %10.4f %10.3f %9.1e %9.1e %9.0f  %s\n", which->name,
                row->elements, row->repeats, row->iterations, median, least, per_node, per_element,
@@ -283,7 +283,7 @@ static bool check_rows(const char *name, const Row *row, int count) {
     bool solved = true;
     for (int i = 0; i < count; i++) {
         const double per_element = row[i].least / row[i].elements;
-        solved = solved && row[i].outcome == CPS_SOLVED;
+        solved = solved && row[i].outcome == CPS_OUTCOME_SOLVED;
         if (row[i].elements >= TIME_FROM) {
             least = fmin(least, per_element);
             most = fmax(most, per_element);

@@ -3,8 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "capstan/drive_io.h"
-#include "capstan/law_io.h"
+#include "capstan/io.h"
 #include "commands.h"
 #include "options.h"
 #include "printable.h"

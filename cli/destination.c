@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "capstan/io.h"
+#include "capstan/results.h"
 #include "commands.h"
 #include "printable.h"
 

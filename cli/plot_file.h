@@ -3,7 +3,7 @@
 #ifndef CAPSTAN_CLI_PLOT_FILE_H
 #define CAPSTAN_CLI_PLOT_FILE_H
 
-#include "capstan/law_io.h"
+#include "capstan/results.h"
 
 /* Two components "I,J", from 1, of n; NULL: the first two, or the one that there is. False: no such
  * pair. */

@@ -38,8 +38,9 @@ int main(void) {
      * EA) = 1/120 J */
     const CpsStepReport report = cps_evolution_report(evolution);
     const CpsLineReport line = cps_evolution_line_report(evolution, 0);
-    printf("%s: the tip moved %.5f m, %.5f J went into friction\n", cps_outcome_key(report.outcome),
-           line.end[CPS_END_B].position[0] - 6.28, report.dissipated);
+    printf("%s: the tip moved %.5f m, %.5f J went into friction\n",
+           cps_outcome_name(report.outcome), line.end[CPS_END_B].position[0] - 6.28,
+           report.dissipated);
     printf("proof: the energy is within %.1e of the least one possible\n",
            report.certificate.gap / report.certificate.scale);
     cps_evolution_destroy(evolution);

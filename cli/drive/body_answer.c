@@ -129,7 +129,7 @@ static void print_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const
                        const double high[3]) {
     static const char *const NAME[] = {"vx", "vy", "w"};
     if (m->outcome == CPS_SET_NOT_ATTAINED) {
-        printf("  no motion: %s\n", cps_set_outcome_sentence(m->outcome));
+        printf("  no motion: %s\n", cps_set_outcome_text(m->outcome));
         return;
     }
     printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", m->upper + 0.0,

@@ -80,7 +80,7 @@ static void print_velocity(const RopeRun *r) {
         if (r->run->json)
             drive_json_word("outcome", cps_motion_outcome_name(p->outcome));
         else
-            printf("no motion: %s\n", cps_motion_outcome_sentence(p->outcome));
+            printf("no motion: %s\n", cps_motion_outcome_text(p->outcome));
         return;
     }
     measure(r, &length, &sliding, &tension);
@@ -210,7 +210,7 @@ static void print_path(const RopeRun *r) {
         r->run->answered = r->run->answered && r->uncertified == 0;
     if (r->run->json) {
         printf(", \"path\": {\"steps\": %d, \"outcome\": \"%s\", \"uncertified\": %d",
-               r->rope->steps, cps_outcome_key(r->outcome), r->uncertified);
+               r->rope->steps, cps_outcome_name(r->outcome), r->uncertified);
         drive_json("dissipated_J", r->dissipated);
         drive_json("work_J", r->work);
         drive_json("gap_J", r->gap);
@@ -219,8 +219,7 @@ static void print_path(const RopeRun *r) {
         return;
     }
     const double *a = r->shot + (size_t)last * 2 * (size_t)nodes;
-    printf("end B along its path in %d steps: %s\n", r->rope->steps,
-           cps_outcome_sentence(r->outcome));
+    printf("end B along its path in %d steps: %s\n", r->rope->steps, cps_outcome_text(r->outcome));
     if (r->uncertified)
         printf("  note: %d steps are not certified, so energies are not told\n", r->uncertified);
     else

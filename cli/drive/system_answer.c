@@ -62,7 +62,7 @@ typedef struct Solutions {
 
 static int force_components(const CpsSystem *system) {
     int n = 0;
-    for (int k = 0; k < cps_system_laws(system); k++) n += cps_system_law_space(system, k);
+    for (int k = 0; k < cps_system_law_count(system); k++) n += cps_system_law_space(system, k);
     return n;
 }
 
@@ -102,7 +102,7 @@ static void free_all(All *all) {
 static void print_all(const All *all, const char *what) {
     if (all->set.outcome != CPS_SET_ANSWERED)
         printf("  all %s: %s\n", what,
-               all->low ? cps_set_outcome_sentence(all->set.outcome)
+               all->low ? cps_set_outcome_text(all->set.outcome)
                         : "not looked for (no solution, or a large system)");
     else if (all->set.unique)
         printf("  %s: no other\n", what);
@@ -138,7 +138,7 @@ static void print_velocity(const CpsDriveSystem *s, const double *v, const All *
 }
 
 static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const All *all) {
-    for (int k = 0, at = 0; k < cps_system_laws(s->system) && k < MOST_PRINTED; k++) {
+    for (int k = 0, at = 0; k < cps_system_law_count(s->system) && k < MOST_PRINTED; k++) {
         const int n = cps_system_law_space(s->system, k);
         printf("  %s: force ", cps_system_law_name(s->system, k));
         law_print_vector(n, cps_motion_law_force(motion, k));
@@ -165,7 +165,7 @@ static void print_resistances(const All *all) {
 }
 
 static void print_lambda(const CpsMotion *motion) {
-    const int count = cps_motion_constraints(motion);
+    const int count = cps_motion_constraint_count(motion);
     if (count == 0) return;
     fputs("  constraint forces lambda = ", stdout);
     law_print_vector(count < MOST_PRINTED ? count : MOST_PRINTED,
@@ -176,13 +176,13 @@ static void print_lambda(const CpsMotion *motion) {
 static void print_not_attained(const CpsDriveSystem *s, const CpsMotion *motion,
                                const All *velocities) {
     const CpsMotionReport *r = cps_motion_report(motion);
-    printf("  %s\n", cps_motion_outcome_sentence(r->outcome));
+    printf("  %s\n", cps_motion_outcome_text(r->outcome));
     printf("  gamma = %.8g W is an infimum, between bounds %.2g W apart, and not attained; it is "
            "approached along\n",
            fabs(r->value) <= r->minimum ? 0 : r->value, r->minimum);
     print_velocity(s, cps_motion_direction(motion), velocities);
     printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition),
-           cps_composition_sentence(r->composition));
+           cps_composition_text(r->composition));
 }
 
 static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions *all) {
@@ -190,7 +190,7 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
     const CpsDriveSystem *s = &run->file->system;
     const CpsMotionReport *r = cps_motion_report(motion);
     if (r->outcome == CPS_MOTION_NO_BALANCE || r->outcome == CPS_MOTION_BLOCKED) {
-        printf("  no motion: %s\n", cps_motion_outcome_sentence(r->outcome));
+        printf("  no motion: %s\n", cps_motion_outcome_text(r->outcome));
         if (r->outcome == CPS_MOTION_NO_BALANCE) {
             fputs("  proof, a velocity at which the load runs away:\n", stdout);
             print_velocity(s, cps_motion_velocity(motion), velocities);
@@ -218,7 +218,7 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
                "dissipate %.12g W\n",
                r->dissipated);
     if (r->outcome != CPS_MOTION_SOLVED)
-        printf("  note: %s\n", cps_motion_outcome_sentence(r->outcome));
+        printf("  note: %s\n", cps_motion_outcome_text(r->outcome));
     print_velocity(s, cps_motion_velocity(motion), velocities);
     print_all(velocities, "velocities");
     fputs("  resistance G = ", stdout);
@@ -234,7 +234,7 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
         printf("up to %.6g times as much can be balanced\n", r->load_factor);
     if (s->loaded && isinf(r->load_factor)) puts("any multiple of it can be balanced");
     printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition),
-           cps_composition_sentence(r->composition));
+           cps_composition_text(r->composition));
     if (all->asked && all->known && !all->continuous)
         puts("  Proposition 2: phi is continuous at no velocity that agrees with W, and a minimum "
              "of it need not be a motion");
@@ -259,7 +259,7 @@ static void json_all(const char *key, const All *all) {
 
 static void json_laws(const CpsDriveSystem *s, const CpsMotion *motion) {
     fputs(", \"laws\": [", stdout);
-    for (int k = 0; k < cps_system_laws(s->system); k++) {
+    for (int k = 0; k < cps_system_law_count(s->system); k++) {
         const int n = cps_system_law_space(s->system, k);
         const CpsMotionShare *share = cps_motion_law_share(motion, k);
         fputs(k ? ", {\"name\": " : "{\"name\": ", stdout);
@@ -287,8 +287,8 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions 
         drive_json_list("direction", s->parameters, cps_motion_direction(motion));
     drive_json_list("G", s->driven, cps_motion_resistance(motion));
     json_laws(s, motion);
-    if (cps_motion_constraints(motion) > 0)
-        drive_json_list("lambda", cps_motion_constraints(motion),
+    if (cps_motion_constraint_count(motion) > 0)
+        drive_json_list("lambda", cps_motion_constraint_count(motion),
                         cps_motion_constraint_forces(motion));
     json_all("velocities", &all->velocities);
     json_all("forces", &all->forces);
@@ -354,8 +354,8 @@ static bool print_reduced(DriveRun *run, const CpsSet *set, const double *asked,
     CpsSetAnswer answer;
     SetAnswer about = {.n = n};
     bool good =
-        (velocity ? cps_law_forces(set, asked, 0, &found, &answer, &run->err)
-                  : cps_law_velocities(set, asked, 0, &found, &answer, &run->err)) == CPS_OK;
+        (velocity ? cps_set_forces(set, asked, 0, &found, &answer, &run->err)
+                  : cps_set_velocities(set, asked, 0, &found, &answer, &run->err)) == CPS_OK;
     if (good && found) good = law_answer_ask(found, !velocity, &about, &run->err) == CPS_OK;
     const char *key = velocity ? "velocity" : "force";
     if (good && run->json) {
@@ -380,7 +380,7 @@ static bool print_reduced(DriveRun *run, const CpsSet *set, const double *asked,
         if (found)
             law_answer_print(&about, !velocity);
         else
-            printf("none: %s", cps_set_outcome_sentence(answer.outcome));
+            printf("none: %s", cps_set_outcome_text(answer.outcome));
         puts("");
     }
     const bool open =
@@ -398,7 +398,7 @@ static bool print_empty(DriveRun *run) {
         printf(", \"components\": %d, \"forces\": {\"outcome\": \"%s\"}", run->file->system.driven,
                cps_set_outcome_name(CPS_SET_EMPTY));
     else
-        printf("no reduced law: %s\n", cps_motion_outcome_sentence(CPS_MOTION_NO_BALANCE));
+        printf("no reduced law: %s\n", cps_motion_outcome_text(CPS_MOTION_NO_BALANCE));
     return true;
 }
 
@@ -420,7 +420,7 @@ static bool print_elimination(DriveRun *run, const CpsSet *set, CpsComposition c
     if (measured)
         printf("set of forces: area %.10g, perimeter %.10g\n", measure.area, measure.perimeter);
     printf("Proposition 1, %s: %s\n", cps_composition_name(composition),
-           cps_composition_sentence(composition));
+           cps_composition_text(composition));
     return true;
 }
 
@@ -462,7 +462,7 @@ static bool query_balance(DriveRun *run, bool *none) {
 
 static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryList *force) {
     CpsSet *set = NULL;
-    CpsComposition composition = CPS_COMPOSE_NOT_SATISFIED;
+    CpsComposition composition = CPS_COMPOSITION_NOT_SATISFIED;
     CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
     const size_t n = (size_t)run->file->system.driven;
     bool empty = false, good = query_balance(run, &empty);
@@ -494,8 +494,8 @@ static void print_system(const DriveRun *run) {
     const CpsDriveSystem *s = &run->file->system;
     if (!run->json) {
         printf("system of %d parameter%s and %d law%s; driven:", s->parameters,
-               s->parameters == 1 ? "" : "s", cps_system_laws(s->system),
-               cps_system_laws(s->system) == 1 ? "" : "s");
+               s->parameters == 1 ? "" : "s", cps_system_law_count(s->system),
+               cps_system_law_count(s->system) == 1 ? "" : "s");
         for (int i = 0; i < s->driven && i < MOST_PRINTED; i++)
             printf("%s %s", i ? "," : "", s->drive[i]);
         puts(s->driven ? "" : " nothing");

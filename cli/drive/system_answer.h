@@ -3,7 +3,7 @@
 #ifndef CAPSTAN_CLI_DRIVE_SYSTEM_ANSWER_H
 #define CAPSTAN_CLI_DRIVE_SYSTEM_ANSWER_H
 
-#include "capstan/drive_io.h"
+#include "capstan/io.h"
 #include "law/law_query.h"
 
 /* One run of the command. */

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capstan/law_io.h"
+#include "capstan/io.h"
+#include "capstan/results.h"
 #include "law/law_query.h"
 #include "law/set_answer.h"
 #include "plot_file.h"
@@ -74,7 +75,7 @@ static bool print_law(LawRun *run) {
                    measure.area_gap, measure.perimeter, measure.perimeter_gap);
         if (composed)
             printf("\ncomposition rule (line %d): %s: %s", line, cps_composition_name(composition),
-                   cps_composition_sentence(composition));
+                   cps_composition_text(composition));
         puts("");
         return true;
     }
@@ -119,7 +120,7 @@ static CpsStatus query_velocity(LawRun *run, const double *velocity, double *pow
         *potential = value.potential;
         return status;
     }
-    const CpsStatus status = cps_law_forces(run->set, velocity, 0, forces, answer, &run->err);
+    const CpsStatus status = cps_set_forces(run->set, velocity, 0, forces, answer, &run->err);
     *power =
         status == CPS_OK && answer->outcome == CPS_SET_UNBOUNDED ? INFINITY : answer->value + 0.0;
     return status;
@@ -129,7 +130,7 @@ static CpsStatus query_velocity(LawRun *run, const double *velocity, double *pow
 static CpsStatus query_force(LawRun *run, const double *force, CpsSet **velocities,
                              CpsSetAnswer *answer) {
     return run->set
-               ? cps_law_velocities(run->set, force, 0, velocities, answer, &run->err)
+               ? cps_set_velocities(run->set, force, 0, velocities, answer, &run->err)
                : cps_resistance_velocities(run->resistance, force, velocities, answer, &run->err);
 }
 
@@ -197,7 +198,7 @@ static bool print_answer(LawRun *run, bool velocity, const double *asked, int i)
         if (some)
             law_answer_print(&about, cone);
         else
-            printf("none: %s", cps_set_outcome_sentence(answer.outcome));
+            printf("none: %s", cps_set_outcome_text(answer.outcome));
         puts("");
     }
     law_answer_free(&about);
@@ -207,10 +208,10 @@ static bool print_answer(LawRun *run, bool velocity, const double *asked, int i)
 /* as many forces as velocities: how far each pair is from the law */
 static bool print_pair(LawRun *run, const double *force, const double *velocity, int i) {
     double gap = NAN, distance = NAN;
-    CpsLawResidual r = {.outcome = CPS_SET_ANSWERED};
+    CpsSetResidual r = {.outcome = CPS_SET_ANSWERED};
     const CpsStatus status =
         run->set
-            ? cps_law_residual(run->set, force, velocity, 0, &r, &run->err)
+            ? cps_set_residual(run->set, force, velocity, 0, &r, &run->err)
             : cps_resistance_residual(run->resistance, force, velocity, &gap, &distance, &run->err);
     if (status != CPS_OK) return false;
     if (run->set) {

@@ -268,7 +268,7 @@ static void print_set(const SetAnswer *a) {
 
 void law_answer_print(const SetAnswer *answer, bool cone) {
     if (answer->facts.outcome != CPS_SET_ANSWERED)
-        printf("no answer: %s", cps_set_outcome_sentence(answer->facts.outcome));
+        printf("no answer: %s", cps_set_outcome_text(answer->facts.outcome));
     else if (cone)
         print_cone(answer);
     else

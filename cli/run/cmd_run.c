@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "capstan/io.h"
+#include "capstan/results.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
@@ -108,11 +109,11 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
         cli_print_text(table, i == 0 ? step.name : "", NAME_WIDTH, true);
         fputc(' ', table);
         cli_print_text(table, cps_evolution_line_view(evolution, i).name, LINE_WIDTH, true);
-        fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g", cps_outcome_key(line.outcome),
+        fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g", cps_outcome_name(line.outcome),
                 line.parts, line.iterations,
                 certificate->scale > 0 ? certificate->gap / certificate->scale : certificate->gap,
                 shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B));
-        const bool solved = line.outcome == CPS_SOLVED || line.outcome == CPS_TAUT;
+        const bool solved = line.outcome == CPS_OUTCOME_SOLVED || line.outcome == CPS_OUTCOME_TAUT;
         print_error(table, solved ? certificate->tension_bound : NAN);
         print_error(table, solved ? line.tension_mesh : NAN);
         fprintf(table, " %10.4g %10.4g %10.4g\n", line.grounded, line.slipping, line.slack);
@@ -129,15 +130,15 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
     const CpsStepReport step = cps_evolution_report(evolution);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
-        if (line.outcome == CPS_SOLVED) continue;
+        if (line.outcome == CPS_OUTCOME_SOLVED) continue;
         fputs("capstan: step ", stderr);
         cli_print_text(stderr, step.name, 80, false);
         fputs(", line ", stderr);
         cli_print_text(stderr, cps_evolution_line_view(evolution, i).name, 80, false);
-        fprintf(stderr, ": %s", cps_outcome_sentence(line.outcome));
+        fprintf(stderr, ": %s", cps_outcome_text(line.outcome));
         const double *d = line.proof;
         const CpsCertificate *c = &line.certificate;
-        if (line.outcome == CPS_INFEASIBLE) {
+        if (line.outcome == CPS_OUTCOME_INFEASIBLE) {
             fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g)", line.proof_value, d[0], d[1],
                     d[2]);
             if (line.proof_obstacle >= 0) {
@@ -145,7 +146,7 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
                 cli_print_text(stderr, scene->obstacle[line.proof_obstacle].name, 80, false);
             }
             fputc(')', stderr);
-        } else if (line.outcome == CPS_UNBOUNDED || line.outcome == CPS_SLIDES) {
+        } else if (line.outcome == CPS_OUTCOME_UNBOUNDED || line.outcome == CPS_OUTCOME_SLIDES) {
             fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1],
                     d[2]);
             if (line.coulomb > 0)
@@ -154,11 +155,11 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
                     " with the friction bounds of the reference; these loads press so that mu R, "
                     "%.6g N in all, holds the line: 'friction: consistent' has an equilibrium",
                     line.coulomb);
-        } else if (line.outcome == CPS_MESH_TOO_COARSE)
+        } else if (line.outcome == CPS_OUTCOME_MESH_TOO_COARSE)
             warnings_print_bend(&line.bend, scene->obstacle[line.bend.obstacle].name);
-        else if (line.outcome != CPS_TAUT && !(c->scale > 0 && c->largest_force > 0))
+        else if (line.outcome != CPS_OUTCOME_TAUT && !(c->scale > 0 && c->largest_force > 0))
             fprintf(stderr, " (gap %.2e J, without any force)", c->gap);
-        else if (line.outcome != CPS_TAUT)
+        else if (line.outcome != CPS_OUTCOME_TAUT)
             fprintf(stderr, " (gap %.2e of the scale, force residual %.2e of the largest force)",
                     c->gap / c->scale, c->force_residual / c->largest_force);
         fputc('\n', stderr);
@@ -167,22 +168,24 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
 
 static int exit_code(CpsOutcome worst) {
     switch (worst) {
-    case CPS_SOLVED:
-    case CPS_TAUT: return EXIT_OK;
-    case CPS_STALLED:
-    case CPS_ITERATION_LIMIT:
-    case CPS_MESH_TOO_COARSE: return EXIT_NOT_CERTIFIED;
-    case CPS_UNBOUNDED:
-    case CPS_INFEASIBLE:
-    case CPS_SLIDES: return EXIT_NO_SOLUTION;
+    case CPS_OUTCOME_SOLVED:
+    case CPS_OUTCOME_TAUT: return EXIT_OK;
+    case CPS_OUTCOME_STALLED:
+    case CPS_OUTCOME_ITERATION_LIMIT:
+    case CPS_OUTCOME_MESH_TOO_COARSE: return EXIT_NOT_CERTIFIED;
+    case CPS_OUTCOME_UNBOUNDED:
+    case CPS_OUTCOME_INFEASIBLE:
+    case CPS_OUTCOME_SLIDES: return EXIT_NO_SOLUTION;
     }
     return EXIT_NOT_CERTIFIED;
 }
 
 static CpsResultsOptions wanted_results(const CliOptions *options) {
-    return (CpsResultsOptions){.no_paraview = options->no_paraview,
-                               .sync_at_end = options->sync && strcmp(options->sync, "end") == 0,
-                               .fields = options->fields};
+    CpsResultsOptions wanted = cps_results_options_default();
+    wanted.no_paraview = options->no_paraview;
+    wanted.sync_at_end = options->sync && strcmp(options->sync, "end") == 0;
+    wanted.fields = options->fields;
+    return wanted;
 }
 
 /* A run: what is solved, where it goes, what is told of it. */
@@ -206,10 +209,10 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     progress_step(&run->progress, report.index + 1, report.name);
     cautions_step(&run->cautions, run->scene, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
-    if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_SOLVED ||
+    if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_OUTCOME_SOLVED ||
         cli_interrupted())
         print_rows(run->table, run->verdicts, run->scene, run->evolution);
-    if (report.outcome != CPS_SOLVED) {
+    if (report.outcome != CPS_OUTCOME_SOLVED) {
         progress_end(&run->progress);
         report_outcomes(run->scene, run->evolution);
     }
@@ -254,8 +257,8 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
     CpsStatus status = cli_evolution_create(run->scene, &run->evolution, err);
     const CpsResultsOptions wanted = wanted_results(options);
     if (!status)
-        status = cps_results_open_with(directory, run->scene, run->evolution, &wanted,
-                                       &run->results, err);
+        status =
+            cps_results_open(directory, run->scene, run->evolution, &wanted, &run->results, err);
     const CpsJournalMode journal = options->resume      ? CPS_JOURNAL_RESUME
                                    : options->overwrite ? CPS_JOURNAL_REPLACE
                                                         : CPS_JOURNAL_NEW;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capstan/regularized_io.h"
+#include "capstan/results.h"
 #include "commands.h"
 #include "printable.h"
 #include "progress.h"
@@ -148,12 +148,12 @@ static int take_steps(History *h, bool quiet) {
         }
         const CpsStepReport report = cps_evolution_report(h->exact);
         snprintf(h->name[h->done], STEP_NAME, "%s", report.name);
-        if (report.outcome != CPS_SOLVED) {
+        if (report.outcome != CPS_OUTCOME_SOLVED) {
             progress_end(&progress);
             fputs("capstan run: step ", stderr);
             cli_print_text(stderr, report.name, 80, false);
             fprintf(stderr, ": %s; the method of 1990 has no limit to go to\n",
-                    cps_outcome_sentence(report.outcome));
+                    cps_outcome_text(report.outcome));
             code = cps_outcome_is_final(report.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
         } else if (follow(h, &err) != CPS_OK) {
             code = cli_report(&err);

@@ -122,7 +122,7 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
         if (line.pierced >= 0 && pierced > TOLD_PIERCED * length)
             note_pierced(cautions, pierced, length, step, view.name,
                          scene->obstacle[line.pierced].name);
-        if (line.outcome != CPS_SOLVED) continue;
+        if (line.outcome != CPS_OUTCOME_SOLVED) continue;
         note_energy(cautions, &report, &line, view.name);
         if (line.snaps > 0) note(cautions, CAUTION_JUMPED, line.jump, length, step, view.name);
         const double residual = line.certificate.friction_residual;

@@ -13,7 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "capstan/regularized_io.h"
+#include "capstan/io.h"
+#include "capstan/results.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
@@ -83,11 +84,11 @@ static int reach_step(CpsEvolution *evolution, int number) {
     while (cps_evolution_remaining(evolution) > 0 && !cli_interrupted()) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) return cli_report(&err);
         const CpsStepReport step = cps_evolution_report(evolution);
-        if (step.outcome != CPS_SOLVED) {
+        if (step.outcome != CPS_OUTCOME_SOLVED) {
             fputs("capstan study: step ", stderr);
             cli_print_text(stderr, step.name, 80, false);
             fprintf(stderr, ": %s; there is nothing to compare with\n",
-                    cps_outcome_sentence(step.outcome));
+                    cps_outcome_text(step.outcome));
             return cps_outcome_is_final(step.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
         }
         if (step.index + 1 == number) return EXIT_OK;
@@ -127,7 +128,7 @@ static void print_row(const CpsStudyRow *row, const CpsRegularizedStep *step) {
     const CpsRegularizedReport *r = &row->report;
     const CpsRegularizedParameters *p = &row->parameters;
     const int cells = p->cells > 0 ? p->cells : step->elements;
-    printf("%-6s %9.3g %9.2g %9.2g %9.2g %5d %11.3e", cps_study_stage_key(row->stage),
+    printf("%-6s %9.3g %9.2g %9.2g %9.2g %5d %11.3e", cps_study_stage_name(row->stage),
            step->length / cells, p->penalty, p->stiffness, p->delta, r->iterations,
            r->energy_error);
     print_rate(row->rate_energy);
@@ -148,7 +149,7 @@ static void print_head(void) {
 static bool on_row(void *user, const CpsStudyRow *row, int done, int of) {
     Teller *teller = user;
     teller->progress.steps = of;
-    progress_step(&teller->progress, done, cps_study_stage_key(row->stage));
+    progress_step(&teller->progress, done, cps_study_stage_name(row->stage));
     teller->converged = teller->converged && row->report.converged;
     return !cli_interrupted();
 }
@@ -160,7 +161,7 @@ static void print_force(const CpsFirstOrderReport *r, const char *what) {
 }
 
 static void print_verdict(const CpsFirstOrderReport *r, const char *contact) {
-    printf("  %s: %s\n", contact, cps_first_order_sentence(r->verdict));
+    printf("  %s: %s\n", contact, cps_first_order_text(r->verdict));
     switch (r->verdict) {
     case CPS_FIRST_ORDER_SHORTENS:
         printf("    t_R.u' = %.6g at a = %.6g m; (86) fails on %.6g m of %.6g m without tension in "
@@ -237,9 +238,11 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
         progress_end(&teller.progress);
     }
     if (status == CPS_OK)
-        status = cps_first_order_solve(classic, CPS_FIRST_ORDER_TOUCHING, &first_order[0], &err);
+        status =
+            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_TOUCHING, &first_order[0], &err);
     if (status == CPS_OK)
-        status = cps_first_order_solve(classic, CPS_FIRST_ORDER_GAINED, &first_order[1], &err);
+        status =
+            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_GAINED, &first_order[1], &err);
     if (status == CPS_OK) {
         const CpsStudyFiles files = {title, classic, study, first_order[0]};
         status = cps_study_write(directory, &files, &err);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capstan/regularized_io.h"
+#include "capstan/results.h"
 #include "commands.h"
 #include "printable.h"
 #include "run/regularized_run.h"
@@ -86,9 +86,9 @@ static int run_evolution(Histories *h, int method, int line) {
         }
         const CpsStepReport report = cps_evolution_report(evolution);
         snprintf(h->name[step], NAME_SIZE, "%s", report.name);
-        if (report.outcome != CPS_SOLVED) {
+        if (report.outcome != CPS_OUTCOME_SOLVED) {
             fprintf(stderr, "capstan study: step %d, %s: %s\n", report.index, METHOD[method],
-                    cps_outcome_sentence(report.outcome));
+                    cps_outcome_text(report.outcome));
             code = cps_outcome_is_final(report.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
             break;
         }

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "capstan/regularized_io.h"
+#include "capstan/results.h"
 #include "commands.h"
 #include "printable.h"
 
@@ -35,7 +35,7 @@ double study_find_tolerance(const char *text) {
 
 CpsCompletion study_find_completion(const char *name) {
     CpsCompletion how = CPS_COMPLETION_SHORTEST;
-    while (how < CPS_COMPLETIONS && strcmp(name, cps_completion_key(how)) != 0) ++how;
+    while (how < CPS_COMPLETIONS && strcmp(name, cps_completion_name(how)) != 0) ++how;
     if (how == CPS_COMPLETIONS)
         cli_printf(
             stderr,
@@ -70,7 +70,7 @@ static void print_judgement(const char *what, const CpsLineView *view, const dou
     CpsError err;
     CpsJudgementReport report;
     if (cps_solution_judge(view, position, tolerance, &report, &err) == CPS_OK)
-        printf("  %s: %s\n", what, cps_judgement_sentence(report.judgement));
+        printf("  %s: %s\n", what, cps_judgement_text(report.judgement));
 }
 
 void study_tell_slack(const CpsLineView *view, double tolerance) {
@@ -84,7 +84,7 @@ void study_tell_slack(const CpsLineView *view, double tolerance) {
         cps_solution_complete(view, CPS_COMPLETION_MEANDER, position, &slack, &err) == CPS_OK &&
         slack.parts > 0) {
         snprintf(what, sizeof what, "laid out %s, %.6g m of it",
-                 cps_completion_sentence(CPS_COMPLETION_MEANDER), slack.loose);
+                 cps_completion_text(CPS_COMPLETION_MEANDER), slack.loose);
         print_judgement(what, view, position, tolerance);
     }
     free(position);
@@ -184,7 +184,7 @@ static int read_configuration(const CpsLineView *view, const char *path, double 
 }
 
 static void print_report(const CpsJudgementReport *r, double tolerance, double length) {
-    printf("%s\n\n", cps_judgement_sentence(r->judgement));
+    printf("%s\n\n", cps_judgement_text(r->judgement));
     printf("energy above the minimum  %12.5g J, of which\n", r->energy);
     printf("  tension                 %12.5g J  0 where tensions and their directions are those of "
            "the step\n",
@@ -197,7 +197,7 @@ static void print_report(const CpsJudgementReport *r, double tolerance, double l
     printf("inside the obstacle       %12.5g m\nheld ends off              %12.5g m\nlargest 1 - "
            "|x'|          %12.5g\n",
            r->penetration, r->end_error, r->shortening);
-    if (r->judgement != CPS_JUDGED_SOLUTION)
+    if (r->judgement != CPS_JUDGEMENT_SOLUTION)
         printf("what fails is largest at a = %.6g m\n", r->arc_length);
     printf("tolerance %.3g: sums up to %.3g J, of the scale S = %.5g J; lengths up to %.3g m; 1 - "
            "|x'| up to %.3g, its root\n",
@@ -218,7 +218,7 @@ int study_judge(const CpsLineView *view, const char *path, double tolerance, boo
             printf(": ");
             print_report(&report, tolerance, view->arc_length[view->elements]);
         }
-        code = report.judgement == CPS_JUDGED_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
+        code = report.judgement == CPS_JUDGEMENT_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
     }
     free(position);
     return code;
@@ -252,9 +252,9 @@ int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance,
     if (status == CPS_OK && !quiet) {
         print_parts(view);
         print_judgement("as found", view, view->position, tolerance);
-        printf("  laid out %s, %.6g m of it in %d piece%s: %s\n", cps_completion_sentence(how),
+        printf("  laid out %s, %.6g m of it in %d piece%s: %s\n", cps_completion_text(how),
                slack[how].loose, slack[how].parts, slack[how].parts == 1 ? "" : "s",
-               cps_judgement_sentence(report.judgement));
+               cps_judgement_text(report.judgement));
         if (slack[how].left > 0)
             printf("  %.6g m keep |x'| < 1, between nodes held closer than their length\n",
                    slack[how].left);
@@ -263,5 +263,5 @@ int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance,
     }
     free(all);
     if (status != CPS_OK) return cli_report(&err);
-    return report.judgement == CPS_JUDGED_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
+    return report.judgement == CPS_JUDGEMENT_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
 }

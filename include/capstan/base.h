@@ -73,7 +73,7 @@ typedef struct CpsError {
 
 /* The name of a status ("CPS_ERR_INPUT") and its sentence; never NULL. */
 CPS_API const char *cps_status_name(CpsStatus status);
-CPS_API const char *cps_status_sentence(CpsStatus status);
+CPS_API const char *cps_status_text(CpsStatus status);
 
 /* The library's version, "0.1.0". */
 CPS_API const char *cps_version(void);

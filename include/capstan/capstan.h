@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/capstan.h: everything but files (those are in io.h, library capstan-io). */
+/* capstan/capstan.h: everything but files (those are in io.h and results.h,
+ * library capstan-io). */
 #ifndef CAPSTAN_CAPSTAN_H
 #define CAPSTAN_CAPSTAN_H
 
@@ -10,7 +11,6 @@
 #include "capstan/planar.h"
 #include "capstan/regularized.h"
 #include "capstan/report.h"
-#include "capstan/rope.h"
 #include "capstan/scene.h"
 #include "capstan/set.h"
 #include "capstan/solutions.h"

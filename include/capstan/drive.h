@@ -54,9 +54,9 @@ typedef struct CpsEntry {
  * drive or load yet. */
 CPS_API CpsStatus cps_system_create(int parameters, CpsSystem **out, CpsError *err);
 CPS_API void cps_system_destroy(CpsSystem *system); /* NULL is accepted */
-CPS_API int cps_system_parameters(const CpsSystem *system);
+CPS_API int cps_system_parameter_count(const CpsSystem *system);
 
-/* A friction law acting on U = B V. The system keeps its own hold: the caller may destroy the law.
+/* A friction law acting on U = B V. The system retains the law: the caller may release it.
  * Laws are numbered from 0 in the order in which they, and resistances, are added; many laws made
  * of one set share its conic form.
  *
@@ -73,7 +73,7 @@ CPS_API CpsStatus cps_system_add_resistance(CpsSystem *system, const char *name,
                                             const CpsResistance *law, int count,
                                             const CpsEntry *map, CpsError *err);
 
-CPS_API int cps_system_laws(const CpsSystem *system);
+CPS_API int cps_system_law_count(const CpsSystem *system);
 /* Of law k: its name, and the number of its components. */
 CPS_API const char *cps_system_law_name(const CpsSystem *system, int k);
 CPS_API int cps_system_law_space(const CpsSystem *system, int k);
@@ -117,7 +117,7 @@ CPS_API CpsStatus cps_system_eliminate(const CpsSystem *system, CpsLaw **law, Cp
 
 /* ---- Proposition 2: the motion for one W ---- */
 
-/* What the mathematics says. One list: name, fixed number, sentence. Numbers are never reused. */
+/* One list: name, fixed number, sentence. Numbers are never reused. */
 #define CPS_MOTION_OUTCOME_LIST(X)                                                                \
     X(CPS_MOTION_SOLVED, 0, "a motion and its forces, with bounds as near as the tolerance asks") \
     X(CPS_MOTION_LIMIT_LOAD, 1,                                                                   \
@@ -138,13 +138,14 @@ typedef enum CpsMotionOutcome {
 } CpsMotionOutcome;
 
 CPS_API const char *cps_motion_outcome_name(CpsMotionOutcome outcome);
-CPS_API const char *cps_motion_outcome_sentence(CpsMotionOutcome outcome);
+CPS_API const char *cps_motion_outcome_text(CpsMotionOutcome outcome);
 
 typedef struct CpsMotionOptions {
-    double tolerance; /* of upper - lower, relative to |gamma| or the power scale; and of residuals;
-                         default 1e-8 */
-    /* relative to a law's size: forces nearer to its boundary are on it; default 1e-6. It decides
-     * composition and limit loads (width of the band round load factor 1) */
+    uint32_t cookie; /* of cps_motion_options_default(): options made otherwise are refused */
+    /* of upper - lower, relative to |gamma| or the power scale; and of residuals; default 1e-8 */
+    double tolerance;
+    /* relative to a law's size: forces nearer to its boundary are on it, which decides composition
+     * and limit loads (width of the band round load factor 1); default 1e-6 */
     double boundary;
     bool composition; /* find Proposition 1's condition: one more program; default true */
 } CpsMotionOptions;
@@ -171,7 +172,7 @@ typedef struct CpsMotionReport {
     double dissipated;  /* [W] sum over the laws of -<U_k, F_k> */
     double load_power;  /* [W] <load, V> */
     double load_factor; /* largest factor on a load that is balanced; INFINITY: any, or no load */
-    CpsComposition composition; /* where asked for; else CPS_COMPOSE_NOT_SATISFIED */
+    CpsComposition composition; /* where asked for; else CPS_COMPOSITION_NOT_SATISFIED */
     int iterations;             /* of the interior point, all programs together */
 } CpsMotionReport;
 
@@ -197,7 +198,7 @@ typedef struct CpsMotion CpsMotion;
  *
  *   options  NULL: the default
  *
- * Where composition is CPS_COMPOSE_NOT_SATISFIED a minimum need not be attained, which is then
+ * Where composition is CPS_COMPOSITION_NOT_SATISFIED a minimum need not be attained, which is then
  * found out by two more programs; by Proposition 1 the pairs (W, G) of motions still obey the
  * reduced law. `lower` counts residuals against V and the sets against F, so it is a bound up to
  * what velocities much faster than V could add.
@@ -218,7 +219,7 @@ CPS_API const double *cps_motion_direction(const CpsMotion *motion);
 CPS_API const double *cps_motion_resistance(const CpsMotion *motion); /* G (m) */
 /* lambda, in the order of the rows */
 CPS_API const double *cps_motion_constraint_forces(const CpsMotion *motion);
-CPS_API int cps_motion_constraints(const CpsMotion *motion); /* how many there are */
+CPS_API int cps_motion_constraint_count(const CpsMotion *motion); /* how many there are */
 CPS_API const double *cps_motion_law_velocity(const CpsMotion *motion, int k); /* U_k = B_k V */
 CPS_API const double *cps_motion_law_force(const CpsMotion *motion, int k);    /* F_k */
 CPS_API const CpsMotionShare *cps_motion_law_share(const CpsMotion *motion, int k);
@@ -266,9 +267,8 @@ typedef struct CpsSolutionSet {
     CpsSetOutcome outcome;
     CpsSet *set; /* of V in R^n, or of F = (F_0, F_1, ..) in the laws' space; NULL: no answer */
     int dimension;
-    bool unique; /* dimension 0 */
-    bool bounded;
-    double tolerance; /* the one used */
+    bool unique, bounded; /* unique: dimension 0 */
+    double tolerance;     /* the one used */
     double moved; /* relative: how far faces and cones were moved to contain the solution found */
 } CpsSolutionSet;
 

@@ -96,7 +96,7 @@ CPS_API void cps_evolution_destroy(CpsEvolution *evolution);
 
 /* Calls without a status: a NULL evolution has no lines, no steps and a state of no bytes, and
  * saving it, or to NULL, does nothing. Where there is no such line, or no evolution, the outcome of
- * the report is CPS_STALLED and the view has no elements and no arrays. */
+ * the report is CPS_OUTCOME_STALLED and the view has no elements and no arrays. */
 
 /* Number of load steps in all (a start laid by statics is the first), and still to do.
  * 0 remain after an infeasible or unbounded step: nothing can follow it. */

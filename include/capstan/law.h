@@ -7,9 +7,9 @@
  * N_C(F), "maximum dissipation": of all forces in C, F is one that takes the most power. All
  * answers that are more than a number are sets (set.h), each with its own gap.
  *
- * Laws are immutable handles with one owner: destroy what was created, in any order; they keep
- * their own hold on the sets and laws they were made from. Matrices are row-major. In the tables
- * below W is watt, N newton; with torques among the forces read newton metre and radian per
+ * Laws are immutable and counted as sets are: release what was made or retained, in any order;
+ * laws and systems retain the sets and laws they are made from. Matrices are row-major. In the
+ * tables below W is watt, N newton; with torques among the forces read newton metre and radian per
  * second. */
 #ifndef CAPSTAN_LAW_H
 #define CAPSTAN_LAW_H
@@ -50,16 +50,18 @@ CPS_API CpsStatus cps_law_product(int count, const CpsLaw *const *parts, CpsLaw 
  * The reverse, that every pair (G, W) of the reduced law comes from some motion of the parts, is
  * proved where range(L) meets C well enough (Rockafellar 1970, 23.8-23.9). */
 typedef enum CpsComposition {
-    CPS_COMPOSE_INTERIOR,          /* range(L) meets the interior of C: equality (M77 section 10) */
-    CPS_COMPOSE_RELATIVE_INTERIOR, /* it meets the relative interior: equality (the brakeless wheel)
-                                    */
-    CPS_COMPOSE_POLYHEDRAL, /* what fails of the above are polyhedral factors of a product: equality
-                             */
-    CPS_COMPOSE_NOT_SATISFIED /* none of the three: only the inclusion is proved */
+    CPS_COMPOSITION_INTERIOR, /* range(L) meets the interior of C: equality (M77 section 10) */
+    CPS_COMPOSITION_RELATIVE_INTERIOR, /* it meets the relative interior: equality (the brakeless
+                                        * wheel)
+                                        */
+    CPS_COMPOSITION_POLYHEDRAL,   /* what fails of the above are polyhedral factors of a product:
+                                   * equality
+                                   */
+    CPS_COMPOSITION_NOT_SATISFIED /* none of the three: only the inclusion is proved */
 } CpsComposition;
 /* "interior", ..; and a sentence. Never NULL. */
 CPS_API const char *cps_composition_name(CpsComposition composition);
-CPS_API const char *cps_composition_sentence(CpsComposition composition);
+CPS_API const char *cps_composition_text(CpsComposition composition);
 
 /* The law of a system whose forces G (n) act through L: C' = L^-1(C), L (space of law x n);
  * velocities are W = L* V (M77 section 10).
@@ -78,7 +80,10 @@ CPS_API CpsStatus cps_law_preimage(int n, const double *map, const CpsLaw *law,
 CPS_API CpsStatus cps_law_contacts(int n, int count, const CpsLaw *const *contact,
                                    const double *const *map, CpsLaw **out, CpsError *err);
 
-CPS_API void cps_law_destroy(CpsLaw *law); /* NULL is accepted */
+/* One more hold on the law; returns it. */
+CPS_API CpsLaw *cps_law_retain(const CpsLaw *law);
+/* Let go; NULL is accepted. The last hold frees the law. */
+CPS_API void cps_law_release(CpsLaw *law);
 CPS_API int cps_law_space(const CpsLaw *law);
 /* C; owned by the law. */
 CPS_API const CpsSet *cps_law_set(const CpsLaw *law);
@@ -91,7 +96,8 @@ CPS_API const CpsSet *cps_law_set(const CpsLaw *law);
 typedef struct CpsLoadedLaw CpsLoadedLaw;
 CPS_API CpsStatus cps_law_load(const CpsLaw *law, const double *load, CpsLoadedLaw **out,
                                CpsError *err);
-CPS_API void cps_loaded_law_destroy(CpsLoadedLaw *law);
+CPS_API CpsLoadedLaw *cps_loaded_law_retain(const CpsLoadedLaw *law);
+CPS_API void cps_loaded_law_release(CpsLoadedLaw *law);
 CPS_API int cps_loaded_law_space(const CpsLoadedLaw *law);
 /* C + G; owned by the law. */
 CPS_API const CpsSet *cps_loaded_law_set(const CpsLoadedLaw *law);
@@ -103,19 +109,19 @@ CPS_API const double *cps_loaded_law_load(const CpsLoadedLaw *law);
  * friction law it is the power dissipated at V, by any force of the law. Outcome UNBOUNDED: no
  * force of the law goes with V (value INFINITY).
  */
-CPS_API CpsStatus cps_law_dissipation(const CpsSet *set, const double *velocity, double *force,
+CPS_API CpsStatus cps_set_dissipation(const CpsSet *set, const double *velocity, double *force,
                                       CpsSetAnswer *answer, CpsError *err);
 
 /* All forces of the law at V: the face of C in direction -V (M77 section 4). *forces is a new set
  * or NULL.
  *   tolerance  angle in radians, as in cps_set_face; 0 picks 1e-9 */
-CPS_API CpsStatus cps_law_forces(const CpsSet *set, const double *velocity, double tolerance,
+CPS_API CpsStatus cps_set_forces(const CpsSet *set, const double *velocity, double tolerance,
                                  CpsSet **forces, CpsSetAnswer *answer, CpsError *err);
 
 /* All velocities of the law at F: the cone -N_C(F) (M77 (5)). *velocities is a new set or NULL;
  * outcome OUTSIDE: none.
  *   tolerance  relative length, as in cps_set_normal_cone; 0 picks 1e-9 */
-CPS_API CpsStatus cps_law_velocities(const CpsSet *set, const double *force, double tolerance,
+CPS_API CpsStatus cps_set_velocities(const CpsSet *set, const double *force, double tolerance,
                                      CpsSet **velocities, CpsSetAnswer *answer, CpsError *err);
 
 /* How far a pair (F, V) is from the law, in its five equivalent forms. All are 0 exactly where the
@@ -130,7 +136,7 @@ CPS_API CpsStatus cps_law_velocities(const CpsSet *set, const double *force, dou
  * since p = P_C(F - step V) has <F - step V - p, F - p> <= 0. With F outside by d = outside,
  * normal_cone <= 2d + sqrt of the same with P_C(F) for F. The two distances, and inverse, are NAN
  * where the projection has no answer (a user's set; lost to rounding). */
-typedef struct CpsLawResidual {
+typedef struct CpsSetResidual {
     CpsSetOutcome outcome; /* UNBOUNDED: no force goes with V; the power forms are then INFINITY */
     double outside;        /* [N] dist(F, C), part of every form */
     double variational;    /* [W] max over P in C of <V, F - P>                       M77 (4) */
@@ -144,13 +150,13 @@ typedef struct CpsLawResidual {
     double step;    /* [N s/m] the one used */
     double scale;   /* [W] |V| (|F| + |P|), P a force of the law at V: what "relative" means */
     double gap;     /* bound on the errors of the numbers above, 0 where closed forms were used */
-} CpsLawResidual;
+} CpsSetResidual;
 
 /*   step  > 0; 0 picks |F| or |P| over |V|, whichever force is larger
  *
  * F counts as in C within 1e-12 (|F| + |P|). */
-CPS_API CpsStatus cps_law_residual(const CpsSet *set, const double *force, const double *velocity,
-                                   double step, CpsLawResidual *residual, CpsError *err);
+CPS_API CpsStatus cps_set_residual(const CpsSet *set, const double *force, const double *velocity,
+                                   double step, CpsSetResidual *residual, CpsError *err);
 
 /* ---- resistance laws ---- */
 
@@ -207,13 +213,14 @@ CPS_API CpsStatus cps_resistance_function(const CpsLaw *law, CpsSpeedLaw *h,
 CPS_API CpsStatus cps_resistance_sum(int count, const CpsResistance *const *parts,
                                      CpsResistance **out, CpsError *err);
 
-CPS_API void cps_resistance_destroy(CpsResistance *law); /* NULL is accepted */
+CPS_API CpsResistance *cps_resistance_retain(const CpsResistance *law);
+CPS_API void cps_resistance_release(CpsResistance *law);
 CPS_API int cps_resistance_space(const CpsResistance *law);
-CPS_API int cps_resistance_terms(const CpsResistance *law);
+CPS_API int cps_resistance_term_count(const CpsResistance *law);
 
 /* Potential phi and dissipated power -<V, F> [W], whole and by term (capacity:
- * cps_resistance_terms, or NULL). The power is that of every force of the law at V. `gap` bounds
- * the error of both. */
+ * cps_resistance_term_count, or NULL). The power is that of every force of the law at V. `gap`
+ * bounds the error of both. */
 typedef struct CpsResistanceValue {
     CpsSetOutcome outcome; /* UNBOUNDED: no force goes with V */
     double potential, power, gap;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/planar.h: rigid bodies that slide on a plane: limit surfaces, pushing, vehicles, towing,
- * planimeters, sweeping. (Moreau 1977, M77, sections 10-12)
+ * planimeters, sweeping, ropes on a table. (Moreau 1977, M77, sections 10-12)
  *
  * A body rests on patches: points, wheels, rods, rings, discs, polygons. Its velocity is a twist
  * (vx, vy, w): velocity [m/s] of the body's origin and yaw rate [rad/s]; friction acts on it by a
@@ -70,7 +70,7 @@ CPS_API CpsStatus cps_patch_check(const CpsPatch *patch, CpsError *err);
 CPS_API CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out,
                                     CpsError *err);
 CPS_API void cps_planar_destroy(CpsPlanar *body); /* NULL is accepted */
-CPS_API int cps_planar_patches(const CpsPlanar *body);
+CPS_API int cps_planar_patch_count(const CpsPlanar *body);
 
 /* ---- the law of a body ---- */
 
@@ -260,6 +260,35 @@ typedef struct CpsPlanimeterReading {
 CPS_API CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count,
                                        const double *point, int steps,
                                        CpsPlanimeterReading *reading, CpsError *err);
+
+/* ---- ropes on a table (M77, remark of section 11) ---- */
+
+/* A heavy inextensible rope that lies on a rough table: a chain of nodes joined by straight
+ * elements that keep their length. Each node carries the friction of the half elements next to it,
+ * a disc; each element asks t . (v of its far node - v of its near node) = 0 with its unit
+ * direction t, or
+ * <= 0 where it may go slack: M77's rope keeps its length, so that it can push as well. With the
+ * ends driven, the velocity field has the least dissipation among those that the rope admits: a
+ * system of drive.h, solved in time linear in the nodes. Force of an element's law: minus its
+ * tension. */
+typedef struct CpsRope {
+    int nodes;          /* >= 2, at most CPS_ROPE_MAX_NODES */
+    const double *node; /* [m] (nodes, 2); neighbours differ */
+    double resistance;  /* [N/m] friction coefficient x weight per length, >= 0 */
+    bool driven[2];     /* is the first, the last node's velocity imposed? */
+    bool slack; /* may elements become shorter, without tension?  false: inextensible, as in M77 */
+} CpsRope;
+
+#define CPS_ROPE_MAX_NODES 1000000
+
+/* Would this rope be accepted? */
+CPS_API CpsStatus cps_rope_check(const CpsRope *rope, CpsError *err);
+
+/* The rope as a system. Parameters are vx, vy of node 0, 1, ..; laws 0 .. nodes - 1 the friction of
+ * the nodes ("node k"), laws nodes .. 2 nodes - 2 the elements ("element k"); the drive has vx, vy
+ * of the driven ends, first end first.
+ */
+CPS_API CpsStatus cps_rope_system(const CpsRope *rope, CpsSystem **out, CpsError *err);
 
 #ifdef __cplusplus
 }

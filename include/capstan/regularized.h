@@ -147,7 +147,7 @@ typedef enum CpsStudyStage {
     CPS_STUDY_STAGES
 } CpsStudyStage;
 
-CPS_API const char *cps_study_stage_key(CpsStudyStage stage); /* "h", "lambda", "n", "delta" */
+CPS_API const char *cps_study_stage_name(CpsStudyStage stage); /* "h", "lambda", "n", "delta" */
 
 /* One solve of a study. Rates are observed orders in the stage's parameter p (h, 1/lambda, 1/n,
  * delta): the exponent of v(p) = limit + C p^rate through this value and the two before it; NaN
@@ -228,12 +228,12 @@ typedef enum CpsFirstOrderVerdict {
  * and nothing elsewhere; with `gained` contact the step itself asks n.u + psi(x_R) >= 0 of every
  * node, (16). The answers differ where a node comes down. */
 typedef enum CpsFirstOrderContact {
-    CPS_FIRST_ORDER_TOUCHING,
-    CPS_FIRST_ORDER_GAINED
+    CPS_FIRST_ORDER_CONTACT_TOUCHING,
+    CPS_FIRST_ORDER_CONTACT_GAINED
 } CpsFirstOrderContact;
 
-CPS_API const char *cps_first_order_key(CpsFirstOrderVerdict verdict);
-CPS_API const char *cps_first_order_sentence(CpsFirstOrderVerdict verdict);
+CPS_API const char *cps_first_order_name(CpsFirstOrderVerdict verdict);
+CPS_API const char *cps_first_order_text(CpsFirstOrderVerdict verdict);
 
 typedef struct CpsFirstOrderReport {
     CpsFirstOrderVerdict verdict;
@@ -268,7 +268,7 @@ typedef struct CpsFirstOrder CpsFirstOrder;
 
 /* Assemble P10.1 about the step's reference and solve it, on the step's own elements.
  *
- *   contact  CPS_FIRST_ORDER_TOUCHING is the paper's, (77)
+ *   contact  CPS_FIRST_ORDER_CONTACT_TOUCHING is the paper's, (77)
  *
  * Returns CPS_OK whatever the verdict, CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_first_order_solve(const CpsRegularized *classic, CpsFirstOrderContact contact,

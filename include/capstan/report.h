@@ -13,19 +13,21 @@ extern "C" {
 /* What the mathematics said. A step's outcome is the worst of its lines' (cps_outcome_worse);
  * numbers are no order. */
 #define CPS_OUTCOME_LIST(X)                                                                       \
-    X(CPS_SOLVED, 0, "solved", "solved and certified")                                            \
-    X(CPS_TAUT, 1, "taut", "inextensible line pulled exactly straight: tension not unique")       \
-    X(CPS_STALLED, 2, "stalled", "no further progress: the answer is not certified")              \
-    X(CPS_ITERATION_LIMIT, 3, "iteration_limit",                                                  \
+    X(CPS_OUTCOME_SOLVED, 0, "solved", "solved and certified")                                    \
+    X(CPS_OUTCOME_TAUT, 1, "taut",                                                                \
+      "inextensible line pulled exactly straight: tension not unique")                            \
+    X(CPS_OUTCOME_STALLED, 2, "stalled", "no further progress: the answer is not certified")      \
+    X(CPS_OUTCOME_ITERATION_LIMIT, 3, "iteration_limit",                                          \
       "iteration limit reached: the answer is not certified")                                     \
-    X(CPS_UNBOUNDED, 4, "unbounded",                                                              \
+    X(CPS_OUTCOME_UNBOUNDED, 4, "unbounded",                                                      \
       "no equilibrium: a rigid motion lowers the energy without bound")                           \
-    X(CPS_INFEASIBLE, 5, "infeasible",                                                            \
+    X(CPS_OUTCOME_INFEASIBLE, 5, "infeasible",                                                    \
       "no configuration: the ends are farther apart than the line is long")                       \
-    X(CPS_MESH_TOO_COARSE, 6, "mesh_too_coarse",                                                  \
+    X(CPS_OUTCOME_MESH_TOO_COARSE, 6, "mesh_too_coarse",                                          \
       "mesh too coarse: one node turns the line by too much for its friction; the answer is not " \
       "certified")                                                                                \
-    X(CPS_SLIDES, 7, "slides", "slides without end: no equilibrium at any place along its way")
+    X(CPS_OUTCOME_SLIDES, 7, "slides",                                                            \
+      "slides without end: no equilibrium at any place along its way")
 
 typedef enum CpsOutcome {
 #define CPS_OUTCOME_ENUM(name, number, key, sentence) name = number,
@@ -33,8 +35,8 @@ typedef enum CpsOutcome {
 #undef CPS_OUTCOME_ENUM
 } CpsOutcome;
 
-CPS_API const char *cps_outcome_key(CpsOutcome outcome); /* "solved", ... */
-CPS_API const char *cps_outcome_sentence(CpsOutcome outcome);
+CPS_API const char *cps_outcome_name(CpsOutcome outcome); /* "solved", ... */
+CPS_API const char *cps_outcome_text(CpsOutcome outcome);
 /* Is the answer of the step certified? */
 CPS_API bool cps_outcome_is_certified(CpsOutcome outcome);
 /* Is there no equilibrium, with a proof in the report?  Nothing can follow such a step. */
@@ -92,7 +94,7 @@ typedef enum CpsRange {
 #undef CPS_RANGE_ENUM
 } CpsRange;
 
-CPS_API const char *cps_range_key(CpsRange range); /* "bounded", ... */
+CPS_API const char *cps_range_name(CpsRange range); /* "bounded", ... */
 
 /* Least and greatest tension of the element at an end, of all forces that balance and obey the laws
  * in the places and slips found. The first value is that of such forces, the second a bound from

@@ -50,7 +50,7 @@ typedef enum CpsSetOutcome {
 } CpsSetOutcome;
 
 CPS_API const char *cps_set_outcome_name(CpsSetOutcome outcome);
-CPS_API const char *cps_set_outcome_sentence(CpsSetOutcome outcome);
+CPS_API const char *cps_set_outcome_text(CpsSetOutcome outcome);
 
 /* ---- holds ---- */
 

@@ -26,18 +26,18 @@ extern "C" {
  * and of P3.1 if it also shortens nothing (result 4.3). What fails first, in this order, is the
  * verdict. */
 #define CPS_JUDGEMENT_LIST(X)                                                \
-    X(CPS_JUDGED_SOLUTION, 0, "solution",                                    \
+    X(CPS_JUDGEMENT_SOLUTION, 0, "solution",                                 \
       "a solution of P3.1: same tensions, contact and friction, |x'| >= 1")  \
-    X(CPS_JUDGED_RELAXED, 1, "relaxed",                                      \
+    X(CPS_JUDGEMENT_RELAXED, 1, "relaxed",                                   \
       "a solution of P4.2 but not of P3.1: somewhere |x'| < 1, outside Kin") \
-    X(CPS_JUDGED_ENDS, 2, "ends", "no solution: a held end is elsewhere")    \
-    X(CPS_JUDGED_PENETRATES, 3, "penetrates",                                \
+    X(CPS_JUDGEMENT_ENDS, 2, "ends", "no solution: a held end is elsewhere") \
+    X(CPS_JUDGEMENT_PENETRATES, 3, "penetrates",                             \
       "no solution: a node is inside the obstacle, outside C")               \
-    X(CPS_JUDGED_TENSION, 4, "tension",                                      \
+    X(CPS_JUDGEMENT_TENSION, 4, "tension",                                   \
       "no solution: other tensions, or tensions in another direction")       \
-    X(CPS_JUDGED_CONTACT, 5, "contact",                                      \
+    X(CPS_JUDGEMENT_CONTACT, 5, "contact",                                   \
       "no solution: contact is lost where the obstacle pushes, R > 0")       \
-    X(CPS_JUDGED_SLIDING, 6, "sliding",                                      \
+    X(CPS_JUDGEMENT_SLIDING, 6, "sliding",                                   \
       "no solution: sliding outside the normal cone of the friction force")
 
 typedef enum CpsJudgement {
@@ -46,8 +46,8 @@ typedef enum CpsJudgement {
 #undef CPS_JUDGEMENT_ENUM
 } CpsJudgement;
 
-CPS_API const char *cps_judgement_key(CpsJudgement judgement);
-CPS_API const char *cps_judgement_sentence(CpsJudgement judgement);
+CPS_API const char *cps_judgement_name(CpsJudgement judgement);
+CPS_API const char *cps_judgement_text(CpsJudgement judgement);
 
 typedef struct CpsJudgementReport {
     CpsJudgement judgement;
@@ -92,10 +92,10 @@ typedef struct CpsSlackPart {
 } CpsSlackPart;
 
 /* List the slack of a step from end A to end B; returns how many parts there are, of which the
- * first `room` are filled. None of a step that is NULL or has no elements, nor into NULL. 0: the
- * configuration is unique (result 4.4 (ii)); with held parts only, none of them sliding, it still
- * is. */
-CPS_API int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part);
+ * first `capacity` are filled. None of a step that is NULL or has no elements, nor into NULL. 0:
+ * the configuration is unique (result 4.4 (ii)); with held parts only, none of them sliding, it
+ * still is. */
+CPS_API int cps_solution_slack(const CpsLineView *step, int capacity, CpsSlackPart *part);
 
 /* How slack is laid out between two nodes that stay. All have |x'| = 1 and keep to the plane. */
 #define CPS_COMPLETION_LIST(X)                                                                    \
@@ -110,8 +110,8 @@ typedef enum CpsCompletion {
         CPS_COMPLETIONS
 } CpsCompletion;
 
-CPS_API const char *cps_completion_key(CpsCompletion completion);
-CPS_API const char *cps_completion_sentence(CpsCompletion completion); /* "laid out ..." */
+CPS_API const char *cps_completion_name(CpsCompletion completion);
+CPS_API const char *cps_completion_text(CpsCompletion completion); /* "laid out ..." */
 
 /* The slack of a step. Lengths are natural lengths of elements without tension. */
 typedef struct CpsSlackReport {

@@ -22,7 +22,7 @@ const char *cps_status_name(CpsStatus status) {
     return "unknown status";
 }
 
-const char *cps_status_sentence(CpsStatus status) {
+const char *cps_status_text(CpsStatus status) {
     switch (status) {
 #define CASE(name, number, sentence) \
     case name: return sentence;

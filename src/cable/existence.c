@@ -18,7 +18,7 @@ static bool too_short(CpsiLine *line) {
         vec3_sub(vec3_load(line->end[CPS_END_B].value), vec3_load(line->end[CPS_END_A].value));
     const double distance = vec3_norm(span);
     if (!(distance > line->length * (1 + CPSI_TAUT))) return false;
-    line->report.outcome = CPS_INFEASIBLE;
+    line->report.outcome = CPS_OUTCOME_INFEASIBLE;
     vec3_store(line->report.proof, vec3_scale(1 / distance, span));
     line->report.proof_value = distance - line->length;
     return true;
@@ -53,7 +53,7 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     const double fall = sqrt(beyond * beyond + along * along);
     if (!(fall > CPSI_TAUT * loads)) return false;
     const Vec3 slide = pull > 0 ? vec3_scale(beyond / (pull * fall), tangent) : vec3(0, 0, 0);
-    line->report.outcome = CPS_UNBOUNDED;
+    line->report.outcome = CPS_OUTCOME_UNBOUNDED;
     vec3_store(line->report.proof, vec3_axpy(along / fall, n, slide));
     line->report.proof_value = fall;
     /* with bounds that follow the reactions these, which add up to what presses, would hold it
@@ -109,7 +109,7 @@ bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options
     if (too_short(line) || runs_away(line, options)) return true;
     double direction[3], load;
     if (!cpsi_line_falls_away(line, direction, &load)) return false;
-    line->report.outcome = CPS_UNBOUNDED;
+    line->report.outcome = CPS_OUTCOME_UNBOUNDED;
     for (int a = 0; a < 3; a++) line->report.proof[a] = direction[a];
     line->report.proof_value = load;
     return true;

@@ -51,7 +51,7 @@ CpsStatus cpsi_friction_set_check(const CpsSet *set, const char *name, CpsError 
     if (status) return status;
     if (facts.outcome != CPS_SET_ANSWERED)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': friction set: %s", name,
-                         cps_set_outcome_sentence(facts.outcome));
+                         cps_set_outcome_text(facts.outcome));
     if (!facts.bounded)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "obstacle '%s': friction set: it is unbounded, expected a bounded one",

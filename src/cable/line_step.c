@@ -102,7 +102,7 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
         cpsi_contact_update_geometry(line);
     }
     cpsi_line_certify(line, options, &none);
-    line->report.outcome = CPS_STALLED;
+    line->report.outcome = CPS_OUTCOME_STALLED;
 }
 
 /* Solve in one way or another: with places as they are found, should the rule of least motion be in
@@ -262,7 +262,7 @@ bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *opti
     keep_ends(line);
     cpsi_line_set_reference(line, options);
     if (!cpsi_line_slides_endlessly(line, margin)) return false;
-    line->report.outcome = CPS_SLIDES;
+    line->report.outcome = CPS_OUTCOME_SLIDES;
     memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
     memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
     memset(line->tension, 0, n * sizeof *line->tension);
@@ -274,7 +274,7 @@ bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) 
     if (!cpsi_line_falls_short(line, options, &shortfall)) return false;
     keep_ends(line);
     cpsi_line_set_reference(line, options);
-    line->report.outcome = CPS_INFEASIBLE;
+    line->report.outcome = CPS_OUTCOME_INFEASIBLE;
     vec3_store(line->report.proof, shortfall.leaves);
     line->report.proof_value = shortfall.missing;
     line->report.proof_obstacle = shortfall.obstacle;
@@ -286,7 +286,7 @@ bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) 
 static void report_bend(CpsiLine *line) {
     line->report.bend = cpsi_line_bend(line);
     if (cps_outcome_is_certified(line->report.outcome) && cpsi_bend_locks(&line->report.bend))
-        line->report.outcome = CPS_MESH_TOO_COARSE;
+        line->report.outcome = CPS_OUTCOME_MESH_TOO_COARSE;
 }
 
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
@@ -303,7 +303,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
         return;
     }
     line->report.certificate = (CpsCertificate){0};
-    line->report.outcome = CPS_SOLVED;
+    line->report.outcome = CPS_OUTCOME_SOLVED;
     if (cpsi_line_has_no_equilibrium(line, options)) return;
     solve_with_fallbacks(line, program, options);
     if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);

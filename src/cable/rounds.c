@@ -169,7 +169,7 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             return;
     }
     if (certify_last_round(line, program, options, bounds, &ipm) && !arrived)
-        line->report.outcome = CPS_STALLED;
+        line->report.outcome = CPS_OUTCOME_STALLED;
 }
 
 /* Rounds with drag that are watched: from where, and how far they have gone since. */
@@ -233,5 +233,5 @@ void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
         begin_watch(line, &watch);
     }
     if (certify_last_round(line, program, options, bounds, &ipm) && !arrived)
-        line->report.outcome = CPS_STALLED;
+        line->report.outcome = CPS_OUTCOME_STALLED;
 }

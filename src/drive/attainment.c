@@ -105,7 +105,7 @@ static CpsStatus with_friction(const CpsMotion *motion, double s, double *veloci
         }
     cpsi_kinematics_free(kinematics);
     cps_motion_destroy(found);
-    cps_law_destroy(law);
+    cps_law_release(law);
     cps_set_release(interval);
     cps_system_destroy(system);
     return status;

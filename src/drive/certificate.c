@@ -143,7 +143,7 @@ static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *
                                const double *u, const double *f, Part *part, CpsError *err) {
     const CpsiPiece *piece = &motion->system->piece[k];
     CpsSetAnswer phi, margin;
-    CpsStatus status = cps_law_dissipation(piece->set, u, NULL, &phi, err);
+    CpsStatus status = cps_set_dissipation(piece->set, u, NULL, &phi, err);
     if (status == CPS_OK) status = cps_set_contains(piece->set, f, NULL, &margin, err);
     if (status != CPS_OK) return status;
     part->potential = phi.outcome == CPS_SET_ANSWERED || phi.outcome == CPS_SET_NOT_ATTAINED

@@ -50,20 +50,21 @@ CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary,
     *iterations += program.result.iterations;
     const bool known = program.result.outcome == CPSI_CONIC_SOLVED;
     const double *s = program.result.s;
-    *composition = known ? CPS_COMPOSE_INTERIOR : CPS_COMPOSE_NOT_SATISFIED;
+    *composition = known ? CPS_COMPOSITION_INTERIOR : CPS_COMPOSITION_NOT_SATISFIED;
     bool full = true;
     if (known)
         for (int k = 0; status == CPS_OK && k < system->pieces; k++) {
             const CpsiConicForm *form = program.form[k];
             const CpsiPiece *piece = &system->piece[k];
-            CpsComposition place = CPS_COMPOSE_INTERIOR;
+            CpsComposition place = CPS_COMPOSITION_INTERIOR;
             /* neighbours of one set have one dimension */
             if (k == 0 || form != program.form[k - 1])
                 status = full_dimension(form, piece->space, &full, err);
-            if (!full) place = CPS_COMPOSE_RELATIVE_INTERIOR;
+            if (!full) place = CPS_COMPOSITION_RELATIVE_INTERIOR;
             if (margin_of(form, s + program.row[k]) < boundary)
-                place = piece->set && cpsi_law_polyhedral(piece->set) ? CPS_COMPOSE_POLYHEDRAL
-                                                                      : CPS_COMPOSE_NOT_SATISFIED;
+                place = piece->set && cpsi_law_polyhedral(piece->set)
+                            ? CPS_COMPOSITION_POLYHEDRAL
+                            : CPS_COMPOSITION_NOT_SATISFIED;
             if (place > *composition) *composition = place;
         }
     cpsi_drive_program_clear(&program);

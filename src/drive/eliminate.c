@@ -181,7 +181,7 @@ static CpsStatus compose_law(const Reduction *r, const CpsLaw *product, CpsLaw *
     CpsStatus status = cps_law_preimage(r->p, r->inner, product, NULL, &inner, err);
     if (status == CPS_OK)
         status = cps_law_contacts(r->m, 1, (const CpsLaw *const *)&inner, &outer, out, err);
-    cps_law_destroy(inner);
+    cps_law_release(inner);
     return status;
 }
 
@@ -264,7 +264,7 @@ CpsStatus cps_system_eliminate(const CpsSystem *system, CpsLaw **law, CpsSet **f
     Reduction r = {0};
     CpsLaw *product = NULL, *reduced = NULL;
     CpsSet *set = NULL;
-    CpsComposition found = CPS_COMPOSE_NOT_SATISFIED;
+    CpsComposition found = CPS_COMPOSITION_NOT_SATISFIED;
     status = reduce(system, &r, err);
     if (status == CPS_OK) status = product_of(system, &product, err);
     if (status == CPS_OK && cpsi_system_loaded(system))
@@ -287,8 +287,8 @@ CpsStatus cps_system_eliminate(const CpsSystem *system, CpsLaw **law, CpsSet **f
         }
         if (composition) *composition = found;
     }
-    cps_law_destroy(product);
-    cps_law_destroy(reduced);
+    cps_law_release(product);
+    cps_law_release(reduced);
     cps_set_release(set);
     clear(&r);
     return status;

@@ -35,7 +35,7 @@ const char *cps_motion_outcome_name(CpsMotionOutcome outcome) {
     return "CPS_MOTION_UNKNOWN";
 }
 
-const char *cps_motion_outcome_sentence(CpsMotionOutcome outcome) {
+const char *cps_motion_outcome_text(CpsMotionOutcome outcome) {
     switch (outcome) {
 #define SENTENCE(name, number, sentence) \
     case name: return sentence;
@@ -46,7 +46,10 @@ const char *cps_motion_outcome_sentence(CpsMotionOutcome outcome) {
 }
 
 CpsMotionOptions cps_motion_options_default(void) {
-    return (CpsMotionOptions){.tolerance = 1e-8, .boundary = 1e-6, .composition = true};
+    return (CpsMotionOptions){.cookie = CPSI_MOTION_COOKIE,
+                              .tolerance = 1e-8,
+                              .boundary = 1e-6,
+                              .composition = true};
 }
 
 /* ---- memory ---- */
@@ -90,7 +93,7 @@ static CpsStatus motion_new(const CpsSystem *system, const double *driving, CpsM
     motion->piece_force = motion->law_force + components;
     if (m > 0) memcpy(motion->driving, driving, m * sizeof *driving);
     motion->report.load_factor = INFINITY;
-    motion->report.composition = CPS_COMPOSE_NOT_SATISFIED;
+    motion->report.composition = CPS_COMPOSITION_NOT_SATISFIED;
     *out = motion;
     return CPS_OK;
 }
@@ -333,7 +336,7 @@ const double *cps_motion_resistance(const CpsMotion *motion) {
 const double *cps_motion_constraint_forces(const CpsMotion *motion) {
     return motion ? motion->constraint : NULL;
 }
-int cps_motion_constraints(const CpsMotion *motion) {
+int cps_motion_constraint_count(const CpsMotion *motion) {
     return motion ? motion->system->constraint.rows : 0;
 }
 

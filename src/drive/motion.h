@@ -32,6 +32,9 @@ struct CpsMotion {
 
 /* A motion with its bounds, from checked arguments; not yet whether its infimum is attained. The
  * caller frees both. */
+/* What tells options that began as the default. */
+enum { CPSI_MOTION_COOKIE = 0x4d4f5449 };
+
 CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving,
                            const CpsMotionOptions *options, CpsMotion **out,
                            CpsiKinematics **kinematics, CpsError *err);

@@ -55,7 +55,7 @@ CpsStatus cps_system_drive_path(const CpsSystem *system, int count, const double
                          "path: system, duration, driving, step and done are all needed");
     *done = 0;
     CpsStatus status = check(system, count, duration, driving, err);
-    const int n = cps_system_parameters(system), m = cps_system_drive_space(system);
+    const int n = cps_system_parameter_count(system), m = cps_system_drive_space(system);
     for (int i = 0; i < count && status == CPS_OK; i++) {
         CpsMotion *motion = NULL;
         const double *w = &driving[(size_t)i * (size_t)m];

@@ -195,7 +195,7 @@ static CpsStatus velocities_of_piece(Gather *g, int k, CpsError *err) {
     else if (term)
         status = cpsi_term_velocities(piece->space, piece->term, f, g->tolerance, &cone, err);
     else
-        status = cps_law_velocities(piece->set, f, g->tolerance, &cone, &answer, err);
+        status = cps_set_velocities(piece->set, f, g->tolerance, &cone, &answer, err);
     if (status != CPS_OK) return status;
     if (!cone) {
         g->found.outcome = term ? CPS_SET_NOT_AVAILABLE : answer.outcome;
@@ -234,7 +234,7 @@ static CpsStatus value_beside(const CpsMotion *motion, const double *d, double s
             *value += of.outcome == CPS_SET_ANSWERED ? of.potential : INFINITY;
         } else {
             CpsSetAnswer phi = {0};
-            status = cps_law_dissipation(cps_law_set(law->friction), u, NULL, &phi, err);
+            status = cps_set_dissipation(cps_law_set(law->friction), u, NULL, &phi, err);
             *value += phi.outcome == CPS_SET_ANSWERED ? phi.value : INFINITY;
         }
     }
@@ -309,7 +309,7 @@ static CpsStatus forces_of_piece(Gather *g, const CpsiPiece *piece, CpsError *er
     if (scale_of(piece->space, u) <= g->tolerance * motion->speed)
         face = cps_set_retain(piece->set);
     else
-        status = cps_law_forces(piece->set, u, g->tolerance, &face, &answer, err);
+        status = cps_set_forces(piece->set, u, g->tolerance, &face, &answer, err);
     if (status == CPS_OK && face) status = require_forces(g, face, first, piece->space, err);
     if (!face) g->found.outcome = answer.outcome;
     cps_set_release(face);

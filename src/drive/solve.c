@@ -26,6 +26,9 @@ static CpsStatus check(const CpsSystem *system, const double *driving,
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
                              "component %d of the driving velocity is %g, expected a number", j + 1,
                              driving[j]);
+    if (options->cookie != CPSI_MOTION_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the options were not made by cps_motion_options_default()");
     if (!(options->tolerance > 0) || !(options->boundary > 0) || !(options->boundary < 1))
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
@@ -47,7 +50,7 @@ CpsStatus cps_system_solve(const CpsSystem *system, const double *driving,
     if (motion->possible && chosen.composition) {
         status = cpsi_motion_composition(system, chosen.boundary, &report->composition,
                                          &report->iterations, err);
-        if (status == CPS_OK && report->composition == CPS_COMPOSE_NOT_SATISFIED &&
+        if (status == CPS_OK && report->composition == CPS_COMPOSITION_NOT_SATISFIED &&
             report->outcome != CPS_MOTION_BLOCKED)
             status = cpsi_motion_attained(motion, kinematics, err);
         if (report->outcome == CPS_MOTION_NOT_ATTAINED)

@@ -37,8 +37,8 @@ CpsStatus cps_system_create(int parameters, CpsSystem **out, CpsError *err) {
 
 static void clear_law(CpsiSystemLaw *law) {
     free(law->name);
-    cps_law_destroy(law->friction);
-    cps_resistance_destroy(law->resistance);
+    cps_law_release(law->friction);
+    cps_resistance_release(law->resistance);
 }
 
 void cps_system_destroy(CpsSystem *system) {
@@ -55,8 +55,8 @@ void cps_system_destroy(CpsSystem *system) {
     free(system);
 }
 
-int cps_system_parameters(const CpsSystem *system) { return system ? system->n : 0; }
-int cps_system_laws(const CpsSystem *system) { return system ? system->laws : 0; }
+int cps_system_parameter_count(const CpsSystem *system) { return system ? system->n : 0; }
+int cps_system_law_count(const CpsSystem *system) { return system ? system->laws : 0; }
 int cps_system_drive_space(const CpsSystem *system) { return system ? system->drive.rows : 0; }
 
 static bool has_law(const CpsSystem *system, int k) { return system && k >= 0 && k < system->laws; }
@@ -142,17 +142,6 @@ static CpsStatus end_law(CpsSystem *system, CpsiSystemLaw *law, int count, const
     return CPS_OK;
 }
 
-/* Laws have one owner: a law of the same sets for the system. */
-static CpsStatus copy_law(const CpsLaw *law, CpsLaw **out, CpsError *err) {
-    CpsLaw *copy = malloc(sizeof *copy + (size_t)law->factor_count * sizeof copy->factor[0]);
-    if (!copy) return out_of_memory(err);
-    copy->set = cps_set_retain(law->set);
-    copy->factor_count = law->factor_count;
-    for (int i = 0; i < law->factor_count; i++) copy->factor[i] = cps_set_retain(law->factor[i]);
-    *out = copy;
-    return CPS_OK;
-}
-
 CpsStatus cps_system_add_friction(CpsSystem *system, const char *name, const CpsLaw *law, int count,
                                   const CpsEntry *map, CpsError *err) {
     if (!system || !law) return cpsi_fail(err, CPS_ERR_ARGUMENT, "system or law is NULL");
@@ -160,7 +149,7 @@ CpsStatus cps_system_add_friction(CpsSystem *system, const char *name, const Cps
     CpsStatus status = begin_law(system, name, cps_law_space(law), law->factor_count, &own, err);
     if (status != CPS_OK) return status;
     status = refuse_user(own->name, cps_law_set(law), err);
-    if (status == CPS_OK) status = copy_law(law, &own->friction, err);
+    if (status == CPS_OK) own->friction = cps_law_retain(law);
     for (int i = 0, offset = 0; status == CPS_OK && i < law->factor_count; i++) {
         const int at = system->pieces + i;
         CpsiPiece piece = {.law = system->laws, .offset = offset, .set = law->factor[i]};
@@ -199,8 +188,8 @@ CpsStatus cps_system_add_resistance(CpsSystem *system, const char *name, const C
     if (status != CPS_OK) return status;
     for (int i = 0; i < law->count && status == CPS_OK; i++)
         status = check_term(own->name, &law->term[i], err);
-    if (status == CPS_OK) status = cps_resistance_sum(1, &law, &own->resistance, err);
     if (status == CPS_OK) {
+        own->resistance = cps_resistance_retain(law);
         for (int i = 0; i < law->count; i++) {
             const CpsiTerm *term = &own->resistance->term[i];
             system->piece[system->pieces + i] =

@@ -539,7 +539,7 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
 
 CpsStepReport cps_evolution_report(const CpsEvolution *evolution) {
     return evolution ? evolution->report
-                     : (CpsStepReport){.name = "", .index = -1, .outcome = CPS_STALLED};
+                     : (CpsStepReport){.name = "", .index = -1, .outcome = CPS_OUTCOME_STALLED};
 }
 
 int cps_evolution_line_count(const CpsEvolution *evolution) {
@@ -552,7 +552,7 @@ static bool has_line(const CpsEvolution *evolution, int line) {
 
 CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) {
     if (!has_line(evolution, line))
-        return (CpsLineReport){.outcome = CPS_STALLED, .pierced = -1, .proof_obstacle = -1};
+        return (CpsLineReport){.outcome = CPS_OUTCOME_STALLED, .pierced = -1, .proof_obstacle = -1};
     CpsLineReport report = evolution->line[line].report;
     for (int end = 0; end < 2; end++)
         for (int a = 0; a < 3; a++)

@@ -2,7 +2,7 @@
 /* Keys, sentences and kinds of outcomes, and keys of ranges, from the lists in evolve.h. */
 #include "capstan/evolve.h"
 
-const char *cps_outcome_key(CpsOutcome outcome) {
+const char *cps_outcome_name(CpsOutcome outcome) {
     switch (outcome) {
 #define CASE(name, number, key, sentence) \
     case name: return key;
@@ -12,7 +12,7 @@ const char *cps_outcome_key(CpsOutcome outcome) {
     return "unknown";
 }
 
-const char *cps_outcome_sentence(CpsOutcome outcome) {
+const char *cps_outcome_text(CpsOutcome outcome) {
     switch (outcome) {
 #define CASE(name, number, key, sentence) \
     case name: return sentence;
@@ -23,32 +23,33 @@ const char *cps_outcome_sentence(CpsOutcome outcome) {
 }
 
 bool cps_outcome_is_certified(CpsOutcome outcome) {
-    return outcome == CPS_SOLVED || outcome == CPS_TAUT;
+    return outcome == CPS_OUTCOME_SOLVED || outcome == CPS_OUTCOME_TAUT;
 }
 
 bool cps_outcome_is_final(CpsOutcome outcome) {
-    return outcome == CPS_UNBOUNDED || outcome == CPS_INFEASIBLE || outcome == CPS_SLIDES;
+    return outcome == CPS_OUTCOME_UNBOUNDED || outcome == CPS_OUTCOME_INFEASIBLE ||
+           outcome == CPS_OUTCOME_SLIDES;
 }
 
 /* From best to worst: certified answers, answers that are not certified, proofs that there is
  * none. */
 static int badness(CpsOutcome outcome) {
     switch (outcome) {
-    case CPS_SOLVED: return 0;
-    case CPS_TAUT: return 1;
-    case CPS_MESH_TOO_COARSE: return 2;
-    case CPS_STALLED: return 3;
-    case CPS_ITERATION_LIMIT: return 4;
-    case CPS_SLIDES: return 5;
-    case CPS_UNBOUNDED: return 6;
-    case CPS_INFEASIBLE: return 7;
+    case CPS_OUTCOME_SOLVED: return 0;
+    case CPS_OUTCOME_TAUT: return 1;
+    case CPS_OUTCOME_MESH_TOO_COARSE: return 2;
+    case CPS_OUTCOME_STALLED: return 3;
+    case CPS_OUTCOME_ITERATION_LIMIT: return 4;
+    case CPS_OUTCOME_SLIDES: return 5;
+    case CPS_OUTCOME_UNBOUNDED: return 6;
+    case CPS_OUTCOME_INFEASIBLE: return 7;
     }
     return 8;
 }
 
 CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b) { return badness(b) > badness(a) ? b : a; }
 
-const char *cps_range_key(CpsRange range) {
+const char *cps_range_name(CpsRange range) {
     switch (range) {
 #define CASE(name, number, key, sentence) \
     case name: return key;

@@ -54,7 +54,7 @@ static bool is_step_report(const CpsEvolution *evolution) {
 /* The obstacle of a bend is looked up wherever the mesh is too coarse, else only where the line
  * turns. */
 static bool is_line_report(const CpsLineReport *report, int obstacles) {
-    const bool bends = report->bend.turn > 0 || report->outcome == CPS_MESH_TOO_COARSE;
+    const bool bends = report->bend.turn > 0 || report->outcome == CPS_OUTCOME_MESH_TOO_COARSE;
     bool sound = is_outcome(report->outcome) &&
                  within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
                  report->iterations >= 0 && report->parts >= 0 && report->snaps >= 0 &&

@@ -157,7 +157,7 @@ static void impose(const Advance *substeps, double from, double to) {
 
 /* What the mesh makes of a bend it makes in smaller parts as well. */
 static bool is_answer(CpsOutcome outcome) {
-    return cps_outcome_is_certified(outcome) || outcome == CPS_MESH_TOO_COARSE;
+    return cps_outcome_is_certified(outcome) || outcome == CPS_OUTCOME_MESH_TOO_COARSE;
 }
 
 /* The part of the move from share `from` to share `to`. */
@@ -170,7 +170,7 @@ static Part accept(Advance *substeps, double from, double to, bool known) {
     const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
     cpsi_line_step(line, substeps->program, substeps->options);
     if (is_answer(line->report.outcome) && cpsi_contact_turns_too_far(line))
-        line->report.outcome = CPS_STALLED;
+        line->report.outcome = CPS_OUTCOME_STALLED;
     line->report.share = to - from;
     substeps->iterations += line->report.iterations;
     Part part = {0};
@@ -531,7 +531,7 @@ void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
     const bool short_of = cpsi_line_step_falls_short(line, options);
     if (!short_of) cpsi_line_step(line, program, options);
     int iterations = line->report.iterations;
-    if (line->report.outcome == CPS_STALLED) {
+    if (line->report.outcome == CPS_OUTCOME_STALLED) {
         restore(line, scratch);
         if (!cpsi_line_relax(line, program, options, line->end, scratch->turn, false, &done))
             restore(line, scratch);

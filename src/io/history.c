@@ -35,7 +35,7 @@ double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
 }
 
 CpsOutcome cpsi_results_outcome(const CpsResults *results) {
-    CpsOutcome worst = CPS_SOLVED;
+    CpsOutcome worst = CPS_OUTCOME_SOLVED;
     for (int i = 0; i < results->row_count; ++i)
         worst = cps_outcome_worse(worst, results->row[i].report.outcome);
     return worst;

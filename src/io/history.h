@@ -10,7 +10,7 @@
 #include <locale.h>
 #include <stdbool.h>
 
-#include "capstan/io.h"
+#include "capstan/results.h"
 #include "io/base/write_directory.h"
 
 typedef struct CpsiNetcdf CpsiNetcdf;

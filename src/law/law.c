@@ -39,6 +39,7 @@ static CpsStatus make_law(CpsSet *set, int factor_count, CpsSet *const *factor, 
         cps_set_release(set);
         return out_of_memory(err);
     }
+    atomic_init(&law->refcount, 1);
     law->set = set;
     law->factor_count = count;
     for (int i = 0; i < count; i++) law->factor[i] = cps_set_retain(factor ? factor[i] : set);
@@ -46,8 +47,14 @@ static CpsStatus make_law(CpsSet *set, int factor_count, CpsSet *const *factor, 
     return CPS_OK;
 }
 
-void cps_law_destroy(CpsLaw *law) {
-    if (!law) return;
+CpsLaw *cps_law_retain(const CpsLaw *law) {
+    CpsLaw *held = (CpsLaw *)(uintptr_t)law; /* a law is constant but for its count */
+    if (held) atomic_fetch_add(&held->refcount, 1);
+    return held;
+}
+
+void cps_law_release(CpsLaw *law) {
+    if (!law || atomic_fetch_sub(&law->refcount, 1) > 1) return;
     for (int i = 0; i < law->factor_count; i++) cps_set_release(law->factor[i]);
     cps_set_release(law->set);
     free(law);
@@ -74,7 +81,7 @@ CpsStatus cps_law_friction(const CpsSet *set, CpsLaw **out, CpsError *err) {
     if (!known && facts.outcome != CPS_SET_NOT_AVAILABLE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "cannot tell whether the set of forces contains 0: %s",
-                         cps_set_outcome_sentence(facts.outcome));
+                         cps_set_outcome_text(facts.outcome));
     if (known && !facts.has_zero)
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
@@ -105,7 +112,7 @@ CpsStatus cps_law_unit_load(const CpsSet *unit, double load, CpsLaw **out, CpsEr
     CpsSet *set = NULL;
     CpsStatus status = cps_law_friction(unit, &law, err);
     if (status == CPS_OK) status = cps_set_scale(load, unit, &set, err);
-    cps_law_destroy(law);
+    cps_law_release(law);
     return status == CPS_OK ? make_law(set, 0, NULL, out, err) : status;
 }
 
@@ -188,7 +195,7 @@ const char *cps_composition_name(CpsComposition composition) {
     return (unsigned)composition < 4 ? NAME[composition] : "?";
 }
 
-const char *cps_composition_sentence(CpsComposition composition) {
+const char *cps_composition_text(CpsComposition composition) {
     static const char *const SENTENCE[] = {
         "the forces that the map admits meet the interior of the parts' set: the reduced law is "
         "exact",
@@ -209,18 +216,18 @@ static CpsStatus place_in_factor(const CpsSet *factor, const double *point, CpsC
     CpsSetFacts facts, cone_facts;
     CpsSetAnswer answer;
     CpsSet *cone = NULL;
-    *place = CPS_COMPOSE_NOT_SATISFIED;
+    *place = CPS_COMPOSITION_NOT_SATISFIED;
     CpsStatus status = cps_set_facts(factor, 0, &facts, NULL, NULL, err);
     if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED)
         status = cps_set_normal_cone(factor, point, BOUNDARY_TOLERANCE, &cone, &answer, err);
     if (status == CPS_OK && cone) status = cps_set_facts(cone, 0, &cone_facts, NULL, NULL, err);
     if (status == CPS_OK && cone && cone_facts.outcome == CPS_SET_ANSWERED) {
         if (cone_facts.dimension == 0)
-            *place = CPS_COMPOSE_INTERIOR;
+            *place = CPS_COMPOSITION_INTERIOR;
         else if (cone_facts.dimension == cps_set_space(factor) - facts.dimension)
-            *place = CPS_COMPOSE_RELATIVE_INTERIOR;
+            *place = CPS_COMPOSITION_RELATIVE_INTERIOR;
         else if (cpsi_law_polyhedral(factor))
-            *place = CPS_COMPOSE_POLYHEDRAL;
+            *place = CPS_COMPOSITION_POLYHEDRAL;
     }
     cps_set_release(cone);
     return status;
@@ -238,9 +245,9 @@ static CpsStatus find_composition(int n, const double *map, const CpsLaw *law,
     double *force = center + n;
     CpsSetFacts facts;
     CpsStatus status = cps_set_facts(reduced, 0, &facts, center, NULL, err);
-    *composition = CPS_COMPOSE_INTERIOR;
+    *composition = CPS_COMPOSITION_INTERIOR;
     if (status == CPS_OK && facts.outcome != CPS_SET_ANSWERED)
-        *composition = CPS_COMPOSE_NOT_SATISFIED;
+        *composition = CPS_COMPOSITION_NOT_SATISFIED;
     if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED) {
         for (int i = 0; i < rows; i++) force[i] = cpsi_dot(n, map + (size_t)i * (size_t)n, center);
         for (int i = 0, at = 0; i < law->factor_count && status == CPS_OK; i++) {
@@ -259,7 +266,7 @@ CpsStatus cps_law_preimage(int n, const double *map, const CpsLaw *law, CpsCompo
     if (!map || !law || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "map, law or out is NULL");
     CpsSet *reduced = NULL;
     CpsStatus status = cps_set_preimage(n, map, NULL, law->set, &reduced, err);
-    CpsComposition found = CPS_COMPOSE_NOT_SATISFIED;
+    CpsComposition found = CPS_COMPOSITION_NOT_SATISFIED;
     if (status == CPS_OK && composition)
         status = find_composition(n, map, law, reduced, &found, err);
     if (status != CPS_OK) {
@@ -274,6 +281,7 @@ CpsStatus cps_law_preimage(int n, const double *map, const CpsLaw *law, CpsCompo
 /* ---- loaded laws ---- */
 
 struct CpsLoadedLaw {
+    atomic_int refcount;
     CpsSet *set;
     double load[];
 };
@@ -290,13 +298,20 @@ CpsStatus cps_law_load(const CpsLaw *law, const double *load, CpsLoadedLaw **out
         free(loaded);
         return status;
     }
+    atomic_init(&loaded->refcount, 1);
     memcpy(loaded->load, load, (size_t)n * sizeof *load);
     *out = loaded;
     return CPS_OK;
 }
 
-void cps_loaded_law_destroy(CpsLoadedLaw *law) {
-    if (!law) return;
+CpsLoadedLaw *cps_loaded_law_retain(const CpsLoadedLaw *law) {
+    CpsLoadedLaw *held = (CpsLoadedLaw *)(uintptr_t)law; /* constant but for its count */
+    if (held) atomic_fetch_add(&held->refcount, 1);
+    return held;
+}
+
+void cps_loaded_law_release(CpsLoadedLaw *law) {
+    if (!law || atomic_fetch_sub(&law->refcount, 1) > 1) return;
     cps_set_release(law->set);
     free(law);
 }

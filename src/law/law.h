@@ -4,6 +4,7 @@
 #define CAPSTAN_SRC_LAW_LAW_H
 
 #include <math.h>
+#include <stdatomic.h>
 
 #include "capstan/law.h"
 #include "linalg/dense.h"
@@ -11,6 +12,7 @@
 /* C, and the factors it is a product of (itself, where it is none): the composition rule looks at
  * each on its own. */
 struct CpsLaw {
+    atomic_int refcount;
     CpsSet *set;
     int factor_count;
     CpsSet *factor[]; /* (factor_count), each with a hold */

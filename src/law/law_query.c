@@ -26,7 +26,7 @@ static CpsStatus turn(const CpsSet *set, const double *velocity, double **opposi
     return CPS_OK;
 }
 
-CpsStatus cps_law_dissipation(const CpsSet *set, const double *velocity, double *force,
+CpsStatus cps_set_dissipation(const CpsSet *set, const double *velocity, double *force,
                               CpsSetAnswer *answer, CpsError *err) {
     double *opposite = NULL;
     CpsStatus status = turn(set, velocity, &opposite, err);
@@ -35,7 +35,7 @@ CpsStatus cps_law_dissipation(const CpsSet *set, const double *velocity, double 
     return status;
 }
 
-CpsStatus cps_law_forces(const CpsSet *set, const double *velocity, double tolerance,
+CpsStatus cps_set_forces(const CpsSet *set, const double *velocity, double tolerance,
                          CpsSet **forces, CpsSetAnswer *answer, CpsError *err) {
     double *opposite = NULL;
     CpsStatus status = turn(set, velocity, &opposite, err);
@@ -44,7 +44,7 @@ CpsStatus cps_law_forces(const CpsSet *set, const double *velocity, double toler
     return status;
 }
 
-CpsStatus cps_law_velocities(const CpsSet *set, const double *force, double tolerance,
+CpsStatus cps_set_velocities(const CpsSet *set, const double *force, double tolerance,
                              CpsSet **velocities, CpsSetAnswer *answer, CpsError *err) {
     if (!set || !velocities)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law's set or velocities is NULL");
@@ -62,7 +62,7 @@ CpsStatus cps_law_velocities(const CpsSet *set, const double *force, double tole
 
 /* The normal cone form: |F - P_C(F - step V)|, in work (2n). */
 static CpsStatus normal_cone_form(const CpsSet *set, const double *force, const double *velocity,
-                                  double *work, CpsLawResidual *r, CpsError *err) {
+                                  double *work, CpsSetResidual *r, CpsError *err) {
     const int n = cps_set_space(set);
     double *trial = work, *nearest = work + n;
     CpsSetAnswer answer;
@@ -81,7 +81,7 @@ static CpsStatus normal_cone_form(const CpsSet *set, const double *force, const 
 
 /* The power forms, from a force P of the law at V. */
 static void power_forms(int n, const double *force, const double *velocity, const double *maximal,
-                        double phi, CpsLawResidual *r) {
+                        double phi, CpsSetResidual *r) {
     double difference = 0;
     for (int i = 0; i < n; i++) difference += velocity[i] * (force[i] - maximal[i]);
     const double power = cpsi_dot(n, velocity, force);
@@ -96,8 +96,8 @@ static void power_forms(int n, const double *force, const double *velocity, cons
                                                     : INFINITY;
 }
 
-CpsStatus cps_law_residual(const CpsSet *set, const double *force, const double *velocity,
-                           double step, CpsLawResidual *residual, CpsError *err) {
+CpsStatus cps_set_residual(const CpsSet *set, const double *force, const double *velocity,
+                           double step, CpsSetResidual *residual, CpsError *err) {
     if (!set || !residual)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law's set or residual is NULL");
     if (!(step >= 0) || !isfinite(step))
@@ -113,9 +113,9 @@ CpsStatus cps_law_residual(const CpsSet *set, const double *force, const double 
 
     /* distance from C; then phi(V) with a force that attains it */
     CpsSetAnswer nearest, phi;
-    CpsLawResidual r = {.step = step};
+    CpsSetResidual r = {.step = step};
     status = cps_set_project(set, force, NULL, work, &nearest, err);
-    if (status == CPS_OK) status = cps_law_dissipation(set, velocity, maximal, &phi, err);
+    if (status == CPS_OK) status = cps_set_dissipation(set, velocity, maximal, &phi, err);
     if (status == CPS_OK) {
         r.outside = nearest.outcome == CPS_SET_ANSWERED ? nearest.value : NAN;
         r.outcome = phi.outcome;

@@ -3,6 +3,7 @@
  * 7, remark 1; M70 section 7) */
 #include "law/resistance.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,8 +36,14 @@ static bool copy_term(int n, const CpsiTerm *from, CpsiTerm *to) {
     return true;
 }
 
-void cps_resistance_destroy(CpsResistance *law) {
-    if (!law) return;
+CpsResistance *cps_resistance_retain(const CpsResistance *law) {
+    CpsResistance *held = (CpsResistance *)(uintptr_t)law; /* constant but for its count */
+    if (held) atomic_fetch_add(&held->refcount, 1);
+    return held;
+}
+
+void cps_resistance_release(CpsResistance *law) {
+    if (!law || atomic_fetch_sub(&law->refcount, 1) > 1) return;
     for (int i = 0; i < law->count; i++) {
         cps_set_release(law->term[i].set);
         free(law->term[i].data);
@@ -47,7 +54,11 @@ void cps_resistance_destroy(CpsResistance *law) {
 /* an empty law with room for `count` terms */
 static CpsResistance *make(int n, size_t count) {
     CpsResistance *law = malloc(sizeof *law + count * sizeof law->term[0]);
-    if (law) *law = (CpsResistance){.n = n};
+    if (law) {
+        atomic_init(&law->refcount, 1);
+        law->n = n;
+        law->count = 0;
+    }
     return law;
 }
 
@@ -55,7 +66,7 @@ static CpsStatus make_one(int n, const CpsiTerm *term, CpsResistance **out, CpsE
     CpsResistance *law = make(n, 1);
     if (!law) return out_of_memory(err);
     if (!copy_term(n, term, &law->term[law->count++])) {
-        cps_resistance_destroy(law);
+        cps_resistance_release(law);
         return out_of_memory(err);
     }
     *out = law;
@@ -275,7 +286,7 @@ CpsStatus cps_resistance_sum(int count, const CpsResistance *const *parts, CpsRe
     for (int i = 0; i < count; i++)
         for (int k = 0; k < parts[i]->count; k++)
             if (!copy_term(law->n, &parts[i]->term[k], &law->term[law->count++])) {
-                cps_resistance_destroy(law);
+                cps_resistance_release(law);
                 return out_of_memory(err);
             }
     *out = law;
@@ -284,7 +295,7 @@ CpsStatus cps_resistance_sum(int count, const CpsResistance *const *parts, CpsRe
 
 int cps_resistance_space(const CpsResistance *law) { return law ? law->n : 0; }
 
-int cps_resistance_terms(const CpsResistance *law) { return law ? law->count : 0; }
+int cps_resistance_term_count(const CpsResistance *law) { return law ? law->count : 0; }
 
 /* ---- potential, power, forces ---- */
 
@@ -304,7 +315,7 @@ static CpsStatus term_value(int n, const CpsiTerm *term, const double *velocity,
         return CPS_OK;
     }
     CpsSetAnswer g;
-    CpsStatus status = cps_law_dissipation(term->set, velocity, NULL, &g, err);
+    CpsStatus status = cps_set_dissipation(term->set, velocity, NULL, &g, err);
     if (status != CPS_OK) return status;
     value->outcome = g.outcome;
     if (g.outcome != CPS_SET_ANSWERED && g.outcome != CPS_SET_NOT_ATTAINED) {
@@ -358,7 +369,7 @@ static CpsStatus term_forces(int n, const CpsiTerm *term, const double *velocity
         return status;
     }
     CpsSet *face = NULL;
-    CpsStatus status = cps_law_forces(term->set, velocity, tolerance, &face, answer, err);
+    CpsStatus status = cps_set_forces(term->set, velocity, tolerance, &face, answer, err);
     if (status == CPS_OK && face) {
         const double speed = fmax(answer->value, 0);
         double potential, slope;

@@ -27,6 +27,7 @@ typedef struct CpsiTerm {
 } CpsiTerm;
 
 struct CpsResistance {
+    atomic_int refcount;
     int n, count;
     CpsiTerm term[]; /* (count) */
 };

@@ -67,7 +67,7 @@ CpsStatus cpsi_term_velocities(int n, const CpsiTerm *term, const double *force,
     if (known && moves)
         for (int i = 0; i < n; i++) point[i] = force[i] / gauge.value;
     if (status == CPS_OK && known && isfinite(low))
-        status = cps_law_velocities(term->set, point, tolerance, &cone, &answer, err);
+        status = cps_set_velocities(term->set, point, tolerance, &cone, &answer, err);
     if (status == CPS_OK && cone && moves && isfinite(high))
         status = cps_set_strip(n, point, -high, -low, &strip, err);
     else if (status == CPS_OK && cone && moves && low > 0)
@@ -171,7 +171,7 @@ CpsStatus cps_resistance_velocities(const CpsResistance *law, const double *forc
         CpsSet *sum = NULL;
         CpsSetAnswer cone;
         status = cpsi_dry_sum(law, &sum, err);
-        if (status == CPS_OK) status = cps_law_velocities(sum, force, 0, &set, &cone, err);
+        if (status == CPS_OK) status = cps_set_velocities(sum, force, 0, &set, &cone, err);
         if (status == CPS_OK && !set) answer->outcome = cone.outcome;
         cps_set_release(sum);
     } else if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED && !viscous) {

@@ -247,7 +247,7 @@ void cps_planar_destroy(CpsPlanar *body) {
     free(body);
 }
 
-int cps_planar_patches(const CpsPlanar *body) { return body ? body->count : 0; }
+int cps_planar_patch_count(const CpsPlanar *body) { return body ? body->count : 0; }
 
 /* ---- the law ---- */
 

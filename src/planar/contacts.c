@@ -56,8 +56,8 @@ static CpsStatus wheel_law(const CpsiPatch *patch, CpsLaw **out, CpsError *err) 
     if (status == CPS_OK) status = ground_law(patch, &part[1], err);
     if (status == CPS_OK) status = cps_law_product(2, (const CpsLaw *const *)part, &both, err);
     if (status == CPS_OK) status = cps_law_preimage(2, eliminate, both, NULL, out, err);
-    for (int i = 0; i < 2; i++) cps_law_destroy(part[i]);
-    cps_law_destroy(both);
+    for (int i = 0; i < 2; i++) cps_law_release(part[i]);
+    cps_law_release(both);
     return status;
 }
 
@@ -169,7 +169,7 @@ CpsStatus cps_planar_law(const CpsPlanar *body, CpsPlanarSide side, int cells, C
     } else {
         status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     }
-    for (int i = 0; i < self.count; i++) cps_law_destroy(self.law[i]);
+    for (int i = 0; i < self.count; i++) cps_law_release(self.law[i]);
     free(self.law);
     free(self.map);
     free(rows);
@@ -188,7 +188,7 @@ static CpsStatus add_contact(Contacts *self, int patch, CpsLaw *law, const doubl
     if (has_brake(at)) entry[count++] = (CpsEntry){1, 3 + self->spins, at->size};
     snprintf(name, sizeof name, "patch %d", patch);
     CpsStatus status = cps_system_add_friction(self->system, name, law, count, entry, self->err);
-    cps_law_destroy(law);
+    cps_law_release(law);
     if (status != CPS_OK || !has_brake(at)) return status;
 
     CpsLaw *brake = NULL;
@@ -197,7 +197,7 @@ static CpsStatus add_contact(Contacts *self, int patch, CpsLaw *law, const doubl
     status = brake_law(at, &brake, self->err);
     if (status == CPS_OK)
         status = cps_system_add_friction(self->system, name, brake, 1, &spin, self->err);
-    cps_law_destroy(brake);
+    cps_law_release(brake);
     return status;
 }
 

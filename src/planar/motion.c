@@ -332,7 +332,7 @@ CpsStatus cps_planar_motions(const CpsPlanar *body, int rows, const double *map,
     if (status != CPS_OK) return status;
     if (motion.outcome != CPS_SET_ANSWERED)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "there is no motion to look around: %s",
-                         cps_set_outcome_sentence(motion.outcome));
+                         cps_set_outcome_text(motion.outcome));
     const double middle[3] = {motion.twist[0], motion.twist[1], motion.twist[2] * body->reach};
     const double level = motion.upper + (tolerance > 0 ? tolerance : 1e-9) * motion.upper;
     for (int component = 0; component < 3; component++) {
@@ -353,7 +353,7 @@ CpsStatus cps_planar_motions(const CpsPlanar *body, int rows, const double *map,
                                ? self.status
                                : cpsi_fail(err, CPS_ERR_ARGUMENT,
                                            "there is no motion to look around: %s",
-                                           cps_set_outcome_sentence(self.outcome));
+                                           cps_set_outcome_text(self.outcome));
         const double unit_size = component < 2 ? 1 : body->reach;
         low[component] = motion.twist[component] - share * ends[0] / unit_size;
         high[component] = motion.twist[component] + share * ends[1] / unit_size;

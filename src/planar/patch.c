@@ -79,7 +79,7 @@ static CpsStatus rub_law(const CpsiPatch *patch, const double velocity[2], CpsiF
     CpsSetAnswer answer;
     if (velocity[0] == 0 && velocity[1] == 0) return CPS_OK; /* at rest any force will do: 0 */
     to_axis(patch, velocity, local);
-    const CpsStatus status = cps_law_dissipation(patch->set, local, force, &answer, err);
+    const CpsStatus status = cps_set_dissipation(patch->set, local, force, &answer, err);
     if (status != CPS_OK) return status;
     rub->outcome = answer.outcome;
     rub->exact = answer.exact;

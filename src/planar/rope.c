@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A rope on a table as a driven system (see rope.h): V the nodes' velocities, -V_k in N(F_k) for a
- * disc of radius resistance x half the length of the neighbouring elements, and -U_i in N(F_i) for
- * the line of all F_i, which says U_i = 0, or where the rope may go slack for the half-line F_i <=
- * 0, which says U_i <= 0, F_i U_i = 0: tension only where an element keeps its length. */
-#include "capstan/rope.h"
+/* A rope on a table as a driven system (see planar.h): V the nodes' velocities, -V_k in N(F_k) for
+ * a disc of radius resistance x half the length of the neighbouring elements, and -U_i in N(F_i)
+ * for the line of all F_i, which says U_i = 0, or where the rope may go slack for the half-line F_i
+ * <= 0, which says U_i <= 0, F_i U_i = 0: tension only where an element keeps its length. */
+#include "capstan/planar.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -52,7 +52,7 @@ static CpsStatus add_nodes(CpsSystem *system, const CpsRope *rope, CpsError *err
         const CpsEntry map[] = {{0, 2 * i, 1}, {1, 2 * i + 1, 1}};
         /* lengths that differ by rounding are one length */
         if (!(fabs(radius - last) <= 1e-14 * last)) {
-            cps_law_destroy(law);
+            cps_law_release(law);
             law = NULL;
             status = cps_law_coulomb(1, radius, &law, err);
             last = radius;
@@ -60,7 +60,7 @@ static CpsStatus add_nodes(CpsSystem *system, const CpsRope *rope, CpsError *err
         snprintf(name, sizeof name, "node %d", i);
         if (status == CPS_OK) status = cps_system_add_friction(system, name, law, 2, map, err);
     }
-    cps_law_destroy(law);
+    cps_law_release(law);
     return status;
 }
 
@@ -80,7 +80,7 @@ static CpsStatus add_elements(CpsSystem *system, const CpsRope *rope, CpsError *
         snprintf(name, sizeof name, "element %d", i);
         status = cps_system_add_friction(system, name, law, 4, map, err);
     }
-    cps_law_destroy(law);
+    cps_law_release(law);
     cps_set_release(pull);
     return status;
 }

@@ -48,11 +48,11 @@ static bool known(CpsFirstOrderVerdict verdict) {
     return (unsigned)verdict < sizeof VERDICT / sizeof *VERDICT;
 }
 
-const char *cps_first_order_key(CpsFirstOrderVerdict verdict) {
+const char *cps_first_order_name(CpsFirstOrderVerdict verdict) {
     return known(verdict) ? VERDICT[verdict].key : "unknown";
 }
 
-const char *cps_first_order_sentence(CpsFirstOrderVerdict verdict) {
+const char *cps_first_order_text(CpsFirstOrderVerdict verdict) {
     return known(verdict) ? VERDICT[verdict].sentence : "unknown verdict";
 }
 
@@ -86,7 +86,7 @@ static void set_contact(CpsiFirstOrder *f, CpsFirstOrderContact contact) {
     const CpsiCells *c = &f->step->own;
     for (int j = 0; j <= c->cells; ++j) {
         const bool touches = c->gap[j] <= TOUCH * f->step->length;
-        f->gap[j] = contact == CPS_FIRST_ORDER_GAINED ? c->gap[j] : touches ? 0 : INFINITY;
+        f->gap[j] = contact == CPS_FIRST_ORDER_CONTACT_GAINED ? c->gap[j] : touches ? 0 : INFINITY;
     }
 }
 
@@ -248,7 +248,7 @@ CpsStatus cps_first_order_solve(const CpsRegularized *classic, CpsFirstOrderCont
                                 CpsFirstOrder **out, CpsError *err) {
     if (!classic || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic or out is NULL");
     *out = NULL;
-    if (contact != CPS_FIRST_ORDER_TOUCHING && contact != CPS_FIRST_ORDER_GAINED)
+    if (contact != CPS_FIRST_ORDER_CONTACT_TOUCHING && contact != CPS_FIRST_ORDER_CONTACT_GAINED)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "contact: found %d, expected touching or gained",
                          (int)contact);
     CpsFirstOrder *s = calloc(1, sizeof *s);

@@ -39,7 +39,7 @@ typedef struct Trail {
     double change_before;
 } Trail;
 
-const char *cps_study_stage_key(CpsStudyStage stage) {
+const char *cps_study_stage_name(CpsStudyStage stage) {
     static const char *const KEY[CPS_STUDY_STAGES] = {"h", "lambda", "n", "delta"};
     return stage >= 0 && stage < CPS_STUDY_STAGES ? KEY[stage] : "unknown";
 }
@@ -236,7 +236,7 @@ static CpsStatus run_stages(CpsRegularized *classic, const CpsStudyOptions *opti
 
 static CpsStatus check(const CpsStudyOptions *options, CpsError *err) {
     for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
-        const char *key = cps_study_stage_key((CpsStudyStage)s);
+        const char *key = cps_study_stage_name((CpsStudyStage)s);
         if (!(options->values[s] >= 1 && options->values[s] <= MAX_VALUES))
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
                              "values of stage %s: found %d, expected 1 to %d", key,

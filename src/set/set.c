@@ -18,7 +18,7 @@ const char *cps_set_outcome_name(CpsSetOutcome outcome) {
     return "unknown outcome";
 }
 
-const char *cps_set_outcome_sentence(CpsSetOutcome outcome) {
+const char *cps_set_outcome_text(CpsSetOutcome outcome) {
     switch (outcome) {
 #define CASE(name, number, sentence) \
     case name: return sentence;

@@ -27,11 +27,11 @@ static bool known(CpsJudgement judgement) {
     return (unsigned)judgement < sizeof JUDGEMENT / sizeof *JUDGEMENT;
 }
 
-const char *cps_judgement_key(CpsJudgement judgement) {
+const char *cps_judgement_name(CpsJudgement judgement) {
     return known(judgement) ? JUDGEMENT[judgement].key : "unknown";
 }
 
-const char *cps_judgement_sentence(CpsJudgement judgement) {
+const char *cps_judgement_text(CpsJudgement judgement) {
     return known(judgement) ? JUDGEMENT[judgement].sentence : "unknown judgement";
 }
 
@@ -163,13 +163,13 @@ CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, do
         bool fails;
         CpsJudgement judgement;
         const Worst *worst;
-    } order[] = {{!(c.end.most <= length), CPS_JUDGED_ENDS, &c.end},
-                 {!(c.sunk.most <= length), CPS_JUDGED_PENETRATES, &c.sunk},
-                 {!(c.longer.most <= strain), CPS_JUDGED_TENSION, &c.longer},
-                 {!(c.tension.sum <= gap), CPS_JUDGED_TENSION, &c.tension},
-                 {!(c.contact.sum <= gap), CPS_JUDGED_CONTACT, &c.contact},
-                 {!(c.sliding.sum <= gap), CPS_JUDGED_SLIDING, &c.sliding},
-                 {!(c.shorter.most <= strain), CPS_JUDGED_RELAXED, &c.shorter}};
+    } order[] = {{!(c.end.most <= length), CPS_JUDGEMENT_ENDS, &c.end},
+                 {!(c.sunk.most <= length), CPS_JUDGEMENT_PENETRATES, &c.sunk},
+                 {!(c.longer.most <= strain), CPS_JUDGEMENT_TENSION, &c.longer},
+                 {!(c.tension.sum <= gap), CPS_JUDGEMENT_TENSION, &c.tension},
+                 {!(c.contact.sum <= gap), CPS_JUDGEMENT_CONTACT, &c.contact},
+                 {!(c.sliding.sum <= gap), CPS_JUDGEMENT_SLIDING, &c.sliding},
+                 {!(c.shorter.most <= strain), CPS_JUDGEMENT_RELAXED, &c.shorter}};
     *report = (CpsJudgementReport){.scale = scale,
                                    .energy = c.tension.sum + c.contact.sum + c.sliding.sum,
                                    .tension = c.tension.sum,

@@ -28,11 +28,11 @@ static const struct {
 #undef CPS_COMPLETION_TEXT
 };
 
-const char *cps_completion_key(CpsCompletion completion) {
+const char *cps_completion_name(CpsCompletion completion) {
     return (unsigned)completion < CPS_COMPLETIONS ? COMPLETION[completion].key : "unknown";
 }
 
-const char *cps_completion_sentence(CpsCompletion completion) {
+const char *cps_completion_text(CpsCompletion completion) {
     return (unsigned)completion < CPS_COMPLETIONS ? COMPLETION[completion].sentence
                                                   : "unknown completion";
 }

@@ -82,7 +82,7 @@ Run case_open(const Case *c) {
     Run run = {.directory = "capstan-analytic-XXXXXX"};
     assert_non_null(mkdtemp(run.directory));
     must(cps_evolution_create(&c->scene, &run.evolution, &err), &err);
-    must(cps_results_open(run.directory, &c->scene, run.evolution, &run.results, &err), &err);
+    must(cps_results_open(run.directory, &c->scene, run.evolution, NULL, &run.results, &err), &err);
     return run;
 }
 
@@ -91,9 +91,9 @@ CpsLineView case_step(Run *run) {
     must(cps_evolution_step(run->evolution, &err), &err);
     must(cps_results_append(run->results, run->evolution, &err), &err);
     CpsStepReport report = cps_evolution_report(run->evolution);
-    if (report.outcome != CPS_SOLVED)
-        print_error("step %d: %s\n", report.index, cps_outcome_sentence(report.outcome));
-    CHECK_INT(report.outcome, CPS_SOLVED);
+    if (report.outcome != CPS_OUTCOME_SOLVED)
+        print_error("step %d: %s\n", report.index, cps_outcome_text(report.outcome));
+    CHECK_INT(report.outcome, CPS_OUTCOME_SOLVED);
     run->dissipated += report.dissipated;
     CpsLineView view = cps_evolution_line_view(run->evolution, 0);
     run->tension_error = report.certificate.tension_bound;

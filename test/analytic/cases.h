@@ -4,7 +4,7 @@
 #ifndef CAPSTAN_TEST_CASES_H
 #define CAPSTAN_TEST_CASES_H
 
-#include "capstan/io.h"
+#include "capstan/results.h"
 #include "check.h"
 
 enum { CASE_STAGES = 16, CASE_POINTS = 8 };

@@ -390,19 +390,19 @@ CpsOutcome rig_try(RigRun *run) {
     run->steps++;
     run->view = cps_evolution_line_view(run->evolution, 0);
     run->report = cps_evolution_line_report(run->evolution, 0);
-    if (run->report.outcome != CPS_SOLVED) return run->report.outcome;
+    if (run->report.outcome != CPS_OUTCOME_SOLVED) return run->report.outcome;
     run->solved++;
     for (int k = 0; k < RIG_OBSTACLES; k++) turn[k] *= run->report.share;
     const Audit audit = rig_audit(&run->rig->scene, turn, &run->view);
     check(run, &audit);
-    return CPS_SOLVED;
+    return CPS_OUTCOME_SOLVED;
 }
 
 CpsLineView rig_step(RigRun *run) {
     const CpsOutcome outcome = rig_try(run);
-    if (outcome != CPS_SOLVED)
-        print_error("step %d: %s\n", run->steps, cps_outcome_sentence(outcome));
-    CHECK_INT(outcome, CPS_SOLVED);
+    if (outcome != CPS_OUTCOME_SOLVED)
+        print_error("step %d: %s\n", run->steps, cps_outcome_text(outcome));
+    CHECK_INT(outcome, CPS_OUTCOME_SOLVED);
     return run->view;
 }
 

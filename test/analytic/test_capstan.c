@@ -98,7 +98,7 @@ static void six_pi(void **state) {
     rig_stage(&rig, 1);
     rig_turn(&rig, 0, 0.1);
     RigRun run = rig_open(&rig);
-    printf("capstan, mu 1, 3 turns, the other way: %s\n", cps_outcome_key(rig_try(&run)));
+    printf("capstan, mu 1, 3 turns, the other way: %s\n", cps_outcome_name(rig_try(&run)));
     rig_close(&run);
 }
 

@@ -331,7 +331,7 @@ static CpsEvolution *solved(const Rig *rig) {
     CHECK_INT(cps_evolution_create(&rig->scene, &out, &err), CPS_OK);
     while (cps_evolution_remaining(out) > 0) {
         CHECK_INT(cps_evolution_step(out, &err), CPS_OK);
-        CHECK_INT(cps_evolution_report(out).outcome, CPS_SOLVED);
+        CHECK_INT(cps_evolution_report(out).outcome, CPS_OUTCOME_SOLVED);
     }
     return out;
 }

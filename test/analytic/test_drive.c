@@ -42,7 +42,7 @@ static CpsLaw *interval(double low, double high) {
 /* the law is used up */
 static void add(CpsSystem *system, const char *name, CpsLaw *law, int count, const CpsEntry *map) {
     ok(cps_system_add_friction(system, name, law, count, map, &err));
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 static CpsMotion *solve(const CpsSystem *system, const double *w) {
@@ -102,7 +102,7 @@ static void wheel_all_cases(void **state) {
             certified(motion);
             CHECK_NEAR(cps_motion_report(motion)->value, gamma, VALUE * RADIUS);
             CHECK_INT(cps_motion_report(motion)->composition,
-                      b ? CPS_COMPOSE_INTERIOR : CPS_COMPOSE_RELATIVE_INTERIOR);
+                      b ? CPS_COMPOSITION_INTERIOR : CPS_COMPOSITION_RELATIVE_INTERIOR);
             for (int k = 0; k < 3; k++) CHECK_NEAR(cps_motion_velocity(motion)[k], v[k], ROOT / A);
             /* h = - a j.F, G = F: M77 (19), (20) */
             const double *h = cps_motion_law_force(motion, 0), *f = cps_motion_law_force(motion, 1);
@@ -170,14 +170,14 @@ static void wheel_numbers(void **state) {
     CpsLaw *reduced = NULL;
     CpsComposition composition;
     ok(cps_system_eliminate(system, &reduced, NULL, &composition, &err));
-    CHECK_INT(composition, CPS_COMPOSE_INTERIOR);
+    CHECK_INT(composition, CPS_COMPOSITION_INTERIOR);
     for (int i = 0; i < 5; i++) {
         CpsMotion *motion = solve(system, CASE[i]);
         CpsSetAnswer phi;
         certified(motion);
         CHECK_RELATIVE(cps_motion_report(motion)->value, CASE[i][2], VALUE);
         CHECK_NEAR(cps_motion_velocity(motion)[0], CASE[i][3], ROOT / A);
-        ok(cps_law_dissipation(cps_law_set(reduced), CASE[i], NULL, &phi, &err));
+        ok(cps_set_dissipation(cps_law_set(reduced), CASE[i], NULL, &phi, &err));
         CHECK_RELATIVE(phi.value, CASE[i][2], VALUE);
         cps_motion_destroy(motion);
     }
@@ -186,7 +186,7 @@ static void wheel_numbers(void **state) {
     ok(cps_set_measure(cps_law_set(reduced), &measure, &err));
     CHECK_RELATIVE(measure.area, 389061.45083197765, 1e-8);
     CHECK_RELATIVE(measure.perimeter, 2656.0639701173122, 1e-8);
-    cps_law_destroy(reduced);
+    cps_law_release(reduced);
     cps_system_destroy(system);
 }
 
@@ -284,7 +284,7 @@ static void loads(void **state) {
     motion = solve(limit, NULL);
     CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_LIMIT_LOAD);
     CHECK_RELATIVE(cps_motion_report(motion)->load_factor, 1, VALUE);
-    CHECK_INT(cps_motion_report(motion)->composition, CPS_COMPOSE_NOT_SATISFIED);
+    CHECK_INT(cps_motion_report(motion)->composition, CPS_COMPOSITION_NOT_SATISFIED);
     cps_motion_destroy(motion);
 
     motion = solve(heavy, NULL);
@@ -342,7 +342,7 @@ static void infimum_not_attained(void **state) {
         CHECK_NEAR(d[1], 1, 1e-9);
         cps_motion_destroy(motion);
         cps_system_destroy(system);
-        cps_law_destroy(law);
+        cps_law_release(law);
     }
     cps_set_release(ball);
     cps_set_release(moved);
@@ -539,8 +539,8 @@ static void dashpots_in_series(void **state) {
     CHECK_RELATIVE(cps_motion_velocity(motion)[0], C2 * W / (C1 + C2), ROOT);
     CHECK_RELATIVE(cps_motion_resistance(motion)[0], -c * W, ROOT);
     cps_motion_destroy(motion);
-    cps_resistance_destroy(one);
-    cps_resistance_destroy(two);
+    cps_resistance_release(one);
+    cps_resistance_release(two);
     cps_system_destroy(system);
 }
 
@@ -571,10 +571,10 @@ static void terms_side_by_side(void **state) {
     CHECK_RELATIVE(cps_motion_report(motion)->dissipated, LOAD * v, ROOT);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
-    for (int i = 0; i < 4; i++) cps_resistance_destroy(part[i]);
-    cps_resistance_destroy(sum);
-    cps_law_destroy(dry);
-    cps_law_destroy(unit);
+    for (int i = 0; i < 4; i++) cps_resistance_release(part[i]);
+    cps_resistance_release(sum);
+    cps_law_release(dry);
+    cps_law_release(unit);
 }
 
 /* ---- rope on a table: friction 1 per length, inextensible elements ---- */
@@ -608,9 +608,9 @@ static CpsSystem *rope(int n, double length, double turn, enum Ends ends, bool o
     }
     ok(cps_system_set_drive(system, 2, 2, (const CpsEntry[]){{0, 2 * n, 1}, {1, 2 * n + 1, 1}},
                             &err));
-    cps_law_destroy(whole);
-    cps_law_destroy(half);
-    cps_law_destroy(taut);
+    cps_law_release(whole);
+    cps_law_release(half);
+    cps_law_release(taut);
     return system;
 }
 

@@ -58,7 +58,7 @@ static Drag make(Rig *rig, int number) {
 static CpsLineReport next(CpsEvolution *evolution) {
     CpsError err = {0};
     assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
-    CHECK_INT(cps_evolution_report(evolution).outcome, CPS_SOLVED);
+    CHECK_INT(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
     return cps_evolution_line_report(evolution, 0);
 }
 

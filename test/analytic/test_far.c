@@ -82,7 +82,7 @@ static void solve(uint64_t seed, const double at[3], Answer *out) {
         out->bound[s] = (s > 0 ? out->bound[s - 1] : 0) +
                         sqrt(ELEMENTS) * fmax(0, report.certificate.tension_bound); /* NaN: 0 */
         out->outcome[s] = report.outcome;
-        out->solved += report.outcome == CPS_SOLVED;
+        out->solved += report.outcome == CPS_OUTCOME_SOLVED;
         /* the report is in the coordinates of the scene */
         for (int a = 0; a < 3; a++)
             CHECK_NEAR(report.end[CPS_END_B].position[a],
@@ -113,7 +113,7 @@ static void shifted_scenes_agree(void **state) {
             CHECK_INT(there.steps, here.steps);
             for (int k = 0; k < here.steps; k++) {
                 CHECK_INT(there.outcome[k], here.outcome[k]);
-                if (here.outcome[k] != CPS_SOLVED) continue;
+                if (here.outcome[k] != CPS_OUTCOME_SOLVED) continue;
                 steps++;
                 for (int i = 0; i < 3 * NODES; i++)
                     way = fmax(way, fabs(there.position[k][i] - here.position[k][i]));

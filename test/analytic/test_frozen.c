@@ -306,7 +306,7 @@ static void random_scenes(void **state) {
             const CpsLineView view = cps_evolution_line_view(evolution, 0);
             steps++;
             if (report.parts > 1) before.known = false; /* the reference is that of the last part */
-            if (report.outcome == CPS_SOLVED && s > 0) {
+            if (report.outcome == CPS_OUTCOME_SOLVED && s > 0) {
                 solved++;
                 audit(&rig, &view, &report, &before, &worst);
                 for (int c = 0; c < view.contacts * (ELEMENTS + 1); c++)
@@ -342,7 +342,7 @@ static void strict_contact(void **state) {
             if (cps_evolution_step(evolution, &err) != CPS_OK) break;
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
             const CpsLineView view = cps_evolution_line_view(evolution, 0);
-            if (s == 0 || report.outcome != CPS_SOLVED) continue;
+            if (s == 0 || report.outcome != CPS_OUTCOME_SOLVED) continue;
             for (int c = 0; c < view.contacts * (ELEMENTS + 1); c++) {
                 const int j = c % (ELEMENTS + 1);
                 if (is_held(&view, j)) continue;
@@ -395,7 +395,7 @@ static void held_end_on_a_ball(void **state) {
             CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
             const CpsLineView view = cps_evolution_line_view(evolution, 0);
-            if (report.outcome != CPS_SOLVED || s == 0) continue;
+            if (report.outcome != CPS_OUTCOME_SOLVED || s == 0) continue;
             carried += view.reaction[ELEMENTS] > 0;
             audit(&rig, &view, &report, &before, &worst);
         }

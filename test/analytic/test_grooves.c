@@ -59,11 +59,11 @@ static bool run_all(const CpsScene *scene,
     char directory[] = "capstan-grooves-XXXXXX", path[80];
     assert_non_null(mkdtemp(directory));
     must(cps_evolution_create(scene, &evolution, &err), &err);
-    must(cps_results_open(directory, scene, evolution, &results, &err), &err);
+    must(cps_results_open(directory, scene, evolution, NULL, &results, &err), &err);
     for (int step = 0; cps_evolution_remaining(evolution) > 0; step++) {
         must(cps_evolution_step(evolution, &err), &err);
         must(cps_results_append(results, evolution, &err), &err);
-        solved = solved && cps_evolution_report(evolution).outcome == CPS_SOLVED;
+        solved = solved && cps_evolution_report(evolution).outcome == CPS_OUTCOME_SOLVED;
         if (look) look(evolution, step, user);
     }
     must(cps_results_finish(results, 0, &err), &err);

@@ -29,7 +29,7 @@ static CpsLaw *set_law(CpsSet *set) {
 
 static double dissipation(const CpsLaw *law, const double *velocity, double *force) {
     CpsSetAnswer answer;
-    assert_int_equal(cps_law_dissipation(cps_law_set(law), velocity, force, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_dissipation(cps_law_set(law), velocity, force, &answer, NULL), CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
     return answer.value;
 }
@@ -47,8 +47,8 @@ static CpsLaw *wheel(double brake, CpsComposition *composition) {
     CpsLaw *part[2] = {set_law(interval), disc_law(WHEEL_RADIUS)}, *both = NULL, *law = NULL;
     assert_int_equal(cps_law_product(2, (const CpsLaw *const *)part, &both, NULL), CPS_OK);
     assert_int_equal(cps_law_preimage(2, map[0], both, composition, &law, NULL), CPS_OK);
-    for (int i = 0; i < 2; i++) cps_law_destroy(part[i]);
-    cps_law_destroy(both);
+    for (int i = 0; i < 2; i++) cps_law_release(part[i]);
+    cps_law_release(both);
     return law;
 }
 
@@ -63,10 +63,10 @@ static void wheel_dissipation(void **state) {
                                      {-1, -1, 658.257569495584}};
     CpsComposition composition;
     CpsLaw *law = wheel(60, &composition);
-    assert_int_equal(composition, CPS_COMPOSE_INTERIOR);
+    assert_int_equal(composition, CPS_COMPOSITION_INTERIOR);
     for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++)
         CHECK_RELATIVE(dissipation(law, CASE[i], NULL), CASE[i][2], EXACT);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 static void wheel_forces(void **state) {
@@ -80,7 +80,7 @@ static void wheel_forces(void **state) {
 
     /* rolling straight on: the whole edge, a segment of side forces */
     const double along[2] = {0, 1};
-    assert_int_equal(cps_law_forces(cps_law_set(law), along, 0, &forces, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_forces(cps_law_set(law), along, 0, &forces, &answer, NULL), CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
     CHECK_RELATIVE(answer.value, 200, EXACT);
     assert_int_equal(cps_set_vertices(forces, 0, 4, vertex, &count, &answer, NULL), CPS_OK);
@@ -93,13 +93,13 @@ static void wheel_forces(void **state) {
 
     /* braking and slipping sideways at once: the corner */
     const double both[2] = {1, 1};
-    assert_int_equal(cps_law_forces(cps_law_set(law), both, 0, &forces, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_forces(cps_law_set(law), both, 0, &forces, &answer, NULL), CPS_OK);
     assert_int_equal(cps_set_facts(forces, 0, &facts, center, NULL, NULL), CPS_OK);
     CHECK_INT(facts.dimension, 0);
     CHECK_RELATIVE(center[0], -CHORD, EXACT);
     CHECK_RELATIVE(center[1], -STRIP, EXACT);
     cps_set_release(forces);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 static void wheel_corner_velocities(void **state) {
@@ -111,7 +111,7 @@ static void wheel_corner_velocities(void **state) {
     const double corner[2] = {-sqrt(500.0 * 500 - 200.0 * 200), -200};
     double ray[8];
     int count = 0;
-    assert_int_equal(cps_law_velocities(cps_law_set(law), corner, 0, &velocities, &answer, NULL),
+    assert_int_equal(cps_set_velocities(cps_law_set(law), corner, 0, &velocities, &answer, NULL),
                      CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
     assert_int_equal(cps_set_rays(velocities, 0, 4, ray, &count, &answer, NULL), CPS_OK);
@@ -129,16 +129,16 @@ static void wheel_corner_velocities(void **state) {
     /* inside: only at rest; outside: none */
     const double inside[2] = {100, 50}, outside[2] = {0, 201};
     CpsSetFacts facts;
-    assert_int_equal(cps_law_velocities(cps_law_set(law), inside, 0, &velocities, &answer, NULL),
+    assert_int_equal(cps_set_velocities(cps_law_set(law), inside, 0, &velocities, &answer, NULL),
                      CPS_OK);
     assert_int_equal(cps_set_facts(velocities, 0, &facts, NULL, NULL, NULL), CPS_OK);
     CHECK_INT(facts.dimension, 0);
     cps_set_release(velocities);
-    assert_int_equal(cps_law_velocities(cps_law_set(law), outside, 0, &velocities, &answer, NULL),
+    assert_int_equal(cps_set_velocities(cps_law_set(law), outside, 0, &velocities, &answer, NULL),
                      CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
     assert_null(velocities);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 static void wheel_measure_and_limits(void **state) {
@@ -149,20 +149,20 @@ static void wheel_measure_and_limits(void **state) {
     assert_int_equal(cps_set_measure(cps_law_set(law), &measure, NULL), CPS_OK);
     CHECK_RELATIVE(measure.area, 389061.45083197765, EXACT);
     CHECK_RELATIVE(measure.perimeter, 2656.0639701173122, EXACT);
-    cps_law_destroy(law);
+    cps_law_release(law);
 
     /* no brake: a segment across, the wheel of a planimeter */
     const double turned[2] = {0.6, 0.8};
     law = wheel(0, &composition);
-    assert_int_equal(composition, CPS_COMPOSE_RELATIVE_INTERIOR);
+    assert_int_equal(composition, CPS_COMPOSITION_RELATIVE_INTERIOR);
     CHECK_RELATIVE(dissipation(law, turned, NULL), 300, EXACT);
-    cps_law_destroy(law);
+    cps_law_release(law);
 
     /* brake stronger than the ground: plain Coulomb */
     law = wheel(200, &composition);
-    assert_int_equal(composition, CPS_COMPOSE_INTERIOR);
+    assert_int_equal(composition, CPS_COMPOSITION_INTERIOR);
     CHECK_RELATIVE(dissipation(law, turned, NULL), 500, EXACT);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 /* ---- the other two cases of the composition rule ---- */
@@ -180,10 +180,10 @@ static void composition_on_a_boundary(void **state) {
     part[1] = disc_law(3);
     assert_int_equal(cps_law_product(2, (const CpsLaw *const *)part, &both, NULL), CPS_OK);
     assert_int_equal(cps_law_preimage(2, beside[0], both, &composition, &law, NULL), CPS_OK);
-    assert_int_equal(composition, CPS_COMPOSE_POLYHEDRAL);
-    for (int i = 0; i < 2; i++) cps_law_destroy(part[i]);
-    cps_law_destroy(both);
-    cps_law_destroy(law);
+    assert_int_equal(composition, CPS_COMPOSITION_POLYHEDRAL);
+    for (int i = 0; i < 2; i++) cps_law_release(part[i]);
+    cps_law_release(both);
+    cps_law_release(law);
 
     /* G -> (0, G) touches a disc round (5, 0) at 0 alone: the reduced law {0} resists every W, the
      * disc none but along it */
@@ -191,9 +191,9 @@ static void composition_on_a_boundary(void **state) {
     assert_int_equal(cps_set_ball(2, center, 5, &ball, NULL), CPS_OK);
     part[0] = set_law(ball);
     assert_int_equal(cps_law_preimage(1, tangent, part[0], &composition, &law, NULL), CPS_OK);
-    assert_int_equal(composition, CPS_COMPOSE_NOT_SATISFIED);
-    cps_law_destroy(part[0]);
-    cps_law_destroy(law);
+    assert_int_equal(composition, CPS_COMPOSITION_NOT_SATISFIED);
+    cps_law_release(part[0]);
+    cps_law_release(law);
 }
 
 /* ---- dry and viscous: phi = k|V| + c|V|^2/2 ---- */
@@ -239,9 +239,9 @@ static void bingham(void **state) {
     CHECK_RELATIVE(extent.high, k, EXACT);
     CHECK_RELATIVE(extent.low, -k, EXACT);
     cps_set_release(forces);
-    for (int i = 0; i < 2; i++) cps_resistance_destroy(part[i]);
-    cps_resistance_destroy(law);
-    cps_law_destroy(disc);
+    for (int i = 0; i < 2; i++) cps_resistance_release(part[i]);
+    cps_resistance_release(law);
+    cps_law_release(disc);
 }
 
 /* ---- sums of any terms: phi*(-F) is the least of shared costs ---- */
@@ -253,7 +253,7 @@ static CpsResistance *sum_of(int count, CpsResistance **part) {
     CpsResistance *sum = NULL;
     assert_int_equal(cps_resistance_sum(count, (const CpsResistance *const *)part, &sum, NULL),
                      CPS_OK);
-    for (int i = 0; i < count; i++) cps_resistance_destroy(part[i]);
+    for (int i = 0; i < count; i++) cps_resistance_release(part[i]);
     return sum;
 }
 
@@ -277,9 +277,9 @@ static void dry_and_power(void **state) {
         CHECK_RELATIVE(answer.value, x * speed * (1 - 1 / p), SHARED * 20);
         CHECK_RELATIVE(found[0], 0.8 * speed, SHARED_VELOCITY * 10);
         CHECK_RELATIVE(found[1], -0.6 * speed, SHARED_VELOCITY * 10);
-        cps_resistance_destroy(law);
-        cps_law_destroy(disc);
-        cps_law_destroy(unit);
+        cps_resistance_release(law);
+        cps_law_release(disc);
+        cps_law_release(unit);
     }
 }
 
@@ -302,8 +302,8 @@ static void powers_side_by_side(void **state) {
     assert_int_equal(cps_resistance_conjugate(sum, &f, found, &answer, NULL), CPS_OK);
     CHECK_RELATIVE(answer.value, f * v - a * v * v / 2 - b * v * v * v / 3, SHARED * 3);
     CHECK_RELATIVE(found[0], -v, SHARED_VELOCITY);
-    cps_resistance_destroy(sum);
-    cps_law_destroy(law);
+    cps_resistance_release(sum);
+    cps_law_release(law);
     cps_set_release(interval);
 
     const double degree[3] = {1.5, 2.5, 4}, factor[3] = {3, 0.5, 20}, force[3] = {2, -1, 0.25};
@@ -318,7 +318,7 @@ static void powers_side_by_side(void **state) {
         assert_int_equal(cps_resistance_power(law, degree[i], factor[i], &part[i], NULL), CPS_OK);
         expected += fabs(force[i]) * pow(fabs(force[i]) / factor[i], 1 / (degree[i] - 1)) *
                     (1 - 1 / degree[i]);
-        cps_law_destroy(law);
+        cps_law_release(law);
         cps_set_release(segment);
     }
     sum = sum_of(3, part);
@@ -328,7 +328,7 @@ static void powers_side_by_side(void **state) {
         CHECK_RELATIVE(found[i],
                        -copysign(pow(fabs(force[i]) / factor[i], 1 / (degree[i] - 1)), force[i]),
                        SHARED_VELOCITY * 10);
-    cps_resistance_destroy(sum);
+    cps_resistance_release(sum);
 }
 
 /* ---- limit surfaces: contacts k at (x, y) with share w of the load, unit friction; twist (vx, vy,
@@ -350,7 +350,7 @@ static CpsLaw *footprint(int count, const Place *place) {
     }
     assert_int_equal(cps_law_contacts(3, count, (const CpsLaw *const *)disc, maps, &law, NULL),
                      CPS_OK);
-    for (int i = 0; i < count; i++) cps_law_destroy(disc[i]);
+    for (int i = 0; i < count; i++) cps_law_release(disc[i]);
     free(map);
     free(maps);
     free(disc);
@@ -365,7 +365,7 @@ static double ring(int count, const double *twist) {
     }
     CpsLaw *law = footprint(count, place);
     const double phi = dissipation(law, twist, NULL);
-    cps_law_destroy(law);
+    cps_law_release(law);
     free(place);
     return phi;
 }
@@ -396,7 +396,7 @@ static double disc(int rings, double v, double *force) {
         }
     CpsLaw *law = footprint(rings * round, place);
     const double twist[3] = {0, v, 1}, phi = dissipation(law, twist, force);
-    cps_law_destroy(law);
+    cps_law_release(law);
     free(place);
     return phi;
 }
@@ -426,7 +426,7 @@ static double rod(int count, const double *twist) {
     for (int i = 0; i < count; i++) place[i] = (Place){-1 + 2 * (i + 0.5) / count, 0, 1.0 / count};
     CpsLaw *law = footprint(count, place);
     const double phi = dissipation(law, twist, NULL);
-    cps_law_destroy(law);
+    cps_law_release(law);
     free(place);
     return phi;
 }
@@ -449,14 +449,14 @@ static void bipod(void **state) {
     CpsSetAnswer answer;
     CpsSetFacts facts;
     CpsSetExtent extent;
-    assert_int_equal(cps_law_forces(cps_law_set(law), twist, 0, &forces, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_forces(cps_law_set(law), twist, 0, &forces, &answer, NULL), CPS_OK);
     CHECK_RELATIVE(answer.value, 1, EXACT);
     assert_int_equal(cps_set_facts(forces, 0, &facts, NULL, NULL, NULL), CPS_OK);
     CHECK_INT(facts.dimension, 2);
     assert_int_equal(cps_set_extent(forces, along, &extent, NULL), CPS_OK);
     CHECK_RELATIVE(extent.high - extent.low, 1, EXACT);
     cps_set_release(forces);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 /* ---- velocities at a force ---- */
@@ -466,7 +466,7 @@ static int velocity_rays(const CpsSet *set, const double *force, double *ray) {
     CpsSet *velocities = NULL;
     CpsSetAnswer answer;
     int count = 0;
-    assert_int_equal(cps_law_velocities(set, force, 0, &velocities, &answer, NULL), CPS_OK);
+    assert_int_equal(cps_set_velocities(set, force, 0, &velocities, &answer, NULL), CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
     assert_int_equal(cps_set_rays(velocities, 0, 4, ray, &count, &answer, NULL), CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
@@ -592,13 +592,13 @@ static void velocities_of_resistances(void **state) {
     assert_int_equal(cps_set_extent(velocities, (double[]){0, 1}, &extent, NULL), CPS_OK);
     assert_true(isinf(extent.low) && isinf(extent.high));
     cps_set_release(velocities);
-    cps_resistance_destroy(dry);
-    cps_resistance_destroy(table);
-    cps_resistance_destroy(sum);
-    cps_resistance_destroy(power);
-    cps_law_destroy(unit);
-    cps_law_destroy(three);
-    cps_law_destroy(flat);
+    cps_resistance_release(dry);
+    cps_resistance_release(table);
+    cps_resistance_release(sum);
+    cps_resistance_release(power);
+    cps_law_release(unit);
+    cps_law_release(three);
+    cps_law_release(flat);
 }
 
 /* D = a a' with a = (1, 2): phi = <a, V>^2/2; a force along a has a line of velocities, any other
@@ -632,8 +632,8 @@ static void semidefinite_viscosity(void **state) {
     assert_int_equal(cps_resistance_viscous(2, (double[]){0, 0, 0, 0}, &none, NULL), CPS_OK);
     assert_int_equal(cps_resistance_value(none, (double[]){3, -1}, &value, NULL, NULL), CPS_OK);
     CHECK_NEAR(value.potential, 0, 0);
-    cps_resistance_destroy(law);
-    cps_resistance_destroy(none);
+    cps_resistance_release(law);
+    cps_resistance_release(none);
 }
 
 /* {|F| <= f N}: finite phi, which is 0, for N's velocity v >= f |V| only; on the boundary one ray
@@ -647,17 +647,17 @@ static void friction_cone(void **state) {
     for (int k = 0; k < 24; k++) {
         const double a = 0.3 * k, v[3] = {cos(a), sin(a), f * (k % 2 ? 1.001 : 0.999)},
                      tip[3] = {0, 0, 0};
-        assert_int_equal(cps_law_dissipation(cone, v, NULL, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_set_dissipation(cone, v, NULL, &answer, NULL), CPS_OK);
         CHECK_INT(answer.outcome, k % 2 ? CPS_SET_ANSWERED : CPS_SET_UNBOUNDED);
         const double force[3] = {2 * f * cos(a), 2 * f * sin(a), 2},
                      along[3] = {-cos(a), -sin(a), f};
-        assert_int_equal(cps_law_velocities(cone, force, 0, &velocities, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_set_velocities(cone, force, 0, &velocities, &answer, NULL), CPS_OK);
         CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
         double nearest[3];
         assert_int_equal(cps_set_project(velocities, along, NULL, nearest, &answer, NULL), CPS_OK);
         CHECK_NEAR(answer.value, 0, 1e-8);
         cps_set_release(velocities);
-        assert_int_equal(cps_law_velocities(cone, tip, 0, &velocities, &answer, NULL), CPS_OK);
+        assert_int_equal(cps_set_velocities(cone, tip, 0, &velocities, &answer, NULL), CPS_OK);
         assert_int_equal(cps_set_project(velocities, v, NULL, nearest, &answer, NULL), CPS_OK);
         if (k % 2)
             CHECK_NEAR(answer.value, 0, 1e-8);

@@ -272,10 +272,10 @@ static void inner_and_outer_laws(void **state) {
                 assert_int_equal(cps_planar_law(body[k], side ? CPS_PLANAR_OUTER : CPS_PLANAR_INNER,
                                                 fine ? 1600 : 400, &law, NULL),
                                  CPS_OK);
-                assert_int_equal(cps_law_dissipation(cps_law_set(law), TWIST, NULL, &answer, NULL),
+                assert_int_equal(cps_set_dissipation(cps_law_set(law), TWIST, NULL, &answer, NULL),
                                  CPS_OK);
                 end[side] = answer.value;
-                cps_law_destroy(law);
+                cps_law_release(law);
             }
             CHECK_BETWEEN(value, end[0], end[1]);
             width[fine] = end[1] - end[0];
@@ -421,7 +421,7 @@ static void bipod_forces(void **state) {
     CpsSetAnswer answer;
     CpsSetFacts facts;
     assert_int_equal(cps_planar_law(body, CPS_PLANAR_OUTER, 1, &law, NULL), CPS_OK);
-    assert_int_equal(cps_law_forces(cps_law_set(law), (double[3]){0, 1, 1}, 0, &forces, &answer,
+    assert_int_equal(cps_set_forces(cps_law_set(law), (double[3]){0, 1, 1}, 0, &forces, &answer,
                                     NULL),
                      CPS_OK);
     assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
@@ -430,7 +430,7 @@ static void bipod_forces(void **state) {
     assert_int_equal(cps_set_facts(forces, 0, &facts, NULL, NULL, NULL), CPS_OK);
     CHECK_INT(facts.dimension, 2);
     cps_set_release(forces);
-    cps_law_destroy(law);
+    cps_law_release(law);
     cps_planar_destroy(body);
 }
 
@@ -485,17 +485,17 @@ static void vehicle_law(void **state) {
     const CpsEntry whole[3] = {{0, 0, 1}, {1, 1, 1}, {2, 2, 1}};
     assert_int_equal(cps_planar_law(body, CPS_PLANAR_INNER, 1, &sum, NULL), CPS_OK);
     assert_int_equal(cps_planar_system(body, CPS_PLANAR_INNER, 1, &system, NULL), CPS_OK);
-    CHECK_INT(cps_system_parameters(system), 7);
+    CHECK_INT(cps_system_parameter_count(system), 7);
     assert_int_equal(cps_system_set_drive(system, 3, 3, whole, NULL), CPS_OK);
     assert_int_equal(cps_system_eliminate(system, &eliminated, NULL, NULL, NULL), CPS_OK);
     for (size_t i = 0; i < sizeof TWIST / sizeof TWIST[0]; i++) {
         const double expected = car_by_hand(TWIST[i]);
         CHECK_RELATIVE(power(body, TWIST[i][0], TWIST[i][1], TWIST[i][2], NULL), expected, EXACT);
         /* wheel by wheel, then all spins at once: both by conic programs that promise 1e-9 */
-        assert_int_equal(cps_law_dissipation(cps_law_set(sum), TWIST[i], NULL, &answer, NULL),
+        assert_int_equal(cps_set_dissipation(cps_law_set(sum), TWIST[i], NULL, &answer, NULL),
                          CPS_OK);
         CHECK_RELATIVE(answer.value, expected, 1e-9);
-        assert_int_equal(cps_law_dissipation(cps_law_set(eliminated), TWIST[i], NULL, &answer,
+        assert_int_equal(cps_set_dissipation(cps_law_set(eliminated), TWIST[i], NULL, &answer,
                                              NULL),
                          CPS_OK);
         CHECK_RELATIVE(answer.value, expected, 1e-9);
@@ -513,8 +513,8 @@ static void vehicle_law(void **state) {
         CHECK_NEAR(wheel.slip[1], wheel.velocity[1] + wheel.spin * CAR[k].radius, EXACT);
     }
     cps_motion_destroy(motion);
-    cps_law_destroy(sum);
-    cps_law_destroy(eliminated);
+    cps_law_release(sum);
+    cps_law_release(eliminated);
     cps_system_destroy(system);
     cps_planar_destroy(body);
 }

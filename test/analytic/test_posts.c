@@ -205,9 +205,10 @@ static void bends(void **state) {
             if (low > 0.02)
                 CHECK_RELATIVE(r.bend.ratio, cos(d / 2 - phi) / low, 1e-4); /* 1e-6 over low */
             if (fabs(mu * tan(d / 2) - 0.9) < 1e-4) continue;
-            CHECK_INT(outcome, mu * tan(d / 2) >= 0.9 ? CPS_MESH_TOO_COARSE : CPS_SOLVED);
+            CHECK_INT(outcome,
+                      mu * tan(d / 2) >= 0.9 ? CPS_OUTCOME_MESH_TOO_COARSE : CPS_OUTCOME_SOLVED);
             told++;
-            coarse += outcome == CPS_MESH_TOO_COARSE;
+            coarse += outcome == CPS_OUTCOME_MESH_TOO_COARSE;
         }
         rig_close(&run);
     }
@@ -240,7 +241,7 @@ static void two_posts(void **state) {
             const CpsOutcome outcome = rig_try(&run);
             const CpsLineView v = cps_evolution_line_view(run.evolution, 0);
             const CpsLineReport r = cps_evolution_line_report(run.evolution, 0);
-            if (outcome == CPS_SOLVED) {
+            if (outcome == CPS_OUTCOME_SOLVED) {
                 CHECK_LESS(deepest(&rig, &v), 1e-9);
                 certified++;
             } else if (r.certificate.element_penetration > 1e-10 * LENGTH) {

@@ -196,18 +196,18 @@ static void short_of_the_way(void **state) {
             outcome(&few, seed, false, -slack, &found,
                     &report)) { /* a step that is solved takes long */
             tried[ball][0]++;
-            if (found == CPS_INFEASIBLE)
+            if (found == CPS_OUTCOME_INFEASIBLE)
                 print_error("case %d: longer by %g of its length, yet infeasible by %g m\n", i,
                             slack, report.proof_value);
-            assert_true(found != CPS_INFEASIBLE);
+            assert_true(found != CPS_OUTCOME_INFEASIBLE);
         }
         if (outcome(&c, seed, true, slack, &found, &report)) {
             tried[ball][1]++;
-            proved[ball] += found == CPS_INFEASIBLE;
-            if ((found == CPS_INFEASIBLE) == c.elastic)
+            proved[ball] += found == CPS_OUTCOME_INFEASIBLE;
+            if ((found == CPS_OUTCOME_INFEASIBLE) == c.elastic)
                 print_error("case %d: shorter by %g of its length, yet %s\n", i, slack,
-                            cps_outcome_key(found));
-            assert_true((found == CPS_INFEASIBLE) != c.elastic);
+                            cps_outcome_name(found));
+            assert_true((found == CPS_OUTCOME_INFEASIBLE) != c.elastic);
             if (c.elastic) continue;
             assert_true(report.proof_value > 0);
             assert_true(report.proof_obstacle == 0 || report.proof_obstacle == -1);

@@ -198,8 +198,8 @@ static void open_annex(Annex *t, double fx, double fy, double fz) {
     t->view = case_step(&t->run);
     t->classic = open_regularized(&t->view);
     CpsError err = {0};
-    assert_int_equal(cps_first_order_solve(t->classic, CPS_FIRST_ORDER_TOUCHING, &t->first_order,
-                                           &err),
+    assert_int_equal(cps_first_order_solve(t->classic, CPS_FIRST_ORDER_CONTACT_TOUCHING,
+                                           &t->first_order, &err),
                      CPS_OK);
     t->report = cps_first_order_report(t->first_order);
 }
@@ -311,7 +311,7 @@ static void p10_1_with_either_contact(void **state) {
         CpsFirstOrder *solution;
         CpsError err = {0};
         const CpsFirstOrderContact contact =
-            gained ? CPS_FIRST_ORDER_GAINED : CPS_FIRST_ORDER_TOUCHING;
+            gained ? CPS_FIRST_ORDER_CONTACT_GAINED : CPS_FIRST_ORDER_CONTACT_TOUCHING;
         assert_int_equal(cps_first_order_solve(classic, contact, &solution, &err), CPS_OK);
         assert_int_equal(cps_first_order_report(solution).contact, contact);
         assert_int_equal(cps_first_order_report(solution).verdict, CPS_FIRST_ORDER_SOLVED);
@@ -347,8 +347,8 @@ static void p10_1_is_the_first_order(void **state) {
         t.view = case_step(&t.run);
         t.classic = open_regularized(&t.view);
         CpsError err = {0};
-        assert_int_equal(cps_first_order_solve(t.classic, CPS_FIRST_ORDER_TOUCHING, &t.first_order,
-                                               &err),
+        assert_int_equal(cps_first_order_solve(t.classic, CPS_FIRST_ORDER_CONTACT_TOUCHING,
+                                               &t.first_order, &err),
                          CPS_OK);
         t.report = cps_first_order_report(t.first_order);
         assert_int_equal(t.report.verdict, CPS_FIRST_ORDER_SOLVED);

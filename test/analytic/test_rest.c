@@ -24,7 +24,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "capstan/io.h"
+#include "capstan/results.h"
 #include "checker.h"
 #include "rest.h"
 #include "rig.h"
@@ -255,7 +255,7 @@ static void with_directions(void **state) {
         while (cps_evolution_remaining(evolution) > 0)
             assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
         const CpsLineReport report = cps_evolution_line_report(evolution, 0);
-        CHECK_INT(report.outcome, CPS_SOLVED);
+        CHECK_INT(report.outcome, CPS_OUTCOME_SOLVED);
         const CpsTensionRange *range = &report.end[1 - near].range;
         /* all but the held end's half element, which lies in no zone */
         const double length = (zones ? 1 + 0.4 : 2) - 1.0 / ELEMENTS, all = 0.5 * 9.81 * length;
@@ -285,7 +285,7 @@ static void without_choice(void **state) {
         assert_int_equal(cps_evolution_create(&rig.scene, &evolution, NULL), CPS_OK);
         assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
         const CpsLineReport report = cps_evolution_line_report(evolution, 0);
-        CHECK_INT(report.outcome, CPS_SOLVED);
+        CHECK_INT(report.outcome, CPS_OUTCOME_SOLVED);
         for (int end = 0; end < 2; end++) {
             const CpsTensionRange *range = &report.end[end].range;
             CHECK_INT(range->kind, CPS_RANGE_BOUNDED);
@@ -556,7 +556,7 @@ static void at_random(void **state) {
             snprintf(name, sizeof name, "seed %d stage %d", (int)k, stage);
             const bool certified = cps_outcome_is_certified(report.outcome);
             const bool done = certified && compare(name, &rig, &view, &report);
-            if (!certified) printf("%s: %s\n", name, cps_outcome_key(report.outcome));
+            if (!certified) printf("%s: %s\n", name, cps_outcome_name(report.outcome));
             compared += done;
             skipped += !done;
         }
@@ -589,7 +589,8 @@ static void in_files(void **state) {
     char directory[] = "capstan-rest-XXXXXX", path[80], text[4096];
     assert_non_null(mkdtemp(directory));
     assert_int_equal(cps_evolution_create(&rig.scene, &evolution, NULL), CPS_OK);
-    assert_int_equal(cps_results_open(directory, &rig.scene, evolution, &results, NULL), CPS_OK);
+    assert_int_equal(cps_results_open(directory, &rig.scene, evolution, NULL, &results, NULL),
+                     CPS_OK);
     while (cps_evolution_remaining(evolution) > 0) {
         assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
         assert_int_equal(cps_results_append(results, evolution, NULL), CPS_OK);

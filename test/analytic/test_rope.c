@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "capstan/rope.h"
+#include "capstan/planar.h"
 #include "check.h"
 
 static const double PI = 3.14159265358979323846;

@@ -66,11 +66,11 @@ static CpsLineView go(Rig *r) {
     while (cps_evolution_remaining(r->evolution) > 0) {
         do_(cps_evolution_step(r->evolution, &err), &err);
         const CpsStepReport report = cps_evolution_report(r->evolution);
-        if (report.outcome != CPS_SOLVED)
+        if (report.outcome != CPS_OUTCOME_SOLVED)
             print_error("step %d: outcome %d, gap %g of %g, friction residual %g\n", report.index,
                         (int)report.outcome, report.certificate.gap, report.certificate.scale,
                         report.certificate.friction_residual);
-        assert_int_equal(report.outcome, CPS_SOLVED);
+        assert_int_equal(report.outcome, CPS_OUTCOME_SOLVED);
     }
     return cps_evolution_line_view(r->evolution, 0);
 }
@@ -263,7 +263,7 @@ static void a_free_line_on_a_ratchet(void **state) {
             CpsError err = {0};
             do_(cps_evolution_create(&r.scene, &r.evolution, &err), &err);
             do_(cps_evolution_step(r.evolution, &err), &err);
-            assert_int_not_equal(cps_evolution_report(r.evolution).outcome, CPS_SOLVED);
+            assert_int_not_equal(cps_evolution_report(r.evolution).outcome, CPS_OUTCOME_SOLVED);
         }
         cps_evolution_destroy(r.evolution);
     }
@@ -539,7 +539,7 @@ static void random_sets_are_certified(void **state) {
             const CpsStepReport report = cps_evolution_report(r.evolution);
             const CpsLineView view = cps_evolution_line_view(r.evolution, 0);
             steps[grain]++;
-            if (report.outcome != CPS_SOLVED) {
+            if (report.outcome != CPS_OUTCOME_SOLVED) {
                 print_message("run %d (seed %llu): outcome %d, gap %g of %g\n", run,
                               (unsigned long long)from, (int)report.outcome, report.certificate.gap,
                               report.certificate.scale);

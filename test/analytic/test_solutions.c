@@ -65,7 +65,7 @@ static void slack_on_a_smooth_bed(void **state) {
         case_move(&b.c, 1, 0.5, 0.1, 0);
         solve_bench(&b);
         CpsJudgementReport own = judge(&b);
-        assert_int_equal(own.judgement, CPS_JUDGED_RELAXED);
+        assert_int_equal(own.judgement, CPS_JUDGEMENT_RELAXED);
         CHECK_GREATER(own.shortening, 0.1);
         for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
             CpsSlackReport slack = complete(&b, how);
@@ -78,7 +78,7 @@ static void slack_on_a_smooth_bed(void **state) {
             CHECK_NEAR(part.to - part.from, 1, 1e-12);
             assert_true(part.loose && part.grounded);
             CpsJudgementReport laid = judge(&b);
-            assert_int_equal(laid.judgement, CPS_JUDGED_SOLUTION);
+            assert_int_equal(laid.judgement, CPS_JUDGEMENT_SOLUTION);
             // positions of order 1 to rounding, over elements of 0.01
             CHECK_LESS(show("slack laid out", "1 - |x'|", 0, laid.shortening), 1e-12);
             CHECK_LESS(show("slack laid out", "energy above the minimum [J]", 0, laid.energy),
@@ -101,7 +101,7 @@ static void slack_between_ends_that_meet(void **state) {
         CpsSlackReport slack = complete(&b, how);
         CHECK_NEAR(slack.left, 0, 0);
         CpsJudgementReport laid = judge(&b);
-        assert_int_equal(laid.judgement, CPS_JUDGED_SOLUTION);
+        assert_int_equal(laid.judgement, CPS_JUDGEMENT_SOLUTION);
         CHECK_LESS(laid.shortening, 1e-12);
     }
     case_close(&b.run);
@@ -113,7 +113,8 @@ static void check_laid(Bench *b, bool closes) {
     for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
         CpsSlackReport slack = complete(b, how);
         CHECK_BETWEEN(slack.left, closes ? 0 : 0.1, closes ? 0 : 1);
-        assert_int_equal(judge(b).judgement, closes ? CPS_JUDGED_SOLUTION : CPS_JUDGED_RELAXED);
+        assert_int_equal(judge(b).judgement,
+                         closes ? CPS_JUDGEMENT_SOLUTION : CPS_JUDGEMENT_RELAXED);
         if (closes)
             for (int i = 0; i < b->view.elements; i++) {
                 const double *x = &b->position[3 * i];
@@ -209,7 +210,7 @@ static void lifted_loop(void **state) {
     const int node = 3 * 40;
     b.position[node + 2] += z;
     CpsJudgementReport report = judge(&b);
-    assert_int_equal(report.judgement, CPS_JUDGED_CONTACT);
+    assert_int_equal(report.judgement, CPS_JUDGEMENT_CONTACT);
     CHECK_NEAR(show("lifted loop", "energy, w h z [J]", z / ELEMENTS, report.contact), 0, 1e-9);
     CHECK_NEAR(report.energy, report.contact, 1e-9);
     CHECK_NEAR(report.arc_length, 0.40, 1e-12);
@@ -225,7 +226,7 @@ static void slack_held_by_friction(void **state) {
     open_bench(&b, 1, 1);
     case_force(&b.c, 1, -0.4, 0, 0);
     solve_bench(&b);
-    assert_int_equal(judge(&b).judgement, CPS_JUDGED_SOLUTION);
+    assert_int_equal(judge(&b).judgement, CPS_JUDGEMENT_SOLUTION);
     CpsSlackReport slack = complete(&b, CPS_COMPLETION_MEANDER);
     CHECK_NEAR(show("annex 5", "slack, abar [m]", 0.6, slack.slack), 0, 1.5 / ELEMENTS);
     CpsSlackPart part;
@@ -263,7 +264,7 @@ static void slack_held_by_friction(void **state) {
     CHECK_NEAR(report.sliding, u / ELEMENTS, 1e-9);
     b.position[3 * 30 + 1] += 9 * u;
     report = judge(&b);
-    assert_int_equal(report.judgement, CPS_JUDGED_SLIDING);
+    assert_int_equal(report.judgement, CPS_JUDGEMENT_SLIDING);
     CHECK_NEAR(report.arc_length, 0.30, 1e-12);
     case_close(&b.run);
 }
@@ -276,11 +277,11 @@ static void other_tensions(void **state) {
     open_bench(&b, 0, 1);
     case_force(&b.c, 1, 0.5, 0, 0);
     solve_bench(&b);
-    assert_int_equal(judge(&b).judgement, CPS_JUDGED_SOLUTION);
+    assert_int_equal(judge(&b).judgement, CPS_JUDGEMENT_SOLUTION);
     const double s = 0.1;
     for (int j = 0; j <= ELEMENTS; j++) b.position[3 * j] -= s * j / ELEMENTS;
     CpsJudgementReport report = judge(&b);
-    assert_int_equal(report.judgement, CPS_JUDGED_TENSION);
+    assert_int_equal(report.judgement, CPS_JUDGEMENT_TENSION);
     CHECK_NEAR(show("other tensions", "energy, K s^2/2 [J]", s * s / 2, report.energy), 0, 1e-8);
 
     // turned by an angle in the plane: F (1 + T/K) l (1 - cos)
@@ -292,7 +293,7 @@ static void other_tensions(void **state) {
         b.position[3 * j + 1] = x * sin(angle);
     }
     report = judge(&b);
-    assert_int_equal(report.judgement, CPS_JUDGED_TENSION);
+    assert_int_equal(report.judgement, CPS_JUDGEMENT_TENSION);
     CHECK_NEAR(show("turned", "energy, F L (1 - cos) [J]", 0.5 * 1.5 * (1 - cos(angle)),
                     report.energy),
                0, 1e-8);
@@ -308,13 +309,13 @@ static void outside_the_constraints(void **state) {
     solve_bench(&b);
     b.position[3 * 20 + 2] = -0.001;
     CpsJudgementReport report = judge(&b);
-    assert_int_equal(report.judgement, CPS_JUDGED_PENETRATES);
+    assert_int_equal(report.judgement, CPS_JUDGEMENT_PENETRATES);
     CHECK_NEAR(report.penetration, 0.001, 1e-9);
     CHECK_NEAR(report.arc_length, 0.20, 1e-12);
     take_own(&b);
     b.position[1] = 0.01;
     report = judge(&b);
-    assert_int_equal(report.judgement, CPS_JUDGED_ENDS);
+    assert_int_equal(report.judgement, CPS_JUDGEMENT_ENDS);
     CHECK_NEAR(report.end_error, 0.01, 1e-12);
     case_close(&b.run);
 }
@@ -347,7 +348,7 @@ static void gaps_are_the_energy(void **state) {
                   f[1] * x[1] - f[2] * x[2];
     }
     CpsJudgementReport report = judge(&b);
-    assert_int_not_equal(report.judgement, CPS_JUDGED_SOLUTION);
+    assert_int_not_equal(report.judgement, CPS_JUDGEMENT_SOLUTION);
     // the step's own gap, at most 1e-8 of its scale
     CHECK_NEAR(show("gaps and energy", "J** + j above the minimum [J]", energy, report.energy), 0,
                1e-8);
@@ -395,7 +396,7 @@ static void loose_end(void **state) {
     assert_true(part.loose && part.grounded && !part.rubs);
     for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
         complete(&b, how);
-        assert_int_equal(judge(&b).judgement, CPS_JUDGED_SOLUTION);
+        assert_int_equal(judge(&b).judgement, CPS_JUDGEMENT_SOLUTION);
         const double *tip = &b.position[3 * ELEMENTS];
         if (how == CPS_COMPLETION_STRAIGHT) CHECK_NEAR(hypot(tip[0], tip[1]), 1, 1e-12);
     }
@@ -426,7 +427,7 @@ static void inextensible_tensions(void **state) {
         b.view.segment_force = force;
         b.view.friction = rub;
         CpsJudgementReport report = judge(&b);
-        assert_int_equal(report.judgement, CPS_JUDGED_SOLUTION);
+        assert_int_equal(report.judgement, CPS_JUDGEMENT_SOLUTION);
         // at 0.5 m: 0, or 0.4 N less 0.4 of the half of the line beyond
         CHECK_NEAR(show("K infinite, two fields", "tension at 0.5 m [N]", field ? 0.2 : 0,
                         force[3 * 50]),
@@ -457,17 +458,17 @@ static void existence(void **state) {
     Bench b;
     open_bench(&b, 0.3, 1);
     case_force(&b.c, 1, 3, 0, 2);
-    assert_int_equal(outcome_of(&b.c, &proof), CPS_SOLVED);
+    assert_int_equal(outcome_of(&b.c, &proof), CPS_OUTCOME_SOLVED);
 
     open_bench(&b, 0.3, 1);
     b.c.line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_FREE};
     case_force(&b.c, 1, 0.5, 0, 0);
-    assert_int_equal(outcome_of(&b.c, &proof), CPS_UNBOUNDED);
+    assert_int_equal(outcome_of(&b.c, &proof), CPS_OUTCOME_UNBOUNDED);
     CHECK_NEAR(show("no end held", "fall, f - mu w l [N]", 0.2, proof), 0, 0.3 / ELEMENTS + 1e-9);
 
     open_bench(&b, 0.3, INFINITY);
     case_move(&b.c, 1, 1.2, 0, 0);
-    assert_int_equal(outcome_of(&b.c, &proof), CPS_INFEASIBLE);
+    assert_int_equal(outcome_of(&b.c, &proof), CPS_OUTCOME_INFEASIBLE);
     CHECK_NEAR(show("too far apart", "excess [m]", 0.2, proof), 0, 1e-9);
 }
 

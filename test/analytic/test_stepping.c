@@ -22,7 +22,7 @@ static Sum run_all(const CpsScene *scene) {
     while (cps_evolution_remaining(evolution) > 0) {
         assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
         const CpsStepReport report = cps_evolution_report(evolution);
-        assert_int_equal(report.outcome, CPS_SOLVED);
+        assert_int_equal(report.outcome, CPS_OUTCOME_SOLVED);
         const CpsLedger *l = &report.ledger;
         /* the ledger closes by its own definition, and friction only takes */
         CHECK_NEAR(l->ends + l->obstacles, l->elastic + l->gravity + l->dissipated + l->imbalance,
@@ -78,7 +78,7 @@ static void lines_beside_one_laid(void **state) {
     assert_int_equal(cps_evolution_create(&c.scene, &evolution, &err), CPS_OK);
     assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
     const CpsLineReport other = cps_evolution_line_report(evolution, 1);
-    assert_int_equal(cps_evolution_report(evolution).outcome, CPS_SOLVED);
+    assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
     CHECK_NEAR(other.ledger.ends, 2 * 0.06, 1e-8 * 0.06);
     CHECK_NEAR(other.ledger.elastic, 0.5 * 2 * 0.06, 1e-8 * 0.06);
     CHECK_NEAR(other.ledger.imbalance, 0.5 * 2 * 0.06, 1e-8 * 0.06);

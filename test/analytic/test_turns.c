@@ -172,7 +172,7 @@ static void parts_are_steps(void **state) {
             CHECK_INT(cps_evolution_create(&rig.scene, &evolution, &err), CPS_OK);
             for (int k = 0; k < (whole ? 1 : steps); k++) {
                 CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
-                CHECK_INT(cps_evolution_report(evolution).outcome, CPS_SOLVED);
+                CHECK_INT(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
                 CHECK_INT(cps_evolution_report(evolution).parts, whole ? steps : 1);
             }
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
@@ -245,9 +245,9 @@ static void drawn(void **state) {
         rig_next(&run);
         const CpsOutcome outcome = rig_try(&run);
         if (halvings == 0) {
-            CHECK_INT(outcome, CPS_STALLED);
+            CHECK_INT(outcome, CPS_OUTCOME_STALLED);
         } else {
-            CHECK_INT(outcome, CPS_SOLVED);
+            CHECK_INT(outcome, CPS_OUTCOME_SOLVED);
             CHECK_GREATER(run.report.parts, 1);
             /* N - 1 to N + 1 nodes turn it, by angles of order d: the law's error is of order
              * d^2 */
@@ -285,7 +285,7 @@ static void two_lines(int steps, double tension[2], int *parts) {
     CHECK_INT(cps_evolution_create(&first.scene, &evolution, &err), CPS_OK);
     for (int k = 0; k < steps; k++) {
         CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
-        CHECK_INT(cps_evolution_report(evolution).outcome, CPS_SOLVED);
+        CHECK_INT(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
         *parts = cps_evolution_report(evolution).parts;
     }
     for (int i = 0; i < 2; i++)

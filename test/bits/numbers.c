@@ -54,7 +54,7 @@ static int pull(const char *what, CpsObstacle obstacle, const double *start, int
         uint64_t hash = mixed(14695981039346656037u, 3 * (view.elements + 1), view.position);
         hash = mixed(hash, view.elements, view.tension);
         printf("%s %d: %s, tip %a, dissipated %a, all %016llx\n", what, step.index,
-               cps_outcome_key(step.outcome), view.position[3 * view.elements], step.dissipated,
+               cps_outcome_name(step.outcome), view.position[3 * view.elements], step.dissipated,
                (unsigned long long)hash);
     }
     cps_evolution_destroy(evolution);
@@ -85,9 +85,9 @@ static int wheel(void) {
            measure.area);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
-    cps_law_destroy(law);
-    cps_law_destroy(brake);
-    cps_law_destroy(ground);
+    cps_law_release(law);
+    cps_law_release(brake);
+    cps_law_release(ground);
     cps_set_release(interval);
     cps_set_release(disc);
     return 0;

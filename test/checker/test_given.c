@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "capstan/io.h"
+#include "capstan/results.h"
 #include "check.h"
 #include "checker.h"
 #include "given.h"
@@ -61,7 +62,8 @@ static int run(const char *text, const char *where, CpsSceneFile **read, int *pa
     if (!status) status = cps_evolution_create(cps_scene_file_scene(*read), &evolution, &err);
     if (!status) status = cps_results_prepare(where, true, &err); /* the scene lies there */
     if (!status)
-        status = cps_results_open(where, cps_scene_file_scene(*read), evolution, &results, &err);
+        status =
+            cps_results_open(where, cps_scene_file_scene(*read), evolution, NULL, &results, &err);
     for (bool first = true; !status && cps_evolution_remaining(evolution) > 0; first = false) {
         status = cps_evolution_step(evolution, &err);
         if (!status) status = cps_results_append(results, evolution, &err);

@@ -4,7 +4,7 @@
 #define CAPSTAN_TEST_FAULT_SMALL_RUN_H
 
 #include "capstan/capstan.h"
-#include "capstan/io.h"
+#include "capstan/results.h"
 
 /* Write the results of that run with `elements` elements into `directory`; whatever fails is
  * cleaned up as a program would do it. */
@@ -38,7 +38,7 @@ static CpsStatus small_run(const char *directory, int elements, CpsError *err) {
     CpsEvolution *evolution = NULL;
     CpsResults *results = NULL;
     CpsStatus status = cps_evolution_create(&scene, &evolution, err);
-    if (!status) status = cps_results_open(directory, &scene, evolution, &results, err);
+    if (!status) status = cps_results_open(directory, &scene, evolution, NULL, &results, err);
     while (!status && cps_evolution_remaining(evolution) > 0) {
         status = cps_evolution_step(evolution, err);
         if (!status) status = cps_results_append(results, evolution, err);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "capstan/io.h"
+#include "capstan/results.h"
 #include "check.h"
 #include "refuse.h"
 
@@ -31,7 +32,8 @@ static CpsStatus run(CpsError *err) {
     CpsStatus status = cps_scene_read(SCENE, NULL, &file, err);
     if (!status) status = cps_evolution_create(cps_scene_file_scene(file), &evolution, err);
     if (!status)
-        status = cps_results_open(RESULTS, cps_scene_file_scene(file), evolution, &results, err);
+        status =
+            cps_results_open(RESULTS, cps_scene_file_scene(file), evolution, NULL, &results, err);
     if (!status) status = cps_evolution_step(evolution, err);
     if (!status) status = cps_results_append(results, evolution, err);
     if (!status) status = cps_results_finish(results, 0, err);

@@ -16,7 +16,7 @@
 #include <cmocka.h>
 
 #include "capstan/capstan.h"
-#include "capstan/io.h"
+#include "capstan/results.h"
 
 ssize_t __real_pread(int file, void *to, size_t size, off_t at);
 ssize_t __real_pwrite(int file, const void *from, size_t size, off_t at);

@@ -21,7 +21,8 @@ static CpsStatus questions(const CpsLineView *view) {
         status = cps_study_run(classic, &options, NULL, NULL, &study, NULL);
     }
     if (status == CPS_OK)
-        status = cps_first_order_solve(classic, CPS_FIRST_ORDER_TOUCHING, &first_order, NULL);
+        status =
+            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_TOUCHING, &first_order, NULL);
     if (status == CPS_OK) status = cps_regularized_next(view, 0.3, classic, &next, NULL);
     if (status == CPS_OK) {
         const CpsRegularizedParameters coarse = cps_regularized_coarse(next);

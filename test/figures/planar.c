@@ -82,11 +82,11 @@ static void inner_and_outer(void) {
             need(cps_planar_law(body, side ? CPS_PLANAR_OUTER : CPS_PLANAR_INNER, cells, &law,
                                 &err),
                  &err);
-            need(cps_law_dissipation(cps_law_set(law), (const double[]){0.3, 0.2, 1}, NULL, &answer,
+            need(cps_set_dissipation(cps_law_set(law), (const double[]){0.3, 0.2, 1}, NULL, &answer,
                                      &err),
                  &err);
             end[side] = answer.value;
-            cps_law_destroy(law);
+            cps_law_release(law);
         }
         say("cells", 2, (double)cells, (end[1] - end[0]) / end[0] * cells);
     }
@@ -227,7 +227,7 @@ static void block_on_a_spring(void) {
         say("spring", 2, (double)steps,
             hypot(sweep.position[0] - 1 / cosh(2), sweep.position[1] - 2 + tanh(2)));
     }
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 static void planimeter(const char *name, double x, double radius, double y) {

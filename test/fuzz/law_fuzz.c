@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "capstan/law_io.h"
+#include "capstan/io.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -35,9 +35,9 @@ static void ask_friction(const CpsSet *set) {
     CpsSet *forces = NULL, *velocities = NULL;
     CpsSetAnswer answer;
     char text[200];
-    CpsStatus status = cps_law_forces(set, velocity, 0, &forces, &answer, NULL);
+    CpsStatus status = cps_set_forces(set, velocity, 0, &forces, &answer, NULL);
     if (status == CPS_OK) expect_number(&answer);
-    if (status == CPS_OK) status = cps_law_velocities(set, zero, 0, &velocities, &answer, NULL);
+    if (status == CPS_OK) status = cps_set_velocities(set, zero, 0, &velocities, &answer, NULL);
     if (forces) cps_set_text(forces, text, sizeof text);
     if (velocities) cps_set_text(velocities, text, sizeof text);
     /* too large for the solver is an answer as well; an argument cannot be wrong */

@@ -25,9 +25,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "capstan/drive_io.h"
 #include "capstan/io.h"
-#include "capstan/law_io.h"
+#include "capstan/results.h"
 #include "commands.h"
 #include "law/law_query.h"
 #include "study/study_solutions.h"
@@ -232,7 +231,7 @@ static void go_on(CpsEvolution *evolution, bool step) {
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport report = cps_evolution_line_report(evolution, i);
-        must(cps_outcome_key(report.outcome)[0] && report.bend.obstacle < of->obstacle_count &&
+        must(cps_outcome_name(report.outcome)[0] && report.bend.obstacle < of->obstacle_count &&
              report.pierced < of->obstacle_count);
         for (int j = 0; j < 3 * (view.elements + 1); ++j) sum += view.position[j];
         if (view.obstacle)

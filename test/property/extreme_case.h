@@ -58,7 +58,7 @@ static void compare_cone(const CpsSet *law, int n, const double *force, int coun
     CpsSet *cone = NULL;
     CpsSetAnswer answer;
     CpsSetFacts facts;
-    need(cps_law_velocities(law, force, 0, &cone, &answer, &err), "velocities");
+    need(cps_set_velocities(law, force, 0, &cone, &answer, &err), "velocities");
     same("outcome of velocities", answer.outcome, CPS_SET_ANSWERED);
     if (!cone) return;
     need(cps_set_facts(cone, 0, &facts, NULL, NULL, &err), "facts");

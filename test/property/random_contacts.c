@@ -72,7 +72,7 @@ static void try_one(int most) {
         CpsSetAnswer answer;
         CpsSetFacts facts;
         for (int i = 0; i < n; i++) asked[i] = SHARE[k] * force[i];
-        need(cps_law_velocities(sum, asked, 0, &cone, &answer, &err), "velocities");
+        need(cps_set_velocities(sum, asked, 0, &cone, &answer, &err), "velocities");
         if (answer.outcome != (k < 2 ? CPS_SET_ANSWERED : CPS_SET_OUTSIDE))
             fail("outcome of velocities", answer.outcome);
         if (cone) {

@@ -393,7 +393,7 @@ static void try_flat(void) {
     cps_set_release(forces);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 /* ---- loads at the limit ---- */
@@ -447,7 +447,7 @@ static void try_limit(void) {
     }
     cps_motion_destroy(motion);
     cps_system_destroy(system);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 /* ---- tables ---- */
@@ -487,10 +487,10 @@ static void try_table(void) {
             near("greatest speed", r * extent.high, high[where], 1e-5);
     }
     cps_set_release(velocities);
-    for (int i = 0; i < 2; i++) cps_resistance_destroy(part[i]);
-    cps_resistance_destroy(all);
-    cps_law_destroy(law);
-    cps_law_destroy(rough);
+    for (int i = 0; i < 2; i++) cps_resistance_release(part[i]);
+    cps_resistance_release(all);
+    cps_law_release(law);
+    cps_law_release(rough);
 }
 
 /* ---- weak laws beside strong ones, drives that hardly move ---- */
@@ -585,8 +585,8 @@ static void try_wheel(void) {
     cps_solution_set_clear(&all);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
-    cps_law_destroy(brake);
-    cps_law_destroy(ground);
+    cps_law_release(brake);
+    cps_law_release(ground);
 }
 
 /* ---- polars, gauges ---- */
@@ -744,7 +744,7 @@ static void one_sided(void) {
     const CpsMotionReport *report = cps_motion_report(motion);
     same("outcome", report->outcome, w[0] < 0 ? CPS_MOTION_BLOCKED : CPS_MOTION_SOLVED);
     if (w[0] >= 0) near("gamma", report->value, b * w[0] + 2 * b * fabs(w[1]), 1e-8 * b);
-    if (w[0] >= 0) same("Proposition 1", report->composition, CPS_COMPOSE_INTERIOR);
+    if (w[0] >= 0) same("Proposition 1", report->composition, CPS_COMPOSITION_INTERIOR);
     CpsSolutionSet all;
     double low[2], high[2];
     need(cps_motion_resistances(motion, 0, &all, low, high, &err), "resistances");
@@ -758,8 +758,8 @@ static void one_sided(void) {
     cps_solution_set_clear(&all);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
-    cps_law_destroy(laws[0]);
-    cps_law_destroy(laws[1]);
+    cps_law_release(laws[0]);
+    cps_law_release(laws[1]);
 }
 
 static void try_cone(void) {

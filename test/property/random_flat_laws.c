@@ -265,7 +265,7 @@ static void try_segment(const Case *c) {
     need(cps_set_hull_of_points(c->space, 2, ends, &set, &err), "segment");
     CpsLaw *law = friction(set);
     compare(c, law, segment_gamma(c, e, low, high, size), 10 * size);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 static void try_disc(const Case *c) {
@@ -282,7 +282,7 @@ static void try_disc(const Case *c) {
     cps_set_release(ball);
     CpsLaw *law = friction(flat);
     compare(c, law, disc_gamma(c, columns, m, r), 10 * r);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 int main(int argc, char **argv) {

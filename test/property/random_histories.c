@@ -208,7 +208,7 @@ static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, c
     if (!cps_outcome_is_certified(report.outcome)) {
         count->refused++;
         printf("seed %llu, step %d: %s\n", (unsigned long long)seed, step.index,
-               cps_outcome_key(report.outcome));
+               cps_outcome_name(report.outcome));
         return;
     }
     count->converged++;

@@ -110,12 +110,12 @@ static CpsLaw *random_product(int n, int depth) {
     double velocity[MAX_SPACE];
     CpsSetAnswer whole, one, two;
     fill(n, 1, velocity);
-    DO(cps_law_dissipation(cps_law_set(law), velocity, NULL, &whole, &err));
-    DO(cps_law_dissipation(cps_law_set(part[0]), velocity, NULL, &one, &err));
-    DO(cps_law_dissipation(cps_law_set(part[1]), velocity + first, NULL, &two, &err));
+    DO(cps_set_dissipation(cps_law_set(law), velocity, NULL, &whole, &err));
+    DO(cps_set_dissipation(cps_law_set(part[0]), velocity, NULL, &one, &err));
+    DO(cps_set_dissipation(cps_law_set(part[1]), velocity + first, NULL, &two, &err));
     check(cps_law_set(law), "phi of a product less the sum",
           fabs(whole.value - one.value - two.value), POWER_TOLERANCE * (1 + whole.value));
-    for (int i = 0; i < 2; i++) cps_law_destroy(part[i]);
+    for (int i = 0; i < 2; i++) cps_law_release(part[i]);
     return law;
 }
 
@@ -127,12 +127,12 @@ static CpsLaw *random_preimage(int n, int depth) {
     CpsSet *part[2] = {NULL}, *bounded = NULL;
     fill(m * n, 1, map);
     DO(cps_law_preimage(n, map, of, &composition, &law, &err));
-    cps_law_destroy(of);
+    cps_law_release(of);
     if (m >= n) return law;
 
     /* a wide map leaves directions free: cut them off */
     part[0] = cps_set_retain(cps_law_set(law));
-    cps_law_destroy(law);
+    cps_law_release(law);
     DO(cps_set_ball(n, NULL, 4, &part[1], &err));
     DO(cps_set_intersection(2, (const CpsSet *const *)part, &bounded, &err));
     for (int i = 0; i < 2; i++) cps_set_release(part[i]);
@@ -151,7 +151,7 @@ static CpsLaw *random_contacts(int n, int depth) {
         maps[i] = map[i];
     }
     DO(cps_law_contacts(n, count, (const CpsLaw *const *)contact, maps, &law, &err));
-    for (int i = 0; i < count; i++) cps_law_destroy(contact[i]);
+    for (int i = 0; i < count; i++) cps_law_release(contact[i]);
     return law;
 }
 
@@ -159,7 +159,7 @@ static CpsLaw *random_strip(int n, int depth) {
     double normal[MAX_SPACE];
     CpsLaw *of = random_law(n, depth - 1);
     CpsSet *part[2] = {cps_set_retain(cps_law_set(of)), NULL}, *cut = NULL;
-    cps_law_destroy(of);
+    cps_law_release(of);
     fill(n, 1, normal);
     const double half = uniform(0.1, 1);
     DO(cps_set_strip(n, normal, -half, half, &part[1], &err));
@@ -193,8 +193,8 @@ static bool is_answered(CpsSetOutcome outcome) {
 /* the five forms at any force of C */
 static void check_forms(const CpsSet *set, const double *force, const double *velocity,
                         bool exact) {
-    CpsLawResidual r;
-    DO(cps_law_residual(set, force, velocity, 0, &r, &err));
+    CpsSetResidual r;
+    DO(cps_set_residual(set, force, velocity, 0, &r, &err));
     const bool projected = !isnan(r.normal_cone) && !isnan(r.outside);
     if (!is_answered(projected ? r.outcome : CPS_SET_INACCURATE)) return;
     const double equal = (exact ? ROUNDING : POWER_TOLERANCE) * r.scale + r.gap;
@@ -214,7 +214,7 @@ static void check_velocities(const CpsSet *set, const double *force, const doubl
     double nearest[MAX_SPACE];
     CpsSet *velocities = NULL;
     CpsSetAnswer answer;
-    DO(cps_law_velocities(set, force, 1e-7, &velocities, &answer, &err));
+    DO(cps_set_velocities(set, force, 1e-7, &velocities, &answer, &err));
     if (is_answered(answer.outcome)) {
         DO(cps_set_project(velocities, velocity, NULL, nearest, &answer, &err));
         if (is_answered(answer.outcome))
@@ -231,21 +231,21 @@ static void check_velocity(const CpsSet *set, const double *velocity) {
     CpsSetAnswer phi, face, at;
     CpsSetFacts facts;
     for (int i = 0; i < n; i++) twice[i] = 2 * velocity[i];
-    DO(cps_law_dissipation(set, velocity, NULL, &phi, &err));
+    DO(cps_set_dissipation(set, velocity, NULL, &phi, &err));
     if (!is_answered(phi.outcome)) return;
-    DO(cps_law_dissipation(set, twice, NULL, &at, &err));
+    DO(cps_set_dissipation(set, twice, NULL, &at, &err));
     const double size = norm(n, velocity) * 10;
     check(set, "dissipation below 0", -phi.value, POWER_TOLERANCE * size);
     check(set, "phi(2V) less 2 phi(V)", fabs(at.value - 2 * phi.value),
           POWER_TOLERANCE * (size + phi.value));
 
-    DO(cps_law_forces(set, velocity, 0, &forces, &face, &err));
+    DO(cps_set_forces(set, velocity, 0, &forces, &face, &err));
     if (is_answered(face.outcome)) {
         DO(cps_set_facts(forces, 0, &facts, center, basis, &err));
         if (is_answered(facts.outcome)) {
             check_forms(set, center, velocity, phi.exact);
-            CpsLawResidual r;
-            DO(cps_law_residual(set, center, velocity, 0, &r, &err));
+            CpsSetResidual r;
+            DO(cps_set_residual(set, center, velocity, 0, &r, &err));
             check(set, "Fenchel-Young on the set of forces", r.dissipation,
                   POWER_TOLERANCE * (r.scale + size));
             check_velocities(set, center, velocity);
@@ -281,14 +281,14 @@ static void check_law(uint64_t number) {
         check_velocity(set, velocity);
 
         /* a force inside: part of one on the boundary */
-        DO(cps_law_dissipation(set, velocity, force, &answer, &err));
+        DO(cps_set_dissipation(set, velocity, force, &answer, &err));
         if (!is_answered(answer.outcome)) continue;
         const double part = uniform(0, 1);
         for (int i = 0; i < n; i++) force[i] *= part;
         fill(n, 1, velocity);
         check_forms(set, force, velocity, answer.exact);
     }
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 int main(int argc, char **argv) {

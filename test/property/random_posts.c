@@ -24,7 +24,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "capstan/io.h"
+#include "capstan/results.h"
 #include "checker.h"
 #include "given.h"
 #include "rig.h"
@@ -301,11 +301,11 @@ static void judge(const Scene *s, const char *name, const CpsEvolution *evolutio
     tally->steps++;
     if (!cps_outcome_is_certified(report.outcome)) {
         const bool final = cps_outcome_is_final(report.outcome),
-                   coarse = report.outcome == CPS_MESH_TOO_COARSE;
+                   coarse = report.outcome == CPS_OUTCOME_MESH_TOO_COARSE;
         tally->proved += final;
         tally->coarse += coarse;
         tally->refused += !final && !coarse;
-        if (!final && !coarse) printf("%s, %s: %s\n", name, step, cps_outcome_key(report.outcome));
+        if (!final && !coarse) printf("%s, %s: %s\n", name, step, cps_outcome_name(report.outcome));
         return;
     }
     tally->certified++;
@@ -372,7 +372,8 @@ static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsR
 
 static void run(int number, const char *directory, Tally tallies[2]) {
     static Scene s;
-    static const CpsResultsOptions terse = {.no_paraview = true, .sync_at_end = true};
+    CpsResultsOptions terse = cps_results_options_default();
+    terse.no_paraview = terse.sync_at_end = true;
     CpsEvolution *evolution;
     CpsResults *results;
     CpsError err;
@@ -384,7 +385,7 @@ static void run(int number, const char *directory, Tally tallies[2]) {
              s.thickest, s.rig.scene.friction == CPS_FRICTION_FROZEN ? "frozen" : "consistent",
              s.rig.line.end[1].kind == CPS_END_FREE ? ", pulled" : "");
     if (cps_evolution_create(&s.rig.scene, &evolution, &err) ||
-        cps_results_open_with(directory, &s.rig.scene, evolution, &terse, &results, &err)) {
+        cps_results_open(directory, &s.rig.scene, evolution, &terse, &results, &err)) {
         printf("%s: %s\n", name, err.message);
         tally->wrong++;
         return;

@@ -65,7 +65,7 @@ static void fill(int count, double low, double high, double *a) {
 static void need(CpsStatus status, const CpsError *err, const char *call) {
     if (status == CPS_OK) return;
     fprintf(stderr, "seed %llu: %s: %s: %s\n", (unsigned long long)seed, call,
-            cps_status_sentence(status), err->message);
+            cps_status_text(status), err->message);
     exit(1);
 }
 
@@ -337,7 +337,7 @@ static CpsResistance *random_term(int n, Term *t) {
     case BENT: need(cps_resistance_function(law, bent, NULL, t, &out, &err), &err, "bent"); break;
     default: need(cps_resistance_function(law, logarithm, NULL, t, &out, &err), &err, "logarithm");
     }
-    cps_law_destroy(law);
+    cps_law_release(law);
     cps_set_release(set);
     return out;
 }
@@ -357,12 +357,12 @@ static void make_case(Case *c) {
     }
     need(cps_resistance_sum(c->count, (const CpsResistance *const *)part, &c->law, &err), &err,
          "sum of terms");
-    for (int i = 0; i < c->count; i++) cps_resistance_destroy(part[i]);
+    for (int i = 0; i < c->count; i++) cps_resistance_release(part[i]);
 }
 
 static void free_case(Case *c) {
     for (int i = 0; i < c->count; i++) free_shape(c->term[i].shape);
-    cps_resistance_destroy(c->law);
+    cps_resistance_release(c->law);
 }
 
 /* ---- what must hold ---- */

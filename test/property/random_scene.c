@@ -73,7 +73,7 @@ void maker_begin(Maker *maker, double tilt, double friction, bool obstacle) {
     out->scene.line = out->line;
     out->scene.stage = out->stage;
     out->scene.friction = CPS_FRICTION_FROZEN; // of the classes before "consistent"
-    out->expected = CPS_SOLVED;
+    out->expected = CPS_OUTCOME_SOLVED;
 }
 
 /* a new line without a start; `elements` 0: 5 to 60 */
@@ -473,7 +473,7 @@ static void make_unbounded(Maker *maker) {
     maker_direction(&maker->frame, local, kind < 2 ? beyond * pull : 0, value);
     maker_change(maker, CPS_END_B, CPS_END_FREE, value);
     maker_any_stiffness(maker);
-    maker->out->expected = CPS_UNBOUNDED;
+    maker->out->expected = CPS_OUTCOME_UNBOUNDED;
 }
 
 /* ---- the table ---- */
@@ -537,12 +537,12 @@ void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
     case SCENE_HANGING: make_hanging(&maker); break;
     case SCENE_INFEASIBLE:
         make_stretched(&maker, random_decades(random, -9, 0), random_chance(random, 0.6));
-        out->expected = CPS_INFEASIBLE;
+        out->expected = CPS_OUTCOME_INFEASIBLE;
         break;
     case SCENE_UNBOUNDED: make_unbounded(&maker); break;
     case SCENE_TAUT:
         make_stretched(&maker, 0, random_chance(random, 0.6));
-        out->expected = CPS_TAUT;
+        out->expected = CPS_OUTCOME_TAUT;
         break;
     case SCENE_CONSISTENT: make_consistent(&maker); break;
     case SCENE_CYLINDER:

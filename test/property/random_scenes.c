@@ -16,7 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "capstan/io.h"
+#include "capstan/results.h"
 #include "checker.h"
 #include "given.h"
 #include "random_scene.h"
@@ -58,9 +58,9 @@ static const char *run_scene(const RandomScene *random, const char *directory, T
     CpsEvolution *evolution = NULL;
     CpsResults *results = NULL;
     const char *failed = NULL;
-    *last = *worst_before = CPS_SOLVED;
+    *last = *worst_before = CPS_OUTCOME_SOLVED;
     if (cps_evolution_create(&random->scene, &evolution, err) != CPS_OK) return "create";
-    if (cps_results_open(directory, &random->scene, evolution, &results, err) != CPS_OK)
+    if (cps_results_open(directory, &random->scene, evolution, NULL, &results, err) != CPS_OK)
         failed = "open";
     while (!failed && cps_evolution_remaining(evolution) > 0) {
         if (*last > *worst_before) *worst_before = *last;
@@ -104,9 +104,9 @@ static Verdict judge_scene(const RandomScene *random, const char *directory, Tal
     tally->confirmed += report.certified;
     tally->gap = fmax(tally->gap, report.gap);
     tally->force = fmax(tally->force, report.force);
-    if (impossible(last, random->expected) || impossible(before, CPS_SOLVED)) {
-        fprintf(log, "  outcomes '%s', '%s', expected '%s'\n", cps_outcome_key(before),
-                cps_outcome_key(last), cps_outcome_key(random->expected));
+    if (impossible(last, random->expected) || impossible(before, CPS_OUTCOME_SOLVED)) {
+        fprintf(log, "  outcomes '%s', '%s', expected '%s'\n", cps_outcome_name(before),
+                cps_outcome_name(last), cps_outcome_name(random->expected));
         return WRONG;
     }
     if (report.refuted > 0 || given_file(path, &random->scene, log) != 0) return WRONG;

@@ -126,10 +126,10 @@ static void make_wheel(Law *law, bool product) {
     else {
         need(cps_law_preimage(2, (const double[]){0, -1, 1, 0, 0, 1}, both, NULL, &law->law, &err),
              "preimage");
-        cps_law_destroy(both);
+        cps_law_release(both);
     }
-    cps_law_destroy(part[0]);
-    cps_law_destroy(part[1]);
+    cps_law_release(part[0]);
+    cps_law_release(part[1]);
 }
 
 static void make_bingham(Law *law) {
@@ -140,8 +140,8 @@ static void make_bingham(Law *law) {
                                 &err),
          "viscous");
     need(cps_resistance_sum(2, (const CpsResistance *const *)part, &law->resistance, &err), "sum");
-    cps_resistance_destroy(part[0]);
-    cps_resistance_destroy(part[1]);
+    cps_resistance_release(part[0]);
+    cps_resistance_release(part[1]);
 }
 
 static void make_law(Law *law, Kind kind) {
@@ -381,8 +381,8 @@ static void make_system(System *s) {
 
 static void free_system(System *s) {
     for (int k = 0; k < s->laws; k++) {
-        cps_law_destroy(s->law[k].law);
-        cps_resistance_destroy(s->law[k].resistance);
+        cps_law_release(s->law[k].law);
+        cps_resistance_release(s->law[k].resistance);
     }
     cps_system_destroy(s->system);
 }
@@ -503,7 +503,8 @@ static void check_not_attained(const System *s, const CpsMotion *motion) {
     const double *d = cps_motion_direction(motion), size = fmax(largest(s->drives, s->w), 1e-300);
     double force = 0, last = INFINITY, v[MOST_N], forbidden = 0;
     for (int k = 0; k < s->laws; k++) force = fmax(force, s->law[k].size);
-    check("not attained: Proposition 1 holds", report->composition != CPS_COMPOSE_NOT_SATISFIED, 0);
+    check("not attained: Proposition 1 holds", report->composition != CPS_COMPOSITION_NOT_SATISFIED,
+          0);
     check("not attained: the direction drives", kinematics(s, d, 0), LINEAR);
     for (double t = 1; t <= 1e4; t *= 10) {
         for (int j = 0; j < s->n; j++)
@@ -532,7 +533,7 @@ static void check_reduced(const System *s, const CpsMotion *motion) {
     for (int factor = 1; factor <= 2; factor++) {
         double w[MOST_ROWS];
         for (int i = 0; i < s->drives; i++) w[i] = factor * s->w[i];
-        need(cps_law_dissipation(cps_law_set(law), w, NULL, &phi, &err), "dissipation");
+        need(cps_set_dissipation(cps_law_set(law), w, NULL, &phi, &err), "dissipation");
         if (phi.outcome == CPS_SET_ANSWERED)
             check("reduced law", fabs(phi.value - factor * report->value), VALUE * factor * scale);
     }
@@ -541,7 +542,7 @@ static void check_reduced(const System *s, const CpsMotion *motion) {
          "contains");
     if (inside.outcome == CPS_SET_ANSWERED)
         check("G outside the reduced law", -inside.value, VALUE * report->scale);
-    cps_law_destroy(law);
+    cps_law_release(law);
 }
 
 /* a random point where <direction, .> is largest over the set, or one far along a ray of it */
@@ -641,14 +642,14 @@ static void check_missed_interior(void) {
     need(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 1, 1}}, &err), "drive");
     need(cps_system_solve(system, (const double[]){uniform(0.5, 2)}, NULL, &motion, &err), "solve");
     const CpsMotionReport *report = cps_motion_report(motion);
-    check("missed interior: composition", report->composition != CPS_COMPOSE_NOT_SATISFIED, 0);
+    check("missed interior: composition", report->composition != CPS_COMPOSITION_NOT_SATISFIED, 0);
     check("missed interior: lower bound", report->lower, 1e-6 * law.size);
     check("missed interior: upper bound", -report->upper, 0);
     check("missed interior: attained", report->outcome != CPS_MOTION_NOT_ATTAINED, 0);
     check("missed interior: no direction", cps_motion_direction(motion) == NULL, 0);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
-    cps_law_destroy(law.law);
+    cps_law_release(law.law);
 }
 
 static int count_outcome[6];
@@ -687,7 +688,7 @@ static void one_case(uint64_t number) {
         fprintf(stderr, "seed %llu: inaccurate: gap %.3g of %.3g, composition %s\n",
                 (unsigned long long)seed, report->minimum, fmax(fabs(report->value), report->scale),
                 cps_composition_name(report->composition));
-        failures += report->composition != CPS_COMPOSE_NOT_SATISFIED;
+        failures += report->composition != CPS_COMPOSITION_NOT_SATISFIED;
         break;
     }
     cps_motion_destroy(motion);

@@ -58,11 +58,12 @@ class Results:
         dimensions = header.tagged(DIMENSION, lambda: (header.name(), header.number()))
         self.attributes = dict(header.tagged(ATTRIBUTE, header.attribute))
         offset = ">i" if data[3] == 1 else ">q"
+        self.attributes_of = {}
 
         def variable():
             name = header.name()
             shape = [dimensions[header.number()][1] for _ in range(header.number())]
-            header.tagged(ATTRIBUTE, header.attribute)
+            self.attributes_of[name] = dict(header.tagged(ATTRIBUTE, header.attribute))
             kind, size, begin = header.number(), header.number(), header.number(offset)
             return name, (shape, kind, size, begin)
         self.variables = dict(header.tagged(VARIABLE, variable))

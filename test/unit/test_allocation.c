@@ -83,7 +83,7 @@ static void step_all(double stiffness) {
     const int before = allocations;
     while (cps_evolution_remaining(evolution) > 0) {
         assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
-        assert_int_equal(cps_evolution_report(evolution).outcome, CPS_SOLVED);
+        assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
     }
     CHECK_INT(allocations, before);
     cps_evolution_destroy(evolution);
@@ -163,7 +163,7 @@ static void friction_sets_and_zones_take_no_more(void **unused) {
         const int before = allocations;
         while (cps_evolution_remaining(evolution) > 0) {
             assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
-            assert_int_equal(cps_evolution_report(evolution).outcome, CPS_SOLVED);
+            assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
         }
         CHECK_INT(allocations, before);
         cps_evolution_destroy(evolution);

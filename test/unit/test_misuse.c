@@ -32,25 +32,24 @@ static void make(void **state) {
 
 static void names_of_nothing(void **state) {
     (void)state;
-    GIVES(cps_status_name((CpsStatus)NEVER) != NULL &&
-          cps_status_sentence((CpsStatus)NEVER) != NULL);
+    GIVES(cps_status_name((CpsStatus)NEVER) != NULL && cps_status_text((CpsStatus)NEVER) != NULL);
     GIVES(cps_set_outcome_name((CpsSetOutcome)NEVER) != NULL &&
-          cps_set_outcome_sentence((CpsSetOutcome)NEVER) != NULL);
+          cps_set_outcome_text((CpsSetOutcome)NEVER) != NULL);
     GIVES(cps_composition_name((CpsComposition)NEVER) != NULL &&
-          cps_composition_sentence((CpsComposition)NEVER) != NULL);
+          cps_composition_text((CpsComposition)NEVER) != NULL);
     GIVES(cps_motion_outcome_name((CpsMotionOutcome)NEVER) != NULL &&
-          cps_motion_outcome_sentence((CpsMotionOutcome)NEVER) != NULL);
-    GIVES(cps_outcome_key((CpsOutcome)NEVER) != NULL &&
-          cps_outcome_sentence((CpsOutcome)NEVER) != NULL);
-    GIVES(cps_range_key((CpsRange)NEVER) != NULL);
+          cps_motion_outcome_text((CpsMotionOutcome)NEVER) != NULL);
+    GIVES(cps_outcome_name((CpsOutcome)NEVER) != NULL &&
+          cps_outcome_text((CpsOutcome)NEVER) != NULL);
+    GIVES(cps_range_name((CpsRange)NEVER) != NULL);
     GIVES(!cps_outcome_is_certified((CpsOutcome)NEVER) && !cps_outcome_is_final((CpsOutcome)NEVER));
-    GIVES(cps_judgement_key((CpsJudgement)NEVER) != NULL &&
-          cps_judgement_sentence((CpsJudgement)NEVER) != NULL);
-    GIVES(cps_completion_key((CpsCompletion)NEVER) != NULL &&
-          cps_completion_sentence((CpsCompletion)NEVER) != NULL);
-    GIVES(cps_study_stage_key((CpsStudyStage)NEVER) != NULL);
-    GIVES(cps_first_order_key((CpsFirstOrderVerdict)NEVER) != NULL &&
-          cps_first_order_sentence((CpsFirstOrderVerdict)NEVER) != NULL);
+    GIVES(cps_judgement_name((CpsJudgement)NEVER) != NULL &&
+          cps_judgement_text((CpsJudgement)NEVER) != NULL);
+    GIVES(cps_completion_name((CpsCompletion)NEVER) != NULL &&
+          cps_completion_text((CpsCompletion)NEVER) != NULL);
+    GIVES(cps_study_stage_name((CpsStudyStage)NEVER) != NULL);
+    GIVES(cps_first_order_name((CpsFirstOrderVerdict)NEVER) != NULL &&
+          cps_first_order_text((CpsFirstOrderVerdict)NEVER) != NULL);
 }
 
 static void sets(void **state) {
@@ -198,7 +197,7 @@ static void laws(void **state) {
     const CpsLaw *const half[2] = {law, NULL};
     const double *const maps[2] = {ONE, NULL};
     CpsLoadedLaw *loaded = NULL;
-    CpsLawResidual residual;
+    CpsSetResidual residual;
     REFUSED(cps_law_friction(NULL, &made, &err));
     REFUSED(cps_law_friction(disc, NULL, &err));
     REFUSED(cps_law_coulomb(1, 1, NULL, &err));
@@ -224,32 +223,32 @@ static void laws(void **state) {
     REFUSED(cps_law_contacts(2, 1, half, NULL, &made, &err));
     REFUSED(cps_law_contacts(2, 2, half, maps, &made, &err));
     REFUSED(cps_law_contacts(2, 1, half, maps, NULL, &err));
-    RUNS(cps_law_destroy(NULL));
+    RUNS(cps_law_release(NULL));
     GIVES(cps_law_space(NULL) == 0);
     GIVES(cps_law_set(NULL) == NULL);
     REFUSED(cps_law_load(NULL, ONE, &loaded, &err));
     REFUSED(cps_law_load(law, NULL, &loaded, &err));
     REFUSED(cps_law_load(law, ONE, NULL, &err));
-    RUNS(cps_loaded_law_destroy(NULL));
+    RUNS(cps_loaded_law_release(NULL));
     GIVES(cps_loaded_law_space(NULL) == 0);
     GIVES(cps_loaded_law_set(NULL) == NULL);
     GIVES(cps_loaded_law_load(NULL) == NULL);
-    REFUSED(cps_law_dissipation(NULL, ONE, NULL, &answer, &err));
-    REFUSED(cps_law_dissipation(disc, NULL, NULL, &answer, &err));
-    REFUSED(cps_law_dissipation(disc, ONE, NULL, NULL, &err));
-    REFUSED(cps_law_forces(NULL, ONE, 0, &set, &answer, &err));
-    REFUSED(cps_law_forces(disc, NULL, 0, &set, &answer, &err));
-    REFUSED(cps_law_forces(disc, ONE, 0, NULL, &answer, &err));
-    REFUSED(cps_law_forces(disc, ONE, 0, &set, NULL, &err));
-    REFUSED(cps_law_velocities(NULL, ONE, 0, &set, &answer, &err));
-    REFUSED(cps_law_velocities(disc, NULL, 0, &set, &answer, &err));
-    REFUSED(cps_law_velocities(disc, ONE, 0, NULL, &answer, &err));
-    REFUSED(cps_law_velocities(disc, ONE, 0, &set, NULL, &err));
-    REFUSED(cps_law_residual(NULL, ONE, ONE, 0, &residual, &err));
-    REFUSED(cps_law_residual(disc, NULL, ONE, 0, &residual, &err));
-    REFUSED(cps_law_residual(disc, ONE, NULL, 0, &residual, &err));
-    REFUSED(cps_law_residual(disc, ONE, ONE, 0, NULL, &err));
-    REFUSED(cps_law_residual(disc, ONE, ONE, NAN, &residual, &err));
+    REFUSED(cps_set_dissipation(NULL, ONE, NULL, &answer, &err));
+    REFUSED(cps_set_dissipation(disc, NULL, NULL, &answer, &err));
+    REFUSED(cps_set_dissipation(disc, ONE, NULL, NULL, &err));
+    REFUSED(cps_set_forces(NULL, ONE, 0, &set, &answer, &err));
+    REFUSED(cps_set_forces(disc, NULL, 0, &set, &answer, &err));
+    REFUSED(cps_set_forces(disc, ONE, 0, NULL, &answer, &err));
+    REFUSED(cps_set_forces(disc, ONE, 0, &set, NULL, &err));
+    REFUSED(cps_set_velocities(NULL, ONE, 0, &set, &answer, &err));
+    REFUSED(cps_set_velocities(disc, NULL, 0, &set, &answer, &err));
+    REFUSED(cps_set_velocities(disc, ONE, 0, NULL, &answer, &err));
+    REFUSED(cps_set_velocities(disc, ONE, 0, &set, NULL, &err));
+    REFUSED(cps_set_residual(NULL, ONE, ONE, 0, &residual, &err));
+    REFUSED(cps_set_residual(disc, NULL, ONE, 0, &residual, &err));
+    REFUSED(cps_set_residual(disc, ONE, NULL, 0, &residual, &err));
+    REFUSED(cps_set_residual(disc, ONE, ONE, 0, NULL, &err));
+    REFUSED(cps_set_residual(disc, ONE, ONE, NAN, &residual, &err));
 }
 
 static void resistances(void **state) {
@@ -272,8 +271,8 @@ static void resistances(void **state) {
     REFUSED(cps_resistance_sum(2, NULL, &resistance, &err));
     REFUSED(cps_resistance_sum(2, half, &resistance, &err));
     REFUSED(cps_resistance_sum(1, half, NULL, &err));
-    RUNS(cps_resistance_destroy(NULL));
-    GIVES(cps_resistance_space(NULL) == 0 && cps_resistance_terms(NULL) == 0 &&
+    RUNS(cps_resistance_release(NULL));
+    GIVES(cps_resistance_space(NULL) == 0 && cps_resistance_term_count(NULL) == 0 &&
           !cps_resistance_is_dry(NULL));
     REFUSED(cps_resistance_value(NULL, ONE, &value, NULL, &err));
     REFUSED(cps_resistance_value(viscous, NULL, &value, NULL, &err));
@@ -307,7 +306,7 @@ static void systems(void **state) {
     SOUND(cps_system_set_drive(system, 1, 1, &first, &err));
     REFUSED(cps_system_create(2, NULL, &err));
     RUNS(cps_system_destroy(NULL));
-    GIVES(cps_system_parameters(NULL) == 0 && cps_system_laws(NULL) == 0 &&
+    GIVES(cps_system_parameter_count(NULL) == 0 && cps_system_law_count(NULL) == 0 &&
           cps_system_drive_space(NULL) == 0);
     REFUSED(cps_system_add_friction(NULL, NULL, law, 2, map, &err));
     REFUSED(cps_system_add_friction(system, NULL, NULL, 2, map, &err));
@@ -342,7 +341,7 @@ static void systems(void **state) {
         REFUSED(cps_system_set_drive(system, 1, 1, &column, &err));
         REFUSED(cps_system_set_drive(system, n, 1, &first, &err));
     }
-    GIVES(cps_system_laws(system) == 1 && cps_system_drive_space(system) == 1);
+    GIVES(cps_system_law_count(system) == 1 && cps_system_drive_space(system) == 1);
     REFUSED(cps_system_eliminate(NULL, &made, NULL, NULL, &err));
     REFUSED(cps_system_solve(NULL, ONE, NULL, &motion, &err));
     REFUSED(cps_system_solve(system, NULL, NULL, &motion, &err));
@@ -379,7 +378,7 @@ static void motions(void **state) {
     GIVES(cps_motion_report(NULL) == NULL && cps_motion_velocity(NULL) == NULL &&
           cps_motion_direction(NULL) == NULL);
     GIVES(cps_motion_resistance(NULL) == NULL && cps_motion_constraint_forces(NULL) == NULL &&
-          cps_motion_constraints(NULL) == 0);
+          cps_motion_constraint_count(NULL) == 0);
     REFUSED(cps_motion_continuous(NULL, &known, &holds, &err));
     REFUSED(cps_motion_continuous(motion, NULL, &holds, &err));
     REFUSED(cps_motion_continuous(motion, &known, NULL, &err));
@@ -417,7 +416,7 @@ static void bodies(void **state) {
     bad = (CpsPatch){.kind = CPS_PATCH_POLYGON, .friction = 1, .load = 1, .corner_count = 3};
     REFUSED(cps_planar_create(1, &bad, &other, &err));
     RUNS(cps_planar_destroy(NULL));
-    GIVES(cps_planar_patches(NULL) == 0);
+    GIVES(cps_planar_patch_count(NULL) == 0);
     REFUSED(cps_planar_dissipation(NULL, ONE, NULL, NULL, &answer, &err));
     REFUSED(cps_planar_dissipation(body, NULL, NULL, NULL, &answer, &err));
     REFUSED(cps_planar_dissipation(body, ONE, NULL, NULL, NULL, &err));
@@ -524,7 +523,7 @@ static void studies(void **state) {
     REFUSED(cps_study_run(NULL, &options, NULL, NULL, &study, &err));
     RUNS(cps_study_destroy(NULL));
     GIVES(cps_study_row_count(NULL) == 0);
-    REFUSED(cps_first_order_solve(NULL, CPS_FIRST_ORDER_TOUCHING, &first_order, &err));
+    REFUSED(cps_first_order_solve(NULL, CPS_FIRST_ORDER_CONTACT_TOUCHING, &first_order, &err));
     RUNS(cps_first_order_destroy(NULL));
     GIVES(cps_first_order_report(NULL).verdict == CPS_FIRST_ORDER_UNDECIDED);
     GIVES(cps_first_order_view(NULL).elements == 0 && cps_first_order_view(NULL).strain == NULL);
@@ -534,8 +533,8 @@ static void studies(void **state) {
 static void clear(void **state) {
     (void)state;
     cps_set_release(disc);
-    cps_law_destroy(law);
-    cps_resistance_destroy(viscous);
+    cps_law_release(law);
+    cps_resistance_release(viscous);
     all_were_refused();
 }
 

@@ -4,9 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capstan/drive_io.h"
-#include "capstan/law_io.h"
-#include "capstan/regularized_io.h"
+#include "capstan/io.h"
+#include "capstan/results.h"
 #include "misuse.h"
 
 static const double ONE[9] = {1};
@@ -17,7 +16,8 @@ static const CpsDriveFile *volatile given;
 static void scenes(void **state) {
     (void)state;
     CpsSceneFile *file = NULL;
-    const CpsReadLimits none = {0}, negative = {.max_bytes = 1000,
+    const CpsReadLimits none = {0}, negative = {.cookie = cps_read_limits_default().cookie,
+                                                .max_bytes = 1000,
                                                 .max_depth = -1,
                                                 .max_elements = -1,
                                                 .max_steps = -1};
@@ -39,12 +39,16 @@ static void results(void **state) {
     CpsResults *opened = NULL;
     CpsJournal *journal = NULL;
     bool found;
-    const CpsResultsOptions options = {.fields = "no such field"};
+    const CpsResultsOptions zeros = {0};
+    CpsResultsOptions options = cps_results_options_default();
+    GIVES(cps_results_check_options(&options, &err) == CPS_OK);
+    options.fields = "no such field";
+    REFUSED(cps_results_check_options(&zeros, &err)); /* not begun as the default */
     const CpsScene scene = cps_scene_default();
-    REFUSED(cps_results_open(NULL, &scene, NULL, &opened, &err));
-    REFUSED(cps_results_open("results-misuse-io", NULL, NULL, &opened, &err));
-    REFUSED(cps_results_open("results-misuse-io", &scene, NULL, &opened, &err));
-    REFUSED(cps_results_open_with("results-misuse-io", &scene, NULL, &options, NULL, &err));
+    REFUSED(cps_results_open(NULL, &scene, NULL, NULL, &opened, &err));
+    REFUSED(cps_results_open("results-misuse-io", NULL, NULL, NULL, &opened, &err));
+    REFUSED(cps_results_open("results-misuse-io", &scene, NULL, NULL, &opened, &err));
+    REFUSED(cps_results_open("results-misuse-io", &scene, NULL, &options, NULL, &err));
     REFUSED(cps_results_check_options(&options, &err));
     GIVES(cps_results_check_options(NULL, &err) == CPS_OK);
     REFUSED(cps_results_prepare(NULL, false, &err));

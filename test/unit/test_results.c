@@ -17,7 +17,7 @@
 #include <cmocka.h>
 
 #include "capstan/capstan.h"
-#include "capstan/io.h"
+#include "capstan/results.h"
 #include "io/base/escape.h"
 
 /* every kind of character that some format takes for its own */
@@ -100,7 +100,7 @@ static CpsEvolution *run_into(const char *directory, const CpsScene *scene) {
     CpsEvolution *evolution = evolution_of(scene);
     must(cps_results_prepare(directory, true, &err),
          &err); /* of an earlier run of this test, of whatever version */
-    must(cps_results_open(directory, scene, evolution, &results, &err), &err);
+    must(cps_results_open(directory, scene, evolution, NULL, &results, &err), &err);
     while (cps_evolution_remaining(evolution) > 0) {
         must(cps_evolution_step(evolution, &err), &err);
         must(cps_results_append(results, evolution, &err), &err);
@@ -407,7 +407,7 @@ static void no_solution_is_written(void **state) {
     f.line[1].stiffness = INFINITY;
     f.change[1].to.value[0] = 100;
     CpsEvolution *evolution = run_into("results-infeasible", &f.scene);
-    assert_int_equal(cps_evolution_report(evolution).outcome, CPS_INFEASIBLE);
+    assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_INFEASIBLE);
     cps_evolution_destroy(evolution);
 }
 
@@ -434,12 +434,13 @@ static void what_is_not_there_is_refused(void **state) {
         const CpsLineView view = cps_evolution_line_view(evolution, absent[i]);
         assert_int_equal(view.elements, 0);
         assert_null(view.position);
-        assert_int_equal(cps_evolution_line_report(evolution, absent[i]).outcome, CPS_STALLED);
+        assert_int_equal(cps_evolution_line_report(evolution, absent[i]).outcome,
+                         CPS_OUTCOME_STALLED);
         assert_null(cps_evolution_line_view(NULL, absent[i]).position);
     }
     CpsResults *results = NULL;
     must(cps_results_prepare("results-misuse", true, &err), &err);
-    must(cps_results_open("results-misuse", &f.scene, evolution, &results, &err), &err);
+    must(cps_results_open("results-misuse", &f.scene, evolution, NULL, &results, &err), &err);
     must(cps_evolution_step(other, &err), &err);
     assert_int_equal(cps_results_append(results, other, &err), CPS_ERR_ARGUMENT);
     char missing[CPS_RESULT_NAME] = "before";
@@ -479,9 +480,11 @@ static void misuse_is_refused(void **state) {
     CpsError err;
     CpsResults *results = NULL, *second = NULL;
     CpsEvolution *evolution = evolution_of(&f.scene);
-    assert_int_equal(cps_results_open(NULL, &f.scene, evolution, &results, &err), CPS_ERR_ARGUMENT);
-    assert_int_equal(cps_results_open("x", &f.scene, evolution, NULL, &err), CPS_ERR_ARGUMENT);
-    must(cps_results_open("results-misuse", &f.scene, evolution, &results, &err), &err);
+    assert_int_equal(cps_results_open(NULL, &f.scene, evolution, NULL, &results, &err),
+                     CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_results_open("x", &f.scene, evolution, NULL, NULL, &err),
+                     CPS_ERR_ARGUMENT);
+    must(cps_results_open("results-misuse", &f.scene, evolution, NULL, &results, &err), &err);
     assert_int_equal(cps_results_append(results, evolution, &err),
                      CPS_ERR_ARGUMENT); /* before the first step */
     must(cps_evolution_step(evolution, &err), &err);
@@ -490,7 +493,7 @@ static void misuse_is_refused(void **state) {
                      CPS_ERR_ARGUMENT); /* twice the same step */
 
     /* two writers in one place; then none of them leaves anything without a finish */
-    assert_int_equal(cps_results_open("results-misuse", &f.scene, evolution, &second, &err),
+    assert_int_equal(cps_results_open("results-misuse", &f.scene, evolution, NULL, &second, &err),
                      CPS_ERR_IO);
     assert_null(second);
     cps_results_destroy(results);

@@ -291,6 +291,13 @@ static void keeps_limits(void **state) {
     assert_int_equal(read_text(text, &limits, &file, &err), CPS_OK);
     cps_scene_file_destroy(file);
 
+    /* and limits that did not begin as the default */
+    const CpsReadLimits bare = {.max_bytes = 1000,
+                                .max_depth = 6,
+                                .max_elements = 100,
+                                .max_steps = 6};
+    assert_int_equal(read_text(text, &bare, &file, &err), CPS_ERR_ARGUMENT);
+
     /* one less of each is refused */
     CpsReadLimits less = limits;
     less.max_bytes--;

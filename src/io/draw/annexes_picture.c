@@ -160,7 +160,7 @@ void cpsi_picture_first_order(const CpsStudyFiles *files, FILE *out) {
     const bool drawn =
         report.verdict == CPS_FIRST_ORDER_SOLVED || report.verdict == CPS_FIRST_ORDER_SHORTENS;
     char note[200];
-    snprintf(note, sizeof note, "P10.1: %s", cps_first_order_sentence(report.verdict));
+    snprintf(note, sizeof note, "P10.1: %s", cps_first_order_text(report.verdict));
     cpsi_svg_begin(out, SHEET_WIDTH, TOP + PITCH * (drawn ? 3 : 2) - 10, files->title, note);
     if (drawn) {
         draw_pair(files, 0, linear_strain, step_strain, "", out);

@@ -6,6 +6,7 @@
 
 #include "base/math.h"
 #include "base/status.h"
+#include "capstan/results.h"
 #include "io/draw/diagram.h"
 
 enum { AROUND = 360, SIDE = 320, GAP = 120, LEFT = 84, TOP = 96, WAY = 420, POSES = 9 };

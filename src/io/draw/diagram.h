@@ -4,7 +4,7 @@
 #ifndef CAPSTAN_SRC_IO_DRAW_DIAGRAM_H
 #define CAPSTAN_SRC_IO_DRAW_DIAGRAM_H
 
-#include "capstan/drive_io.h"
+#include "capstan/io.h"
 #include "io/draw/svg.h"
 
 /* Colours of the pictures. */

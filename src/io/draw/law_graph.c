@@ -48,7 +48,7 @@ typedef struct Graph {
 /* The forces at g->velocity; NULL where there are none. */
 static CpsStatus forces_at(const Graph *g, CpsSet **forces, CpsSetAnswer *answer) {
     *forces = NULL;
-    if (g->set) return cps_law_forces(g->set, g->velocity, 0, forces, answer, g->err);
+    if (g->set) return cps_set_forces(g->set, g->velocity, 0, forces, answer, g->err);
     return cps_resistance_forces(g->resistance, g->velocity, 0, forces, answer, g->err);
 }
 
@@ -101,7 +101,7 @@ static CpsStatus draw_force(const Graph *g, double force) {
     CpsSetExtent extent;
     const double y = in_frame(g, force);
     CpsStatus status =
-        g->set ? cps_law_velocities(g->set, &force, 0, &velocities, &answer, g->err)
+        g->set ? cps_set_velocities(g->set, &force, 0, &velocities, &answer, g->err)
                : cps_resistance_velocities(g->resistance, &force, &velocities, &answer, g->err);
     if (status == CPS_OK && velocities)
         status = cps_set_extent(velocities, (double[]){1}, &extent, g->err);

@@ -4,7 +4,7 @@
 #ifndef CAPSTAN_SRC_IO_DRAW_LAW_GRAPH_H
 #define CAPSTAN_SRC_IO_DRAW_LAW_GRAPH_H
 
-#include "capstan/law_io.h"
+#include "capstan/results.h"
 
 /* A friction law, or a resistance: one of them. */
 CpsStatus cpsi_law_graph(const CpsSet *set, const CpsResistance *resistance,

@@ -15,7 +15,7 @@
 
 #include "base/math.h"
 #include "base/status.h"
-#include "capstan/law_io.h"
+#include "capstan/results.h"
 #include "io/draw/law_graph.h"
 #include "io/draw/planar_cone.h"
 #include "io/draw/svg.h"
@@ -83,7 +83,7 @@ static CpsStatus trace(const CpsSet *set, Curve *curve, CpsError *err) {
         if (answer.outcome == CPS_SET_EMPTY) return CPS_OK;
         if (answer.outcome != CPS_SET_ANSWERED)
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "cannot draw the set of forces: %s",
-                             cps_set_outcome_sentence(answer.outcome));
+                             cps_set_outcome_text(answer.outcome));
         curve->count++;
     }
     return CPS_OK;
@@ -295,7 +295,7 @@ static void list_velocity(const Sheet *s, int i, const double *velocity, const C
     else if (phi->outcome == CPS_SET_UNBOUNDED)
         snprintf(text, sizeof text, "   no force: phi is infinite");
     else
-        snprintf(text, sizeof text, "   no force: %s", cps_set_outcome_sentence(phi->outcome));
+        snprintf(text, sizeof text, "   no force: %s", cps_set_outcome_text(phi->outcome));
     draw_line(s, 3 * i + 1, "#555", text);
 }
 
@@ -353,7 +353,7 @@ static CpsStatus draw_velocity(const Sheet *s, int i) {
     CpsSet *forces = NULL;
     CpsSetAnswer answer;
     CpsSetFacts facts = {.dimension = 0};
-    CpsStatus status = cps_law_forces(s->set, velocity, 0, &forces, &answer, s->err);
+    CpsStatus status = cps_set_forces(s->set, velocity, 0, &forces, &answer, s->err);
     if (status == CPS_OK && forces) status = cps_set_facts(forces, 0, &facts, NULL, NULL, s->err);
     double center[2] = {0, 0};
     if (status == CPS_OK && forces) status = draw_forces(s, forces, colour.hex, center);

@@ -225,7 +225,7 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
     char what[160], label[32];
     CpsiFrame frame;
     snprintf(what, sizeof what, "  \xC2\xB7  step %d of %d: %.*s  \xC2\xB7  %s", snapshot->step + 1,
-             results->planned_steps, 80, row->name, cps_outcome_key(row->report.outcome));
+             results->planned_steps, 80, row->name, cps_outcome_name(row->report.outcome));
     begin_sheet(results, view, &frame, snapshot->step, what, out);
 
     double range[2];

@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-#include "capstan/regularized_io.h"
+#include "capstan/results.h"
 
 typedef struct CpsiMethods {
     const char *title, *note;

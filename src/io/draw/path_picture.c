@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "capstan/results.h"
 #include "io/draw/diagram.h"
 
 enum { LEFT = 84, TOP = 96, SIDE = 520 };

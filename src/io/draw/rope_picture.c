@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "capstan/results.h"
 #include "io/draw/diagram.h"
 
 enum { LEFT = 84, TOP = 96, SHAPE = 460, HEIGHT = 380, GAP = 130, STRIP = 190, ARROWS = 24 };
@@ -166,7 +167,7 @@ CpsStatus cps_drive_draw_rope(const CpsDriveFile *file, const CpsMotion *motion,
     const CpsMotionOutcome outcome = cps_motion_report(motion)->outcome;
     if (outcome == CPS_MOTION_BLOCKED || outcome == CPS_MOTION_NO_BALANCE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "nothing to draw: %s",
-                         cps_motion_outcome_sentence(outcome));
+                         cps_motion_outcome_text(outcome));
     RopePicture picture = {file, &file->rope, motion, shots ? count : 0, shots};
     return cpsi_draw_plain(draw_rope, &picture, out, err);
 }

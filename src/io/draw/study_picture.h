@@ -3,7 +3,7 @@
 #ifndef CAPSTAN_SRC_IO_DRAW_STUDY_PICTURE_H
 #define CAPSTAN_SRC_IO_DRAW_STUDY_PICTURE_H
 
-#include "capstan/regularized_io.h"
+#include "capstan/results.h"
 
 /* Tensions with which the stages end, over those of P4.2; below, errors and residuals on the
  * way. */

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "capstan/results.h"
 #include "io/draw/diagram.h"
 
 enum { GRID = 41, LEVELS = 48, MOST_MAPS = 6, ARROWS = 4, SIDE = 300, GAP = 120, TOP = 96 };

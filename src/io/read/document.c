@@ -12,8 +12,12 @@
 #include "io/base/read_file.h"
 #include "io/schema/keys.h"
 
+/* what tells limits that began as the default */
+static const uint32_t LIMITS_COOKIE = 0x4c494d54;
+
 CpsReadLimits cps_read_limits_default(void) {
-    return (CpsReadLimits){.max_bytes = (size_t)64 << 20,
+    return (CpsReadLimits){.cookie = LIMITS_COOKIE,
+                           .max_bytes = (size_t)64 << 20,
                            .max_depth = 64,
                            .max_elements = 10000000,
                            .max_pairs = 100000000,
@@ -42,6 +46,9 @@ CpsStatus cpsi_document_read(const char *path, const CpsReadLimits *limits, Cpsi
                              CpsError *err) {
     const CpsReadLimits defaults = cps_read_limits_default();
     if (!limits) limits = &defaults;
+    if (limits->cookie != LIMITS_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the limits were not made by cps_read_limits_default()");
     if (limits->max_depth < 1 || limits->max_elements < 1 || limits->max_pairs < 1 ||
         limits->max_steps < 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,

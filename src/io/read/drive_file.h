@@ -4,7 +4,7 @@
 #ifndef CAPSTAN_SRC_IO_READ_DRIVE_FILE_H
 #define CAPSTAN_SRC_IO_READ_DRIVE_FILE_H
 
-#include "capstan/drive_io.h"
+#include "capstan/io.h"
 #include "io/read/set_build.h"
 #include "io/schema/drive_keys.h"
 

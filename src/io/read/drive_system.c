@@ -132,8 +132,8 @@ static CpsStatus add_law(const Names *names, const CpsiSystemLawValues *values, 
              : cps_system_add_resistance(system, name, terms, map->count, map->entry, &found)) !=
             CPS_OK)
         status = cpsi_document_place(names->d, values->node, &found);
-    cps_law_destroy(law);
-    cps_resistance_destroy(terms);
+    cps_law_release(law);
+    cps_resistance_release(terms);
     return status;
 }
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "capstan/law_io.h"
+#include "capstan/io.h"
 #include "io/read/document.h"
 #include "io/read/key_reader.h"
 #include "io/read/set_build.h"
@@ -23,9 +23,9 @@ struct CpsLawFile {
 
 void cps_law_file_destroy(CpsLawFile *file) {
     if (!file) return;
-    cps_law_destroy(file->law);
-    cps_loaded_law_destroy(file->loaded);
-    cps_resistance_destroy(file->resistance);
+    cps_law_release(file->law);
+    cps_loaded_law_release(file->loaded);
+    cps_resistance_release(file->resistance);
     free(file);
 }
 

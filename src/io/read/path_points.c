@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "capstan/drive_io.h"
+#include "capstan/io.h"
 #include "io/read/key_reader.h"
 
 void cps_drive_walk(int space, int points, const double *path, int count, double *out) {

@@ -108,7 +108,7 @@ static CpsStatus build_parts(CpsiSetBuild *b, CpsiSetValues *v) {
 static void release_parts(const CpsiSetValues *v) {
     for (int i = 0; i < v->count; i++) {
         if (v->set) cps_set_release(v->set[i]);
-        if (v->law) cps_law_destroy(v->law[i]);
+        if (v->law) cps_law_release(v->law[i]);
     }
 }
 
@@ -155,7 +155,7 @@ static CpsStatus make_expression(CpsiSetBuild *b, const CpsiYaml *node, const Cp
 
 static void release_made(const CpsiSetMade *made) {
     cps_set_release(made->set);
-    cps_law_destroy(made->law);
+    cps_law_release(made->law);
 }
 
 CpsStatus cpsi_build_set(CpsiSetBuild *b, const CpsiYaml *node, CpsSet **out) {
@@ -200,6 +200,6 @@ CpsStatus cpsi_build_resistance(CpsiSetBuild *b, const CpsiYaml *list, CpsResist
     if (status == CPS_OK &&
         cps_resistance_sum(count, (const CpsResistance *const *)term, out, &found) != CPS_OK)
         status = cpsi_document_place(b->d, list, &found);
-    for (int i = 0; i < count; i++) cps_resistance_destroy(term[i]);
+    for (int i = 0; i < count; i++) cps_resistance_release(term[i]);
     return status;
 }

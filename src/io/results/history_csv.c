@@ -90,7 +90,7 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
         const CpsiRow *row = &results->row[r];
         fprintf(out, "%d,", row->report.index);
         cpsi_write_csv(out, row->name);
-        fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_key(row->report.outcome),
+        fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_name(row->report.outcome),
                 row->report.iterations, row->report.parts, row->report.snaps,
                 (int)row->report.places);
         for (int i = 0; i < STEP_COLUMNS; ++i) {

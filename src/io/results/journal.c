@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "base/status.h"
-#include "capstan/io.h"
+#include "capstan/results.h"
 
 static const char NAME[] = ".journal";
 

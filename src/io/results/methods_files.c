@@ -120,7 +120,7 @@ static void completed_picture(const void *what, FILE *out) {
     CpsMethodHistory shape[1 + CPS_COMPLETIONS] = {
         {"as found", c->view->position + 3 * (size_t)first}};
     for (int k = 0; k < CPS_COMPLETIONS; ++k)
-        shape[1 + k] = (CpsMethodHistory){cps_completion_key((CpsCompletion)k),
+        shape[1 + k] = (CpsMethodHistory){cps_completion_name((CpsCompletion)k),
                                           c->position[k] + 3 * (size_t)first};
     char note[160];
     snprintf(note, sizeof note,

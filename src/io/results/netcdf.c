@@ -12,6 +12,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/status.h"
 #include "base/vec3.h"
@@ -35,7 +36,7 @@ static const uint64_t MAX_RECORD = 4294967292;
 
 /* Numbers of CpsLineReport. */
 typedef struct Number {
-    const char *name, *long_name, *units;
+    const char *name, *long_name, *units; /* units NULL: the unit depends on another variable */
     size_t offset;
 } Number;
 
@@ -86,7 +87,7 @@ static const Number NUMBER[] = {
     {"proof_value",
      "infeasible: what is missing of the length in m; unbounded: fall of energy per metre in N; "
      "slides: least power in N",
-     "m or N", REPORT(proof_value)},
+     NULL, REPORT(proof_value)},
 };
 
 /* Numbers of an obstacle. Their names are none that a line's field could have, whatever the line is
@@ -243,9 +244,9 @@ static void add_flags(CpsiNetcdf *nc, int variable, nc_type type, int count, con
     add_text(nc, variable, "flag_meanings", meanings);
 }
 
-#define OUTCOME_WORD(name, number, key, sentence)   key " "
+#define OUTCOME_WORD(name, number, key, sentence)   " " key
 #define OUTCOME_NUMBER(name, number, key, sentence) number,
-static const char OUTCOME_MEANINGS[] = CPS_OUTCOME_LIST(OUTCOME_WORD);
+static const char OUTCOME_MEANINGS[] = CPS_OUTCOME_LIST(OUTCOME_WORD); /* begins with a blank */
 static const int OUTCOME_VALUES[] = {CPS_OUTCOME_LIST(OUTCOME_NUMBER)};
 
 static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
@@ -255,7 +256,7 @@ static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
     if (nc->status == NC_NOERR)
         keep(nc,
              nc->library.put_att_int(nc->file, id, "flag_values", NC_INT, count, OUTCOME_VALUES));
-    add_text(nc, id, "flag_meanings", OUTCOME_MEANINGS);
+    add_text(nc, id, "flag_meanings", OUTCOME_MEANINGS + 1);
     return id;
 }
 
@@ -322,6 +323,22 @@ static void define_obstacles(CpsiNetcdf *nc, const CpsScene *scene) {
     define_sets(nc, scene);
 }
 
+static void add_numbers(CpsiNetcdf *nc, const char *name, size_t count, const double *value) {
+    if (nc->status == NC_NOERR)
+        keep(nc, nc->library.put_att_double(nc->file, NC_GLOBAL, name, NC_DOUBLE, count, value));
+}
+
+/* When the file was begun and by what, as CF wants the first line of a file's history. */
+static void add_history(CpsiNetcdf *nc, const char *source) {
+    char history[96];
+    struct timespec now = {0};
+    struct tm utc = {0};
+    if (timespec_get(&now, TIME_UTC) == TIME_UTC) gmtime_r(&now.tv_sec, &utc);
+    const size_t length = strftime(history, sizeof history, "%Y-%m-%dT%H:%M:%SZ: ", &utc);
+    snprintf(history + length, sizeof history - length, "written by %s", source);
+    add_text(nc, NC_GLOBAL, "history", history);
+}
+
 static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origin[XYZ],
                        const char *names) {
     add_text(nc, NC_GLOBAL, "Conventions", "CF-1.8");
@@ -329,18 +346,14 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     char source[64];
     snprintf(source, sizeof source, "capstan %s", cps_version());
     add_text(nc, NC_GLOBAL, "source", source);
+    add_history(nc, source);
     add_text(nc, NC_GLOBAL, "lines", names);
     add_text(nc, NC_GLOBAL, "friction",
              scene->friction == CPS_FRICTION_CONSISTENT ? "consistent" : "frozen");
     add_text(nc, NC_GLOBAL, "contact", scene->contact == CPS_CONTACT_STRICT ? "strict" : "gained");
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_att_double(nc->file, NC_GLOBAL, "gravity", NC_DOUBLE, 3,
-                                            scene->gravity));
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_att_double(nc->file, NC_GLOBAL, "tolerance", NC_DOUBLE, 1,
-                                            &scene->solver.tolerance));
-    if (nc->status == NC_NOERR && (origin[0] != 0 || origin[1] != 0 || origin[2] != 0))
-        keep(nc, nc->library.put_att_double(nc->file, NC_GLOBAL, "origin", NC_DOUBLE, 3, origin));
+    add_numbers(nc, "gravity", XYZ, scene->gravity);
+    add_numbers(nc, "tolerance", 1, &scene->solver.tolerance);
+    if (origin[0] != 0 || origin[1] != 0 || origin[2] != 0) add_numbers(nc, "origin", XYZ, origin);
 
     nc->step = add_dimension(nc, "step", NC_UNLIMITED);
     nc->xyz = add_dimension(nc, "xyz", XYZ);
@@ -437,9 +450,8 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     ids->end_kind = add_variable(nc, view->name, "end_kind", NC_BYTE, 2, on_ends,
                                  "what is imposed at A and B", "1");
     add_flags(nc, ids->end_kind, NC_BYTE, 2, "held free");
-    ids->end_value =
-        add_variable(nc, view->name, "end_value", NC_DOUBLE, 3, on_ends,
-                     "position in m of a held end, force in N on a free one", "m or N");
+    ids->end_value = add_variable(nc, view->name, "end_value", NC_DOUBLE, 3, on_ends,
+                                  "position in m of a held end, force in N on a free one", NULL);
     ids->end_force = add_variable(nc, view->name, "end_force", NC_DOUBLE, 3, on_ends,
                                   "force on the line at its ends", "N");
     ids->end_friction =
@@ -462,6 +474,7 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
         nc, view->name, "places_not_unique", NC_INT, 1, &nc->step,
         "do the forces leave a choice of places; 0: no, 1: the nearest is taken, 2: one of them",
         "1");
+    add_flags(nc, ids->places, NC_INT, 3, "unique nearest any");
     const int vectors[] = {nc->step, nc->xyz};
     ids->proof = add_variable(nc, view->name, "proof", NC_DOUBLE, 2, vectors,
                               "direction that proves no solution", "1");
@@ -494,10 +507,17 @@ static const double *array_of(CpsiNetcdf *nc, const CpsLineView *view, const Cps
     return array || field->offset != VIEW(slide) ? array : plane_slide(nc, view);
 }
 
+static const size_t ONE[] = {1}; /* count of a single number */
+
 static void write_doubles(CpsiNetcdf *nc, int variable, const size_t *start, const size_t *count,
                           const double *value) {
     if (nc->status == NC_NOERR)
         keep(nc, nc->library.put_vara_double(nc->file, variable, start, count, value));
+}
+
+static void write_int(CpsiNetcdf *nc, int variable, const size_t *start, int value) {
+    if (nc->status == NC_NOERR)
+        keep(nc, nc->library.put_var1_int(nc->file, variable, start, &value));
 }
 
 /* the fields that do not change (fixed), or those of a step; an array of contacts has the first of
@@ -565,26 +585,16 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     write_doubles(nc, ids->proof, start, vector, report->proof);
     write_doubles(nc, ids->weight_before, start, vector, view->weight_before);
 
-    const int outcome = (int)report->outcome;
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_var1_int(nc->file, ids->outcome, start, &outcome));
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_var1_int(nc->file, ids->iterations, start, &report->iterations));
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_var1_int(nc->file, ids->parts, start, &report->parts));
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_var1_int(nc->file, ids->snaps, start, &report->snaps));
-    const int places = (int)report->places;
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_var1_int(nc->file, ids->places, start, &places));
-    const int *round = &report->proof_obstacle;
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_var1_int(nc->file, ids->proof_obstacle, start, round));
+    write_int(nc, ids->outcome, start, (int)report->outcome);
+    write_int(nc, ids->iterations, start, report->iterations);
+    write_int(nc, ids->parts, start, report->parts);
+    write_int(nc, ids->snaps, start, report->snaps);
+    write_int(nc, ids->places, start, (int)report->places);
+    write_int(nc, ids->proof_obstacle, start, report->proof_obstacle);
     for (int i = 0; i < NUMBERS; ++i) {
         const double *number =
             (const double *)(const void *)((const char *)report + NUMBER[i].offset);
-        if (nc->status == NC_NOERR)
-            keep(nc, nc->library.put_var1_double(nc->file, ids->number[i], start, number));
+        write_doubles(nc, ids->number[i], start, ONE, number);
     }
 }
 
@@ -640,11 +650,10 @@ static void write_sets(CpsiNetcdf *nc, const CpsScene *scene) {
 
 static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line) {
     for (size_t k = 0; k < (size_t)line->zone_count; ++k)
-        for (int i = 0; i < ZONES && nc->status == NC_NOERR; ++i) {
-            const double *number =
-                (const double *)(const void *)((const char *)&line->zone[k] + ZONE[i].offset);
-            keep(nc, nc->library.put_var1_double(nc->file, ids->zone[i], &k, number));
-        }
+        for (int i = 0; i < ZONES; ++i)
+            write_doubles(nc, ids->zone[i], &k, ONE,
+                          (const double *)(const void *)((const char *)&line->zone[k] +
+                                                         ZONE[i].offset));
 }
 
 /* all definitions, then the fields that never change */
@@ -700,12 +709,9 @@ static CpsStatus check_sizes(const CpsEvolution *evolution, int count, size_t *l
     *longest = 0;
     for (int i = 0; i < count; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
-        uint64_t bytes = 0;
         const size_t nodes = (size_t)view.elements + 1;
         if (nodes > *longest) *longest = nodes;
-        if (__builtin_mul_overflow((uint64_t)view.elements + 1, (uint64_t)(XYZ * sizeof(double)),
-                                   &bytes) ||
-            bytes > MAX_RECORD)
+        if ((uint64_t)nodes * (XYZ * sizeof(double)) > MAX_RECORD) /* an int of nodes fits */
             return cpsi_fail(err, CPS_ERR_LIMIT,
                              "line %s has %d elements; result.nc holds at most %llu per line",
                              view.name, view.elements,
@@ -728,8 +734,6 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
     if (nc) {
         nc->wanted = wanted;
         nc->sync = !options->sync_at_end;
-    }
-    if (nc) {
         nc->line = calloc((size_t)lines, sizeof *nc->line);
         nc->line_count = lines;
     }
@@ -756,7 +760,6 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
                              CpsError *err) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const size_t start[] = {nc->steps, 0}, count[] = {1, NAME_LENGTH};
-    const int outcome = (int)report.outcome;
     char name[NAME_LENGTH] = {0};
     const char *given = report.name ? report.name : "";
     memcpy(name, given, cpsi_utf8_cut(given, sizeof name));
@@ -764,10 +767,8 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
     pthread_mutex_lock(&library_lock);
     if (nc->status == NC_NOERR)
         keep(nc, nc->library.put_vara_text(nc->file, nc->step_name, start, count, name));
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_var1_int(nc->file, nc->outcome, start, &outcome));
-    if (nc->status == NC_NOERR)
-        keep(nc, nc->library.put_var1_double(nc->file, nc->wall, start, &report.wall));
+    write_int(nc, nc->outcome, start, (int)report.outcome);
+    write_doubles(nc, nc->wall, start, ONE, &report.wall);
     const size_t turns[] = {1, (size_t)nc->obstacle_count};
     if (nc->obstacle_count > 0) write_doubles(nc, nc->turn, start, turns, turn);
     for (int i = 0; i < nc->line_count && nc->status == NC_NOERR; ++i) {

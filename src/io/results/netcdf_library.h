@@ -25,7 +25,6 @@
     X(put_att_double)        \
     X(put_var_double)        \
     X(put_var1_int)          \
-    X(put_var1_double)       \
     X(put_vara_text)         \
     X(put_vara_int)          \
     X(put_vara_uchar)        \

@@ -103,20 +103,26 @@ CpsStatus cps_results_missing(const char *directory, char missing[CPS_RESULT_NAM
     return cpsi_directory_missing(directory, missing, err);
 }
 
+/* what tells options that began as the default */
+static const uint32_t OPTIONS_COOKIE = 0x5245534c;
+
+CpsResultsOptions cps_results_options_default(void) {
+    return (CpsResultsOptions){.cookie = OPTIONS_COOKIE};
+}
+
 CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *err) {
     unsigned wanted;
-    return options ? cpsi_fields_choose(options->fields, &wanted, err) : CPS_OK;
+    if (!options) return CPS_OK;
+    if (options->cookie != OPTIONS_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the options were not made by cps_results_options_default()");
+    return cpsi_fields_choose(options->fields, &wanted, err);
 }
 
 CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
-                           const CpsEvolution *evolution, CpsResults **out, CpsError *err) {
-    return cps_results_open_with(directory, scene, evolution, NULL, out, err);
-}
-
-CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene,
-                                const CpsEvolution *evolution, const CpsResultsOptions *options,
-                                CpsResults **out, CpsError *err) {
-    static const CpsResultsOptions all = {0};
+                           const CpsEvolution *evolution, const CpsResultsOptions *options,
+                           CpsResults **out, CpsError *err) {
+    const CpsResultsOptions all = cps_results_options_default();
     if (!options) options = &all;
     if (!out)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -125,12 +131,13 @@ CpsStatus cps_results_open_with(const char *directory, const CpsScene *scene,
     if (!directory || !*directory || !scene || !evolution)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "directory, scene and evolution are all needed to open results");
+    CpsStatus status = cps_results_check_options(options, err);
+    if (status) return status;
 
     CpsResults *results = calloc(1, sizeof *results);
     if (!results) return fail_memory(err);
     results->paraview = !options->no_paraview;
     results->locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    CpsStatus status = CPS_OK;
     if (!results->locale || !copy_scene(results, scene, evolution)) status = fail_memory(err);
     if (!status) status = open_files(results, directory, scene, evolution, options, err);
     if (status) {

@@ -58,7 +58,7 @@ static void write_study(const CpsStudyFiles *files, FILE *out) {
     for (int r = 0; r < cps_study_row_count(files->study); ++r) {
         const CpsStudyRow *row = cps_study_row(files->study, r);
         const int cells = row->parameters.cells > 0 ? row->parameters.cells : step.elements;
-        fprintf(out, "%s,%d", cps_study_stage_key(row->stage), cells);
+        fprintf(out, "%s,%d", cps_study_stage_name(row->stage), cells);
         write_number(out, step.length / cells);
         fprintf(out, ",%d,%d,%d", row->report.converged, row->report.iterations,
                 row->report.evaluations);

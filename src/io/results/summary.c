@@ -36,7 +36,7 @@ static void write_vector(FILE *out, const char *key, const double x[3], const ch
  * known, `kind` says which */
 static void write_range(FILE *out, const CpsTensionRange *range) {
     fputs(", \n            \"tension_range_N\": {", out);
-    write_string(out, "kind", cps_range_key(range->kind), ", ");
+    write_string(out, "kind", cps_range_name(range->kind), ", ");
     write_number(out, "least", range->least, ", ");
     write_number(out, "least_bound", range->least_bound, ", ");
     write_number(out, "greatest", range->greatest, ", ");
@@ -57,12 +57,12 @@ static void write_end(FILE *out, const char *key, const CpsEndReport *end, const
 /* what proves that there is no solution, in the units of its kind */
 static void write_proof(FILE *out, const CpsLineReport *report) {
     if (!cps_outcome_is_final(report->outcome)) return;
-    const char *value = report->outcome == CPS_INFEASIBLE ? "excess_m"
-                        : report->outcome == CPS_SLIDES   ? "power_N"
-                                                          : "fall_N";
+    const char *value = report->outcome == CPS_OUTCOME_INFEASIBLE ? "excess_m"
+                        : report->outcome == CPS_OUTCOME_SLIDES   ? "power_N"
+                                                                  : "fall_N";
     fputs("          \"proof\": {", out);
     write_vector(out, "direction", report->proof, ", ");
-    if (report->outcome == CPS_INFEASIBLE && report->proof_obstacle >= 0)
+    if (report->outcome == CPS_OUTCOME_INFEASIBLE && report->proof_obstacle >= 0)
         fprintf(out, "\"obstacle\": %d, ", report->proof_obstacle);
     if (report->coulomb > 0) write_number(out, "coulomb_N", report->coulomb, ", ");
     write_number(out, value, report->proof_value, "},\n");
@@ -85,7 +85,7 @@ static void write_line(FILE *out, const char *name, const CpsLineReport *report,
     fputs("        ", out);
     write_key(out, name);
     fputs("{\n          ", out);
-    write_string(out, "outcome", cps_outcome_key(report->outcome), ", ");
+    write_string(out, "outcome", cps_outcome_name(report->outcome), ", ");
     fprintf(out, "\"iterations\": %d, \"places_not_unique\": %d,\n          ", report->iterations,
             (int)report->places);
     write_number(out, "grounded_m", report->grounded, ", ");
@@ -143,7 +143,7 @@ static void write_ledger(FILE *out, const CpsStepReport *report) {
 static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row) {
     fputs("    {\n      ", out);
     write_string(out, "name", row->name, ", ");
-    write_string(out, "outcome", cps_outcome_key(row->report.outcome), ", ");
+    write_string(out, "outcome", cps_outcome_name(row->report.outcome), ", ");
     fprintf(out, "\"iterations\": %d,\n", row->report.iterations);
     write_certificate(out, results, row);
     write_ledger(out, &row->report);
@@ -160,7 +160,7 @@ static void write_run(const CpsResults *results, double wall, FILE *out) {
     write_string(out, "title", results->title, ",\n  ");
     const double *o = results->origin; /* said where it is not 0 */
     if (o[0] != 0 || o[1] != 0 || o[2] != 0) write_vector(out, "origin_m", o, ",\n  ");
-    write_string(out, "outcome", cps_outcome_key(cpsi_results_outcome(results)), ",\n  ");
+    write_string(out, "outcome", cps_outcome_name(cpsi_results_outcome(results)), ",\n  ");
     write_number(out, "wall_s", wall, ",\n  \"steps\": [");
     for (int i = 0; i < results->row_count; ++i) {
         fputs(i ? ",\n" : "\n", out);

@@ -5,9 +5,7 @@
 #include <stdio.h>
 
 #include "base/status.h"
-#include "capstan/drive_io.h"
 #include "capstan/io.h"
-#include "capstan/law_io.h"
 #include "io/base/escape.h"
 #include "io/base/numbers.h"
 #include "io/schema/drive_keys.h"
