@@ -67,18 +67,18 @@ static Vec3 segment_force(const CpsiLine *line, int e) {
     return vec3_load(&line->segment_force[3 * e]);
 }
 
-/* The friction set of contact c, with force or way in its tangent axes. */
-static CpsiFrictionLaw rub_set(const CpsiLine *line, int c, const double vector[3],
-                               double local[3]) {
+/* The friction law of contact c, and a force or displacement in its tangent axes. */
+static const CpsiFrictionLaw *law_and_local(const CpsiLine *line, int c, const double vector[3],
+                                            double local[3]) {
     cpsi_frame_to(local, cpsi_line_axes(line, c), vector);
-    return cpsi_friction_law(line, c);
+    return &line->friction_law[c];
 }
 
 /* How much more friction contact c could give, in whatever direction. */
 static double room_of(const CpsiLine *line, int c) {
     double f[3];
-    const CpsiFrictionLaw set = rub_set(line, c, &line->friction_force[3 * c], f);
-    return cpsi_friction_law_margin(&set, line->friction_bound[c], f);
+    const CpsiFrictionLaw *law = law_and_local(line, c, &line->friction_force[3 * c], f);
+    return cpsi_friction_law_margin(law, line->friction_bound[c], f);
 }
 
 /* Add scale x a b^T to m (3, 3). */
@@ -90,7 +90,7 @@ static void add_outer(double m[9], double scale, Vec3 a, Vec3 b) {
 
 /* Does the bound of contact c follow its reaction? */
 static bool bound_follows(const CpsiLine *line, int c) {
-    const double bound = cpsi_friction_law(line, c).friction * line->reaction[c];
+    const double bound = line->friction_law[c].friction * line->reaction[c];
     return bound > 0 && fabs(line->friction_bound[c] - bound) <= 1e-12 * bound;
 }
 
@@ -217,12 +217,12 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     const double w = line->friction_bound[c], reaction = line->reaction[c];
     double force[3], slip[3], along[3];
     vec3_store(along, slide);
-    const CpsiFrictionLaw set = rub_set(line, c, along, slip);
+    const CpsiFrictionLaw *law = law_and_local(line, c, along, slip);
     cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-    const double law = cpsi_friction_law_gap(&set, w, force, slip),
-                 dissipation = cpsi_friction_law_dissipation(&set, w, slip);
-    out->law_residual += law > 0 ? law : 0;
-    out->friction_residual += fabs(w - set.friction * reaction);
+    const double law_gap = cpsi_friction_law_gap(law, w, force, slip),
+                 dissipation = cpsi_friction_law_dissipation(law, w, slip);
+    out->law_residual += law_gap > 0 ? law_gap : 0;
+    out->friction_residual += fabs(w - law->friction * reaction);
     out->primal += dissipation;
     out->scale += dissipation;
     /* the place from which it slid, on the tangent plane: the reference there */
@@ -284,21 +284,21 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
 
 bool cpsi_law_refcount(const CpsiLine *line, double tolerance) {
     const double rounding = 1e-14 * line->report.certificate.largest_force * line->length;
-    double law = 0, dissipated = 0, bounds = 0;
+    double law_gap = 0, dissipated = 0, bounds = 0;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double w = line->friction_bound[c];
         if (!(w > 0)) continue;
         double force[3], slip[3], along[3];
         vec3_store(along, cpsi_line_slide(line, c));
-        const CpsiFrictionLaw set = rub_set(line, c, along, slip);
+        const CpsiFrictionLaw *law = law_and_local(line, c, along, slip);
         cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-        const double off = fabs(cpsi_friction_law_gap(&set, w, force, slip));
+        const double off = fabs(cpsi_friction_law_gap(law, w, force, slip));
         if (off > tolerance * w * line->length + rounding) return false;
-        law += off;
+        law_gap += off;
         bounds += w * line->length;
-        dissipated += cpsi_friction_law_dissipation(&set, w, slip);
+        dissipated += cpsi_friction_law_dissipation(law, w, slip);
     }
-    return law <= tolerance * dissipated + 1e-12 * bounds + rounding;
+    return law_gap <= tolerance * dissipated + 1e-12 * bounds + rounding;
 }
 
 CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance) {

@@ -296,6 +296,7 @@ void cpsi_contact_update_geometry(CpsiLine *line) {
             double share, gap;
             if (on >= 0 && clearance(line, line->base, e, on, &share, &gap)) line->beta[e] = share;
         }
+    cpsi_line_lay_out_friction(line);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const int k = line->on[c];
         const Vec3 before = vec3_load(&line->normal[3 * c]);
@@ -325,7 +326,7 @@ static void set_reference(CpsiLine *line, int c, bool frictionless) {
     const bool near = fabs(gap) <= CPSI_TOUCH * line->length,
                touches = line->gains ? obstacle && line->state[c] != CPS_NODE_FREE : near;
     const bool rubs = touches && !held && !frictionless;
-    line->friction_bound[c] = rubs ? cpsi_friction_law(line, c).friction * line->reaction[c] : 0;
+    line->friction_bound[c] = rubs ? line->friction_law[c].friction * line->reaction[c] : 0;
     line->gap[c] = !held && near ? 0 : INFINITY;
     if (is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
     /* what is free has no reaction, but for what the loop left of it */
@@ -340,6 +341,7 @@ void cpsi_contact_reset(CpsiLine *line) {
         update_contact(line, c);
         line->round[c] = 0;
     }
+    cpsi_line_lay_out_friction(line);
 }
 
 void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
@@ -355,7 +357,10 @@ void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
     }
     for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
         if (line->state[c] == CPS_NODE_FREE) line->on[c] = -1; /* to be met again when it goes in */
-    if (line->has_local_axes) cpsi_contact_reset(line);
+    if (line->has_local_axes)
+        cpsi_contact_reset(line);
+    else
+        cpsi_line_lay_out_friction(line);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (line->frozen) freeze(line, c);
         if (!line->has_local_axes && line->obstacle_count > 0)
@@ -467,7 +472,7 @@ static double turn_of_axes(const CpsiLine *line, int c, const double now[9]) {
     if (line->frozen) return normal;
     const double along = vec3_norm(vec3_sub(tangent, from)),
                  against = vec3_norm(vec3_axpy(1, tangent, from));
-    return fmax(normal, cpsi_friction_law(line, c).given ? along : fmin(along, against));
+    return fmax(normal, line->friction_law[c].given ? along : fmin(along, against));
 }
 
 /* How far the axes of node j turn from its base to its position, the tangent's turn counting where

@@ -22,21 +22,24 @@ static bool is_finite(const CpsiLine *line) {
 
 /* With bounds that follow the reactions, or if that cannot be solved with those of the reference:
  * the next step corrects them. */
-static bool solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+static bool solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                  double drag) {
     if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) {
-        CpsiIpmReport ipm = cpsi_line_solve(line, program, options, CPSI_BOUNDS_COUPLED, false);
+        const CpsiRound coupled = {.bounds = CPSI_BOUNDS_COUPLED, .centering = true, .drag = drag};
+        const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, &coupled);
         if (cpsi_line_is_clean(&ipm) && is_finite(line)) return true;
     }
-    const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, CPSI_BOUNDS_FIXED, false);
+    const CpsiRound fixed = {.bounds = CPSI_BOUNDS_FIXED, .centering = true, .drag = drag};
+    const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, &fixed);
     return ipm.gap + ipm.residual <= options->solver.tolerance && is_finite(line);
 }
 
 CpsiDampedStep cpsi_line_damped_step(CpsiLine *line, CpsiChainProgram *program,
-                                     const CpsiStepOptions *options) {
+                                     const CpsiStepOptions *options, double drag) {
     CpsiDampedStep step = {0};
     double turned;
     cpsi_line_set_reference(line, options);
-    step.solved = solve(line, program, options);
+    step.solved = solve(line, program, options, drag);
     if (!step.solved) {
         memcpy(line->position, line->reference, 3 * (size_t)line->n * sizeof *line->position);
         return step;

@@ -15,13 +15,13 @@ typedef struct CpsiDampedStep {
     double distance; /* [m] the longest that a node went */
 } CpsiDampedStep;
 
-/* Take line->position as the reference, and go from there under line->end with a drag of
- * options->drag, in units of force and displacement per length of the line (step_program.h). Each
- * contact acts in the tangent plane and the axes of the reference, with friction bounded by its own
+/* Take line->position as the reference, and go from there under line->end with a
+ * `drag` in units of force and displacement per length of the line (step_program.h). Each contact
+ * acts in the tangent plane and the axes of the reference, with friction bounded by its own
  * reaction, and the line is laid onto the surfaces at the end of the step. States, slides and ends
  * are reported as those of a step, but nothing is certified: the forces balance together with the
  * drag. */
 CpsiDampedStep cpsi_line_damped_step(CpsiLine *line, CpsiChainProgram *program,
-                                     const CpsiStepOptions *options);
+                                     const CpsiStepOptions *options, double drag);
 
 #endif

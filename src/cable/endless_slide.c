@@ -62,12 +62,12 @@ static Vec3 direction(const Along *a, int i) {
 /* phi per unit normal force of contact c for the tangential velocity v. */
 static double friction_of(const Along *a, int c, Vec3 v) {
     double along[3], slip[3];
-    CpsiFrictionLaw set = cpsi_friction_law(a->line, c);
+    const CpsiFrictionLaw *set = &a->line->friction_law[c];
     const CpsiObstacle *obstacle = cpsi_line_obstacle(a->line, c);
     vec3_store(along, v);
     cpsi_frame_to(slip, cpsi_line_axes(a->line, c), along);
     return cpsi_friction_law_dissipation(
-        &set, a->factor * (set.given ? 1 : fmax(obstacle->friction[0], obstacle->friction[1])),
+        set, a->factor * (set->given ? 1 : fmax(obstacle->friction[0], obstacle->friction[1])),
         slip);
 }
 

@@ -38,7 +38,7 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
         sum = vec3_add(sum, b);
         loads += vec3_norm(b);
         friction += line->friction_bound[j];
-        const double coefficient = cpsi_friction_law(line, j).friction;
+        const double coefficient = line->friction_law[j].friction;
         steepest = fmax(steepest, coefficient);
         least = fmin(least, coefficient);
         stopped = stopped || isfinite(line->gap[j]);

@@ -132,10 +132,10 @@ static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit,
                      Contact *out) {
     static const double none[2] = {0, 0};
     *out = (Contact){0};
-    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+    const CpsiFrictionLaw *set = &line->friction_law[c];
     const double *axes = cpsi_line_axes(line, c), reaction = line->reaction[c] / unit;
-    const bool touching = touches(line, c), discs = !law->frictionless && set.friction > 0;
-    const bool given = discs && set.given && (touching || line->friction_bound[c] > 0);
+    const bool touching = touches(line, c), discs = !law->frictionless && set->friction > 0;
+    const bool given = discs && set->given && (touching || line->friction_bound[c] > 0);
     double force[3];
     cpsi_frame_to(force, axes, &line->friction_force[3 * c]);
     for (int a = 0; a < 2; a++) force[a] /= unit;
@@ -145,11 +145,11 @@ static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit,
     if (law->frozen || !discs) {
         /* R by itself; F within its given bound, which has no directions without end */
         const bool varies = discs && !given && !law->directions && line->friction_bound[c] > 0;
-        if (varies) free_tangents(line, law, c, &set, free);
+        if (varies) free_tangents(line, law, c, set, free);
         if (touching) add_column(out, n, 1, none);
     } else {
         if (!touching) return true;
-        free_tangents(line, law, c, &set, free);
+        free_tangents(line, law, c, set, free);
         const bool slips = !(free[0] && free[1]);
         if (slips && !(reaction > 0)) return true;
         double disc[2] = {0, 0};
@@ -165,8 +165,8 @@ static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit,
     const bool normal = out->columns > 0;
     for (int a = 0; a < 2; a++)
         if (free[a]) add_column(out, vec3_load(&axes[3 * a]), 0, (const double[2]){a == 0, a == 1});
-    const double follow = law->frozen || !discs ? 0 : set.friction;
-    add_cones(out, &set, free, normal, follow, reaction,
+    const double follow = law->frozen || !discs ? 0 : set->friction;
+    add_cones(out, set, free, normal, follow, reaction,
               law->frozen ? line->friction_bound[c] / unit : follow * reaction, force);
     return !given;
 }
@@ -382,7 +382,7 @@ bool cpsi_force_set_solve(CpsiForceSet *set) {
 
 static void store_contact(const CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw *law, int c,
                           const Contact *contact, const double *amount) {
-    const CpsiFrictionLaw disc = cpsi_friction_law(line, c);
+    const CpsiFrictionLaw *disc = &line->friction_law[c];
     const double *axes = cpsi_line_axes(line, c);
     double force[3], reaction = line->reaction[c];
     cpsi_frame_to(force, axes, &line->friction_force[3 * c]);
@@ -392,9 +392,9 @@ static void store_contact(const CpsiForceSet *set, CpsiLine *line, const CpsiFor
     }
     line->reaction[c] = fmax(0, reaction);
     if (law->frictionless) return;
-    if (!law->frozen) line->friction_bound[c] = disc.friction * line->reaction[c];
-    if (!disc.given)
-        cpsi_friction_law_clip(&disc, line->friction_bound[c], line->friction_bound[c], force);
+    if (!law->frozen) line->friction_bound[c] = disc->friction * line->reaction[c];
+    if (!disc->given)
+        cpsi_friction_law_clip(disc, line->friction_bound[c], line->friction_bound[c], force);
     force[2] = 0;
     cpsi_frame_from(&line->friction_force[3 * c], axes, force);
 }

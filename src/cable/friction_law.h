@@ -8,38 +8,19 @@
 #include "cable/friction_set.h"
 #include "cable/line.h"
 
-typedef struct CpsiFrictionLaw {
+struct CpsiFrictionLaw {
     double friction; /* [-] the larger coefficient, 1 for a given set: w = friction R */
     double ratio[2]; /* of the coefficients along the two tangents to it, 0..1, the larger is 1 */
     bool box;
     const CpsiFrictionSet *given; /* NULL: ellipse or box */
-} CpsiFrictionLaw;
+};
 
-/* The factor of the friction zones at contact c: that of its node, or between those of its
- * element's nodes. */
-static inline double cpsi_line_factor(const CpsiLine *line, int c) {
-    const int e = cpsi_line_element(line, c);
-    if (!line->friction_factor) return 1;
-    if (e < 0) return line->friction_factor[cpsi_line_node(line, c)];
-    return (1 - line->beta[e]) * line->friction_factor[e] +
-           line->beta[e] * line->friction_factor[e + 1];
-}
+/* The law of contact c of a line, by the obstacle that it is with and its place on the line. */
+CpsiFrictionLaw cpsi_friction_law(const CpsiLine *line, int c);
 
-/* That of contact c of a line. */
-static inline CpsiFrictionLaw cpsi_friction_law(const CpsiLine *line, int c) {
-    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    const double factor = cpsi_line_factor(line, c);
-    const CpsiFrictionSet *given =
-        obstacle && obstacle->has_set ? line->friction_set[obstacle - line->obstacle] : NULL;
-    if (!obstacle || (obstacle->has_set && !given)) return (CpsiFrictionLaw){.ratio = {1, 1}};
-    if (obstacle->has_set) return (CpsiFrictionLaw){.friction = factor, .given = given};
-    const double *mu = obstacle->friction, friction = fmax(mu[0], mu[1]),
-                 by = friction > 0 ? 1 / friction : 0;
-    return (
-        CpsiFrictionLaw){.friction = factor * friction,
-                         .ratio = {friction > 0 ? mu[0] * by : 1, friction > 0 ? mu[1] * by : 1},
-                         .box = obstacle->shape == CPS_FRICTION_BOX};
-}
+/* Lay out line->friction_law, the law of every contact: when contacts have been detected or moved
+ * along the line, once per round. */
+void cpsi_line_lay_out_friction(CpsiLine *line);
 
 /* phi(u) + <F, u> >= 0 [J], of a force F in the set and a way u, both in the tangent axes; without
  * cancellation but for a given set. */

@@ -174,7 +174,7 @@ static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, d
                           double *basis, int *freedom) {
     const int j = cpsi_line_node(line, c), mark = least->mark[c];
     const double *axes = cpsi_line_axes(line, c);
-    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+    const CpsiFrictionLaw *set = &line->friction_law[c];
     const Vec3 n = cpsi_line_friction_normal(line, c),
                from =
                    vec3_load(line->has_local_axes ? &line->base[3 * j] : &line->reference[3 * j]);
@@ -183,15 +183,15 @@ static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, d
     const Vec3 slip =
         vec3_scale(1 / line->length, vec3_add(before, vec3_axpy(-vec3_dot(u, n), n, u)));
     Vec3 along[2] = {row(axes, 0), row(axes, 1)};
-    bool acts[2] = {set.given || set.ratio[0] > 0, set.given || set.ratio[1] > 0},
-         slips[2] = {mark & SLIPS, mark & (set.box ? SLIPS_ACROSS : SLIPS)};
-    if (set.given && cpsi_friction_set_conic(set.given)->unknowns == 1) {
-        const double *p = cpsi_friction_set_conic(set.given)->p, size = hypot(p[0], p[1]);
+    bool acts[2] = {set->given || set->ratio[0] > 0, set->given || set->ratio[1] > 0},
+         slips[2] = {mark & SLIPS, mark & (set->box ? SLIPS_ACROSS : SLIPS)};
+    if (set->given && cpsi_friction_set_conic(set->given)->unknowns == 1) {
+        const double *p = cpsi_friction_set_conic(set->given)->p, size = hypot(p[0], p[1]);
         const Vec3 x = along[0], y = along[1];
         along[0] = vec3_axpy(p[0] / size, x, vec3_scale(p[1] / size, y));
         along[1] = vec3_cross(n, along[0]);
         acts[1] = false;
-    } else if (!set.box && acts[0] && acts[1]) {
+    } else if (!set->box && acts[0] && acts[1]) {
         const double size = vec3_norm(slip);
         if (!slips[0] || size <= LEAST_WAY) {
             block(basis, freedom, along[0]);
@@ -436,12 +436,12 @@ void cpsi_least_motion_restate(const CpsiLine *line, CpsiChainProgram *program) 
     CpsiFrictionDisc *disc = &program->disc;
     for (int k = 0; k < disc->count; k++) {
         const int c = disc->contact[k];
-        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+        const CpsiFrictionLaw *set = &line->friction_law[c];
         const bool across = k > 0 && disc->contact[k - 1] == c;
         const double *axes = cpsi_line_axes(line, c);
         const Vec3 slip = vec3_scale(1 / line->length, cpsi_line_slide(line, c));
         for (int a = 0; a < 2; a++)
-            disc->s[k][1 + a] =
-                (!set.box || across == (a == 1) ? set.ratio[a] : 0) * vec3_dot(row(axes, a), slip);
+            disc->s[k][1 + a] = (!set->box || across == (a == 1) ? set->ratio[a] : 0) *
+                                vec3_dot(row(axes, a), slip);
     }
 }

@@ -3,6 +3,7 @@
 #include "cable/line.h"
 
 #include "base/larger.h"
+#include "cable/friction_law.h"
 
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
@@ -14,6 +15,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->normal = CPSI_TAKE(arena, 3 * contacts, double);
     line->gap = CPSI_TAKE(arena, contacts, double);
     line->friction_factor = line->has_zones ? CPSI_TAKE(arena, n, double) : NULL;
+    line->friction_law = CPSI_TAKE(arena, contacts, CpsiFrictionLaw);
     line->friction_bound = CPSI_TAKE(arena, contacts, double);
     line->friction_force = CPSI_TAKE(arena, 3 * contacts, double);
     line->reaction = CPSI_TAKE(arena, contacts, double);

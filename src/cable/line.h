@@ -17,6 +17,8 @@
 #include "capstan/evolve.h"
 #include "geometry/obstacle.h"
 
+typedef struct CpsiFrictionLaw CpsiFrictionLaw; /* friction_law.h */
+
 typedef struct CpsiLine {
     const char *name;
     int n;                   /* nodes, elements + 1 */
@@ -46,14 +48,15 @@ typedef struct CpsiLine {
     double *normal;    /* (contacts, n, 3) */
     double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked
                     for */
-    double *friction_factor; /* (n) of the obstacles' coefficients; NULL: 1 */
-    double *friction_bound;  /* (contacts, n) [N] */
-    double *friction_force;  /* (contacts, n, 3) [N] */
-    double *reaction;        /* (contacts, n) [N] */
-    double *segment_force;   /* (n - 1, 3) [N] */
-    double *tension;         /* (n - 1) [N] */
-    double *motion;          /* (n, 3) [-] of a line that slides without end, else 0 */
-    unsigned char *state;    /* (contacts, n) CpsNodeState */
+    double *friction_factor;       /* (n) of the obstacles' coefficients; NULL: 1 */
+    CpsiFrictionLaw *friction_law; /* (contacts, n) of the obstacle that each contact is with */
+    double *friction_bound;        /* (contacts, n) [N] */
+    double *friction_force;        /* (contacts, n, 3) [N] */
+    double *reaction;              /* (contacts, n) [N] */
+    double *segment_force;         /* (n - 1, 3) [N] */
+    double *tension;               /* (n - 1) [N] */
+    double *motion;                /* (n, 3) [-] of a line that slides without end, else 0 */
+    unsigned char *state;          /* (contacts, n) CpsNodeState */
     /* where `follows`, else NULL: what each node sees of the obstacles, from its place `base` */
     double
         *slide; /* (contacts, n, 3) [m] way of the node on the obstacle in this step, tangential */

@@ -11,10 +11,12 @@
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
 
-/* Steps to the centre at the target (line_step.c), and towards smaller products where friction
- * acts: each halves what a node at its limit creeps, and takes two digits off what the force of one
- * that slips lacks. */
-static const int SHARPENINGS = 6;
+/* Steps to the centre once the target is reached: each squares what is left of the angle between
+ * the force of an element and the element. */
+static const int CENTERING_STEPS = 2;
+/* Steps after these towards smaller complementarity products: each halves the spurious slip of a
+ * node at its limit, and takes two digits off what the force of a slipping node lacks. */
+static const int REFINEMENT_STEPS = 6;
 /* No step takes a node this many lengths away: it was on its way to nowhere. */
 static const double MAX_DISPLACEMENT = 1e4;
 /* A reference this much tighter than the loads and the ends explain. */
@@ -200,7 +202,7 @@ static int most_iterations(const CpsiLine *line, const CpsiStepOptions *options)
 /* A line that nothing loads: no force, no friction, no reaction, and the place of least motion.
  * False where there is no such place: something must hold it then. */
 static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program,
-                           const CpsiStepOptions *options, CpsiBounds bounds) {
+                           const CpsiStepOptions *options, const CpsiRound *round) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(line->position, line->reference, 3 * n * sizeof *line->position);
     for (int end = 0; end < 2; end++)
@@ -211,11 +213,11 @@ static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program,
     memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
     memset(line->tension, 0, n * sizeof *line->tension);
-    if (bounds != CPSI_BOUNDS_FIXED)
+    if (round->bounds != CPSI_BOUNDS_FIXED)
         memset(line->friction_bound, 0, contacts * sizeof *line->friction_bound);
     if (line->has_local_axes) memset(line->pressed, 0, contacts * sizeof *line->pressed);
     line->report.iterations +=
-        cpsi_least_motion(line, options->least, NULL, bounds, most_iterations(line, options));
+        cpsi_least_motion(line, round->least, NULL, round->bounds, most_iterations(line, options));
     if (line->report.places == CPS_PLACES_ANY) return false;
     cpsi_step_program_clear(line, program);
     return true;
@@ -231,37 +233,37 @@ static double largest_force(const CpsiLine *line) {
 }
 
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
-                              const CpsiStepOptions *options, CpsiBounds bounds, bool curved) {
+                              const CpsiStepOptions *options, const CpsiRound *round) {
     const bool taut = cpsi_line_is_taut(line);
-    const double force = cpsi_line_unit_force(line, bounds);
-    if (!(force > 0) && options->least && rests_unloaded(line, program, options, bounds))
+    const double force = cpsi_line_unit_force(line, round->bounds);
+    if (!(force > 0) && round->least && rests_unloaded(line, program, options, round))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
     CpsiStepScale scale = {.force = force > 0 ? force : 1,
                            .longer = taut ? 1 + TAUT_SLACK : 1,
-                           .bounds = bounds,
-                           .curved = curved,
-                           .drag = options->drag};
+                           .bounds = round->bounds,
+                           .reaction_stiffness = round->reaction_stiffness,
+                           .drag = round->drag};
     cpsi_step_program_fill(line, program, &scale);
     double loads = 0;
     for (int i = 0; i < 3 * line->n; i++) loads += fabs(program->base.load[i]);
     const CpsiIpmOptions ipm_options = {.target = CPSI_TARGET,
                                         .scale = loads > 0 ? loads : 1,
                                         .max_iterations = most_iterations(line, options),
-                                        .centering_steps = options->centering_steps,
-                                        .sharpenings =
-                                            options->centering_steps > 0 ? SHARPENINGS : 0};
+                                        .centering_steps = round->centering ? CENTERING_STEPS : 0,
+                                        .sharpenings = round->centering ? REFINEMENT_STEPS : 0};
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
     cpsi_step_program_unpack(line, program, &scale);
     line->report.iterations += ipm.iterations;
     line->report.places = CPS_PLACES_UNIQUE;
-    if (!(loads > 0) && options->least && largest_force(line) <= CPSI_CLEAN * force &&
-        rests_unloaded(line, program, options, bounds))
+    if (!(loads > 0) && round->least && largest_force(line) <= CPSI_CLEAN * force &&
+        rests_unloaded(line, program, options, round))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
     if (taut)
         straighten(line);
-    else if (options->least && !curved && !(options->drag > 0) && cpsi_line_is_clean(&ipm))
-        line->report.iterations += cpsi_least_motion(line, options->least, program, bounds,
+    else if (round->least && !round->reaction_stiffness && !(round->drag > 0) &&
+             cpsi_line_is_clean(&ipm))
+        line->report.iterations += cpsi_least_motion(line, round->least, program, round->bounds,
                                                      most_iterations(line, options));
     return ipm;
 }

@@ -35,10 +35,19 @@ bool cpsi_line_is_near(const CpsiLine *line);
  * to. */
 double cpsi_line_unit_force(const CpsiLine *line, CpsiBounds bounds);
 
+/* How one program of a step is posed and solved. */
+typedef struct CpsiRound {
+    CpsiBounds bounds;
+    bool reaction_stiffness; /* reactions turn with their normals */
+    bool centering;          /* the loop ends with steps to the centre */
+    double drag;             /* [-] (step_program.h) */
+    CpsiLeastMotion *least;  /* scratch memory of the rule of least motion, NULL: not applied */
+} CpsiRound;
+
 /* Solve once, from the base of the line, and move to the nearest of the places that go with the
  * forces. */
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
-                              const CpsiStepOptions *options, CpsiBounds bounds, bool curved);
+                              const CpsiStepOptions *options, const CpsiRound *round);
 bool cpsi_line_is_clean(const CpsiIpmReport *ipm);
 
 /* What rounding leaves of the reaction of a node that is apart is none, nor is there friction,

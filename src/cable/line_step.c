@@ -1,23 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One step of one line (S90 problem P4.2, with A frozen from the reference or following the
- * reaction), in four moves:
+/* One step of one line (S90 problem P4.2, with A frozen from the reference or coupled to the
+ * reaction):
  *
- *   pose      reference x_R, friction bounds w = mu R_R where the reference touches, gaps, loads
- *   decide    is there an equilibrium at all?  (existence.h)
- *   solve     write the step as a program (step_program.c), run ipm/
- *   conclude  back to world axes; balance the forces; classify nodes; certificate; report
+ *   1. Take the reference x_R, the friction bounds w = mu R_R where the reference touches, gaps and
+ *      loads (cpsi_line_set_reference). A line in equilibrium there stays (standstill.c), and one
+ *      that provably has no equilibrium is reported so (existence.c).
+ *   2. Solve the step as a conic program (step_program.c, line_solve.c), or as a sequence of them
+ *      on tangent planes (rounds.c), by the strategies of the table below.
+ *   3. Choose among forces that the position does not determine (tension_field.c), classify the
+ *      nodes and report.
  *
- * Consistent friction is solved in one go, the bound of each rub tied to the reaction beside it
- * (chain/friction_disc.c). That problem is no minimisation and may stall; then the bounds are found
- * in rounds, each a convex step with the last round's mu R.
+ * Consistent friction is solved in one program, the bound of each friction disc coupled to the
+ * reaction beside it (chain/friction_disc.c). That problem is no minimisation, and the loop may
+ * stall. Then the bounds are found in rounds, each a convex step with the mu R of the last round.
  *
- * On curved obstacles, or where friction follows the line's direction, each round is such a program
- * on the tangent planes where the last one ended: the inequalities are kept whole, normals and axes
- * turn from round to round. Rounds come to rest where the equilibrium is stable (docs/theory.md
- * 2.4); they look ahead (anderson.h), and where that does not settle they go slowly, or with a
- * drag. What the last round leaves is in the certificate, which is taken at the place reached, with
- * its own normals. Frozen friction keeps the bounds and axes of the reference, as S90 has it;
- * strict contact beside it the planes of the reference too. */
+ * On curved obstacles, or where friction has directions along the line, each round is such a
+ * program on the tangent planes at the position where the last one ended: the inequalities are kept
+ * whole, and normals and axes turn from round to round. The rounds converge where the equilibrium
+ * is stable (docs/theory.md 2a). They are accelerated (anderson.h); where that does not converge,
+ * plain rounds or rounds with drag are tried. The remaining error of the last round shows in the
+ * certificate, which is computed at the position reached, with its own normals. Frozen friction
+ * keeps the bounds and axes of the reference, as in S90; with strict contact it keeps the planes of
+ * the reference too. */
 #include "cable/line_step.h"
 
 #include <math.h>
@@ -28,56 +32,131 @@
 #include "cable/contact.h"
 #include "cable/endless_slide.h"
 #include "cable/existence.h"
-#include "cable/friction_law.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
 #include "cable/report.h"
 #include "cable/rounds.h"
 #include "cable/shortfall.h"
+#include "cable/standstill.h"
+#include "cable/strategy.h"
 #include "cable/tension_field.h"
-#include "chain/frame.h"
 #include "ipm/ipm.h"
 
-/* Steps to the centre once there: what is left of a force's angle to its element is squared by
- * each. */
-static const int CENTERING_STEPS = 2;
-/* A line stays where it is if its gap is at most a digit worse than that of the step before:
- * without slip, and balanced anew, the same forces add up to a little more or less. */
-static const double AS_GOOD = 10;
+/* strategies ----------------------------------------------------------------------------------- */
 
-/* solve ---------------------------------------------------------------------------------------- */
+/* What a step is like, and so which strategies are of use. */
+enum {
+    LOCAL_AXES = 1,    /* normals and axes change from place to place (line.h) */
+    STATIC_ROUNDS = 2, /* ... and the initial configuration is computed by statics */
+    FROZEN = 4,        /* ... and friction keeps the bounds and axes of the reference */
+    ROUNDS = 8,        /* it is solved in rounds on tangent planes, not as one program */
+    CHOSE = 16         /* the rule of least motion chose among places in the last attempt */
+};
 
-/* Solve with bounds that follow the reactions or with the bounds of the line, on the planes of the
- * pose. */
-static CpsiIpmReport attempt(CpsiLine *line, CpsiChainProgram *program,
-                             const CpsiStepOptions *options, bool follow) {
-    const CpsiIpmReport ipm =
-        cpsi_line_solve(line, program, options, follow ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED,
-                        false);
+/* In the order tried, until one gives a certified answer. */
+static const CpsiStrategy STRATEGY[] = {
+    /* accelerated rounds, or one program where nothing turns */
+    {.unless = STATIC_ROUNDS,
+     .rounds = 12,
+     .acceleration = true,
+     .least_motion = true,
+     .centering = true},
+    /* places as they are found: the rule of least motion may prevent convergence */
+    {.when = CHOSE, .unless = STATIC_ROUNDS, .rounds = 12, .acceleration = true, .centering = true},
+    /* many plain rounds: a line without tension has no place of its own to converge to. Statics
+     * starts here */
+    {.when = LOCAL_AXES, .rounds = 100, .patience = 20, .least_motion = true, .centering = true},
+    /* Newton's method for the rounds, and no steps to the centre: where hardly any force is left,
+     * the centre may lie farther from the boundary than the tolerance allows. Not in statics, where
+     * it finds equilibria on a crest that the line would leave (docs/theory.md 2a) */
+    {.unless = STATIC_ROUNDS,
+     .rounds = 12,
+     .acceleration = true,
+     .least_motion = true,
+     .reaction_stiffness = true},
+    /* trial bounds: where what rests in a corner has many solutions, the loop with coupled bounds
+     * ends far from the boundary */
+    {.when = LOCAL_AXES,
+     .unless = STATIC_ROUNDS | FROZEN,
+     .rounds = 12,
+     .acceleration = true,
+     .least_motion = true,
+     .centering = true,
+     .trial_bounds = true},
+    /* rounds with drag, for those that go to and fro or have far to go. The nearest place is not
+     * the one on the way */
+    {.when = ROUNDS,
+     .rounds = 200,
+     .patience = 10,
+     .acceleration = true,
+     .centering = true,
+     .drag = true},
+};
+
+static unsigned conditions(const CpsiLine *line, const CpsiStepOptions *options) {
+    const bool consistent = options->friction == CPS_FRICTION_CONSISTENT;
+    unsigned found = options->least && options->least->chose ? CHOSE : 0;
+    if (!line->has_local_axes) return found;
+    found |= LOCAL_AXES;
+    if (options->frictionless) found |= STATIC_ROUNDS;
+    if (line->frozen) found |= FROZEN;
+    if (consistent || options->frictionless || line->frozen) found |= ROUNDS;
+    return found;
+}
+
+/* Solve one program on the planes of the reference. */
+static CpsiIpmReport solve_program(CpsiLine *line, CpsiChainProgram *program,
+                                   const CpsiStepOptions *options, const CpsiStrategy *strategy,
+                                   bool coupled) {
+    const CpsiRound round = {.bounds = coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED,
+                             .centering = strategy->centering,
+                             .least = strategy->least_motion ? options->least : NULL};
+    const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, &round);
     cpsi_contact_plane_slip(line);
-    if (follow) cpsi_line_release_open_contacts(line, program);
+    if (coupled) cpsi_line_release_open_contacts(line, program);
     cpsi_line_certify(line, options, &ipm);
     return ipm;
 }
 
-/* The step as it is posed, in one go or in rounds. */
-static void solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    const bool consistent = options->friction == CPS_FRICTION_CONSISTENT;
-    const bool follow = consistent && !options->frictionless && line->obstacle_count > 0;
-    if (options->dragged) {
-        cpsi_dragged_rounds(line, program, options,
-                            follow ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED);
-    } else if (line->has_local_axes && (consistent || options->frictionless || line->frozen)) {
-        cpsi_tangent_plane_rounds(line, program, options,
-                                  !follow           ? CPSI_BOUNDS_FIXED
-                                  : options->trying ? CPSI_BOUNDS_TRIAL
-                                                    : CPSI_BOUNDS_COUPLED);
+/* Solve the step from its reference by one strategy. */
+static void solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                       const CpsiStrategy *strategy) {
+    const bool coupled = options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless &&
+                         line->obstacle_count > 0;
+    const CpsiBounds bounds = !coupled                 ? CPSI_BOUNDS_FIXED
+                              : strategy->trial_bounds ? CPSI_BOUNDS_TRIAL
+                                                       : CPSI_BOUNDS_COUPLED;
+    if (strategy->drag) {
+        cpsi_dragged_rounds(line, program, options, strategy, bounds);
+    } else if (conditions(line, options) & ROUNDS) {
+        cpsi_tangent_plane_rounds(line, program, options, strategy, bounds);
     } else {
-        const CpsiIpmReport ipm = attempt(line, program, options, follow);
-        if (follow && !cpsi_line_is_clean(&ipm))
-            cpsi_tangent_plane_rounds(line, program, options, CPSI_BOUNDS_TRIAL);
+        const CpsiIpmReport ipm = solve_program(line, program, options, strategy, coupled);
+        if (coupled && !cpsi_line_is_clean(&ipm))
+            cpsi_tangent_plane_rounds(line, program, options, strategy, CPSI_BOUNDS_TRIAL);
     }
 }
+
+/* Try the strategies that are of use, until one gives a certified answer. */
+static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
+                                 const CpsiStepOptions *options) {
+    const size_t contacts = (size_t)cpsi_line_all_contacts(line);
+    bool again = false;
+    for (size_t i = 0; i < sizeof STRATEGY / sizeof *STRATEGY; i++) {
+        const CpsiStrategy *strategy = &STRATEGY[i];
+        const unsigned found = conditions(line, options);
+        if ((found & strategy->when) != strategy->when || (found & strategy->unless)) continue;
+        if (again) memset(line->reaction, 0, contacts * sizeof *line->reaction);
+        if (options->least) options->least->chose = false;
+        if (line->has_local_axes) cpsi_contact_reset(line);
+        solve_once(line, program, options, strategy);
+        if (options->least && !strategy->least_motion) cpsi_places_as_found(line, program);
+        if (cps_outcome_is_certified(line->report.outcome)) return;
+        again = true;
+    }
+}
+
+/* the step ------------------------------------------------------------------------------------- */
 
 /* Is every number of the answer one? */
 static bool is_finite(const CpsiLine *line) {
@@ -104,49 +183,6 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     cpsi_line_certify(line, options, &none);
     line->report.outcome = CPS_OUTCOME_STALLED;
 }
-
-/* Solve in one way or another: with places as they are found, should the rule of least motion be in
- * the way; slowly, where a line without tension has no place of its own to settle at; with
- * reactions that turn with their normals late, and not in statics, because they have a line stay on
- * a crest that it would leave; then also without centrings: where hardly any force is left, the
- * centre may lie farther from the boundary than the tolerance lets it; with bounds that are tried:
- * where what rests in a corner has many answers, the loop with bounds that follow ends far from the
- * boundary. Last in rounds that a drag may hold back, where the others go to and fro or have far to
- * go. */
-static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
-                                 const CpsiStepOptions *options) {
-    enum { QUICK, AS_FOUND, SLOW, TURNING, TRYING, DRAGGED, STRATEGIES };
-    const int first = line->has_local_axes && options->frictionless ? SLOW : QUICK;
-    for (int way = first; way < STRATEGIES; way++) {
-        if (way == AS_FOUND && !(options->least && options->least->chose))
-            continue;                                       /* all places were as they were found */
-        if (way == SLOW && !line->has_local_axes) continue; /* no rounds on one plane */
-        if (way == TURNING && line->has_local_axes && options->frictionless) continue;
-        if (way == TRYING && (!line->has_local_axes || line->frozen || options->frictionless))
-            continue;
-        const bool rounds = line->has_local_axes && (options->friction == CPS_FRICTION_CONSISTENT ||
-                                                     options->frictionless || line->frozen);
-        if (way == DRAGGED && !rounds) return;
-        CpsiStepOptions with = *options;
-        with.slow = way == SLOW;
-        if (way == AS_FOUND) with.least = NULL;
-        if (options->least) options->least->chose = false;
-        with.turning = way == TURNING;
-        with.dragged = way == DRAGGED;
-        with.trying = way == TRYING;
-        with.centering_steps = way == TURNING ? 0 : CENTERING_STEPS;
-        if (way > first)
-            memset(line->reaction, 0,
-                   (size_t)cpsi_line_all_contacts(line) * sizeof *line->reaction);
-        if (line->has_local_axes) cpsi_contact_reset(line);
-        solve_once(line, program, &with);
-        if (options->least && (way == AS_FOUND || way == DRAGGED))
-            cpsi_places_as_found(line, program);
-        if (cps_outcome_is_certified(line->report.outcome)) return;
-    }
-}
-
-/* conclude ------------------------------------------------------------------------------------- */
 
 /* What the tensions of an inextensible line, and the reactions in corners, are to be near to. */
 static void remember(CpsiLine *line) {
@@ -186,63 +222,6 @@ static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
         line->report.certificate = before;
         line->report.outcome = outcome;
     }
-}
-
-/* Does nothing change that could move the line?  Held ends where they were, obstacles that do not
- * turn, friction within its bounds. */
-static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) {
-    for (int end = 0; end < 2; end++) {
-        const double *at = &line->reference[end == CPS_END_A ? 0 : 3 * (line->n - 1)],
-                     *to = line->end[end].value;
-        if (line->end[end].kind == CPS_END_HELD)
-            for (int a = 0; a < 3; a++)
-                if (at[a] != to[a]) return false;
-    }
-    for (int k = 0; k < line->obstacle_count; k++)
-        if (line->turn[k] != 0) return false;
-    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-        double f[3], inside[3];
-        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
-        const double bound = line->friction_bound[c];
-        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-        if (f[0] == 0 && f[1] == 0 && f[2] == 0) continue;
-        /* a given set is not asked whether it holds F: the bound must be the one that held it, as
-         * one that follows is */
-        if (set.given && !(bound > 0 && options->friction == CPS_FRICTION_CONSISTENT)) return false;
-        memcpy(inside, f, sizeof f);
-        cpsi_friction_law_clip(&set, bound, bound, inside);
-        const double out = hypot(f[0] - inside[0], f[1] - inside[1]) + fabs(f[2]);
-        if (!(out <= CPSI_CLEAN * line->report.certificate.largest_force)) return false;
-    }
-    return true;
-}
-
-/* Is the line in equilibrium where it is, with the forces that it has?  Then it stays, and keeps
- * them: no motion is less than none. What has been told of the step before, in `before`, is true of
- * this one too, but that nothing slips. */
-static bool stays(CpsiLine *line, const CpsiStepOptions *options, const CpsLineReport *before) {
-    static const CpsiIpmReport nothing_left = {.outcome = CPSI_IPM_SOLVED};
-    if (!options->least || options->frictionless || !(before->share > 0)) return false;
-    line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
-    const double left =
-        line->report.certificate.force_residual / line->report.certificate.largest_force;
-    if (left > CPSI_CLEAN &&
-        left <= CPSI_TOUCH) { /* the same loads, but normals turned when the line was laid on */
-        cpsi_balance_forces(line);
-        line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
-    }
-    if (!nothing_moves(line, options)) return false;
-    const CpsCertificate *c = &line->report.certificate;
-    line->report.outcome = cpsi_line_outcome(line, options, &nothing_left);
-    if (!cps_outcome_is_certified(line->report.outcome) ||
-        !(c->gap <= fmax(AS_GOOD * before->certificate.gap, CPSI_TARGET * c->scale)))
-        return false;
-    for (int i = 0; i < cpsi_line_all_contacts(line); i++)
-        if (line->state[i] == CPS_NODE_SLIP) line->state[i] = CPS_NODE_STICK;
-    line->report.slack = before->slack;
-    line->report.places =
-        before->places == CPS_PLACES_UNIQUE ? CPS_PLACES_UNIQUE : CPS_PLACES_NEAREST;
-    return true;
 }
 
 /* Where a line's ends are before a step: where they stay if there is no equilibrium. */
@@ -294,7 +273,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     keep_ends(line);
     remember(line);
     cpsi_line_set_reference(line, options);
-    if (stays(line, options, &before)) {
+    if (cpsi_line_stands_still(line, options, &before)) {
         cpsi_line_pierces(line, &line->report.pierced);
         cpsi_line_report_ends(line);
         cpsi_line_report_lengths(line);

@@ -15,10 +15,10 @@ static double dissipated(const CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!(line->friction_bound[c] > 0)) continue;
         double slide[3], slip[3];
-        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+        const CpsiFrictionLaw *set = &line->friction_law[c];
         vec3_store(slide, cpsi_line_slide(line, c));
         cpsi_frame_to(slip, cpsi_line_axes(line, c), slide);
-        sum += cpsi_friction_law_dissipation(&set, line->friction_bound[c], slip);
+        sum += cpsi_friction_law_dissipation(set, line->friction_bound[c], slip);
     }
     return sum;
 }
@@ -89,7 +89,7 @@ static Vec3 half_friction(const CpsiLine *line, int end, int k, Vec3 n, double r
         const double zone =
             line->friction_factor ? line->friction_factor[j] / line->friction_factor[next] : 1;
         const double density = zone * cpsi_line_share(line, j) / cpsi_line_share(line, next);
-        const double part = fmin(density, cpsi_friction_law(line, j).friction * reaction / bound);
+        const double part = fmin(density, line->friction_law[j].friction * reaction / bound);
         const Vec3 force =
             turned(vec3_load(&line->friction_force[3 * c]), cpsi_line_friction_normal(line, c), n);
         const Vec3 slide = cpsi_line_end_slide(line, end, k);
@@ -113,6 +113,7 @@ static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     line->reaction[j] = up;
     vec3_store(&line->normal[3 * j], n);
     if (line->has_local_axes) line->on[j] = on;
+    line->friction_law[j] = cpsi_friction_law(line, j);
     line->state[j] = CPS_NODE_STICK; /* let go in the next step, it starts with its friction */
     const Vec3 friction = half_friction(line, end, on, n, up);
     vec3_store(line->report.end[end].friction, friction);

@@ -11,15 +11,8 @@
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
 
-/* Rounds on the tangent planes, and rounds with given bounds, before a step is given up. */
-static const int MAX_ROUNDS = 12;
-/* ... and of the slow way. */
-static const int MAX_SLOW_ROUNDS = 100;
-/* ... which end after so many that came no nearer, and ask their certificate as often: what has no
- * tension may go on moving. */
-static const int SLOW_PATIENCE = 20;
-/* Rounds that close in, their axes turning by no more than CLOSING [rad] in one, may be as many as
- * this. */
+/* Rounds that converge, their axes turning by no more than AXES_CONVERGING [rad] in one, may be as
+ * many as this. */
 static const int MAX_CONVERGING_ROUNDS = 60;
 static const double AXES_CONVERGING = 1e-2;
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
@@ -28,9 +21,6 @@ static const double AXES_TOL = 1e-10;
 static const double AXES_LINEAR = 0.1;
 /* ... and bounds that were tried differ by no more than this share, in sum, from mu R. */
 static const double BOUND_TOL = 1e-11;
-/* Rounds with drag, at most, and those that are given a chance to halve their turn before the drag
- * is changed. */
-static const int MAX_DRAG_ROUNDS = 200, DRAG_PATIENCE = 10;
 /* [-] The drag changes by factors of 4, from the least that holds back a line whose tension is one
  * over its length to one with which it hardly moves in all these rounds. */
 static const double LEAST_DRAG = 0.25, MOST_DRAG = 1e4;
@@ -38,12 +28,12 @@ static const double LEAST_DRAG = 0.25, MOST_DRAG = 1e4;
 void cpsi_rounds_couple_bounds(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double *axes = cpsi_line_axes(line, c);
-        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+        const CpsiFrictionLaw *set = &line->friction_law[c];
         const double within = line->friction_bound[c];
         double f[3];
-        line->friction_bound[c] = isfinite(line->gap[c]) ? set.friction * line->reaction[c] : 0;
+        line->friction_bound[c] = isfinite(line->gap[c]) ? set->friction * line->reaction[c] : 0;
         cpsi_frame_to(f, axes, &line->friction_force[3 * c]);
-        cpsi_friction_law_clip(&set, within, line->friction_bound[c], f);
+        cpsi_friction_law_clip(set, within, line->friction_bound[c], f);
         cpsi_frame_from(&line->friction_force[3 * c], axes, f);
     }
 }
@@ -53,7 +43,7 @@ static double mismatch(const CpsiLine *line) {
     double off = 0, all = 0;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!isfinite(line->gap[c])) continue;
-        const double follow = cpsi_friction_law(line, c).friction * line->reaction[c];
+        const double follow = line->friction_law[c].friction * line->reaction[c];
         off += fabs(line->friction_bound[c] - follow);
         all += follow;
     }
@@ -70,7 +60,7 @@ static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force)
                      now = program->unilateral.z[k];
         const double reaction = newton && isfinite(foreseen) ? fmax(0, foreseen) : now;
         line->friction_bound[c] =
-            cpsi_friction_law(line, c).friction * reaction * force * program->unilateral.weight[k];
+            line->friction_law[c].friction * reaction * force * program->unilateral.weight[k];
     }
 }
 
@@ -92,14 +82,24 @@ bool cpsi_rounds_refresh_axes(CpsiLine *line, bool sides, double *turned) {
     return !shortened;
 }
 
-/* One round: solve where the line is, the reactions turning with their normals if that can be
- * solved. */
+/* One round: solve on the tangent planes at the base, without the stiffness of the reactions if the
+ * program with it cannot be solved. */
 static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program,
-                                 const CpsiStepOptions *options, CpsiBounds bounds, bool curved) {
-    const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, bounds, curved);
-    return cpsi_line_is_clean(&ipm) || !curved
-               ? ipm
-               : cpsi_line_solve(line, program, options, bounds, false);
+                                 const CpsiStepOptions *options, const CpsiRound *round) {
+    const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, round);
+    if (cpsi_line_is_clean(&ipm) || !round->reaction_stiffness) return ipm;
+    CpsiRound without = *round;
+    without.reaction_stiffness = false;
+    return cpsi_line_solve(line, program, options, &without);
+}
+
+/* A round as a strategy poses it. */
+static CpsiRound first_round(const CpsiStepOptions *options, const CpsiStrategy *strategy,
+                             CpsiBounds bounds) {
+    return (CpsiRound){.bounds = bounds,
+                       .reaction_stiffness = strategy->reaction_stiffness,
+                       .centering = strategy->centering,
+                       .least = strategy->least_motion ? options->least : NULL};
 }
 
 /* The base of the next round: where the last one ended, or foreseen from several that close in. */
@@ -129,30 +129,32 @@ static bool certify_last_round(CpsiLine *line, CpsiChainProgram *program,
 }
 
 void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
-                               const CpsiStepOptions *options, CpsiBounds bounds) {
+                               const CpsiStepOptions *options, const CpsiStrategy *strategy,
+                               CpsiBounds bounds) {
+    const bool watched = strategy->patience > 0;
+    CpsiRound posed = first_round(options, strategy, bounds);
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     double turned = line->has_local_axes ? INFINITY : 0, off = 0, best = INFINITY;
     const bool sides = !options->frictionless; /* statics comes from no side */
     bool arrived = true;
     int since = 0;
-    for (int round = 0, most = options->slow ? MAX_SLOW_ROUNDS : MAX_ROUNDS; round < most;
-         round++) {
-        if (line->has_local_axes && bounds != CPSI_BOUNDS_TRIAL && !options->slow)
+    for (int round = 0, most = strategy->rounds; round < most; round++) {
+        if (line->has_local_axes && posed.bounds != CPSI_BOUNDS_TRIAL && strategy->acceleration)
             accelerate(line, sides, turned);
         if (line->has_local_axes) {
             cpsi_contact_detect(line, false);
             cpsi_contact_update_geometry(line);
         }
-        ipm = solve_round(line, program, options, bounds, options->turning);
-        if (bounds == CPSI_BOUNDS_COUPLED && !cpsi_line_is_clean(&ipm)) {
-            bounds = CPSI_BOUNDS_TRIAL;
+        ipm = solve_round(line, program, options, &posed);
+        if (posed.bounds == CPSI_BOUNDS_COUPLED && !cpsi_line_is_clean(&ipm)) {
+            posed.bounds = CPSI_BOUNDS_TRIAL;
             for (int c = 0; c < cpsi_line_all_contacts(line); c++)
                 line->friction_bound[c] = line->reaction[c] = 0;
-            ipm = solve_round(line, program, options, bounds, options->turning);
+            ipm = solve_round(line, program, options, &posed);
         }
-        if (bounds == CPSI_BOUNDS_TRIAL) {
+        if (posed.bounds == CPSI_BOUNDS_TRIAL) {
             off = mismatch(line);
-            next_bounds(line, program, cpsi_line_unit_force(line, bounds));
+            next_bounds(line, program, cpsi_line_unit_force(line, posed.bounds));
         }
         if (line->has_local_axes) arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
@@ -162,14 +164,14 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             best = turned;
             since = round;
         }
-        if (options->slow && round >= since + SLOW_PATIENCE) break;
-        if (options->slow && arrived && bounds != CPSI_BOUNDS_TRIAL &&
-            (round + 1) % SLOW_PATIENCE == 0 &&
-            certify_last_round(line, program, options, bounds, &ipm))
+        if (!watched) continue;
+        if (round >= since + strategy->patience) break;
+        if (arrived && posed.bounds != CPSI_BOUNDS_TRIAL && (round + 1) % strategy->patience == 0 &&
+            certify_last_round(line, program, options, posed.bounds, &ipm))
             return;
     }
-    if (certify_last_round(line, program, options, bounds, &ipm) && !arrived)
-        line->report.outcome = CPS_OUTCOME_STALLED;
+    if (certify_last_round(line, program, options, posed.bounds, &ipm) && !arrived)
+        line->report.outcome = CPS_STALLED;
 }
 
 /* Rounds with drag that are watched: from where, and how far they have gone since. */
@@ -203,22 +205,20 @@ static double next_drag(const CpsiLine *line, const Watch *watch, double drag) {
 }
 
 void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                         CpsiBounds bounds) {
-    CpsiStepOptions with = *options;
+                         const CpsiStrategy *strategy, CpsiBounds bounds) {
+    CpsiRound posed = first_round(options, strategy, bounds);
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     Watch watch = {.from = line->trail, .before = &line->trail[3 * line->n]};
     double turned = INFINITY;
     const bool sides = !options->frictionless; /* statics comes from no side */
     bool arrived = true;
-    with.drag = 0;
-    with.least = NULL; /* the nearest place is not the one on the way */
     begin_watch(line, &watch);
-    for (int round = 0; round < MAX_DRAG_ROUNDS; round++) {
+    for (int round = 0; round < strategy->rounds; round++) {
         accelerate(line, sides, watch.waited > 0 ? turned : INFINITY);
         memcpy(watch.before, line->base, 3 * (size_t)line->n * sizeof *watch.before);
         cpsi_contact_detect(line, false);
         cpsi_contact_update_geometry(line);
-        ipm = cpsi_line_solve(line, program, &with, bounds, false);
+        ipm = cpsi_line_solve(line, program, options, &posed);
         arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
         if (turned <= AXES_TOL && cpsi_line_is_clean(&ipm)) break;
@@ -227,9 +227,9 @@ void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
             watch.best = turned;
             watch.waited = 0;
         }
-        if (++watch.waited <= DRAG_PATIENCE) continue;
-        if (with.drag > MOST_DRAG) break;
-        with.drag = next_drag(line, &watch, with.drag);
+        if (++watch.waited <= strategy->patience) continue;
+        if (posed.drag > MOST_DRAG) break;
+        posed.drag = next_drag(line, &watch, posed.drag);
         begin_watch(line, &watch);
     }
     if (certify_last_round(line, program, options, bounds, &ipm) && !arrived)

@@ -8,17 +8,18 @@
 #include "cable/line.h"
 #include "cable/step_options.h"
 #include "cable/step_program.h"
+#include "cable/strategy.h"
 
-/* Rounds from the reference, looking ahead or slowly. The bounds follow the reactions within each
- * round; once the loop cannot make them, they are tried: from no friction towards mu R. Ends with
- * the certificate of the place reached. */
+/* Rounds from the reference. Coupled bounds depend on the reactions within each round; once the
+ * loop cannot solve such a round, they become trial bounds, which go from no friction towards mu R.
+ * Ends with the certificate of the place reached. */
 void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
-                               const CpsiStepOptions *options, CpsiBounds bounds);
+                               const CpsiStepOptions *options, const CpsiStrategy *strategy,
+                               CpsiBounds bounds);
 
-/* Rounds that a drag holds back where they turn to and fro, from the reference, however far they
- * go. */
+/* Rounds from the reference with a drag where they go to and fro, however far they go. */
 void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                         CpsiBounds bounds);
+                         const CpsiStrategy *strategy, CpsiBounds bounds);
 
 /* The line laid onto the surfaces from its base, and seen anew there; forces of touching nodes are
  * kept in their axes while these turn, by at most `turned` [rad]. False where an obstacle lets the

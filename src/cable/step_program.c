@@ -64,7 +64,7 @@ static void fill_axes(const CpsiLine *line, CpsiChainProgram *program, int j) {
                other = vec3_load(&line->normal[3 * (j + line->n)]);
     const Vec3 corner = vec3_cross(n, other);
     const double sine = vec3_norm(corner);
-    if (sine < PARALLEL || cpsi_friction_law(line, j).given) return;
+    if (sine < PARALLEL || line->friction_law[j].given) return;
     const Vec3 x = vec3_scale(1 / sine, corner);
     vec3_store(&axes[0], x);
     vec3_store(&axes[3], vec3_cross(n, x));
@@ -133,7 +133,7 @@ static double trial_bound_or(const CpsiStepScale *scale, double bound) {
 static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
                        const CpsiStepScale *scale) {
     CpsiFrictionConic *conic = &program->conic;
-    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+    const CpsiFrictionLaw *set = &line->friction_law[c];
     const int j = node_of(line, c), k = conic->count++;
     const double share = cpsi_line_contact_share(line, c) / line->length;
     double slip[3], axes[9];
@@ -144,9 +144,9 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
     conic->second[k] =
         is_second(line, c) || line->frozen; /* a first one's tangents are those of the node */
     conic->weight[k] = share;
-    conic->form[k] = cpsi_friction_set_conic(set.given);
+    conic->form[k] = cpsi_friction_set_conic(set->given);
     conic->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;
-    conic->friction[k] = set.friction;
+    conic->friction[k] = set->friction;
     conic->bound[k] = trial_bound_or(scale, line->friction_bound[c] / (scale->force * share));
     for (int a = 0; a < 2; a++) conic->offset[k][a] = slip[a] / line->length;
     memcpy(conic->tangent[k], axes, sizeof conic->tangent[k]);
@@ -156,8 +156,8 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
 static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
                        const CpsiStepScale *scale) {
     CpsiFrictionDisc *disc = &program->disc;
-    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
-    const int j = node_of(line, c), count = line->has_local_axes && set.box ? 2 : 1;
+    const CpsiFrictionLaw *set = &line->friction_law[c];
+    const int j = node_of(line, c), count = line->has_local_axes && set->box ? 2 : 1;
     const double share = cpsi_line_contact_share(line, c) / line->length;
     double slip[3] = {0}, axes[9];
     if (line->has_local_axes) cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slide[3 * c]);
@@ -168,11 +168,11 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
         disc->contact[k] = c;
         disc->weight[k] = share;
         disc->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;
-        disc->friction[k] = set.friction;
+        disc->friction[k] = set->friction;
         disc->z[k][0] = trial_bound_or(scale, line->friction_bound[c] / (scale->force * share));
         if (line->has_local_axes)
             for (int a = 0; a < 2; a++) {
-                const double ratio = !set.box || i == a ? set.ratio[a] : 0;
+                const double ratio = !set->box || i == a ? set->ratio[a] : 0;
                 for (int b = 0; b < 3; b++) disc->map[k][3 * a + b] = ratio * axes[3 * a + b];
                 disc->offset[k][a] = ratio * slip[a] / line->length;
             }
@@ -201,7 +201,7 @@ static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int
     contact_axes(line, program, c, axes);
     memcpy(unilateral->normal[k], &axes[6], sizeof unilateral->normal[k]);
     turn_curvature(unilateral->curvature[k], axes, &line->curvature[3 * c],
-                   scale->curved && j < line->n
+                   scale->reaction_stiffness && j < line->n
                        ? line->reaction[c] * line->length / (scale->force * share)
                        : 0);
 }
@@ -212,8 +212,8 @@ static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c,
     if (watched) fill_unilateral(line, program, c, scale);
     const bool discs = scale->bounds == CPSI_BOUNDS_FIXED
                            ? line->friction_bound[c] >= LEAST_FRICTION * scale->force
-                           : watched && cpsi_friction_law(line, c).friction > 0;
-    if (discs && cpsi_friction_law(line, c).given)
+                           : watched && line->friction_law[c].friction > 0;
+    if (discs && line->friction_law[c].given)
         fill_conic(line, program, c, scale);
     else if (discs)
         fill_discs(line, program, c, scale);
@@ -222,7 +222,7 @@ static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c,
 static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program,
                        const CpsiStepScale *scale) {
     program->disc.count = program->unilateral.count = program->conic.count = 0;
-    program->disc.follow = scale->bounds == CPSI_BOUNDS_COUPLED;
+    program->bounds_coupled = scale->bounds == CPSI_BOUNDS_COUPLED;
     for (int j = 0; j < line->n; j++) {
         program->held[j] = cpsi_line_is_held(line, j);
         cpsi_frame_to(&program->base.load[3 * j], node_axes(line, program, j), &line->load[3 * j]);
@@ -331,9 +331,9 @@ static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program,
 /* The friction (f_x, f_y) of contact c, given inside the set of the bound `within`, kept inside its
  * own. */
 static void store_friction(CpsiLine *line, int c, bool follow, double within, double f[3]) {
-    const CpsiFrictionLaw set = cpsi_friction_law(line, c);
-    if (follow) line->friction_bound[c] = set.friction * line->reaction[c];
-    cpsi_friction_law_clip(&set, within > 0 ? within : line->friction_bound[c],
+    const CpsiFrictionLaw *set = &line->friction_law[c];
+    if (follow) line->friction_bound[c] = set->friction * line->reaction[c];
+    cpsi_friction_law_clip(set, within > 0 ? within : line->friction_bound[c],
                            line->friction_bound[c], f);
     cpsi_frame_from(&line->friction_force[3 * c], cpsi_line_axes(line, c), f);
 }
@@ -351,12 +351,12 @@ static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program,
     }
     for (int k = 0; k < disc->count;) {
         const int c = disc->contact[k];
-        const CpsiFrictionLaw set = cpsi_friction_law(line, c);
+        const CpsiFrictionLaw *set = &line->friction_law[c];
         double f[3] = {0};
         for (int i = 0; k < disc->count && disc->contact[k] == c; k++, i++) {
             const double by = scale->force * disc->weight[k];
             for (int a = 0; a < 2; a++)
-                f[a] += by * (!set.box || i == a ? set.ratio[a] : 0) * disc->z[k][1 + a];
+                f[a] += by * (!set->box || i == a ? set->ratio[a] : 0) * disc->z[k][1 + a];
         }
         store_friction(line, c, follow, 0, f);
     }

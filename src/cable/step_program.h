@@ -21,7 +21,7 @@ typedef struct CpsiStepScale {
     double force;  /* [N] */
     double longer; /* the elements are this much longer than they are */
     CpsiBounds bounds;
-    bool curved; /* the reactions turn with the normals */
+    bool reaction_stiffness; /* the reactions turn with the normals */
     double drag; /* [-] times force and displacement, both per length of the line: what holds back a
                     line on its way */
 } CpsiStepScale;

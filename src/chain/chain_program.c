@@ -134,7 +134,7 @@ bool cpsi_chain_program_couple_bounds(CpsiChainProgram *program) {
     CpsiProgram *base = &program->base;
     CpsiFrictionDisc *disc = &program->disc;
     CpsiSums unused = {0};
-    disc->follow = true;
+    program->bounds_coupled = true;
     clear(base);
     for (int k = 0; k < base->kind_count; k++) base->kind[k]->scale(base);
     /* dA = friction dR + (friction R - A): the mismatch stands where q0 stands */
@@ -210,6 +210,7 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
     };
     layout_segment(&program->segment, arena, n);
     program->drag = 0;
+    program->bounds_coupled = false;
     layout_disc(&program->disc, arena, contacts > 0 ? 2 * stops : n);
     layout_unilateral(&program->unilateral, arena, stops);
     program->conic = (CpsiFrictionConic){0};

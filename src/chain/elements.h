@@ -31,9 +31,7 @@ typedef struct CpsiFrictionDisc {
     double (*z)[3];      /* (count) (A, F_x, F_y) */
     double (*offset)[2]; /* (count) o_k; NULL: none */
     double (*map)[6]; /* (count) B_k (2, 3) row by row; NULL: the first two rows of the identity */
-    bool follow; /* the bounds follow the reactions, A = friction R, those of shapes too; else A is
-                    given and stays */
-    int *unilateral;  /* (count) the stop whose reaction bounds it, where they follow */
+    int *unilateral;  /* (count) the contact whose reaction bounds it, where bounds are coupled */
     double *friction; /* (count) */
     double (*w)[3];
     double *g;
@@ -107,6 +105,8 @@ typedef struct CpsiChainProgram {
     double drag; /* d >= 0: a force -d w_j u_j on node j, w_j its share of the line */
     CpsiFrictionDisc disc;
     CpsiUnilateral unilateral;
+    bool bounds_coupled;     /* friction bounds are coupled to the reactions, A = friction R; else
+                                A is fixed */
     CpsiFrictionConic conic; /* laid out only where asked for */
     double *dt;              /* (n) direction of the tension unknowns (index 0 unused) */
     CpsiMatrix matrix;

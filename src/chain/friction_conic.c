@@ -197,7 +197,7 @@ static void start(CpsiProgram *base, double mu, double margin) {
     for (int k = 0; k < conic->count; k++) {
         const Element e = element(conic, k);
         const CpsiConicSet *form = e.form;
-        if (program->disc.follow)
+        if (program->bounds_coupled)
             conic->bound[k] = conic->friction[k] * program->unilateral.z[conic->unilateral[k]];
         const double a = conic->bound[k];
         for (int j = 0; j < form->unknowns; j++) e.v[j] = a * form->centre[j];
@@ -366,7 +366,7 @@ static void scale(CpsiProgram *base) {
         const double m[3] = {cpsi_dot(n, e.pull[0], e.pull[0]), cpsi_dot(n, e.pull[0], e.pull[1]),
                              cpsi_dot(n, e.pull[1], e.pull[1])};
         cpsi_add_mapped(diagonal, weight, t, m);
-        if (!program->disc.follow) continue;
+        if (!program->bounds_coupled) continue;
         double *image = scratch + e.spread, *v = image + e.spread,
                c[2] = {form->origin[0], form->origin[1]}, here[3];
         project(&e, form->b, image, scratch);
@@ -405,7 +405,7 @@ static void load(CpsiProgram *base, double keep) {
         const Element e = element(conic, k);
         const int i = conic->unilateral[k];
         double da = conic->shift[k], *image = conic->scratch, *rest = image + e.spread;
-        if (program->disc.follow)
+        if (program->bounds_coupled)
             da += conic->friction[k] *
                   (unilateral->q[i] - unilateral->z[i] / unilateral->s[i] * keep *
                                           cpsi_unilateral_residual(program, i));
@@ -424,7 +424,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         const int n = form->unknowns;
         double *image = conic->scratch, *rest = image + e.spread, *y = rest;
         const double da = conic->shift[k] +
-                          (program->disc.follow
+                          (program->bounds_coupled
                                ? conic->friction[k] * program->unilateral.dz[conic->unilateral[k]]
                                : 0);
         direction(&e, da, keep, conic->du[k], image, rest);

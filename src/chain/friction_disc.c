@@ -30,7 +30,7 @@
  * with du_z, and the whole. */
 static inline double bound_load(const CpsiChainProgram *program, int k, double keep) {
     const int i = program->disc.unilateral[k];
-    if (!program->disc.follow) return 0;
+    if (!program->bounds_coupled) return 0;
     const CpsiUnilateral *unilateral = &program->unilateral;
     return program->disc.friction[k] *
            (unilateral->q[i] -
@@ -39,7 +39,7 @@ static inline double bound_load(const CpsiChainProgram *program, int k, double k
 
 static inline double bound_direction(const CpsiChainProgram *program, int k) {
     const int i = program->disc.unilateral[k];
-    return !program->disc.follow ? 0 : program->disc.friction[k] * program->unilateral.dz[i];
+    return !program->bounds_coupled ? 0 : program->disc.friction[k] * program->unilateral.dz[i];
 }
 
 /* B where none is given. */
@@ -78,7 +78,7 @@ static void start(CpsiProgram *base, double mu, double margin) {
     (void)margin; /* mu and the iterate fix the pair */
     CpsiFrictionDisc *disc = &program->disc;
     for (int k = 0; k < disc->count; k++) {
-        if (disc->follow)
+        if (program->bounds_coupled)
             disc->z[k][0] = disc->friction[k] * program->unilateral.z[disc->unilateral[k]];
         const double bound = disc->z[k][0];
         double u[2];
@@ -122,7 +122,7 @@ static void scale(CpsiProgram *base) {
             cpsi_add_mapped(diagonal, weight * g * share, disc->map[k], m);
         else
             for (int a = 0; a < 3; a++) diagonal[a] += weight * g * share * m[a];
-        if (disc->follow) {
+        if (program->bounds_coupled) {
             const double *b = disc->map ? disc->map[k] : PLAIN;
             double across[3];
             for (int a = 0; a < 3; a++)

@@ -32,21 +32,18 @@ static double next_drag(const CpsiLine *line, const CpsiDampedStep *step, double
 
 bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                      const CpsEnd before[2], double *turn, bool known, CpsiRelaxation *done) {
-    CpsiStepOptions with = *options;
     CpsEnd from[2] = {before[0], before[1]};
-    with.drag = FIRST_DRAG;
-    with.least = NULL;
-    with.centering_steps = 2;
+    double drag = FIRST_DRAG;
     *done = (CpsiRelaxation){0};
     for (int k = 0; k < STEPS && !cpsi_interrupt_seen(program->base.interrupt); k++) {
         const CpsiLedgerStart start = cpsi_ledger_start(line, from, known);
         line->report.iterations = 0;
-        const CpsiDampedStep step = cpsi_line_damped_step(line, program, &with);
+        const CpsiDampedStep step = cpsi_line_damped_step(line, program, options, drag);
         done->iterations += line->report.iterations;
-        const double drag = with.drag;
-        with.drag = next_drag(line, &step, drag);
+        const double taken = drag;
+        drag = next_drag(line, &step, drag);
         if (!step.solved) {
-            if (drag >= MOST_DRAG) return false;
+            if (taken >= MOST_DRAG) return false;
             continue;
         }
         const CpsLedger ledger = cpsi_ledger_close(line, &start);
@@ -60,7 +57,7 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         double direction[3], load;
         if (cpsi_line_falls_away(line, direction, &load)) return true;
         const double left = step.distance / line->length;
-        if (!step.shortened && left <= REST_WAY && drag * left <= REST_FORCE) return true;
+        if (!step.shortened && left <= REST_WAY && taken * left <= REST_FORCE) return true;
     }
     return false;
 }

@@ -26,11 +26,12 @@ typedef struct CpsiSums {
     double sz;           /* sum of w (s.z) */
     double residual;     /* largest |rho| */
     double scale;        /* sum w s0 z0 over the cones */
-    double bound;        /* sum w A of what a dual ray neglects: forces bounded by friction */
+    double bound;        /* sum of w z0 of bounded cones: what a dual ray leaves out */
     double largest;      /* largest dual */
     double
         ray; /* minus what the duals, as a ray, ask of the primal: > 0 speaks for infeasibility */
-    double ray_cost; /* sum l c T^2: > 0 where the ray strains what has compliance */
+    double
+        ray_cost; /* sum of w c z0^2: > 0 where an element's quadratic energy grows with the ray */
 } CpsiSums;
 
 /* One kind of element. `keep` is the share of the residuals that a direction is to remove. */

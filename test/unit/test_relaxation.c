@@ -60,11 +60,10 @@ static void begin(Fixture *f, double length, double stiffness, double weight, bo
     line->end[CPS_END_B] = (CpsEnd){CPS_END_FREE, {force[0], force[1], force[2]}};
 }
 
-static CpsiStepOptions options_with(double drag) {
-    CpsiStepOptions options = {.solver = cps_scene_default().solver, .centering_steps = 2};
+static CpsiStepOptions step_options(void) {
+    CpsiStepOptions options = {.solver = cps_scene_default().solver};
     options.friction = CPS_FRICTION_CONSISTENT;
     options.contact = CPS_CONTACT_GAINED;
-    options.drag = drag;
     return options;
 }
 
@@ -85,8 +84,8 @@ static void hangs(void **state) {
         const double to[3] = {0, 0, -x}, force[3] = {0, 0, -pull}, unit = fmax(load, weight * l);
         Fixture f;
         begin(&f, l, stiffness, weight, false, 0, to, force);
-        const CpsiStepOptions options = options_with(drag);
-        const CpsiDampedStep step = cpsi_line_damped_step(&f.line, &f.program, &options);
+        const CpsiStepOptions options = step_options();
+        const CpsiDampedStep step = cpsi_line_damped_step(&f.line, &f.program, &options, drag);
         const double u = (load - stiffness * (x / l - 1)) / (stiffness / l + unit * drag / (2 * l));
         assert_true(step.solved && !step.shortened);
         CHECK_NEAR((f.line.position[5] + x + u) / l, 0, 1e-9);
@@ -115,8 +114,8 @@ static void slides(void **state) {
             fabs(rest) > mu * normal ? (rest - copysign(mu * normal, rest)) / stiff : 0;
         Fixture f;
         begin(&f, l, stiffness, weight, true, mu, to, force);
-        const CpsiStepOptions options = options_with(drag);
-        const CpsiDampedStep step = cpsi_line_damped_step(&f.line, &f.program, &options);
+        const CpsiStepOptions options = step_options();
+        const CpsiDampedStep step = cpsi_line_damped_step(&f.line, &f.program, &options, drag);
         assert_true(step.solved);
         CHECK_NEAR((f.line.position[3] - x - u) / l, 0, 1e-9);
         CHECK_NEAR(f.line.position[5] / l, 0, 1e-12);
@@ -145,7 +144,7 @@ static void rests(void **state) {
         const double load = 0.5 * weight * l, down = l * (1 + load / stiffness);
         Fixture f;
         begin(&f, l, stiffness, weight, false, 0, to, none);
-        const CpsiStepOptions options = options_with(0);
+        const CpsiStepOptions options = step_options();
         CpsiRelaxation done;
         assert_true(
             cpsi_line_relax(&f.line, &f.program, &options, f.line.end, f.turn, false, &done));
