@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rounds that look ahead (anderson.h).
+/* Anderson acceleration of the rounds (anderson.h).
  *
- * A round takes the nodes from places y to G(y), and y = G(y) is sought. Near the solution the way
- * r = G(y) - y is linear in y, and a round leaves a fixed share of it, often a third: friction has
- * turned with the axes of y. With the changes dr_i, dG_i of the last rounds and
+ * A round moves the nodes from y to G(y), and a fixed point y = G(y) is sought. Near the solution
+ * the displacement r = G(y) - y is linear in y, and a round reduces it by a constant factor only,
+ * often to a third, because friction has turned with the axes of y. With the changes dr_i, dG_i of
+ * the last rounds and
  *
  *     gamma = argmin |r - sum gamma_i dr_i|,      the next y = G(y) - sum gamma_i dG_i
  *
- * (Anderson 1965), a secant method: exact once the changes span what is left. */
+ * (Anderson 1965). This is a secant method: it is exact once the changes span the remaining
+ * error. */
 #include "cable/anderson.h"
 
 #include <math.h>
@@ -15,11 +17,11 @@
 
 #include "linalg/dense.h"
 
-/* Changes this nearly dependent add nothing. */
+/* Changes are linearly dependent where a pivot of their normalised Gram matrix is below this. */
 static const double INDEPENDENT = 1e-12;
-/* No foresight goes farther than this many times the ways known: it is no longer near the
+/* Sum of |gamma| beyond which an extrapolation is not used: the rounds are then not near the
  * solution. */
-static const double FAR = 10;
+static const double MAX_EXTRAPOLATION = 10;
 
 void cpsi_anderson_layout(CpsiAnderson *anderson, CpsiArena *arena, int n) {
     double **const all[] = {&anderson->from, &anderson->to, &anderson->displacement};
@@ -37,7 +39,7 @@ void cpsi_anderson_start(CpsiAnderson *anderson, int n, const double *place) {
     memcpy(anderson->from, place, 3 * (size_t)n * sizeof *place);
 }
 
-/* The oldest change makes room for the newest. */
+/* Store the newest change in place of the oldest. */
 static void store_change(CpsiAnderson *anderson, int n, const double *place) {
     double *to = anderson->d_to[CPSI_ANDERSON_MEMORY - 1],
            *displacement = anderson->d_displacement[CPSI_ANDERSON_MEMORY - 1];
@@ -54,7 +56,7 @@ static void store_change(CpsiAnderson *anderson, int n, const double *place) {
     if (anderson->count < CPSI_ANDERSON_MEMORY) anderson->count++;
 }
 
-/* Product over the nodes that count. */
+/* Scalar product over the nodes of positive weight. */
 static double weighted_dot(int n, const double *weight, const double *a, const double *b) {
     double sum = 0;
     for (int j = 0; j < n; j++)
@@ -62,9 +64,10 @@ static double weighted_dot(int n, const double *weight, const double *a, const d
     return sum;
 }
 
-/* gamma of the newest `count` changes; false where they are dependent or lead too far. */
-static bool mix(const CpsiAnderson *anderson, int n, const double *weight, int count,
-                double *gamma) {
+/* gamma for the newest `count` changes; false where they are dependent or the extrapolation goes
+ * too far. */
+static bool solve_coefficients(const CpsiAnderson *anderson, int n, const double *weight, int count,
+                               double *gamma) {
     double m[CPSI_ANDERSON_MEMORY * CPSI_ANDERSON_MEMORY], size[CPSI_ANDERSON_MEMORY],
         l[CPSI_ANDERSON_MEMORY * CPSI_ANDERSON_MEMORY], total = 0;
     int pivot[CPSI_ANDERSON_MEMORY];
@@ -89,7 +92,7 @@ static bool mix(const CpsiAnderson *anderson, int n, const double *weight, int c
         gamma[i] /= size[i];
         total += fabs(gamma[i]);
     }
-    return total <= FAR;
+    return total <= MAX_EXTRAPOLATION;
 }
 
 void cpsi_anderson_accelerate(CpsiAnderson *anderson, int n, const double *weight, double *place) {
@@ -101,7 +104,7 @@ void cpsi_anderson_accelerate(CpsiAnderson *anderson, int n, const double *weigh
     }
     double gamma[CPSI_ANDERSON_MEMORY];
     int count = anderson->count;
-    while (count > 0 && !mix(anderson, n, weight, count, gamma)) count--;
+    while (count > 0 && !solve_coefficients(anderson, n, weight, count, gamma)) count--;
     for (int k = 0; k < count; k++)
         for (int i = 0; i < 3 * n; i++) place[i] -= gamma[k] * anderson->d_to[k][i];
     memcpy(anderson->from, place, 3 * (size_t)n * sizeof *place);

@@ -1,38 +1,38 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Bends round obstacles (bend.h).
  *
- * A node at which a line under the tensions T and T' turns by d round an obstacle is pressed by R =
- * (T + T') sin(d/2) and rubbed by F = (T' - T) cos(d/2), so that |F| <= mu R holds tensions up to
- * the ratio k = (1 + mu tan(d/2))/(1 - mu tan(d/2)) where a smooth line holds exp(mu d). They agree
- * to order d^3, and at mu tan(d/2) = 1 the node holds anything.
+ * A node at which a line under the tensions T and T' turns by d round an obstacle has the reaction
+ * R = (T + T') sin(d/2) and the friction F = (T' - T) cos(d/2), so that |F| <= mu R holds tensions
+ * up to the ratio k = (1 + mu tan(d/2))/(1 - mu tan(d/2)) where a smooth line holds exp(mu d). They
+ * differ by order d^3, and at mu tan(d/2) = 1 the node holds any ratio.
  *
- * Only the turn towards the obstacle presses: asin(e.n) - asin(e'.n), e and e' the directions of
- * the two forces. A line bent to the side on a surface is held by friction that its weight or other
- * bends give, and loses nothing of the law. Nor do planes press by a turn: both elements of a node
- * on a plane lead away from it. */
+ * Only the turn towards the obstacle causes a reaction: asin(e.n) - asin(e'.n), e and e' the
+ * directions of the two forces. A line bent sideways on a surface is held by friction whose
+ * reaction comes from its weight or from other bends, and the mesh does not change the law there.
+ * Nor does a turn cause a reaction on a plane: both elements of a node on a plane lead away from
+ * it. */
 #include "cable/bend.h"
 
 #include "cable/friction_law.h"
 #include "chain/frame.h"
 
-/* A force below this share of the largest one has the direction that rounding gave it. */
+/* The direction of a force below this share of the largest one is rounding. */
 static const double LEAST_FORCE = 1e-9;
-/* Ratios that differ by this share are told; the mesh that keeps them nearer is the one that is
- * advised. */
-static const double TOLD = 0.01;
-/* From mu tan(d/2) = 1 on any tension is held; from here on the ratio, 19 and more, is the
- * mesh's. */
+/* The advised element length is the one at which the two ratios differ by this share. */
+static const double RATIO_TOL = 0.01;
+/* From mu tan(d/2) = 1 on any tension is held. From this value on, where the ratio is 19 or more,
+ * the mesh determines it. */
 static const double LOCKED = 0.9;
 
 /* ln of the ratio of tensions that a turn by d holds. */
-static double held(double friction, double turn) {
+static double log_ratio_held(double friction, double turn) {
     const double t = friction * tan(0.5 * turn);
     return t < 1 ? 2 * atanh(t) : INFINITY;
 }
 
-/* How far the node holds more than a smooth line: ln of the quotient of the ratios. */
+/* ln of the quotient of the ratios that the node and a smooth line hold. */
 static double excess(const CpsBend *bend) {
-    return held(bend->friction, bend->turn) - bend->friction * bend->turn;
+    return log_ratio_held(bend->friction, bend->turn) - bend->friction * bend->turn;
 }
 
 bool cpsi_bend_locks(const CpsBend *bend) {
@@ -44,12 +44,12 @@ bool cpsi_bend_is_sharper(const CpsBend *a, const CpsBend *b) {
     return locks != cpsi_bend_locks(b) ? locks : excess(a) > excess(b);
 }
 
-/* The turn from which on the two ratios differ by what is told. */
-static double told_turn(double friction) {
+/* The turn at which the two ratios differ by RATIO_TOL. */
+static double resolved_turn(double friction) {
     double low = 0, high = acos(-1.0);
     for (int i = 0; i < 60; i++) {
         const double turn = 0.5 * (low + high);
-        if (held(friction, turn) - friction * turn < log1p(TOLD))
+        if (log_ratio_held(friction, turn) - friction * turn < log1p(RATIO_TOL))
             low = turn;
         else
             high = turn;
@@ -57,8 +57,8 @@ static double told_turn(double friction) {
     return low;
 }
 
-/* The larger coefficient for a slip along the line, this way or that: the support of the set of
- * forces. */
+/* The larger of the friction coefficients for slip along the line in either direction, from the
+ * support function of the set of forces. */
 static double friction_along(const CpsiLine *line, int c, Vec3 along) {
     const CpsiFrictionLaw *set = &line->friction_law[c];
     double wanted[3], slip[3];
@@ -71,9 +71,9 @@ static double friction_along(const CpsiLine *line, int c, Vec3 along) {
                 cpsi_friction_law_dissipation(set, set->friction, back));
 }
 
-/* The forces of the line before and after contact c, false where there is none on one side. What an
- * element's contact does acts on both of its nodes, which turn the line in its place. */
-static bool forces(const CpsiLine *line, int c, Vec3 *before, Vec3 *after) {
+/* The forces of the line before and after contact c, false where there is none on one side. The
+ * force of an element's contact acts on both of its nodes, and the line turns there. */
+static bool forces_beside(const CpsiLine *line, int c, Vec3 *before, Vec3 *after) {
     const int e = cpsi_line_element(line, c);
     if (e < 0) {
         const int j = cpsi_line_node(line, c);
@@ -97,15 +97,15 @@ static double arc_of(const CpsiLine *line, int c) {
                  : line->arc_length[e] + line->beta[e] * line->element_length[e];
 }
 
-/* The bend at contact c; turn 0 where the reaction does not come from a turn of the line round a
- * curved obstacle. */
+/* The bend at contact c; its turn is 0 where the reaction does not come from a turn of the line
+ * round a curved obstacle. */
 static CpsBend bend_of(const CpsiLine *line, int c) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     CpsBend bend = {0};
     Vec3 before, after;
     if (!obstacle || obstacle->kind == CPS_OBSTACLE_PLANE ||
         !(line->reaction[c] > 0 && line->friction_bound[c] > 0) ||
-        !forces(line, c, &before, &after))
+        !forces_beside(line, c, &before, &after))
         return bend;
     const double least = LEAST_FORCE * line->report.certificate.largest_force,
                  p = vec3_norm(before), q = vec3_norm(after);
@@ -128,9 +128,9 @@ CpsBend cpsi_line_bend(const CpsiLine *line) {
             if (cpsi_bend_is_sharper(&bend, &worst)) worst = bend;
         }
     if (!(worst.turn > 0)) return worst;
-    worst.ratio = exp(held(worst.friction, worst.turn));
+    worst.ratio = exp(log_ratio_held(worst.friction, worst.turn));
     worst.coulomb = exp(worst.friction * worst.turn);
     worst.element =
-        2 * line->obstacle[worst.obstacle].radius * sin(0.5 * told_turn(worst.friction));
+        2 * line->obstacle[worst.obstacle].radius * sin(0.5 * resolved_turn(worst.friction));
     return worst;
 }

@@ -12,7 +12,7 @@ CpsBend cpsi_line_bend(const CpsiLine *line);
 /* Does the mesh change the law more at a than at b? */
 bool cpsi_bend_is_sharper(const CpsBend *a, const CpsBend *b);
 
-/* Does the contact hold so much that the mesh, not friction, decides? */
+/* Does the contact hold so large a ratio of tensions that the mesh, not friction, decides it? */
 bool cpsi_bend_locks(const CpsBend *bend);
 
 #endif

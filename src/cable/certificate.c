@@ -13,10 +13,9 @@
  *     contact    R (n.u + gap)
  *
  * where u and s of a contact of an element are those of its point, (1 - beta) u_j + beta u_{j+1},
- * on whose nodes its forces act by these shares, with s the way slid, u_T on a plane. Each is >= 0,
- * where |p||e| - p.e = |p x e|^2/(|p||e| + p.e) has no cancellation. An inextensible element is
- * taken as long as it is found, |e| <= 1 up to rounding; the excess is reported as
- * stretch_residual. */
+ * on whose nodes its forces act by these shares, with s the slip, u_T on a plane. Each is >= 0,
+ * where |p||e| - p.e = |p x e|^2/(|p||e| + p.e) has no cancellation. An inextensible element has
+ * the length found, |e| <= 1 up to rounding; the excess is reported as stretch_residual. */
 #include "cable/certificate.h"
 
 #include <float.h>
@@ -27,8 +26,9 @@
 #include "chain/frame.h"
 #include "linalg/dense.h"
 
-/* What the loop (to 1e-13) and rounding leave of the gap where nothing is strained and nothing
- * works, per length and force, the largest or all loads together: no step is asked for less. */
+/* Smallest gap that is required of any step, relative to the length times the largest force or the
+ * sum of loads: the loop (to 1e-13) and rounding leave as much where nothing is strained and no
+ * work is done. */
 static const double GAP_FLOOR = 1e-12;
 
 /* |a||b| - a.b for any two vectors, without cancellation. */
@@ -45,7 +45,7 @@ Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
     if (line->element_contacts > 0)
         for (int e = j - 1; e <= j; e++) {
             const int c = cpsi_line_contacts(line) + e;
-            if (e < 0 || e + 1 >= line->n || line->on[c] < 0) continue;
+            if (e < 0 || e + 1 >= line->n || line->obstacle_index[c] < 0) continue;
             const double part = cpsi_line_part(line, e, j);
             sum = vec3_axpy(part, vec3_load(&line->friction_force[3 * c]), sum);
             sum = vec3_axpy(part * line->reaction[c], vec3_load(&line->normal[3 * c]), sum);
@@ -53,7 +53,7 @@ Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
     return sum;
 }
 
-/* Everything that acts on node j except the segments. */
+/* The sum of the forces on node j except those of the segments. */
 static Vec3 node_force(const CpsiLine *line, int j) {
     Vec3 sum = vec3_load(&line->load[3 * j]);
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
@@ -74,8 +74,8 @@ static const CpsiFrictionLaw *law_and_local(const CpsiLine *line, int c, const d
     return &line->friction_law[c];
 }
 
-/* How much more friction contact c could give, in whatever direction. */
-static double room_of(const CpsiLine *line, int c) {
+/* By how much the friction of contact c may still grow, in any direction. */
+static double friction_margin(const CpsiLine *line, int c) {
     double f[3];
     const CpsiFrictionLaw *law = law_and_local(line, c, &line->friction_force[3 * c], f);
     return cpsi_friction_law_margin(law, line->friction_bound[c], f);
@@ -88,32 +88,33 @@ static void add_outer(double m[9], double scale, Vec3 a, Vec3 b) {
         for (int k = 0; k < 3; k++) m[3 * i + k] += scale * left[i] * right[k];
 }
 
-/* Does the bound of contact c follow its reaction? */
+/* Is the bound of contact c coupled to its reaction? */
 static bool bound_follows(const CpsiLine *line, int c) {
     const double bound = line->friction_law[c].friction * line->reaction[c];
     return bound > 0 && fabs(line->friction_bound[c] - bound) <= 1e-12 * bound;
 }
 
-/* Share out the force `rest` that a line free at both ends has in excess. With one vector lambda
- * for all, a contact gives R (n.lambda) n, and what friction its bound allows: F (n.lambda) where
- * that follows R, and room lambda_T; the sum is a 3 x 3 system. */
-static void share_out(CpsiLine *line, Vec3 rest) {
+/* Distribute the remaining force `rest` on a line free at both ends. With one vector lambda for all
+ * contacts, a contact contributes R (n.lambda) n, the friction F (n.lambda) where its bound is
+ * coupled to R, and margin lambda_T within its bound; the sum is a 3 x 3 system. */
+static void distribute_excess(CpsiLine *line, Vec3 rest) {
     double m[9] = {0}, lambda[3] = {-rest.x, -rest.y, -rest.z}, trace = 0;
     int pivot[3];
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const Vec3 n = vec3_load(&line->normal[3 * c]);
-        const double room = room_of(line, c);
-        add_outer(m, line->reaction[c] - room, n, n);
+        const double margin = friction_margin(line, c);
+        add_outer(m, line->reaction[c] - margin, n, n);
         if (line->frozen) {
-            add_outer(m, room, n, n);
-            add_outer(m, -room, cpsi_line_friction_normal(line, c),
+            add_outer(m, margin, n, n);
+            add_outer(m, -margin, cpsi_line_friction_normal(line, c),
                       cpsi_line_friction_normal(line, c));
         }
         if (bound_follows(line, c)) add_outer(m, 1, vec3_load(&line->friction_force[3 * c]), n);
-        for (int i = 0; i < 3; i++) m[4 * i] += room;
-        trace += line->reaction[c] + 2 * room;
+        for (int i = 0; i < 3; i++) m[4 * i] += margin;
+        trace += line->reaction[c] + 2 * margin;
     }
-    /* directions in which nobody gives anything keep what is in excess: the balance says so */
+    /* A direction without friction or reaction keeps its residual, which shows in
+     * force_residual. */
     for (int i = 0; i < 3; i++) m[4 * i] += DBL_EPSILON * trace;
     if (!(trace > 0) || !cpsi_lu_factor(3, m, pivot)) return;
     cpsi_lu_solve(3, m, pivot, lambda);
@@ -122,9 +123,9 @@ static void share_out(CpsiLine *line, Vec3 rest) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);
         const double along = vec3_dot(n, by), follow = bound_follows(line, c) ? 1 + along : 1;
-        /* inside the set before it is scaled, so inside after it */
-        const Vec3 more =
-            vec3_axpy(room_of(line, c), tangential(by, cpsi_line_friction_normal(line, c)), f);
+        /* the force is inside its set before it is scaled with its bound, and so it is after */
+        const Vec3 more = vec3_axpy(friction_margin(line, c),
+                                    tangential(by, cpsi_line_friction_normal(line, c)), f);
         vec3_store(&line->friction_force[3 * c], vec3_scale(follow, more));
         line->friction_bound[c] *= follow;
         line->reaction[c] *= 1 + along;
@@ -135,13 +136,13 @@ void cpsi_balance_forces(CpsiLine *line) {
     const int n = line->n, elements = n - 1;
     if (line->end[CPS_END_A].kind == CPS_END_FREE && line->end[CPS_END_B].kind == CPS_END_FREE) {
         for (int round = 0; round < 2;
-             round++) { /* the second for what the first left by rounding */
+             round++) { /* the second round removes the rounding error of the first */
             Vec3 rest = vec3(0, 0, 0);
             for (int j = 0; j < n; j++) rest = vec3_add(rest, node_force(line, j));
-            share_out(line, rest);
+            distribute_excess(line, rest);
         }
     }
-    /* from B to A, starting from nothing beyond a free end or from the force found in the last
+    /* from B to A, starting from zero beyond a free end or from the computed force of the last
      * element */
     if (line->end[CPS_END_B].kind == CPS_END_FREE || line->end[CPS_END_A].kind == CPS_END_HELD) {
         Vec3 p = segment_force(line, elements - 1);
@@ -162,11 +163,12 @@ void cpsi_balance_forces(CpsiLine *line) {
     }
 }
 
-/* An element on which no force acts at all is not longer than it is by this: rounding, and what a
- * program leaves of |e| <= 1. With no force anywhere the gap has nothing to be compared with. */
+/* A strain up to this in an element without force counts as zero: it is rounding, and the accuracy
+ * to which a program satisfies |e| <= 1. Without any force there is no scale to compare the gap
+ * with. */
 static const double LEAST_STRAIN = 1e-12;
 
-/* What the rounding of its nodes' coordinates does to the strain of an element. */
+/* Rounding error of an element's strain from that of its nodes' coordinates. */
 static double coordinate_rounding(const CpsiLine *line, int e) {
     const double sum = vec3_norm(vec3_load(&line->position[3 * e])) +
                        vec3_norm(vec3_load(&line->position[3 * (e + 1)]));
@@ -208,7 +210,7 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
     }
 }
 
-/* Friction and reaction of contact c, and what they do on the node. */
+/* Add the terms of friction and reaction of contact c; returns the force on the node. */
 static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     const Vec3 x = cpsi_line_place(line, line->position, c),
                reference = cpsi_line_place(line, line->reference, c);
@@ -225,11 +227,11 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     out->friction_residual += fabs(w - law->friction * reaction);
     out->primal += dissipation;
     out->scale += dissipation;
-    /* the place from which it slid, on the tangent plane: the reference there */
+    /* the position from which it slid, on the tangent plane: the reference there */
     out->dual += vec3_dot(f, vec3_sub(x, slide));
     raise_to(&out->largest_force, vec3_norm(f));
     if (reaction > 0) {
-        /* a node is laid on the surface by the rounds, an element is near it on either side */
+        /* the rounds move nodes onto the surface; an element may be on either side of it */
         const double distance = vec3_dot(n, vec3_sub(x, reference)) + line->gap[c];
         out->contact_residual +=
             reaction * (cpsi_line_element(line, c) >= 0 ? fabs(distance) : fmax(0, distance));
@@ -268,7 +270,7 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         balance = cpsi_add_element_contacts(line, j, balance);
         if (cpsi_line_is_held(
                 line,
-                j)) { /* the held end's share of D: what its support does, times where it is held */
+                j)) { /* the held end's term of D: the force of its support times its position */
             out->dual -=
                 vec3_dot(balance, vec3_load(line->end[j == 0 ? CPS_END_A : CPS_END_B].value));
             continue;
@@ -278,11 +280,11 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         raise_to(&out->force_residual, vec3_norm(balance));
     }
     for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
-        if (line->on[c] >= 0) add_contact(line, c, out);
+        if (line->obstacle_index[c] >= 0) add_contact(line, c, out);
     out->gap += out->law_residual + out->contact_residual;
 }
 
-bool cpsi_law_refcount(const CpsiLine *line, double tolerance) {
+bool cpsi_friction_law_is_satisfied(const CpsiLine *line, double tolerance) {
     const double rounding = 1e-14 * line->report.certificate.largest_force * line->length;
     double law_gap = 0, dissipated = 0, bounds = 0;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {

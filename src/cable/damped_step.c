@@ -20,8 +20,8 @@ static bool is_finite(const CpsiLine *line) {
     return cpsi_line_is_near(line);
 }
 
-/* With bounds that follow the reactions, or if that cannot be solved with those of the reference:
- * the next step corrects them. */
+/* Solve with coupled bounds or, if that fails, with the bounds of the reference, which the next
+ * step corrects. */
 static bool solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                   double drag) {
     if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless) {

@@ -15,13 +15,13 @@
  *
  * so sum b.v > 0 proves that nothing balances them there, whatever the reactions are.
  *
- * Along itself.  v_j = alpha_j (tau_j + phi_j(tau_j) n_j) with tau_j the line's own direction on
- * the obstacle: slip at its limit. Equality in
- * (a) for the elements gives alpha from node to node; on a polygon of turns d round a drum it falls
- * by (1 - mu tan(d/2))/(1 + mu tan(d/2)), the capstan's exp(-mu theta) in the limit.
+ * Along itself. v_j = alpha_j (tau_j + phi_j(tau_j) n_j) with tau_j the line's own direction on the
+ * obstacle: slip at its limit. Equality in (a) for the elements gives alpha from node to node; on a
+ * polygonal line with turns d round a drum it decreases by (1 - mu tan(d/2))/(1 + mu tan(d/2)), the
+ * capstan's exp(-mu theta) in the limit.
  *
- * Without end.  When k elements have run over, the same places carry the line from its trailing end
- * at node k on, and its leading end has gone straight on by their length s_k. Nothing of (a)
+ * Without end. When k elements have passed, the line from its trailing end at node k on lies at the
+ * same positions, and its leading end has moved straight on by their length s_k. Nothing of (a)
  * changes for the rest, so the power that must be positive is, for every k,
  *
  *     P_k = f_trailing.v_k + sum over the line beyond k of w.v + s_k w.t t.v_last +
@@ -33,34 +33,39 @@
 #include "cable/friction_law.h"
 #include "chain/frame.h"
 
-/* A node this near to an obstacle, per length of the line, counts as touching: one contact more
- * than there is leaves the proof a proof. */
+/* A node this near to an obstacle, per length of the line, counts as touching; the proof remains
+ * valid with one contact more than there is. */
 static const double TOUCHING = 1e-6;
-/* An element rests on an obstacle at the whole of its allowance; chords of a line on the surface go
- * half as deep. */
+/* An element whose penetration exceeds this share of its allowance rests on the obstacle; chords of
+ * a line on the surface penetrate by half the allowance. */
 static const double NEARLY = 0.9;
 
-/* The line read in the direction in which it slides: node 0 trails, node n - 1 leads. */
-typedef struct Along {
+/* The line with its nodes numbered in the direction in which it slides: node 0 trails, node n - 1
+ * leads. */
+typedef struct OrientedLine {
     CpsiLine *line;
     bool to_a;     /* towards end A */
     double factor; /* the largest factor of a zone: zones move with the line */
-} Along;
+} OrientedLine;
 
-static int node(const Along *a, int i) { return a->to_a ? a->line->n - 1 - i : i; }
-static Vec3 place(const Along *a, int i) { return vec3_load(&a->line->reference[3 * node(a, i)]); }
-static double length(const Along *a, int i) {
+static int node(const OrientedLine *a, int i) { return a->to_a ? a->line->n - 1 - i : i; }
+static Vec3 place(const OrientedLine *a, int i) {
+    return vec3_load(&a->line->reference[3 * node(a, i)]);
+}
+static double length(const OrientedLine *a, int i) {
     return a->line->element_length[a->to_a ? a->line->n - 1 - i : i - 1];
 }
-static Vec3 motion(const Along *a, int i) { return vec3_load(&a->line->motion[3 * node(a, i)]); }
+static Vec3 motion(const OrientedLine *a, int i) {
+    return vec3_load(&a->line->motion[3 * node(a, i)]);
+}
 static Vec3 unit(Vec3 v) { return vec3_scale(1 / vec3_norm(v), v); }
 /* Direction of element i, from node i - 1 to node i. */
-static Vec3 direction(const Along *a, int i) {
+static Vec3 direction(const OrientedLine *a, int i) {
     return unit(vec3_sub(place(a, i), place(a, i - 1)));
 }
 
 /* phi per unit normal force of contact c for the tangential velocity v. */
-static double friction_of(const Along *a, int c, Vec3 v) {
+static double friction_of(const OrientedLine *a, int c, Vec3 v) {
     double along[3], slip[3];
     const CpsiFrictionLaw *set = &a->line->friction_law[c];
     const CpsiObstacle *obstacle = cpsi_line_obstacle(a->line, c);
@@ -71,8 +76,9 @@ static double friction_of(const Along *a, int c, Vec3 v) {
         slip);
 }
 
-/* The slip of node i at its limit, for speed 1. False at a node in a corner. */
-static bool slip(const Along *a, int i, Vec3 *out) {
+/* The velocity of node i for slip at the friction limit with tangential speed 1. False at a node in
+ * a corner. */
+static bool slip(const OrientedLine *a, int i, Vec3 *out) {
     const int n = a->line->n;
     const Vec3 before = i > 0 ? direction(a, i) : vec3(0, 0, 0),
                after = i + 1 < n ? direction(a, i + 1) : vec3(0, 0, 0);
@@ -91,9 +97,9 @@ static bool slip(const Along *a, int i, Vec3 *out) {
     return isfinite(vec3_norm(*out));
 }
 
-/* Equality in (a), the fastest node at speed 1. False where the line does not run over its own
- * bends: locked, or none. */
-static bool fill_motion(const Along *a) {
+/* Velocities with equality in (a), scaled so that the fastest node has speed 1. False where the
+ * line cannot slide over its own bends. */
+static bool fill_motion(const OrientedLine *a) {
     Vec3 before;
     double speed = 1, most = 0;
     if (!slip(a, 0, &before)) return false;
@@ -114,13 +120,14 @@ static bool fill_motion(const Along *a) {
     return isfinite(most);
 }
 
-/* Does the straight way on of the leading end stay clear of obstacle o, for the length of the line?
- * Distances are convex along it. */
+/* Does the straight path of the leading end stay clear of obstacle o, for the length of the line?
+ * The distance is convex along it. */
 static bool is_clear(const CpsiObstacle *o, Vec3 x, Vec3 t, double reach) {
     double nearest = reach;
     if (cpsi_obstacle_gap(o, x) <= TOUCHING * reach)
         return vec3_dot(cpsi_obstacle_normal(o, x), t) > TOUCHING;
-    if (o->kind != CPS_OBSTACLE_PLANE) { /* where it comes nearest to the axis or the centre */
+    if (o->kind !=
+        CPS_OBSTACLE_PLANE) { /* the point of the path nearest to the axis or the centre */
         const Vec3 arm = vec3_sub(o->frame.point, x), axis = o->frame.axis[2];
         const Vec3 slip =
             o->kind == CPS_OBSTACLE_CYLINDER ? vec3_axpy(-vec3_dot(t, axis), axis, t) : t;
@@ -130,24 +137,26 @@ static bool is_clear(const CpsiObstacle *o, Vec3 x, Vec3 t, double reach) {
     return cpsi_obstacle_gap(o, vec3_axpy(nearest, t, x)) > TOUCHING * reach;
 }
 
-static bool goes_on(const Along *a) {
+static bool leading_path_is_clear(const OrientedLine *a) {
     const Vec3 x = place(a, a->line->n - 1), t = direction(a, a->line->n - 1);
     for (int k = 0; k < a->line->obstacle_count; k++)
         if (!is_clear(&a->line->obstacle[k], x, t, a->line->length)) return false;
     return true;
 }
 
-/* The least of all P_k; 0 where one of them is not more than `margin` of its terms' sizes. */
-static double least_power(const Along *a, double margin) {
+/* The least of all P_k; 0 where one of them does not exceed `margin` times the sum of the sizes of
+ * its terms. */
+static double least_power(const OrientedLine *a, double margin) {
     const int n = a->line->n;
     const Vec3 weight = vec3_load(a->line->weight), t = direction(a, n - 1),
                last = motion(a, n - 1);
     const CpsEnd *trailing = &a->line->end[a->to_a ? CPS_END_B : CPS_END_A],
                  *leading = &a->line->end[a->to_a ? CPS_END_A : CPS_END_B];
     const double lead = vec3_dot(vec3_load(leading->value), last),
-                 ahead = vec3_dot(weight, t) * vec3_dot(t, last);
+                 gain = vec3_dot(weight, t) * vec3_dot(t, last);
     double beyond = 0, sizes = 0, gone = a->line->length, least = INFINITY;
-    for (int i = n - 1; i >= 0; i--) { /* beyond: what the elements after node i gain */
+    for (int i = n - 1; i >= 0;
+         i--) { /* beyond: the power of the weight of the elements after node i */
         const double power = vec3_dot(weight, motion(a, i));
         if (i + 1 < n) {
             const double half = 0.5 * length(a, i + 1), next = vec3_dot(weight, motion(a, i + 1));
@@ -156,7 +165,7 @@ static double least_power(const Along *a, double margin) {
             gone -= 2 * half;
         }
         const double trail = vec3_dot(vec3_load(trailing->value), motion(a, i)),
-                     on = i > 0 ? gone * ahead : 0;
+                     on = i > 0 ? gone * gain : 0;
         const double sum = trail + beyond + on + lead;
         if (!(sum > margin * (fabs(trail) + sizes + fabs(on) + fabs(lead)))) return 0;
         least = fmin(least, sum);
@@ -164,9 +173,9 @@ static double least_power(const Along *a, double margin) {
     return least;
 }
 
-/* Does an element rest on a round obstacle between its nodes, or nearly so?  Its contact is no part
- * of (a), and nothing is claimed then. */
-static bool rests_between(const CpsiLine *line) {
+/* Does an element rest, or nearly rest, on a round obstacle between its nodes? Its contact is not
+ * part of (a), and nothing can be proved then. */
+static bool has_resting_element(const CpsiLine *line) {
     for (int e = 0; e + 1 < line->n; e++)
         for (int k = 0; k < line->obstacle_count; k++) {
             const CpsiObstacle *o = &line->obstacle[k];
@@ -182,11 +191,11 @@ static bool rests_between(const CpsiLine *line) {
     return false;
 }
 
-static bool slides_to(CpsiLine *line, bool to_a, double margin) {
-    Along a = {.line = line, .to_a = to_a, .factor = line->friction_factor ? 0 : 1};
+static bool slides_towards(CpsiLine *line, bool to_a, double margin) {
+    OrientedLine a = {.line = line, .to_a = to_a, .factor = line->friction_factor ? 0 : 1};
     if (line->friction_factor)
         for (int j = 0; j < line->n; j++) a.factor = fmax(a.factor, line->friction_factor[j]);
-    const double power = fill_motion(&a) && goes_on(&a) ? least_power(&a, margin) : 0;
+    const double power = fill_motion(&a) && leading_path_is_clear(&a) ? least_power(&a, margin) : 0;
     if (power > 0) {
         line->report.proof_value = power;
         vec3_store(line->report.proof, motion(&a, line->n - 1));
@@ -199,6 +208,6 @@ static bool slides_to(CpsiLine *line, bool to_a, double margin) {
 bool cpsi_line_slides_endlessly(CpsiLine *line, double margin) {
     if (line->end[CPS_END_A].kind != CPS_END_FREE || line->end[CPS_END_B].kind != CPS_END_FREE)
         return false;
-    if (line->element_contacts > 0 && rests_between(line)) return false;
-    return slides_to(line, false, margin) || slides_to(line, true, margin);
+    if (line->element_contacts > 0 && has_resting_element(line)) return false;
+    return slides_towards(line, false, margin) || slides_towards(line, true, margin);
 }

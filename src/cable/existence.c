@@ -25,9 +25,9 @@ static bool too_short(CpsiLine *line) {
 }
 
 /* No end held: a rigid translation v with B.v > sum w |v_T| lowers the energy for ever, B the sum
- * of loads. The best v has the part of B that friction cannot carry, and its normal part where the
- * obstacle does not stop it. On one plane with isotropic friction, or none; elsewhere the loop has
- * to find out. */
+ * of loads. The best v has the tangential part of B that friction cannot carry, and the normal part
+ * of B where the obstacle does not prevent it. This holds on one plane with isotropic friction, or
+ * without obstacles; in other cases the loop finds out. */
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     if (!cpsi_line_both_ends(line, CPS_END_FREE) || line->has_local_axes) return false;
     Vec3 sum = vec3(0, 0, 0);
@@ -43,10 +43,11 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
         least = fmin(least, coefficient);
         stopped = stopped || isfinite(line->gap[j]);
     }
-    const Vec3 n = vec3_load(&line->common[6]);
+    const Vec3 n = vec3_load(&line->common_axes[6]);
     const double normal = vec3_dot(sum, n), along = stopped && normal < 0 ? 0 : normal;
     const Vec3 tangent = vec3_axpy(-normal, n, sum);
-    /* all reactions together balance B.n; at best they rest where friction is largest */
+    /* all reactions together balance B.n; friction is largest if they act where its coefficient
+     * is */
     if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless)
         friction = steepest * fmax(0, -normal);
     const double pull = vec3_norm(tangent), beyond = pull > friction ? pull - friction : 0;
@@ -56,24 +57,24 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.outcome = CPS_OUTCOME_UNBOUNDED;
     vec3_store(line->report.proof, vec3_axpy(along / fall, n, slide));
     line->report.proof_value = fall;
-    /* with bounds that follow the reactions these, which add up to what presses, would hold it
-     * wherever they are */
+    /* with bounds coupled to the reactions, whose sum is -B.n, friction would hold the line
+     * wherever they act */
     const bool frozen = options->friction == CPS_FRICTION_FROZEN && !options->frictionless;
     if (frozen && along == 0 && pull <= least * -normal) line->report.coulomb = least * -normal;
     return true;
 }
 
-/* Does point x, moving along v, not come nearer to the obstacle, of which it is farther than
- * `touch` [m]? */
+/* Is point x farther than `touch` [m] from the obstacle, and does it not come nearer while it moves
+ * along v? */
 static bool moves_off(const CpsiObstacle *obstacle, Vec3 x, Vec3 v, double touch) {
     return cpsi_obstacle_gap(obstacle, x) > touch &&
            vec3_dot(cpsi_obstacle_normal(obstacle, x), v) >= 0;
 }
 
-/* Does the line, moving along the unit vector v, never come nearer to the obstacle, which it does
- * not touch?  The distance of an element from a convex obstacle is a convex function of the way
- * along v: what does not fall at first never falls. */
-static bool leaves(const CpsiLine *line, const CpsiObstacle *obstacle, Vec3 v) {
+/* Does the line not touch the obstacle, and never come nearer while it moves along the unit vector
+ * v? The distance of an element from a convex obstacle is a convex function of the displacement
+ * along v: if it does not decrease at first, it never does. */
+static bool moves_away(const CpsiLine *line, const CpsiObstacle *obstacle, Vec3 v) {
     const double touch = CPSI_TOUCH * line->length;
     for (int j = 0; j < line->n; j++)
         if (!moves_off(obstacle, vec3_load(&line->position[3 * j]), v, touch)) return false;
@@ -99,7 +100,7 @@ bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *loa
     if (!(size > CPSI_TAUT * loads)) return false;
     const Vec3 v = vec3_scale(1 / size, sum);
     for (int k = 0; k < line->obstacle_count; k++)
-        if (!leaves(line, &line->obstacle[k], v)) return false;
+        if (!moves_away(line, &line->obstacle[k], v)) return false;
     vec3_store(direction, v);
     *load = size;
     return true;

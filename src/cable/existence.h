@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lines that have no equilibrium, seen before anything is solved. */
+/* Proofs that a line has no equilibrium, before anything is solved. */
 #ifndef CAPSTAN_SRC_CABLE_EXISTENCE_H
 #define CAPSTAN_SRC_CABLE_EXISTENCE_H
 
@@ -10,8 +10,8 @@
  * the outcome and the proof. */
 bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options);
 
-/* Does the line fall freely, and meet nothing for ever?  `direction` is that of the sum of its
- * loads and `load` [N] its size. Reads position and load. */
+/* Does the line fall freely without ever touching an obstacle? `direction` is that of the sum of
+ * its loads and `load` [N] its size. Reads position and load. */
 bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *load);
 
 #endif

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The forces that hold a line in its place, as a program (force_set.h).
+/* The forces that hold a line in its configuration, as a program (force_set.h).
  *
  * A contact's force varies in a span of one to three directions: along n + F/R where it slips,
- * which keeps F = -mu R u/|u|; in n and the tangents where it sticks; with frozen friction, F in
- * its disc and R apart. Balance at node j reads
+ * which keeps F = -mu R u/|u|; in n and the tangents where it sticks; with frozen friction, in F
+ * within its disc and in R separately. Balance at node j reads
  *
- *     dT_j t_j - dT_j+1 t_j+1 = sum of the directions times their amounts.
+ *     dT_j t_j - dT_j+1 t_j+1 = sum of the directions times their coefficients.
  *
- * With fewer than three directions that is more than one equation for the two tensions: what is
- * left of t_j and t_j+1 across the span vanishes for both (they keep what they have), or runs along
- * one line (a fixed ratio), or is zero (both vary freely). */
+ * With fewer than three directions this leaves equations for the two tensions: the components of
+ * t_j and t_j+1 orthogonal to the span are independent (both tensions stay), parallel (their ratio
+ * is fixed) or zero (both vary freely). */
 #include "cable/force_set.h"
 
 #include <math.h>
@@ -21,42 +21,43 @@
 #include "ipm/ipm.h"
 #include "linalg/dense.h"
 
-/* Directions that differ by less [rad] are one: a tension that crosses there is off balance by this
- * share at most, and the angle between force and element costs its square. */
+/* Directions that differ by less [rad] count as parallel. A tension that passes there is out of
+ * balance by this share at most, and the angle between force and element adds its square to the
+ * gap. */
 static const double ANGLE = 1e-8;
-/* Elements shorter than their length by less are taut, nodes that moved by less per length of the
- * line are stuck: what rounding and the loop's last digits leave. */
+/* Elements shorter than their length by less are taut, and nodes that moved by less per length of
+ * the line stick: the accuracy of the loop. */
 static const double EXACT = 1e-9;
-/* The cones are wider by this share of the largest force, so that a set with a single member has an
- * inside: below what the certificate lets pass. */
-static const double WIDER = 1e-12;
-/* What the loop aims at, and is content with where rounding stops it before: near the boundary of
- * many cones at once, or where the multipliers are large. */
+/* The cones are widened by this share of the largest force, so that a set with a single member has
+ * an interior; it is below what the certificate tolerates. */
+static const double CONE_SLACK = 1e-12;
+/* Targets of the loop, tried in this order: rounding may stop it early near the boundary of many
+ * cones, or where multipliers are large. */
 static const double TARGETS[] = {1e-12, 1e-10, 1e-8};
-/* Tensions that grow from node to node may be far larger than the largest force, and the loop finds
- * their size by and by. */
+/* Tensions that grow from node to node may be far larger than the largest force, and the loop then
+ * needs many iterations to find their size. */
 enum { MAX_ITERATIONS = 200, PATIENCE = 60, CONES = 5, COLUMNS = 6 };
 
-/* How the force of one contact may vary. */
+/* The directions in which the force of one contact may vary, and their cones. */
 typedef struct Contact {
     int columns, cones, rows;
     double column[3][3]; /* the directions */
-    double rise[3];      /* what each does to R */
-    double disc[3][2];   /* and to F, in the tangents of the contact */
+    double rise[3];      /* the change of R per unit of each */
+    double disc[3][2];   /* and of F, in the tangents of the contact */
     int dim[CONES];
-    double row[CONES][3], h[CONES]; /* of the cones, on the amounts */
+    double row[CONES][3], h[CONES]; /* of the cones, for the coefficients of the columns */
 } Contact;
 
-/* How the forces at a node may vary. */
+/* The directions in which the forces at a node may vary. */
 typedef struct Node {
     int contacts, which[2], first[2]; /* first: the column where a contact begins */
     Contact contact[2];
     int columns, own;
     double left[COLUMNS],
-        right[COLUMNS]; /* the amounts that carry t of the element before, and after */
-    double own_way[CPSI_SITE_OWN][COLUMNS]; /* amounts that cancel */
-    double left_rest[3], right_rest[3];     /* what no amounts carry */
-    int rests;
+        right[COLUMNS]; /* the coefficients that balance t of the element before, and after */
+    double null_space[CPSI_SITE_OWN][COLUMNS]; /* coefficients of zero resultant */
+    double left_rest[3], right_rest[3];        /* the parts of t that no columns balance */
+    int rest_count;
 } Node;
 
 /* contacts ------------------------------------------------------------------------------------- */
@@ -82,7 +83,7 @@ static void add_column(Contact *contact, Vec3 direction, double rise, const doub
     memcpy(contact->disc[k], disc, sizeof contact->disc[k]);
 }
 
-/* The two tangents along which friction is free to vary: not where it slips, nor where there is
+/* Along which of the two tangents may friction vary? Not where it slips, nor where there is
  * none. */
 static void free_tangents(const CpsiLine *line, const CpsiForceLaw *law, int c,
                           const CpsiFrictionLaw *set, bool out[2]) {
@@ -91,19 +92,19 @@ static void free_tangents(const CpsiLine *line, const CpsiForceLaw *law, int c,
     cpsi_frame_to(slip, cpsi_line_axes(line, c), slide);
     for (int a = 0; a < 2; a++) slip[a] = fabs(set->ratio[a] * slip[a]);
     const double still = EXACT * line->length;
-    const bool rests = line->state[c] == CPS_NODE_STICK && !law->tight;
+    const bool rest_count = line->state[c] == CPS_NODE_STICK && !law->exact;
     for (int a = 0; a < 2; a++) {
         const double slid = set->box ? slip[a] : sqrt(slip[0] * slip[0] + slip[1] * slip[1]);
-        out[a] = set->ratio[a] > 0 && (rests || slid <= still);
+        out[a] = set->ratio[a] > 0 && (rest_count || slid <= still);
     }
 }
 
-/* The cones of a contact whose friction is free along `free` of its tangents: columns are the
- * normal one, if there is, then those. */
+/* The cones of a contact whose friction is free along `free` of its tangents: columns are that of
+ * the normal, if `normal`, then those of the free tangents. */
 static void add_cones(Contact *contact, const CpsiFrictionLaw *set, const bool free[2], bool normal,
                       double mu, double reaction, double bound, const double force[2]) {
     const int first = normal ? 1 : 0, count = free[0] + free[1];
-    const double follow = normal ? mu : 0; /* the bound with the normal column */
+    const double follow = normal ? mu : 0; /* change of the bound per unit of the normal column */
     if (normal && (count == 0 || mu == 0))
         add_row(contact, 1, (const double[3]){1, 0, 0}, reaction);
     if (count == 2 && !set->box) {
@@ -126,10 +127,10 @@ static void add_cones(Contact *contact, const CpsiFrictionLaw *set, const bool f
     }
 }
 
-/* How the force of contact c may vary; false where its friction set is one that is not looked into.
- * Forces in units of `unit`. */
-static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit, int c,
-                     Contact *out) {
+/* The directions in which the force of contact c may vary; false where it has a general friction
+ * set, whose force stays. Forces are in units of `unit`. */
+static bool build_contact(const CpsiLine *line, const CpsiForceLaw *law, double unit, int c,
+                          Contact *out) {
     static const double none[2] = {0, 0};
     *out = (Contact){0};
     const CpsiFrictionLaw *set = &line->friction_law[c];
@@ -143,7 +144,7 @@ static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit,
     const Vec3 n = vec3_load(&line->normal[3 * c]);
     if (given && !law->frozen) return false;
     if (law->frozen || !discs) {
-        /* R by itself; F within its given bound, which has no directions without end */
+        /* R varies by itself; F varies within its fixed bound, which has no unbounded directions */
         const bool varies = discs && !given && !law->directions && line->friction_bound[c] > 0;
         if (varies) free_tangents(line, law, c, set, free);
         if (touching) add_column(out, n, 1, none);
@@ -173,10 +174,10 @@ static bool describe(const CpsiLine *line, const CpsiForceLaw *law, double unit,
 
 /* nodes ---------------------------------------------------------------------------------------- */
 
-/* Amounts of the columns that carry `t`, and what is left of it; q (3, columns) becomes an
+/* Coefficients of the columns that balance `t`, and the remainder of t; q (3, columns) becomes an
  * orthonormal basis of the rows. */
-static int carry(const Node *node, const double t[3], double *q, double amounts[COLUMNS],
-                 double rest[3]) {
+static int decompose(const Node *node, const double t[3], double *q, double amounts[COLUMNS],
+                     double rest[3]) {
     const int d = node->columns;
     double rhs[3];
     int k = 0;
@@ -193,15 +194,15 @@ static int carry(const Node *node, const double t[3], double *q, double amounts[
     return rank;
 }
 
-/* All of it for node j; elements beyond the ends have no tangent. */
-static void look(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law, int j,
-                 Node *node) {
+/* The directions of node j and their balance; elements beyond the ends have no tangent. */
+static void build_node(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law, int j,
+                       Node *node) {
     static const double none[3] = {0, 0, 0};
     double q[COLUMNS * COLUMNS];
     *node = (Node){0};
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
         Contact *contact = &node->contact[node->contacts];
-        if (!describe(line, law, set->force, c, contact)) set->partial = true;
+        if (!build_contact(line, law, set->force, c, contact)) set->partial = true;
         if (contact->columns == 0) continue;
         node->which[node->contacts] = c;
         node->first[node->contacts++] = node->columns;
@@ -209,13 +210,14 @@ static void look(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *la
     }
     const double *before = j > 0 ? &set->tangent[3 * (j - 1)] : none,
                  *after = j + 1 < line->n ? &set->tangent[3 * j] : none;
-    carry(node, before, q, node->left, node->left_rest);
-    const int rank = carry(node, after, q, node->right, node->right_rest);
-    node->rests = 3 - rank;
+    decompose(node, before, q, node->left, node->left_rest);
+    const int rank = decompose(node, after, q, node->right, node->right_rest);
+    node->rest_count = 3 - rank;
     node->own = node->columns - rank;
     if (node->own > 0) cpsi_complete_rows(rank, node->columns, q);
     for (int k = 0; k < node->own; k++)
-        memcpy(node->own_way[k], &q[(rank + k) * node->columns], (size_t)node->columns * sizeof *q);
+        memcpy(node->null_space[k], &q[(rank + k) * node->columns],
+               (size_t)node->columns * sizeof *q);
 }
 
 static double dot(int n, const double *a, const double *b) { return cpsi_dot(n, a, b); }
@@ -225,15 +227,15 @@ typedef struct Relation {
     double ratio; /* change of the tension after over that before */
 } Relation;
 
-/* What balance across the span asks of the tensions before and after the node. */
+/* The condition of balance orthogonal to the span on the tensions before and after the node. */
 static Relation relate(const Node *node) {
-    const double a = sqrt(dot(node->rests, node->left_rest, node->left_rest));
-    const double b = sqrt(dot(node->rests, node->right_rest, node->right_rest));
+    const double a = sqrt(dot(node->rest_count, node->left_rest, node->left_rest));
+    const double b = sqrt(dot(node->rest_count, node->right_rest, node->right_rest));
     if (a <= ANGLE || b <= ANGLE)
         return (Relation){.left_stays = a > ANGLE, .right_stays = b > ANGLE};
-    const double ratio = dot(node->rests, node->left_rest, node->right_rest) / (b * b);
+    const double ratio = dot(node->rest_count, node->left_rest, node->right_rest) / (b * b);
     double off = 0;
-    for (int k = 0; k < node->rests; k++)
+    for (int k = 0; k < node->rest_count; k++)
         off += pow(node->left_rest[k] - ratio * node->right_rest[k], 2);
     if (!(sqrt(off) <= ANGLE * a)) return (Relation){.left_stays = true, .right_stays = true};
     return (Relation){.linked = true, .ratio = ratio};
@@ -241,7 +243,7 @@ static Relation relate(const Node *node) {
 
 /* elements ------------------------------------------------------------------------------------- */
 
-/* Tangents and tensions; which elements are taut. */
+/* Tangents and tensions of the elements, and which are taut. */
 static void measure_elements(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law) {
     for (int e = 0; e + 1 < line->n; e++) {
         const Vec3 dx =
@@ -250,13 +252,13 @@ static void measure_elements(CpsiForceSet *set, const CpsiLine *line, const Cpsi
         const Vec3 t = size > 0 ? vec3_scale(1 / size, dx) : vec3(0, 0, 0);
         vec3_store(&set->tangent[3 * e], t);
         set->tension[e] = vec3_dot(vec3_load(&line->segment_force[3 * e]), t);
-        const bool pulls = !law->tight && set->tension[e] > missing * set->force;
+        const bool pulls = !law->exact && set->tension[e] > missing * set->force;
         set->scalar[e] = !law->shares && size > 0 && (missing <= EXACT || pulls) ? 0 : -1;
     }
 }
 
-/* One scalar for each run of elements whose tensions go together; a run with one that stays stays.
- * Returns how many there are. */
+/* Number the scalars: one for each run of elements whose tensions are proportional. A run in which
+ * one tension stays has none. Returns their count. */
 static int number_scalars(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law) {
     int scalars = 0;
     Node node;
@@ -266,12 +268,12 @@ static int number_scalars(CpsiForceSet *set, const CpsiLine *line, const CpsiFor
         double gain = 1, most = 1;
         set->gain[first] = 1;
         if (!cpsi_line_is_held(line, first)) {
-            look(set, line, law, first, &node);
+            build_node(set, line, law, first, &node);
             stays = relate(&node).right_stays || stays;
         }
         for (;; last++) {
             if (cpsi_line_is_held(line, last + 1)) break;
-            look(set, line, law, last + 1, &node);
+            build_node(set, line, law, last + 1, &node);
             const Relation relation = relate(&node);
             stays = stays || relation.left_stays;
             if (last + 2 >= line->n || !relation.linked) break;
@@ -298,10 +300,10 @@ static void add_element(CpsiForceSet *set, const CpsiForceLaw *law, int e) {
     cpsi_scalar_program_site(&set->program, set->scalar[e], -1, 0);
     const int row = cpsi_scalar_program_cone(&set->program, 1);
     set->program.g[row][0] = set->gain[e];
-    set->program.h[row] = (law->directions ? 0 : set->tension[e] / set->force) + WIDER;
+    set->program.h[row] = (law->directions ? 0 : set->tension[e] / set->force) + CONE_SLACK;
 }
 
-/* Scalar and gain of an element that may be beyond the ends. */
+/* Scalar and gain of element e, which may lie beyond the ends. */
 static int scalar_of(const CpsiForceSet *set, const CpsiLine *line, int e, double *gain) {
     const bool is = e >= 0 && e + 1 < line->n && set->scalar[e] >= 0;
     *gain = is ? set->gain[e] : 0;
@@ -321,8 +323,9 @@ static void add_contact(CpsiForceSet *set, const CpsiForceLaw *law, const Node *
             g[0] = one ? before + after : before;
             g[1] = one ? 0 : after;
             for (int a = 0; a < node->own; a++)
-                g[2 + a] = dot(d, contact->row[r], &node->own_way[a][first]);
-            set->program.h[row + m] = (law->directions ? 0 : contact->h[r]) + (m == 0 ? WIDER : 0);
+                g[2 + a] = dot(d, contact->row[r], &node->null_space[a][first]);
+            set->program.h[row + m] =
+                (law->directions ? 0 : contact->h[r]) + (m == 0 ? CONE_SLACK : 0);
         }
     }
 }
@@ -332,7 +335,7 @@ static void add_node(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw
     if (cpsi_line_is_held(line, j)) return;
     Node node;
     double gain[2];
-    look(set, line, law, j, &node);
+    build_node(set, line, law, j, &node);
     const int before = scalar_of(set, line, j - 1, &gain[0]),
               after = scalar_of(set, line, j, &gain[1]);
     if (node.columns == 0 || (before < 0 && after < 0 && node.own == 0)) return;
@@ -342,7 +345,7 @@ static void add_node(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw
     for (int i = 0; i < node.contacts; i++) add_contact(set, law, &node, i, gain, one);
 }
 
-/* Does an obstacle press on an element?  Those forces stay as they are. */
+/* Is there a reaction between an obstacle and an element? Such forces stay as they are. */
 static bool has_element_contacts(const CpsiLine *line) {
     for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
         if (line->reaction[c] > 0) return true;
@@ -354,7 +357,7 @@ bool cpsi_force_set_build(CpsiForceSet *set, const CpsiLine *line, const CpsiFor
     for (int e = 0; e + 1 < line->n; e++) set->force = fmax(set->force, line->tension_before[e]);
     set->partial = has_element_contacts(line);
     if (!isfinite(set->force)) return false;
-    if (!(set->force > 0)) set->force = 1; /* nothing asks for a force: any unit will do */
+    if (!(set->force > 0)) set->force = 1; /* no forces: any unit will do */
     measure_elements(set, line, law);
     const int scalars = number_scalars(set, line, law);
     cpsi_scalar_program_begin(&set->program, scalars);
@@ -406,13 +409,13 @@ void cpsi_force_set_apply(CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw 
         const CpsiSite *site = &set->program.site[set->site[j]];
         Node node;
         double gain[2], amount[COLUMNS];
-        look(set, line, law, j, &node);
+        build_node(set, line, law, j, &node);
         const int before = scalar_of(set, line, j - 1, &gain[0]),
                   after = scalar_of(set, line, j, &gain[1]);
         for (int k = 0; k < node.columns; k++) {
             amount[k] = (before >= 0 ? gain[0] * u[before] * node.left[k] : 0) -
                         (after >= 0 ? gain[1] * u[after] * node.right[k] : 0);
-            for (int a = 0; a < node.own; a++) amount[k] += u[site->at + a] * node.own_way[a][k];
+            for (int a = 0; a < node.own; a++) amount[k] += u[site->at + a] * node.null_space[a][k];
         }
         for (int i = 0; i < node.contacts; i++)
             store_contact(set, line, law, node.which[i], &node.contact[i], &amount[node.first[i]]);
@@ -434,12 +437,12 @@ int cpsi_force_set_share(const CpsiForceSet *set, const CpsiLine *line, const Cp
     if (set->site[j] < 0) return -1;
     Node node;
     CpsiForceSet view = *set;
-    look(&view, line, law, j, &node);
+    build_node(&view, line, law, j, &node);
     for (int i = 0; i < node.contacts; i++) {
         if (node.which[i] != c) continue;
         for (int a = 0; a < CPSI_SITE_OWN; a++)
             share[a] = a < node.own ? dot(node.contact[i].columns, node.contact[i].rise,
-                                          &node.own_way[a][node.first[i]])
+                                          &node.null_space[a][node.first[i]])
                                     : 0;
         return set->site[j];
     }
@@ -463,11 +466,11 @@ void cpsi_force_set_layout(CpsiForceSet *set, CpsiArena *arena, int n, int conta
     set->bound = CPSI_TAKE(arena, all, double);
 }
 
-/* Copy the fields of a line to their room, or back. */
+/* Copy the fields of a line to the set, or back. */
 static void copy_fields(const CpsiForceSet *set, CpsiLine *line, bool back) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     const struct {
-        double *room, *field;
+        double *copy, *field;
         size_t count;
     } fields[] = {{set->segment_force, line->segment_force, 3 * (n - 1)},
                   {set->kept_tension, line->tension, n - 1},
@@ -475,7 +478,7 @@ static void copy_fields(const CpsiForceSet *set, CpsiLine *line, bool back) {
                   {set->friction, line->friction_force, 3 * contacts},
                   {set->bound, line->friction_bound, contacts}};
     for (size_t k = 0; k < sizeof fields / sizeof *fields; k++)
-        memcpy(back ? fields[k].field : fields[k].room, back ? fields[k].room : fields[k].field,
+        memcpy(back ? fields[k].field : fields[k].copy, back ? fields[k].copy : fields[k].field,
                fields[k].count * sizeof(double));
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ellipse, box and given set of friction forces (friction_law.h). With B = diag(ratio) an ellipse
+/* Ellipse, box and general set of friction forces (friction_law.h). With B = diag(ratio) an ellipse
  * is B times the disc of radius w: phi(u) = w |B u|, and F = B f with |f| <= w. */
 #include "cable/friction_law.h"
 

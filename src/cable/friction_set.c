@@ -19,11 +19,12 @@
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* What a support must be good for to be used, relative to data of order one. */
+/* Accuracy that a support value must have to be used, relative to data of order one. */
 static const double ACCEPT = 1e-9;
-/* A conic form whose rows, of size one, leave no more room than this has no interior. */
+/* A conic form whose largest margin is below this, its rows being of size one, counts as having no
+ * interior. */
 static const double LEAST_MARGIN = 1e-9;
-/* Rows of the conic form: every node that touches holds a matrix of them. */
+/* Limit of the rows of the conic form: every touching node stores a matrix of them. */
 enum { MOST_ROWS = 128, MAX_CENTERING = 200 };
 
 struct CpsiFrictionSet {
@@ -74,7 +75,7 @@ static void layout(CpsiFrictionSet *set) {
         cpsi_conic_layout(&set->arena, form->unknowns, form->rows, form->cones, form->largest_cone);
 }
 
-/* What the search for a centre needs. */
+/* Scratch memory of the search for the centre. */
 typedef struct Work {
     CpsiConicProgram *program;
     double *a, *b, *c; /* of the program for the margin */
@@ -166,7 +167,8 @@ static bool centre(const CpsiConicForm *form, const Work *work, double *v) {
         }
         const double by = decrement > 0.25 ? 1 / (1 + decrement) : 1;
         for (int i = 0; i < n; i++) v[i] += by * x[i];
-        if (decrement <= 1e-8) return true; /* the last step squares it: rounding */
+        if (decrement <= 1e-8)
+            return true; /* the last step squares the decrement, which is then rounding */
     }
     return false;
 }
@@ -188,7 +190,7 @@ static CpsStatus find_centre(CpsiFrictionSet *set, const char *name, CpsError *e
                              name);
 }
 
-/* A set of dimension 1 as the segment that it is, however it was written. */
+/* Replace a set of dimension 1 by the segment between its end points. */
 static CpsStatus as_segment(const CpsSet *set, const double along[2], CpsSet **out, CpsError *err) {
     const double back[2] = {-along[0], -along[1]};
     double from[2], to[2];

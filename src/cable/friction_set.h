@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A planar set of friction forces per unit normal force, any of set.h that is bounded and contains
- * 0, made ready for steps: its conic form, the centre of that, and room to ask for its support
- * without taking memory. */
+ * 0, prepared for steps: its conic form, the centre of that, and scratch memory, so that its
+ * support function needs no allocation. */
 #ifndef CAPSTAN_SRC_CABLE_FRICTION_SET_H
 #define CAPSTAN_SRC_CABLE_FRICTION_SET_H
 
@@ -10,10 +10,11 @@
 
 typedef struct CpsiFrictionSet CpsiFrictionSet;
 
-/* Can the set be one of friction forces?  `name` is that of its obstacle. */
+/* Is the set admissible as a set of friction forces? `name` is that of its obstacle. */
 CpsStatus cpsi_friction_set_check(const CpsSet *set, const char *name, CpsError *err);
 
-/* A set that passes the check; NULL for {0}, which is no friction. Its owner frees it. */
+/* Make a friction set from a set that has passed the check; NULL for {0}, which is no friction. The
+ * caller frees it. */
 CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFrictionSet **out,
                                  CpsError *err);
 void cpsi_friction_set_free(CpsiFrictionSet *set);
@@ -21,7 +22,7 @@ void cpsi_friction_set_free(CpsiFrictionSet *set);
 const CpsiConicSet *cpsi_friction_set_conic(const CpsiFrictionSet *set);
 
 /* phi(u) = max -<u, F> over the set; to about 1e-13 of reach |u|, NaN where the small program
- * failed. Not for two threads at once. */
+ * failed. Not thread-safe: it writes to the set's scratch memory. */
 double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]);
 
 #endif

@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The rule of least motion (least_motion.h; docs/theory.md 6a).
  *
- * With the forces of a round kept, a place goes with them when
+ * With the forces of a round kept, a configuration is compatible with them when
  *
- *     element that pulls              e = (1 + c |p|) p/|p|:  it may only be shifted
- *     element that does not           |e| <= 1
+ *     element with tension    e = (1 + c |p|) p/|p|:  it may only be translated
+ *     element without         |e| <= 1
  *     contact with a reaction         gap 0, else gap >= 0
  *     friction below its bound        no slip;  at its bound: slip against it, of any length
  *
- * Runs of nodes joined by elements that pull move as one rigid body that does not turn: a cluster.
- * What its nodes' contacts leave free is a linear space of dimension 0 to 3, cut by half-spaces.
- * Clusters are joined by single elements without tension. So the nearest place is a program over
- * the chain of clusters (chain/nearest_program.h), and its solution is at hand where no element and
- * no half-space is in the way of each cluster's own nearest place.
+ * A run of nodes joined by elements with tension is translated as a rigid body: a cluster. The
+ * translations that its nodes' contacts permit form a linear space of dimension 0 to 3, cut by
+ * half-spaces. Clusters are joined by single elements without tension. So the nearest configuration
+ * is the solution of a program over the chain of clusters (chain/nearest_program.h). Where each
+ * cluster's own nearest position violates no element and no half-space, these positions are the
+ * solution.
  *
- * Which of two complementary quantities of a round is the one that vanishes is read from their
- * sizes. In doubt an element pulls, a contact presses and friction sticks: fewer places then, but
- * all of them go with the forces. */
+ * Which of two complementary quantities of a round vanishes is decided by their sizes. In doubt an
+ * element has tension, a contact has a reaction and friction sticks: this permits fewer
+ * configurations, but all of them are compatible with the forces. */
 #include "cable/least_motion.h"
 
 #include <float.h>
@@ -26,28 +27,28 @@
 #include "cable/friction_law.h"
 #include "ipm/ipm.h"
 
-/* What carries more than this, per unit of force, is not called without force: others places would
- * cost as much. */
-static const double LOOSE = 1e-9;
+/* A force below this, per unit of force, counts as zero; other configurations then increase the gap
+ * by no more than that. */
+static const double NO_FORCE = 1e-9;
 /* A slip shorter than this, per length of the line, has no direction. */
-static const double LEAST_WAY = 1e-12;
-/* Directions whose sine is below this are the same: the angles that a round leaves between axes are
- * far smaller. */
-static const double SAME = 1e-9;
-/* An element longer than its length by this, or a node this deep, is rounding: a thousand times
- * what positions of order one have. */
+static const double LEAST_SLIP = 1e-12;
+/* Directions whose sine is below this count as parallel: the error angles of a round's axes are far
+ * smaller. */
+static const double PARALLEL = 1e-9;
+/* An elongation of an inextensible element, or a penetration, up to this counts as rounding: a
+ * thousand times the rounding of positions of order one. */
 static const double ROUNDING = 1e-12;
 /* The loop on the second program is driven to this relative gap, and accepted at that. */
 static const double TARGET = 1e-13;
 static const double CLEAN = 1e-11;
-static const int CENTRINGS = 2;
-static const int SHARPENINGS = 6;
+static const int CENTERING_STEPS = 2;
+static const int REFINEMENT_STEPS = 6;
 
 /* Bits of `mark`. */
-enum { PRESSED = 1, RUBS = 2, SLIPS = 4, SLIPS_ACROSS = 8 };
+enum { ACTIVE = 1, FRICTION = 2, SLIPS = 4, SLIPS_ACROSS = 8 };
 
-/* Half-spaces of one contact: its normal, or the way along and across of a box, and one to
- * spare. */
+/* Half-spaces of one contact, at most: one for its normal, or two for the slip along and across a
+ * box, and one in reserve. */
 enum { HALVES = 3 };
 
 void cpsi_least_motion_layout(CpsiLeastMotion *least, CpsiArena *arena, int n, int contacts,
@@ -60,7 +61,8 @@ void cpsi_least_motion_layout(CpsiLeastMotion *least, CpsiArena *arena, int n, i
     least->place = CPSI_TAKE(arena, 3 * (size_t)n, double);
 }
 
-/* what the round says -------------------------------------------------------------------------- */
+/* the state of the round
+ * -------------------------------------------------------------------------- */
 
 static void mark_friction(CpsiLeastMotion *least, const CpsiChainProgram *program) {
     const CpsiFrictionDisc *disc = &program->disc;
@@ -69,37 +71,37 @@ static void mark_friction(CpsiLeastMotion *least, const CpsiChainProgram *progra
         const bool slips =
             sqrt(s[1] * s[1] + s[2] * s[2]) * z[0] > z[0] - sqrt(z[1] * z[1] + z[2] * z[2]);
         const bool across =
-            k > 0 && disc->contact[k - 1] == disc->contact[k]; /* the second of a box */
-        least->mark[disc->contact[k]] |= RUBS | (slips ? across ? SLIPS_ACROSS : SLIPS : 0);
+            k > 0 && disc->contact[k - 1] == disc->contact[k]; /* the second disc of a box */
+        least->mark[disc->contact[k]] |= FRICTION | (slips ? across ? SLIPS_ACROSS : SLIPS : 0);
     }
     for (int k = 0; k < program->conic.count; k++) {
         const bool slips =
             cpsi_friction_conic_slip(program, k) > cpsi_friction_conic_margin(&program->conic, k);
-        least->mark[program->conic.contact[k]] |= RUBS | (slips ? SLIPS : 0);
+        least->mark[program->conic.contact[k]] |= FRICTION | (slips ? SLIPS : 0);
     }
 }
 
-/* Marks of contacts and slack elements, from the pairs of the solution; of a line without any force
- * where there is none. */
-static void read_round(const CpsiLine *line, CpsiLeastMotion *least,
-                       const CpsiChainProgram *program) {
+/* Marks of contacts and slack elements from the pairs of the solution; NULL stands for a line
+ * without any force. */
+static void read_solution(const CpsiLine *line, CpsiLeastMotion *least,
+                          const CpsiChainProgram *program) {
     const int contacts = cpsi_line_contacts(line);
     memset(least->mark, 0, (size_t)contacts);
     if (!program) {
         for (int c = 0; c < contacts; c++)
-            if (line->friction_bound[c] > 0) least->mark[c] = RUBS;
+            if (line->friction_bound[c] > 0) least->mark[c] = FRICTION;
         for (int i = 1; i < line->n; i++) least->slack[i] = true;
     }
     if (!program) return;
     const CpsiUnilateral *unilateral = &program->unilateral;
     for (int k = 0; k < unilateral->count; k++)
-        if (!(unilateral->z[k] < unilateral->s[k] && unilateral->z[k] < LOOSE))
-            least->mark[unilateral->contact[k]] = PRESSED;
+        if (!(unilateral->z[k] < unilateral->s[k] && unilateral->z[k] < NO_FORCE))
+            least->mark[unilateral->contact[k]] = ACTIVE;
     mark_friction(least, program);
     for (int i = 1; i < line->n; i++) {
         const double *s = program->segment.s[i], *z = program->segment.z[i];
         least->slack[i] =
-            z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]) && z[0] < LOOSE;
+            z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]) && z[0] < NO_FORCE;
     }
 }
 
@@ -107,15 +109,15 @@ static void read_round(const CpsiLine *line, CpsiLeastMotion *least,
 
 static Vec3 row(const double *basis, int i) { return vec3_load(&basis[3 * i]); }
 
-/* Take direction a from the span of the first *freedom rows of the basis. */
-static void block(double *basis, int *freedom, Vec3 a) {
+/* Remove direction a from the span of the first *freedom rows of the basis. */
+static void remove_direction(double *basis, int *freedom, Vec3 a) {
     double c[3], size = 0;
     for (int i = 0; i < *freedom; i++) {
         c[i] = vec3_dot(row(basis, i), a);
         size += c[i] * c[i];
     }
     size = sqrt(size);
-    if (*freedom == 0 || size <= SAME * vec3_norm(a)) return;
+    if (*freedom == 0 || size <= PARALLEL * vec3_norm(a)) return;
     if (*freedom == 2) {
         vec3_store(basis,
                    vec3_axpy(c[0] / size, row(basis, 1), vec3_scale(-c[1] / size, row(basis, 0))));
@@ -142,34 +144,34 @@ static void complete(double *basis, int freedom) {
         double rest[9];
         int left = 3;
         memcpy(rest, world, sizeof rest);
-        block(rest, &left, row(basis, 0));
+        remove_direction(rest, &left, row(basis, 0));
         memcpy(&basis[3], rest, 3 * sizeof *rest);
     }
     vec3_store(&basis[6], vec3_cross(row(basis, 0), row(basis, 1)));
 }
 
-/* Node j keeps to { room + a.v >= 0 }, v its shift from where the round has it. */
-static void cut(CpsiLeastMotion *least, int j, double weight, Vec3 a, double room) {
+/* Restrict node j to { gap + a.v >= 0 }, v its translation from its position in the round. */
+static void add_half_space(CpsiLeastMotion *least, int j, double weight, Vec3 a, double gap) {
     CpsiHalfSpace *half = &least->program.half;
     const int k = half->count++;
     half->node[k] = j;
     half->weight[k] = weight;
-    half->gap[k] = room > 0 ? room : 0;
+    half->gap[k] = gap > 0 ? gap : 0;
     vec3_store(half->normal[k], a);
 }
 
-/* What friction leaves free along one of its axes, of which it slips or not; `way` is the slip
- * there. */
+/* Restrict the motion along one axis of the friction of node j: slip keeps its sign, stick permits
+ * none. */
 static void restrict_along(CpsiLeastMotion *least, int j, double weight, double *basis,
                            int *freedom, Vec3 axis, bool slips, double slip) {
-    if (slips && fabs(slip) > LEAST_WAY)
-        cut(least, j, weight, vec3_scale(slip > 0 ? 1 : -1, axis), fabs(slip));
+    if (slips && fabs(slip) > LEAST_SLIP)
+        add_half_space(least, j, weight, vec3_scale(slip > 0 ? 1 : -1, axis), fabs(slip));
     else
-        block(basis, freedom, axis);
+        remove_direction(basis, freedom, axis);
 }
 
-/* What the friction of contact c leaves free of its tangent plane. A set given as such has no more
- * than the direction in which it slips, but for one that is a segment. */
+/* Restrict the motion in the tangent plane of contact c by its friction. A general friction set,
+ * unless it is a segment, permits no more than the direction in which it slips. */
 static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, double weight,
                           double *basis, int *freedom) {
     const int j = cpsi_line_node(line, c), mark = least->mark[c];
@@ -193,14 +195,14 @@ static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, d
         acts[1] = false;
     } else if (!set->box && acts[0] && acts[1]) {
         const double size = vec3_norm(slip);
-        if (!slips[0] || size <= LEAST_WAY) {
-            block(basis, freedom, along[0]);
-            block(basis, freedom, along[1]);
+        if (!slips[0] || size <= LEAST_SLIP) {
+            remove_direction(basis, freedom, along[0]);
+            remove_direction(basis, freedom, along[1]);
             return;
         }
         const Vec3 unit = vec3_scale(1 / size, slip);
-        block(basis, freedom, vec3_cross(n, unit));
-        cut(least, j, weight, unit, size);
+        remove_direction(basis, freedom, vec3_cross(n, unit));
+        add_half_space(least, j, weight, unit, size);
         return;
     }
     for (int a = 0; a < 2; a++)
@@ -209,27 +211,28 @@ static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, d
                            vec3_dot(slip, along[a]));
 }
 
-/* What contact c leaves free. */
+/* Restrict the motion of a cluster by contact c. */
 static void restrict_contact(const CpsiLine *line, CpsiLeastMotion *least, int c, CpsiBounds bounds,
                              double *basis, int *freedom) {
     const int j = cpsi_line_node(line, c), mark = least->mark[c];
     const double weight = cpsi_line_share(line, j) / line->length;
     const Vec3 n = vec3_load(&line->normal[3 * c]);
-    if (mark & PRESSED) {
-        block(basis, freedom, n);
+    if (mark & ACTIVE) {
+        remove_direction(basis, freedom, n);
     } else if (isfinite(line->gap[c])) {
         const Vec3 u =
             vec3_sub(vec3_load(&line->position[3 * j]), vec3_load(&line->reference[3 * j]));
-        cut(least, j, weight, n, (line->gap[c] + vec3_dot(n, u)) / line->length);
+        add_half_space(least, j, weight, n, (line->gap[c] + vec3_dot(n, u)) / line->length);
     }
-    /* a bound that follows the reaction is none without it */
-    if ((mark & RUBS) && (bounds == CPSI_BOUNDS_FIXED || (mark & PRESSED)))
+    /* a coupled bound is zero without a reaction */
+    if ((mark & FRICTION) && (bounds == CPSI_BOUNDS_FIXED || (mark & ACTIVE)))
         restrict_slip(line, least, c, weight, basis, freedom);
 }
 
-/* The clusters, what each is free to do, and where each would go if nothing else were in its way:
- * to the mean of its nodes' ways back. Returns whether any may move. */
-static bool gather(const CpsiLine *line, CpsiLeastMotion *least, CpsiBounds bounds) {
+/* Build the clusters, their free directions, and the position that each would take by itself:
+ * translated by the mean displacement of its nodes back to the reference. Returns whether any may
+ * move. */
+static bool build_clusters(const CpsiLine *line, CpsiLeastMotion *least, CpsiBounds bounds) {
     CpsiNearestProgram *program = &least->program;
     bool any = false;
     int count = 0;
@@ -258,7 +261,8 @@ static bool gather(const CpsiLine *line, CpsiLeastMotion *least, CpsiBounds boun
             shift = vec3_axpy(vec3_dot(row(basis, i), back), row(basis, i), shift);
         for (int j = first; j < end; j++)
             vec3_store(&least->place[3 * j], vec3_add(vec3_load(&line->position[3 * j]), shift));
-        if (end == first + 1 && *freedom > 0) { /* one node: from the reference, without a detour */
+        if (end == first + 1 &&
+            *freedom > 0) { /* one node: computed from the reference, with fewer roundings */
             Vec3 place = vec3_load(&line->reference[3 * first]);
             for (int i = *freedom; i < 3; i++)
                 place = vec3_axpy(-vec3_dot(row(basis, i), back), row(basis, i), place);
@@ -272,8 +276,8 @@ static bool gather(const CpsiLine *line, CpsiLeastMotion *least, CpsiBounds boun
 
 /* the second program --------------------------------------------------------------------------- */
 
-/* By how much `place` is in its own way, per length of the line: elements too long, half-spaces
- * left. 0 where it is not. */
+/* The largest violation of constraints by `place`, per length of the line: elements too long,
+ * half-spaces left. 0 where there is none. */
 static double violation(const CpsiLine *line, const CpsiLeastMotion *least) {
     const CpsiHalfSpace *half = &least->program.half;
     double size = 0, most = 0;
@@ -294,9 +298,9 @@ static double violation(const CpsiLine *line, const CpsiLeastMotion *least) {
     return size;
 }
 
-/* Half-spaces as the clusters see them, from their places; those that concern nothing free are
- * dropped. */
-static void turn_halves(const CpsiLine *line, CpsiLeastMotion *least) {
+/* Express the half-spaces in the free directions of the clusters, from their new positions; those
+ * without a free component are dropped. */
+static void project_half_spaces(const CpsiLine *line, CpsiLeastMotion *least) {
     CpsiNearestProgram *program = &least->program;
     CpsiHalfSpace *half = &program->half;
     int kept = 0;
@@ -310,7 +314,7 @@ static void turn_halves(const CpsiLine *line, CpsiLeastMotion *least) {
             own[a] = vec3_dot(row(&least->basis[9 * cluster], a), n);
             size += own[a] * own[a];
         }
-        if (!(sqrt(size) > SAME)) continue;
+        if (!(sqrt(size) > PARALLEL)) continue;
         half->node[kept] = cluster;
         half->weight[kept] = half->weight[k];
         half->gap[kept] = half->gap[k] + vec3_dot(n, shift) / line->length;
@@ -320,8 +324,8 @@ static void turn_halves(const CpsiLine *line, CpsiLeastMotion *least) {
     half->count = kept;
 }
 
-/* Write the program: unknown is the way of each cluster from its place, first guess the place that
- * the round has found. */
+/* Write the program: the unknowns are the displacements of the clusters from `place`, the first
+ * guess is the configuration of the round. */
 static void fill(const CpsiLine *line, CpsiLeastMotion *least, double size) {
     CpsiNearestProgram *program = &least->program;
     CpsiChainProgram *chain = &program->chain;
@@ -348,7 +352,7 @@ static void fill(const CpsiLine *line, CpsiLeastMotion *least, double size) {
     }
 }
 
-/* Solve it; the places move to the solution. False where it is not to be had. */
+/* Solve it and move `place` to the solution. False where it is not solved. */
 static bool solve(const CpsiLine *line, CpsiLeastMotion *least, double size, int most,
                   int *iterations) {
     fill(line, least, size);
@@ -356,8 +360,8 @@ static bool solve(const CpsiLine *line, CpsiLeastMotion *least, double size, int
     const CpsiIpmOptions options = {.target = TARGET,
                                     .scale = 1,
                                     .max_iterations = most,
-                                    .centering_steps = CENTRINGS,
-                                    .sharpenings = SHARPENINGS};
+                                    .centering_steps = CENTERING_STEPS,
+                                    .sharpenings = REFINEMENT_STEPS};
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->chain.base, &options);
     *iterations += ipm.iterations;
     if (!(ipm.gap + ipm.residual + ipm.imbalance <= CLEAN)) return false;
@@ -372,26 +376,27 @@ static bool solve(const CpsiLine *line, CpsiLeastMotion *least, double size, int
     return true;
 }
 
-/* Take the places. A node that rounding has put below the plane of its contact is lifted to it. */
+/* Move the line to `place`. A node that is below the plane of its contact by rounding is moved onto
+ * it. */
 static void accept_places(CpsiLine *line, const CpsiLeastMotion *least) {
     memcpy(line->position, least->place, 3 * (size_t)line->n * sizeof *line->position);
     for (int c = 0; c < cpsi_line_contacts(line); c++) {
         const int j = cpsi_line_node(line, c);
-        if (least->program.freedom[least->cluster[j]] == 0 || (least->mark[c] & PRESSED) ||
+        if (least->program.freedom[least->cluster[j]] == 0 || (least->mark[c] & ACTIVE) ||
             !isfinite(line->gap[c]))
             continue;
         const Vec3 n = vec3_load(&line->normal[3 * c]), x = vec3_load(&line->position[3 * j]);
-        const double room =
+        const double gap =
             line->gap[c] + vec3_dot(n, vec3_sub(x, vec3_load(&line->reference[3 * j])));
-        if (room < 0) vec3_store(&line->position[3 * j], vec3_axpy(-room, n, x));
+        if (gap < 0) vec3_store(&line->position[3 * j], vec3_axpy(-gap, n, x));
     }
     for (int i = 1; i < line->n; i++)
         if (least->slack[i]) line->tension[i - 1] = 0;
 }
 
-/* Are elements kept out of obstacles in this round?  Their contacts tie two nodes each, which
- * clusters do not know. */
-static bool ties_nodes(const CpsiLine *line, const CpsiChainProgram *program) {
+/* Do elements have contacts in this round? Such a contact couples two nodes, for which clusters
+ * have no constraint. */
+static bool has_element_contacts(const CpsiLine *line, const CpsiChainProgram *program) {
     if (program)
         for (int k = 0; k < program->unilateral.count; k++)
             if (program->unilateral.contact[k] >= cpsi_line_contacts(line)) return true;
@@ -400,7 +405,7 @@ static bool ties_nodes(const CpsiLine *line, const CpsiChainProgram *program) {
 
 static bool is_slack_somewhere(const CpsiChainProgram *program) {
     for (int i = 1; i < program->n; i++)
-        if (!(program->segment.z[i][0] > LOOSE)) return true;
+        if (!(program->segment.z[i][0] > NO_FORCE)) return true;
     return false;
 }
 
@@ -411,17 +416,17 @@ void cpsi_places_as_found(CpsiLine *line, const CpsiChainProgram *program) {
 int cpsi_least_motion(CpsiLine *line, CpsiLeastMotion *least, const CpsiChainProgram *program,
                       CpsiBounds bounds, int max_iterations) {
     int iterations = 0;
-    if (ties_nodes(line, program)) {
+    if (has_element_contacts(line, program)) {
         cpsi_places_as_found(line, program);
         return 0;
     }
-    read_round(line, least, program);
+    read_solution(line, least, program);
     line->report.places = CPS_PLACES_UNIQUE;
-    const bool open = gather(line, least, bounds);
+    const bool open = build_clusters(line, least, bounds);
     if (!open && program) return 0;
-    turn_halves(line, least);
+    project_half_spaces(line, least);
     const double size = violation(line, least);
-    if (!open) { /* nothing can move, and it need not be a place */
+    if (!open) { /* nothing can move, and the positions need not be admissible */
         if (size > 0) line->report.places = CPS_PLACES_ANY;
         return 0;
     }

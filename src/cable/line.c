@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A line's arrays, its mesh, and the reaction of the bed on the shape it starts from. */
+/* A line's arrays, its mesh, and the reaction at its initial shape. */
 #include "cable/line.h"
 
 #include "base/larger.h"
@@ -24,21 +24,22 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->motion = CPSI_TAKE(arena, 3 * n, double);
     line->state = CPSI_TAKE(arena, contacts, unsigned char);
     line->slide = line->has_local_axes ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
-    line->round = line->has_local_axes ? CPSI_TAKE(arena, contacts, double) : NULL;
+    line->winding = line->has_local_axes ? CPSI_TAKE(arena, contacts, double) : NULL;
     line->base = line->has_local_axes ? CPSI_TAKE(arena, 3 * n, double) : NULL;
     line->axes = line->has_local_axes ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
-    line->first_axes = line->has_local_axes ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
+    line->reference_axes = line->has_local_axes ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
     line->curvature = line->has_local_axes ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
-    line->on = line->has_local_axes ? CPSI_TAKE(arena, contacts, int) : NULL;
-    line->pressed = line->has_local_axes ? CPSI_TAKE(arena, contacts, bool) : NULL;
+    line->obstacle_index = line->has_local_axes ? CPSI_TAKE(arena, contacts, int) : NULL;
+    line->active = line->has_local_axes ? CPSI_TAKE(arena, contacts, bool) : NULL;
     line->beta = line->element_contacts > 0 ? CPSI_TAKE(arena, n, double) : NULL;
-    line->carries = line->has_local_axes ? CPSI_TAKE(arena, n, double) : NULL;
-    line->trail = line->has_local_axes ? CPSI_TAKE(arena, 6 * (size_t)n, double) : NULL;
+    line->node_reaction = line->has_local_axes ? CPSI_TAKE(arena, n, double) : NULL;
+    line->watched = line->has_local_axes ? CPSI_TAKE(arena, 6 * (size_t)n, double) : NULL;
     if (line->has_local_axes) cpsi_anderson_layout(&line->anderson, arena, line->n);
     const bool inextensible = line->compliance == 0;
     line->tension_before = inextensible ? CPSI_TAKE(arena, n, double) : NULL;
     line->reaction_before = inextensible ? CPSI_TAKE(arena, contacts, double) : NULL;
-    line->on_before = inextensible && line->has_local_axes ? CPSI_TAKE(arena, contacts, int) : NULL;
+    line->obstacle_index_before =
+        inextensible && line->has_local_axes ? CPSI_TAKE(arena, contacts, int) : NULL;
 }
 
 double cpsi_line_largest_displacement(const CpsiLine *line, const double *from) {
@@ -83,7 +84,8 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
 }
 
 void cpsi_line_set_arc_length(CpsiLine *line) {
-    /* compensated: the last abscissa is the length to the last digit, for any number of elements */
+    /* compensated summation: the last abscissa is the length to rounding, for any number of
+     * elements */
     double sum = 0, carry = 0;
     line->arc_length[0] = 0;
     for (int e = 0; e + 1 < line->n; e++) {
@@ -94,7 +96,7 @@ void cpsi_line_set_arc_length(CpsiLine *line) {
 }
 
 /* The force K (|x'| - 1)^+ t of element e at `position`; 0 for an inextensible line, whose tension
- * shapes do not tell. */
+ * its shape does not determine. */
 static Vec3 start_force(const CpsiLine *line, int e) {
     const Vec3 dx =
         vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
@@ -117,6 +119,6 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));
         line->reaction[j] = reaction > 0 ? reaction : 0;
         line->state[j] = CPS_NODE_STICK;
-        if (line->has_local_axes) line->on[j] = on;
+        if (line->has_local_axes) line->obstacle_index[j] = on;
     }
 }

@@ -2,10 +2,11 @@
 /* One line and its last step: the data that a step reads and the fields that it leaves. World axes,
  * SI units.
  *
- * A node touches up to `contacts` obstacles at once. What belongs to a contact stands in arrays
- * (contacts, n): contact c is the first of node c, or the second of node c - n. Where there are
- * round obstacles, and contact is not strict, elements touch as well: contact contacts n + e is
- * that of element e, at the point of it that was nearest to the axis or centre. */
+ * A node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
+ * n): contact c < n is the first contact of node c, contact c >= n is the second contact of node c
+ * - n. Where there are round obstacles, and contact is not strict, elements touch as well: contact
+ * contacts n + e is that of element e, at the point of the element nearest to the axis or
+ * centre. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H
 
@@ -25,29 +26,30 @@ typedef struct CpsiLine {
     double length;           /* [m] natural */
     double compliance;       /* [1/N] 1/EA, 0: inextensible */
     double weight[3];        /* [N/m] per natural length */
-    double weight_before[3]; /* [N/m] where the part of the step began */
+    double weight_before[3]; /* [N/m] at the beginning of the substep */
     int obstacle_count;
-    const CpsiObstacle *obstacle;               /* (obstacle_count) */
-    const CpsiFrictionSet *const *friction_set; /* (obstacle_count) of those that have one, NULL: no
-                                                   friction; NULL: none has */
-    const double *turn;   /* (obstacle_count) [rad] by which each turns in this part of the step */
-    bool has_zones;       /* friction differs along the line */
-    bool has_local_axes;  /* nodes have axes of their own, which follow them: more than one plane
-                      with  isotropic friction */
-    int contacts;         /* of a node: 2 where there is more than one obstacle, else 1 */
-    int element_contacts; /* of an element: 1 where there is a round obstacle, else 0; the arrays
-                             (contacts, n) have so many rows more */
-    double common[9];     /* axes of the whole line: those of the one plane, or of the world */
-    CpsEnd end[2];        /* imposed now */
-    double *arc_length;   /* (n) [m] */
+    const CpsiObstacle *obstacle; /* (obstacle_count) */
+    const CpsiFrictionSet *const
+        *friction_set;  /* (obstacle_count) general friction sets; an entry NULL: a set that is {0},
+                           or none; NULL: no obstacle has one */
+    const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
+    bool has_zones;     /* friction differs along the line */
+    bool has_local_axes;    /* each contact has its own axes at its position: not on a single plane
+                               with isotropic friction */
+    int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
+    int element_contacts;   /* of an element: 1 where there is a round obstacle, else 0; the arrays
+                               (contacts, n) have as many more rows */
+    double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
+    CpsEnd end[2];          /* imposed now */
+    double *arc_length;     /* (n) [m] */
     double *element_length; /* (n - 1) [m] element e joins nodes e and e + 1 */
     /* the step */
     double *reference; /* (n, 3) [m] */
     double *position;  /* (n, 3) [m] */
     double *load;      /* (n, 3) [N] */
     double *normal;    /* (contacts, n, 3) */
-    double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact looked
-                    for */
+    double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: the contact does
+                    not enter the program */
     double *friction_factor;       /* (n) of the obstacles' coefficients; NULL: 1 */
     CpsiFrictionLaw *friction_law; /* (contacts, n) of the obstacle that each contact is with */
     double *friction_bound;        /* (contacts, n) [N] */
@@ -57,61 +59,65 @@ typedef struct CpsiLine {
     double *tension;               /* (n - 1) [N] */
     double *motion;                /* (n, 3) [-] of a line that slides without end, else 0 */
     unsigned char *state;          /* (contacts, n) CpsNodeState */
-    /* where `follows`, else NULL: what each node sees of the obstacles, from its place `base` */
+    /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
     double
-        *slide; /* (contacts, n, 3) [m] way of the node on the obstacle in this step, tangential */
-    /* (contacts, n) [rad] by which the node has gone round the contact's obstacle in this step: on
-     * a cylinder the sum over the rounds, which may exceed a turn; on a ball the angle of the great
-     * circle */
-    double *round;
-    double *base;       /* (n, 3) [m] */
-    double *axes;       /* (contacts, n, 9) rows first tangent, second tangent, normal */
-    double *first_axes; /* (contacts, n, 9) the same at the reference: those of frozen friction */
-    double *curvature;  /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
-    int *on; /* (contacts, n) the nearest obstacle, and the next; of an element the one that it is
-                kept out of; -1: none */
-    double *beta; /* (n) where on its way from node e to e + 1 element e touches; NULL without such
-                     contacts */
-    double *carries; /* (n) [N] reactions that act on the node, also by its elements */
-    bool *pressed;   /* (contacts, n) in the last solution: of reaction and distance, it is the
-                        reaction that is not 0 */
-    bool gains;      /* contact is looked for everywhere */
-    bool frozen; /* friction keeps the bounds and axes of the reference while contact is looked for
-                    where the nodes are */
-    double *trail;         /* (n, 3) [m] where rounds with drag began to be watched */
+        *slide; /* (contacts, n, 3) [m] slip of the node on the obstacle in this step, tangential */
+    /* (contacts, n) [rad] angle by which the node has moved round the contact's obstacle in this
+     * step: on a cylinder the sum over the rounds, which may exceed a turn; on a ball the angle of
+     * the great circle */
+    double *winding;
+    double *base; /* (n, 3) [m] */
+    double *axes; /* (contacts, n, 9) rows first tangent, second tangent, normal */
+    double
+        *reference_axes; /* (contacts, n, 9) the same at the reference: those of frozen friction */
+    double *curvature;   /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
+    int *obstacle_index; /* (contacts, n) the obstacle of each contact: the nearest and the next; of
+                            an element the one with which it is in contact; -1: none */
+    double *beta; /* (n) share of element e, from node e to e + 1, at which it touches; NULL without
+                     such contacts */
+    double *node_reaction; /* (n) [N] sum of the reactions on the node and on its elements */
+    bool *active; /* (contacts, n) the constraint is active in the last solution: the reaction
+                     exceeds the distance, both in units of the program */
+    bool contact_everywhere; /* contacts are detected everywhere, not only where the reference
+                                touches */
+    bool frozen; /* friction keeps the bounds and axes of the reference while contacts are detected
+                    at the present positions */
+    double *watched;       /* (2 n, 3) [m] positions from which the progress of rounds with drag is
+                              measured */
     CpsiAnderson anderson; /* of the rounds of a step */
-    /* where it is inextensible, else NULL: what its tensions and reactions were before the step,
-     * and room to choose among those after */
-    double *tension_before;  /* (n - 1) [N] T_R */
-    double *reaction_before; /* (contacts, n) [N] */
-    int *on_before;          /* (contacts, n) where `follows`, as `on` */
+    /* where the line is inextensible, else NULL: its tensions and reactions before the step, and
+     * scratch memory for the choice among those after it */
+    double *tension_before;     /* (n - 1) [N] T_R */
+    double *reaction_before;    /* (contacts, n) [N] */
+    int *obstacle_index_before; /* (contacts, n) with has_local_axes, as obstacle_index */
     struct CpsiForceSet *forces;
-    bool tight; /* taut and stuck only where the places say so to rounding: else what was chosen
-                   could not be certified */
+    bool exact; /* segments are taut and contacts stick only where positions show it to rounding:
+                   otherwise the chosen forces could not be certified */
     CpsLineReport report;
 } CpsiLine;
 
-/* Place the arrays of a line of line->n nodes in the arena; line->follows, line->contacts,
+/* Place the arrays of a line of line->n nodes in the arena; line->has_local_axes, line->contacts,
  * line->has_zones and line->compliance are set. */
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 
 /* Fill the arc length from element_length. */
 void cpsi_line_set_arc_length(CpsiLine *line);
 
-/* [m] Natural length that node j stands for: half of its elements. */
+/* [m] Natural length that node j represents: half of its elements. */
 static inline double cpsi_line_share(const CpsiLine *line, int j) {
     const double before = j > 0 ? line->element_length[j - 1] : 0;
     const double after = j + 1 < line->n ? line->element_length[j] : 0;
     return 0.5 * (before + after);
 }
 
-/* Contacts of all nodes, and the node of one. */
+/* The number of contacts of all nodes, and the node of one. */
 static inline int cpsi_line_contacts(const CpsiLine *line) { return line->contacts * line->n; }
 static inline int cpsi_line_node(const CpsiLine *line, int c) {
     return c < line->n ? c : c - line->n;
 }
 
-/* Those of the elements with them; the element of a contact, -1 of a node's. */
+/* The number of all contacts, those of elements included; the element of a contact, -1 for that of
+ * a node. */
 static inline int cpsi_line_all_contacts(const CpsiLine *line) {
     return (line->contacts + line->element_contacts) * line->n;
 }
@@ -119,12 +125,13 @@ static inline int cpsi_line_element(const CpsiLine *line, int c) {
     return c < cpsi_line_contacts(line) ? -1 : c - cpsi_line_contacts(line);
 }
 
-/* How much a contact of element e acts on its node j. */
+/* Share of the force of a contact of element e that acts on its node j. */
 static inline double cpsi_line_part(const CpsiLine *line, int e, int j) {
     return j == e ? 1 - line->beta[e] : line->beta[e];
 }
 
-/* The place x (n, 3) of contact c: of its node, or of the point of its element. */
+/* The position of contact c in the positions x (n, 3): of its node, or of the point of its
+ * element. */
 static inline Vec3 cpsi_line_place(const CpsiLine *line, const double *x, int c) {
     const int e = cpsi_line_element(line, c);
     if (e < 0) return vec3_load(&x[3 * cpsi_line_node(line, c)]);
@@ -132,7 +139,7 @@ static inline Vec3 cpsi_line_place(const CpsiLine *line, const double *x, int c)
     return vec3_axpy(line->beta[e], vec3_sub(b, a), a);
 }
 
-/* [m] Natural length that contact c stands for. */
+/* [m] Natural length that contact c represents. */
 static inline double cpsi_line_contact_share(const CpsiLine *line, int c) {
     const int e = cpsi_line_element(line, c);
     return e < 0 ? cpsi_line_share(line, cpsi_line_node(line, c)) : line->element_length[e];
@@ -144,7 +151,7 @@ static inline bool cpsi_line_is_held(const CpsiLine *line, int j) {
            (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
 }
 
-/* Is what touches at contact c held? */
+/* Is the node, or the whole element, of contact c held? */
 static inline bool cpsi_line_is_contact_held(const CpsiLine *line, int c) {
     const int e = cpsi_line_element(line, c);
     if (e < 0) return cpsi_line_is_held(line, cpsi_line_node(line, c));
@@ -153,22 +160,23 @@ static inline bool cpsi_line_is_contact_held(const CpsiLine *line, int c) {
 
 /* The obstacle of contact c, or NULL; the axes of its friction. */
 static inline const CpsiObstacle *cpsi_line_obstacle(const CpsiLine *line, int c) {
-    if (line->has_local_axes) return line->on[c] >= 0 ? &line->obstacle[line->on[c]] : NULL;
+    if (line->has_local_axes)
+        return line->obstacle_index[c] >= 0 ? &line->obstacle[line->obstacle_index[c]] : NULL;
     return line->obstacle_count > 0 ? line->obstacle : NULL;
 }
 
 static inline const double *cpsi_line_axes(const CpsiLine *line, int c) {
-    if (line->frozen) return &line->first_axes[9 * c];
-    return line->has_local_axes ? &line->axes[9 * c] : line->common;
+    if (line->frozen) return &line->reference_axes[9 * c];
+    return line->has_local_axes ? &line->axes[9 * c] : line->common_axes;
 }
 
-/* The normal of the plane in which contact c rubs: that of the contact, but where friction is
- * frozen that of the reference. */
+/* The normal of the plane of friction of contact c: that of the contact, or with frozen friction
+ * that of the reference. */
 static inline Vec3 cpsi_line_friction_normal(const CpsiLine *line, int c) {
-    return vec3_load(line->frozen ? &line->first_axes[9 * c + 6] : &line->normal[3 * c]);
+    return vec3_load(line->frozen ? &line->reference_axes[9 * c + 6] : &line->normal[3 * c]);
 }
 
-/* [m] The way of the node on the obstacle of contact c in this step. */
+/* [m] The slip of contact c on its obstacle in this step. */
 static inline Vec3 cpsi_line_slide(const CpsiLine *line, int c) {
     if (line->has_local_axes) return vec3_load(&line->slide[3 * c]);
     const Vec3 u = vec3_sub(vec3_load(&line->position[3 * c]), vec3_load(&line->reference[3 * c]));
@@ -176,20 +184,20 @@ static inline Vec3 cpsi_line_slide(const CpsiLine *line, int c) {
     return vec3_axpy(-vec3_dot(u, n), n, u);
 }
 
-/* [m] The longest way of a node from place `from` (n, 3) to where it is. */
+/* [m] The largest displacement of a node from the positions `from` (n, 3). */
 double cpsi_line_largest_displacement(const CpsiLine *line, const double *from);
 
 /* The obstacle nearest to a point (-1: none) and the distance to it (INFINITY). */
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap);
 
-/* [m] How deep an element lies in a round obstacle, beyond what its chord may cut in
- * (cpsi_obstacle_allowance), at `position`: the worst of all, and which obstacle that is; 0 and -1
- * where there is none. */
+/* [m] The largest penetration of an element into a round obstacle at `position`, beyond the
+ * allowance of its chord (cpsi_obstacle_allowance), and that obstacle; 0 and -1 where there is
+ * none. */
 double cpsi_line_pierces(const CpsiLine *line, int *obstacle);
 
-/* The reaction at a start that is given as a shape: R = -(dT/da + w).n where it touches, T from its
- * own strain (S90 section 2 d 2). Sets reaction and state at `position`; `touch` [m] is how near
- * counts as touching. */
+/* The reaction at an initial configuration given as a shape: R = -(dT/da + w).n where it touches, T
+ * from its own strain (S90 section 2 d 2). Sets reaction and state at `position`; nodes nearer than
+ * `touch` [m] touch. */
 void cpsi_line_start_reaction(CpsiLine *line, double touch);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One program of a step, solved, and what has been found judged (line_solve.h). */
+/* One program of a step and the check of its result (line_solve.h). */
 #include "cable/line_solve.h"
 
 #include <float.h>
@@ -17,19 +17,20 @@ static const int CENTERING_STEPS = 2;
 /* Steps after these towards smaller complementarity products: each halves the spurious slip of a
  * node at its limit, and takes two digits off what the force of a slipping node lacks. */
 static const int REFINEMENT_STEPS = 6;
-/* No step takes a node this many lengths away: it was on its way to nowhere. */
+/* A solution with a node farther away than this many line lengths is treated as unbounded. */
 static const double MAX_DISPLACEMENT = 1e4;
-/* A reference this much tighter than the loads and the ends explain. */
+/* Reference tensions above this multiple of the load scale count as prestress and set the force
+ * scale. */
 static const double PRESTRESS_FACTOR = 100;
-/* ... and, where nothing else asks for any force, by more than this strain: less is what rounding
- * leaves of |x'| <= 1. */
+/* ... if, where there are no other forces, their strain is above this: a smaller one is the
+ * rounding error of |x'| <= 1. */
 static const double LEAST_STRAIN = 1e-12;
-/* A taut line's forces are those of a line longer by this share. */
+/* The forces of a taut line are computed for a line longer by this share. */
 static const double TAUT_SLACK = 1e-9;
-/* Places are known to this share of the length, and no element of an inextensible line is longer by
- * more. */
-static const double PLACES = CPSI_TOUCH;
-/* A reaction below this share of the unit of force is rounding where the node is apart. */
+/* Accuracy of positions relative to the length, and largest elongation of an inextensible
+ * element. */
+static const double POSITION_TOL = CPSI_TOUCH;
+/* A reaction of an open contact below this share of the unit of force is rounding. */
 static const double LEAST_REACTION = 1e-12;
 
 void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
@@ -58,14 +59,14 @@ bool cpsi_line_is_taut(const CpsiLine *line) {
 }
 
 /* A force of the size of the tension to come: the largest of the weight, the forces applied, and
- * for two held ends the T of a shallow line, c T - (W/T)^2/24 = distance/L - 1. 0 if nothing asks
- * for any force. */
+ * for two held ends the T of a shallow line, c T - (W/T)^2/24 = distance/L - 1. 0 if there is no
+ * force at all. */
 static double force_scale(const CpsiLine *line, double distance) {
     const double strain = distance / line->length - 1, c = line->compliance;
     double weight = line->length * vec3_norm(vec3_load(line->weight)), scale = weight;
     for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
     if (!cpsi_line_both_ends(line, CPS_END_HELD) || (scale == 0 && strain <= 0)) return scale;
-    /* the left side grows with T: bracket by doubling, then halve */
+    /* the left side grows with T: bracket the root by doubling, then bisect */
     double low = scale > 0 ? scale : DBL_MIN, high = low;
     while (high < 1e300 && c * high - (weight / high) * (weight / high) / 24 < strain) high *= 2;
     for (int i = 0; i < 60 && high > 1.001 * low; i++) {
@@ -78,7 +79,7 @@ static double force_scale(const CpsiLine *line, double distance) {
     return high < 1e300 ? high : scale;
 }
 
-/* A taut line is straight, each element at its share of the span. */
+/* Place the nodes of a taut line on the straight line between its ends. */
 static void straighten(CpsiLine *line) {
     const Vec3 a = vec3_load(line->end[CPS_END_A].value), b = vec3_load(line->end[CPS_END_B].value);
     for (int j = 1; j + 1 < line->n; j++)
@@ -93,38 +94,38 @@ bool cpsi_line_is_near(const CpsiLine *line) {
     return true;
 }
 
-/* Is the line where the step can have taken it, and clear of the obstacles that keep it out?
- * Strict contact with frozen friction sees them from the reference only, from where the line goes
- * straight and passes none. */
+/* Can the step have moved the line to its position, and does the line not penetrate obstacles?
+ * Strict contact with frozen friction knows the contacts of the reference only; there the straight
+ * path from the reference must not pass an obstacle. */
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool consistent = line->has_local_axes && options->friction == CPS_FRICTION_CONSISTENT;
     if ((consistent || line->frozen) &&
         !(cpsi_contact_depth(line) <= 0.1 * CPSI_TOUCH * line->length))
         return false;
-    /* strict contact keeps out nodes that touched, and nothing else (S90 (35)) */
-    if (line->gains &&
+    /* strict contact restricts nodes that touched, and nothing else (S90 (35)) */
+    if (line->contact_everywhere &&
         !(line->report.certificate.element_penetration <= 0.1 * CPSI_TOUCH * line->length))
         return false;
     const bool straight =
         line->has_local_axes && !consistent && !line->frozen && !options->frictionless;
     if (straight && cpsi_obstacle_side_share(line, line->reference, line->position, 1) < 1)
         return false;
-    if (consistent && !cpsi_law_refcount(line, options->solver.tolerance)) return false;
+    if (consistent && !cpsi_friction_law_is_satisfied(line, options->solver.tolerance))
+        return false;
     return cpsi_line_is_near(line);
 }
 
-/* What the gap may hide where other forces are large. An element that pushes with P costs 2 P |e|
- * l, of first order, and is held to the tolerance of the largest force; one that is longer by x
- * than its force makes it costs l x^2/(2c), of second order, and is held to the tolerance's
- * root. */
-static bool is_a_line(const CpsCertificate *c, double tolerance) {
+/* Are the segments accurate even where other forces are large, so that the gap may hide their
+ * errors? An element that pushes with P costs 2 P |e| l, of first order, and is held to the
+ * tolerance of the largest force; one that is longer by x than its force makes it costs l x^2/(2c),
+ * of second order, and is held to the tolerance's root. */
+static bool segments_are_consistent(const CpsCertificate *c, double tolerance) {
     return c->element_push <= tolerance * c->largest_force &&
            c->elongation_residual <= sqrt(tolerance);
 }
 
-/* The iterate of the loop as a certified answer, or what it is instead. The loop's own residuals
- * (tensions against elongations, positions against distances) must be well below the tolerance too,
- * but not below what rounding leaves. */
+/* The loop's own residuals (tensions against elongations, positions against distances) must be well
+ * below the tolerance too, but need not be below rounding. */
 CpsOutcome cpsi_line_outcome(const CpsiLine *line, const CpsiStepOptions *options,
                              const CpsiIpmReport *ipm) {
     const CpsCertificate *c = &line->report.certificate;
@@ -133,12 +134,11 @@ CpsOutcome cpsi_line_outcome(const CpsiLine *line, const CpsiStepOptions *option
     const bool consistent = options->friction == CPS_FRICTION_FROZEN ||
                             c->friction_residual <= CPSI_CLEAN * c->largest_force;
     if (finite && consistent && ipm->residual <= fmax(0.01 * tolerance, CPSI_CLEAN) &&
-        c->gap <= tolerance * c->scale && c->stretch_residual <= fmin(tolerance, PLACES) &&
-        is_a_line(c, tolerance) && c->force_residual <= CPSI_CLEAN * c->largest_force &&
-        is_in_place(line, options))
-        return cpsi_line_is_taut(line) ? CPS_OUTCOME_TAUT : CPS_OUTCOME_SOLVED;
-    return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_OUTCOME_ITERATION_LIMIT
-                                                    : CPS_OUTCOME_STALLED;
+        c->gap <= tolerance * c->scale && c->stretch_residual <= fmin(tolerance, POSITION_TOL) &&
+        segments_are_consistent(c, tolerance) &&
+        c->force_residual <= CPSI_CLEAN * c->largest_force && is_in_place(line, options))
+        return cpsi_line_is_taut(line) ? CPS_TAUT : CPS_SOLVED;
+    return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
 }
 
 void cpsi_line_release_open_contacts(CpsiLine *line, const CpsiChainProgram *program) {
@@ -199,8 +199,8 @@ static int most_iterations(const CpsiLine *line, const CpsiStepOptions *options)
     return options->solver.max_iterations + (doublings > 0 ? (int)(PER_DOUBLING * doublings) : 0);
 }
 
-/* A line that nothing loads: no force, no friction, no reaction, and the place of least motion.
- * False where there is no such place: something must hold it then. */
+/* A line without loads: no force, no friction, no reaction, and the position of least motion. False
+ * where there is no such position: then forces must hold the line. */
 static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program,
                            const CpsiStepOptions *options, const CpsiRound *round) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
@@ -215,7 +215,7 @@ static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program,
     memset(line->tension, 0, n * sizeof *line->tension);
     if (round->bounds != CPSI_BOUNDS_FIXED)
         memset(line->friction_bound, 0, contacts * sizeof *line->friction_bound);
-    if (line->has_local_axes) memset(line->pressed, 0, contacts * sizeof *line->pressed);
+    if (line->has_local_axes) memset(line->active, 0, contacts * sizeof *line->active);
     line->report.iterations +=
         cpsi_least_motion(line, round->least, NULL, round->bounds, most_iterations(line, options));
     if (line->report.places == CPS_PLACES_ANY) return false;

@@ -158,15 +158,15 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
 
 /* the step ------------------------------------------------------------------------------------- */
 
-/* Is every number of the answer one? */
+/* Are all numbers of the certificate finite? */
 static bool is_finite(const CpsiLine *line) {
     const CpsCertificate *c = &line->report.certificate;
     return isfinite(c->primal) && isfinite(c->dual) && isfinite(c->gap) && isfinite(c->scale) &&
            isfinite(c->force_residual);
 }
 
-/* Back to the reference, without forces: what is reported where arithmetic has broken down, or the
- * line was on its way to nowhere. */
+/* Reset the line to the reference, without forces: this is reported where arithmetic has broken
+ * down or the solution is unbounded. */
 static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     const CpsiIpmReport none = {.outcome = CPSI_IPM_STALLED};
@@ -184,13 +184,16 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.outcome = CPS_OUTCOME_STALLED;
 }
 
-/* What the tensions of an inextensible line, and the reactions in corners, are to be near to. */
-static void remember(CpsiLine *line) {
+/* Store the forces before the step, to which the tensions of an inextensible line and its reactions
+ * in corners are to be nearest. */
+static void store_forces_before(CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (!line->forces) return;
     memcpy(line->tension_before, line->tension, (n - 1) * sizeof *line->tension);
     memcpy(line->reaction_before, line->reaction, contacts * sizeof *line->reaction);
-    if (line->has_local_axes) memcpy(line->on_before, line->on, contacts * sizeof *line->on);
+    if (line->has_local_axes)
+        memcpy(line->obstacle_index_before, line->obstacle_index,
+               contacts * sizeof *line->obstacle_index);
 }
 
 /* Free, stick and slip, and the sums that go with them. */
@@ -200,8 +203,8 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
     cpsi_line_classify(line, program);
 }
 
-/* The forces of an inextensible line, where its place leaves a choice: those nearest to the forces
- * before, if they can be certified. */
+/* Where the position of an inextensible line does not determine its forces: choose those nearest to
+ * the forces before the step, if they can be certified. */
 static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
                           const CpsiStepOptions *options) {
     if (!line->forces || !cps_outcome_is_certified(line->report.outcome)) return;
@@ -209,9 +212,9 @@ static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
     const CpsCertificate before = line->report.certificate;
     const CpsOutcome outcome = line->report.outcome;
     cpsi_force_set_keep(line->forces, line);
-    for (int tight = 0; tight < 2; tight++) {
-        line->tight = tight;
-        if (cpsi_line_tension_field(line, line->forces, options, tight)) {
+    for (int exact = 0; exact < 2; exact++) {
+        line->exact = exact;
+        if (cpsi_line_tension_field(line, line->forces, options, exact)) {
             cpsi_line_certify(line, options, &done);
             if (cps_outcome_is_certified(line->report.outcome)) {
                 classify(line, program);
@@ -224,8 +227,9 @@ static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
     }
 }
 
-/* Where a line's ends are before a step: where they stay if there is no equilibrium. */
-static void keep_ends(CpsiLine *line) {
+/* Report the ends of the line where they are before the step, which is where they stay if there is
+ * no equilibrium. */
+static void report_initial_ends(CpsiLine *line) {
     line->report = (CpsLineReport){.pierced = -1, .proof_obstacle = -1};
     for (int end = 0; end < 2; end++) {
         memcpy(line->report.end[end].position,
@@ -238,7 +242,7 @@ bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *opti
                                      double margin) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (options->friction != CPS_FRICTION_CONSISTENT || options->frictionless) return false;
-    keep_ends(line);
+    report_initial_ends(line);
     cpsi_line_set_reference(line, options);
     if (!cpsi_line_slides_endlessly(line, margin)) return false;
     line->report.outcome = CPS_OUTCOME_SLIDES;
@@ -251,7 +255,7 @@ bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *opti
 bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) {
     CpsiShortfall shortfall;
     if (!cpsi_line_falls_short(line, options, &shortfall)) return false;
-    keep_ends(line);
+    report_initial_ends(line);
     cpsi_line_set_reference(line, options);
     line->report.outcome = CPS_OUTCOME_INFEASIBLE;
     vec3_store(line->report.proof, shortfall.leaves);
@@ -260,8 +264,8 @@ bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) 
     return true;
 }
 
-/* The bend at which the mesh changes the law of friction most; beyond all friction it is no
- * answer. */
+/* Report the bend at which the mesh changes the friction law most. If it holds any tension, the
+ * step is not certified. */
 static void report_bend(CpsiLine *line) {
     line->report.bend = cpsi_line_bend(line);
     if (cps_outcome_is_certified(line->report.outcome) && cpsi_bend_locks(&line->report.bend))
@@ -270,8 +274,8 @@ static void report_bend(CpsiLine *line) {
 
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const CpsLineReport before = line->report;
-    keep_ends(line);
-    remember(line);
+    report_initial_ends(line);
+    store_forces_before(line);
     cpsi_line_set_reference(line, options);
     if (cpsi_line_stands_still(line, options, &before)) {
         cpsi_line_pierces(line, &line->report.pierced);
@@ -290,8 +294,8 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     cpsi_line_pierces(line, &line->report.pierced);
     classify(line, program);
     choose_forces(line, program, options);
-    /* contacts that are free may have come to other obstacles in the last round; the forces of the
-     * others are those that were certified */
+    /* free contacts may be nearest to other obstacles after the last round; the other contacts keep
+     * the forces that were certified */
     const bool looked = line->has_local_axes &&
                         (options->friction == CPS_FRICTION_CONSISTENT || options->frictionless);
     if ((looked || line->frozen) && line->contacts > 1) {

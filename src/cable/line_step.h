@@ -12,19 +12,20 @@
  * line->end.
  *
  *   line      reads position, reaction, state; writes every field and the report. Where there is no
- *             equilibrium (infeasible, unbounded) position, reaction and state stay.
- *   program   scratch laid out for at least line->n nodes
+ * equilibrium (infeasible, unbounded) position, reaction and state are not changed. program scratch
+ * memory for at least line->n nodes
  *
  * Allocates nothing. */
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options);
 
-/* Instead of a step that finds no answer: does the line slide along itself without end, by this
- * margin (endless_slide.h)?  Then the report says so, and position, reaction and state stay.
- * Coulomb's friction alone; frozen friction has bounds that no tension raises. */
+/* After a step that finds no solution: does the line slide along itself without end, by this margin
+ * (endless_slide.h)? If so it is reported, and position, reaction and state are not changed. For
+ * consistent friction only, since frozen bounds do not grow with the tension. */
 bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *options, double margin);
 
-/* Before a step is tried: is the line too short to reach round an obstacle to where its ends are to
- * be (shortfall.h)?  Then the report says so, and position, reaction and state stay. */
+/* Before a step is solved: is the line too short to reach round an obstacle to the imposed
+ * positions of its ends (shortfall.h)? If so it is reported, and position, reaction and state are
+ * not changed. */
 bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options);
 
 #endif

@@ -2,20 +2,20 @@
 /* The mesh estimate (docs/theory.md 4, "What it says of the mesh").
  *
  * The forces of a step balance for the continuous line too, p(a) = p_i - q s at s from the middle
- * of element i, q the weight per length; what is wrong is the shape. An element's chord is l (t + c
- * p_i), the line's own is the integral of t(p) + c p, and they differ by
+ * of element i, q the weight per length; only the shape has an error. The chord of an element is l
+ * (t + c p_i), that of the continuous line is the integral of t(p) + c p, and they differ by
  *
  *     e_i = (l^3/24 T^2) (2 (q.t) q_n + |q_n|^2 t),      q_n = q - (q.t) t
  *
- * A span between two supports is held at both: the sum of its e_i must be made up by a change f of
- * the force in it, with
+ * A span is held at its two supports: the sum of its e_i must be compensated by a change f of the
+ * force in it, with
  *
  *     [ sum l ((1/T + c)(I - t t^T) + c t t^T) + sliding lengths beside it c d d^T ] f = - sum e_i
  *
  * At a touchdown on a plane the curve begins between nodes, where the force's normal part is 0:
  * with v = p.n/|q.n| for the element there this adds (|q.n|/2H) (l/2 - v)^2 along the normal. Bends
- * over curved obstacles add what a polygon's friction differs from exp(mu turn). A span with a free
- * end carries what is given. */
+ * over curved obstacles add the difference between the friction of a polygonal line and exp(mu
+ * turn). The force in a span with a free end is given. */
 #include "cable/mesh_error.h"
 
 #include <math.h>
@@ -29,8 +29,8 @@ typedef struct Span {
 
 static Vec3 force_of(const CpsiLine *line, int e) { return vec3_load(&line->segment_force[3 * e]); }
 
-/* The contact that carries node j, or -1. */
-static int carried_by(const CpsiLine *line, int j) {
+/* The contact of node j with the largest reaction, or -1. */
+static int carrying_contact(const CpsiLine *line, int j) {
     int best = -1;
     for (int c = j; c < cpsi_line_contacts(line); c += line->n)
         if (line->state[c] != CPS_NODE_FREE &&
@@ -40,7 +40,7 @@ static int carried_by(const CpsiLine *line, int j) {
 }
 
 static bool is_support(const CpsiLine *line, int j) {
-    return cpsi_line_is_held(line, j) || carried_by(line, j) >= 0;
+    return cpsi_line_is_held(line, j) || carrying_contact(line, j) >= 0;
 }
 
 /* m += along d d^T + across (I - d d^T), d a unit vector */
@@ -52,7 +52,7 @@ static void add_compliance(double m[9], Vec3 d, double along, double across) {
     }
 }
 
-/* Element e of a span; false: it weighs more than it is tight. */
+/* Add element e of a span; false: its weight exceeds its tension. */
 static bool add_element(const CpsiLine *line, int e, Span *span) {
     const Vec3 p = force_of(line, e), q = vec3_load(line->weight);
     const double l = line->element_length[e], tension = vec3_norm(p);
@@ -66,37 +66,36 @@ static bool add_element(const CpsiLine *line, int e, Span *span) {
     return true;
 }
 
-/* The span's end at node j, its element e beside it and `inward` the step to the next node outside
- * the span. */
+/* Add the support of the span at node j, with e the span's element beside it and j + `inward` the
+ * next node outside the span. */
 static void add_support(const CpsiLine *line, int j, int e, int inward, Span *span) {
-    const int c = carried_by(line, j);
+    const int c = carrying_contact(line, j);
     if (cpsi_line_is_held(line, j) || c < 0) return;
     const Vec3 n = vec3_load(&line->normal[3 * c]), q = vec3_load(line->weight),
                p = force_of(line, e);
-    const double second_reaction_change = -vec3_dot(q, n), l = line->element_length[e];
+    const double normal_load = -vec3_dot(q, n), l = line->element_length[e];
     const Vec3 flat = vec3_axpy(-vec3_dot(p, n), n, p);
     const double tight = vec3_norm(flat);
     if (!(tight > 0)) return;
-    if (cpsi_line_obstacle(line, c)->kind == CPS_OBSTACLE_PLANE && second_reaction_change > 0) {
-        const double off = 0.5 * l - fabs(vec3_dot(p, n)) / second_reaction_change;
-        span->defect =
-            vec3_axpy(inward * second_reaction_change / (2 * tight) * off * off, n, span->defect);
+    if (cpsi_line_obstacle(line, c)->kind == CPS_OBSTACLE_PLANE && normal_load > 0) {
+        const double off = 0.5 * l - fabs(vec3_dot(p, n)) / normal_load;
+        span->defect = vec3_axpy(inward * normal_load / (2 * tight) * off * off, n, span->defect);
     }
-    /* what slides beside the span gives way as it stretches; up to a free end it is drawn along */
+    /* the sliding part beside the span stretches; if it reaches a free end it is drawn along */
     double slides = 0;
     int k = j;
     for (int next; next = k + inward, next >= 0 && next < line->n; k = next) {
-        const int at = carried_by(line, k);
+        const int at = carrying_contact(line, k);
         if (at < 0 || line->state[at] != CPS_NODE_SLIP) break;
         slides += line->element_length[inward < 0 ? next : k];
     }
-    const int last = carried_by(line, k);
+    const int last = carrying_contact(line, k);
     const bool drawn = (k == 0 || k == line->n - 1) && !cpsi_line_is_held(line, k) && last >= 0 &&
                        line->state[last] == CPS_NODE_SLIP;
-    const double gives =
+    const double compliance =
         drawn ? 1e6 * (span->compliance[0] + span->compliance[4] + span->compliance[8])
               : slides * line->compliance;
-    add_compliance(span->compliance, vec3_scale(1 / tight, flat), gives, 0);
+    add_compliance(span->compliance, vec3_scale(1 / tight, flat), compliance, 0);
 }
 
 /* [N] Largest change of the tension in the span of elements first..last. */
@@ -124,10 +123,10 @@ static double span_error(const CpsiLine *line, int first, int last) {
     return worst;
 }
 
-/* By what part friction over the bend at node j differs from that of an arc, where it slips on a
- * curved obstacle. */
+/* The difference of the logarithms of the tension ratios over the bend at node j and over an arc,
+ * where the node slips on a curved obstacle. */
 static double bend_error(const CpsiLine *line, int j) {
-    const int c = carried_by(line, j);
+    const int c = carrying_contact(line, j);
     if (j == 0 || j == line->n - 1 || c < 0 || line->state[c] != CPS_NODE_SLIP ||
         !(line->reaction[c] > 0))
         return 0;
@@ -145,8 +144,9 @@ double cpsi_mesh_error(const CpsiLine *line) {
     for (int j = 0; j < line->n; j++) bends += bend_error(line, j);
     for (int first = 0, e = 0; e + 1 < line->n; e++) {
         if (e + 2 < line->n && !is_support(line, e + 1)) continue;
-        /* between two nodes that lie on a plane there is nothing to hang */
-        const bool lies = e == first && carried_by(line, e) >= 0 && carried_by(line, e + 1) >= 0;
+        /* an element whose two nodes touch does not hang */
+        const bool lies =
+            e == first && carrying_contact(line, e) >= 0 && carrying_contact(line, e + 1) >= 0;
         const double error = lies ? 0 : span_error(line, first, e);
         if (!(error <= worst)) worst = error;
         if (isnan(worst)) return NAN;

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far off the tension is because elements have a length: an estimate from the step's own
- * answer. */
+/* Estimate of the discretisation error of the tension, from the step's own solution. */
 #ifndef CAPSTAN_SRC_CABLE_MESH_ERROR_H
 #define CAPSTAN_SRC_CABLE_MESH_ERROR_H
 
 #include "cable/line.h"
 
 /* [N] Estimate of the largest error of the tension in the line, to leading order in the elements'
- * lengths; NaN where the answer says nothing of it: an element that weighs more than it is tight.
- * Reads segment forces, contacts and states; O(nodes). */
+ * lengths; NaN where no estimate is possible: the weight of an element exceeds its tension. Reads
+ * segment forces, contacts and states; O(nodes). */
 double cpsi_mesh_error(const CpsiLine *line);
 
 #endif

@@ -1,38 +1,38 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far a move may go without passing an obstacle (obstacle_side.h).
+/* The admissible share of a move that must not pass an obstacle (obstacle_side.h).
  *
- * Seen from the axis or the centre, with d the direction to the nearest point of an element, the
- * whole element lies beyond the plane across d through that point. As its ends go straight it stays
- * beyond the plane across d at the distance allowed, and so as far away, up to the first time that
- * an end meets this plane. There d is taken anew. An element that only passes by meets no plane,
- * one that comes straight in meets the first where it may go no farther, and every time so found is
- * safe. */
+ * Let d be the direction from the axis or the centre to the nearest point of an element. The whole
+ * element lies beyond the plane normal to d through that point. As its ends move straight, it stays
+ * beyond the parallel plane at the least admissible distance, and so at least as far away, until an
+ * end reaches this plane. There d is computed anew. An element that only passes by reaches no
+ * plane; one that moves straight inwards reaches the first plane where it must stop; every share
+ * found in this way is safe. */
 #include "cable/obstacle_side.h"
 
-/* Of the smaller of radius and distance before. */
+/* Least admissible distance, relative to the smaller of the radius and the former distance. */
 static const double NEAREST = 0.5;
-/* Nearer to what is allowed than by this share the move ends. */
+/* The move ends within this relative distance of the least admissible one. */
 static const double CLOSE = 1e-3;
-/* Planes that are tried before the move ends where it has come. */
+/* Planes computed at most; then the move ends at the share reached. */
 enum { PLANES = 100 };
 
-/* The point of the straight piece from a to b that is nearest to the origin. */
+/* The point of the straight segment from a to b that is nearest to the origin. */
 static Vec3 nearest(Vec3 a, Vec3 b) {
     const Vec3 along = vec3_sub(b, a);
     const double passed = -vec3_dot(a, along), whole = vec3_dot(along, along);
     return passed <= 0 ? a : passed >= whole ? b : vec3_axpy(passed / whole, along, a);
 }
 
-/* Share of the move from now until an end at `arm` that goes by `way` meets the plane across d at
- * distance `least`. */
-static double until(Vec3 d, Vec3 arm, Vec3 way, double least) {
-    const double in = -vec3_dot(d, way);
+/* Further share of the move at which an end at `arm`, which moves by `move`, reaches the plane
+ * normal to d at distance `least`. */
+static double share_until_plane(Vec3 d, Vec3 arm, Vec3 move, double least) {
+    const double in = -vec3_dot(d, move);
     return in > 0 ? (vec3_dot(d, arm) - least) / in : INFINITY;
 }
 
-/* The share for one element with its ends at a and b, which go by u and v; all as seen from the
- * axis or centre. */
-static double share_of(double radius, Vec3 a, Vec3 b, Vec3 u, Vec3 v, double most) {
+/* The admissible share for one element with its ends at a and b, which move by u and v, all
+ * relative to the axis or centre. */
+static double safe_share(double radius, Vec3 a, Vec3 b, Vec3 u, Vec3 v, double most) {
     const double least = NEAREST * fmin(radius, vec3_norm(nearest(a, b)));
     double share = 0;
     if (least > 0)
@@ -42,7 +42,8 @@ static double share_of(double radius, Vec3 a, Vec3 b, Vec3 u, Vec3 v, double mos
             const double distance = vec3_norm(point);
             if (!(distance > (1 + CLOSE) * least)) return share;
             const Vec3 d = vec3_scale(1 / distance, point);
-            share += fmin(until(d, a_now, u, least), until(d, b_now, v, least));
+            share +=
+                fmin(share_until_plane(d, a_now, u, least), share_until_plane(d, b_now, v, least));
             if (share >= most) return most;
         }
     return least > 0 ? share : most;
@@ -59,7 +60,7 @@ double cpsi_obstacle_side_share(const CpsiLine *line, const double *from, const 
         for (int j = 1; j < line->n; j++) {
             const Vec3 b = cpsi_obstacle_spoke(obstacle, vec3_load(&from[3 * j]));
             const Vec3 v = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_load(&to[3 * j])), b);
-            share = share_of(obstacle->radius, a, b, u, v, share);
+            share = safe_share(obstacle->radius, a, b, u, v, share);
             a = b;
             u = v;
         }

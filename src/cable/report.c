@@ -23,8 +23,8 @@ static double dissipated(const CpsiLine *line) {
     return sum;
 }
 
-/* Free, stick or slip, and slack: of two complementary quantities, the one that is larger at its
- * own scale is the one that is not zero. */
+/* Free, stick or slip, and slack: of two complementary quantities, the one that is larger on its
+ * own scale counts as not zero. */
 void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     const double weight = vec3_norm(vec3_load(line->weight));
     const double density =
@@ -68,9 +68,9 @@ Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k) {
     return cpsi_obstacle_slip(obstacle, cpsi_obstacle_turn(obstacle, from, line->turn[k]), to);
 }
 
-/* v in the plane with normal `from`, turned with the normal to that of `to`; no two normals here
- * are opposite. */
-static Vec3 turned(Vec3 v, Vec3 from, Vec3 to) {
+/* Rotate v, in the plane with normal `from`, with the normal to that with normal `to`; the two
+ * normals are never opposite. */
+static Vec3 rotate_with_normal(Vec3 v, Vec3 from, Vec3 to) {
     const double cosine = vec3_dot(from, to);
     return cosine > -0.5 ? vec3_axpy(-vec3_dot(to, v) / (1 + cosine), vec3_add(from, to), v)
                          : vec3(0, 0, 0);
@@ -78,8 +78,8 @@ static Vec3 turned(Vec3 v, Vec3 from, Vec3 to) {
 
 /* The friction of the half element beside an end that is held where it lies on obstacle k, with
  * normal n and a reaction: that of the neighbouring node, F per length of the line, with the end's
- * own zone factor. It is no larger part of its bound than F, and where the end slides no friction
- * drives it along. */
+ * own zone factor. Its share of its bound is no larger than that of F, and it is 0 where it would
+ * drive a sliding end. */
 static Vec3 half_friction(const CpsiLine *line, int end, int k, Vec3 n, double reaction) {
     const Vec3 none = vec3(0, 0, 0);
     const int j = end_node(line, end), next = end == CPS_END_A ? 1 : line->n - 2;
@@ -90,8 +90,8 @@ static Vec3 half_friction(const CpsiLine *line, int end, int k, Vec3 n, double r
             line->friction_factor ? line->friction_factor[j] / line->friction_factor[next] : 1;
         const double density = zone * cpsi_line_share(line, j) / cpsi_line_share(line, next);
         const double part = fmin(density, line->friction_law[j].friction * reaction / bound);
-        const Vec3 force =
-            turned(vec3_load(&line->friction_force[3 * c]), cpsi_line_friction_normal(line, c), n);
+        const Vec3 force = rotate_with_normal(vec3_load(&line->friction_force[3 * c]),
+                                              cpsi_line_friction_normal(line, c), n);
         const Vec3 slide = cpsi_line_end_slide(line, end, k);
         const bool drives =
             vec3_dot(force, slide) > 0 && vec3_norm(slide) > CPSI_TOUCH * line->length;
@@ -100,8 +100,8 @@ static Vec3 half_friction(const CpsiLine *line, int end, int k, Vec3 n, double r
     return none;
 }
 
-/* A held end that lies on an obstacle is carried by it, and its half element rubs there: what is
- * left of `force` for the support. */
+/* A held end that lies on an obstacle has a reaction, and its half element has friction there:
+ * returns the remainder of `force` for the support. */
 static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     const int j = end_node(line, end);
     const Vec3 x = vec3_load(&line->position[3 * j]);
@@ -112,9 +112,10 @@ static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     if (!(up > 0) || !(gap <= CPSI_TOUCH * line->length)) return force;
     line->reaction[j] = up;
     vec3_store(&line->normal[3 * j], n);
-    if (line->has_local_axes) line->on[j] = on;
+    if (line->has_local_axes) line->obstacle_index[j] = on;
     line->friction_law[j] = cpsi_friction_law(line, j);
-    line->state[j] = CPS_NODE_STICK; /* let go in the next step, it starts with its friction */
+    line->state[j] =
+        CPS_NODE_STICK; /* if it is released in the next step, it starts with this friction */
     const Vec3 friction = half_friction(line, end, on, n, up);
     vec3_store(line->report.end[end].friction, friction);
     line->report.dissipated -= vec3_dot(friction, cpsi_line_end_slide(line, end, on));
@@ -128,8 +129,8 @@ void cpsi_line_report_ends(CpsiLine *line) {
         memcpy(out->position, &line->position[3 * j], sizeof out->position);
         Vec3 force = vec3_load(line->end[end].value);
         if (line->end[end].kind == CPS_END_HELD) {
-            /* what the support does: the opposite of the element's pull, the node's own weight and
-             * what the element's contact does on it */
+            /* the force of the support balances the element's tension, the node's weight and the
+             * force of the element's contact on the node */
             const Vec3 pull =
                 vec3_scale(end == CPS_END_A ? 1 : -1, vec3_load(&line->segment_force[3 * e]));
             const Vec3 others = cpsi_add_element_contacts(line, j, vec3_load(&line->load[3 * j]));
@@ -140,7 +141,7 @@ void cpsi_line_report_ends(CpsiLine *line) {
     }
 }
 
-/* Does node j touch obstacle k?  Its reaction per length there, where the caller wants it. */
+/* Does node j touch obstacle k? If so, *density is its reaction per length. */
 static bool touches(const CpsiLine *line, int j, const CpsiObstacle *k, double *density) {
     if (j < 0 || j >= line->n) return false;
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
@@ -151,10 +152,10 @@ static bool touches(const CpsiLine *line, int j, const CpsiObstacle *k, double *
     return false;
 }
 
-/* The part of its length with which a touching node lies on the obstacle of contact c: all of it
- * inside a piece that lies there. Where the piece ends, as much as its reaction can be of: on a
- * plane the weight on so much of the line, on a curved obstacle what the next node inside the piece
- * bears per length. All of it where that says nothing. */
+/* The share of its length with which a touching node lies on the obstacle of contact c. Inside a
+ * piece that lies there it is 1. At the end of a piece it is the ratio of its reaction to that of a
+ * node that lies there with its whole length: on a plane the weight, on a curved obstacle the
+ * reaction per length of the next node inside the piece. It is 1 where neither is known. */
 static double grounded_part(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c);
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
@@ -170,11 +171,11 @@ static double grounded_part(const CpsiLine *line, int c) {
     return line->reaction[c] < bears ? line->reaction[c] / bears : 1;
 }
 
-/* Has the node of contact c slid?  A held end lies on its obstacle as it is imposed. */
+/* Has the node of contact c slid? The motion of a held end is imposed. */
 static bool has_slid(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c), end = j == 0 ? CPS_END_A : CPS_END_B;
     if (!cpsi_line_is_held(line, j)) return line->state[c] == CPS_NODE_SLIP;
-    const int k = line->has_local_axes ? line->on[c] : 0;
+    const int k = line->has_local_axes ? line->obstacle_index[c] : 0;
     return vec3_norm(cpsi_line_end_slide(line, end, k)) > CPSI_TOUCH * line->length;
 }
 

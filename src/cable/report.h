@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a step leaves to be told: the state of each node, lengths and sums, the ends. */
+/* The report of a step: the state of each node, lengths and sums, the ends. */
 #ifndef CAPSTAN_SRC_CABLE_REPORT_H
 #define CAPSTAN_SRC_CABLE_REPORT_H
 
@@ -15,8 +15,8 @@ void cpsi_line_report_ends(CpsiLine *line);
 /* Lengths that lie on an obstacle and that slid there, the ends having been reported. */
 void cpsi_line_report_lengths(CpsiLine *line);
 
-/* [m] The way of an end on obstacle k in this step: that of the node, less that of an obstacle that
- * turns. */
+/* [m] The slip of an end on obstacle k in this step: the path of the node, less that of an obstacle
+ * that turns. */
 Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k);
 
 #endif

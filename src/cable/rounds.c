@@ -17,12 +17,12 @@ static const int MAX_CONVERGING_ROUNDS = 60;
 static const double AXES_CONVERGING = 1e-2;
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
 static const double AXES_TOL = 1e-10;
-/* From here on [rad] what a round leaves is linear in what it found. */
+/* Below this angle [rad] the error after a round is linear in the error before it. */
 static const double AXES_LINEAR = 0.1;
-/* ... and bounds that were tried differ by no more than this share, in sum, from mu R. */
+/* ... and trial bounds differ by no more than this share, in sum, from mu R. */
 static const double BOUND_TOL = 1e-11;
-/* [-] The drag changes by factors of 4, from the least that holds back a line whose tension is one
- * over its length to one with which it hardly moves in all these rounds. */
+/* [-] The drag changes by factors of 4. The least value has an effect on a line with a tension of
+ * order one over its length; with the largest the line hardly moves in all these rounds. */
 static const double LEAST_DRAG = 0.25, MOST_DRAG = 1e4;
 
 void cpsi_rounds_couple_bounds(CpsiLine *line) {
@@ -38,8 +38,8 @@ void cpsi_rounds_couple_bounds(CpsiLine *line) {
     }
 }
 
-/* Sum of |A - mu R| over that of mu R: how far given bounds are from following. */
-static double mismatch(const CpsiLine *line) {
+/* Sum of |A - mu R| over the sum of mu R: the error of trial bounds. */
+static double bound_mismatch(const CpsiLine *line) {
     double off = 0, all = 0;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!isfinite(line->gap[c])) continue;
@@ -50,8 +50,8 @@ static double mismatch(const CpsiLine *line) {
     return all > 0 ? off / all : 0;
 }
 
-/* The next round's bounds: mu R as Newton's method foresees it from the last solution, or simply mu
- * R. */
+/* The bounds of the next round: mu R after one step of Newton's method from the last solution or,
+ * if that fails, mu R. */
 static void next_bounds(CpsiLine *line, CpsiChainProgram *program, double force) {
     const bool newton = cpsi_chain_program_couple_bounds(program);
     for (int k = 0; k < program->unilateral.count; k++) {
@@ -102,23 +102,24 @@ static CpsiRound first_round(const CpsiStepOptions *options, const CpsiStrategy 
                        .least = strategy->least_motion ? options->least : NULL};
 }
 
-/* The base of the next round: where the last one ended, or foreseen from several that close in. */
+/* The base of the next round: where the last one ended, or extrapolated from several rounds that
+ * converge. */
 static void accelerate(CpsiLine *line, bool sides, double turned) {
     if (turned > AXES_LINEAR) {
         cpsi_anderson_start(&line->anderson, line->n, line->base);
         return;
     }
-    memcpy(line->carries, line->reaction, (size_t)line->n * sizeof *line->carries);
+    memcpy(line->node_reaction, line->reaction, (size_t)line->n * sizeof *line->node_reaction);
     if (line->element_contacts > 0)
         for (int e = 0; e + 1 < line->n; e++)
             for (int j = e; j <= e + 1; j++)
-                line->carries[j] += line->reaction[cpsi_line_contacts(line) + e];
-    cpsi_anderson_accelerate(&line->anderson, line->n, line->carries, line->base);
+                line->node_reaction[j] += line->reaction[cpsi_line_contacts(line) + e];
+    cpsi_anderson_accelerate(&line->anderson, line->n, line->node_reaction, line->base);
     if (sides && cpsi_obstacle_side_share(line, line->position, line->base, 1) < 1)
         memcpy(line->base, line->position, 3 * (size_t)line->n * sizeof *line->base);
 }
 
-/* The last round as an answer: is it one? */
+/* Compute the certificate of the last round; is it certified? */
 static bool certify_last_round(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options, CpsiBounds bounds,
                                const CpsiIpmReport *ipm) {
@@ -135,7 +136,7 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
     CpsiRound posed = first_round(options, strategy, bounds);
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     double turned = line->has_local_axes ? INFINITY : 0, off = 0, best = INFINITY;
-    const bool sides = !options->frictionless; /* statics comes from no side */
+    const bool sides = !options->frictionless; /* a line placed by statics may pass obstacles */
     bool arrived = true;
     int since = 0;
     for (int round = 0, most = strategy->rounds; round < most; round++) {
@@ -153,7 +154,7 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             ipm = solve_round(line, program, options, &posed);
         }
         if (posed.bounds == CPSI_BOUNDS_TRIAL) {
-            off = mismatch(line);
+            off = bound_mismatch(line);
             next_bounds(line, program, cpsi_line_unit_force(line, posed.bounds));
         }
         if (line->has_local_axes) arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
@@ -174,15 +175,16 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
         line->report.outcome = CPS_STALLED;
 }
 
-/* Rounds with drag that are watched: from where, and how far they have gone since. */
+/* The progress of rounds with drag since the drag was changed. */
 typedef struct Watch {
-    double *from, *before; /* (n, 3) [m] where it began, where the last round began */
+    double *from, *before; /* (n, 3) [m] bases when the drag was changed, and at the start of the
+                              last round */
     double path;           /* [m] */
-    double best;           /* least turn [rad] */
-    int waited;            /* rounds without half of it */
+    double best;           /* least turn of axes [rad] */
+    int waited;            /* rounds since it was last halved */
 } Watch;
 
-/* [m] Root of the mean square of the way of the nodes between two places (n, 3). */
+/* [m] Root mean square displacement of the nodes between two configurations (n, 3). */
 static double rms_displacement(int n, const double *from, const double *to) {
     double sum = 0;
     for (int i = 0; i < 3 * n; i++) sum += (to[i] - from[i]) * (to[i] - from[i]);
@@ -196,11 +198,12 @@ static void begin_watch(const CpsiLine *line, Watch *watch) {
     watch->waited = 0;
 }
 
-/* The drag of the rounds to come, after some that did not halve their turn: less where the line is
- * on its way, more where it goes to and fro. */
+/* The next drag, after rounds that did not halve their turn: less where the line advances, more
+ * where it goes to and fro. */
 static double next_drag(const CpsiLine *line, const Watch *watch, double drag) {
-    const bool on_its_way = rms_displacement(line->n, watch->from, line->base) > 0.5 * watch->path;
-    if (on_its_way) return drag > LEAST_DRAG ? 0.25 * drag : 0;
+    const bool is_advancing =
+        rms_displacement(line->n, watch->from, line->base) > 0.5 * watch->path;
+    if (is_advancing) return drag > LEAST_DRAG ? 0.25 * drag : 0;
     return fmax(4 * drag, LEAST_DRAG);
 }
 
@@ -208,9 +211,9 @@ void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
                          const CpsiStrategy *strategy, CpsiBounds bounds) {
     CpsiRound posed = first_round(options, strategy, bounds);
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
-    Watch watch = {.from = line->trail, .before = &line->trail[3 * line->n]};
+    Watch watch = {.from = line->watched, .before = &line->watched[3 * line->n]};
     double turned = INFINITY;
-    const bool sides = !options->frictionless; /* statics comes from no side */
+    const bool sides = !options->frictionless; /* a line placed by statics may pass obstacles */
     bool arrived = true;
     begin_watch(line, &watch);
     for (int round = 0; round < strategy->rounds; round++) {

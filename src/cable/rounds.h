@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rounds: a step on curved obstacles, or with friction along the line, is a sequence of programs,
- * each on the tangent planes and in the axes of the place where the last one ended. They come to
- * rest where the equilibrium is stable (docs/theory.md 2.4). */
+/* Rounds: a step on curved obstacles, or with friction that depends on the direction of the line,
+ * is a sequence of programs, each on the tangent planes and in the axes of the position where the
+ * last one ended. Rounds converge where the equilibrium is stable (docs/theory.md 2a). */
 #ifndef CAPSTAN_SRC_CABLE_ROUNDS_H
 #define CAPSTAN_SRC_CABLE_ROUNDS_H
 
@@ -12,7 +12,7 @@
 
 /* Rounds from the reference. Coupled bounds depend on the reactions within each round; once the
  * loop cannot solve such a round, they become trial bounds, which go from no friction towards mu R.
- * Ends with the certificate of the place reached. */
+ * Ends with the certificate at the position reached. */
 void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options, const CpsiStrategy *strategy,
                                CpsiBounds bounds);
@@ -21,12 +21,13 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
 void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                          const CpsiStrategy *strategy, CpsiBounds bounds);
 
-/* The line laid onto the surfaces from its base, and seen anew there; forces of touching nodes are
- * kept in their axes while these turn, by at most `turned` [rad]. False where an obstacle lets the
- * line go only a part of its way. `sides`: it is to pass none. */
+/* Move the base to the position, with touching nodes moved onto the surfaces, and update the
+ * contacts there. Friction forces keep their components while the axes turn, by at most `turned`
+ * [rad]. `sides`: the line must not pass an obstacle. False where the displacement had to be
+ * shortened. */
 bool cpsi_rounds_refresh_axes(CpsiLine *line, bool sides, double *turned);
 
-/* The bounds mu R, and no friction beyond them. */
+/* Set the bounds to mu R, and scale friction back where it exceeds them. */
 void cpsi_rounds_couple_bounds(CpsiLine *line);
 
 #endif

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Too short to reach round an obstacle (shortfall.h). The line does not pass the obstacle
- * (obstacle_side.h), so that its turn about the axis of a cylinder is the one that it has where the
- * step begins, changed by what the held ends do on their straight ways. */
+ * (obstacle_side.h), so its turn about the axis of a cylinder is the turn at the beginning of the
+ * step plus the angles of the held ends on their straight paths. */
 #include "cable/shortfall.h"
 
 #include "cable/line_solve.h"
-#include "geometry/shortest_way.h"
+#include "geometry/shortest_path.h"
 
-/* An element that comes nearer to the axis than this share of the radius is on no side of it; those
- * of a solution stay beyond three quarters. */
+/* The side of an element that comes nearer to the axis than this share of the radius is not
+ * determined; the elements of a solution stay beyond three quarters. */
 static const double TOO_NEAR = 0.5;
 
 static const double ROUND = 6.28318530717958647692;
@@ -16,7 +16,7 @@ static const double ROUND = 6.28318530717958647692;
 static Vec3 held_at(const CpsiLine *line, int end) { return vec3_load(line->end[end].value); }
 
 /* Add the angle about the axis of obstacle o from one point to the next; false where the straight
- * way between them tells no side. */
+ * path between them does not determine the side. */
 static bool add_angle(const CpsiObstacle *o, Vec3 from, Vec3 to, double *sum) {
     if (!(cpsi_obstacle_depth(o, from, to) <= (1 - TOO_NEAR) * o->radius)) return false;
     *sum += cpsi_obstacle_angle(o, cpsi_obstacle_normal(o, from), cpsi_obstacle_normal(o, to));
@@ -24,14 +24,14 @@ static bool add_angle(const CpsiObstacle *o, Vec3 from, Vec3 to, double *sum) {
 }
 
 /* [rad] By which the line turns about the axis of a cylinder from A to B, where its ends are to be.
- * Whole rounds are counted along the line, so that only the rest has rounding. */
-static bool turn_about(const CpsiLine *line, const CpsiObstacle *o, bool laid, double *turn) {
+ * Whole turns are counted along the line, so that only the remainder has rounding. */
+static bool turn_about(const CpsiLine *line, const CpsiObstacle *o, bool statics, double *turn) {
     const Vec3 a = held_at(line, CPS_END_A), b = held_at(line, CPS_END_B);
     const double rest =
         cpsi_obstacle_angle(o, cpsi_obstacle_normal(o, a), cpsi_obstacle_normal(o, b));
     double sum = 0;
     *turn = rest;
-    if (laid || o->kind != CPS_OBSTACLE_CYLINDER) return true;
+    if (statics || o->kind != CPS_OBSTACLE_CYLINDER) return true;
     Vec3 at = a;
     for (int j = 0; j < line->n; j++) {
         const Vec3 next = vec3_load(&line->position[3 * j]);
@@ -59,14 +59,14 @@ bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
         CpsiPolygon polygon = {longest, line->element_contacts > 0
                                             ? o->radius - cpsi_obstacle_allowance(o, longest)
                                             : 0};
-        CpsiShortestPath way;
+        CpsiShortestPath path;
         double turn;
         if (o->kind == CPS_OBSTACLE_PLANE || !turn_about(line, o, options->frictionless, &turn))
             continue;
-        if (!cpsi_shortest_path(o, a, b, turn, polygon, &way)) continue;
-        const double missing = way.length - line->length;
-        if (way.length - way.rounding > allowed && missing > out->missing)
-            *out = (CpsiShortfall){k, missing, way.leaves};
+        if (!cpsi_shortest_path(o, a, b, turn, polygon, &path)) continue;
+        const double missing = path.length - line->length;
+        if (path.length - path.rounding > allowed && missing > out->missing)
+            *out = (CpsiShortfall){k, missing, path.leaves};
     }
     return out->obstacle >= 0;
 }

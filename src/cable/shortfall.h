@@ -8,14 +8,15 @@
 #include "cable/step_options.h"
 
 typedef struct CpsiShortfall {
-    int obstacle;   /* that it does not reach round: of several the worst */
+    int obstacle;   /* the obstacle that it does not reach round; of several the worst */
     double missing; /* [m] > 0 */
-    Vec3 leaves;    /* the direction in which the shortest way leaves end A */
+    Vec3 leaves;    /* direction of the shortest path at end A */
 } CpsiShortfall;
 
-/* Is there no configuration with the ends at line->end, from the line's position?  Ends so far
- * apart that the straight way is too long are not looked at. A start laid by statics comes from no
- * side and has the shortest of all ways; strict contact keeps a line out of nothing. */
+/* Is there no configuration with the ends at line->end, from the line's position? Ends farther
+ * apart than the line is long are not checked here (existence.c). An initial configuration by
+ * statics may lie on any side and has the shortest of all paths; strict contact does not keep a
+ * line out of obstacles. */
 bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
                            CpsiShortfall *out);
 

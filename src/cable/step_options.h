@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is asked of a step of a line. */
+/* The options of a step of a line. */
 #ifndef CAPSTAN_SRC_CABLE_STEP_OPTIONS_H
 #define CAPSTAN_SRC_CABLE_STEP_OPTIONS_H
 
@@ -10,7 +10,7 @@ typedef struct CpsiStepOptions {
     CpsFrictionPolicy friction;
     CpsContactPolicy contact;
     bool frictionless; /* an initial configuration is computed by statics */
-    /* scratch memory of the rule of least motion; NULL: places are as they are found */
+    /* scratch memory of the rule of least motion; NULL: the rule is not applied */
     CpsiLeastMotion *least;
 } CpsiStepOptions;
 

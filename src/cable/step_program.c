@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A step into a program and back (step_program.h).
+/* From a step to a program and back (step_program.h).
  *
  * Lengths are divided by the line's length L, forces by a force F0 of the size of the tension to
- * come. Unknown is the displacement from `base` (the reference, or where the last round ended), in
- * axes whose third is the normal of the obstacle: one set of axes for a line on one plane, else
- * each node's own. */
+ * come. The unknowns are displacements from `base` (the reference, or where the last round ended),
+ * in axes whose third is the normal of the obstacle: common axes for a line on one plane, else axes
+ * of each node. */
 #include "cable/step_program.h"
 
 #include <string.h>
@@ -12,22 +12,23 @@
 #include "cable/friction_law.h"
 #include "chain/frame.h"
 
-/* Friction below this share of the force scale is none: it could not be told from rounding. */
+/* Friction bounds below this share of the force scale count as zero: they cannot be distinguished
+ * from rounding. */
 static const double LEAST_FRICTION = 1e-14;
-/* Bounds that are tried are not less than this, per share of the line: what is to grow must be
- * there. */
-static const double LEAST_TRIED = 1e-12;
+/* Least trial bound per share of the line: a bound of zero could not grow. */
+static const double LEAST_TRIAL_BOUND = 1e-12;
 
-/* Normals whose sine is below this make no corner. */
+/* Normals with an angle whose sine is below this count as parallel and form no corner. */
 static const double PARALLEL = 1e-3;
-/* A node this near to two obstacles, per length of the line, may be in the corner between them. */
-static const double BOTH = 1e-3;
+/* A node nearer than this to two obstacles, per length of the line, may be in the corner between
+ * them. */
+static const double CORNER_RANGE = 1e-3;
 
 static const double *base_of(const CpsiLine *line) {
     return line->has_local_axes ? line->base : line->reference;
 }
 
-/* [m] How far contact c is open at the base; INFINITY where it is not looked for. */
+/* [m] The gap of contact c at the base; INFINITY where it does not enter the program. */
 static double open_gap(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c);
     double gap = line->gap[c];
@@ -53,13 +54,14 @@ static bool is_second(const CpsiLine *line, int c) {
     return c >= line->n && c < cpsi_line_contacts(line);
 }
 
-/* The axes of node j: those of its first contact, or of the line. Where there are two, x lies along
- * the corner that they make, so that what is stiff stays in y and z; a shape keeps its own. */
+/* The axes of node j: those of its first contact, or of the line. In a corner of two contacts x is
+ * along the corner, so that the stiff directions are y and z; with a friction conic the axes of the
+ * first contact are kept. */
 static void fill_axes(const CpsiLine *line, CpsiChainProgram *program, int j) {
     double *axes = &program->frame[9 * j];
     memcpy(axes, &line->axes[9 * j], 9 * sizeof *axes);
     for (int i = 0, c = j; i < 2; i++, c += line->n)
-        if (line->contacts < 2 || !(open_gap(line, c) <= BOTH * line->length)) return;
+        if (line->contacts < 2 || !(open_gap(line, c) <= CORNER_RANGE * line->length)) return;
     const Vec3 n = vec3_load(&line->normal[3 * j]),
                other = vec3_load(&line->normal[3 * (j + line->n)]);
     const Vec3 corner = vec3_cross(n, other);
@@ -71,11 +73,11 @@ static void fill_axes(const CpsiLine *line, CpsiChainProgram *program, int j) {
 }
 
 static const double *node_axes(const CpsiLine *line, const CpsiChainProgram *program, int j) {
-    return program->frame ? &program->frame[9 * j] : line->common;
+    return program->frame ? &program->frame[9 * j] : line->common_axes;
 }
 
-/* The first guess: the base, its ends moved to where they are held, the rest along in
- * proportion. */
+/* The first guess: the base with its held ends at their imposed positions and the other nodes moved
+ * by linear interpolation. */
 static void initial_guess(const CpsiLine *line, CpsiChainProgram *program) {
     double shift[2][3] = {{0}};
     const int last = line->n - 1;
@@ -126,10 +128,10 @@ static void friction_axes(const CpsiLine *line, const CpsiChainProgram *program,
 }
 
 static double trial_bound_or(const CpsiStepScale *scale, double bound) {
-    return scale->bounds == CPSI_BOUNDS_TRIAL ? fmax(bound, LEAST_TRIED) : bound;
+    return scale->bounds == CPSI_BOUNDS_TRIAL ? fmax(bound, LEAST_TRIAL_BOUND) : bound;
 }
 
-/* The shape of a contact, its set being given as such. */
+/* The friction conic of a contact with a general friction set. */
 static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
                        const CpsiStepScale *scale) {
     CpsiFrictionConic *conic = &program->conic;
@@ -141,8 +143,8 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
     friction_axes(line, program, c, axes);
     conic->node[k] = j;
     conic->contact[k] = c;
-    conic->second[k] =
-        is_second(line, c) || line->frozen; /* a first one's tangents are those of the node */
+    conic->second[k] = is_second(line, c) ||
+                       line->frozen; /* the tangents of a first contact are those of the node */
     conic->weight[k] = share;
     conic->form[k] = cpsi_friction_set_conic(set->given);
     conic->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;
@@ -152,7 +154,8 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
     memcpy(conic->tangent[k], axes, sizeof conic->tangent[k]);
 }
 
-/* The rubs of a contact: one, its map the ratios of an ellipse, or two for a box. */
+/* The friction discs of a contact: one, whose map holds the ratios of an ellipse, or two for a
+ * box. */
 static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
                        const CpsiStepScale *scale) {
     CpsiFrictionDisc *disc = &program->disc;
@@ -179,7 +182,8 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
     }
 }
 
-/* by T^T (curvature) T as xx, xy, yy, xz, yz, zz, the rows of T the tangents. */
+/* The product of `by` and T^T (curvature) T as xx, xy, yy, xz, yz, zz; the rows of T are the
+ * tangents. */
 static void turn_curvature(double out[6], const double axes[9], const double curvature[3],
                            double by) {
     memset(out, 0, 6 * sizeof *out);
@@ -240,7 +244,7 @@ static void fill_points(const CpsiLine *line, CpsiChainProgram *program,
     for (int c = nodes; c < cpsi_line_all_contacts(line); c++) {
         const int i = c - nodes + 1; /* element i of the program; the last contact is none */
         const bool acts =
-            line->on[c] >= 0 && (isfinite(line->gap[c]) || line->friction_bound[c] > 0);
+            line->obstacle_index[c] >= 0 && (isfinite(line->gap[c]) || line->friction_bound[c] > 0);
         if (i < n) program->node_frames.share[i] = acts ? line->beta[i - 1] : 0;
         if (!acts) continue;
         any = true;
@@ -251,7 +255,7 @@ static void fill_points(const CpsiLine *line, CpsiChainProgram *program,
 }
 
 /* A node's displacement in the axes of the chain. */
-static void common(const CpsiChainProgram *program, int j, double out[3]) {
+static void in_common_axes(const CpsiChainProgram *program, int j, double out[3]) {
     if (program->frame)
         cpsi_frame_from(out, &program->frame[9 * j], &program->base.u[3 * j]);
     else
@@ -267,9 +271,9 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program,
         const double l = line->element_length[i - 1] * scale->longer;
         double dx[3], e[3], far[3], near[3];
         for (int a = 0; a < 3; a++) dx[a] = (base[3 * i + a] - base[3 * (i - 1) + a]) / l;
-        cpsi_frame_to(e, line->common, dx);
-        common(program, i, far);
-        common(program, i - 1, near);
+        cpsi_frame_to(e, line->common_axes, dx);
+        in_common_axes(program, i, far);
+        in_common_axes(program, i - 1, near);
         st->length[i] = l / line->length;
         for (int a = 0; a < 3; a++) st->s[i][1 + a] = e[a] + (far[a] - near[a]) / st->length[i];
     }
@@ -319,12 +323,12 @@ static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program,
                              const CpsiStepScale *scale) {
     memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->reaction);
     if (line->has_local_axes)
-        memset(line->pressed, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->pressed);
+        memset(line->active, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->active);
     for (int k = 0; k < program->unilateral.count; k++) {
         const int c = program->unilateral.contact[k];
         line->reaction[c] = scale->force * program->unilateral.weight[k] * program->unilateral.z[k];
         if (line->has_local_axes)
-            line->pressed[c] = program->unilateral.z[k] > program->unilateral.s[k];
+            line->active[c] = program->unilateral.z[k] > program->unilateral.s[k];
     }
 }
 
@@ -338,7 +342,8 @@ static void store_friction(CpsiLine *line, int c, bool follow, double within, do
     cpsi_frame_from(&line->friction_force[3 * c], cpsi_line_axes(line, c), f);
 }
 
-/* The friction of a contact: what its rubs add up to, or its shape's force. */
+/* The friction of each contact: the sum of its friction discs, or the force of its friction
+ * conic. */
 static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program,
                             const CpsiStepScale *scale) {
     const CpsiFrictionDisc *disc = &program->disc;
@@ -378,7 +383,7 @@ void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
     for (int i = 1; i < line->n; i++) {
         const double *z = program->segment.z[i];
         const double force[3] = {-scale->force * z[1], -scale->force * z[2], -scale->force * z[3]};
-        cpsi_frame_from(&line->segment_force[3 * (i - 1)], line->common, force);
+        cpsi_frame_from(&line->segment_force[3 * (i - 1)], line->common_axes, force);
         line->tension[i - 1] = scale->force * z[0];
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One step of a line as a program over a chain, and back: dimensionless, in the axes of the nodes,
- * measured from their base. */
+/* Conversion between one step of a line and a program over a chain: dimensionless, in the axes of
+ * the nodes, displacements measured from the base. */
 #ifndef CAPSTAN_SRC_CABLE_STEP_PROGRAM_H
 #define CAPSTAN_SRC_CABLE_STEP_PROGRAM_H
 
@@ -11,29 +11,28 @@
 
 /* The friction bounds of a step. */
 typedef enum CpsiBounds {
-    CPSI_BOUNDS_FIXED,   /* those of the line stay */
-    CPSI_BOUNDS_COUPLED, /* they follow the reactions: part of the program */
-    CPSI_BOUNDS_TRIAL    /* as given, but wherever contact is possible: a round towards bounds that
-                            follow */
+    CPSI_BOUNDS_FIXED,   /* the bounds of the line, constant */
+    CPSI_BOUNDS_COUPLED, /* mu R within the program */
+    CPSI_BOUNDS_TRIAL    /* constant as FIXED, but at all possible contacts: a round towards coupled
+                            bounds */
 } CpsiBounds;
 
 typedef struct CpsiStepScale {
     double force;  /* [N] */
-    double longer; /* the elements are this much longer than they are */
+    double longer; /* factor of the elements' lengths */
     CpsiBounds bounds;
     bool reaction_stiffness; /* the reactions turn with the normals */
-    double drag; /* [-] times force and displacement, both per length of the line: what holds back a
-                    line on its way */
+    double drag; /* [-] viscous drag, in units of force and displacement per length of the line */
 } CpsiStepScale;
 
 /* Write the step into the program. */
 void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
                             const CpsiStepScale *scale);
 
-/* The pairs of a line on which no force acts, as if they had been solved for. */
+/* Set the pairs of the program to those of a line without forces. */
 void cpsi_step_program_clear(const CpsiLine *line, CpsiChainProgram *program);
 
-/* Positions and forces of the solution in world axes and SI units. */
+/* Write positions and forces of the solution to the line, in world axes and SI units. */
 void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
                               const CpsiStepScale *scale);
 

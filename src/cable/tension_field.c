@@ -1,32 +1,33 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The tension field of an inextensible line (tension_field.h).
  *
- * Places do not tell the tension of an inextensible line at rest: friction may carry it here or
- * there. Of all forces that hold the line where it is (force_set.h) those are reported whose
- * tensions are nearest to the ones before the step,
+ * Positions do not determine the tensions of an inextensible line at rest, because friction may
+ * balance them in different ways. Of all forces that hold the line where it is (force_set.h), those
+ * are reported whose tensions are nearest to the tensions before the step,
  *
  *     min  sum l_i (T_i - T_R,i)^2,
  *
- * which is what the limit of a stiff line does: its energy in terms of forces is sum l c (T -
+ * which is also the limit of a very stiff line: its energy in terms of forces is sum l c (T -
  * T_R)^2/2. */
 #include "cable/tension_field.h"
 
 #include <math.h>
 
-/* Scalars this near to where they cost least, in units of the largest force, are there if that is
- * allowed: some ten times the root of the loop's target. */
-static const double NEAR = 1e-5;
-/* ... and allowed means this near to a cone: forces that were at a limit before are so again but
- * for what the places changed. */
-static const double LANDED = 1e-9;
+/* Scalars nearer than this to their unconstrained optimum, in units of the largest force, are moved
+ * to it if that is feasible: about ten times the root of the loop's target. */
+static const double OPTIMUM_RANGE = 1e-5;
+/* Feasible means violating no cone by more than this: forces that were at a limit before are at it
+ * again up to the change of positions. */
+static const double FEASIBLE_TOL = 1e-9;
 
-CpsiForceLaw cpsi_force_law(const CpsiStepOptions *options, bool tight) {
+CpsiForceLaw cpsi_force_law(const CpsiStepOptions *options, bool exact) {
     return (CpsiForceLaw){.frozen = options->friction == CPS_FRICTION_FROZEN,
                           .frictionless = options->frictionless,
-                          .tight = tight};
+                          .exact = exact};
 }
 
-/* How forces are shared in a corner costs this beside tensions, so that a jam has a least one. */
+/* Weight of the forces in corners relative to tensions, which makes the minimum unique where a line
+ * is jammed. */
 static const double SHARE = 1e-8;
 
 static void weigh_shares(CpsiForceSet *set) {
@@ -48,23 +49,23 @@ static void weigh_tensions(CpsiForceSet *set, const CpsiLine *line) {
     }
 }
 
-/* Where T_R itself is allowed the least is 0, and the loop comes near to it by the root of its gap
- * only: put the scalars that are near to where they cost least there, and back those that leave a
- * cone by it. */
-static void land(CpsiForceSet *set) {
+/* Where T_R itself is feasible the minimum is 0, and the loop approaches it only to the root of its
+ * gap. So move scalars that are near their unconstrained optimum to it, and move those back that
+ * violate a cone there. */
+static void use_unconstrained_optimum(CpsiForceSet *set) {
     CpsiScalarProgram *program = &set->program;
     double *y = program->base.u, *found = program->base.du, *best = program->base.residual;
     for (int g = 0; g < program->scalars; g++) {
         const double least = program->base.load[g] / program->weight[g];
         found[g] = y[g];
-        best[g] = fabs(y[g] - least) <= NEAR ? least : y[g];
+        best[g] = fabs(y[g] - least) <= OPTIMUM_RANGE ? least : y[g];
         y[g] = best[g];
     }
     for (bool again = true; again;) {
         again = false;
         for (int k = 0; k < program->sites; k++) {
             const CpsiSite *site = &program->site[k];
-            if (cpsi_scalar_program_margin(program, k) >= -LANDED) continue;
+            if (cpsi_scalar_program_margin(program, k) >= -FEASIBLE_TOL) continue;
             for (int a = 0; a < 2; a++) {
                 const int g = site->scalar[a];
                 if (g < 0 || y[g] == found[g]) continue;
@@ -79,7 +80,7 @@ static void land(CpsiForceSet *set) {
 static double reaction_before(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c);
     for (int b = j; b < cpsi_line_contacts(line); b += line->n)
-        if (!line->has_local_axes || line->on_before[b] == line->on[c])
+        if (!line->has_local_axes || line->obstacle_index_before[b] == line->obstacle_index[c])
             return line->reaction_before[b];
     return 0;
 }
@@ -101,14 +102,14 @@ static void weigh_reactions(CpsiForceSet *set, const CpsiLine *line, const CpsiF
 }
 
 bool cpsi_line_tension_field(CpsiLine *line, CpsiForceSet *set, const CpsiStepOptions *options,
-                             bool tight) {
-    CpsiForceLaw law = cpsi_force_law(options, tight);
+                             bool exact) {
+    CpsiForceLaw law = cpsi_force_law(options, exact);
     bool chosen = false;
     if (cpsi_force_set_build(set, line, &law)) {
         weigh_tensions(set, line);
         weigh_shares(set);
         if (!cpsi_force_set_solve(set)) return false;
-        land(set);
+        use_unconstrained_optimum(set);
         cpsi_force_set_apply(set, line, &law);
         chosen = true;
     }

@@ -1,29 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Between which values the tensions at the ends of an inextensible line lie (tension_field.h).
+/* The range of the tensions at the ends of an inextensible line (tension_field.h).
  *
  * Over the set of force_set.h the tension of one element is a linear function: its least and its
  * greatest value are cone programs. The solution's duals z are virtual displacements of the nodes:
  * with load + G'z = 0 no forces of the set have load.y > z.h. Whether there is a greatest value is
- * asked first: the tension has no bound just where the directions in which the set has no end
- * contain one along which it grows, and that is the same program without loads, with the growth
- * held at 1. */
+ * checked first: the tension is unbounded if and only if the recession cone of the set contains a
+ * direction along which it grows. That is the same program without loads, with the growth bounded
+ * by 1. */
 #include <math.h>
 
 #include "cable/tension_field.h"
 
-/* The growth along a direction without end is 1 or 0. */
+/* The growth along an unbounded direction is 1 or 0 in exact arithmetic. */
 static const double GROWS = 0.5;
 
-/* Where other forces than the one asked for have no end the loop may not settle: a small weight on
- * all of them is tried then. What it takes off the extreme value is in the bound. */
+/* Where other forces than the tension in question are unbounded, the loop may not converge; then a
+ * small weight on all of them is tried. Its effect on the extreme value is included in the
+ * bound. */
 static const double WEIGHTS[] = {0, 1e-10, 1e-8};
 
-/* A value and its bound that differ by no more than this share of the largest force are an answer:
+/* A value is accepted if it differs from its bound by no more than this share of the largest force:
  * the root of the loop's rounding. */
-static const double TIGHT = 1e-7;
+static const double VALUE_TOL = 1e-7;
 
 /* The extreme value of the tension of element e, and its bound: the greatest by sign 1, the least
- * by -1. False where no program found both close to each other. */
+ * by -1. False where no program found the two close to each other. */
 static bool extreme(CpsiForceSet *set, int e, double sign, double *value, double *bound) {
     const double now = *value = *bound = fmax(0, set->tension[e]);
     const int g = set->scalar[e];
@@ -32,16 +33,16 @@ static bool extreme(CpsiForceSet *set, int e, double sign, double *value, double
     for (size_t k = 0; k < sizeof WEIGHTS / sizeof *WEIGHTS; k++) {
         cpsi_scalar_program_weigh(&set->program, WEIGHTS[k]);
         if (!cpsi_force_set_solve(set)) continue;
-        /* T >= 0 is a bound too, and better than rounding */
+        /* T >= 0 is a bound as well, exact to rounding */
         *value = fmax(0, now + set->force * set->gain[e] * set->program.base.u[g]);
         *bound = fmax(0, now + sign * set->force * cpsi_scalar_program_bound(&set->program));
-        if (fabs(*value - *bound) <= TIGHT * set->force) return true;
+        if (fabs(*value - *bound) <= VALUE_TOL * set->force) return true;
     }
     return false;
 }
 
-/* Is there a direction of the set along which the tension of element e grows without end? False in
- * `*known` where that was not found out. */
+/* Is there a direction of the recession cone along which the tension of element e grows? *known is
+ * false where the program was not solved. */
 static bool grows(CpsiForceSet *set, const CpsiLine *line, CpsiForceLaw law, int e, bool *known) {
     law.directions = true;
     *known = true;
@@ -80,11 +81,11 @@ static CpsTensionRange range_of(CpsiLine *line, CpsiForceSet *set, const CpsiFor
 }
 
 void cpsi_line_tension_range(CpsiLine *line, CpsiForceSet *set, const CpsiStepOptions *options) {
-    const CpsiForceLaw law = cpsi_force_law(options, line->tight);
+    const CpsiForceLaw law = cpsi_force_law(options, line->exact);
     for (int end = 0; end < 2; end++) {
         CpsTensionRange *range = &line->report.end[end].range;
         *range = range_of(line, set, &law, end == CPS_END_A ? 0 : line->n - 2);
-        /* with no force anywhere its bounds have nothing to be measured by, but that it has none */
+        /* without any force there is no scale for the bounds; report no range */
         if (range->kind == CPS_RANGE_BOUNDED && !(line->report.certificate.largest_force > 0))
             *range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
     }

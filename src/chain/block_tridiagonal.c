@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The chain back end: block tridiagonal elimination, one node at a time, each node before the
- * tension that hangs on it.
+ * tension of the element before it.
  *
  * Take the unknowns as blocks (x_j, t_j). Eliminating blocks 0..j-1 leaves on block j the 4 x 4
  * matrix
@@ -9,8 +9,9 @@
  *         v' = m_j - k_j C^T m_j,
  *                                   b = a_j + m_j.C m_j,
  *
- * where C = (S_{j-1}^-1)_xx is the compliance of all that lies before, seen at node j-1 (0 where it
- * is held); it is symmetric where no skew is. With Y = X^-1, y = Y v, y' = Y^T v', beta = b + v'.y:
+ * where C = (S_{j-1}^-1)_xx is the compliance at node j-1 of all that lies before it (0 where it is
+ * held); it is symmetric where there is no skew. With Y = X^-1, y = Y v, y' = Y^T v', beta = b +
+ * v'.y:
  *
  *     (S_j^-1)_xx = Y - y y'^T/beta = C_j,     (S_j^-1)_xt = y/beta,     (S_j^-1)_tx = y'^T/beta,
  *         (S_j^-1)_tt = -1/beta.
@@ -18,13 +19,15 @@
  * Where there is a second direction, Y = (X + c r^T/a)^-1 and f = r.x/a come from the inverse of [X
  * c; r^T -a].
  *
- * Where the element before node j has a point, its three forces stand beside t_j (chain_point.h).
+ * Where the element before node j has a point, its three force components are unknowns beside t_j
+ * (chain_point.h).
  *
- * C and m are meant in the axes of node j; where nodes have their own, they are turned on the way.
+ * C and m are in the axes of node j; where nodes have axes of their own, they are rotated from node
+ * to node.
  *
- * So one pass keeps a few small quantities per node, and a solve is two passes of 3 x 3 products.
- * Compliances in series add without cancellation, which is why the tension is kept: an element's
- * own stiffness 1/a_j never meets k_j in one number. */
+ * The factorisation stores a few small quantities per node, and a solve is two passes of 3 x 3
+ * products. Compliances in series add without cancellation. That is why the tension is kept as an
+ * unknown: the axial stiffness 1/a_j of an element is never added to k_j. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -83,9 +86,9 @@ static inline void apply_transposed(double out[3], const double a[9], const doub
     for (int i = 0; i < 3; i++) out[i] = a[i] * x[0] + a[3 + i] * x[1] + a[6 + i] * x[2];
 }
 
-/* out = A^-1: z first, along which stands the obstacle's normal, the stiffest direction where there
- * is contact; then the 2 x 2 block of x and y that is left, by its determinant. What is lost to
- * rounding is lifted to the rounding level. */
+/* out = A^-1: z is eliminated first, as it is along the obstacle's normal, the stiffest direction
+ * where there is contact; then the remaining 2 x 2 block of x and y is inverted by its determinant.
+ * Pivots below the rounding level are replaced by it. */
 static inline void inverse(double out[9], const double a[9]) {
     const double tiny = 4 * DBL_EPSILON, least = DBL_MIN / DBL_EPSILON;
     const double iz = 1 / (a[8] > least ? a[8] : least), lx = a[2] * iz, ly = a[5] * iz;
@@ -106,8 +109,8 @@ static inline void inverse(double out[9], const double a[9]) {
 }
 
 /* The inverse of [X c; r^T -a]: its first three rows and columns, w of its last row, r.x/a = w.f of
- * the x that f gives, and its last column. By row exchanges: X may be next to nothing (a slack
- * line), huge (an obstacle) or both. */
+ * the x that f gives, and its last column. With row exchanges: the entries of X may be nearly zero
+ * (a slack line), huge (an obstacle) or both. */
 static void inverse_with_second(double out[9], ChainSecond *second, const double x[9],
                                 const double c[3], const double r[3], double a) {
     double m[4][8] = {{x[0], x[1], x[2], c[0], 1, 0, 0, 0},
@@ -146,8 +149,8 @@ static inline bool is_set(const CpsiMatrixSecond *second, int j) {
     return cpsi_second_is_set(second, j);
 }
 
-/* X of node j without its second direction: its own block, its elements' stiffness, less what the
- * chain before takes. */
+/* X of node j without its second direction: its own block and the stiffness of its elements, less
+ * the Schur complement of the chain before it. */
 static inline void node_block(double x[9], const CpsiMatrix *a, int j, double k,
                               const double c[9]) {
     const double *d = &a->diagonal[6 * j], *skew = &a->skew[2 * j],
@@ -160,8 +163,8 @@ static inline void node_block(double x[9], const CpsiMatrix *a, int j, double k,
     x[8] += k + next;
 }
 
-/* C of the node before and m_j as node j sees them: in its own axes. */
-static inline void seen_from(const CpsiMatrix *a, int j, double c[9], double m[3]) {
+/* Rotate C of the node before, and m_j, to the axes of node j. */
+static inline void turn_to_node(const CpsiMatrix *a, int j, double c[9], double m[3]) {
     double relative[9], other_c[9], other_m[3];
     for (int i = 0; i < 9; i++) other_c[i] = c[i];
     for (int i = 0; i < 3; i++) other_m[i] = m[i];
@@ -182,7 +185,7 @@ static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
         if (a->frame && j > 0) {
             memcpy(turned_c, c, sizeof turned_c);
             memcpy(turned_m, m, sizeof turned_m);
-            seen_from(a, j, turned_c, turned_m);
+            turn_to_node(a, j, turned_c, turned_m);
             c = turned_c;
             m = turned_m;
         }
@@ -239,7 +242,7 @@ static bool chain_factor(CpsiLinsys *self, const CpsiMatrix *a) {
 }
 
 /* A vector of node `from` in the axes of node `to`. */
-static inline void carry(const CpsiMatrix *a, int to, int from, double v[3]) {
+static inline void change_axes(const CpsiMatrix *a, int to, int from, double v[3]) {
     if (!a->frame) return;
     double common[3];
     cpsi_frame_from(common, &a->frame[9 * from], v);
@@ -254,25 +257,26 @@ static inline void direction_at(const CpsiMatrix *a, int i, int j, double m[3]) 
         memcpy(m, &a->direction[3 * i], 3 * sizeof *m);
 }
 
-/* What more force on a node and more tension before it add to f of its second direction. */
+/* The change of f of a node's second direction for a change of the force on the node and of the
+ * tension before it. */
 static inline double second_force(const ChainSecond *second, const double force[3],
                                   double tension) {
     return dot(second->w, force) - dot(second->w, second->v) * tension;
 }
 
-/* Forward and back. */
+/* Forward elimination and back substitution. */
 static void pass(const CpsiLinsys *self, const CpsiMatrix *a, const CpsiUnknowns *of) {
     const ChainBlock *block = ((const Chain *)self)->block;
     const ChainSecond *second = ((const Chain *)self)->second;
     const CpsiChainPoint *point = ((const Chain *)self)->point;
     const int n = a->n;
     double *x = of->x, *t = of->t, *second_f = of->f;
-    /* forward: x_j, t_j as if nothing came after */
+    /* forward: x_j, t_j of the chain that ends with node j */
     double before[3] = {0, 0, 0};
     for (int j = 0; j < n; j++) {
         double m[3], k = 0, h = 0;
         if (j > 0) {
-            carry(a, j, j - 1, before);
+            change_axes(a, j, j - 1, before);
             direction_at(a, j, j, m);
             k = a->stiffness[j];
             h = t[j] + dot(m, before);
@@ -280,11 +284,11 @@ static void pass(const CpsiLinsys *self, const CpsiMatrix *a, const CpsiUnknowns
         double *xj = &x[3 * j], f[3];
         for (int i = 0; i < 3; i++) f[i] = a->held[j] ? 0 : xj[i] + k * before[i];
         if (j > 0 && cpsi_point_is_set(a, j)) {
-            double second_reaction_change = second_f ? second_f[j] : 0;
+            double f_here = second_f ? second_f[j] : 0;
             cpsi_chain_point_solve(&point[j], a, j, f, h, before, xj, &t[j], &x[3 * (n + j)],
-                                   &second_reaction_change);
+                                   &f_here);
             memcpy(before, xj, sizeof before);
-            if (second_f) second_f[j] = second_reaction_change;
+            if (second_f) second_f[j] = f_here;
             continue;
         }
         apply(xj, block[j].c, f);
@@ -301,12 +305,13 @@ static void pass(const CpsiLinsys *self, const CpsiMatrix *a, const CpsiUnknowns
         }
         second_f[j] = has ? second_force(&second[j], f, t[j]) + second[j].corner * g : 0;
     }
-    /* backward: what comes after pulls on node j with k_{j+1} x_{j+1} + m_{j+1} t_{j+1} */
+    /* backward: the rest of the chain acts on node j with the force k_{j+1} x_{j+1} + m_{j+1}
+     * t_{j+1} */
     for (int j = n - 2; j >= 0; j--) {
         const double k = a->stiffness[j + 1], tension = t[j + 1];
         double *xj = &x[3 * j], m[3], pull[3], dx[3];
         memcpy(pull, &x[3 * (j + 1)], sizeof pull);
-        carry(a, j, j + 1, pull);
+        change_axes(a, j, j + 1, pull);
         direction_at(a, j + 1, j, m);
         for (int i = 0; i < 3; i++) pull[i] = k * pull[i] + m[i] * tension;
         if (cpsi_point_is_set(a, j + 1)) cpsi_chain_point_pull(a, j, &x[3 * (n + j + 1)], pull);

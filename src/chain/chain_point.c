@@ -15,8 +15,8 @@ static double dot(const double *p, const double *q) {
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
 }
 
-/* The unknowns (t, phi) on the node and on the one before, and what their equations read there: the
- * transposes, a row for each unknown. */
+/* P and N of the unknowns (t, phi), and P' and N' of their equations, all transposed: a row for
+ * each unknown. */
 typedef struct Border {
     double here[BORDER][NODE], there[BORDER][NODE], reads[BORDER][NODE], reads_there[BORDER][NODE];
 } Border;
@@ -29,7 +29,7 @@ static void border_of(Border *border, const CpsiMatrix *a, int j, const CpsiPoin
     for (int i = 0; i < NODE; i++) {
         border->here[0][i] = border->reads[0][i] = m[i];
         border->there[0][i] = border->reads_there[0][i] = -m[i];
-        /* component i of a place is row i of R in the axes of the point */
+        /* component i of a position is row i of R in the axes of the point */
         for (int k = 0; k < 3; k++) {
             border->here[1 + k][i] = b * r[3 * i + k];
             border->there[1 + k][i] = (1 - b) * r[3 * i + k];

@@ -6,16 +6,16 @@
  *
  *     S_j = [ X  V ; V'^T  -B ],    V = P + k C N,   V' = P' + k C^T N',   B = A + N'^T C N
  *
- * P and N hold what the unknowns (t, phi) do on node j and on the node before, P = [m, b R], N =
- * [-m, (1 - b) R], P' and N' what their equations read there. The equations of the point are, with
- * E the diagonal of D and c = skew/zz,
+ * P and N hold the forces of the unknowns (t, phi) on node j and on the node before, P = [m, b R],
+ * N = [-m, (1 - b) R]; P' and N' hold the coefficients of these nodes in the equations of the
+ * unknowns. The equations of the point are, with E the diagonal of D and c = skew/zz,
  *
  *     E x_p - (phi - c phi_z) = 0
  *         each divided by its entry of E where that is larger than 1, so that D may be anything
  *         from 0 up
  *
- * S_j is inverted as it stands, with row exchanges and the second direction of the node, if it has
- * one, as an eighth unknown. */
+ * S_j is inverted as a whole, with row exchanges; the second direction of the node, if it has one,
+ * is an eighth unknown. */
 #ifndef CAPSTAN_SRC_CHAIN_CHAIN_POINT_H
 #define CAPSTAN_SRC_CHAIN_CHAIN_POINT_H
 
@@ -43,11 +43,11 @@ void cpsi_chain_point_solve(const CpsiChainPoint *point, const CpsiMatrix *a, in
                             const double f[3], double h, const double before[3], double x[3],
                             double *t, double phi[3], double *second);
 
-/* What more force on node j adds to the unknowns of its block. */
+/* The change of the unknowns of the block for a change of the force on node j. */
 void cpsi_chain_point_add(const CpsiChainPoint *point, const double force[3],
                           double more[CPSI_CHAIN_POINT]);
 
-/* Take what the point of element j + 1 does on node j from `pull`, in the axes of node j. */
+/* Subtract the force of the point of element j + 1 on node j from `pull`, in the axes of node j. */
 void cpsi_chain_point_pull(const CpsiMatrix *a, int j, const double phi[3], double pull[3]);
 
 #endif

@@ -65,8 +65,8 @@ static bool factor(CpsiProgram *program) {
     return chain->ops->factor(chain->linsys, &chain->matrix);
 }
 
-/* The rows of the tensions have nothing on their right: residuals of elements are condensed with
- * their privates. */
+/* The right-hand sides of the tension rows are zero: the residuals of segments are eliminated
+ * together with the segments' own unknowns. */
 static void solve(CpsiProgram *program) {
     CpsiChainProgram *chain = cpsi_chain(program);
     memset(chain->dt, 0, (size_t)chain->n * sizeof *chain->dt);
@@ -82,7 +82,7 @@ static double share_of(const CpsiChainProgram *chain, int i, int node) {
     return node == i ? chain->matrix.share[i] : 1 - chain->matrix.share[i];
 }
 
-/* The residual of node j, with what the points of its elements leave to it. */
+/* The residual of node j, including the shares of the residuals at the points of its elements. */
 static void node_residual(const CpsiChainProgram *chain, int j, double out[3]) {
     memcpy(out, &chain->base.residual[3 * j], 3 * sizeof *out);
     for (int i = j; i <= j + 1 && chain->matrix.share; i++) {
@@ -137,7 +137,7 @@ bool cpsi_chain_program_couple_bounds(CpsiChainProgram *program) {
     program->bounds_coupled = true;
     clear(base);
     for (int k = 0; k < base->kind_count; k++) base->kind[k]->scale(base);
-    /* dA = friction dR + (friction R - A): the mismatch stands where q0 stands */
+    /* dA = friction dR + (friction R - A): the mismatch takes the place of q0 */
     memset(program->segment.q, 0, (size_t)program->n * sizeof *program->segment.q);
     memset(program->unilateral.q, 0,
            (size_t)program->unilateral.count * sizeof *program->unilateral.q);

@@ -12,22 +12,22 @@
  *     held node:    x_j = 0, its equation is dropped
  *
  * An element may have a point, at the share 0 < b_i < 1 of its way, in axes Q_{n+i} of its own. It
- * moves with the element and pushes back,
+ * moves with the element, and its force acts on the nodes,
  *
  *     point i:      x_{n+i} = Q_{n+i} ((1 - b_i) Q_{i-1}^T x_{i-1} + b_i Q_i^T x_i),
  *         f_{n+i} - D_{n+i} x_{n+i} on the point,
  *                   (1 - b_i) of it on node i-1 and b_i on node i
  *
  * The third axis of a node is the one that may be stiffest, an obstacle's normal. D_j is symmetric
- * >= 0, plus `skew` in the column z of its rows x and y (friction that follows the reaction), plus
- * c r^T/a of a `second` direction r that may be as stiff (the normal of another obstacle, a >= 0
- * its compliance, c = r + what friction follows that reaction); k_i >= 0; a_i > 0, or a_i < 0 as
- * long as k_i I + m_i m_i^T/a_i >= 0 (an element softer along itself than across). Without skew,
+ * >= 0, plus `skew` in the column z of its rows x and y (friction coupled to the reaction), plus c
+ * r^T/a of a `second` direction r that may be as stiff (the normal of another obstacle, a >= 0 its
+ * compliance, c = r + the friction coupled to that reaction); k_i >= 0; a_i > 0, or a_i < 0 as long
+ * as k_i I + m_i m_i^T/a_i >= 0 (an element softer along itself than across). Without skew,
  * eliminating the tensions would leave a positive definite matrix, so no pivot vanishes in the
  * orders used. Keeping the tension t_i as an unknown keeps stiff elements exact: a_i may be as
- * small as 0+ beside k_i of order one, where the condensed stiffness m m^T/a would drown everything
- * else. D of a point, whose skew is 0 unless its xz and yz are, may be as stiff in whatever
- * direction: what it does is an unknown of its own. */
+ * small as 0+ beside k_i of order one, where the condensed stiffness m m^T/a would swamp everything
+ * else by rounding. D of a point, whose skew is 0 unless its xz and yz are, may be as stiff in any
+ * direction: its force is an unknown of its own. */
 #ifndef CAPSTAN_SRC_CHAIN_CHAIN_SYSTEM_H
 #define CAPSTAN_SRC_CHAIN_CHAIN_SYSTEM_H
 
@@ -36,8 +36,8 @@
 
 #include "base/arena.h"
 
-/* The part c r^T/a of each D_j, kept apart as its 1/a may drown all else; f_j = r.x_j/a is an
- * unknown of its own. */
+/* The part c r^T/a of each D_j, stored separately because its 1/a may swamp all else by rounding;
+ * f_j = r.x_j/a is an unknown of its own. */
 typedef struct CpsiMatrixSecond {
     double *column;     /* (n, 3) c */
     double *row;        /* (n, 3) r; 0: there is none */
@@ -79,7 +79,7 @@ typedef struct CpsiLinsysOps {
     /* Factorise; false when a pivot is not finite (the matrix holds NaN or infinities). */
     bool (*factor)(CpsiLinsys *self, const CpsiMatrix *matrix);
     /* Solve with the last factor. In: x = f (n, or 2 n, 3), t = h (n). Out: the solution; x = 0 at
-     * held nodes, t[0] = 0; of a point to as many digits of D x as rounding leaves, 0 where there
+     * held nodes, t[0] = 0; of a point to the accuracy in D x that rounding permits, 0 where there
      * is none; f (n) of the second directions, NULL where there are none. */
     void (*solve)(const CpsiLinsys *self, const CpsiMatrix *matrix, double *x, double *t,
                   double *f);

@@ -2,8 +2,8 @@
 /* The dense back end: the same matrix in full, L U with row exchanges.
  *
  * The unknowns are x_0, ..., x_{n-1} (3 each), then t_1, ..., t_{n-1}, then f of second directions,
- * then the forces of points. Cost 2 (4n)^3/3: for small lines, and as a second way to the same
- * answer that shares no idea with the chain. */
+ * then the forces of points. The cost is 2 (4n)^3/3. It is for small lines, and serves as an
+ * independent check of the chain back end. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -64,8 +64,8 @@ static void fill_second(double *m, const CpsiMatrix *a) {
         }
 }
 
-/* The equations of a point's force, and that force on the nodes by their shares; 0 where there is
- * none. */
+/* The equations of a point's force, and that force on the nodes by their shares; the identity where
+ * there is no point. */
 static void fill_points(double *m, const CpsiMatrix *a) {
     const size_t n = (size_t)a->n, size = unknowns(a);
     for (size_t j = 0; a->share && j < n; j++) {
@@ -111,8 +111,8 @@ static void dense_fill(Dense *dense, const CpsiMatrix *a) {
                                : node_entry(a, node, (int)r, (int)c) + (r == c ? both : 0);
         m[tj * size + tj] = j > 0 ? -a->compliance[j] : 1;
         if (j == 0) continue;
-        /* the element before it: stiffness between the nodes, and the tension's row and column; x_j
-         * = 0 takes no part */
+        /* the element before it: stiffness between the nodes, and the tension's row and column;
+         * held nodes, x_j = 0, are left out */
         double turn[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, here[3], there[3];
         for (size_t i = 0; i < 3; i++) here[i] = there[i] = a->direction[3 * j + i];
         if (a->frame) {
@@ -157,7 +157,7 @@ static bool dense_factor(CpsiLinsys *self, const CpsiMatrix *matrix) {
     for (size_t i = 0; i < size * size; i++) largest = fmax(largest, fabs(lu[i]));
     for (size_t k = 0; k < size; k++) {
         exchange_rows(dense, size, k);
-        /* a pivot lost to rounding is lifted to the rounding level */
+        /* pivots below the rounding level are replaced by it */
         const double least = DBL_EPSILON * DBL_EPSILON * largest;
         if (fabs(lu[k * size + k]) < least) lu[k * size + k] = least;
         if (!isfinite(lu[k * size + k]) || lu[k * size + k] == 0) return false;

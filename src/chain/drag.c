@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Drag: a force -d w u on every node, w the share of the line that the node stands for. It is the
- * proximal term (d/2) sum w |u|^2 in front of the program, and needs no cone. */
+ * proximal term (d/2) sum w |u|^2 in the energy, and needs no cone. */
 #include "chain/elements.h"
 
 static double weight(const CpsiChainProgram *program, int j) {
@@ -31,7 +31,7 @@ static void scale(CpsiProgram *base) {
         }
 }
 
-/* The rest is what the linear system does with it. */
+/* The other passes have nothing to do: the term acts through the linear system alone. */
 static void start(CpsiProgram *base, double mu, double margin) {
     (void)base;
     (void)mu;

@@ -26,7 +26,7 @@ typedef struct CpsiFrictionDisc {
     int count;
     int *node;
     int *contact;        /* (count) the caller's number */
-    double *weight;      /* (count) w_k > 0, that of its stop */
+    double *weight;      /* (count) w_k > 0, that of its unilateral contact */
     double (*s)[3];      /* (count) (t, u_x, u_y) */
     double (*z)[3];      /* (count) (A, F_x, F_y) */
     double (*offset)[2]; /* (count) o_k; NULL: none */
@@ -41,11 +41,12 @@ typedef struct CpsiFrictionDisc {
 typedef struct CpsiUnilateral {
     int count;
     int *node;
-    int *contact;        /* (count) the caller's number */
-    double *weight;      /* (count) w_k > 0 */
-    double *gap;         /* (count) g_k >= 0 */
-    bool *second;        /* (count) of two at a node */
-    double (*normal)[3]; /* (count) n_k; of a first stop z. NULL: all are z, and none is second */
+    int *contact;   /* (count) the caller's number */
+    double *weight; /* (count) w_k > 0 */
+    double *gap;    /* (count) g_k >= 0 */
+    bool *second;   /* (count) the second contact of its node */
+    double (
+        *normal)[3]; /* (count) n_k; of a first contact z. NULL: all are z, and none is second */
     double (*curvature)[6]; /* (count) R0 times the curvature of the surface, xx, xy, yy, xz, yz,
                                zz: the force R n gains that times u; with `normal` */
     double *s, *z;          /* (count) distance, reaction */
@@ -69,16 +70,17 @@ typedef struct CpsiFrictionConic {
     int count;
     int *node;
     int *contact;              /* (count) the caller's number */
-    double *weight;            /* (count) w_k > 0, that of its stop */
+    double *weight;            /* (count) w_k > 0, that of its unilateral contact */
     const CpsiConicSet **form; /* (count) */
     double *bound;             /* (count) a: the forces are a times the set */
     double (*offset)[2];       /* (count) o_k */
-    double (*tangent)[6]; /* (count) the tangents (2, 3) of its stop row by row: x and y of a first
-                             one */
-    bool *second;         /* (count) as its stop */
-    int *unilateral;      /* (count) as of a rub, where the bounds follow */
-    double *friction;     /* (count) */
-    double *d_bound, *shift; /* (count) direction of a, and what it has beside that of friction R */
+    double (*tangent)[6];    /* (count) the tangents (2, 3) of its contact row by row: x and y of a
+                                first one */
+    bool *second;            /* (count) as its contact */
+    int *unilateral;         /* (count) as of a friction disc */
+    double *friction;        /* (count) */
+    double *d_bound, *shift; /* (count) direction of a, and its part that does not come from the
+                                direction of R */
     double (*turn)[2]; /* (count) cosine and sine of the turn of the node's tangents in the linear
                           system */
     double (*du)[2];   /* (count) the direction in these */
@@ -95,12 +97,12 @@ typedef struct CpsiChainProgram {
     double *frame; /* (n, or 2 n, 9) axes of the nodes (chain/frame.h); NULL: the common axes */
     struct {
         double *frame, (*offset)[2], (*map)[6], (*normal)[3], (*curvature)[6];
-        double *share; /* (n) where on its way element i has a point, 0: none; NULL: there is no
-                          room for points */
+        double *share; /* (n) b_i, where along element i its point lies, 0: none; NULL: the program
+                          has no points */
         CpsiMatrixSecond second;
-        double *second_reaction_change; /* (n) w (z/s) n.du of second stops */
-        bool has_second_contacts;       /* there is room for second stops */
-    } node_frames;                      /* room for what only nodes with axes of their own have */
+        double *second_reaction_change; /* (n) w (z/s) n.du of second contacts */
+        bool has_second_contacts;       /* nodes may have second contacts */
+    } node_frames; /* storage that is used only where nodes have axes of their own */
     CpsiSegment segment;
     double drag; /* d >= 0: a force -d w_j u_j on node j, w_j its share of the line */
     CpsiFrictionDisc disc;
@@ -118,7 +120,7 @@ static inline CpsiChainProgram *cpsi_chain(CpsiProgram *program) {
     return (CpsiChainProgram *)program;
 }
 
-/* n.u of stop k, for a field u of the nodes. */
+/* n.u of unilateral contact k, for a field u of the nodes. */
 static inline double cpsi_unilateral_rise(const CpsiUnilateral *unilateral, int k,
                                           const double *u) {
     const double *v = &u[3 * unilateral->node[k]];
@@ -127,7 +129,7 @@ static inline double cpsi_unilateral_rise(const CpsiUnilateral *unilateral, int 
     return n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
 }
 
-/* rho = gap + n.u - s of stop k. */
+/* rho = gap + n.u - s of unilateral contact k. */
 static inline double cpsi_unilateral_residual(const CpsiChainProgram *program, int k) {
     const CpsiUnilateral *unilateral = &program->unilateral;
     return unilateral->gap[k] + cpsi_unilateral_rise(unilateral, k, program->base.u) -
@@ -143,8 +145,9 @@ static inline void cpsi_add_mapped(double *d, double by, const double b[6], cons
     }
 }
 
-/* Friction that follows stop k: (c times the change of the bound) acts on the node, c in its axes;
- * the bound is friction R. Adds what goes with du to the matrix. */
+/* Friction coupled to the reaction of unilateral contact k: the force c times the change of the
+ * bound acts on the node, c in its axes; the bound is friction R. Adds the part that is linear in
+ * du to the matrix. */
 static inline void cpsi_unilateral_couple_bound(CpsiChainProgram *program, int k, double weight,
                                                 double friction, const double c[3]) {
     const CpsiUnilateral *unilateral = &program->unilateral;
@@ -160,25 +163,28 @@ static inline void cpsi_unilateral_couple_bound(CpsiChainProgram *program, int k
             weight * friction * unilateral->z[k] / unilateral->s[k] * c[a];
 }
 
-/* ---- shapes (friction_conic.c) ---- */
+/* ---- friction conics (friction_conic.c) ---- */
 
-/* The arrays of at most `count` shapes on n nodes. */
+/* Place the arrays of at most `count` friction conics on n nodes. */
 void cpsi_friction_conic_layout(CpsiFrictionConic *conic, CpsiArena *arena, int n, int count,
                                 const CpsiConicSet *largest);
-/* F of shape k, per unit weight. */
+/* F of friction conic k, per unit weight. */
 void cpsi_friction_conic_force(const CpsiFrictionConic *conic, int k, double force[2]);
-/* |o + u_xy| of shape k. */
+/* |o + u_xy| of friction conic k. */
 double cpsi_friction_conic_slip(const CpsiChainProgram *program, int k);
-/* How far F is inside the set, 0 on its boundary, of order one at the centre. */
+/* Distance of F from the boundary of its set in the scale of the cones: 0 on the boundary, of order
+ * one at the centre. */
 double cpsi_friction_conic_margin(const CpsiFrictionConic *conic, int k);
-/* Tangential components of nodes to the turned tangents of their shapes; a direction back, and
- * kept. */
+/* Turn the tangential components of nodes to the rotated tangents of their friction conics; turn a
+ * direction back, after keeping it. */
 void cpsi_friction_conic_turn(const CpsiFrictionConic *conic, double *x);
 void cpsi_friction_conic_turn_back(CpsiFrictionConic *conic, double *du);
-/* The shapes' part of cpsi_chain_program_couple_bounds: every bound moves to friction R. */
+/* The part of cpsi_chain_program_couple_bounds for friction conics: every bound moves to friction
+ * R. */
 void cpsi_friction_conic_predict_bounds(CpsiFrictionConic *conic, const CpsiUnilateral *unilateral);
 
-/* In this order: a rub and a shape read the pass of their stop. */
+/* In this order: friction discs and conics read what the same pass has computed for their
+ * unilateral contact. */
 extern const CpsiKind cpsi_segment, cpsi_drag, cpsi_unilateral, cpsi_friction_disc,
     cpsi_friction_conic;
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Shape: dry friction with any planar convex set of forces, a C, C = { origin + P v : A v + b in K
- * }, K half-lines and second-order cones.
+/* Friction conic: dry friction with any planar convex set of forces, a C, C = { origin + P v : A v
+ * + b in K }, K half-lines and second-order cones.
  *
  * With the variables scaled by the bound a, the force F = origin a + P v lies in a C where z = A v
- * + b a is in K, and against the way u = o + v_xy of its node it is the one that dissipates most
+ * + b a is in K, and it is the force of maximal dissipation for the slip u = o + v_xy of its node
  * when
  *
  *     A's = P'u,    s in K,    s o z = 0          s.z = a phi(u) + <u, F>,
@@ -15,21 +15,24 @@
  *     N dv = A'H^-1 (q - b da) - P'du - r,      N = A'H^-1 A
  *     dF = c da + P N^-1 (A'H^-1 q - r) - M du,     M = P N^-1 P',     c = origin - P N^-1 A'H^-1 b
  *
- * M goes to the node's block and c, where a = friction R follows the reaction of the stop beside
- * it, to its column z as in friction_disc.c. Near a solution H^-1 holds numbers from mu to 1/mu. So
- * N is never formed: with B = H^-1/2 A = Q R, its rows turned to the axes of W so that each has one
- * size, dv is a least-squares solution and sqrt(H) ds its residual,
+ * M goes to the node's block and c, where a = friction R is coupled to the reaction of its
+ * unilateral contact, to its column z as in friction_disc.c. Near a solution the entries of H^-1
+ * range from mu to 1/mu. Therefore N is never formed: with B = H^-1/2 A = Q R, its rows turned to
+ * the axes of W so that each has one size, dv is a least-squares solution and sqrt(H) ds its
+ * residual,
  *
  *     dv = R^-1 (Q1'y - t),   sqrt(H) ds = Q (t, Q2'y),   y = H^-1/2 (q - b da),
  *         t = R^-T (P'du + r),
  *
- * which keeps A'ds = P'du + r to the last digit. M = G'G with G = R^-T P' is large along a face of
- * C and of order one across while a node slides on that face. So the linear system has the node's
- * tangents turned to where the columns of G are orthogonal (Jacobi), and du in these axes is kept
- * for R^-T P'du = G du: turned back, the small part along the face would be lost in the other. A
- * node's second shape, on another obstacle, lies as it comes in these axes.
+ * which keeps A'ds = P'du + r to rounding. M = G'G with G = R^-T P' is large along a face of C and
+ * of order one across while a node slides on that face. Therefore the linear system uses tangents
+ * of the node that are rotated so that the columns of G are orthogonal (Jacobi), and du in these
+ * axes is kept for R^-T P'du = G du: after rotating back, the small component along the face would
+ * be lost in the large one. The second friction conic of a node, on another obstacle, has general
+ * axes in this frame.
  *
- * It starts from the centre of C, where A'z^-1 = 0: then s = mu z^-1 leaves r = P'u. */
+ * The start is the analytic centre of C, where A'z^-1 = 0; there s = mu z^-1 has the residual r =
+ * P'u. */
 #include <string.h>
 
 #include "base/larger.h"
@@ -42,7 +45,7 @@
 typedef struct Element {
     const CpsiConicSet *form;
     double *v, *dv, *r, *beta;       /* (unknowns) */
-    double *pull[2];                 /* (unknowns) the columns of G, turned */
+    double *pull[2];                 /* (unknowns) the columns of G in the rotated tangents */
     double *s, *z, *w, *q, *ds, *dz; /* (rows) */
     double *g;                       /* (cones) */
     double *qr;                      /* (spread, unknowns) */
@@ -93,7 +96,7 @@ void cpsi_friction_conic_layout(CpsiFrictionConic *conic, CpsiArena *arena, int 
 
 /* ---- small products ---- */
 
-/* Rows of B that a cone of dimension d makes. */
+/* Rows of B for a cone of dimension d. */
 static int spread_of(int d) { return d == 1 ? 1 : d + 1; }
 
 /* out = H^-1/2 x in the axes of W: of a second-order cone its components along (1, n), (1, -n) and
@@ -116,7 +119,7 @@ static void spread(const Element *e, const double *x, double *out) {
 }
 
 /* The transpose of `spread`. */
-static void gather(const Element *e, const double *y, double *out) {
+static void spread_transposed(const Element *e, const double *y, double *out) {
     for (int k = 0, i = 0, o = 0; k < e->form->cones;
          i += e->form->dim[k], o += spread_of(e->form->dim[k]), k++) {
         const int d = e->form->dim[k];
@@ -135,12 +138,12 @@ static void gather(const Element *e, const double *y, double *out) {
 }
 
 /* out = P'u */
-static void lift(const CpsiConicSet *form, const double u[2], double *out) {
+static void multiply_p_transposed(const CpsiConicSet *form, const double u[2], double *out) {
     for (int j = 0; j < form->unknowns; j++)
         out[j] = form->p[j] * u[0] + form->p[form->unknowns + j] * u[1];
 }
 
-/* T u, in the tangents of shape k. */
+/* T u, the components of u along the tangents of friction conic k. */
 static void tangential(const CpsiFrictionConic *conic, int k, const double u[3], double out[2]) {
     const double *t = conic->tangent[k];
     for (int a = 0; a < 2; a++)
@@ -172,8 +175,9 @@ double cpsi_friction_conic_slip(const CpsiChainProgram *program, int k) {
     return hypot(u[0] + conic->offset[k][0], u[1] + conic->offset[k][1]);
 }
 
-/* Add weight (origin a + P v) of shape k to its node's force. */
-static void push(const CpsiFrictionConic *conic, int k, double a, const double *v, double *force) {
+/* Add weight (origin a + P v) of friction conic k to its node's force. */
+static void add_to_node(const CpsiFrictionConic *conic, int k, double a, const double *v,
+                        double *force) {
     double f[2] = {0, 0}, here[3];
     add_force(conic->form[k], conic->weight[k], a, v, f);
     spatial(conic->tangent[k], f, here);
@@ -222,7 +226,7 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
         double u[2];
         tangential(conic, k, x, u);
         for (int a = 0; a < 2; a++) u[a] += conic->offset[k][a];
-        lift(form, u, e.r);
+        multiply_p_transposed(form, u, e.r);
         for (int i = 0; i < form->rows; i++)
             for (int j = 0; j < form->unknowns; j++)
                 e.r[j] -= form->a[i * form->unknowns + j] * e.s[i];
@@ -233,11 +237,11 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
         sums->sz += weight * cpsi_dot(form->rows, e.s, e.z);
         sums->scale += weight * conic->bound[k] * fabs(phi);
         sums->bound += weight * conic->bound[k] * form->reach;
-        push(conic, k, conic->bound[k], e.v, base->residual);
+        add_to_node(conic, k, conic->bound[k], e.v, base->residual);
     }
 }
 
-/* B = Q R; false where rounding has left it no rank. */
+/* B = Q R; false where B is rank-deficient to rounding. */
 static bool factor(const Element *e, double *scratch) {
     const CpsiConicSet *form = e->form;
     double *column = scratch, *image = column + form->rows;
@@ -255,7 +259,7 @@ static void project(const Element *e, const double *x, double *out, double *scra
     cpsi_qr_to(e->spread, e->form->unknowns, e->qr, e->beta, e->row, scratch, out);
 }
 
-/* Two components from the node's tangents to the turned ones, and back. */
+/* Two components from the node's tangents to the rotated ones, and back. */
 static void turn_to(const double turn[2], double *x) {
     const double a = x[0], b = x[1];
     x[0] = turn[0] * a - turn[1] * b;
@@ -265,7 +269,7 @@ static void turn_from(const double turn[2], double *x) {
     turn_to((const double[2]){turn[0], -turn[1]}, x);
 }
 
-/* G, not turned yet. */
+/* G in the node's own tangents. */
 static void pull(const Element *e, double turn[2]) {
     const int n = e->form->unknowns;
     for (int a = 0; a < 2; a++)
@@ -274,16 +278,16 @@ static void pull(const Element *e, double turn[2]) {
     turn[1] = 0;
 }
 
-/* G with its columns made orthogonal by a turn of the tangents: Jacobi's rotations from one side,
- * which keep the digits of each column. */
+/* Make the columns of G orthogonal by a rotation of the tangents: one-sided Jacobi rotations, which
+ * keep the relative accuracy of each column. */
 static void orthogonalise(const Element *e, double turn[2]) {
     const int n = e->form->unknowns;
     for (int sweep = 0; sweep < 4; sweep++) {
         const double one = cpsi_dot(n, e->pull[0], e->pull[0]),
-                     has_second_contacts = cpsi_dot(n, e->pull[1], e->pull[1]);
+                     second = cpsi_dot(n, e->pull[1], e->pull[1]);
         const double both = cpsi_dot(n, e->pull[0], e->pull[1]);
-        if (!(fabs(both) > DBL_EPSILON * sqrt(one) * sqrt(has_second_contacts))) return;
-        const double zeta = (has_second_contacts - one) / (2 * both),
+        if (!(fabs(both) > DBL_EPSILON * sqrt(one) * sqrt(second))) return;
+        const double zeta = (second - one) / (2 * both),
                      tangent = (zeta < 0 ? -1 : 1) / (fabs(zeta) + hypot(1, zeta));
         const double by[2] = {1 / hypot(1, tangent), tangent / hypot(1, tangent)};
         for (int i = 0; i < n; i++) {
@@ -296,7 +300,7 @@ static void orthogonalise(const Element *e, double turn[2]) {
     }
 }
 
-/* The node's block, second direction and axes in the turned tangents. */
+/* Rotate the node's block, second direction and axes to the rotated tangents. */
 static void turn_node(CpsiMatrix *matrix, int node, const double turn[2], double *frame) {
     double *diagonal = &matrix->diagonal[6 * node];
     const double c = turn[0], s = turn[1], xx = diagonal[0], xy = diagonal[1], yy = diagonal[2];
@@ -316,8 +320,9 @@ static void turn_node(CpsiMatrix *matrix, int node, const double turn[2], double
     }
 }
 
-/* The tangents of shape k in the axes of the linear system. A first shape's are those axes; a
- * second shape stands behind the first one of its node, whose turn it takes. */
+/* The tangents of friction conic k in the axes of the linear system. Those of a node's first conic
+ * are these axes; its second conic stands directly behind the first one and uses the first one's
+ * rotation. */
 static void system_tangents(const CpsiFrictionConic *conic, int k, double t[6]) {
     memcpy(t, conic->tangent[k], sizeof conic->tangent[k]);
     if (!conic->second[k] || k == 0 || conic->node[k - 1] != conic->node[k]) return;
@@ -354,7 +359,7 @@ static void scale(CpsiProgram *base) {
         conic->shift[k] = 0;
         double *diagonal = &program->matrix.diagonal[6 * node], *turn = conic->turn[k], t[6];
         if (!factor(&e, scratch)) {
-            diagonal[0] = NAN; /* the linear system says so */
+            diagonal[0] = NAN; /* the factorisation then fails */
             continue;
         }
         pull(&e, turn);
@@ -378,7 +383,7 @@ static void scale(CpsiProgram *base) {
     }
 }
 
-/* dv, and Q' sqrt(H) ds in `image` (spread), for the residual keep r and du in the turned tangents
+/* dv, and Q' sqrt(H) ds in `image` (spread), for the residual keep r and du in the rotated tangents
  * (NULL: 0). scratch (2 spread) */
 static void direction(const Element *e, double da, double keep, const double *du, double *image,
                       double *scratch) {
@@ -410,7 +415,7 @@ static void load(CpsiProgram *base, double keep) {
                   (unilateral->q[i] - unilateral->z[i] / unilateral->s[i] * keep *
                                           cpsi_unilateral_residual(program, i));
         direction(&e, da, keep, NULL, image, rest);
-        push(conic, k, da, e.dv, base->du);
+        add_to_node(conic, k, da, e.dv, base->du);
     }
 }
 
@@ -429,7 +434,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
                                : 0);
         direction(&e, da, keep, conic->du[k], image, rest);
         cpsi_qr_from(e.spread, n, e.qr, e.beta, e.row, image, y);
-        gather(&e, y, e.ds);
+        spread_transposed(&e, y, e.ds);
         for (int i = 0; i < form->rows; i++)
             e.dz[i] = cpsi_dot(n, &form->a[i * n], e.dv) + form->b[i] * da;
         conic->d_bound[k] = da;
@@ -453,7 +458,7 @@ static void correct(CpsiProgram *base, double target) {
     }
 }
 
-/* As correct, with no second-order term to take off. */
+/* As correct, without a second-order term. */
 static void centre(CpsiProgram *base, double target) {
     CpsiFrictionConic *conic = &cpsi_chain(base)->conic;
     for (int k = 0; k < conic->count; k++) {

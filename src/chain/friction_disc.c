@@ -1,33 +1,34 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rub: dry friction with the disc of radius A as its set of forces, the cone (t, u) in Q3 with
- * energy A t.
+/* Friction disc: dry friction with the disc of radius A as its set of forces, the cone (t, u) in Q3
+ * with energy A t.
  *
  * u = o + B v, v the node's displacement, B zero along the normal: the set of forces on v is the
- * disc mapped by B^T, an ellipse, or a segment where B is singular; several rubs on one node add up
- * to the sum of their sets. What follows is written for u.
+ * disc mapped by B^T, an ellipse, or a segment where B is singular; several discs on one node add
+ * up to the sum of their sets. The equations below are in terms of u.
  *
- * t is private and linear in the energy, so the first dual is A itself, dual pair (A, F) in Q3: |F|
- * <= A. Eliminating t from dz + H ds = q leaves, omega = |w1|^2, c = 2 w0/(1 + 2 omega):
+ * t belongs to the element alone and is linear in the energy, so the first dual is A itself, dual
+ * pair (A, F) in Q3: |F| <= A. Eliminating t from dz + H ds = q leaves, omega = |w1|^2, c = 2 w0/(1
+ * + 2 omega):
  *
  *     dF = Q - M du - c w1 dA,     M = g (I - 2 w1 w1^T/(1 + 2 omega)),     Q = q1 + c w1 q0
  *     dt = ((q0 - dA)/g + 2 w0 w1.du)/(1 + 2 omega)
  *
- * M is stiff while the node sticks; once it slips, g = A/|u| acts across the slip and almost
- * nothing along it.
+ * M is stiff while the node sticks. Once it slips, the stiffness is g = A/|u| across the slip and
+ * almost zero along it.
  *
- * Two kinds of bound. Given A (S90's frozen friction): dA = 0, and the problem is convex. A = mu R,
- * R the dual of the node's stop: dA = mu dR with dR = q_R - (R/s)(n.du + rho), known as soon as du
- * is. This is Coulomb's law itself, no longer the minimum of an energy: it adds c w1 mu R/s times n
- * to the node's block on the right, rows x, y in the column z for n = z, and nothing on the
- * left. */
+ * There are two kinds of bound. With a fixed A (the frozen friction of S90), dA = 0 and the problem
+ * is convex. With a coupled bound A = mu R, where R is the dual of the unilateral contact, dA = mu
+ * dR and dR = q_R - (R/s)(n.du + rho), which is known once du is. This is Coulomb's law itself,
+ * which is not the minimum of an energy: it adds c w1 mu R/s times n to the node's block on the
+ * right, rows x, y in the column z for n = z, and nothing on the left. */
 #include <stdbool.h>
 
 #include "base/larger.h"
 #include "chain/elements.h"
 #include "ipm/soc.h"
 
-/* mu R of the stop beside rub k where the bound follows it: its direction less the part that goes
- * with du_z, and the whole. */
+/* Where bounds are coupled: the direction of the bound mu R of disc k, without the part that is
+ * linear in n.du, and (bound_direction) all of it. */
 static inline double bound_load(const CpsiChainProgram *program, int k, double keep) {
     const int i = program->disc.unilateral[k];
     if (!program->bounds_coupled) return 0;
@@ -42,10 +43,10 @@ static inline double bound_direction(const CpsiChainProgram *program, int k) {
     return !program->bounds_coupled ? 0 : program->disc.friction[k] * program->unilateral.dz[i];
 }
 
-/* B where none is given. */
+/* B where map is NULL. */
 static const double PLAIN[6] = {1, 0, 0, 0, 1, 0};
 
-/* u and du: what v does to the rub. */
+/* u = o + B v (`whole`) or du = B v of disc k, for the displacement v of its node. */
 static inline void slide(const CpsiFrictionDisc *disc, int k, const double v[3], bool whole,
                          double u[2]) {
     u[0] = v[0];
@@ -62,7 +63,8 @@ static inline void slide(const CpsiFrictionDisc *disc, int k, const double v[3],
 }
 
 /* Add weight x B^T f to the node's force. */
-static inline void push(const CpsiFrictionDisc *disc, int k, const double f[2], double *force) {
+static inline void add_to_node(const CpsiFrictionDisc *disc, int k, const double f[2],
+                               double *force) {
     const double weight = disc->weight[k];
     if (disc->map) {
         const double *b = disc->map[k];
@@ -104,7 +106,7 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
         sums->sz += weight * (s[0] * z[0] + s[1] * z[1] + s[2] * z[2]);
         sums->scale += weight * s[0] * z[0];
         sums->bound += weight * z[0];
-        push(disc, k, &z[1], &base->residual[3 * disc->node[k]]);
+        add_to_node(disc, k, &z[1], &base->residual[3 * disc->node[k]]);
     }
 }
 
@@ -145,7 +147,7 @@ static void load(CpsiProgram *base, double keep) {
         const double pull = 2 * w[0] * (q[0] - bound_load(program, k, keep)) /
                             (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
         const double force[2] = {q[1] + pull * w[1], q[2] + pull * w[2]};
-        push(disc, k, force, &base->du[3 * disc->node[k]]);
+        add_to_node(disc, k, force, &base->du[3 * disc->node[k]]);
     }
 }
 

@@ -12,8 +12,8 @@
 
 #include "base/larger.h"
 
-/* Stiffness of an axis that is not free, beside springs of order one and links of up to 1e16: what
- * is left of a displacement along it is below the rounding of any other. */
+/* Stiffness of an axis that is not free, beside springs of order one and links of up to 1e16: the
+ * remaining displacement along it is below the rounding of the others. */
 static const double BLOCKED = 1e40;
 
 static inline CpsiNearestProgram *nearest(CpsiProgram *base) { return (CpsiNearestProgram *)base; }
@@ -35,7 +35,8 @@ static void spring_measure(CpsiProgram *base, CpsiSums *sums) {
                             ? *residual - program->weight[j] / program->size * base->u[3 * j + a]
                             : 0;
         }
-    sums->bound += 1; /* as friction does: the loop sharpens what it found */
+    sums->bound +=
+        1; /* a bounded dual, as friction has: the loop then takes its refinement steps */
 }
 
 static void spring_scale(CpsiProgram *base) {
@@ -79,7 +80,7 @@ static inline double residual_of(const CpsiNearestProgram *program, int k) {
            program->half.s[k];
 }
 
-static inline void push(const CpsiHalfSpace *half, int k, double by, double *force) {
+static inline void add_to_node(const CpsiHalfSpace *half, int k, double by, double *force) {
     for (int a = 0; a < 3; a++) force[3 * half->node[k] + a] += by * half->normal[k][a];
 }
 
@@ -102,7 +103,7 @@ static void half_measure(CpsiProgram *base, CpsiSums *sums) {
         sums->ray -= half->weight[k] * half->z[k] * (half->s[k] + rho);
         sums->residual = cpsi_max_nan(sums->residual, fabs(rho));
         sums->largest = cpsi_max_nan(sums->largest, half->z[k]);
-        push(half, k, half->weight[k] * half->z[k], base->residual);
+        add_to_node(half, k, half->weight[k] * half->z[k], base->residual);
     }
 }
 
@@ -123,10 +124,10 @@ static void half_load(CpsiProgram *base, double keep) {
     const CpsiNearestProgram *program = nearest(base);
     const CpsiHalfSpace *half = &program->half;
     for (int k = 0; k < half->count; k++)
-        push(half, k,
-             half->weight[k] *
-                 (half->q[k] - half->z[k] / half->s[k] * keep * residual_of(program, k)),
-             base->du);
+        add_to_node(half, k,
+                    half->weight[k] *
+                        (half->q[k] - half->z[k] / half->s[k] * keep * residual_of(program, k)),
+                    base->du);
 }
 
 static void half_direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
@@ -165,7 +166,7 @@ static const CpsiKind half_space = {half_start,  half_measure, half_scale,  half
 
 void cpsi_nearest_program_layout(CpsiNearestProgram *program, CpsiArena *arena, int n, int halves,
                                  const CpsiLinsysOps *ops) {
-    /* the spring last: it drops the residuals of axes that are not free */
+    /* the spring comes last: it clears the residuals of axes that are not free */
     static const CpsiKind *const kinds[] = {&cpsi_segment, &half_space, &spring};
     cpsi_chain_program_layout(&program->chain, arena, n, 1, false, NULL, ops);
     program->chain.base.kind = kinds;

@@ -8,9 +8,8 @@
  *               half-spaces, any number at a node
  *           u_j in the span of its first `freedom` axes, 0 at held nodes
  *
- * The links are stretch elements of chain_program.h with compliance 0. V > 0 is the size of u to
- * expect, so that the duals are of order one. The objective is strongly convex: the solution is
- * unique. */
+ * The links are segments of chain_program.h with compliance 0. V > 0 is the expected size of u,
+ * which makes the duals of order one. The objective is strongly convex: the solution is unique. */
 #ifndef CAPSTAN_SRC_CHAIN_NEAREST_PROGRAM_H
 #define CAPSTAN_SRC_CHAIN_NEAREST_PROGRAM_H
 
@@ -26,7 +25,8 @@ typedef struct CpsiHalfSpace {
 } CpsiHalfSpace;
 
 typedef struct CpsiNearestProgram {
-    CpsiChainProgram chain; /* first: its kinds see the chain; without rubs, stops and shapes */
+    CpsiChainProgram
+        chain; /* first member, so that its kinds can cast to it; without contacts and friction */
     CpsiHalfSpace half;
     double *weight; /* (n) h_j */
     int *freedom;   /* (n) free axes of the node, 1..3 */

@@ -7,16 +7,16 @@
 
 #include "chain/frame.h"
 
-/* Of Jacobi's method; three matrix entries are done after four or five. */
+/* Sweeps of Jacobi's method at most; a 3 x 3 matrix converges in four or five. */
 enum { SWEEPS = 10 };
 
-/* What is left of the symmetric m (3, 3) beside its diagonal in p and q: below rounding of
- * these? */
+/* Is the off-diagonal entry (p, q) of the symmetric m (3, 3) below the rounding of the diagonal? */
 static bool is_diagonal(const double m[9], int p, int q) {
     return fabs(m[3 * p + q]) <= DBL_EPSILON * sqrt(fabs(m[4 * p] * m[4 * q]));
 }
 
-/* One turn of Jacobi's in the plane of p and q: m becomes J m J^T with no m_pq, and turn J turn. */
+/* One Jacobi rotation in the plane of p and q: m becomes J m J^T with m_pq = 0, and turn becomes J
+ * turn. */
 static void turn_plane(double m[9], double turn[9], int p, int q) {
     const double zeta = m[3 * p + q] == 0 ? INFINITY : (m[4 * q] - m[4 * p]) / (2 * m[3 * p + q]);
     const double t = (zeta < 0 ? -1 : 1) / (fabs(zeta) + hypot(1, zeta)), c = 1 / hypot(1, t),
@@ -105,5 +105,5 @@ void cpsi_points_place(const CpsiMatrix *a, const double *t, double *x) {
         }
         cpsi_frame_from(phi, law.turn, place);
     }
-    for (int i = 0; i < 3; i++) x[3 * a->n + i] = 0; /* element 0 is none */
+    for (int i = 0; i < 3; i++) x[3 * a->n + i] = 0; /* there is no element 0 */
 }

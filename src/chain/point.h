@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Points of elements (chain_system.h): what both back ends do with them.
+/* Points of elements (chain_system.h): the functions that both back ends use.
  *
  * With the point's force phi = D x_p as an unknown, in axes Q_p turned to where D is diagonal,
  *
@@ -14,25 +14,25 @@
 
 typedef struct CpsiPointLaw {
     double e[3], c[2]; /* E; c */
-    double size[3];    /* what the equations are divided by */
+    double size[3];    /* the divisors of the equations */
     double axes[9];    /* Q_p */
-    double turn[9];    /* takes the point's own axes to them */
+    double turn[9];    /* rotates the point's own axes to Q_p */
 } CpsiPointLaw;
 
-/* That of element j's point. */
+/* The law of the point of element j. */
 CpsiPointLaw cpsi_point_law(const CpsiMatrix *a, int j);
 
 /* R (9): takes a vector in the axes of a point to those of node `node`. */
 void cpsi_point_turn(const CpsiMatrix *a, int node, const double axes[9], double r[9]);
 
-/* The forces on the points as forces on their nodes; x (2 n, 3), 0 at the points on return. */
+/* Distribute the forces on the points to their nodes; x (2 n, 3), 0 at the points on return. */
 void cpsi_points_spread(const CpsiMatrix *a, double *x);
 
-/* The places of the points from their nodes and forces: on entry x (2 n, 3) holds phi at the
- * points. Along what is stiff the force tells the place to more digits than the nodes do, along
- * what is soft it is the other way round: (E + s) x_p = E x_p + s x_p, the first by the force and
- * the second by the nodes, with s the size of the forces over that of the places. t (n) are the
- * tensions. */
+/* The displacements of the points from those of their nodes and from their forces: on entry x (2 n,
+ * 3) holds phi at the points. In stiff directions the force determines the displacement more
+ * accurately than the nodes do, in soft directions it is the other way round: (E + s) x_p = E x_p +
+ * s x_p, the first by the force and the second by the nodes, with s the size of the forces over
+ * that of the displacements. t (n) are the tensions. */
 void cpsi_points_place(const CpsiMatrix *a, const double *t, double *x);
 
 #endif

@@ -7,9 +7,9 @@
 #include "chain/frame.h"
 #include "chain/point.h"
 
-/* What node j does to itself. */
-static void take_node(const CpsiMatrix *a, int j, const CpsiUnknowns *unknowns,
-                      const CpsiUnknowns *right) {
+/* Subtract the terms of node j alone. */
+static void subtract_node(const CpsiMatrix *a, int j, const CpsiUnknowns *unknowns,
+                          const CpsiUnknowns *right) {
     const double *d = &a->diagonal[6 * j], *skew = &a->skew[2 * j], *u = &unknowns->x[3 * j];
     double *r = &right->x[3 * j];
     r[0] -= d[0] * u[0] + d[1] * u[1] + (d[3] + skew[0]) * u[2];
@@ -30,9 +30,9 @@ static void add_common(const CpsiMatrix *a, int j, double by, const double v[3],
     for (int i = 0; i < 3; i++) r[3 * j + i] += by * own[i];
 }
 
-/* Element j: its pull on both nodes, and its own equation. */
-static void take_element(const CpsiMatrix *a, int j, const double *x, const double *t, double *r_x,
-                         double *r_t) {
+/* Subtract the terms of element j: its force on both nodes, and its own equation. */
+static void subtract_element(const CpsiMatrix *a, int j, const double *x, const double *t,
+                             double *r_x, double *r_t) {
     const double *m = &a->direction[3 * j];
     double far[3], near[3], pull[3];
     cpsi_frame_from(far, &a->frame[9 * j], &x[3 * j]);
@@ -47,8 +47,8 @@ static void take_element(const CpsiMatrix *a, int j, const double *x, const doub
     add_common(a, j - 1, 1, pull, r_x);
 }
 
-/* The point of element j: its force on both nodes, and its own equations. */
-static void take_point(const CpsiMatrix *a, int j, const double *x, double *r_x) {
+/* Subtract the terms of the point of element j: its force on both nodes, and its own equations. */
+static void subtract_point(const CpsiMatrix *a, int j, const double *x, double *r_x) {
     const CpsiPointLaw law = cpsi_point_law(a, j);
     const double *phi = &x[3 * (a->n + j)];
     double place[3] = {0}, *own = &r_x[3 * (a->n + j)];
@@ -71,9 +71,9 @@ static void take_point(const CpsiMatrix *a, int j, const double *x, double *r_x)
 void cpsi_linsys_residual(const CpsiMatrix *a, const CpsiUnknowns *unknowns,
                           const CpsiUnknowns *right) {
     for (int j = 0; j < a->n; j++) {
-        take_node(a, j, unknowns, right);
-        if (j > 0) take_element(a, j, unknowns->x, unknowns->t, right->x, right->t);
-        if (cpsi_point_is_set(a, j)) take_point(a, j, unknowns->x, right->x);
+        subtract_node(a, j, unknowns, right);
+        if (j > 0) subtract_element(a, j, unknowns->x, unknowns->t, right->x, right->t);
+        if (cpsi_point_is_set(a, j)) subtract_point(a, j, unknowns->x, right->x);
     }
     for (int j = 0; j < a->n; j++) {
         if (!a->held[j]) continue;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Solving the equations of chain_system.h where elements have points, and once more for what
- * rounding has left of them. */
+/* Solving the equations of chain_system.h where elements have points, with one step of iterative
+ * refinement. */
 #ifndef CAPSTAN_SRC_CHAIN_RESIDUAL_H
 #define CAPSTAN_SRC_CHAIN_RESIDUAL_H
 
@@ -8,32 +8,32 @@
 
 /* The unknowns, or the right-hand sides of their equations. */
 typedef struct CpsiUnknowns {
-    /* (2 n, 3) places of the nodes in their axes, then forces of the points in the axes of their
-     * laws (point.h); or forces on the nodes, those on the points spread to them, and what the laws
-     * of the points leave */
+    /* (2 n, 3) displacements of the nodes in their axes, then forces of the points in the axes of
+     * their laws (point.h); or forces on the nodes, which include those on the points, and the
+     * residuals of the laws of the points */
     double *x;
     double *t; /* (n) tensions; or h */
-    double *
-        f; /* (n) forces of the second directions; or what r.x - a f leaves; NULL: there are none */
+    double *f; /* (n) forces of the second directions; or the residuals of r.x - a f; NULL: there
+                  are none */
 } CpsiUnknowns;
 
-/* Room for those of n nodes with points. */
+/* Place the arrays for n nodes with points. */
 static inline CpsiUnknowns cpsi_unknowns_layout(CpsiArena *arena, int n) {
     return (CpsiUnknowns){.x = CPSI_TAKE(arena, 6 * (size_t)n, double),
                           .t = CPSI_TAKE(arena, n, double),
                           .f = CPSI_TAKE(arena, n, double)};
 }
 
-/* Take from the right-hand sides what the unknowns make of the left-hand sides; 0 at held nodes. */
+/* Subtract the left-hand sides at the unknowns from the right-hand sides; 0 at held nodes. */
 void cpsi_linsys_residual(const CpsiMatrix *matrix, const CpsiUnknowns *unknowns,
                           const CpsiUnknowns *right);
 
 /* A back end's solve with its factors: right-hand sides to unknowns, in place. */
 typedef void CpsiPass(const CpsiLinsys *self, const CpsiMatrix *matrix, const CpsiUnknowns *of);
 
-/* Where elements have points several stiff directions may meet in a node and nearly agree; each
- * then has the rounding of the others in it, up to ten digits of what they share. So the residual
- * is solved for as well. `found` as x, t and f of CpsiLinsysOps; scratch: of two. */
+/* Where elements have points, several stiff directions may meet in a node and be nearly parallel.
+ * Each then carries the rounding errors of the others, up to ten digits. Therefore the residual is
+ * solved for as well. `found` is as x, t and f of CpsiLinsysOps. */
 void cpsi_linsys_solve_points(const CpsiLinsys *self, const CpsiMatrix *matrix, CpsiPass *pass,
                               const CpsiUnknowns *found, const CpsiUnknowns scratch[2]);
 

@@ -15,13 +15,13 @@
 
 static inline CpsiScalarProgram *scalar(CpsiProgram *base) { return (CpsiScalarProgram *)base; }
 
-/* The unknowns that a site sees, from a vector of all. */
-static void see(const CpsiSite *site, const double *u, double out[CPSI_SITE_SEEN]) {
+/* The unknowns that a site depends on, from the vector of all. */
+static void read_unknowns(const CpsiSite *site, const double *u, double out[CPSI_SITE_SEEN]) {
     for (int a = 0; a < 2; a++) out[a] = site->scalar[a] >= 0 ? u[site->scalar[a]] : 0;
     for (int a = 0; a < CPSI_SITE_OWN; a++) out[2 + a] = a < site->own ? u[site->at + a] : 0;
 }
 
-static void add_seen(const CpsiSite *site, const double in[CPSI_SITE_SEEN], double *u) {
+static void add_forces(const CpsiSite *site, const double in[CPSI_SITE_SEEN], double *u) {
     for (int a = 0; a < 2; a++)
         if (site->scalar[a] >= 0) u[site->scalar[a]] += in[a];
     for (int a = 0; a < site->own; a++) u[site->at + a] += in[2 + a];
@@ -47,7 +47,7 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     for (int k = 0; k < program->sites; k++) {
         const CpsiSite *site = &program->site[k];
         double seen[CPSI_SITE_SEEN], force[CPSI_SITE_SEEN] = {0};
-        see(site, base->u, seen);
+        read_unknowns(site, base->u, seen);
         for (int i = site->row; i < site->row + site->rows; i++) {
             cones->rho[i] = row_of(program->g[i], seen) + program->h[i] - cones->s[i];
             sums->residual = cpsi_max_nan(sums->residual, fabs(cones->rho[i]));
@@ -58,7 +58,7 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
         for (int a = 0; a < site->own; a++)
             for (int b = 0; b < site->own; b++)
                 force[2 + a] -= site->weight[CPSI_SITE_OWN * a + b] * seen[2 + b];
-        add_seen(site, force, base->residual);
+        add_forces(site, force, base->residual);
     }
     sums->weight += cones->count;
 }
@@ -85,7 +85,8 @@ static void condense(CpsiScalarProgram *program, CpsiSite *site) {
         for (int a = 0; a < 2 + site->own; a++)
             for (int i = 0; i < site->rows; i++) m[a][b] += program->g[site->row + i][a] * h[i];
     }
-    /* Cholesky of the own block, a lost pivot kept above rounding */
+    /* Cholesky factor of the block of the site's own unknowns; pivots below rounding are replaced
+     * by the rounding level */
     double *l = site->factor;
     for (int a = 0; a < site->own; a++) {
         for (int b = 0; b <= a; b++) {
@@ -130,7 +131,7 @@ static void load(CpsiProgram *base, double keep) {
         for (int i = 0; i < site->rows; i++)
             for (int a = 0; a < CPSI_SITE_SEEN; a++)
                 force[a] += program->g[site->row + i][a] * (cones->q[site->row + i] - h[i]);
-        add_seen(site, force, base->du);
+        add_forces(site, force, base->du);
     }
 }
 
@@ -141,7 +142,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     for (int k = 0; k < program->sites; k++) {
         const CpsiSite *site = &program->site[k];
         double seen[CPSI_SITE_SEEN], h[MOST_ROWS];
-        see(site, base->du, seen);
+        read_unknowns(site, base->du, seen);
         for (int i = site->row; i < site->row + site->rows; i++)
             cones->ds[i] = row_of(program->g[i], seen) + keep * cones->rho[i];
         apply_hessian(program, site, &cones->ds[site->row], h);
@@ -183,7 +184,7 @@ static bool factor(CpsiProgram *base) {
     return true;
 }
 
-/* The forces on own unknowns are taken to the scalars, these solved, and the own ones follow. */
+/* Eliminate the sites' own unknowns, solve for the scalars, and substitute back. */
 static void solve(CpsiProgram *base) {
     CpsiScalarProgram *program = scalar(base);
     double *du = base->du;
@@ -302,7 +303,7 @@ void cpsi_scalar_program_weigh(CpsiScalarProgram *program, double weight) {
 double cpsi_scalar_program_margin(const CpsiScalarProgram *program, int k) {
     const CpsiSite *site = &program->site[k];
     double seen[CPSI_SITE_SEEN], margin = INFINITY;
-    see(site, program->base.u, seen);
+    read_unknowns(site, program->base.u, seen);
     for (int c = site->cone, i = site->row; c < site->cone + site->cones; i += program->dim[c++]) {
         double across = 0;
         for (int r = 1; r < program->dim[c]; r++)

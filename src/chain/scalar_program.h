@@ -4,10 +4,10 @@
  *     min   sum_g q_g y_g^2/2  +  sum_k |v_k|_P^2/2  -  load.(y, v)
  *     s.t.  G_k (y_g, y_g+1, v_k) + h_k in K_k      at each site k
  *
- * A site sees at most two scalars, neighbours in the chain, and at most three unknowns of its own,
- * v_k; K_k is a product of half-lines and second-order cones. The own unknowns are condensed site
- * by site, what is left is tridiagonal: time and memory are linear in the sites. Solved by the loop
- * of ipm.h. Data are dimensionless and of order one. */
+ * A site depends on at most two scalars, neighbours in the chain, and on at most three unknowns of
+ * its own, v_k; K_k is a product of half-lines and second-order cones. The sites' own unknowns are
+ * eliminated site by site, which leaves a tridiagonal matrix: time and memory are linear in the
+ * number of sites. Solved by the loop of ipm.h. Data are dimensionless and of order one. */
 #ifndef CAPSTAN_SRC_CHAIN_SCALAR_PROGRAM_H
 #define CAPSTAN_SRC_CHAIN_SCALAR_PROGRAM_H
 
@@ -16,9 +16,9 @@
 enum { CPSI_SITE_OWN = 3, CPSI_SITE_SEEN = 2 + CPSI_SITE_OWN };
 
 typedef struct CpsiSite {
-    int scalar[2]; /* indices of the scalars seen, -1: none; two differ by one */
+    int scalar[2]; /* indices of the scalars it depends on, -1: none; two differ by one */
     int own;       /* unknowns of its own, 0..3 */
-    int at;        /* where these begin in u */
+    int at;        /* index of the first of these in u */
     int row, rows; /* of G and h */
     int cone, cones;
     double weight[CPSI_SITE_OWN *
@@ -44,27 +44,27 @@ typedef struct CpsiScalarProgram {
 void cpsi_scalar_program_layout(CpsiScalarProgram *program, CpsiArena *arena, int scalars,
                                 int sites, int rows);
 
-/* Begin anew with so many scalars: no sites, weights or loads. */
+/* Start a new program with so many scalars and no sites, weights or loads. */
 void cpsi_scalar_program_begin(CpsiScalarProgram *program, int scalars);
 
-/* One more site, without rows; the scalars in any order, equal or -1 (the second is -1 then). */
+/* Add a site without rows. The scalars may be in any order, equal or -1 (the second is -1 then). */
 CpsiSite *cpsi_scalar_program_site(CpsiScalarProgram *program, int first, int second, int own);
 
-/* One more cone of dimension `dim` at the last site: its rows of G and h follow each other, zero.
- * Returns the first. */
+/* Add a cone of dimension `dim` to the last site. Its rows of G and h are consecutive and zero;
+ * returns the first. */
 int cpsi_scalar_program_cone(CpsiScalarProgram *program, int dim);
 
-/* The program is whole: u = 0. */
+/* The program is complete: set u = 0. */
 void cpsi_scalar_program_end(CpsiScalarProgram *program);
 
 /* The same weight on all unknowns. */
 void cpsi_scalar_program_weigh(CpsiScalarProgram *program, double weight);
 
-/* How far the unknowns are inside the cones of site k, negative where they are outside of one. */
+/* Smallest distance of the rows of site k from the boundary of their cones, negative outside. */
 double cpsi_scalar_program_margin(const CpsiScalarProgram *program, int k);
 
-/* sum of z.h: with load + G'z = 0 an upper bound of load.(y, v). What is left of load + G'z, and
- * the weights, count as they do at the solution. */
+/* The sum of z.h: with load + G'z = 0 it is an upper bound of load.(y, v). The remaining residual
+ * load + G'z and the weights are added with their values at the solution. */
 double cpsi_scalar_program_bound(const CpsiScalarProgram *program);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stretch: a tension-only segment of compliance c >= 0, the cone (1 + d, e) in Q4 with energy l
+/* Segment: a tension-only element of compliance c >= 0, the cone (1 + d, e) in Q4 with energy l
  * d^2/(2c).
  *
  * Stationarity in d makes the first dual the tension: T = d/c. So s0 = 1 + c T, with residual rho =
- * 1 + c T - s0, and for c = 0 (inextensible) nothing changes. With H = g (2 v v^T - J), v = J w,
- * the linearised pair reads dz + H ds = q; eliminating ds0 = c dT + rho leaves, with omega =
- * |w1|^2, n = w1/|w1|, D = 1 + c g (1 + 2 omega):
+ * 1 + c T - s0; c = 0 (inextensible) needs no special case. With H = g (2 v v^T - J), v = J w, the
+ * linearised pair reads dz + H ds = q; eliminating ds0 = c dT + rho leaves, with omega = |w1|^2, n
+ * = w1/|w1|, D = 1 + c g (1 + 2 omega):
  *
  *     -dp = Q - M de,     M = g (I - n n^T) + k n n^T,     k = g (1 + 2 omega + c g)/D
  *         1/k -> c as s o z -> 0
@@ -16,7 +16,7 @@
  * larger, so it enters the linear system through the unknown t = (k - g) n.de with compliance a =
  * 1/(k - g), from which dT is recovered without cancellation: 2 g w0 w1.de/D = w0 t/(|w1| (1 - c
  * g)). On the central path c g = c T/(1 + c T) < 1; off it, where strains are of order one, c g may
- * pass 1 and a turn negative, which the linear system allows. */
+ * exceed 1 and a become negative, which the linear system allows. */
 #include "base/larger.h"
 #include "chain/elements.h"
 #include "chain/frame.h"
@@ -29,7 +29,8 @@ static const double STIFF = 0.5;
 /* omega -> 0 means no preferred direction; 1/omega is kept finite. */
 static const double LEAST_OMEGA = 1e-24;
 
-/* What scale, load and direct share about one element; the inverses come out of one division. */
+/* Quantities of one segment that scale, load and direct share; the inverses take one division in
+ * all. */
 typedef struct Segment {
     double omega, d, stiffening; /* |w1|^2, D, 1 - c g */
     double inverse_d, inverse_stiffening, inverse_length;
@@ -62,10 +63,10 @@ static inline void add_force(const CpsiChainProgram *program, double *f, int nod
 
 /* A node's vector in the common axes. */
 static inline const double *common(const CpsiChainProgram *program, const double *u, int node,
-                                   double room[3]) {
+                                   double out[3]) {
     if (!program->frame) return &u[3 * node];
-    cpsi_frame_from(room, &program->frame[9 * node], &u[3 * node]);
-    return room;
+    cpsi_frame_from(out, &program->frame[9 * node], &u[3 * node]);
+    return out;
 }
 
 static void start(CpsiProgram *base, double mu, double margin) {

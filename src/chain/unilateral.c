@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stop: unilateral contact along the normal n, s = gap + n.u >= 0 with reaction z >= 0, s z = 0.
+/* Unilateral contact along the normal n: s = gap + n.u >= 0 with reaction z >= 0, s z = 0.
  *
  * On a curved obstacle the reaction turns with the normal as the node moves along it (`curvature`,
  * see chain_program.h).
  *
- * Linearised: dz = q - (z/s) ds,  ds = n.du + rho,  rho = gap + n.u - s. So the node's block gains
- * w (z/s) n n^T: of a first stop at zz, of a second as a direction kept apart (chain_system.h). */
+ * Linearised: dz = q - (z/s) ds, ds = n.du + rho, rho = gap + n.u - s. So the node's block gains w
+ * (z/s) n n^T: for a first contact in its entry zz, for a second contact as a second direction
+ * (chain_system.h). */
 #include <math.h>
 
 #include "base/larger.h"
@@ -22,7 +23,7 @@ static void start(CpsiProgram *base, double mu, double margin) {
 }
 
 /* Add by x n to the node's force. */
-static inline void push(const CpsiUnilateral *unilateral, int k, double by, double *force) {
+static inline void add_to_node(const CpsiUnilateral *unilateral, int k, double by, double *force) {
     double *f = &force[3 * unilateral->node[k]];
     if (!unilateral->normal || !unilateral->second[k])
         f[2] += by;
@@ -41,7 +42,7 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
                      (unilateral->s[k] + cpsi_unilateral_residual(program, k));
         sums->residual = cpsi_max_nan(sums->residual, rho);
         if (unilateral->z[k] > sums->largest) sums->largest = unilateral->z[k];
-        push(unilateral, k, unilateral->weight[k] * unilateral->z[k], base->residual);
+        add_to_node(unilateral, k, unilateral->weight[k] * unilateral->z[k], base->residual);
         if (unilateral->curvature) {
             const double *b = unilateral->curvature[k], *u = &base->u[3 * unilateral->node[k]];
             double *residual = &base->residual[3 * unilateral->node[k]];
@@ -78,11 +79,11 @@ static void load(CpsiProgram *base, double keep) {
     CpsiChainProgram *program = cpsi_chain(base);
     const CpsiUnilateral *unilateral = &program->unilateral;
     for (int k = 0; k < unilateral->count; k++)
-        push(unilateral, k,
-             unilateral->weight[k] *
-                 (unilateral->q[k] - unilateral->z[k] / unilateral->s[k] * keep *
-                                         cpsi_unilateral_residual(program, k)),
-             base->du);
+        add_to_node(unilateral, k,
+                    unilateral->weight[k] *
+                        (unilateral->q[k] - unilateral->z[k] / unilateral->s[k] * keep *
+                                                cpsi_unilateral_residual(program, k)),
+                    base->du);
 }
 
 static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
@@ -93,7 +94,8 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         const double rho = keep * cpsi_unilateral_residual(program, k);
         double ds = cpsi_unilateral_rise(unilateral, k, base->du) + rho,
                dz = unilateral->q[k] - z / s * ds;
-        if (unilateral->second[k] && z > s) { /* n.du lies across the axes of du: too few digits */
+        if (unilateral->second[k] &&
+            z > s) { /* n is oblique to the axes of du: n.du has too few digits */
             dz = unilateral->q[k] -
                  program->node_frames.second_reaction_change[unilateral->node[k]] /
                      unilateral->weight[k] -

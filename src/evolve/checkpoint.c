@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The state of an evolution as bytes: everything that steps change and that later steps or the
- * views read.
+/* The state of an evolution as bytes: everything that steps change and that later steps or views
+ * read.
  *
- * One walk over the state serves to measure, to save and to load. Numbers are copied as they are,
- * so that a run that goes on from a saved state gives the same bits as one that was never
- * interrupted; a state is for the same program on the same kind of machine. Structs go field by
- * field: the bytes hold no padding and no address, and are the same in every run. */
+ * The same functions measure, save and load the state. Numbers are copied bit by bit, so that a run
+ * continued from a saved state gives the same bits as one that was never interrupted; a state is
+ * only valid for the same program on the same kind of machine. Structs are copied field by field:
+ * the bytes contain no padding and no address, and are the same in every run. */
 #include "evolve/checkpoint.h"
 
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 #include "base/status.h"
 #include "evolve/state_check.h"
 
-/* What a state begins with. */
+/* The header of a state. */
 typedef struct Head {
     char magic[8];
     uint64_t size, fingerprint;
@@ -22,7 +22,7 @@ typedef struct Head {
 
 static const char MAGIC[8] = "capstan4";
 
-/* Bytes on their way out, in, or only counted. */
+/* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
     unsigned char *out;
     const unsigned char *in;
@@ -37,7 +37,7 @@ static void pass(Tape *tape, void *data, size_t size) {
 
 #define PASS(tape, field) pass(tape, &(field), sizeof(field))
 
-/* A field that is added to one of these has to be passed below as well. */
+/* A field that is added to one of these structs has to be added to its function below as well. */
 #if UINTPTR_MAX == 0xffffffffffffffff
 _Static_assert(sizeof(CpsCertificate) == 16 * 8 && sizeof(CpsLedger) == 6 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
@@ -52,7 +52,7 @@ _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(
 _Static_assert(sizeof(CpsEnd) == 4 * 8, "pass_end");
 #endif
 
-/* numbers alone: there is nothing between them */
+/* numbers only, without padding */
 static void pass_energies(Tape *tape, CpsCertificate *certificate, CpsLedger *ledger) {
     PASS(tape, *certificate);
     PASS(tape, *ledger);
@@ -140,7 +140,8 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     pass(tape, line->segment_force, 3 * (n - 1) * sizeof(double));
     pass(tape, line->tension, (n - 1) * sizeof(double));
     pass(tape, line->state, contacts * sizeof *line->state);
-    if (line->on) pass(tape, line->on, contacts * sizeof *line->on);
+    if (line->obstacle_index)
+        pass(tape, line->obstacle_index, contacts * sizeof *line->obstacle_index);
     if (line->beta) pass(tape, line->beta, n * sizeof *line->beta);
     for (int end = 0; end < 2; end++) pass_end(tape, &line->end[end]);
     PASS(tape, line->weight);
@@ -163,67 +164,68 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
 }
 
 /* FNV-1a, 64 bits. */
-static void mix(uint64_t *hash, const void *data, size_t size) {
+static void hash_bytes(uint64_t *hash, const void *data, size_t size) {
     const unsigned char *byte = data;
     for (size_t i = 0; i < size; i++) *hash = (*hash ^ byte[i]) * 1099511628211u;
 }
 
-static void mix_numbers(uint64_t *hash, size_t count, const double *number) {
-    mix(hash, number, count * sizeof *number);
+static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
+    hash_bytes(hash, number, count * sizeof *number);
 }
 
-static void mix_line(uint64_t *hash, const CpsiLine *line) {
-    mix(hash, line->name, strlen(line->name) + 1);
-    mix(hash, &line->n, sizeof line->n);
-    mix_numbers(hash, 1, &line->length);
-    mix_numbers(hash, 1, &line->compliance);
-    mix_numbers(hash, 3, line->weight);
-    mix_numbers(hash, (size_t)line->n - 1, line->element_length);
-    mix_numbers(hash, 3 * (size_t)line->n, line->position);
-    mix_numbers(hash, (size_t)line->n - 1, line->tension);
-    mix_numbers(hash, (size_t)line->n, line->reaction);
-    if (line->friction_factor) mix_numbers(hash, (size_t)line->n, line->friction_factor);
+static void hash_line(uint64_t *hash, const CpsiLine *line) {
+    hash_bytes(hash, line->name, strlen(line->name) + 1);
+    hash_bytes(hash, &line->n, sizeof line->n);
+    hash_numbers(hash, 1, &line->length);
+    hash_numbers(hash, 1, &line->compliance);
+    hash_numbers(hash, 3, line->weight);
+    hash_numbers(hash, (size_t)line->n - 1, line->element_length);
+    hash_numbers(hash, 3 * (size_t)line->n, line->position);
+    hash_numbers(hash, (size_t)line->n - 1, line->tension);
+    hash_numbers(hash, (size_t)line->n, line->reaction);
+    if (line->friction_factor) hash_numbers(hash, (size_t)line->n, line->friction_factor);
     for (int end = 0; end < 2; end++) {
-        mix(hash, &line->end[end].kind, sizeof line->end[end].kind);
-        mix_numbers(hash, 3, line->end[end].value);
+        hash_bytes(hash, &line->end[end].kind, sizeof line->end[end].kind);
+        hash_numbers(hash, 3, line->end[end].value);
     }
 }
 
-static void mix_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
-    mix(hash, stage->name, strlen(stage->name) + 1);
-    mix(hash, &stage->steps, sizeof stage->steps);
-    mix_numbers(hash, 3, stage->from);
-    mix_numbers(hash, 3, stage->to);
+static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
+    hash_bytes(hash, stage->name, strlen(stage->name) + 1);
+    hash_bytes(hash, &stage->steps, sizeof stage->steps);
+    hash_numbers(hash, 3, stage->from);
+    hash_numbers(hash, 3, stage->to);
     for (int i = 0; i < stage->change_count; i++) {
         const CpsiChange *change = &stage->change[i];
         const int what[3] = {change->line, change->end, (int)change->to.kind};
-        mix(hash, what, sizeof what);
-        mix_numbers(hash, 3, change->to.value);
+        hash_bytes(hash, what, sizeof what);
+        hash_numbers(hash, 3, change->to.value);
     }
     for (int i = 0; i < stage->turn_count; i++) {
-        mix(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);
-        mix_numbers(hash, 1, &stage->turn[i].angle);
+        hash_bytes(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);
+        hash_numbers(hash, 1, &stage->turn[i].angle);
     }
 }
 
-static void mix_obstacle(uint64_t *hash, const CpsiObstacle *obstacle, const CpsiFrictionSet *set) {
+static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
+                          const CpsiFrictionSet *set) {
     const int what[4] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain,
                          obstacle->has_set};
-    mix(hash, what, sizeof what);
-    mix_numbers(hash, 3,
-                (const double[3]){obstacle->frame.point.x, obstacle->frame.point.y,
-                                  obstacle->frame.point.z});
+    hash_bytes(hash, what, sizeof what);
+    hash_numbers(hash, 3,
+                 (const double[3]){obstacle->frame.point.x, obstacle->frame.point.y,
+                                   obstacle->frame.point.z});
     const Vec3 axis = obstacle->frame.axis[2], grain = obstacle->grain;
-    mix_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
-    mix_numbers(hash, 3,
-                (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
+    hash_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
+    hash_numbers(hash, 3,
+                 (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
     if (!set) return;
     const CpsiConicSet *form = cpsi_friction_set_conic(set);
-    mix(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
-    mix_numbers(hash, (size_t)(form->rows * form->unknowns), form->a);
-    mix_numbers(hash, (size_t)form->rows, form->b);
-    mix_numbers(hash, 2 * (size_t)form->unknowns, form->p);
-    mix_numbers(hash, 2, form->origin);
+    hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
+    hash_numbers(hash, (size_t)(form->rows * form->unknowns), form->a);
+    hash_numbers(hash, (size_t)form->rows, form->b);
+    hash_numbers(hash, 2 * (size_t)form->unknowns, form->p);
+    hash_numbers(hash, 2, form->origin);
 }
 
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
@@ -233,13 +235,13 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
                         evolution->obstacle_count,       (int)evolution->options.friction,
                         (int)evolution->options.contact, solver->max_iterations,
                         (int)solver->linear_system,      solver->halvings};
-    mix(&hash, what, sizeof what);
-    mix_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
-    mix_numbers(&hash, 3, evolution->origin);
-    for (int i = 0; i < evolution->line_count; i++) mix_line(&hash, &evolution->line[i]);
+    hash_bytes(&hash, what, sizeof what);
+    hash_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
+    hash_numbers(&hash, 3, evolution->origin);
+    for (int i = 0; i < evolution->line_count; i++) hash_line(&hash, &evolution->line[i]);
     for (int k = 0; k < evolution->obstacle_count; k++)
-        mix_obstacle(&hash, &evolution->obstacle[k], evolution->set ? evolution->set[k] : NULL);
-    for (int k = 0; k < evolution->stage_count; k++) mix_stage(&hash, &evolution->stage[k]);
+        hash_obstacle(&hash, &evolution->obstacle[k], evolution->set ? evolution->set[k] : NULL);
+    for (int k = 0; k < evolution->stage_count; k++) hash_stage(&hash, &evolution->stage[k]);
     return hash;
 }
 
@@ -281,8 +283,7 @@ CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t 
     if (head.size != size || size != cps_evolution_state_size(evolution))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state has %zu bytes, expected %zu", size,
                          cps_evolution_state_size(evolution));
-    /* what a state says is believed only once it has been checked, and the check needs it in
-     * place */
+    /* a state is accepted only after its check, which needs it in place */
     unsigned char *before = malloc(size);
     if (!before) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while loading a state");
     cps_evolution_save(evolution, before);

@@ -6,10 +6,10 @@
 
 #include "evolve/evolution.h"
 
-/* A number that differs, in all likelihood, between evolutions of different scenes. */
+/* A hash of the constant data of an evolution, which in all likelihood differs between scenes. */
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution);
 
-/* Back to a state that this evolution itself has saved. */
+/* Restore a state that this evolution itself has saved. */
 void cpsi_evolution_restore(CpsEvolution *evolution, const void *state);
 
 #endif

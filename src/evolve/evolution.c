@@ -34,16 +34,16 @@ static char *copy_name(CpsiArena *arena, const char *name) {
     return copy;
 }
 
-/* Do nodes need axes of their own?  Not on one plane with isotropic friction. */
-static bool scene_follows(const CpsScene *scene) {
+/* Do contacts need axes of their own? Not on one plane with isotropic friction. */
+static bool scene_needs_local_axes(const CpsScene *scene) {
     if (scene->obstacle_count != 1) return scene->obstacle_count > 1;
     const CpsiObstacle only = cpsi_obstacle(scene->obstacle);
-    return cpsi_obstacle_follows(&only);
+    return cpsi_obstacle_needs_local_axes(&only);
 }
 
-/* Are elements kept out of obstacles, beside the nodes?  Of round ones; strict contact is that of
- * S90, which knows nodes alone. */
-static bool scene_keeps_elements_out(const CpsScene *scene) {
+/* Do elements have contacts, beside the nodes? With round obstacles they do; strict contact is that
+ * of S90, where only nodes touch. */
+static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
     for (int k = 0; k < scene->obstacle_count; k++)
         round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
@@ -56,8 +56,8 @@ static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
     free(set);
 }
 
-/* The friction sets of the obstacles; *out is NULL where none is given. `largest` holds them
- * all. */
+/* The friction sets of the obstacles; *out is NULL where none is given. `largest` has the largest
+ * sizes of them all. */
 static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiConicSet *largest,
                            CpsError *err) {
     *out = NULL;
@@ -87,8 +87,8 @@ static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiCo
     return CPS_OK;
 }
 
-/* Everything an evolution holds, in one block (base/arena.h); called once to measure and once to
- * place. */
+/* Everything an evolution holds, in one block (base/arena.h); called once to measure the size and
+ * once to place the arrays. */
 static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiConicSet *largest) {
     CpsEvolution measured = {0};
     CpsiLine any = {0};
@@ -107,11 +107,11 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         if (real) evolution->obstacle_name[k] = name;
     }
     evolution->angle = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
-    evolution->room.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
+    evolution->scratch.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
-    const bool has_local_axes = scene_follows(scene);
+    const bool has_local_axes = scene_needs_local_axes(scene);
     const int contacts = scene->obstacle_count > 1 ? 2 : 1,
-              element_contacts = scene_keeps_elements_out(scene) ? 1 : 0;
+              element_contacts = scene_has_element_contacts(scene) ? 1 : 0;
     int nodes = 0, inextensible = 0;
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
@@ -132,7 +132,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
-    cpsi_substeps_layout(&evolution->room, arena, nodes, contacts + element_contacts,
+    cpsi_substeps_layout(&evolution->scratch, arena, nodes, contacts + element_contacts,
                          scene->solver.path_tolerance > 0);
     if (inextensible > 0)
         cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts + element_contacts);
@@ -151,10 +151,10 @@ static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     line->obstacle_count = evolution->obstacle_count;
     line->obstacle = evolution->obstacle;
     line->friction_set = (const CpsiFrictionSet *const *)evolution->set;
-    line->turn = evolution->room.turn;
+    line->turn = evolution->scratch.turn;
     const bool own = line->has_local_axes || line->obstacle_count == 0;
     const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
-    for (int i = 0; i < 3; i++) vec3_store(&line->common[3 * i], plane.axis[i]);
+    for (int i = 0; i < 3; i++) vec3_store(&line->common_axes[3 * i], plane.axis[i]);
 }
 
 /* The mean factor of the zones over the length that each node stands for. */
@@ -168,8 +168,8 @@ static void fill_friction_factor(CpsiLine *line, const CpsLine *def) {
     }
 }
 
-/* The first guess of statics lies on the free side. */
-static void lift(CpsiLine *line) {
+/* Move the first guess of statics to the free side of the obstacles. */
+static void move_to_free_side(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3 * j]);
         double gap;
@@ -194,14 +194,14 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);
     if (line->has_local_axes)
-        for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->on[c] = -1;
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->obstacle_index[c] = -1;
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
         if (line->end[end].kind == CPS_END_HELD) cpsi_start_end(def, end, line->end[end].value);
     }
     switch (def->start.kind) {
-    case CPS_START_LAID: lift(line); break;
+    case CPS_START_LAID: move_to_free_side(line); break;
     case CPS_START_NODES: cpsi_node_start(line, def); break;
     default: cpsi_line_start_reaction(line, CPS_TOUCH * line->length);
     }
@@ -245,7 +245,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     }
     if (evolution->laid) evolution->step_count++;
     if (evolution->step_count == 0) {
-        /* no history: one step to the equilibrium under the ends as they are */
+        /* no history: one step to the equilibrium under the initial ends */
         const double *g = scene->gravity;
         evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium",
                                                    .steps = 1,
@@ -316,8 +316,8 @@ int cps_evolution_remaining(const CpsEvolution *evolution) {
     return !evolution || evolution->ended ? 0 : evolution->step_count - evolution->done;
 }
 
-/* Where an end is taken from: its position if it is to be held, the force that it carries if it is
- * let go. */
+/* The initial value of a change of an end: its position if it is to be held, its force if it is to
+ * be released. */
 static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
     CpsEnd now = {.kind = kind};
     if (kind == line->end[end].kind) return line->end[end];
@@ -337,8 +337,8 @@ static CpsEnd end_at(const CpsiChange *change, int part, int steps) {
     return end;
 }
 
-/* Free ends are grabbed where they are, and only now is it known whether the way from there leads
- * through an obstacle. */
+/* A free end is held from where it is. Only now can it be checked whether its straight path from
+ * there leads through an obstacle. */
 static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
     const CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
     if (evolution->part == 0)
@@ -349,7 +349,7 @@ static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
                 continue;
             const CpsEnd from = end_now(line, change->end, CPS_END_HELD);
             const double *a = from.value, *b = change->to.value, *o = evolution->origin;
-            /* that of the data: coordinates of the scene */
+            /* rounding of the data, which are coordinates of the scene */
             const double rounding =
                 cpsi_place_rounding(line->length, vec3_add(vec3_load(o), vec3_load(b)));
             for (int k = 0; k < evolution->obstacle_count; k++) {
@@ -369,7 +369,7 @@ static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
     return CPS_OK;
 }
 
-/* [N/m] The weight of line i when `part` of the steps of a stage are through. */
+/* [N/m] The weight of line i after `part` steps of a stage. */
 static void weight_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage, int i,
                       int part, double weight[3]) {
     const double share = (double)part / stage->steps;
@@ -381,8 +381,8 @@ static void weight_at(const CpsEvolution *evolution, const CpsiEvolutionStage *s
     }
 }
 
-/* What the next load step does to each line, and its name. */
-static void plan(CpsEvolution *evolution) {
+/* Set the change of each line in the next load step, and the name of the step. */
+static void plan_step(CpsEvolution *evolution) {
     CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++)
@@ -414,8 +414,8 @@ static void plan(CpsEvolution *evolution) {
     }
 }
 
-/* Statics: lines laid find their first equilibrium. The others take a load step under the ends as
- * they are. */
+/* Statics: the first equilibrium of lines that start by statics. The other lines take a load step
+ * with constant ends. */
 static void place_statically(CpsEvolution *evolution) {
     snprintf(evolution->step_name, CPSI_STEP_NAME, "laid");
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
@@ -426,12 +426,13 @@ static void place_statically(CpsEvolution *evolution) {
         for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
         if (!evolution->is_laid[i]) {
-            cpsi_line_substeps(line, &evolution->program, &options, move, &evolution->room, false);
+            cpsi_line_substeps(line, &evolution->program, &options, move, &evolution->scratch,
+                               false);
             continue;
         }
         options.frictionless = true;
         options.contact = CPS_CONTACT_GAINED;
-        cpsi_line_place_statically(line, &evolution->program, &options, &evolution->room);
+        cpsi_line_place_statically(line, &evolution->program, &options, &evolution->scratch);
     }
 }
 
@@ -472,8 +473,7 @@ static double seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Between which values the tensions at the ends lie, where a stage or the statics of the start
- * ends. */
+/* The ranges of the tensions at the ends, after the last step of a stage and after statics. */
 static void find_ranges(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->line_count; i++) {
         CpsiLine *line = &evolution->line[i];
@@ -507,18 +507,18 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "no load step remains: ask cps_evolution_remaining first");
     const double begin = seconds();
-    const bool laying = evolution->laid && evolution->done == 0;
-    const CpsStatus status = laying ? CPS_OK : check_grabs(evolution, err);
+    const bool statics = evolution->laid && evolution->done == 0;
+    const CpsStatus status = statics ? CPS_OK : check_grabs(evolution, err);
     if (status) return status;
     if (evolution->interrupt.asked) cps_evolution_save(evolution, evolution->before);
     evolution->interrupt.seen = false;
-    if (laying) {
+    if (statics) {
         place_statically(evolution);
     } else {
-        plan(evolution);
+        plan_step(evolution);
         for (int i = 0; i < evolution->line_count; i++)
             cpsi_line_substeps(&evolution->line[i], &evolution->program, &evolution->options,
-                               &evolution->move[i], &evolution->room, evolution->done > 0);
+                               &evolution->move[i], &evolution->scratch, evolution->done > 0);
     }
     if (evolution->part == 0) find_ranges(evolution);
     if (evolution->interrupt.seen) {
@@ -587,12 +587,12 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .tension = from->tension,
         .motion = from->motion,
         .state = from->state,
-        .obstacle = from->on,
+        .obstacle = from->obstacle_index,
         .origin = {evolution->origin[0], evolution->origin[1], evolution->origin[2]},
     };
     if (from->element_contacts == 0) return view;
     const size_t first = (size_t)cpsi_line_contacts(from);
-    view.element_obstacle = from->on + first;
+    view.element_obstacle = from->obstacle_index + first;
     view.element_share = from->beta;
     view.element_normal = from->normal + 3 * first;
     view.element_gap = from->gap + first;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an evolution holds. */
+/* The data of an evolution. */
 #ifndef CAPSTAN_SRC_EVOLVE_EVOLUTION_H
 #define CAPSTAN_SRC_EVOLVE_EVOLUTION_H
 
@@ -10,7 +10,7 @@
 
 enum { CPSI_STEP_NAME = 96 };
 
-/* What one stage does to one end. */
+/* The change of one end in one stage. */
 typedef struct CpsiChange {
     int line, end;
     CpsEnd from, to; /* `from` is found when the stage begins */
@@ -33,26 +33,27 @@ struct CpsEvolution {
     int obstacle_count;
     CpsiObstacle *obstacle;     /* (obstacle_count) */
     const char **obstacle_name; /* (obstacle_count) */
-    CpsiFrictionSet **set;      /* (obstacle_count) those given as sets, NULL where none is */
-    double *angle;              /* (obstacle_count) [rad] by which each turns in the step */
-    CpsiMove *move;             /* (line_count) what the step does to each line */
-    CpsiSubsteps room;
+    CpsiFrictionSet *
+        *set;       /* (obstacle_count) general friction sets, NULL for obstacles without one */
+    double *angle;  /* (obstacle_count) [rad] by which each turns in the step */
+    CpsiMove *move; /* (line_count) the change of each line in the step */
+    CpsiSubsteps scratch;
     CpsiLine *line;            /* (line_count) */
     CpsiEvolutionStage *stage; /* (stage_count) */
-    bool laid;                 /* the first step is the statics of lines laid */
+    bool laid;                 /* the first step places lines by statics */
     bool *is_laid;             /* (line_count) */
     double *
         mass; /* (line_count) [kg/m] weight per gravity; 0 where there is no gravity at the start */
     int done; /* steps taken */
-    int current, part; /* next stage, steps already taken of it */
+    int current, part; /* the next stage, and how many of its steps have been taken */
     bool ended;        /* an infeasible or unbounded step ends the history */
     CpsiChainProgram program;
-    CpsiForceSet forces; /* room for those of inextensible lines */
+    CpsiForceSet forces; /* scratch memory for the forces of inextensible lines */
     CpsiLeastMotion least;
     CpsiInterrupt interrupt; /* of all programs */
     void *before;            /* the state before a step, where one may be interrupted; else NULL */
-    double origin[3];        /* [m] from which all places are measured */
-    uint64_t fingerprint;    /* of everything that does not change: which scene this is */
+    double origin[3];        /* [m] all positions are relative to it */
+    uint64_t fingerprint;    /* of all constant data: identifies the scene */
 };
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The mean of a line's friction factor over what a node stands for (see friction_zone.h). */
+/* The mean of a line's friction factor over the length that a node represents (friction_zone.h). */
 #include "evolve/friction_zone.h"
 
 #include <math.h>

@@ -5,14 +5,13 @@
  *
  * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched,
  * gravity = - sum (weight of the node) . x, with the mean of the weights before and after where
- * gravity changes.
- * Work of an end is the mean of its force before and after times its way, the trapezium rule; where
- * no force was there before, the one after. Friction works with the force at the end of the step,
- * on the way slid (dissipated) and on the way of the obstacle that turns under it (obstacles); the
- * part of an end's force that is in balance with the friction of its half element does as that
- * does. So the imbalance of a step is of second order in its size where nothing slides, and over a
- * path it vanishes at first order with the steps; on a path along which forces are linear in the
- * ways and nothing slides it is rounding. */
+ * gravity changes. The work of an end is the mean of its force before and after times its
+ * displacement (trapezium rule), or the force after where the one before is not known. Friction
+ * does work with the force at the end of the step, on the slip (dissipated) and on the displacement
+ * of an obstacle that turns (obstacles); so does the part of an end's force that balances the
+ * friction of its half element. So the imbalance of a step is of second order in its size where
+ * nothing slides, and over a path it vanishes at first order with the steps; on a path on which
+ * forces are linear in the displacements and nothing slides it is rounding. */
 #include "evolve/ledger.h"
 
 #include "cable/contact.h"
@@ -25,8 +24,8 @@ static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
     *elastic = *gravity = 0;
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3 * j]);
-        /* from the line's own end, so that a far origin of the axes costs no digits; the end's own
-         * height comes last */
+        /* relative to the line's own end, so that a distant origin loses no digits; the term of the
+         * end itself is added last */
         *gravity -= cpsi_line_share(line, j) * vec3_dot(weight, vec3_sub(x, origin));
         if (j == 0 || !(line->compliance > 0)) continue;
         const double l = line->element_length[j - 1];
@@ -53,7 +52,7 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
     return start;
 }
 
-/* Work of an end's force. */
+/* The work of an end's force. */
 static double end_work(const CpsEndReport *before, const CpsEndReport *after, bool known) {
     double work = 0;
     for (int a = 0; a < 3; a++) {
@@ -65,12 +64,12 @@ static double end_work(const CpsEndReport *before, const CpsEndReport *after, bo
     return work;
 }
 
-/* The same of the half elements at held ends. */
+/* The work of turning obstacles on the half elements at held ends. */
 static double end_obstacle_work(const CpsiLine *line) {
     double work = 0;
     if (line->has_local_axes)
         for (int end = 0; end < 2; end++) {
-            const int j = end == CPS_END_A ? 0 : line->n - 1, k = line->on[j];
+            const int j = end == CPS_END_A ? 0 : line->n - 1, k = line->obstacle_index[j];
             if (!cpsi_line_is_held(line, j) || k < 0 || line->turn[k] == 0) continue;
             const Vec3 own =
                 cpsi_obstacle_slip(&line->obstacle[k], vec3_load(&line->reference[3 * j]),
@@ -81,13 +80,13 @@ static double end_obstacle_work(const CpsiLine *line) {
     return work;
 }
 
-/* Work of obstacles that turn: friction on the way of the surface under the node, which is the
- * node's own way less the way slid. */
+/* The work of obstacles that turn: friction on the displacement of the surface under the node,
+ * which is the node's own displacement along it less the slip. */
 static double obstacle_work(const CpsiLine *line) {
     double work = 0;
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-            const int k = line->on[c];
+            const int k = line->obstacle_index[c];
             if (k < 0 || line->turn[k] == 0) continue;
             const Vec3 x = cpsi_line_place(line, line->position, c),
                        from = cpsi_line_place(line, line->reference, c);

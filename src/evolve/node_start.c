@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reference of S90 as data (see node_start.h): x_R at the nodes, T_R in the elements, and what
- * the obstacle pushed, R_R, or the bound of friction that it left, A_R = mu R_R, (78). Where
- * neither is given the reaction is the one that T_R and the loads leave, section 2 d 2. */
+/* The reference of S90 as data (see node_start.h): x_R at the nodes, T_R in the elements, and the
+ * reaction R_R or the friction bound A_R = mu R_R, (78). Where neither is given the reaction is the
+ * one that balances T_R and the loads, section 2 d 2. */
 #include "evolve/node_start.h"
 
 #include <math.h>
@@ -15,15 +15,14 @@
 /* An inextensible element may be longer than its length by this, relative: coordinates written with
  * 9 digits pass. */
 static const double LENGTH_TOLERANCE = 1e-8;
-/* An elastic element may not be stretched beyond this strain: more is a slip of the pen, as of
- * other starts. */
+/* An elastic element may not be stretched beyond this strain: more is taken for an error of input,
+ * as for other starts. */
 static const double MAX_STRAIN = 1;
-/* How near to the obstacle a given node counts as touching, per length of the line, and what counts
- * as no force, per largest: a step that is certified leaves products of reaction and distance of
- * about 1e-13 in these units, so that where R is more than NOTHING the distance is less than
- * TOUCH. */
+/* Distance at which a given node touches the obstacle, per length of the line, and force that
+ * counts as zero, per largest force. A certified step leaves products of reaction and distance of
+ * about 1e-13 in these units, so that where R exceeds NOTHING the distance is less than TOUCH. */
 static const double TOUCH = 1e-7, NOTHING = 1e-6;
-/* Numbers whose squares and products would overflow are taken for infinite. */
+/* Larger numbers, whose squares and products would overflow, count as infinite. */
 static const double LARGEST = 1e100;
 
 static double element_length(const CpsLine *line, int e) {
@@ -66,7 +65,7 @@ static double coefficient(const CpsObstacle *obstacle) {
     return obstacle->friction_set ? 1 : fmax(obstacle->friction, obstacle->friction_lateral);
 }
 
-/* Only what touches is pushed, and only where friction acts has it a bound. */
+/* Only touching nodes may have a reaction, and only nodes with friction a friction bound. */
 static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     const CpsStart *start = &line->start;
     const double *force = start->reaction ? start->reaction : start->friction_bound;
@@ -93,8 +92,8 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
                 }
             }
             if (!(force[j] > NOTHING * largest)) continue;
-            /* one below the obstacle is refused as such, unless contact is strict, where it may be
-             * there and is pushed no more */
+            /* a node below the obstacle is refused elsewhere, unless contact is strict, where it
+             * may be there and has no reaction */
             const bool near =
                 gap <= TOUCH * line->length &&
                 (scene->contact == CPS_CONTACT_GAINED || gap >= -TOUCH * line->length);
@@ -155,7 +154,7 @@ static Vec3 force_of(const CpsiLine *line, const CpsLine *def, int e) {
     return size > 0 ? vec3_scale(tension / size, dx) : vec3(0, 0, 0);
 }
 
-/* What balances the loads and the line's forces on node j along the normal. */
+/* The reaction that balances the loads and the line's forces on node j along the normal. */
 static double balance(const CpsiLine *line, const CpsLine *def, int j, Vec3 normal) {
     Vec3 sum = vec3_scale(cpsi_line_share(line, j), vec3_load(line->weight));
     if (j > 0) sum = vec3_sub(sum, force_of(line, def, j - 1));
@@ -177,7 +176,7 @@ void cpsi_node_start(CpsiLine *line, const CpsLine *def) {
         line->state[j] = CPS_NODE_FREE;
         if (!(fabs(gap) <= TOUCH * line->length)) continue;
         line->state[j] = CPS_NODE_STICK;
-        if (line->has_local_axes) line->on[j] = on;
+        if (line->has_local_axes) line->obstacle_index[j] = on;
         if (start->reaction) {
             line->reaction[j] = start->reaction[j];
         } else if (start->friction_bound) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The local origin of a scene (origin.h): the middle of the lines' places, in round numbers, along
- * those axes only on which it is far. */
+/* The local origin of a scene (origin.h): the middle of the lines' positions, rounded, along those
+ * axes only on which it is far away. */
 #include "evolve/origin.h"
 
 #include <float.h>
@@ -11,9 +11,9 @@
 #include "base/status.h"
 
 /* Lines within so many lengths of the origin keep it: their coordinates lose three digits at most,
- * and none of a scene that has always been there changes. */
+ * and results of scenes near the origin do not change. */
 static const double FAR = 512;
-/* Two places, of data and arithmetic, are each off by up to a unit in the last digit of their
+/* Rounding of two positions, in data and arithmetic, in units in the last place of their
  * coordinates. */
 static const double ROUNDINGS = 8;
 
@@ -21,7 +21,7 @@ typedef struct Box {
     double low[3], high[3];
 } Box;
 
-/* A place that is none, NaN, is left out. */
+/* NaN, an unknown position, is ignored. */
 static void include(Box *box, const double x[3]) {
     for (int a = 0; a < 3; a++) {
         box->low[a] = fmin(box->low[a], x[a]);
@@ -59,7 +59,7 @@ static void shift_end(CpsEnd *end, const double origin[3]) {
     if (end->kind == CPS_END_HELD) shift(end->value, origin);
 }
 
-/* Room in a block, of which `used` bytes are taken; all that is kept there has the alignment of a
+/* Copy data into a block of which `used` bytes are taken; all data in it have the alignment of a
  * double. */
 static void *copy(char *block, size_t *used, const void *from, size_t size) {
     void *to = block + *used;

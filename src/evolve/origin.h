@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A local origin for scenes that lie far from that of their coordinates (UTM, say): the difference
- * of two coordinates keeps no more digits than they have, so everything is computed from a place
+/* A local origin for scenes far from the origin of their coordinates (UTM, for instance):
+ * differences of large coordinates lose digits, so all positions are taken relative to a point
  * among the lines. */
 #ifndef CAPSTAN_SRC_EVOLVE_ORIGIN_H
 #define CAPSTAN_SRC_EVOLVE_ORIGIN_H
@@ -15,14 +15,14 @@ typedef struct CpsiLocalScene {
     void *block;
 } CpsiLocalScene;
 
-/* The scene is checked. Every coordinate of the copy is the given one less the origin, exactly
- * wherever the place is as near to the lines as the lines are to each other. Returns CPS_OK or
- * CPS_ERR_MEMORY. */
+/* The scene has been checked. Every coordinate of the copy is the given one less the origin. The
+ * difference is exact wherever the point is as near to the lines as the lines are to each other.
+ * Returns CPS_OK or CPS_ERR_MEMORY. */
 CpsStatus cpsi_local_scene(const CpsScene *scene, CpsiLocalScene *out, CpsError *err);
 void cpsi_local_scene_free(CpsiLocalScene *local);
 
-/* [m] What rounding of coordinates as large as those of x may leave between places that were meant
- * to agree; 0 up to as many lengths of its line as need no local origin. */
+/* [m] Distance that rounding of coordinates of the size of x may cause between points meant to be
+ * equal; 0 within the range in which a line needs no local origin. */
 double cpsi_place_rounding(double length, Vec3 x);
 
 #endif

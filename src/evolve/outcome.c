@@ -31,7 +31,7 @@ bool cps_outcome_is_final(CpsOutcome outcome) {
            outcome == CPS_OUTCOME_SLIDES;
 }
 
-/* From best to worst: certified answers, answers that are not certified, proofs that there is
+/* From best to worst: certified solutions, solutions that are not certified, proofs that there is
  * none. */
 static int badness(CpsOutcome outcome) {
     switch (outcome) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ways of held ends against the obstacles (path_check.h). */
+/* Check of the paths of held ends against the obstacles (path_check.h). */
 #include "evolve/path_check.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "evolve/origin.h"
 #include "evolve/start.h"
 
-/* Where both ends of a line are held; NaN while an end is free, for then the place is not known
+/* Positions of both ends of a line; NaN while an end is free, as its position is then not known
  * before the scene is solved. */
 typedef struct Places {
     double end[2][3];

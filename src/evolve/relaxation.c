@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Overdamped motion to rest (relaxation.h): time steps with a drag (cable/damped_step.h), each from
- * where the last one ended, with friction as it is. The drag is the inverse of the length of a time
- * step. It falls where steps are easy, so that the last of them are long, and grows where a step
- * cannot be solved or an obstacle is in the way. */
+ * where the last one ended, with the actual friction. The drag is inverse to the length of a time
+ * step. It decreases where displacements are small, so that the last time steps are long, and
+ * increases where a time step cannot be solved or an obstacle shortens it. */
 #include "evolve/relaxation.h"
 
 #include <math.h>
@@ -11,22 +11,23 @@
 #include "cable/existence.h"
 #include "evolve/ledger.h"
 
-/* Time steps at most. */
+/* Largest number of time steps. */
 static const int STEPS = 400;
 /* [-] The drag of the first time step: forces of the size of the loads move a line by a 64th of its
  * length. */
 static const double FIRST_DRAG = 64;
-/* ... its range. With the least a step is as long as the line needs. */
+/* ... its range. With the least drag a time step goes as far as the line needs. */
 static const double LEAST_DRAG = 1e-6, MOST_DRAG = 1e8;
-/* A time step is easy where no node goes farther than this share of the length. */
-static const double EASY_WAY = 0.05;
+/* The drag decreases after a time step in which no node moves farther than this share of the
+ * length. */
+static const double EASY_MOTION = 0.05;
 /* The line rests where drag times motion is this share of the forces, and the motion this share of
  * the length. */
-static const double REST_FORCE = 1e-7, REST_WAY = 1e-6;
+static const double REST_FORCE = 1e-7, REST_MOTION = 1e-6;
 
 static double next_drag(const CpsiLine *line, const CpsiDampedStep *step, double drag) {
     if (!step->solved || step->shortened) return fmin(4 * drag, MOST_DRAG);
-    const bool easy = step->distance <= EASY_WAY * line->length;
+    const bool easy = step->distance <= EASY_MOTION * line->length;
     return easy ? fmax(0.5 * drag, LEAST_DRAG) : drag;
 }
 
@@ -57,7 +58,7 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         double direction[3], load;
         if (cpsi_line_falls_away(line, direction, &load)) return true;
         const double left = step.distance / line->length;
-        if (!step.shortened && left <= REST_WAY && taken * left <= REST_FORCE) return true;
+        if (!step.shortened && left <= REST_MOTION && taken * left <= REST_FORCE) return true;
     }
     return false;
 }

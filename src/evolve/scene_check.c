@@ -20,19 +20,20 @@ enum { SCENE_COOKIE = 0x5ce9e501, LINE_COOKIE = 0x11e00e02, OBSTACLE_COOKIE = 0x
 /* A start shape must be as long as the line to this relative accuracy: lengths written with 9
  * digits pass. */
 static const double LENGTH_TOLERANCE = 1e-8;
-/* An elastic line may start stretched, but not beyond this strain: more is a slip of the pen. */
+/* An elastic line may start stretched, but not beyond this strain, which is taken for an error of
+ * input. */
 static const double MAX_START_STRAIN = 1.0;
-/* How far a held end may lie from where the start shape puts it, or below the obstacle, per length
- * of the line. */
+/* Permitted distance of a held end from the end of the initial shape, or below the obstacle, per
+ * length of the line. */
 static const double PLACE_TOLERANCE = 1e-9;
-/* How far the elements' lengths may sum up beside the line's, relative: lengths written with 10
- * digits pass. */
+/* Permitted relative difference between the sum of the elements' lengths and the line's length:
+ * lengths written with 10 digits pass. */
 static const double SUM_TOLERANCE = 1e-9;
-/* What still fits into the memory of a large machine (1 kB per element), and into a list of
- * results. */
+/* Limits given by the memory of a large machine (1 kB per element) and by the size of results. */
 enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000, MAX_OBSTACLES = 1000 };
 
-/* [rad] Of one stage, which takes a part for every quarter of a turn: 10 000 turns. */
+/* [rad] Limit of a turn in one stage, which takes a substep for every quarter of a turn: 10 000
+ * turns. */
 static const double MAX_TURN = 62831.853071795864769, DEGREES = 57.295779513082320877;
 
 CpsScene cps_scene_default(void) {
@@ -69,22 +70,24 @@ CpsObstacle cps_obstacle_default(void) {
 
 /* ---- the check ----
  *
- * A message begins with the object and its key. Beside it the error says its place as data: a check
- * names the key, and who calls it the object around: "length" in "lines.cable". */
+ * A message begins with the object and its key. The error also contains the path of the key as
+ * data: a check names the key, and its caller the enclosing object: "length" in "lines.cable". */
 
 /* Fails at a key of the object that is being checked; arguments as for cpsi_fail. */
 #define FAIL_AT(key, err, ...) cpsi_fail_inside(err, cpsi_fail(err, __VA_ARGS__), "%s", key)
 
-/* Numbers whose squares and products would overflow are taken for infinite; lengths whose squares
- * would vanish for zero. */
+/* Numbers whose squares and products would overflow count as infinite; lengths whose squares would
+ * underflow count as zero. */
 static const double LARGEST = 1e100, SMALLEST = 1e-100;
 
-static bool usable(double x) { return fabs(x) <= LARGEST; }
-static bool usable3(const double x[3]) { return usable(x[0]) && usable(x[1]) && usable(x[2]); }
+static bool is_usable(double x) { return fabs(x) <= LARGEST; }
+static bool are_usable(const double x[3]) {
+    return is_usable(x[0]) && is_usable(x[1]) && is_usable(x[2]);
+}
 static bool positive(double x) { return x >= SMALLEST && x <= LARGEST; }
 static bool not_negative(double x) { return x >= 0 && x <= LARGEST; }
 static bool direction(const double x[3]) {
-    return usable3(x) && vec3_norm(vec3_load(x)) >= SMALLEST;
+    return are_usable(x) && vec3_norm(vec3_load(x)) >= SMALLEST;
 }
 
 static const char *end_letter(int end) { return end == CPS_END_A ? "A" : "B"; }
@@ -111,7 +114,7 @@ static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
                          (int)o->kind);
     const bool plane = o->kind == CPS_OBSTACLE_PLANE, ball = o->kind == CPS_OBSTACLE_SPHERE;
     const char *what = plane ? "plane point" : ball ? "sphere center" : "cylinder point";
-    if (!usable3(o->point))
+    if (!are_usable(o->point))
         return FAIL_AT(plane  ? "plane.point"
                        : ball ? "sphere.center"
                               : "cylinder.point",
@@ -134,7 +137,7 @@ static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
     return CPS_OK;
 }
 
-static CpsStatus check_rubbing(const CpsObstacle *o, CpsError *err) {
+static CpsStatus check_friction_keys(const CpsObstacle *o, CpsError *err) {
     if (!not_negative(o->friction))
         return FAIL_AT("friction", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
@@ -148,7 +151,7 @@ static CpsStatus check_rubbing(const CpsObstacle *o, CpsError *err) {
                        "obstacle '%s': friction: unknown shape %d", o->name,
                        (int)o->friction_shape);
     const double *g = o->grain;
-    if (!usable3(g) || ((g[0] != 0 || g[1] != 0 || g[2] != 0) && !direction(g)))
+    if (!are_usable(g) || ((g[0] != 0 || g[1] != 0 || g[2] != 0) && !direction(g)))
         return FAIL_AT("friction.grain", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': friction: grain is (%g, %g, %g), expected a direction: "
                        "finite numbers, or all 0 for the line's own",
@@ -175,7 +178,7 @@ static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
                                    "obstacle '%s': obstacles %d and %d have the same name", o->name,
                                    i + 1, k + 1);
         if (status == CPS_OK) status = check_surface(o, err);
-        if (status == CPS_OK) status = check_rubbing(o, err);
+        if (status == CPS_OK) status = check_friction_keys(o, err);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "obstacles.%s", o->name);
     }
     return CPS_OK;
@@ -198,7 +201,7 @@ static double height(const CpsScene *scene, Vec3 x, const char **name) {
     return least;
 }
 
-/* [m] How far a place of a line may be from where it should be. */
+/* [m] Tolerance for a position of a line. */
 static double place_tolerance(const CpsLine *line, Vec3 x) {
     return PLACE_TOLERANCE * line->length + cpsi_place_rounding(line->length, x);
 }
@@ -275,7 +278,7 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
     return status ? status : check_zones(line, err);
 }
 
-/* What the start is made of, and for an arc that it can carry the elements. */
+/* Check the points of the start, and for an arc that its radius suits the elements. */
 static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
     const CpsStart *start = &line->start;
     if (start->kind < CPS_START_STRAIGHT || start->kind > CPS_START_NODES)
@@ -288,7 +291,7 @@ static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
                        "line '%s': start has %d points, expected %s", line->name,
                        start->point ? start->point_count : 0, polyline ? "at least 2" : "2");
     for (int i = 0; i < start->point_count; i++)
-        if (!usable3(&start->point[3 * i]))
+        if (!are_usable(&start->point[3 * i]))
             return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
                            "line '%s': start: point %d is (%g, %g, %g) m, expected finite numbers",
                            line->name, i + 1, start->point[3 * i], start->point[3 * i + 1],
@@ -354,8 +357,8 @@ static int first_below(const CpsScene *scene, const CpsLine *line, int count, co
     return first;
 }
 
-/* No node of the start shape below the obstacle; statics keeps a laid line above by itself. With
- * strict contact given nodes may have gone through it. */
+/* No node of the initial shape may lie below the obstacle; statics places a line above it by
+ * itself. With strict contact given nodes may lie below it. */
 static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     const bool through =
         line->start.kind == CPS_START_NODES && scene->contact == CPS_CONTACT_STRICT;
@@ -387,7 +390,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
                        "line '%s': ends: end %s has the unknown kind %d", line->name, letter,
                        (int)e->kind);
     if (e->kind == CPS_END_FREE) {
-        if (usable3(v)) return CPS_OK;
+        if (are_usable(v)) return CPS_OK;
         return FAIL_AT(
             place, err, CPS_ERR_ARGUMENT,
             "line '%s': ends: the force on end %s is (%g, %g, %g) N, expected finite numbers",
@@ -401,7 +404,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
                        "it at [x, y, z]",
                        line->name, letter);
     }
-    if (!usable3(v))
+    if (!are_usable(v))
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                        "line '%s': ends: end %s is at (%g, %g, %g) m, expected finite numbers",
                        line->name, letter, v[0], v[1], v[2]);
@@ -413,7 +416,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
                        -above, name);
     if (laid) return CPS_OK;
 
-    /* where the start puts the end: ask as if no value were given */
+    /* the end of the initial shape: compute it as if no value were given */
     CpsLine open = *line;
     open.end[end].value[0] = NAN;
     double start[3];
@@ -477,7 +480,7 @@ static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsEr
     if (change->to.kind != CPS_END_HELD && change->to.kind != CPS_END_FREE)
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s has the unknown kind %d",
                        stage + 1, line->name, letter, (int)change->to.kind);
-    if (!usable3(v))
+    if (!are_usable(v))
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                        "stage %d: %s.%s gets (%g, %g, %g), expected finite numbers", stage + 1,
                        line->name, letter, v[0], v[1], v[2]);
@@ -509,7 +512,7 @@ static CpsStatus check_turns(const CpsScene *scene, int index, CpsError *err) {
             return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                            "stage %d: obstacle '%s' is a plane: only a cylinder or a sphere turns",
                            index + 1, obstacle->name);
-        if (!usable(turn->angle))
+        if (!is_usable(turn->angle))
             return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                            "stage %d: obstacle '%s' turns by %g, expected a finite angle",
                            index + 1, obstacle->name, turn->angle);
@@ -542,7 +545,7 @@ static CpsStatus check_stage(const CpsScene *scene, int k, int64_t *steps, CpsEr
     if (stage->change_count < 0 || (stage->change_count > 0 && !stage->change))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d changes, expected 0 or more",
                          k + 1, stage->change_count);
-    if (stage->gravity_changes && !usable3(stage->gravity))
+    if (stage->gravity_changes && !are_usable(stage->gravity))
         return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
                        "stage %d: gravity is (%g, %g, %g) m/s2, expected finite numbers", k + 1,
                        stage->gravity[0], stage->gravity[1], stage->gravity[2]);
@@ -591,7 +594,7 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
     if (scene->contact != CPS_CONTACT_GAINED && scene->contact != CPS_CONTACT_STRICT)
         return FAIL_AT("contact", err, CPS_ERR_ARGUMENT, "contact: unknown value %d",
                        (int)scene->contact);
-    if (!usable3(scene->gravity))
+    if (!are_usable(scene->gravity))
         return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
                        "gravity: is (%g, %g, %g) m/s2, expected finite numbers", scene->gravity[0],
                        scene->gravity[1], scene->gravity[2]);

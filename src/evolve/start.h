@@ -1,18 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where a line starts: its nodes along the start shape, by natural length.
+/* The initial positions of a line's nodes, by natural length along its initial shape.
  *
  *   straight, polyline   node i at the shape's arc length a_i s, with a_i its natural abscissa and
  *                        s = shape's length over line's length >= 1: an elastic line is stretched
- *                        evenly
- *   arc                  nodes on the circle, each chord exactly as long as its element: free of
- *                        stress
- *   nodes                where they are given (node_start.h)
- *   laid                 only a first guess for statics: evenly on the straight line between the
- *                        held ends, or from the held end along the force on the free one (straight
- *                        down, -z, when there is none)
+ * uniformly arc                  nodes on the circle, each chord exactly as long as its element:
+ * without tension nodes                where they are given (node_start.h) laid only a first guess
+ * for statics: uniformly on the straight line between the held ends, or from the held end along the
+ * force on the free one (straight down, -z, when there is none)
  *
- * The line must have passed the check of its start (scene_check.c), which itself walks along the
- * shape. */
+ * The line must have passed the check of its start (scene_check.c), which itself uses
+ * cpsi_start_walk. */
 #ifndef CAPSTAN_SRC_EVOLVE_START_H
 #define CAPSTAN_SRC_EVOLVE_START_H
 
@@ -48,8 +45,8 @@ Vec3 cpsi_start_next(CpsiStartWalk *walk);
 /* All nodes.  position   (elements + 1, 3) [m], written */
 void cpsi_start_place(const CpsLine *line, double *position);
 
-/* Where an end starts: the value of a held end, or where the start puts it (free, or held with
- * value NaN). */
+/* The initial position of an end: the value of a held end, or the end of the initial shape (free,
+ * or held with value NaN). */
 void cpsi_start_end(const CpsLine *line, int end, double position[3]);
 
 #endif

@@ -2,8 +2,8 @@
 /* The check of a loaded state (see state_check.h).
  *
  * Everything that serves as an index, a count or a kind is compared with its range, and all numbers
- * that later steps start from are finite. Numbers that are only told may be NaN or infinite, as in
- * reports. */
+ * that later steps start from are finite. Numbers that are only reported may be NaN or infinite, as
+ * in reports. */
 #include "evolve/state_check.h"
 
 #include <math.h>
@@ -34,7 +34,7 @@ static bool is_end(const CpsEnd *end) {
     return (end->kind == CPS_END_HELD || end->kind == CPS_END_FREE) && all_finite(end->value, 3);
 }
 
-/* Which stage and which part of it follow after `done` steps. */
+/* Do `current` and `part` agree with the number of steps taken? */
 static bool is_place_in_history(const CpsEvolution *evolution) {
     if (!within(evolution->done, 0, evolution->step_count)) return false;
     int left = evolution->done - (evolution->laid && evolution->done > 0 ? 1 : 0), current = 0;
@@ -51,7 +51,7 @@ static bool is_step_report(const CpsEvolution *evolution) {
            memchr(evolution->step_name, '\0', sizeof evolution->step_name);
 }
 
-/* The obstacle of a bend is looked up wherever the mesh is too coarse, else only where the line
+/* The obstacle index of a bend is used wherever the mesh is too coarse, else only where the line
  * turns. */
 static bool is_line_report(const CpsLineReport *report, int obstacles) {
     const bool bends = report->bend.turn > 0 || report->outcome == CPS_OUTCOME_MESH_TOO_COARSE;
@@ -67,12 +67,13 @@ static bool is_line_report(const CpsLineReport *report, int obstacles) {
     return sound;
 }
 
-/* Of each contact: how it rests, and with what. */
+/* The state and the obstacle of each contact. */
 static bool are_contacts(const CpsiLine *line) {
     const int contacts = cpsi_line_all_contacts(line);
     for (int c = 0; c < contacts; c++)
         if (line->state[c] > CPS_NODE_SLIP ||
-            (line->on && !within(line->on[c], -1, line->obstacle_count - 1)))
+            (line->obstacle_index &&
+             !within(line->obstacle_index[c], -1, line->obstacle_count - 1)))
             return false;
     return true;
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is a state that has been loaded one that steps can have left? A state is trusted as little as a
- * scene. */
+/* The check of a loaded state: could steps have produced it? A state file is checked as strictly as
+ * a scene. */
 #ifndef CAPSTAN_SRC_EVOLVE_STATE_CHECK_H
 #define CAPSTAN_SRC_EVOLVE_STATE_CHECK_H
 
 #include "evolve/evolution.h"
 
-/* Counters, indices, kinds and numbers of an evolution against their ranges: what is wrong, in
- * words, or NULL. */
+/* Check counters, indices, kinds and numbers of an evolution against their ranges. Returns a
+ * description of the fault, or NULL. */
 const char *cpsi_state_fault(const CpsEvolution *evolution);
 
 #endif

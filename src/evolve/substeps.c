@@ -1,26 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A load step in parts (substeps.h).
  *
- * Friction depends on the path, and a step goes straight from one load to the next. A part of a
+ * Friction depends on the path, while a step goes straight from one load to the next. A part of a
  * step is accepted
- *   - when it converged, if the path's accuracy is not asked for;
- *   - when besides going it in two halves leads to the same place and tensions within the path
- *       tolerance, and neither half goes nearly
- *     all the way: the two halves are kept;
- *   - in either case, when it accounts for its energy, or its halves do: equilibria before and
- *       after that lie on different branches
- *     differ by more than was put in. Then the halves are kept.
- * Otherwise it is halved, at most `halvings` times. A part that small is accepted; if it still is
- * not what its halves are it is a snap, and reported: the line jumps by a way that does not get
- * smaller with the load. A part that small which does not converge is not cut further: the rest of
- * the step slides without end, which is proved; or the line goes on as overdamped motion
- * (relaxation.h), a snap as well, and from where it comes to rest as before; or the rest is taken
- * in one go and reported as it is.
+ *   - without a path tolerance: when it converged;
+ *   - with a path tolerance: when moreover its two halves lead to the same positions and tensions
+ * within the tolerance, and neither half makes nearly the whole displacement; then the two halves
+ * are kept;
+ *   - in both cases: when its energy balance closes, or that of its halves does: equilibria on
+ * different branches differ by more energy than was supplied. Then the halves are kept. Otherwise
+ * it is halved, at most `halvings` times. A part of that size is accepted. If it still differs from
+ * its halves it is reported as a jump (snap): the displacement does not decrease with the load
+ * increment. A part of that size which does not converge is not divided further. Either the line
+ * provably slides without end for the rest of the step; or it moves on as overdamped motion
+ * (relaxation.h), which is reported as a jump too, and continues from where it comes to rest; or
+ * the rest of the step is taken in one part and reported as it is.
  *
- * A way round an obstacle is known only where neither the obstacle turns nor a node goes round it
- * by more than a quarter of a turn (cable/contact.h). A step in which an obstacle turns farther is
- * cut beforehand into equal stretches of a quarter at most, each of which is taken as above. A part
- * in which a node with friction goes farther has not converged. */
+ * The slip round an obstacle is known only where neither the obstacle turns nor a node moves round
+ * it by more than a quarter of a turn (cable/contact.h). A step in which an obstacle turns farther
+ * is first divided into equal portions of at most a quarter, each of which is taken as above. A
+ * part in which a node with friction moves farther counts as not converged. */
 #include "evolve/substeps.h"
 
 #include <float.h>
@@ -33,44 +32,45 @@
 #include "evolve/ledger.h"
 #include "evolve/relaxation.h"
 
-/* A part whose halves agree this much better than asked is followed by one twice as long. */
+/* After a part whose halves agree to this share of the tolerance, the next part is twice as
+ * long. */
 static const double EASY = 0.25;
 
-/* Motion that follows the load goes about half its way in each half of a part: 0.71 of it in the
- * one before a limit load, where it grows like a square root, 0.75 where slip grows like the square
- * of the load. A jump goes in one half all its way. */
+/* A displacement that depends continuously on the load makes about half of it in each half of a
+ * part: 0.71 in the half before a limit load, where it grows like a square root, and 0.75 where
+ * slip grows like the square of the load. A jump makes all of it in one half. */
 static const double SUDDEN = 0.9;
 
-/* A line slides without end where the power of its loads is beyond what friction can take by this
- * share. A certified equilibrium may have forces askew by the root of its relative gap of 1e-8, and
- * the power of its loads may be off by as much. */
+/* A line slides without end where the power of its loads exceeds what friction can dissipate by
+ * this share. The directions of forces in a certified equilibrium may be wrong by the root of its
+ * relative gap of 1e-8, and the power of its loads by as much. */
 static const double SLIDES_LEAST = 1e-4;
-/* ... by so much that smaller parts need not be tried. */
+/* ... and above this share smaller parts need not be tried. */
 static const double SLIDES_CLEARLY = 0.01;
 
-/* A part that cannot account for more than this share of what it dissipates and of the positive
- * work in it is taken in halves: of the imbalance that a coarse part leaves when it follows the
- * path this is far above the common one. */
-static const double MUCH = 0.05;
-/* [-] Places are known to this much of the length: a node so near to an obstacle touches it. */
-static const double PLACES = CPSI_TOUCH;
-/* ... and strains to this, beside what their coordinates' last digits make. */
+/* A part whose energy imbalance exceeds this share of its dissipation and positive work is taken in
+ * halves. The imbalance of a coarse part that follows the path is far smaller. */
+static const double OPEN_ENERGY_SHARE = 0.05;
+/* [-] Accuracy of positions relative to the length: a node so near to an obstacle touches it. */
+static const double POSITION_TOL = CPSI_TOUCH;
+/* ... and accuracy of strains, beside the rounding of coordinates. */
 static const double ROUNDED_STRAIN = 1e-12;
-/* After so many parts as small as may be that cannot either, no more of a step are cut for their
- * energy: it would take all of them, and what is left is reported. */
+/* After this many parts of the smallest size whose energy balance does not close, parts of the step
+ * are no longer divided for their energy, and the imbalance is reported. */
 static const int JUMPS = 8;
 
-/* So many parts of a step may be gone as overdamped motion. */
+/* Parts of a step that may be taken as overdamped motion. */
 static const int RELAXATIONS = 8;
-/* This share of what is left of a step is not: its end is an equilibrium. */
-static const double LAST = 0.0625;
+/* This share of the rest of a step is never taken so: the step has to end with an equilibrium. */
+static const double LAST_SHARE = 0.0625;
 
-/* So many iterations times nodes spent on parts that are not kept end the cutting of a step, unless
- * its path is asked for: about a second of one processor. Each iteration costs as much as that of
- * some nodes more; a given set of friction forces makes a node dearer. */
-static const double IN_VAIN = 2e6, NODES_BESIDE = 30, SET_COST = 30;
+/* Without a path tolerance parts are no longer divided after so many iterations times nodes spent
+ * on parts that were not kept: about a second of one processor. The cost of an iteration beside
+ * that of its nodes is counted as further nodes; a general friction set multiplies the cost of a
+ * node. */
+static const double MAX_WASTED_WORK = 2e6, NODES_BESIDE = 30, SET_COST = 30;
 
-/* An angle that is a whole number of quarters but for rounding is that number. */
+/* Rounding of an angle that is a whole number of quarter turns. */
 static const double ROUNDING = 1e-9;
 
 void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int contacts,
@@ -79,7 +79,7 @@ void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int co
     scratch->reaction = CPSI_TAKE(arena, all, double);
     scratch->tension = CPSI_TAKE(arena, n, double);
     scratch->state = CPSI_TAKE(arena, all, unsigned char);
-    scratch->on = CPSI_TAKE(arena, all, int);
+    scratch->obstacle_index = CPSI_TAKE(arena, all, int);
     scratch->position = CPSI_TAKE(arena, 3 * (size_t)n, double);
     scratch->trial = path_tolerance ? CPSI_TAKE(arena, 4 * (size_t)n, double) : NULL;
 }
@@ -89,29 +89,33 @@ static void save(const CpsiLine *line, CpsiSubsteps *scratch) {
     memcpy(scratch->reaction, line->reaction, contacts * sizeof *line->reaction);
     memcpy(scratch->tension, line->tension, (n - 1) * sizeof *line->tension);
     memcpy(scratch->state, line->state, contacts * sizeof *line->state);
-    if (line->has_local_axes) memcpy(scratch->on, line->on, contacts * sizeof *line->on);
+    if (line->has_local_axes)
+        memcpy(scratch->obstacle_index, line->obstacle_index,
+               contacts * sizeof *line->obstacle_index);
     memcpy(scratch->end, line->report.end, sizeof scratch->end);
     memcpy(scratch->position, line->position, 3 * n * sizeof *line->position);
 }
 
-/* Back to the start of the part. */
+/* Restore the line to the start of the part. */
 static void restore(CpsiLine *line, const CpsiSubsteps *scratch) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(line->reaction, scratch->reaction, contacts * sizeof *line->reaction);
     memcpy(line->tension, scratch->tension, (n - 1) * sizeof *line->tension);
     memcpy(line->state, scratch->state, contacts * sizeof *line->state);
-    if (line->has_local_axes) memcpy(line->on, scratch->on, contacts * sizeof *line->on);
+    if (line->has_local_axes)
+        memcpy(line->obstacle_index, scratch->obstacle_index,
+               contacts * sizeof *line->obstacle_index);
     memcpy(line->report.end, scratch->end, sizeof scratch->end);
     memcpy(line->position, scratch->position, 3 * n * sizeof *line->position);
 }
 
-/* What a part of a step did. */
+/* The result of a part of a step. */
 typedef struct Part {
     CpsLineReport report;
     CpsLedger ledger;
 } Part;
 
-/* A step under way: what it is of, and what has been done of it. */
+/* The state of a load step while it is taken. */
 typedef struct Advance {
     CpsiLine *line;
     CpsiChainProgram *program;
@@ -119,10 +123,11 @@ typedef struct Advance {
     const CpsiMove *move;
     CpsiSubsteps *scratch;
     bool known;     /* the forces at the ends are those of an equilibrium */
-    int iterations; /* of everything that was solved, kept or not */
-    double in_vain; /* iterations times nodes, of what was not kept, path tolerance apart */
-    int relaxed;    /* parts that were tried as overdamped motion */
-    int jumps;      /* parts as small as may be whose energy is open */
+    int iterations; /* of all parts solved, kept or not */
+    double wasted; /* iterations times nodes of parts that were not kept, not counting those for the
+                      path tolerance */
+    int relaxed;   /* parts tried as overdamped motion */
+    int jumps;     /* parts of the smallest size whose energy balance does not close */
     CpsLineReport whole;
     CpsLedger ledger;
 } Advance;
@@ -139,28 +144,28 @@ static CpsEnd end_at(const CpsiMove *move, int end, double share) {
 }
 
 /* The weight at a share of the move. */
-static void weigh(const CpsiMove *move, double share, double weight[3]) {
+static void weight_at(const CpsiMove *move, double share, double weight[3]) {
     for (int a = 0; a < 3; a++) {
         const double from = move->weight_from[a], to = move->weight_to[a];
         weight[a] = share < 1 ? from + share * (to - from) : to;
     }
 }
 
-/* What the part of the move from share `from` to share `to` imposes. */
+/* Impose the part of the move from share `from` to share `to`. */
 static void impose(const Advance *substeps, double from, double to) {
-    weigh(substeps->move, from, substeps->line->weight_before);
-    weigh(substeps->move, to, substeps->line->weight);
+    weight_at(substeps->move, from, substeps->line->weight_before);
+    weight_at(substeps->move, to, substeps->line->weight);
     for (int end = 0; end < 2; end++) substeps->line->end[end] = end_at(substeps->move, end, to);
     for (int k = 0; k < substeps->line->obstacle_count; k++)
         substeps->scratch->turn[k] = (to - from) * substeps->move->angle[k];
 }
 
-/* What the mesh makes of a bend it makes in smaller parts as well. */
+/* A too coarse mesh counts as an answer: smaller parts would not change it. */
 static bool is_answer(CpsOutcome outcome) {
     return cps_outcome_is_certified(outcome) || outcome == CPS_OUTCOME_MESH_TOO_COARSE;
 }
 
-/* The part of the move from share `from` to share `to`. */
+/* Take the part of the move from share `from` to share `to`. */
 static Part accept(Advance *substeps, double from, double to, bool known) {
     CpsiLine *line = substeps->line;
     const CpsiMove *move = substeps->move;
@@ -200,14 +205,14 @@ static void add(Advance *substeps, const Part *part) {
     whole->ledger = substeps->ledger;
 }
 
-static void keep_trial(const CpsiLine *line, double *trial) {
+static void store_trial(const CpsiLine *line, double *trial) {
     for (int j = 0; j < line->n; j++) {
         memcpy(&trial[4 * j], &line->position[3 * j], 3 * sizeof *trial);
         trial[4 * j + 3] = j > 0 ? line->tension[j - 1] : 0;
     }
 }
 
-/* How far the line is from where the trial went. */
+/* The difference between the line and the stored trial. */
 typedef struct Difference {
     double displacement; /* largest, per length of the line */
     double tension;      /* largest, per largest force */
@@ -225,15 +230,14 @@ static Difference difference(const CpsiLine *line, const double *trial) {
     return (Difference){displacement / line->length, force > 0 ? tension / force : 0};
 }
 
-/* The energy that a part, or two of them, cannot account for: what it made, and where the path
- * counts what it lost as well; but for what the certificate and the accuracy of places leave open
- * of an energy. */
+/* The energy imbalance of one part or two: energy gained, and with a path tolerance also energy
+ * lost; and the uncertainty of an energy by the certificate and the accuracy of positions. */
 typedef struct Open {
-    double energy, beside; /* [J] it, and dissipated plus positive work */
+    double energy, beside; /* [J] the imbalance; dissipated plus positive work */
     double noise;          /* [J] */
 } Open;
 
-/* [J] What rounding of coordinates makes of the elongation of a line on which no force acts. */
+/* [J] Elastic energy of a line without forces due to the rounding of its coordinates. */
 static double rounding_energy(const CpsiLine *line) {
     if (!(line->compliance > 0)) return 0;
     double reach = 0, shortest = line->length;
@@ -252,28 +256,28 @@ static Open open_energy(const Advance *substeps, const Part *first, const Part *
         open.energy -= part->ledger.imbalance;
         open.beside += cpsi_ledger_exchanged(&part->ledger);
         const CpsCertificate *found = &part->report.certificate;
-        open.noise += found->gap + (found->largest_force > 0
-                                        ? PLACES * found->largest_force * substeps->line->length
-                                        : rounding_energy(substeps->line));
+        open.noise += found->gap + (found->largest_force > 0 ? POSITION_TOL * found->largest_force *
+                                                                   substeps->line->length
+                                                             : rounding_energy(substeps->line));
     }
     if (substeps->options->solver.path_tolerance > 0) open.energy = fabs(open.energy);
     return open;
 }
 
 static bool is_open(const Open *open) {
-    return open->energy > MUCH * open->beside && open->energy > open->noise;
+    return open->energy > OPEN_ENERGY_SHARE * open->beside && open->energy > open->noise;
 }
 
-/* A part as it was taken, whole or in its two halves, and what is to be thought of it. */
+/* A part, taken whole or in its two halves, and its assessment. */
 typedef struct Trial {
     Part first, second;
     bool halved; /* the line is at the end of the second half */
     bool good;   /* converged */
-    bool agrees; /* with the halves, as far as they were asked for */
+    bool agrees; /* with its halves, where these were required */
     bool sudden;
     Difference error;
-    double longest; /* [m] way of a node in one of the halves */
-    Open open;      /* of what is kept */
+    double longest; /* [m] largest displacement of a node in one of the halves */
+    Open open;      /* of the part or its halves, whichever is kept */
 } Trial;
 
 /* Take the halves of a part that was taken whole. */
@@ -286,19 +290,19 @@ static void halve(Advance *substeps, double from, double middle, double to, Tria
     trial->halved = true;
 }
 
-/* Do the halves account for the energy that the whole part left open? */
-static bool closes(const Advance *substeps, Trial *trial) {
+/* Do the halves close the energy balance that the whole part left open? */
+static bool halves_close_energy(const Advance *substeps, Trial *trial) {
     const Open whole = trial->open;
     trial->open = open_energy(substeps, &trial->first, &trial->second);
     return !is_open(&whole) || (!is_open(&trial->open) && trial->open.energy < 0.5 * whole.energy);
 }
 
-/* The path is asked for: the halves are kept, where they lead to the same place. */
+/* With a path tolerance: keep the halves, if they lead to the same result. */
 static void compare(Advance *substeps, double from, double middle, double to, Trial *trial) {
     const double tolerance = substeps->options->solver.path_tolerance,
                  whole_way =
                      cpsi_line_largest_displacement(substeps->line, substeps->line->reference);
-    keep_trial(substeps->line, substeps->scratch->trial);
+    store_trial(substeps->line, substeps->scratch->trial);
     halve(substeps, from, middle, to, trial);
     if (trial->good) trial->error = difference(substeps->line, substeps->scratch->trial);
     trial->longest =
@@ -308,30 +312,30 @@ static void compare(Advance *substeps, double from, double middle, double to, Tr
         trial->longest > SUDDEN * whole_way && trial->longest > tolerance * substeps->line->length;
     trial->agrees = !trial->sudden && trial->error.displacement <= tolerance &&
                     trial->error.tension <= tolerance;
-    if (trial->good && !closes(substeps, trial)) trial->agrees = false;
+    if (trial->good && !halves_close_energy(substeps, trial)) trial->agrees = false;
 }
 
-/* Energy is open: the halves are kept where they close it. If they do not converge the whole part
- * is all there is. */
+/* The energy balance is open: keep the halves if they close it. If they do not converge, take the
+ * whole part again. */
 static void divide(Advance *substeps, double from, double middle, double to, Trial *trial) {
     const Trial whole = *trial;
     halve(substeps, from, middle, to, trial);
-    trial->agrees = trial->good && closes(substeps, trial);
+    trial->agrees = trial->good && halves_close_energy(substeps, trial);
     if (trial->good) return;
     restore(substeps->line, substeps->scratch);
     *trial = whole;
     trial->first = accept(substeps, from, to, substeps->known);
 }
 
-/* May there be another branch that cutting finds?  With frozen friction a step is one convex
- * problem by definition (S90 P2.1): friction of the reference may make energy in it, and the path
- * says how much that matters, if it is asked for. */
+/* May smaller parts find another branch? With frozen friction a step is one convex problem by
+ * definition (S90 P2.1). The friction of the reference may then produce energy, and a path
+ * tolerance shows how much that matters. */
 static bool may_branch(const Advance *substeps) {
     return substeps->options->friction == CPS_FRICTION_CONSISTENT && substeps->jumps < JUMPS;
 }
 
-/* May the line jump?  Strict contact beside frozen friction has one convex problem for a step, and
- * no path. */
+/* May the line jump? With strict contact and frozen friction a step is one convex problem without a
+ * path. */
 static bool may_relax(const Advance *substeps) {
     const CpsiStepOptions *options = substeps->options;
     const bool strict =
@@ -339,7 +343,7 @@ static bool may_relax(const Advance *substeps) {
     return !strict && substeps->relaxed < RELAXATIONS;
 }
 
-/* A part of the step; `cut`: it may be made smaller. */
+/* Take a part of the step; `cut`: it may be divided. */
 static Trial try_part(Advance *substeps, double from, double middle, double to, bool cut) {
     save(substeps->line, substeps->scratch);
     Trial trial = {.first = accept(substeps, from, to, substeps->known), .agrees = true};
@@ -353,8 +357,8 @@ static Trial try_part(Advance *substeps, double from, double middle, double to, 
     return trial;
 }
 
-/* Keep a part, and say of it what cutting could not mend. */
-static void keep(Advance *substeps, const Trial *trial) {
+/* Keep a part, and report a jump or an open energy balance that remains. */
+static void keep_part(Advance *substeps, const Trial *trial) {
     CpsLineReport *whole = &substeps->whole;
     add(substeps, &trial->first);
     if (trial->halved) add(substeps, &trial->second);
@@ -368,18 +372,18 @@ static void keep(Advance *substeps, const Trial *trial) {
     }
 }
 
-/* A stretch of a step. */
-typedef struct Stretch {
+/* A portion of a step. */
+typedef struct Portion {
     double from, to; /* shares of the step */
-} Stretch;
+} Portion;
 
-/* Where in the step a share of the stretch is. */
-static double within(const Stretch *stretch, double share) {
-    return share < 1 ? stretch->from + share * (stretch->to - stretch->from) : stretch->to;
+/* The share of the step that corresponds to a share of the portion. */
+static double share_of_step(const Portion *portion, double share) {
+    return share < 1 ? portion->from + share * (portion->to - portion->from) : portion->to;
 }
 
-/* From share `from` to share `to`, the end of a stretch, the line slides without end: what follows
- * is no more than that. */
+/* If the line slides without end from share `from` to share `to`, the end of a portion: add that as
+ * the last part. */
 static bool add_slide(Advance *substeps, double from, double to, double margin) {
     impose(substeps, from, to);
     if (!cpsi_line_step_slides_endlessly(substeps->line, substeps->options, margin)) return false;
@@ -390,9 +394,9 @@ static bool add_slide(Advance *substeps, double from, double to, double margin) 
     return true;
 }
 
-/* From share `from` to share `to` as overdamped motion: from there on the line may have an
- * equilibrium again. False where it may not go so, or does not come to rest; then it is where it
- * was. */
+/* Take the part from share `from` to share `to` as overdamped motion, after which the line may have
+ * an equilibrium again. False where that is not permitted, or the line does not come to rest; then
+ * it is restored. */
 static bool relax(Advance *substeps, double from, double to) {
     CpsiLine *line = substeps->line;
     CpsLineReport *whole = &substeps->whole;
@@ -421,8 +425,8 @@ static bool relax(Advance *substeps, double from, double to) {
     return true;
 }
 
-/* Is the line too short for where its ends are to be at the end of the step?  Before anything is
- * cut: ends that go straight meet this at the end, if at all, on the way round a cylinder
+/* Is the line too short for the positions of its ends at the end of the step? Checked before the
+ * step is divided: for ends on straight paths round a cylinder the worst position is the last
  * (docs/theory.md 5). */
 static bool add_shortfall(Advance *substeps) {
     impose(substeps, 0, 1);
@@ -434,8 +438,8 @@ static bool add_shortfall(Advance *substeps) {
     return true;
 }
 
-/* What has been solved since there were so many iterations: these times the nodes. What converged
- * is cut alike whatever its friction is given as. */
+/* The cost of the solutions since there were `before` iterations: iterations times nodes. For
+ * converged parts general friction sets cost no more, so that they are divided alike. */
 static double cost_of(const Advance *substeps, int before, bool good) {
     const CpsiLine *line = substeps->line;
     double nodes = line->n + NODES_BESIDE;
@@ -445,7 +449,7 @@ static double cost_of(const Advance *substeps, int before, bool good) {
     return (double)(substeps->iterations - before) * nodes;
 }
 
-/* As add_slide, from the start of the part, to which the line returns if it does not slide. */
+/* As add_slide, from the start of the part; the line is restored if it does not slide. */
 static bool end_in_slide(Advance *substeps, double from, double to) {
     restore(substeps->line, substeps->scratch);
     if (add_slide(substeps, from, to, SLIDES_LEAST)) return true;
@@ -453,21 +457,21 @@ static bool end_in_slide(Advance *substeps, double from, double to) {
     return false;
 }
 
-/* The rest of a stretch in one go, as it is. */
+/* Take the rest of a portion in one part, and keep it whatever its outcome. */
 static void accept_rest(Advance *substeps, double from, double to) {
     Trial rest = {.first = accept(substeps, from, to, substeps->known)};
     if (converged(&rest.first)) rest.open = open_energy(substeps, &rest.first, NULL);
-    keep(substeps, &rest);
+    keep_part(substeps, &rest);
 }
 
-/* Take a stretch in parts, each halved up to `halvings` times. */
-static void advance_portion(Advance *substeps, Stretch stretch, int halvings) {
+/* Take a portion in parts, each halved up to `halvings` times. */
+static void advance_portion(Advance *substeps, Portion portion, int halvings) {
     const double tolerance = substeps->options->solver.path_tolerance, least = ldexp(1, -halvings);
     for (double at = 0, part = 1;
          at < 1 && !cpsi_interrupt_seen(substeps->program->base.interrupt);) {
         const double end = at + part < 1 ? at + part : 1,
-                     middle = within(&stretch, at + 0.5 * (end - at));
-        const double from = within(&stretch, at), to = within(&stretch, end);
+                     middle = share_of_step(&portion, at + 0.5 * (end - at));
+        const double from = share_of_step(&portion, at), to = share_of_step(&portion, end);
         const int before = substeps->iterations;
         const Trial trial = try_part(substeps, from, middle, to, part > least);
         if (cps_outcome_is_final(trial.first.report.outcome)) {
@@ -476,33 +480,34 @@ static void advance_portion(Advance *substeps, Stretch stretch, int halvings) {
         }
         const bool kept = trial.good && trial.agrees;
         if (!trial.good || (!kept && tolerance == 0))
-            substeps->in_vain += cost_of(substeps, before, trial.good);
-        if (!kept && part > least && substeps->in_vain < IN_VAIN) {
+            substeps->wasted += cost_of(substeps, before, trial.good);
+        if (!kept && part > least && substeps->wasted < MAX_WASTED_WORK) {
             restore(substeps->line, substeps->scratch);
-            if (!trial.good && part == 1 && add_slide(substeps, from, stretch.to, SLIDES_CLEARLY))
+            if (!trial.good && part == 1 && add_slide(substeps, from, portion.to, SLIDES_CLEARLY))
                 return;
             restore(substeps->line, substeps->scratch);
             part *= 0.5;
             continue;
         }
-        if (!trial.good) { /* no smaller */
-            if (end_in_slide(substeps, from, stretch.to)) return;
-            const double jump = fmin(ldexp(part, substeps->relaxed), (1 - LAST) * (1 - at));
-            if (relax(substeps, from, within(&stretch, at + jump))) {
+        if (!trial.good) { /* it cannot be made smaller */
+            if (end_in_slide(substeps, from, portion.to)) return;
+            const double jump = fmin(ldexp(part, substeps->relaxed), (1 - LAST_SHARE) * (1 - at));
+            if (relax(substeps, from, share_of_step(&portion, at + jump))) {
                 at += jump;
                 continue;
             }
-            accept_rest(substeps, from, stretch.to);
+            accept_rest(substeps, from, portion.to);
             return;
         }
-        keep(substeps, &trial);
+        keep_part(substeps, &trial);
         at = end;
         if (trial.error.displacement <= EASY * tolerance && trial.error.tension <= EASY * tolerance)
             part *= 2;
     }
 }
 
-/* Equal stretches of a step in none of which an obstacle turns by more than a quarter. */
+/* Number of equal portions of a step in each of which no obstacle turns by more than a quarter
+ * turn. */
 static int portion_count(const CpsiLine *line, const CpsiMove *move) {
     double most = 0;
     for (int k = 0; k < line->obstacle_count; k++) most = cpsi_max_nan(most, fabs(move->angle[k]));
@@ -515,10 +520,10 @@ void cpsi_line_substeps(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
     Advance substeps = {line, program, options, move, scratch, .known = known};
     const int count = add_shortfall(&substeps) ? 0 : portion_count(line, move);
     for (int k = 0; k < count && !cps_outcome_is_final(substeps.whole.outcome); k++) {
-        /* once one part is not certified nothing is gained by cutting the rest */
+        /* once a part is not certified, there is no point in dividing the rest */
         const int halvings =
             cps_outcome_is_certified(substeps.whole.outcome) ? options->solver.halvings : 0;
-        advance_portion(&substeps, (Stretch){(double)k / count, (double)(k + 1) / count}, halvings);
+        advance_portion(&substeps, (Portion){(double)k / count, (double)(k + 1) / count}, halvings);
     }
     line->report = substeps.whole;
 }

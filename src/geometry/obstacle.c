@@ -2,9 +2,9 @@
 /* Plane, cylinder, sphere (obstacle.h). Curved ones are solid: the free side is outside. */
 #include "geometry/obstacle.h"
 
-/* A direction this short beside a unit vector has no direction left after rounding. */
+/* A vector this short beside a unit vector has lost its direction to rounding. */
 static const double LEAST = 1e-12;
-/* [rad] Of points this near to half round from each other rounding makes the direction. */
+/* [rad] For points this near to opposite, rounding decides the direction of the geodesic. */
 static const double HALF_ROUND = 1e-8;
 
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
@@ -24,7 +24,7 @@ static bool is_isotropic(const CpsiObstacle *o) {
     return !o->has_set && o->friction[0] == o->friction[1] && o->shape == CPS_FRICTION_ELLIPSE;
 }
 
-bool cpsi_obstacle_follows(const CpsiObstacle *o) {
+bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *o) {
     return o->kind != CPS_OBSTACLE_PLANE || !is_isotropic(o);
 }
 
@@ -118,8 +118,8 @@ Vec3 cpsi_obstacle_slip(const CpsiObstacle *o, Vec3 from, Vec3 to) {
     const Vec3 pole = vec3_cross(n0, n1);
     const double sine = vec3_norm(pole), cosine = vec3_dot(n0, n1), angle = atan2(sine, cosine);
     if (!(sine > 0) && cosine > 0) return straight;
-    if (sine < HALF_ROUND &&
-        cosine < 0) { /* every direction arrives; on a cylinder those across the axis */
+    if (sine < HALF_ROUND && cosine < 0) { /* opposite points: every direction is a geodesic, on a
+                                              cylinder those across the axis */
         const Vec3 across = vec3_cross(axis, n1), other = vec3_cross(o->frame.axis[0], n1);
         return vec3_axpy(o->radius * angle, unit(vec3_norm(across) > 0.5 ? across : other, axis),
                          straight);

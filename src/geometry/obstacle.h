@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Obstacles: distance, axes of contact, and motion along the surface.
  *
- * A surface is seen from the point x of a node. Its normal n(x) is that of the foot of x, the
- * nearest point of the surface; on the surfaces here (plane, cylinder, sphere) that map is closed
- * form, and so are the geodesics. */
+ * The normal n(x) of a surface at a point x is the normal at the foot of x, the nearest point of
+ * the surface. On the surfaces here (plane, cylinder, sphere) this map and the geodesics have
+ * closed forms. */
 #ifndef CAPSTAN_SRC_GEOMETRY_OBSTACLE_H
 #define CAPSTAN_SRC_GEOMETRY_OBSTACLE_H
 
@@ -12,46 +12,47 @@
 
 typedef struct CpsiObstacle {
     CpsObstacleKind kind;
-    CpsiPlane frame; /* plane: the surface. Cylinder: axis[2] is its axis. Sphere: axis[2] is what
-                        it turns about */
-    double radius;   /* [m] cylinder, sphere */
+    CpsiPlane frame;    /* plane: the surface. Cylinder: axis[2] is its axis. Sphere: axis[2] is its
+                           axis of rotation */
+    double radius;      /* [m] cylinder, sphere */
     double friction[2]; /* [-] along the first tangent of the contact and across it */
     CpsFrictionShape shape;
-    bool has_set;   /* the forces are those of a set instead, which the line knows (cable/line.h) */
+    bool has_set;   /* the friction forces are those of a set instead, which the line holds
+                       (cable/line.h) */
     bool has_grain; /* the first tangent is that of `grain`, not of the line */
     Vec3 grain;
 } CpsiObstacle;
 
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def);
 
-/* Does the step problem change as nodes move on it: a curved surface, or friction that follows the
- * line's direction? */
-bool cpsi_obstacle_follows(const CpsiObstacle *obstacle);
+/* Does the step problem change as nodes move on the obstacle: is its surface curved, or does its
+ * friction depend on the line's direction? */
+bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *obstacle);
 
 /* From the plane's point, the cylinder's axis or the sphere's centre to x, on a cylinder across the
  * axis. */
 Vec3 cpsi_obstacle_spoke(const CpsiObstacle *obstacle, Vec3 x);
 /* [m] Signed distance of x, positive on the free side. */
 double cpsi_obstacle_gap(const CpsiObstacle *obstacle, Vec3 x);
-/* [m] How deep the straight way between two points goes below the surface at most; negative: its
- * distance from it. */
+/* [m] Greatest depth of the straight path between two points below the surface; negative: its
+ * distance from the surface. */
 double cpsi_obstacle_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 /* Unit normal at the foot of x, towards the free side. */
 Vec3 cpsi_obstacle_normal(const CpsiObstacle *obstacle, Vec3 x);
 
 /* Axes of contact at x: rows first tangent, second tangent, normal. The first tangent is the
- * grain's or `along`'s (any vector) part in the tangent plane; curvature [1/m] of the surface
- * through x as xx, xy, yy in these axes. */
+ * component of the grain, or of the vector `along`, in the tangent plane; curvature [1/m] of the
+ * surface through x as xx, xy, yy in these axes. */
 void cpsi_obstacle_axes(const CpsiObstacle *obstacle, Vec3 x, Vec3 along, double axes[9],
                         double curvature[3]);
 
-/* Where x comes to lie when it moves by u: the tangential part of u along the surface's geodesic,
- * the normal part after it. */
+/* The position of x after a displacement u: the tangential part of u along a geodesic of the
+ * surface, then the normal part. */
 Vec3 cpsi_obstacle_move(const CpsiObstacle *obstacle, Vec3 x, Vec3 u);
 
-/* The way from one point's foot to another's along the surface, as a tangent vector at the second:
- * its length is that of the geodesic, its direction the one of arrival. The shorter way round; of
- * two points half round apart, one of them. */
+/* The geodesic from the foot of one point to that of another, as a tangent vector at the second
+ * point: its length is that of the geodesic, its direction that of the geodesic there. It is the
+ * shorter one; for opposite points, one of them. */
 Vec3 cpsi_obstacle_slip(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 
 /* [rad] The angle between two normals of a round obstacle: about a cylinder's axis by the

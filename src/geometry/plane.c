@@ -3,12 +3,13 @@
 #include "geometry/plane.h"
 
 CpsiPlane cpsi_plane(const double point[3], const double normal[3]) {
-    /* scale by the largest component first: the square of a tiny or huge normal would not fit */
+    /* scale by the largest component first: the square of a tiny or huge normal would underflow or
+     * overflow */
     const Vec3 raw = vec3_load(normal);
     const double largest = fmax(fabs(raw.x), fmax(fabs(raw.y), fabs(raw.z)));
     const Vec3 scaled = vec3_scale(1 / largest, raw);
     const Vec3 n = vec3_scale(1 / vec3_norm(scaled), scaled);
-    /* the axis least along the normal, made orthogonal to it */
+    /* x, or y where the normal is nearly along x, made orthogonal to the normal */
     const Vec3 seed = fabs(n.x) <= 0.75 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     const Vec3 along = vec3_axpy(-vec3_dot(seed, n), n, seed);
     const Vec3 t = vec3_scale(1 / vec3_norm(along), along);

@@ -245,20 +245,20 @@ static void has_local_axes(void **state) {
     CpsObstacle def = cps_obstacle_default();
     def.friction = 0.5;
     CpsiObstacle o = cpsi_obstacle(&def);
-    assert_false(cpsi_obstacle_follows(&o));
+    assert_false(cpsi_obstacle_needs_local_axes(&o));
     CHECK_NEAR(o.friction[1], 0.5, 0); /* across as along, if not said */
     def.friction_lateral = 0;
     o = cpsi_obstacle(&def);
-    assert_true(cpsi_obstacle_follows(&o));
+    assert_true(cpsi_obstacle_needs_local_axes(&o));
     CHECK_NEAR(o.friction[1], 0, 0);
     def.friction_lateral = 0.5;
     def.friction_shape = CPS_FRICTION_BOX;
     o = cpsi_obstacle(&def);
-    assert_true(cpsi_obstacle_follows(&o));
+    assert_true(cpsi_obstacle_needs_local_axes(&o));
     def.friction_shape = CPS_FRICTION_ELLIPSE;
     def.kind = CPS_OBSTACLE_SPHERE;
     o = cpsi_obstacle(&def);
-    assert_true(cpsi_obstacle_follows(&o));
+    assert_true(cpsi_obstacle_needs_local_axes(&o));
 }
 
 /* A grain's first tangent is fixed in space, whatever the line does; a line along the normal still

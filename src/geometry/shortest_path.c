@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The least length of a polygon round an obstacle (shortest_way.h; docs/theory.md 5).
+/* The least length of a polygonal line round an obstacle (shortest_path.h; docs/theory.md 5).
  *
  * Across the axis, or in the plane of a ball's centre and the two ends, with corners outside the
  * circle of radius R. The part c of an element inside the circle is pushed out to the arc on its
  * side, 2 R asin(c/(2 R)), longer by no more than 1/q, q = (c/(2 R))/asin(c/(2 R)) for the longest
  * c. So the polygon is at least as long as a curve outside the circle whose parts on it count q
- * times. Of those that turn by `turn` and meet the circle the shortest goes straight to it along
- * tangents of the circle of radius q R, and on it between: with q R for the radius of a tangent
- * t(r) from distance r, and its angle g(r) at the centre,
+ * times. Of those that turn by `turn` and meet the circle, the shortest runs along tangents of the
+ * circle of radius q R and on that circle between them: with q R for the radius of a tangent t(r)
+ * from distance r, and its angle g(r) at the centre,
  *
  *     t(r_a) + t(r_b) - 2 t(R) + q R (turn - g(r_a) - g(r_b) + 2 g(R)). */
-#include "geometry/shortest_way.h"
+#include "geometry/shortest_path.h"
 
-/* Of the coordinates about the obstacle, and of the arcs, so much may be rounding: some fifty
- * roundings of 2.2e-16. */
+/* Relative rounding error of coordinates about the obstacle and of arcs: about fifty roundings of
+ * 2.2e-16. */
 static const double ROUNDING = 1e-14;
 
 /* The tangent to a circle about the origin from a point at the distance r: its length, and the
@@ -23,7 +23,7 @@ static double tangent(double radius, double r) {
 }
 static double angle(double radius, double r) { return atan2(tangent(radius, r), radius); }
 
-/* How much shorter than its arc a chord of an element may be at most. */
+/* Least ratio of a chord inside the circle to its arc, for an element. */
 static double chord_per_arc(double radius, CpsiPolygon polygon) {
     const double inside = radius > polygon.nearest
                               ? 2 * sqrt((radius - polygon.nearest) * (radius + polygon.nearest))
@@ -34,12 +34,12 @@ static double chord_per_arc(double radius, CpsiPolygon polygon) {
 
 /* The tangent to the surface at the unit vector e, across the axis in the sense of the turn, or on
  * a ball towards b. */
-static Vec3 onward(const CpsiObstacle *o, Vec3 e, Vec3 b, double turn) {
+static Vec3 forward_tangent(const CpsiObstacle *o, Vec3 e, Vec3 b, double turn) {
     if (o->kind == CPS_OBSTACLE_CYLINDER)
         return vec3_scale(turn < 0 ? -1 : 1, vec3_cross(o->frame.axis[2], e));
     Vec3 across = vec3_axpy(-vec3_dot(b, e), e, b);
     for (int i = 0; i < 3 && !(vec3_norm(across) > ROUNDING * vec3_norm(b));
-         i++) /* opposite: any way is as long */
+         i++) /* opposite points: all directions are equally long */
         across = vec3_axpy(-vec3_dot(o->frame.axis[i], e), e, o->frame.axis[i]);
     return vec3_scale(1 / vec3_norm(across), across);
 }
@@ -50,7 +50,7 @@ bool cpsi_shortest_path(const CpsiObstacle *o, Vec3 a, Vec3 b, double turn, Cpsi
     const bool ball = o->kind == CPS_OBSTACLE_SPHERE;
     const Vec3 from = cpsi_obstacle_spoke(o, a), to = cpsi_obstacle_spoke(o, b);
     const double ra = vec3_norm(from), rb = vec3_norm(to), R = fmin(o->radius, fmin(ra, rb));
-    /* an element that may lie across the whole circle is on neither side of it */
+    /* an element that may span the whole circle lies on neither side of it */
     if (!(R > 0) || (polygon.nearest <= 0 && polygon.length >= 2 * R)) return false;
     const double round =
         ball ? atan2(vec3_norm(vec3_cross(from, to)), vec3_dot(from, to)) : fabs(turn);
@@ -60,8 +60,8 @@ bool cpsi_shortest_path(const CpsiObstacle *o, Vec3 a, Vec3 b, double turn, Cpsi
     const double level = tangent(r, ra) + tangent(r, rb) - 2 * tangent(r, R) + r * arc;
     const double rise = ball ? 0 : vec3_dot(vec3_sub(b, a), o->frame.axis[2]);
     const Vec3 e = vec3_scale(1 / ra, from),
-               leaves =
-                   vec3_axpy(-tangent(R, ra) / ra, e, vec3_scale(R / ra, onward(o, e, to, turn)));
+               leaves = vec3_axpy(-tangent(R, ra) / ra, e,
+                                  vec3_scale(R / ra, forward_tangent(o, e, to, turn)));
     out->length = hypot(level, rise);
     out->rounding = ROUNDING * (vec3_norm(vec3_sub(a, o->frame.point)) +
                                 vec3_norm(vec3_sub(b, o->frame.point)) + R * round);
