@@ -17,7 +17,7 @@
  * On curved obstacles, or where friction has directions along the line, each round is such a
  * program on the tangent planes at the position where the last one ended: the inequalities are kept
  * whole, and normals and axes turn from round to round. The rounds converge where the equilibrium
- * is stable (docs/theory.md 2a). They are accelerated (anderson.h); where that does not converge,
+ * is stable (docs/theory.md 2.4). They are accelerated (anderson.h); where that does not converge,
  * plain rounds or rounds with drag are tried. The remaining error of the last round shows in the
  * certificate, which is computed at the position reached, with its own normals. Frozen friction
  * keeps the bounds and axes of the reference, as in S90; with strict contact it keeps the planes of
@@ -68,7 +68,7 @@ static const CpsiStrategy STRATEGY[] = {
     {.when = LOCAL_AXES, .rounds = 100, .patience = 20, .least_motion = true, .centering = true},
     /* Newton's method for the rounds, and no steps to the centre: where hardly any force is left,
      * the centre may lie farther from the boundary than the tolerance allows. Not in statics, where
-     * it finds equilibria on a crest that the line would leave (docs/theory.md 2a) */
+     * it finds equilibria on a crest that the line would leave (docs/theory.md 2.4) */
     {.unless = STATIC_ROUNDS,
      .rounds = 12,
      .acceleration = true,

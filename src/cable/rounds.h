@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rounds: a step on curved obstacles, or with friction that depends on the direction of the line,
  * is a sequence of programs, each on the tangent planes and in the axes of the position where the
- * last one ended. Rounds converge where the equilibrium is stable (docs/theory.md 2a). */
+ * last one ended. Rounds converge where the equilibrium is stable (docs/theory.md 2.4). */
 #ifndef CAPSTAN_SRC_CABLE_ROUNDS_H
 #define CAPSTAN_SRC_CABLE_ROUNDS_H
 
