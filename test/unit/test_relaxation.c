@@ -54,7 +54,7 @@ static void begin(Fixture *f, double length, double stiffness, double weight, bo
     line->element_length[0] = length;
     cpsi_line_set_arc_length(line);
     cpsi_chain_program_resize(&f->program, 2, false);
-    for (int a = 0; a < 3; a++) line->common[4 * a] = 1;
+    for (int a = 0; a < 3; a++) line->common_axes[4 * a] = 1;
     memcpy(&line->position[3], to, 3 * sizeof *to);
     line->end[CPS_END_A] = (CpsEnd){CPS_END_HELD, {0, 0, 0}};
     line->end[CPS_END_B] = (CpsEnd){CPS_END_FREE, {force[0], force[1], force[2]}};
