@@ -137,8 +137,9 @@ CpsOutcome cpsi_line_outcome(const CpsiLine *line, const CpsiStepOptions *option
         c->gap <= tolerance * c->scale && c->stretch_residual <= fmin(tolerance, POSITION_TOL) &&
         segments_are_consistent(c, tolerance) &&
         c->force_residual <= CPSI_CLEAN * c->largest_force && is_in_place(line, options))
-        return cpsi_line_is_taut(line) ? CPS_TAUT : CPS_SOLVED;
-    return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_ITERATION_LIMIT : CPS_STALLED;
+        return cpsi_line_is_taut(line) ? CPS_OUTCOME_TAUT : CPS_OUTCOME_SOLVED;
+    return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_OUTCOME_ITERATION_LIMIT
+                                                    : CPS_OUTCOME_STALLED;
 }
 
 void cpsi_line_release_open_contacts(CpsiLine *line, const CpsiChainProgram *program) {

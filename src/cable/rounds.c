@@ -172,7 +172,7 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             return;
     }
     if (certify_last_round(line, program, options, posed.bounds, &ipm) && !arrived)
-        line->report.outcome = CPS_STALLED;
+        line->report.outcome = CPS_OUTCOME_STALLED;
 }
 
 /* The progress of rounds with drag since the drag was changed. */
