@@ -5,6 +5,7 @@
 
 # Debian package names by job; "test" needs "build" as well
 packages_build=(gcc libc6-dev cmake ninja-build pkg-config libfyaml-dev libnetcdf-dev)
+packages_tidy=("${packages_build[@]}" clang-tidy-14)
 packages_test=("${packages_build[@]}" g++ binutils libcmocka-dev universal-ctags clang-format-14
                python3 python3-jsonschema python3-yaml)
 

@@ -325,7 +325,8 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     }
     print_head(run.table);
     const CpsStatus status = carry_out(&run, directory, options, &err);
-    const bool whole = (fclose(run.table) == 0) & (fclose(run.verdicts) == 0);
+    const bool table = fclose(run.table) == 0, verdicts = fclose(run.verdicts) == 0;
+    const bool whole = table && verdicts;
     if (whole && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
         if (length > 0) printf("\n%s", said);

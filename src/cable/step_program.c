@@ -107,9 +107,9 @@ static void contact_axes(const CpsiLine *line, const CpsiChainProgram *program, 
     const int j = node_of(line, c);
     memcpy(axes, own, sizeof own);
     if (j >= line->n) return;
-    if (!program->frame ||
-        (c == j && memcmp(&program->frame[9 * j], &line->axes[9 * j], sizeof own) == 0))
-        return;
+    if (!program->frame) return;
+    /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): is the frame a copy of the axes? */
+    if (c == j && memcmp(&program->frame[9 * j], &line->axes[9 * j], sizeof own) == 0) return;
     cpsi_frame_relative(axes, &line->axes[9 * c], &program->frame[9 * j]);
     if (c == j) {
         axes[2] = axes[5] = axes[6] = axes[7] = 0;

@@ -15,7 +15,7 @@ static CpsStatus out_of_memory(CpsError *err) {
 
 /* Do the forces of the form fill the space? */
 static CpsStatus full_dimension(const CpsiConicForm *form, int space, bool *full, CpsError *err) {
-    const size_t n = (size_t)space, count = (size_t)(form->unknowns + form->lines);
+    const size_t n = (size_t)space, count = (size_t)form->unknowns + (size_t)form->lines;
     if (count < n) {
         *full = false;
         return CPS_OK;

@@ -117,7 +117,7 @@ static CpsStatus refuse_user(const char *name, const CpsSet *set, CpsError *err)
 static CpsStatus begin_law(CpsSystem *system, const char *name, int space, int pieces,
                            CpsiSystemLaw **law, CpsError *err) {
     bool done = grow((void **)&system->law, &system->law_room, system->laws, sizeof *system->law);
-    while (done && (size_t)(system->pieces + pieces) >= system->piece_room)
+    while (done && (size_t)system->pieces + (size_t)pieces >= system->piece_room)
         done = grow((void **)&system->piece, &system->piece_room, (int)system->piece_room,
                     sizeof *system->piece);
     if (!done) return out_of_memory(err);

@@ -222,7 +222,7 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     if (!set) return;
     const CpsiConicSet *form = cpsi_friction_set_conic(set);
     hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
-    hash_numbers(hash, (size_t)(form->rows * form->unknowns), form->a);
+    hash_numbers(hash, (size_t)form->rows * (size_t)form->unknowns, form->a);
     hash_numbers(hash, (size_t)form->rows, form->b);
     hash_numbers(hash, 2 * (size_t)form->unknowns, form->p);
     hash_numbers(hash, 2, form->origin);

@@ -199,7 +199,7 @@ static bool write_equations(Program *p, int count, const CpsiShare *share) {
     double square = 0, within = 0;
     for (size_t a = 0; a < n; a++)
         square += p->column[a * (u + 1) + u] * p->column[a * (u + 1) + u];
-    for (size_t k = 0; k < (size_t)(lines + p->rank); k++) {
+    for (size_t k = 0; k < (size_t)lines + (size_t)p->rank; k++) {
         double sum = 0;
         for (size_t a = 0; a < n; a++) sum += p->space[k * n + a] * p->column[a * (u + 1) + u];
         within += sum * sum;

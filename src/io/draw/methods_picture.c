@@ -134,7 +134,8 @@ static bool is_near(int row) { return row >= PLAN_NEAR; }
 static bool is_plan(int row) { return row % 2 == PLAN; }
 
 static double row_top(int row) {
-    return TOP + (PLAN_HEIGHT + SIDE_HEIGHT + 2 * PITCH) * (row / 2) +
+    const int pairs = row / 2;
+    return TOP + (PLAN_HEIGHT + SIDE_HEIGHT + 2 * PITCH) * pairs +
            (is_plan(row) ? 0 : PLAN_HEIGHT + PITCH);
 }
 

@@ -112,8 +112,9 @@ static void draw_strip(FILE *out, const RopePicture *p, double width) {
     cpsi_range_pad(x, 0.06);
     cpsi_range_pad(y, 0.06);
     for (int k = 0; k < p->count; k++) {
+        const int row = k / columns;
         CpsiFrame frame = {.left = LEFT + (side + 14) * (k % columns),
-                           .top = TOP + HEIGHT + 90 + (STRIP + 30) * (double)(k / columns),
+                           .top = TOP + HEIGHT + 90 + (STRIP + 30) * (double)row,
                            .width = side,
                            .height = STRIP,
                            .x = {x[0], x[1]},

@@ -143,8 +143,9 @@ static void draw_arrows(FILE *out, const CpsiFrame *frame, const Maps *m) {
 static void draw_map(FILE *out, const Maps *m, int index, int columns) {
     const CpsDriveSystem *s = &m->file->system;
     const double half = s->map_radius * (1 + 1.0 / (GRID - 1));
+    const int row = index / columns;
     const CpsiFrame frame = {.left = 84 + (SIDE + GAP) * (double)(index % columns),
-                             .top = TOP + (SIDE + 130) * (double)(index / columns),
+                             .top = TOP + (SIDE + 130) * (double)row,
                              .width = SIDE,
                              .height = SIDE,
                              .x = {-half, half},
