@@ -16,7 +16,7 @@ def numbers(*constants):
 
 
 def in_vain(p):
-    most, beside, sets = numbers(*(("evolve/substeps.c", n) for n in ("IN_VAIN", "NODES_BESIDE", "SET_COST")))(p)
+    most, beside, sets = numbers(*(("evolve/substeps.c", n) for n in ("MAX_WASTED_WORK", "NODES_BESIDE", "SET_COST")))(p)
     return [f"{float(most) / 1e6:g}", beside, sets]
 
 
@@ -40,36 +40,41 @@ def mesh_error_moved(p):
     return list(re.search(r"moved with friction.*; (\d+) of (\d+) within", p.output("test", "analytic", "test_mesh_error")).groups())
 
 
+def strategy(field, begins):
+    """A number of the rows that begin so in the table of strategies; of several the same in all."""
+    return lambda p: p.constant("cable/line_step.c", begins + r"[^}]*?\." + field + r" = (\d+)\b")
+
+
 FIGURES = {}
 SENTENCES = [
     ("psi(x_R) = 0 }, to {} of the length", number(".h", "CPS_TOUCH")),
     ("at mu theta = 6 pi, a ratio of tensions of {}", lambda p: short(math.exp(6 * math.pi))),
     ("when no touching node's axes turned by more than {} rad", number("cable/rounds.c", "AXES_TOL")),
     ("They may be {}, or {} if they converge.",
-     numbers(("cable/rounds.c", "MAX_ROUNDS"), ("cable/rounds.c", "MAX_CONVERGING_ROUNDS"))),
-    ("as a slow sequence, up to {} rounds without acceleration", number("cable/rounds.c", "MAX_SLOW_ROUNDS")),
-    ("evaluates its certificate every {} rounds.", number("cable/rounds.c", "SLOW_PATIENCE")),
-    ("up to {} rounds go on from the reference", number("cable/rounds.c", "MAX_DRAG_ROUNDS")),
+     lambda p: [strategy("rounds", r"\{\.unless = STATIC_ROUNDS,")(p), number("cable/rounds.c", "MAX_CONVERGING_ROUNDS")(p)]),
+    ("as a slow sequence, up to {} rounds without acceleration", strategy("rounds", r"\{\.when = LOCAL_AXES, (?=\.rounds)")),
+    ("evaluates its certificate every {} rounds.", strategy("patience", r"\{\.when = LOCAL_AXES, (?=\.rounds)")),
+    ("up to {} rounds go on from the reference", strategy("rounds", r"\{\.when = ROUNDS,")),
     ("its reaction below {} of the unit of force", number("cable/line_solve.c", "LEAST_REACTION")),
     ("The drag begins with {} units of force", number("evolve/relaxation.c", "FIRST_DRAG")),
     ("drag times motion is below {} of the unit of force, and the motion below {} of the length",
-     numbers(("evolve/relaxation.c", "REST_FORCE"), ("evolve/relaxation.c", "REST_WAY"))),
-    ("The motion covers at most {}/{} of what is left", lambda p: [f"{1 / float(number('evolve/substeps.c', 'LAST')(p)) - 1:g}", f"{1 / float(number('evolve/substeps.c', 'LAST')(p)):g}"]),
+     numbers(("evolve/relaxation.c", "REST_FORCE"), ("evolve/relaxation.c", "REST_MOTION"))),
+    ("The motion covers at most {}/{} of what is left", lambda p: [f"{1 / float(number('evolve/substeps.c', 'LAST_SHARE')(p)) - 1:g}", f"{1 / float(number('evolve/substeps.c', 'LAST_SHARE')(p)):g}"]),
     ("Normals that differ by less than {} make", number("cable/step_program.c", "PARALLEL")),
     ("have cost {} 10^6 iterations times nodes ({} added to them, or {} times as many", in_vain),
-    ("A substep with E above {} % of that", percent("evolve/substeps.c", "MUCH")),
+    ("A substep with E above {} % of that", percent("evolve/substeps.c", "OPEN_ENERGY_SHARE")),
     ("what the certificate and places known to {} of the length leave of an energy (gap + {} F L)",
      lambda p: [number(".h", "CPS_TOUCH")(p)] * 2),
-    ("is below half of that of the substep and below {} %;", percent("evolve/substeps.c", "MUCH")),
-    ("is largest; beyond {} % a warning", percent("cable/bend.c", "TOLD")),
-    ("the turn at which they differ by {} %. With mu tan(d/2) >= {}, k = {},", lambda p: [percent("cable/bend.c", "TOLD")(p), *locked(p)]),
+    ("is below half of that of the substep and below {} %;", percent("evolve/substeps.c", "OPEN_ENERGY_SHARE")),
+    ("is largest; beyond {} % a warning", percent("cable/bend.c", "RATIO_TOL")),
+    ("the turn at which they differ by {} %. With mu tan(d/2) >= {}, k = {},", lambda p: [percent("cable/bend.c", "RATIO_TOL")(p), *locked(p)]),
     ("no gap is asked to be less than {} F0 L", number("cable/certificate.c", "GAP_FLOOR")),
     ("of the gap is what the loop ({})", number("cable/line_solve.h", "CPSI_TARGET")),
     ("gap <= tolerance S ({} unless", lambda p: p.constant("evolve/scene_check.c", r"\.tolerance = (\S+?)[,}]")),
     ("Against meshes {} times as fine the error is {} to {} times", mesh_error),
     ("{} of {} moorings moved in ten steps", mesh_error_moved),
     ("Directions within {} rad are taken as one", number("cable/force_set.c", "ANGLE")),
-    ("with the cones widened by {} of the largest force", number("cable/force_set.c", "WIDER")),
+    ("with the cones widened by {} of the largest force", number("cable/force_set.c", "CONE_SLACK")),
     ("shorter than its length by less than {} of it", number("cable/force_set.c", "EXACT")),
     ("or if it moved by less than {} L.", number("cable/force_set.c", "EXACT")),
     ("If the sum exceeds L (1 + {})", number("cable/line_solve.h", "CPSI_TAUT")),
