@@ -86,7 +86,7 @@ ALIKE = same
 SENTENCES = [
     ("with relative tolerance {}. A factor counts", lambda p: p.constant("law/law.c", r"BOUNDARY_TOLERANCE = (\S+);")),
     ("whose gap is more than {} of phi(V)", lambda p: p.constant("law/conjugate_sum.c", r"PROMISE = (\S+);")),
-    ("{} at the gap of {} that passes aim at, {} at {}, where they may end", lambda p: accuracies(
+    ("It is {} at a gap of {}, the target of the iteration, and {} at {}, the largest gap", lambda p: accuracies(
         p.constant("law/conjugate_sum.c", r"TARGET = (\S+),"), p.constant("law/conjugate_sum.c", r"ENOUGH = (\S+),"))),
     ("A force outside by less than {} of its length", lambda p: p.constant("law/conjugate_sum.c", r"ON_BOUNDARY = (\S+);")),
     ("asks bodies on {} to {} contacts", lambda p: [p.constant("random_contacts.c", rf"\b{name} = (\d+)") for name in ("FEWEST", "MOST")]),

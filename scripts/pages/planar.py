@@ -96,7 +96,7 @@ SENTENCES = [
     ("correct to rounding at every twist, {} in the tests", lambda p: test_limit(p, "EXACT")),
     ("over ever finer cells until they are {} apart", lambda p: p.constant("planar/bounds.c", r"TOLERANCE = (\S+);")),
     ("falls as 1/cells, about {}/cells for a disc", lambda p: f"{of(p, 'cells')[0][1]:.1f}"),
-    ("by up to {} % along a ray: at {} of it for v/(R w) = {}", ellipsoid),
+    ("by up to {} % along a ray: the exact surface is at {} of it for v/(R w) = {}", ellipsoid),
     ("On {} random bodies", lambda p: p.constant("unit/test_planar.c", r"i < (5\d*); i\+\+")),
     ("all are solved, bounds {} apart or nearer", lambda p: p.constant("unit/test_planar.c", r"motion\.upper - motion\.lower, (\S+) ?\* ?fmax")),
     ("comes out the same, to {}, as the sum", lambda p: p.constant("analytic/test_planar.c", r"answer\.value, expected, (1e-9)\)")),
