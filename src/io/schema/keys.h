@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rows of tables of keys: what may stand in a mapping of a file, and where reading puts it. The
  * vocabularies of scenes (scene_keys.c), of laws (set_keys.c) and of driven systems (drive_keys.c)
- * are tables of these rows. One reader (read/keys_reader.c) checks a file against them and fills
+ * are tables of these rows. One reader (read/key_reader.c) checks a file against them and fills
  * structs; suggestions, messages and JSON schemas come from the same rows. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_KEYS_H
