@@ -153,7 +153,7 @@ static void load(CpsiProgram *base, double keep) {
 
 static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
-    (void)keep; /* the stop's direction, already known, has it */
+    (void)keep; /* the direction of the unilateral element, already known, contains it */
     CpsiFrictionDisc *disc = &program->disc;
     for (int k = 0; k < disc->count; k++) {
         const double *w = disc->w[k], *q = disc->q[k], *z = disc->z[k];
