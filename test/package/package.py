@@ -49,7 +49,7 @@ def use(prefix, folder):
     # by find_package: README's program, and one that needs no files
     core = "add_executable(pull pull.c)\ntarget_link_libraries(pull capstan::capstan)\n"
     write(folder, "CMakeLists.txt", readme_block("cmake") + core)
-    run(CMAKE, "-S", folder, "-B", os.path.join(folder, "build"), f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_C_COMPILER={COMPILER}")
+    run(CMAKE, "-G", "Ninja", "-S", folder, "-B", os.path.join(folder, "build"), f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_C_COMPILER={COMPILER}")
     run(CMAKE, "--build", os.path.join(folder, "build"))
     check_steps(run(os.path.join(folder, "build", "rope"), cwd=folder))
     assert "solved: the tip moved 0.05000 m" in run(os.path.join(folder, "build", "pull"))
@@ -68,7 +68,7 @@ def use(prefix, folder):
     other = "cmake_minimum_required(VERSION 3.23)\nproject(other C)\nfind_package(capstan 0.2 QUIET)\nif(capstan_FOUND)\n  message(FATAL_ERROR \"0.2 was found\")\nendif()\n"
     os.mkdir(os.path.join(folder, "other"))
     write(os.path.join(folder, "other"), "CMakeLists.txt", other)
-    run(CMAKE, "-S", os.path.join(folder, "other"), "-B", os.path.join(folder, "other", "build"), f"-DCMAKE_PREFIX_PATH={prefix}")
+    run(CMAKE, "-G", "Ninja", "-S", os.path.join(folder, "other"), "-B", os.path.join(folder, "other", "build"), f"-DCMAKE_PREFIX_PATH={prefix}")
 
     # the command, without any help to find its libraries
     said = run(os.path.join(prefix, "bin", "capstan"), "--version", env={"LD_LIBRARY_PATH": ""})
