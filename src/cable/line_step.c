@@ -118,9 +118,9 @@ static CpsiIpmReport solve_program(CpsiLine *line, CpsiChainProgram *program,
     return ipm;
 }
 
-/* Solve the step from its reference by one strategy. */
+/* Solve the step from its reference by one strategy, in rounds or as one program. */
 static void solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                       const CpsiStrategy *strategy) {
+                       const CpsiStrategy *strategy, bool in_rounds) {
     const bool coupled = options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless &&
                          line->obstacle_count > 0;
     const CpsiBounds bounds = !coupled                 ? CPSI_BOUNDS_FIXED
@@ -128,7 +128,7 @@ static void solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
                                                        : CPSI_BOUNDS_COUPLED;
     if (strategy->drag) {
         cpsi_dragged_rounds(line, program, options, strategy, bounds);
-    } else if (conditions(line, options) & ROUNDS) {
+    } else if (in_rounds) {
         cpsi_tangent_plane_rounds(line, program, options, strategy, bounds);
     } else {
         const CpsiIpmReport ipm = solve_program(line, program, options, strategy, coupled);
@@ -149,7 +149,7 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
         if (again) memset(line->reaction, 0, contacts * sizeof *line->reaction);
         if (options->least) options->least->chose = false;
         if (line->has_local_axes) cpsi_contact_reset(line);
-        solve_once(line, program, options, strategy);
+        solve_once(line, program, options, strategy, found & ROUNDS);
         if (options->least && !strategy->least_motion) cpsi_places_as_found(line, program);
         if (cps_outcome_is_certified(line->report.outcome)) return;
         again = true;

@@ -95,7 +95,7 @@ static bool factor(CpsiProgram *base) {
         for (int j = 0; j < n; j++) largest = cpsi_max_nan(largest, fabs(row_of_b(program, i)[j]));
         program->at[i] = largest <= 1 ? -1 : n + program->kept++;
     }
-    const size_t width = (size_t)(n + program->kept);
+    const size_t width = (size_t)n + (size_t)program->kept;
     double *lu = program->lu;
     memset(lu, 0, width * width * sizeof *lu);
     for (int j = 0; j < n; j++)

@@ -34,6 +34,15 @@ static const int LAST = 2;
 /* A point counts as inside where the ball round it has this many times the tolerance. */
 static const double CLEARLY = 10;
 
+/* The ball of a part, and the map L (n, ball->n) by which it enters the sum. */
+static const CpsSet *ball_of(const CpsSet *part, double *map) {
+    const CpsSet *ball = part->kind == CPSI_SET_IMAGE ? part->part[0] : part;
+    for (int i = 0; i < part->n; i++)
+        for (int j = 0; j < ball->n; j++)
+            map[i * ball->n + j] = ball == part ? (double)(i == j) : part->a[i * ball->n + j];
+    return ball;
+}
+
 /* h at w, its gradient and Hessian; false where h is not smooth there. */
 static bool support(const CpsSet *set, const double *w, double *h, double *gradient,
                     double *hessian) {
@@ -42,13 +51,11 @@ static bool support(const CpsSet *set, const double *w, double *h, double *gradi
     memset(gradient, 0, (size_t)n * sizeof *gradient);
     memset(hessian, 0, (size_t)(n * n) * sizeof *hessian);
     for (int k = 0; k < set->count; k++) {
-        const CpsSet *part = set->part[k],
-                     *ball = part->kind == CPSI_SET_IMAGE ? part->part[0] : part;
-        const int m = ball->n;
         double back[MOST] = {0}, normal[MOST] = {0}, map[MOST * MOST] = {0}, all = 0;
+        const CpsSet *ball = ball_of(set->part[k], map);
+        const int m = ball->n;
         for (int i = 0; i < n; i++)
             for (int j = 0; j < m; j++) {
-                map[i * m + j] = ball == part ? (double)(i == j) : part->a[i * m + j];
                 back[j] += map[i * m + j] * w[i];
                 all += map[i * m + j] * map[i * m + j];
             }
@@ -68,46 +75,52 @@ static bool support(const CpsSet *set, const double *w, double *h, double *gradi
     return true;
 }
 
-/* The minimum of h(w) - <w, q> bend + bend |w|^2/2 over w = start + basis't, basis (free, n). w
- * holds the start and then the minimiser. False where h is not smooth on the way, or nothing is
- * found. */
-static bool minimise(const CpsSet *set, const double *q, double bend, int unknowns,
+/* h(w) - curvature (<w, q> - |w|^2/2), of h = h(w). */
+static double objective(int n, double h, double curvature, const double *w, const double *q) {
+    return h - curvature * (cpsi_dot(n, w, q) - 0.5 * cpsi_dot(n, w, w));
+}
+
+/* The minimum of h(w) - curvature (<w, q> - |w|^2/2), curvature 0 or 1, over w = start + basis't,
+ * basis (free, n). w holds the start and then the minimiser. False where h is not smooth on the
+ * way, or nothing is found. */
+static bool minimise(const CpsSet *set, const double *q, double curvature, int unknowns,
                      const double *basis, double *w, double *value, double *hessian) {
     const int n = set->n;
     double gradient[MOST], h;
     int last = 0;
     if (!support(set, w, &h, gradient, hessian)) return false;
     for (int step = 0; step < STEPS; step++) {
-        double slope[MOST] = {0}, matrix[MOST * MOST] = {0}, way[MOST];
+        double slope[MOST] = {0}, matrix[MOST * MOST] = {0}, newton[MOST];
         int pivot[MOST];
-        for (int i = 0; i < n; i++) gradient[i] += bend * (w[i] - q[i]);
-        *value = h - bend * (cpsi_dot(n, w, q) - 0.5 * cpsi_dot(n, w, w));
+        for (int i = 0; i < n; i++) gradient[i] += curvature * (w[i] - q[i]);
+        *value = objective(n, h, curvature, w, q);
         for (int a = 0; a < unknowns; a++) {
-            slope[a] = way[a] = cpsi_dot(n, &basis[a * n], gradient);
+            slope[a] = newton[a] = cpsi_dot(n, &basis[a * n], gradient);
             for (int b = 0; b < unknowns; b++) {
-                double sum = a == b ? bend : 0;
+                double sum = a == b ? curvature : 0;
                 for (int i = 0; i < n; i++)
                     sum += basis[a * n + i] * cpsi_dot(n, &hessian[i * n], &basis[b * n]);
                 matrix[a * unknowns + b] = sum;
             }
         }
         if (!cpsi_lu_factor(unknowns, matrix, pivot)) return false;
-        cpsi_lu_solve(unknowns, matrix, pivot, way);
-        const double decrement = cpsi_dot(unknowns, slope, way);
+        cpsi_lu_solve(unknowns, matrix, pivot, newton);
+        const double decrement = cpsi_dot(unknowns, slope, newton);
         if (!(decrement >= 0)) return false;
         const bool near = decrement <= NEAR * fabs(*value);
         if (near && ++last > LAST) return true;
 
-        /* half the way, as often as the value does not fall by a tenth of what the step promises */
+        /* half the Newton step, as often as the value does not fall by a tenth of what the step
+         * promises */
         double to[MOST];
         bool taken = false;
         for (double share = 1; !taken && share > 1e-12; share *= 0.5) {
             for (int i = 0; i < n; i++) {
                 to[i] = w[i];
-                for (int a = 0; a < unknowns; a++) to[i] -= share * way[a] * basis[a * n + i];
+                for (int a = 0; a < unknowns; a++) to[i] -= share * newton[a] * basis[a * n + i];
             }
             if (!support(set, to, &h, gradient, hessian)) continue;
-            const double next = h - bend * (cpsi_dot(n, to, q) - 0.5 * cpsi_dot(n, to, to));
+            const double next = objective(n, h, curvature, to, q);
             taken = near || next <= *value - 0.1 * share * decrement;
         }
         if (!taken) return false;
@@ -122,12 +135,12 @@ static bool is_meant(const CpsSet *set, const double *p, double *q) {
     if (set->kind != CPSI_SET_SUM || set->count < MANY || n < 2 || n > MOST) return false;
     memcpy(q, p, (size_t)n * sizeof *q);
     for (int k = 0; k < set->count; k++) {
-        const CpsSet *part = set->part[k];
-        const bool image = part->kind == CPSI_SET_IMAGE;
-        const CpsSet *ball = image ? part->part[0] : part;
+        const CpsSet *part = set->part[k],
+                     *ball = part->kind == CPSI_SET_IMAGE ? part->part[0] : part;
         if (ball->kind != CPSI_SET_BALL || ball->n > MOST) return false;
-        for (int i = 0; i < n; i++)
-            q[i] -= image ? cpsi_dot(ball->n, &part->a[i * ball->n], ball->a) : ball->a[i];
+        double map[MOST * MOST];
+        ball_of(part, map);
+        for (int i = 0; i < n; i++) q[i] -= cpsi_dot(ball->n, &map[i * ball->n], ball->a);
     }
     return true;
 }
@@ -139,14 +152,12 @@ static double least_radius(const CpsSet *set) {
     double m[MOST * MOST] = {0}, trace = 0;
     int pivot[MOST];
     for (int k = 0; k < set->count; k++) {
-        const CpsSet *part = set->part[k],
-                     *ball = part->kind == CPSI_SET_IMAGE ? part->part[0] : part;
+        double map[MOST * MOST];
+        const CpsSet *ball = ball_of(set->part[k], map);
         const double square = ball->scalar * ball->scalar;
         for (int i = 0; i < n; i++)
             for (int j = 0; j < n; j++)
-                m[i * n + j] += square * (ball == part ? (double)(i == j)
-                                                       : cpsi_dot(ball->n, &part->a[i * ball->n],
-                                                                  &part->a[j * ball->n]));
+                m[i * n + j] += square * cpsi_dot(ball->n, &map[i * ball->n], &map[j * ball->n]);
     }
     for (int i = 0; i < n; i++) trace += m[i * n + i];
     if (!(trace > 0) || !cpsi_lu_factor(n, m, pivot)) return 0;

@@ -6,9 +6,22 @@
 #include "capstan/capstan.h"
 #include "capstan/results.h"
 
+/* A rope of 6 m, straight between two points. */
+static inline CpsLine small_rope(int elements, const double point[6]) {
+    CpsLine line = cps_line_default();
+    line.name = "rope";
+    line.length = 6;
+    line.elements = elements;
+    line.weight = 10;
+    line.stiffness = 1e4;
+    line.start =
+        (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 0, 1}};
+    return line;
+}
+
 /* Write the results of that run with `elements` elements into `directory`; whatever fails is
  * cleaned up as a program would do it. */
-static CpsStatus small_run(const char *directory, int elements, CpsError *err) {
+static inline CpsStatus small_run(const char *directory, int elements, CpsError *err) {
     const double point[6] = {0, 0, 0, 6, 0, 0};
     const CpsChange change[2] = {{0, CPS_END_B, {CPS_END_HELD, {5.9, 0.2, 0}}},
                                  {0, CPS_END_B, {CPS_END_HELD, {6, 0, 0}}}};
@@ -18,14 +31,7 @@ static CpsStatus small_run(const char *directory, int elements, CpsError *err) {
     CpsObstacle bed = cps_obstacle_default();
     bed.name = "bed";
     bed.friction = 0.3;
-    CpsLine line = cps_line_default();
-    line.name = "rope";
-    line.length = 6;
-    line.elements = elements;
-    line.weight = 10;
-    line.stiffness = 1e4;
-    line.start =
-        (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 0, 1}};
+    const CpsLine line = small_rope(elements, point);
     CpsScene scene = cps_scene_default();
     scene.title = "a run that something happens to";
     scene.obstacle_count = 1;

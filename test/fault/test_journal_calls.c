@@ -15,8 +15,7 @@
 
 #include <cmocka.h>
 
-#include "capstan/capstan.h"
-#include "capstan/results.h"
+#include "small_run.h"
 
 ssize_t __real_pread(int file, void *to, size_t size, off_t at);
 ssize_t __real_pwrite(int file, const void *from, size_t size, off_t at);
@@ -66,14 +65,7 @@ static CpsEvolution *make_evolution(void) {
     const double point[6] = {0, 0, 0, 6, 0, 0};
     const CpsChange change = {0, CPS_END_B, {CPS_END_HELD, {5.9, 0.2, 0}}};
     const CpsStage stage = {.name = "there", .steps = STEPS, .change_count = 1, .change = &change};
-    CpsLine line = cps_line_default();
-    line.name = "rope";
-    line.length = 6;
-    line.elements = ELEMENTS;
-    line.weight = 10;
-    line.stiffness = 1e4;
-    line.start =
-        (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 0, 1}};
+    CpsLine line = small_rope(ELEMENTS, point);
     line.end[CPS_END_B] = (CpsEnd){CPS_END_HELD, {6, 0, 0}};
     CpsScene scene = cps_scene_default();
     scene.line_count = scene.stage_count = 1;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Does result.nc keep the rules of the CF conventions (1.8) on attributes?  Chapters 2.3 names, 2.6 attributes of the file, 3.1 units,
-3.2 long names, 3.5 flags; read from the layout of the file alone.                    usage: conventions.py CAPSTAN SCENE.."""
+3.2 long names, 3.5 flags; read from the layout of the file alone.                    usage: cf.py CAPSTAN SCENE.."""
 import os
 import re
 import subprocess
