@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One block of memory, laid out twice by the same function: first with no block, to measure; then
- * on the block. The two cannot disagree, and nothing is allocated afterwards.
+/* One block of memory, laid out twice by the same function: first without a block, to measure its
+ * size, and then in the block. The two passes cannot disagree, and nothing is allocated
+ * afterwards.
  *
  *     CpsiArena arena = {0};
  *     layout(&arena, ...);                       measures
  *     cpsi_arena_allocate(&arena);               one calloc, checked
- *     layout(&arena, ...);                       places  */
+ *     layout(&arena, ...);                       places */
 #ifndef CAPSTAN_SRC_BASE_ARENA_H
 #define CAPSTAN_SRC_BASE_ARENA_H
 
@@ -14,12 +15,12 @@
 
 typedef struct CpsiArena {
     char *base;    /* NULL while measuring; aligned, inside block */
-    void *block;   /* what was allocated */
-    size_t used;   /* bytes so far */
+    void *block;   /* as allocated */
+    size_t used;   /* bytes taken so far */
     bool overflow; /* a size did not fit into size_t */
 } CpsiArena;
 
-/* Room for count items of `size` bytes, aligned to a cache line; NULL while measuring. */
+/* Memory for count items of `size` bytes, aligned to a cache line; NULL while measuring. */
 void *cpsi_arena_take(CpsiArena *arena, size_t count, size_t size);
 
 /* Turn a measuring arena into a real one, zeroed; false when memory or size_t does not suffice. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The larger of two numbers, NaN if either is: maxima of residuals must not hide one. */
+/* The larger of two numbers, NaN if either is NaN, so that a maximum of residuals never hides a
+ * NaN. */
 #ifndef CAPSTAN_SRC_BASE_LARGER_H
 #define CAPSTAN_SRC_BASE_LARGER_H
 

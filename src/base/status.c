@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Names and sentences of status codes, from the list in base.h; failing with a message. */
+/* Names and texts of the status codes, from the list in base.h; returning an error with its
+ * message. */
 #include "base/status.h"
 
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Small vectors by value, for geometry away from the hot loops. */
+/* Three-dimensional vectors by value, for geometry outside the hot loops. */
 #ifndef CAPSTAN_SRC_BASE_VEC3_H
 #define CAPSTAN_SRC_BASE_VEC3_H
 
