@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Small dense matrices (dense.h). Textbook algorithms: Golub and Van Loan, Matrix Computations,
- * chapters 3 to 5; Gram-Schmidt with every projection done twice keeps orthogonality to rounding
- * (Giraud, Langou and Rozloznik 2005). */
+/* Small dense matrices (dense.h). The algorithms are those of Golub and Van Loan, Matrix
+ * Computations, chapters 3 to 5; Gram-Schmidt with every projection done twice keeps orthogonality
+ * to rounding (Giraud, Langou and Rozloznik 2005). */
 #include "linalg/dense.h"
 
 #include <math.h>
@@ -27,12 +27,12 @@ static void swap_rows(int n, double *a, double *b) {
     }
 }
 
-/* Columns that are factorised together, and columns that their rows are taken from the rest of in
- * one go: what is read again and again stays in the cache. Every entry sees the same operations in
- * the same order as column by column. */
+/* Number of columns factorised together, and number of columns of the remaining rows updated at
+ * once, chosen so that the data that are read repeatedly stay in the cache. Every entry undergoes
+ * the same operations in the same order as column by column. */
 enum { PANEL = 32, TILE = 256 };
 
-/* One row less what the pivots first..last take of its columns from..to. */
+/* Subtract from columns from..to of one row the multiples of the pivot rows first..last. */
 static void take_pivots(size_t w, double *a, size_t first, size_t last, size_t row, size_t from,
                         size_t to) {
     for (size_t k = first; k < last && k < row; k++) {
@@ -87,7 +87,7 @@ bool cpsi_cholesky(int n, const double *a, double *l) {
     for (size_t i = 0; i < w; i++)
         for (size_t j = 0; j <= i; j++) {
             const double sum = a[i * w + j] - cpsi_dot((int)j, &l[i * w], &l[j * w]);
-            /* a pivot that is lost in the rounding of its diagonal is none */
+            /* a pivot that is only the rounding of its diagonal counts as zero */
             if (i == j && !(sum > 1e-14 * fabs(a[i * w + i]) && isfinite(sum))) return false;
             l[i * w + j] = i == j ? sqrt(sum) : sum / l[j * w + j];
         }
@@ -107,7 +107,7 @@ void cpsi_lower_inverse(int n, const double *l, double *out) {
     }
 }
 
-/* row -= <row, q> q, its right-hand side too */
+/* row -= <row, q> q, and its right-hand side alike */
 static void remove_along(int n, double *row, double *rhs, const double *q, const double *rhs_q) {
     const double c = cpsi_dot(n, row, q);
     for (int i = 0; i < n; i++) row[i] -= c * q[i];
@@ -116,7 +116,7 @@ static void remove_along(int n, double *row, double *rhs, const double *q, const
 
 int cpsi_orthonormal_rows(int count, int n, double *rows, double *rhs, double tolerance) {
     const size_t w = (size_t)n;
-    /* unit rows, so that the share that remains is their norm */
+    /* scale the rows to length one, so that the norm of a remainder is the share that remains */
     for (int i = 0; i < count; i++) {
         const double size = cpsi_norm(n, &rows[(size_t)i * w]);
         if (size == 0) continue;
@@ -157,8 +157,8 @@ int cpsi_orthonormal_span(int count, int n, double *rows, double *rhs, double to
 }
 
 void cpsi_next_row(int rank, int n, double *q) {
-    /* the axis that lies furthest from the rows so far: what they leave of each, squared, in the
-     * row's own place */
+    /* The coordinate axis that is farthest from the span of the rows. The squared distance of each
+     * axis is computed in the memory of the new row. */
     const size_t w = (size_t)n;
     double *row = &q[(size_t)rank * w];
     int best = 0;
@@ -236,7 +236,7 @@ bool cpsi_qr_factor(int m, int n, double *a, double *beta, int *row, int *column
         const size_t d = (size_t)k * w + (size_t)k;
         const double size = sqrt(column_size(m, n, a, k, k)), x = a[d], r = x > 0 ? -size : size;
         if (!(size > 0) || !isfinite(size)) return false;
-        /* I - beta v v', v = (1, ..): takes the column to (r, 0, ..) */
+        /* the reflection I - beta v v', v = (1, ..), maps the column to (r, 0, ..) */
         beta[k] = 1 - x / r;
         for (int i = k + 1; i < m; i++) a[(size_t)i * w + (size_t)k] /= x - r;
         a[d] = r;
@@ -252,7 +252,7 @@ bool cpsi_qr_factor(int m, int n, double *a, double *beta, int *row, int *column
     return true;
 }
 
-/* x -= beta v (v.x) for the k-th vector */
+/* apply the k-th reflection to x: x -= beta v (v.x) */
 static void reflect(int m, int n, const double *a, double beta, int k, double *x) {
     const size_t w = (size_t)n;
     double sum = x[k];

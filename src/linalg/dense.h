@@ -16,47 +16,47 @@ static inline double cpsi_dot(int n, const double *a, const double *b) {
 /* |a|, without overflow for entries of any size */
 double cpsi_norm(int n, const double *a);
 
-/* P A = L U in place with partial pivoting, pivot (n) the rows taken; false where a pivot is 0 or
- * not finite. */
+/* P A = L U in place with partial pivoting; pivot (n) are the rows chosen. Returns false where a
+ * pivot is 0 or not finite. */
 bool cpsi_lu_factor(int n, double *a, int *pivot);
 /* x = A^-1 x with the factor. */
 void cpsi_lu_solve(int n, const double *lu, const int *pivot, double *x);
 
-/* Lower Cholesky factor of the symmetric matrix a (n, n) into l (n, n), zeros above; false where a
- * is not positive definite. */
+/* Lower Cholesky factor of the symmetric matrix a (n, n) into l (n, n), with zeros above the
+ * diagonal. Returns false where a is not positive definite. */
 bool cpsi_cholesky(int n, const double *a, double *l);
 /* The inverse of a lower triangle l into out (n, n), zeros above. */
 void cpsi_lower_inverse(int n, const double *l, double *out);
 
-/* Orthonormal rows by Gram-Schmidt, largest remainder first, each taken twice: on return the first
- * `rank` of the rows (count, n) are orthonormal and span them all. The right-hand sides rhs (count,
- * or NULL) of the equations <row_i, x> = rhs_i
- * follow, so that x = sum rhs_k row_k solves the first rank of them, and the others are left with
- * what contradicts. A row counts as dependent when no more than the share `tolerance` of it
- * remains. Returns the rank. */
+/* Orthonormal rows by Gram-Schmidt with the largest remainder first and every projection done
+ * twice. On return the first `rank` of the rows (count, n) are orthonormal and span all of them.
+ * The right-hand sides rhs (count, or NULL) of the equations <row_i, x> = rhs_i are transformed
+ * alike: x = sum rhs_k row_k solves the first `rank` equations, and the remaining right-hand sides
+ * are the contradiction in the other equations. A row counts as dependent when no more than the
+ * share `tolerance` of it remains. Returns the rank. */
 int cpsi_orthonormal_rows(int count, int n, double *rows, double *rhs, double tolerance);
-/* The same for rows of the caller's scaling: dependent when no more than the length `tolerance`
- * remains. */
+/* The same for rows whose scale the caller has chosen: a row counts as dependent when no more than
+ * the length `tolerance` of it remains. */
 int cpsi_orthonormal_span(int count, int n, double *rows, double *rhs, double tolerance);
 
-/* One more row after `rank` < n orthonormal rows of q (n, n), normal to them; n^2 operations. */
+/* Append to `rank` < n orthonormal rows of q (n, n) one more row normal to them; n^2 operations. */
 void cpsi_next_row(int rank, int n, double *q);
 /* Complete `rank` orthonormal rows of q (n, n) to n. */
 void cpsi_complete_rows(int rank, int n, double *q);
 
-/* Q R = the matrix a (m, n), m >= n, its rows sorted by size and its columns by what is left of
- * them: with both orders a row keeps its own digits, however small beside the others (Cox and
- * Higham 1998). In place: R above, Householder vectors below; beta (n), row (m) and column (n)
- * their orders. False where a has not full rank or holds what is not finite. */
+/* Q R = the matrix a (m, n), m >= n, with rows sorted by size and columns by what remains of them.
+ * With both orders a row keeps its relative accuracy, however small it is beside the others (Cox
+ * and Higham 1998). In place: R above the diagonal, Householder vectors below, with beta (n); row
+ * (m) and column (n) are the orders. Returns false where a is rank deficient or not finite. */
 bool cpsi_qr_factor(int m, int n, double *a, double *beta, int *row, int *column);
-/* out = Q'y (m), y in the order of the rows of a; and back, y = Q x, which spoils x. y and x do not
- * overlap. */
+/* cpsi_qr_to: out = Q'y (m), with y in the order of the rows of a. cpsi_qr_from: y = Q x, which
+ * overwrites x. y and x do not overlap. */
 void cpsi_qr_to(int m, int n, const double *a, const double *beta, const int *row, const double *y,
                 double *out);
 void cpsi_qr_from(int m, int n, const double *a, const double *beta, const int *row, double *x,
                   double *y);
-/* out = R^-1 x: the unknowns in their own order; out = R^-T x, x in that order. out and x do not
- * overlap. */
+/* out = R^-1 x, with the unknowns in their own order; and out = R^-T x, with x in that order. out
+ * and x do not overlap. */
 void cpsi_qr_solve(int n, const double *a, const int *column, const double *x, double *out);
 void cpsi_qr_solve_transposed(int n, const double *a, const int *column, const double *x,
                               double *out);

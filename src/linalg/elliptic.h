@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Complete elliptic integrals, as the limit surfaces of ring and disc need them: without
- * cancellation at either end. */
+/* Complete elliptic integrals as the limit surfaces of ring and disc need them, without
+ * cancellation at either end of the range of the modulus. */
 #ifndef CAPSTAN_SRC_LINALG_ELLIPTIC_H
 #define CAPSTAN_SRC_LINALG_ELLIPTIC_H
 
@@ -13,9 +13,9 @@ typedef struct CpsiElliptic {
     double e, b, c, d;
 } CpsiElliptic;
 
-/* For modulus k, 0 <= k <= 1, with its complement kc = sqrt(1 - k^2) given apart, so that neither
- * is lost by rounding. Relative accuracy 3e-14 (tested against quadrature). C and D grow like
- * log(4/kc); kc counts as at least 1e-16. */
+/* For modulus k, 0 <= k <= 1. The complement kc = sqrt(1 - k^2) is a second argument, so that
+ * neither is lost by rounding. Relative accuracy 3e-14 (tested against quadrature). C and D grow
+ * like log(4/kc); kc counts as at least 1e-16. */
 CpsiElliptic cpsi_elliptic(double k, double kc);
 
 #endif

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Minimum degree order on the quotient graph (George and Liu 1989), with approximate degrees and
+/* Minimum degree ordering on the quotient graph (George and Liu 1989), with approximate degrees and
  * element absorption after Amestoy, Davis and Duff (1996).
  *
- * Eliminating p joins all its neighbours to each other. That clique is not written out but kept as
+ * Eliminating p joins all its neighbours to each other. This clique is not stored as edges but as
  * one element p with its list of members; a variable's neighbours are the variables on its list and
- * the members of the elements on it. An element whose members all lie in a newer one is absorbed by
- * it. The degree of i is bounded by
+ * the members of the elements on it. An element whose members all belong to a newer element is
+ * absorbed by it. The degree of i is bounded by
  *
  *     |variables of i| + |L_p| - 1 + sum over its other elements e of |L_e minus L_p|,
  *
  * which counts common members of the e more than once, and costs one pass over the lists of L_p.
- * Variables with very many neighbours (hubs) are taken out beforehand and ordered last. */
+ * Variables with very many neighbours (hubs) are removed beforehand and ordered last. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,17 +24,20 @@ static const int LEAST_HUB = 40;
 typedef enum State { VARIABLE, ELEMENT, GONE } State;
 
 typedef struct Graph {
-    int n, ordered, least; /* least: no bucket below it is filled */
+    int n, ordered, least; /* least: all buckets below it are empty */
     int *order;
     unsigned char *state; /* (n) State */
-    size_t *at;           /* (n) where the list of a variable or element lies */
+    size_t *at;           /* (n) where the list of a variable or element begins */
     int *elements,
-        *length;       /* (n) of a variable's list: elements first, and all; of an element's: all */
-    int *list, *spare; /* the lists, and room to pack them into */
+        /* (n) lengths of lists: of a variable, its elements, which come first, and all entries; of
+         * an element, its members */
+        *length;
+    int *list, *spare; /* the lists, and the array into which they are packed */
     size_t used, room;
-    int *degree, *first, *next, *before; /* variables by degree, in rings of buckets; -1 ends */
-    int *mark, stamp;    /* (n) members of the newest element are marked with the stamp */
-    int *seen, *outside; /* (n) of an element: |L_e minus L_p|, valid where seen is the stamp */
+    /* doubly linked lists of the variables of each degree; -1 ends a list */
+    int *degree, *first, *next, *before;
+    int *mark, stamp;    /* (n) the members of the newest element have mark = stamp */
+    int *seen, *outside; /* (n) of an element: |L_e minus L_p|, valid where seen = stamp */
     void *block;
 } Graph;
 
@@ -84,7 +87,7 @@ static void release(Graph *g) {
     free(g->state);
 }
 
-/* Neighbours of all variables but hubs, which go last. */
+/* The lists of neighbours of all variables except hubs, which are ordered last. */
 static void lay_lists(Graph *g, const CpsiPattern *pattern) {
     const int n = g->n;
     for (int j = 0; j < n; j++)
@@ -116,7 +119,7 @@ static void lay_lists(Graph *g, const CpsiPattern *pattern) {
         if (g->state[j] == VARIABLE) put(g, j, g->length[j]);
 }
 
-/* Pack the lists of what is left. */
+/* Pack the lists that are still in use. */
 static void pack(Graph *g) {
     size_t used = 0;
     for (int i = 0; i < g->n; i++) {
@@ -143,7 +146,7 @@ static void join(Graph *g, const int *list, int count) {
     }
 }
 
-/* L_p: the variables that p sees, directly and through its elements, which it absorbs. */
+/* L_p: the neighbours of p, those on its list and the members of its elements, which p absorbs. */
 static void make_element(Graph *g, int p) {
     const size_t begin = g->used;
     const int *list = &g->list[g->at[p]];
@@ -160,7 +163,7 @@ static void make_element(Graph *g, int p) {
     g->length[p] = (int)(g->used - begin);
 }
 
-/* |L_e minus L_p| of every element that meets L_p */
+/* |L_e minus L_p| for every element that has members in L_p */
 static void count_outside(Graph *g, const int *member, int count) {
     for (int k = 0; k < count; k++) {
         const int i = member[k], *list = &g->list[g->at[i]];
@@ -176,7 +179,8 @@ static void count_outside(Graph *g, const int *member, int count) {
     }
 }
 
-/* The list of member i without what p covers, and p on it; the bound on its degree outside L_p. */
+/* Remove from the list of member i what p covers, and insert p. Returns the bound on the degree of
+ * i outside L_p. */
 static int prune(Graph *g, int i, int p) {
     int *list = &g->list[g->at[i]], kept = 0, degree = 0;
     const int elements = g->elements[i], length = g->length[i];
@@ -190,14 +194,14 @@ static int prune(Graph *g, int i, int p) {
         degree += g->outside[e];
         list[kept++] = e;
     }
-    const int own = kept; /* p's place */
+    const int own = kept; /* where p is inserted */
     for (int k = elements; k < length; k++) {
         const int j = list[k];
         if (g->mark[j] == g->stamp || g->state[j] != VARIABLE) continue;
         list[kept++] = j;
         degree++;
     }
-    /* i is a member through p itself or an absorbed element, so one place at least is free */
+    /* i belongs to L_p by an edge to p or by an absorbed element, so at least one entry is free */
     if (kept > own) list[kept] = list[own];
     list[own] = p;
     g->elements[i] = own + 1;
@@ -216,7 +220,7 @@ static void eliminate(Graph *g, int p) {
     int left = 0;
     for (int k = 0; k < count; k++) {
         const int i = member[k], beyond = prune(g, i, p);
-        /* nothing but p left: i may go at once, at no cost */
+        /* i has no neighbours outside L_p, so it can be eliminated at once without fill */
         if (beyond == 0) {
             g->state[i] = GONE;
             g->order[g->ordered++] = i;

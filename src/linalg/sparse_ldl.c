@@ -2,8 +2,8 @@
 /* The factor L D L' of a sparse symmetric matrix, row by row of L ("up-looking", Davis 2005).
  *
  * Row k of L solves L y = column k of A above the diagonal. The nonzeros of y are the unknowns on
- * the paths from those of the column to the root k in the elimination tree, whose parent of i is
- * the first row below i in column i of L. */
+ * the paths in the elimination tree from the nonzeros of the column to the root k; the parent of i
+ * is the row of the first nonzero below the diagonal in column i of L. */
 #include "linalg/sparse_ldl.h"
 
 #include <math.h>
@@ -14,12 +14,13 @@
 struct CpsiLdl {
     int n;
     size_t entries, factor_entries;
-    size_t *place;            /* (entries) where an entry of the caller's goes */
-    size_t *column;           /* (n + 1) of the matrix in the new order */
-    int *row;                 /* (entries) */
-    double *value;            /* (entries) */
-    int *order, *parent;      /* (n) */
-    size_t *start;            /* (n + 1) of L by columns, the unit diagonal left out */
+    size_t *place;       /* (entries) position in `value` of each entry of the caller's */
+    size_t *column;      /* (n + 1) first entries of the columns of the reordered matrix */
+    int *row;            /* (entries) */
+    double *value;       /* (entries) */
+    int *order, *parent; /* (n) */
+    /* (n + 1) first entries of the columns of L, whose unit diagonal is not stored */
+    size_t *start;
     int *index;               /* (factor_entries) */
     double *factor;           /* (factor_entries) */
     double *pivot;            /* (n) */
@@ -51,7 +52,8 @@ static void permute(CpsiLdl *ldl, const CpsiPattern *pattern, int *inverse) {
                 ldl->place[e] = at;
                 ldl->row[at] = a > b ? b : a;
             }
-        /* counts to starts; then starts, which have moved one column on, back */
+        /* First turn counts into first entries. Filling has then advanced each of them by one
+         * column, which is undone. */
         if (pass == 0)
             for (int j = 0; j < n; j++) ldl->column[j + 1] += ldl->column[j];
         else
@@ -60,7 +62,7 @@ static void permute(CpsiLdl *ldl, const CpsiPattern *pattern, int *inverse) {
     ldl->column[0] = 0;
 }
 
-/* Elimination tree and column counts; the number of entries of L. */
+/* Elimination tree and column counts. Returns the number of entries of L. */
 static size_t count_factor(CpsiLdl *ldl) {
     size_t total = 0;
     for (int k = 0; k < ldl->n; k++) {
@@ -129,8 +131,8 @@ CpsiLdl *cpsi_ldl_new(const CpsiPattern *pattern, size_t most, size_t *entries) 
     return NULL;
 }
 
-/* The nonzeros of row k, each after those it needs, in path[top ..]; the row's right-hand side in
- * y; the diagonal. */
+/* The nonzeros of row k in path[top ..], each after those that it depends on; the row's right-hand
+ * side in y. Returns the diagonal entry. */
 static double scatter_row(CpsiLdl *ldl, int k, int *top) {
     double diagonal = 0;
     *top = ldl->n;

@@ -3,8 +3,8 @@
  *
  * A quasi-definite matrix [ H, E'; E, -F ], H and F positive definite, has such a factor for every
  * symmetric order (Vanderbei 1995), so the order is chosen for sparsity alone: minimum degree,
- * linear fill on chains, trees and stars. Semi-definite H and F are regularised by the caller; a
- * pivot of the wrong sign, which is rounding, is replaced. */
+ * which gives linear fill on chains, trees and stars. The caller regularises semi-definite H and F;
+ * a pivot whose sign rounding has made wrong is replaced. */
 #ifndef CAPSTAN_SRC_LINALG_SPARSE_LDL_H
 #define CAPSTAN_SRC_LINALG_SPARSE_LDL_H
 
@@ -19,20 +19,22 @@ typedef struct CpsiPattern {
     const int *index;    /* (start[n]) */
 } CpsiPattern;
 
-/* Minimum degree order: order[k] is the unknown eliminated as number k. False: no memory. */
+/* Minimum degree order: order[k] is the unknown eliminated as number k. Returns false when memory
+ * does not suffice. */
 bool cpsi_sparse_order(const CpsiPattern *pattern, int *order);
 
 /* Analysis and factor. */
 typedef struct CpsiLdl CpsiLdl;
 
-/* Order and analyse, once for all matrices of a pattern. NULL with *entries = 0: no memory; NULL
- * with *entries > most: the factor would have more than `most` entries. */
+/* Order and analyse a pattern once for all its matrices. Returns NULL with *entries = 0 when memory
+ * does not suffice, and NULL with *entries > most where the factor would have more than `most`
+ * entries. */
 CpsiLdl *cpsi_ldl_new(const CpsiPattern *pattern, size_t most, size_t *entries);
 void cpsi_ldl_free(CpsiLdl *ldl);
 
 /* Factorise the matrix of the pattern with these values. Unknown j's pivot should have the sign of
- * sign[j]; one below `least` times that is replaced by sign[j] least. False where a pivot is not
- * finite. */
+ * sign[j]; a pivot below `least` in that direction is replaced by sign[j] least. Returns false
+ * where a pivot is not finite. */
 bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign, double least);
 /* x = A^-1 x with the last factor. */
 void cpsi_ldl_solve(const CpsiLdl *ldl, double *x);
