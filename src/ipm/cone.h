@@ -25,8 +25,8 @@ static inline void cpsi_cone_apply(double *out, const double *w, const double *x
     for (int r = 0; r < d; r++) out[r] *= factor;
 }
 
-/* 1/alpha of the nearest boundary: s and z are the same point of the scaled space, and well inside
- * there. scratch (2 d) */
+/* 1/alpha of the nearest boundary. The scaled s and z are the same point, which lies well inside
+ * the cone. scratch (2 d) */
 static inline double cpsi_cone_step(int d, const double *w, double g, const double *s,
                                     const double *z, const double *ds, const double *dz,
                                     double *scratch) {
@@ -39,7 +39,7 @@ static inline double cpsi_cone_step(int d, const double *w, double g, const doub
     return cpsi_max_nan(cpsi_soc_inverse_step(point, turned, d), step_z);
 }
 
-/* q of the corrector, s o z -> target e less the second-order term of the predictor (ds, dz).
+/* q of the corrector: s o z -> target e, less the second-order term of the predictor (ds, dz).
  * scratch (4 d) */
 static inline void cpsi_cone_correct(double *q, int d, const double *w, double g, const double *s,
                                      const double *z, const double *ds, const double *dz,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Passes over cones of any dimension. */
+/* Loops over cones of any dimension. */
 #include "ipm/cones.h"
 
 #include <string.h>

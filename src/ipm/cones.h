@@ -19,7 +19,7 @@ typedef struct CpsiCones {
     double *s, *z, *ds, *dz; /* (rows) */
     double *q;               /* (rows) right-hand side: dz = q - H ds */
     double *w, *g;           /* (rows), (count) scaling */
-    double *rho;             /* (rows) what s differs by from what the unknowns say */
+    double *rho;             /* (rows) residual: s less its value from the unknowns */
     double *scratch;         /* (4 largest) */
 } CpsiCones;
 
@@ -33,9 +33,9 @@ void cpsi_cones_scale(CpsiCones *cones);
  * overlapping. */
 void cpsi_cones_apply(const CpsiCones *cones, int k, int i, double sign, double factor,
                       const double *x, double *out);
-/* The largest of 1/alpha to the boundaries along (ds, dz). */
+/* The largest 1/alpha of the boundaries along (ds, dz). */
 double cpsi_cones_step(CpsiCones *cones);
-/* q of the corrector, s o z -> target e less the second-order term of (ds, dz). */
+/* q of the corrector: s o z -> target e, less the second-order term of (ds, dz). */
 void cpsi_cones_correct(CpsiCones *cones, double target);
 void cpsi_cones_advance(CpsiCones *cones, double alpha);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whether a solve is to be given up while it is under way. */
+/* A request to end a solution early. */
 #ifndef CAPSTAN_SRC_IPM_INTERRUPT_H
 #define CAPSTAN_SRC_IPM_INTERRUPT_H
 
@@ -7,12 +7,12 @@
 #include <stddef.h>
 
 typedef struct CpsiInterrupt {
-    bool (*asked)(void *user); /* NULL: never given up */
+    bool (*asked)(void *user); /* NULL: the solution is never interrupted */
     void *user;
-    bool seen; /* asked() was true: from then on everything ends as soon as it can */
+    bool seen; /* whether asked() has returned true; everything then ends as soon as it can */
 } CpsiInterrupt;
 
-/* `interrupt` may be NULL. */
+/* Ask, and return whether to end. `interrupt` may be NULL. */
 static inline bool cpsi_interrupt_look(CpsiInterrupt *interrupt) {
     if (!interrupt || !interrupt->asked) return false;
     if (!interrupt->seen) interrupt->seen = interrupt->asked(interrupt->user);

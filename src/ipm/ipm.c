@@ -2,10 +2,10 @@
 /* The interior-point loop: Mehrotra's predictor and corrector with Nesterov-Todd scaling, from an
  * infeasible start.
  *
- * Per iteration: measure, scale, factorise; a predictor towards s o z = 0 tells how far one may
- * aim, the corrector aims at s o z = sigma mu e with the predictor's second-order term taken off.
- * One step length for primal and dual, because the compliance ties them. Everything is a pass over
- * arrays; nothing is allocated. */
+ * Each iteration measures, scales and factorises. A predictor towards s o z = 0 shows how far the
+ * complementarity can be reduced; the corrector aims at s o z = sigma mu e and subtracts the
+ * predictor's second-order term. Primal and dual take the same step length, because the compliance
+ * couples them. Every operation is a pass over arrays, and nothing is allocated. */
 #include "ipm/ipm.h"
 
 #include <float.h>
@@ -14,25 +14,26 @@
 
 #include "base/larger.h"
 
-/* First complementarity and the distance of the start from the cones' boundary; all data are of
- * order one. */
+/* Initial complementarity, and distance of the initial point from the boundary of the cones; all
+ * data are of order one. */
 static const double START_MU = 1.0;
 static const double START_MARGIN = 0.5;
-/* Share of the way to the boundary that a step may take: nearer to 1 loses the centre on fine
- * meshes, lower costs steps. */
+/* A step goes at most this share of the distance to the boundary. Nearer to 1, the iterates leave
+ * the central path on fine meshes; smaller values cost iterations. */
 static const double FRACTION = 0.98;
-/* A step shorter than this, or this many steps without halving the best gap, end the loop. */
+/* The loop ends at a step shorter than this, or after this many steps without halving the best
+ * gap. */
 static const double LEAST_STEP = 1e-6;
 static const int PATIENCE = 8;
-/* Steps at the target keep this much from the boundary: what is left there must stay above
- * rounding. */
+/* Centring steps go at most this share of the distance to the boundary, since the remaining
+ * distance must stay above rounding. */
 static const double CLOSE = 0.9;
-/* Each sharpening aims at this share of the products before it. */
+/* Each sharpening step aims at this share of the previous products s.z. */
 static const double SHARPER = 0.01;
-/* A ray is a proof once its value outweighs all that it neglects by this factor, for any u of size
- * one. */
+/* A ray counts as a proof when its value exceeds everything that the proof neglects by this factor,
+ * for any u of size one. */
 static const double RAY = 1e4;
-/* An iterate this far from a start of size one runs away. */
+/* An iterate this far from a start of size one is taken to diverge. */
 static const double FAR = 1e8;
 
 static void start(CpsiProgram *program) {
@@ -55,7 +56,7 @@ static bool scale_and_factor(CpsiProgram *program) {
     return program->factor(program);
 }
 
-/* Solve for the direction that the elements' q ask for, removing the share `keep` of the
+/* Solve for the direction with the elements' q as right-hand side, removing the share `keep` of the
  * residuals. */
 static CpsiSums direction(CpsiProgram *program, double keep, bool predictor) {
     CpsiSums sums = {0};
@@ -77,11 +78,11 @@ static void advance(CpsiProgram *program, double alpha) {
 }
 
 static double step_length(const CpsiSums *sums, double fraction) {
-    return sums->inverse_step <= fraction ? 1 : fraction / sums->inverse_step; /* NaN stays NaN */
+    return sums->inverse_step <= fraction ? 1 : fraction / sums->inverse_step; /* NaN remains NaN */
 }
 
-/* Gap, residual and merit of an iterate. Forces are off balance relative to the largest, which
- * their rounding goes with. */
+/* Gap, residual and merit of an iterate. The imbalance of forces is relative to the largest force,
+ * with which rounding grows. */
 static double judge(CpsiProgram *program, const CpsiSums *sums, const CpsiIpmOptions *options,
                     CpsiIpmReport *report) {
     report->imbalance = program->imbalance(program) / cpsi_max_nan(1, sums->largest);
@@ -90,9 +91,11 @@ static double judge(CpsiProgram *program, const CpsiSums *sums, const CpsiIpmOpt
     return report->gap + cpsi_max_nan(report->imbalance, report->residual);
 }
 
-/* From an iterate at the target: steps to the centre, at the mu reached, then below. That near,
- * Newton's method alone converges fast. A step that leaves the target is taken back; the centre of
- * an iterate just inside may lie a little above it. Less than 0 is rounding beyond the boundary. */
+/* From an iterate that has reached the target, steps to the central path at the present mu, then at
+ * smaller mu. Newton's method converges fast that near. A step whose merit is above twice the
+ * target is undone: the factor two is because the centred point may have a slightly larger gap than
+ * an iterate just below the target. So is a step with sum s.z < 0, which is rounding beyond the
+ * boundary. */
 static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const CpsiSums *sums,
                    CpsiIpmReport *report) {
     const int sharpenings = sums->bound > 0 ? options->sharpenings : 0;
@@ -116,8 +119,8 @@ static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const Cp
     }
 }
 
-/* Are the duals a ray that no primal point can meet?  Its value must outweigh loads, friction and
- * residuals, and it may not strain anything with compliance. */
+/* Whether the duals are a ray that proves that there is no feasible u. Its value must exceed loads,
+ * friction and residuals, and it must not load elements with compliance. */
 static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums, double imbalance) {
     if (sums->ray_cost > 0 || !(sums->ray > RAY)) return false;
     double neglected =
@@ -126,7 +129,8 @@ static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums, 
     return sums->ray > RAY * neglected;
 }
 
-/* Is u a ray along which the loads gain more than the elements take, for ever? */
+/* Whether u is a ray along which the gain of the loads exceeds the energy of the elements without
+ * bound. */
 static bool dual_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
     double size = 0, gain = 0;
     for (int i = 0; i < program->size; i++) {
@@ -143,7 +147,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
     const int patience = options->patience > 0 ? options->patience : PATIENCE;
     start(program);
     for (;; report.iterations++) {
-        /* where are we, and is it enough? */
+        /* measure the iterate, and stop where it is good enough */
         const CpsiSums sums = measure(program);
         const double merit = judge(program, &sums, options, &report), mu = sums.sz / sums.weight;
         if (!isfinite(merit) || cpsi_interrupt_look(program->interrupt)) {
@@ -171,8 +175,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
             break;
         }
 
-        /* predictor: straight for s o z = 0; the less of the way it gets, the more the corrector
-         * centres */
+        /* Predictor: aims at s o z = 0. The shorter its step, the more the corrector centres. */
         if (!scale_and_factor(program)) {
             report.outcome = CPSI_IPM_STALLED;
             break;
@@ -181,8 +184,8 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
         const double reach = step_length(&predictor, 1);
         const double sigma = (1 - reach) * (1 - reach);
 
-        /* corrector: for s o z = sigma mu e, but never below what the target asks: residuals may
-         * still need room */
+        /* Corrector: aims at s o z = sigma mu e, but never below what the target requires, since
+         * the residuals may still need distance from the boundary. */
         const double least = 0.1 * options->target * (options->scale + sums.scale) / sums.weight;
         correct(program, fmax(sigma * mu, least));
         const CpsiSums corrector = direction(program, 1 - sigma, false);

@@ -6,37 +6,40 @@
 #include "ipm/program.h"
 
 typedef enum CpsiIpmOutcome {
-    CPSI_IPM_SOLVED,  /* gap and residuals reached the target */
-    CPSI_IPM_STALLED, /* no further progress, or interrupted: judge the iterate by its certificate
-                       */
+    CPSI_IPM_SOLVED, /* gap and residuals reached the target */
+    /* no further progress, or interrupted: the certificate of the iterate decides */
+    CPSI_IPM_STALLED,
     CPSI_IPM_ITERATION_LIMIT,
     CPSI_IPM_INFEASIBLE, /* the duals are a ray that proves there is no feasible u */
-    CPSI_IPM_UNBOUNDED   /* u is a ray along which the objective falls for ever */
+    CPSI_IPM_UNBOUNDED   /* u is a ray along which the objective decreases without bound */
 } CpsiIpmOutcome;
 
 typedef struct CpsiIpmOptions {
     double target; /* relative complementarity gap to reach */
-    double scale;  /* > 0: what the gap is at least compared with */
+    double scale;  /* > 0: smallest energy that the gap is compared with */
     int max_iterations;
-    int patience; /* steps without halving the best gap before the loop gives up; 0: as many as
-                     serves most programs */
-    int centering_steps; /* steps to the centre once the target is reached: they turn each dual to
-                      its primal, which a gap does not see */
-    int sharpenings; /* so many more where forces are bounded by friction, each towards a smaller
-                        product: what rests and what slips part */
+    /* steps without halving the best gap after which the loop gives up; 0: the default, which suits
+     * most programs */
+    int patience;
+    /* Centring steps after the target is reached. They align each dual with its primal, which the
+     * gap does not measure. */
+    int centering_steps;
+    /* Number of further steps where forces are bounded by friction, each towards a smaller product
+     * s.z: they separate nodes that stick from nodes that slip. */
+    int sharpenings;
 } CpsiIpmOptions;
 
 typedef struct CpsiIpmReport {
     CpsiIpmOutcome outcome;
     int iterations;
-    double gap;       /* sum of weight s.z, relative to the scale + sum of weight s0 z0 */
-    double residual;  /* largest |rho| */
-    double imbalance; /* largest of forces at a node, relative to the largest dual where that
-                         exceeds 1 */
+    double gap;      /* sum of weight s.z, relative to the scale + sum of weight s0 z0 */
+    double residual; /* largest |rho| */
+    /* largest force at a node, relative to the largest dual where that exceeds 1 */
+    double imbalance;
 } CpsiIpmReport;
 
 /* Minimise. The program holds its data, u at held nodes and a first guess elsewhere, and s1 = e of
- * each stretch at that guess. On return u, s, z hold the last iterate, always interior and finite.
+ * each segment at that guess. On return u, s, z hold the last iterate, always interior and finite.
  * Allocates nothing. */
 CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options);
 

@@ -5,10 +5,10 @@
  *     min  sum of the elements' energies - load.u
  *         over u, each element holding its own cones and private unknowns
  *
- * Iterate: every cone has an interior pair (s, z), s primal and z dual. The loop (ipm.c) knows
- * nothing else; a program of one shape (chain_program.h) supplies the kinds of its elements and the
- * linear system that fits them. Kinds work on arrays: one call per kind and pass, none per
- * element. */
+ * In an iterate every cone has an interior pair (s, z), s primal and z dual. The loop (ipm.c) knows
+ * nothing else; a program for one structure (chain_program.h) supplies the kinds of its elements
+ * and the linear system that fits them. Kinds work on arrays: there is one call per kind and pass,
+ * none per element. */
 #ifndef CAPSTAN_SRC_IPM_PROGRAM_H
 #define CAPSTAN_SRC_IPM_PROGRAM_H
 
@@ -18,41 +18,44 @@
 
 typedef struct CpsiProgram CpsiProgram;
 
-/* What a pass over the elements of one kind adds up. Step lengths are kept as inverses: the largest
- * bounds the step. */
+/* Sums of a pass over the elements of one kind. Step lengths are stored as inverses, the largest of
+ * which limits the step. */
 typedef struct CpsiSums {
     double inverse_step; /* 1/alpha of the nearest boundary */
     double weight;       /* sum of weights */
     double sz;           /* sum of w (s.z) */
     double residual;     /* largest |rho| */
     double scale;        /* sum w s0 z0 over the cones */
-    double bound;        /* sum of w z0 of bounded cones: what a dual ray leaves out */
-    double largest;      /* largest dual */
+    /* sum of w z0 of cones with bounds, which the test of a dual ray neglects */
+    double bound;
+    double largest; /* largest dual */
     double
-        ray; /* minus what the duals, as a ray, ask of the primal: > 0 speaks for infeasibility */
+        /* minus the work of the duals, as a ray, on the primal data: > 0 indicates infeasibility */
+        ray;
     double
         ray_cost; /* sum of w c z0^2: > 0 where an element's quadratic energy grows with the ray */
 } CpsiSums;
 
 /* One kind of element. `keep` is the share of the residuals that a direction is to remove. */
 typedef struct CpsiKind {
-    /* a centred pair (s, z) near the iterate u, s o z = mu e, s about `margin` inside */
+    /* a centred pair (s, z) near the iterate u, with s o z = mu e and s at a distance of about
+     * `margin` from the boundary */
     void (*start)(CpsiProgram *program, double mu, double margin);
     /* add the elements' forces to program->residual; add up s.z and residuals */
     void (*measure)(CpsiProgram *program, CpsiSums *sums);
-    /* scaling; add the condensed stiffness to the matrix; right-hand side q of the predictor, s o z
-     * -> 0 */
+    /* the scaling; adds the condensed stiffness to the matrix; right-hand side q of the predictor,
+     * s o z -> 0 */
     void (*scale)(CpsiProgram *program);
-    /* add to du, the right-hand side, the forces that q and the residuals put on the unknowns */
+    /* add to du, the right-hand side, the forces of q and of the residuals on the unknowns */
     void (*load)(CpsiProgram *program, double keep);
-    /* direction (ds, dz) from du; step to the boundary; a predictor may leave its second-order term
+    /* direction (ds, dz) from du; step to the boundary; a predictor may store its second-order term
      * in q */
     void (*direct)(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums);
-    /* q of the corrector: s o z -> target e, less the second-order term of the predictor just
-     * taken */
+    /* q of the corrector: s o z -> target e, less the second-order term of the preceding
+     * predictor */
     void (*correct)(CpsiProgram *program, double target);
-    /* q of a step to the centre, s o z -> target e, without a predictor; NULL where the loop is not
-     * asked to centre */
+    /* q of a centring step, s o z -> target e, without a predictor; NULL for programs that are
+     * solved without centring */
     void (*centre)(CpsiProgram *program, double target);
     /* s += alpha ds, z += alpha dz */
     void (*advance)(CpsiProgram *program, double alpha);
@@ -71,9 +74,9 @@ struct CpsiProgram {
     void (*clear)(CpsiProgram *program);
     bool (*factor)(CpsiProgram *program);
     void (*solve)(CpsiProgram *program);
-    /* the largest residual of an unknown that is free to move */
+    /* the largest residual of an unknown that is not held */
     double (*imbalance)(const CpsiProgram *program);
-    CpsiInterrupt *interrupt; /* looked at in each iteration; NULL: none */
+    CpsiInterrupt *interrupt; /* checked in each iteration; NULL: none */
 };
 
 #endif

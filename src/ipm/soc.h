@@ -28,12 +28,12 @@
 
 #define CPSI_SOC_MAX 4
 
-/* s.z of a pair whose two members lie at the boundary is known to the rounding of s0 z0. A product
- * of this share leaves each of them twenty units in the last place inside. */
+/* s.z of a pair whose members lie at the boundary is known to the rounding of s0 z0. A product of
+ * this share of s0 z0 leaves each of them twenty units in the last place inside. */
 #define CPSI_SOC_ROUNDING 1e-14
 
-/* The product to aim at with a pair (s, z): what is asked, but not less than rounding leaves of
- * it. */
+/* The product that a step aims at for a pair (s, z): the target, but at least the rounding of s0
+ * z0. */
 static inline double cpsi_soc_aim(double target, const double *s, const double *z) {
     const double least = CPSI_SOC_ROUNDING * s[0] * z[0];
     return target > least ? target : least;
@@ -45,7 +45,7 @@ typedef struct CpsiSocScaling {
     double g;               /* eta^-2 */
 } CpsiSocScaling;
 
-/* det x, kept above what rounding leaves of an interior point. */
+/* det x, not less than the rounding of an interior point. */
 static inline double cpsi_soc_det(const double *x, const int n) {
     double r = 0;
     for (int i = 1; i < n; i++) r += x[i] * x[i];
@@ -66,7 +66,7 @@ static inline double cpsi_soc_scale(double *w, const double *s, const double *z,
         w[i] = scale * (s[i] * is - z[i] * iz);
         w1w1 += w[i] * w[i];
     }
-    w[0] = sqrt(1 + w1w1); /* det w = 1 to the last digit */
+    w[0] = sqrt(1 + w1w1); /* makes det w = 1 to rounding */
     return dz * iz * is;
 }
 
@@ -84,7 +84,8 @@ static inline void cpsi_soc_apply(double *out, const double *w, const double *x,
     for (int i = 1; i < n; i++) w1x1 += w[i] * x[i];
     const double k =
         sign * x[0] +
-        w1x1 * (1 / (1 + w[0])); /* as a product: one division serves all calls with this w */
+        /* multiplied by the reciprocal, so that one division serves all calls with this w */
+        w1x1 * (1 / (1 + w[0]));
     out[0] = w[0] * x[0] + sign * w1x1;
     for (int i = 1; i < n; i++) out[i] = x[i] + k * w[i];
 }
@@ -106,9 +107,9 @@ static inline void cpsi_soc_divide(double *out, const double *x, const double *y
     out[0] = first;
 }
 
-/* 1/alpha for the largest alpha with  x + alpha d in Q,  x interior; 0 where every alpha will do,
- * NaN if x or d is not finite. det(x + alpha d) = C + 2 B alpha + A alpha^2 vanishes first at alpha
- * = C/(-B + sqrt(B^2 - A C)). */
+/* 1/alpha for the largest alpha with x + alpha d in Q, x interior; 0 where every alpha is
+ * admissible, NaN if x or d is not finite. det(x + alpha d) = C + 2 B alpha + A alpha^2 vanishes
+ * first at alpha = C/(-B + sqrt(B^2 - A C)). */
 static inline double cpsi_soc_inverse_step(const double *x, const double *d, const int n) {
     double a = d[0] * d[0], b = x[0] * d[0];
     for (int i = 1; i < n; i++) {
@@ -117,7 +118,7 @@ static inline double cpsi_soc_inverse_step(const double *x, const double *d, con
     }
     const double c = cpsi_soc_det(x, n), disc = b * b - a * c;
     const double inverse = (sqrt(disc < 0 ? 0 : disc) - b) * (1 / c);
-    /* written so that NaN comes out as NaN */
+    /* written so that NaN gives NaN */
     if (disc <= 0 && b >= 0) return 0;
     return inverse <= 0 ? 0 : inverse;
 }
