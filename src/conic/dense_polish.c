@@ -1,36 +1,39 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The last digits of a solution: Newton's method on the constraints that are active.
+/* The last digits of a solution: Newton's method on the active constraints.
  *
- * The interior-point loop knows s and z of a second-order cone to the root of rounding only, but
- * how each cone is active (active_cone.h) for certain.
+ * The interior-point loop gives s and z of a second-order cone only to the square root of rounding,
+ * but with certainty how each cone is active (active_cone.h).
  *
- * Stationarity c - A'z = 0 and the equations of active cones, with s = A x + b, have the Jacobian
+ * Stationarity c - A'z = 0 and the equations of active cones, with s = A x + b, have the
+ * Jacobian
  *
  *     [ H  -G' ]    G: rows A of tips, a0 - n'A1 of rays
  *     [ G   0  ]    H: sum over rays of (l/|s1|) A1'(1 - n n')A1
  *
- * which is regular where solution and duals are unique; EASE on its diagonal leaves the others
- * where they are. A step counts when the residual has become smaller and s, z are still in their
- * cones, so that what comes out is certified as it was. */
+ * which is regular where solution and duals are unique; EASE on its diagonal keeps the other
+ * unknowns where they are. A step is accepted when the residual has become smaller and s, z are
+ * still in their cones, so that the result has the same certificate as before. */
 #include <math.h>
 #include <string.h>
 
 #include "conic/dense_program.h"
 #include "linalg/dense.h"
 
-/* Beside data of order one: far above rounding, far below what decides the convergence. */
+/* Added to the diagonal for data of order one: far above rounding, and far below what affects the
+ * convergence. */
 static const double EASE = 1e-11;
-/* A residual that is rounding ends the steps. One that may be, where s is long, is as good as the
- * loop's own, which does not measure how far s and z are from their faces. */
+/* At a residual of rounding size the steps end. One below GOOD, which may be rounding where s is
+ * long, is as good as the loop's residual, which does not measure the distance of s and z from
+ * their faces. */
 static const double ROUNDING = 1e-16, GOOD = 1e-12;
-/* The start is right to 1e-7 at least, so two steps are enough; further ones mend what EASE has
- * held back. */
+/* The initial point is accurate to at least 1e-7, so two steps are enough; further steps correct
+ * the effect of EASE. */
 enum { STEPS = 5 };
-/* How often a cone that is hardly active may turn out to be taken for the wrong kind. */
+/* Number of times the assumed activity of a cone that is hardly active may be corrected. */
 enum { TRIALS = 4 };
 
-/* s of x and z of the multipliers. Returns the first cone that one of them has left, -1 where there
- * is none. */
+/* s from x, and z from the multipliers. Returns the first cone that one of them is outside of, -1
+ * where there is none. */
 static int place(CpsiConicProgram *program) {
     const CpsiCones *cones = &program->core.cones;
     const int n = program->core.unknowns;
@@ -47,7 +50,7 @@ static int place(CpsiConicProgram *program) {
     return left;
 }
 
-/* A cone that was left is taken for what the side tells on which it was left. */
+/* Change the activity of a cone according to the side on which it was left. */
 static void correct(CpsiConicProgram *program, int k) {
     const CpsiCones *cones = &program->core.cones;
     int i = 0;
@@ -55,7 +58,7 @@ static void correct(CpsiConicProgram *program, int k) {
     program->active[k] = cpsi_active_corrected(program->active[k], &cones->z[i], cones->dim[k]);
 }
 
-/* Minus the equations' values, in du. Returns the largest. */
+/* Minus the equations' values, in du. Returns the largest absolute value. */
 static double residual(CpsiConicProgram *program) {
     const CpsiCones *cones = &program->core.cones;
     const int n = program->core.unknowns;
@@ -71,7 +74,7 @@ static double residual(CpsiConicProgram *program) {
     return most;
 }
 
-/* H grows by the curvature of a ray whose gradient is g. */
+/* Add to H the curvature of a ray whose gradient is g. */
 static void curve(CpsiConicProgram *program, int i, int d, size_t size, const double *g) {
     const size_t n = (size_t)program->core.unknowns;
     const double *a = &program->data.a[(size_t)i * n];
@@ -86,7 +89,7 @@ static void curve(CpsiConicProgram *program, int i, int d, size_t size, const do
     }
 }
 
-/* The Jacobian, `size` wide. */
+/* The Jacobian, of size `size`. */
 static void differentiate(CpsiConicProgram *program, size_t size) {
     const CpsiCones *cones = &program->core.cones;
     const size_t n = (size_t)program->core.unknowns;
@@ -114,7 +117,7 @@ static void move(CpsiConicProgram *program) {
             cones->z[i + r] += *step++;
 }
 
-/* x, s, z to (sign 1) or from (sign -1) what is kept. */
+/* Copy x, s, z to the stored point (sign 1) or back from it (sign -1). */
 static void keep(CpsiConicProgram *program, int sign) {
     CpsiHomogeneous *core = &program->core;
     const size_t n = (size_t)core->unknowns, m = (size_t)core->cones.rows;
@@ -128,8 +131,8 @@ static void keep(CpsiConicProgram *program, int sign) {
     }
 }
 
-/* Newton's steps from what is kept. Returns the cone that they leave, -1 where they end by
- * themselves. */
+/* Newton's steps from the stored point. Returns the cone that they leave, -1 where they end for
+ * another reason. */
 static int steps(CpsiConicProgram *program, CpsiConicResult *found) {
     const CpsiCones *cones = &program->core.cones;
     size_t size = (size_t)program->core.unknowns;
@@ -140,7 +143,7 @@ static int steps(CpsiConicProgram *program, CpsiConicResult *found) {
         const int left = place(program);
         if (left >= 0) return left;
         const double now = residual(program), gap = fabs(cpsi_dot(cones->rows, cones->s, cones->z));
-        /* the first look only snaps to what is active */
+        /* the first pass only sets s and z to their active faces */
         if (!(now < best)) break;
         best = now;
         if (now + gap <= fmax(found->residual + found->gap, GOOD)) {

@@ -5,9 +5,9 @@
  *     [ kappa/tau e e' - S   -B' ] [du]   [ keep residual + e q_tau             ]
  *     [ B                     I  ] [w ] = [ W q/sqrt(g) - keep sqrt(g) W^-1 rho ]
  *
- * and the matrix is factorised with pivoting. The unit in the column of w_i is as good a pivot as
- * any while no entry of row i of B is larger: such rows are eliminated by hand, B_i'B_i joins the
- * first block, and what is left to factorise is about the cones that bind. */
+ * and the matrix is factorised with pivoting. The unit entry in the column of w_i is as good a
+ * pivot as any other if no entry of row i of B is larger. Such rows are eliminated by hand: B_i'B_i
+ * is added to the first block. The matrix that remains has about the size of the active cones. */
 #include "conic/dense_program.h"
 
 #include <float.h>
@@ -18,7 +18,7 @@
 #include "ipm/ipm.h"
 #include "linalg/dense.h"
 
-/* Merit at which an iterate is good enough to stop; below it rounding rules. */
+/* The loop stops at this merit; below it rounding dominates. */
 static const double TARGET = 1e-14;
 static const int MAX_ITERATIONS = 60;
 
@@ -47,7 +47,7 @@ static void multiply_transposed(CpsiHomogeneous *core, double gain, double pull)
 }
 
 static double offset(const CpsiHomogeneous *core, const double *y, const double *z) {
-    (void)y; /* no equations */
+    (void)y; /* there are no equations */
     return cpsi_dot(core->cones.rows, core->b, z);
 }
 
@@ -115,7 +115,7 @@ static bool factor(CpsiProgram *base) {
     return cpsi_lu_factor((int)width, lu, program->pivot);
 }
 
-/* x = inverse of the matrix times f, both of (u, y); `work` (size) is scratch. */
+/* x = the inverse of the matrix times f, both of the form (u, y); `work` (size) is scratch. */
 static void apply_inverse(const CpsiConicProgram *program, const double *f, double *x,
                           double *work) {
     const int n = program->core.unknowns + 1;
@@ -145,7 +145,7 @@ static void find_left(const CpsiConicProgram *program, const double *f, const do
     }
 }
 
-/* Solve, and once more for what is left. */
+/* Solve, with one step of iterative refinement. */
 static void solve(CpsiProgram *base) {
     CpsiConicProgram *program = (CpsiConicProgram *)base;
     const int n = base->size;

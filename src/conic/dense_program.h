@@ -12,7 +12,7 @@
 #include "conic/active_cone.h"
 #include "conic/homogeneous.h"
 
-/* The caller's. */
+/* Data that belong to the caller. */
 typedef struct CpsiConicData {
     const int *dim;      /* (cones) */
     const double *a, *b; /* (rows, unknowns), (rows) */
@@ -20,26 +20,30 @@ typedef struct CpsiConicData {
 } CpsiConicData;
 
 typedef struct CpsiConicProgram {
-    CpsiHomogeneous core; /* first: the loop sees it */
+    CpsiHomogeneous core; /* must be the first member, since the loop gets a pointer to it */
     CpsiConicData data;
-    /* (size, unknowns + 1), size = unknowns + 1 + rows: the block of du over B; (size, size) for
+    /* (size, unknowns + 1), size = unknowns + 1 + rows: the block of du above B; (size, size) in
      * the polish */
     double *matrix;
-    double *lu, *fix; /* factor of what is left of it; scratch of the refinement (3 size) */
+    double *lu, *fix; /* factor of the remaining matrix; scratch of the refinement (3 size) */
     int *pivot;       /* (size) */
-    int *at, kept;    /* (rows) row of B in the factor, -1: eliminated by hand; how many are not */
-    CpsiActive *active; /* (cones) of the polish */
+    /* (rows) position of a row of B in the factor, -1: eliminated by hand; number of rows in the
+     * factor */
+    int *at, kept;
+    CpsiActive *active; /* (cones) used by the polish */
 } CpsiConicProgram;
 
-/* Room for a program of this size, unknowns >= 1, in the arena. */
+/* Memory for a program of this size, unknowns >= 1, in the arena. */
 CpsiConicProgram *cpsi_conic_layout(CpsiArena *arena, int unknowns, int rows, int cones,
                                     int largest_cone);
 
-/* Minimise; the data are set. `accept`: residual and gap above which the outcome is FAILED. */
+/* Minimise; the data have been set. The outcome is FAILED where the residual or the gap is above
+ * `accept`. */
 CpsiConicResult cpsi_conic_solve(CpsiConicProgram *program, double accept);
 
-/* Sharpen the solution in base.u and cones by Newton's method on what is active (dense_polish.c);
- * the residual then bounds |s0 - |s1|| and |s| of active cones too. Part of the above. */
+/* Improve the solution in base.u and cones by Newton's method on the active constraints
+ * (dense_polish.c); the residual then includes |s0 - |s1|| and |s| of active cones. Called by
+ * cpsi_conic_solve. */
 void cpsi_conic_polish(CpsiConicProgram *program, CpsiConicResult *found);
 
 #endif

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One kind of element makes the homogeneous form: the cones on linear maps of u = (x, y, tau), and
- * tau with its dual kappa and the skew term that joins them. Directions:
+/* The homogeneous form as one kind of element: the cones on linear maps of u = (x, y, tau), and tau
+ * with its dual kappa and the skew term that joins them. Directions:
  *
  *     ds = A dx + b dtau + keep rho,   dz = q - H ds,   H = g W^-2 (cones.h)
  *     dkappa = q_tau - (kappa/tau) dtau
  *
- * Near a solution A'H A holds numbers from 1/mu to mu, of which its rounding keeps the large ones
- * only. So the scaled dual directions w = W dz/sqrt(g) stay unknowns beside du,
+ * Near a solution A'H A contains numbers from mu to 1/mu, of which rounding preserves only the
+ * large ones. Therefore the scaled dual directions w = W dz/sqrt(g) remain unknowns beside du,
  *
  *     w + A~ dx + b~ dtau = W q/sqrt(g) - keep sqrt(g) W^-1 rho,     (A~, b~) = sqrt(g) W^-1 (A, b)
  *
@@ -30,7 +30,7 @@ static void start(CpsiProgram *base, double mu, double margin) {
     program->kappa = mu;
 }
 
-/* Keep the iterate if it is the best so far. */
+/* Store the iterate if it is the best so far. */
 static void keep_best(CpsiHomogeneous *program, CpsiConicOutcome outcome, double gap,
                       double residual) {
     CpsiConicResult *found = &program->found;
@@ -46,8 +46,9 @@ static void keep_best(CpsiHomogeneous *program, CpsiConicOutcome outcome, double
     memcpy(program->best + n + m, program->cones.z, m * sizeof *program->best);
 }
 
-/* How near is the iterate to each of the three ends?  The nearest one's measure becomes the
- * residual of the loop. base.residual holds A'z + E'y and E x in their places. */
+/* Measure how near the iterate is to each of the three outcomes. The measure of the nearest one
+ * becomes the residual of the loop. base.residual holds A'z + E'y and E x in the places of x and
+ * y. */
 static void judge(CpsiHomogeneous *program, double gain, double pull, CpsiSums *sums) {
     const int n = program->unknowns;
     const double tau = program->base.u[cpsi_homogeneous_tau(program)],
@@ -125,7 +126,7 @@ static void load(CpsiProgram *base, double keep) {
 }
 
 static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
-    (void)predictor; /* the corrector forms the second-order term itself */
+    (void)predictor; /* the corrector computes the second-order term itself */
     CpsiHomogeneous *program = homogeneous(base);
     CpsiCones *cones = &program->cones;
     const int at = cpsi_homogeneous_tau(program);
@@ -159,7 +160,7 @@ static const CpsiKind *const KINDS[] = {&HOMOGENEOUS};
 static void clear(CpsiProgram *base) { (void)base; /* `scale` and `factor` write every entry */ }
 
 static double imbalance(const CpsiProgram *base) {
-    (void)base; /* `judge` has counted it */
+    (void)base; /* counted by `judge` */
     return 0;
 }
 
@@ -200,7 +201,7 @@ CpsiConicResult cpsi_homogeneous_result(CpsiHomogeneous *program) {
     result.y = program->base.u + n;
     result.s = program->cones.s;
     result.z = program->cones.z;
-    /* tau, the pull of the dual ray, the gain of the primal ray */
+    /* b.z + h.y; then the value of the dual ray and that of the primal ray */
     double by = u[tau];
     if (result.outcome == CPSI_CONIC_INFEASIBLE) by = -program->operator->offset(program, u + n, z);
     if (result.outcome == CPSI_CONIC_UNBOUNDED) by = -cpsi_dot(n, program->c, u);

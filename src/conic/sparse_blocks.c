@@ -18,7 +18,7 @@ void cpsi_sparse_add_transposed(const CpsiSparseData *d, double factor, const do
             out[d->column[e]] += factor * d->value[e] * y[i];
 }
 
-/* out = A x for the blocks' own matrices, or A~ x where scaled */
+/* out = A x for the blocks' unscaled matrices, or A~ x where `scaled` */
 void cpsi_sparse_blocks_multiply(const CpsiSparseProgram *program, bool scaled, const double *x,
                                  double *out) {
     for (int k = 0; k < program->data.blocks; k++) {

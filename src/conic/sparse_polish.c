@@ -9,12 +9,13 @@
  *     [ E  0   0  ] [-dy] = - values,     H = sum over rays of (l/|s1|) A1'(1 - n n')A1
  *     [ G  0   0  ] [-dm]
  *
- * regular where x, y and z are unique; EASE on the diagonals leaves the rest where it is.
+ * which is regular where x, y and z are unique; EASE on the diagonals keeps the other unknowns
+ * where they are.
  *
- * Of a cone that is hardly active, or whose force is far smaller than the others, the loop may end
- * with the wrong kind. Steps then leave it, and the side on which they do tells the other kind,
- * with which they begin anew; or they do not settle, and the cone whose force they take away most
- * is tried without. */
+ * For a cone that is hardly active, or whose force is far smaller than the others, the loop may end
+ * with the wrong activity. Newton's steps then leave the cone; the side on which they do shows the
+ * right activity, and the steps begin again with it. Or the steps do not converge; then the cone
+ * whose force they reduce most is tried without force. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,21 +27,22 @@
 
 static const double EASE = 1e-10;
 enum { STEPS = 4, ROUNDS = 6 };
-/* How often cones may turn out to be taken for the wrong kind. */
+/* Number of times the assumed activity of cones may be corrected. */
 enum { TRIALS = 4 };
-/* Residuals of this many roundings of the largest unknown are no worse than any. */
+/* Residuals of this many roundings of the largest unknown are as good as any. */
 static const double ROUNDING = 1e-15;
-/* Entries of the factor, as for the program itself. */
+/* Limit for the entries of the factor, as for the program itself. */
 static const size_t MOST_ENTRIES = (size_t)500 << 20;
 
 typedef struct Polish {
     CpsiSparseProgram *program;
-    CpsiActive *active;    /* (cones) */
-    CpsiActive *other;     /* (cones) of those that steps have left the kind that the side tells */
-    bool left_some;        /* is there one? */
-    double enough, best;   /* the residual that counts, and the least so far that did */
-    int multipliers, size; /* m; all unknowns (x, -y, -m) */
-    size_t *start;         /* pattern */
+    CpsiActive *active; /* (cones) */
+    /* (cones) activity according to the side on which the steps have left the cone */
+    CpsiActive *other;
+    bool left_some;        /* whether the steps have left a cone */
+    double enough, best;   /* the residual that is good enough, and the smallest accepted so far */
+    int multipliers, size; /* number of multipliers m; number of all unknowns (x, -y, -m) */
+    size_t *start;         /* pattern of the matrix */
     int *index;
     size_t entries;
     double *value;
@@ -50,11 +52,11 @@ typedef struct Polish {
     double *s, *z;                  /* (rows) at `at` */
 } Polish;
 
-/* Walk over cones with their block. */
+/* A loop over cones with their blocks. */
 typedef struct Walk {
-    int block, x;    /* and the block's first column */
-    int cone, all;   /* inside its block, and of all */
-    int inside, row; /* its first row inside the block, and of all */
+    int block, x;    /* the block, and its first column */
+    int cone, all;   /* index of the cone inside its block, and among all */
+    int inside, row; /* its first row inside the block, and among all */
 } Walk;
 
 static bool next(const CpsiSparseData *d, Walk *w) {
@@ -86,7 +88,7 @@ static void release(Polish *p) {
     p->at = NULL;
 }
 
-/* Room for these kinds of activity, and where to begin. */
+/* Allocate for the present activities, and set the initial point. */
 static bool begin(Polish *p) {
     const CpsiSparseProgram *program = p->program;
     const CpsiSparseData *d = &program->data;
@@ -126,8 +128,8 @@ static bool begin(Polish *p) {
     return true;
 }
 
-/* s and z at `at`; false where one of them has left its cone. The first time, these cones are
- * noted. */
+/* s and z at `at`; false where one of them is outside its cone. Cones left by the first step are
+ * recorded. */
 static bool place(Polish *p) {
     const CpsiSparseData *d = &p->program->data;
     const double *m = p->at + d->unknowns + d->equations;
@@ -153,7 +155,7 @@ static bool place(Polish *p) {
     return all_in;
 }
 
-/* left = - values of the equations; the largest. */
+/* left = - values of the equations. Returns the largest absolute value. */
 static double values(Polish *p) {
     const CpsiSparseData *d = &p->program->data;
     const int n = d->unknowns, e = d->equations;
@@ -170,7 +172,7 @@ static double values(Polish *p) {
     return most;
 }
 
-/* The rows of G of one cone, one after the other in `g`; returns how many. */
+/* The rows of G of one cone, one after the other in `g`. Returns their number. */
 static int rows_of(const Polish *p, const Walk *w, double *g) {
     const CpsiBlock *block = &p->program->data.block[w->block];
     const int n = block->unknowns;
@@ -194,13 +196,14 @@ static void add_curvature(const Polish *p, const Walk *w, const double *g, doubl
         }
 }
 
-/* One more entry of the column that is being written. */
+/* Append an entry to the column that is being written. */
 static void add_entry(Polish *p, size_t *at, int row, double value) {
     p->index[*at] = row;
     p->value[(*at)++] = value;
 }
 
-/* The matrix at the point, regularised; with its pattern. False: no memory. */
+/* The regularised matrix at the point, with its pattern. Returns false when memory does not
+ * suffice. */
 static bool write_matrix(Polish *p) {
     const CpsiSparseData *d = &p->program->data;
     size_t at = 0, largest = 1;
@@ -242,7 +245,7 @@ static bool write_matrix(Polish *p) {
     return true;
 }
 
-/* out -= matrix x without EASE */
+/* out -= matrix x, without EASE */
 static void subtract_product(const Polish *p, const double *x, double *out) {
     for (int j = 0; j < p->size; j++)
         for (size_t e = p->start[j]; e < p->start[j + 1]; e++) {
@@ -253,7 +256,7 @@ static void subtract_product(const Polish *p, const double *x, double *out) {
         }
 }
 
-/* step = matrix^-1 left, refined */
+/* step = matrix^-1 left, with iterative refinement */
 static bool solve(Polish *p) {
     if (!write_matrix(p)) return false;
     if (!p->ldl) {
@@ -272,8 +275,9 @@ static bool solve(Polish *p) {
     return true;
 }
 
-/* Newton's steps with these kinds: what is admissible, and no worse than before and than the
- * loop's, is taken. False without memory. */
+/* Newton's steps with the present activities. A point is accepted if it is admissible and its
+ * residual is no worse than before and no worse than the loop's. Returns false when memory does not
+ * suffice. */
 static bool polish_steps(Polish *p) {
     CpsiSparseProgram *program = p->program;
     const CpsiSparseData *d = &program->data;
@@ -296,8 +300,9 @@ static bool polish_steps(Polish *p) {
     return true;
 }
 
-/* Steps that do not settle: the cone whose multiplier has lost the largest share, if one has, is
- * tried without force. The program's own z are those that steps began with, or better. */
+/* For steps that do not converge: assume no force for the cone whose multiplier has lost the
+ * largest share, if any has. The program's own z are the initial ones of the steps, or better
+ * ones. */
 static void doubt(Polish *p) {
     const CpsiCones *cones = &p->program->core.cones;
     double least = 1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A sparse program set up and solved (sparse_program.h). */
+/* Set-up and solution of a sparse program (sparse_program.h). */
 #include "conic/sparse_program.h"
 
 #include <float.h>
@@ -12,23 +12,24 @@
 #include "ipm/ipm.h"
 #include "linalg/dense.h"
 
-/* Merit at which an iterate is good enough to stop; below it rounding rules. */
+/* The loop stops at this merit; below it rounding dominates. */
 static const double TARGET = 1e-16;
 static const int MAX_ITERATIONS = 100;
-/* What is added to the diagonals, in the order tried. Blocks and equations: small against data of
- * order one, but its square is above rounding, so that an order in which it is a pivot of its own
- * loses no more than refinement brings back; equations that are weak beside others want less. Free
- * unknowns: long chains of constraints need little (their least singular value squared is (pi/n)^2,
- * 1e-9 for 1e5 elements), constraints that depend on each other more. The first alone leaves 1 to 2
- * of 5000 random systems inaccurate. */
+/* The regularisation added to the diagonals, in the order tried. Blocks and equations: small
+ * against data of order one, but with a square above rounding, so that an order in which it is a
+ * pivot by itself loses no more than refinement recovers; equations that are weak beside others
+ * need a smaller one. Free unknowns: long chains of constraints need a small one (the square of
+ * their smallest singular value is (pi/n)^2, 1e-9 for 1e5 elements), constraints that depend on
+ * each other a larger one. The first value alone leaves 1 to 2 of 5000 random systems
+ * inaccurate. */
 typedef struct Regular {
     double held, loose; /* blocks and equations; free unknowns */
 } Regular;
 static const Regular REGULAR[] = {{3e-8, 1e-9}, {3e-8, 1e-7}, {1e-10, 1e-9}, {1e-10, 1e-12}};
-/* Merit above which the next one is tried, in units of 1 + the largest unknown: sound runs end at
- * its rounding. */
+/* The next regularisation is tried above this merit, in units of 1 + the largest unknown; a
+ * successful run ends at the rounding of that unknown. */
 static const double SOUND = 1e-14;
-/* Entries of the factor: 6 GB. */
+/* Limit for the entries of the factor: 6 GB. */
 static const size_t MOST_ENTRIES = (size_t)500 << 20;
 
 /* Sizes of the whole program. */
@@ -78,7 +79,8 @@ static void lay(CpsiArena *arena, CpsiSparseProgram *program, const Sizes *sizes
     program->core.cones.dim = program->dim;
 }
 
-/* Fill what does not change: dims, b, places, signs, and the entries of E. */
+/* Set what does not change between solves: dimensions, b, positions, signs, and the entries of
+ * E. */
 static void fill(CpsiSparseProgram *program) {
     const CpsiSparseData *d = &program->data;
     int *dim = program->dim;
@@ -188,7 +190,7 @@ void cpsi_sparse_program_free(CpsiSparseProgram *program) {
     free(program);
 }
 
-/* Choose the regularisation. */
+/* Set the regularisation. */
 static void regularise(CpsiSparseProgram *program, const Regular *with) {
     const CpsiSparseData *d = &program->data;
     int first = 0;
@@ -211,7 +213,7 @@ CpsiConicResult cpsi_sparse_program_solve(CpsiSparseProgram *program, double acc
     cpsi_homogeneous_begin(core);
     for (size_t k = 0; k < sizeof REGULAR / sizeof *REGULAR; k++) {
         regularise(program, &REGULAR[k]);
-        cpsi_ipm_solve(&core->base, &options); /* keeps the best iterate of all */
+        cpsi_ipm_solve(&core->base, &options); /* keeps the best iterate of all runs */
         double largest = 0;
         for (int j = 0; j < core->unknowns; j++) largest = fmax(largest, fabs(core->best[j]));
         largest /= core->best[cpsi_homogeneous_tau(core)];

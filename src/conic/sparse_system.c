@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The operator of a sparse program: its maps, and the linear system of its directions.
  *
- * The scaled duals w = W dz/sqrt(g) stay unknowns (homogeneous.c). With A~ =
- * sqrt(g) W^-1 A, b~ alike, and -w, -dy for w and dy the system is symmetric but for dtau,
+ * The scaled duals w = W dz/sqrt(g) remain unknowns (homogeneous.c). With A~ = sqrt(g) W^-1 A, b~
+ * alike, and with -w, -dy instead of w and dy, the system is symmetric except for dtau,
  *
  *     [ 0   E'  A~' ] [ dx]   [f_x]        [ c  ]
  *     [ E   0   0   ] [-dy] = [f_y] - dtau [ h  ]         K (dx, -dy, -w) = f - dtau p
@@ -10,10 +10,10 @@
  *
  *     - c.dx - h.dy + b~.(-w) + kappa/tau dtau = f_tau
  *
- * With K regularised on both diagonals and factorised with w eliminated, K v = p and K t = f give
+ * With K regularised on both diagonals and factorised after eliminating w, K v = p and K t = f give
  * dtau from the last line, whose coefficient is then kappa/tau + delta |v_xy|^2 + |v_w|^2 by the
- * skewness of the rest. That solves nearly the system; refinement on the whole of it takes delta
- * and most of the rounding out again, also where K alone is singular. */
+ * skewness of the rest. This solves the system approximately; iterative refinement of the whole
+ * system removes delta and most of the rounding, also where K alone is singular. */
 #include "conic/sparse_program.h"
 
 #include <math.h>
@@ -22,11 +22,11 @@
 #include "base/larger.h"
 #include "linalg/dense.h"
 
-/* Pivots below this are rounding. */
+/* Smaller pivots are rounding. */
 static const double LEAST_PIVOT = 1e-13;
 /* Refinement ends at this relative residual, when a round leaves more than the share SLOW of it, or
- * after MOST_ROUNDS: slow progress comes from directions in which the matrix is small beside its
- * regularisation, and pays late in the loop. */
+ * after MOST_ROUNDS. Slow progress comes from directions in which the matrix is small beside its
+ * regularisation, and is worth its cost late in the loop. */
 static const double REFINED = 1e-15, SLOW = 0.9;
 static const int MOST_ROUNDS = 30;
 
@@ -60,7 +60,7 @@ static double offset(const CpsiHomogeneous *core, const double *y, const double 
     return sum + cpsi_dot(d->equations, d->h, y);
 }
 
-/* A~ and b~ of one block; `cone` and `row` are its first */
+/* A~ and b~ of one block, whose first cone and row are `cone` and `row` */
 static void scale_block(CpsiSparseProgram *program, int k, int cone, int row) {
     const CpsiBlock *block = &program->data.block[k];
     const CpsiCones *cones = &program->core.cones;
@@ -105,7 +105,7 @@ static size_t length(const CpsiSparseProgram *program) {
            1;
 }
 
-/* left = f - (K, c, h, b~; ..) at */
+/* left = f - the system's matrix times `at` */
 static void residual_of(const CpsiSparseProgram *program, const CpsiTriple *f, const CpsiTriple *at,
                         const CpsiTriple *left) {
     const CpsiSparseData *d = &program->data;
@@ -129,7 +129,7 @@ static void solve_symmetric(const CpsiSparseProgram *program, const CpsiTriple *
                             const CpsiTriple *out) {
     const CpsiSparseData *d = &program->data;
     memcpy(out->x, right->x,
-           (size_t)(d->unknowns + d->equations) * sizeof *out->x); /* y lies behind x */
+           (size_t)(d->unknowns + d->equations) * sizeof *out->x); /* y is stored after x */
     cpsi_sparse_blocks_add(program, true, 1, right->w, out->x);
     cpsi_ldl_solve(program->ldl, out->x);
     cpsi_sparse_blocks_multiply(program, true, out->x, out->w);
@@ -156,7 +156,7 @@ static double largest_of(const CpsiSparseProgram *program, const CpsiTriple *a) 
     return largest;
 }
 
-/* The system solved for program->right into program->answer, refined while that helps. */
+/* Solve the system for program->right into program->answer, refined as long as that helps. */
 static void solve_refined(CpsiSparseProgram *program) {
     const size_t size = length(program);
     const CpsiTriple *f = &program->right, *out = &program->answer, *left = &program->left,
@@ -170,7 +170,7 @@ static void solve_refined(CpsiSparseProgram *program) {
         for (size_t i = 0; i < size; i++) out->x[i] += fix->x[i];
         residual_of(program, f, out, left);
         const double now = largest_of(program, left);
-        /* a round that made it worse is taken back, but for the first */
+        /* undo a round that increased the residual, except the first */
         if (round > 0 && now > before)
             for (size_t i = 0; i < size; i++) out->x[i] -= fix->x[i];
         if (!(now > goal) || (round > 0 && !(now < SLOW * before))) break;
@@ -178,7 +178,7 @@ static void solve_refined(CpsiSparseProgram *program) {
     }
 }
 
-/* K^-1 p, once refined, and the coefficient of dtau */
+/* K^-1 p, refined once, and the coefficient of dtau */
 static void prepare_tau(CpsiSparseProgram *program) {
     const CpsiSparseData *d = &program->data;
     const int n = d->unknowns, m = d->equations, rows = program->core.cones.rows;
@@ -195,11 +195,11 @@ static void prepare_tau(CpsiSparseProgram *program) {
     for (size_t i = 0; i < length(program) - 1; i++) v->x[i] += program->fix.x[i];
     program->below = program->core.kappa / program->core.base.u[n + m] + cpsi_dot(rows, v->w, v->w);
     for (int i = 0; i < n + m; i++)
-        program->below += program->regular[i] * v->x[i] * v->x[i]; /* y lies behind x */
+        program->below += program->regular[i] * v->x[i] * v->x[i]; /* y is stored after x */
 }
 
-/* The condensed matrix [ A~'A~ + delta, E'; E, -delta ]: the blocks' triangles; E does not change.
- */
+/* The condensed matrix [ A~'A~ + delta, E'; E, -delta ]: writes the blocks' triangles, since E does
+ * not change. */
 static bool factor(CpsiProgram *base) {
     CpsiSparseProgram *program = (CpsiSparseProgram *)base;
     const CpsiSparseData *d = &program->data;
@@ -220,7 +220,7 @@ static bool factor(CpsiProgram *base) {
     }
     if (!cpsi_ldl_factor(program->ldl, program->value, program->sign, LEAST_PIVOT)) return false;
 
-    prepare_tau(program); /* serves both directions */
+    prepare_tau(program); /* used by both directions */
     return true;
 }
 
