@@ -2,21 +2,22 @@
 /* Area and perimeter of planar sets.
  *
  * Closed forms: a translate, scale or similar image has those of its part, times the factor;
- * polygons given by their points; a disc, cut by parallel lines as well; an ellipse of half axes a,
- * b, whose perimeter is a complete elliptic integral,
+ * polygons given by their points; a disc, also cut by parallel lines; an ellipse of half axes a, b,
+ * whose perimeter is a complete elliptic integral,
  *
  *     2 pi (a^2 - sum of 2^(k-1) c_k^2)/M,    a, b -> M by arithmetic and geometric means,
  *         c_k^2 = a_k^2 - b_k^2
  *
- * (Abramowitz and Stegun 1964, 17.6). All other sets: the walk round the outline (outline.h), seen
- * through a map that makes thin sets round. Corners and edges are a polygon. An arc from x at angle
- * a to y at b has, with the origin inside, h its support function and h' = <w', x> (Cauchy; Santalo
- * 1976, I.1),
+ * (Abramowitz and Stegun 1964, 17.6). For all other sets the outline is followed once round
+ * (outline.h), after an affine map that makes thin sets round. Corners and edges are a polygon. An
+ * arc from x at angle a to y at b has, with the origin inside, h its support function and h' = <w',
+ * x> (Cauchy; Santalo 1976, I.1),
  *
  *     sector = 1/2 integral of (h^2 - h'^2) + 1/2 [h h'],      length = integral of h + [h'],
  *
- * by Gauss-Legendre quadrature with halving. What was too short to be told from a corner counts as
- * its chord; it stays in the triangle of its chord and tangents, which bounds what that leaves. */
+ * by Gauss-Legendre quadrature with halving. An interval too short to be distinguished from a
+ * corner counts as its chord. Its boundary lies in the triangle of its chord and tangents, which
+ * bounds the error. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,8 +43,8 @@ static bool exactly(CpsSetMeasure *measure, double area, double perimeter) {
 /* ---- closed forms ---- */
 
 static bool ellipse(const CpsSet *set, CpsSetMeasure *measure) {
-    /* the inverse of S's lower Cholesky factor has 1/sqrt(det S) on its diagonal; no product of
-     * entries overflows that the axes do not */
+    /* The inverse of S's lower Cholesky factor has 1/sqrt(det S) on its diagonal. A product of
+     * entries overflows only where the axes do. */
     const double *s = set->b, half = 0.5 * s[0] + 0.5 * s[3],
                  off = hypot(0.5 * s[0] - 0.5 * s[3], s[1]);
     double a = sqrt(half + off), b = 1 / set->c[0] / a / set->c[3];
@@ -62,7 +63,7 @@ static bool ellipse(const CpsSet *set, CpsSetMeasure *measure) {
     return exactly(measure, area, 2 * CPSI_PI * left / a * unit);
 }
 
-/* A disc of radius r between the lines at low and high from its center. */
+/* A disc of radius r between the lines at low and high from its centre. */
 static bool cut_disc(double r, double low, double high, CpsSetMeasure *measure) {
     const double from = fmax(-1, low / r), to = fmin(1, high / r);
     if (!(r > 0) || !(from < to)) return false;
@@ -71,7 +72,7 @@ static bool cut_disc(double r, double low, double high, CpsSetMeasure *measure) 
     return exactly(measure, r * r * (turn + to * d - from * c), 2 * r * (turn + c + d));
 }
 
-/* a disc and a half plane or strip, in either order */
+/* a disc and a half-plane or strip, in either order */
 static bool wheel(const CpsSet *set, CpsSetMeasure *measure) {
     if (set->count != 2) return false;
     const bool first = set->part[0]->kind == CPSI_SET_BALL;
@@ -91,8 +92,8 @@ static int by_place(const void *one, const void *other) {
     return (x[1] > y[1]) - (x[1] < y[1]);
 }
 
-/* Length and area of one side of the hull of sorted points, walked with `step`: the monotone chain
- * (Andrew 1979). */
+/* Length and area of one side of the hull of sorted points, traversed with `step`: the monotone
+ * chain (Andrew 1979). */
 static void chain(int count, const double *point, int step, double *hull, CpsSetMeasure *measure) {
     int top = 0;
     for (int k = 0; k < count; k++) {
@@ -140,7 +141,7 @@ static bool closed(const CpsSet *set, CpsSetMeasure *measure) {
     }
 }
 
-/* The factor by which the set is larger than its one part, of the same shape; 0 where it is not. */
+/* The factor between a set and its one part where the two are similar; 0 where they are not. */
 static double likeness(const CpsSet *set) {
     const double *m = set->a;
     double rows, product, columns;
@@ -150,7 +151,7 @@ static double likeness(const CpsSet *set) {
     case CPSI_SET_IMAGE:
     case CPSI_SET_PREIMAGE:
         if (set->n != 2 || set->part[0]->n != 2) return 0;
-        /* rows of one length, normal to each other, to rounding */
+        /* rows of one length and normal to each other, up to rounding */
         rows = hypot(m[0], m[1]);
         columns = hypot(m[2], m[3]);
         product = m[0] / rows * (m[2] / columns) + m[1] / rows * (m[3] / columns);
@@ -163,9 +164,8 @@ static double likeness(const CpsSet *set) {
 
 /* ---- along the outline ---- */
 
-/* Let the walk see the set through a map in which it is as wide as it is high. The longest chord
- * found and what is normal to it become the axes; once more in the new ones, until no width differs
- * much. */
+/* Choose the map so that the image of the set is as wide as it is high: the longest chord found and
+ * its normal become the axes. This is repeated in the new axes until no two widths differ much. */
 static void make_round(CpsiWalk *walk) {
     enum { LOOKS = 8, ROUNDS = 12 };
     const double size = walk->size;
@@ -194,16 +194,16 @@ static void make_round(CpsiWalk *walk) {
             walk->turn[2 + j] = 2 / width[1] * (c * turn[2 + j] - s * turn[j]);
         }
     }
-    /* what rounding the data leaves of a point, and a conic solution more, is no shape of the
-     * set's */
+    /* Features smaller than the rounding of the data, or than the error of a conic solution, are
+     * not features of the set. */
     const double *t = walk->turn, grown = hypot(hypot(t[0], t[1]), hypot(t[2], t[3])) * size;
     walk->size = fmax(1, (walk->exact ? 1e-6 : 1e-4) * grown);
 }
 
-/* What the map's inverse does. */
+/* Properties of the map. */
 typedef struct Seen {
-    double determinant, back[4]; /* of the map; of its inverse */
-    double longest, shortest;    /* most and least by which the inverse stretches */
+    double determinant, back[4]; /* of the map; entries of its inverse */
+    double longest, shortest;    /* largest and smallest factor by which the inverse stretches */
 } Seen;
 
 static Seen see(const CpsiWalk *walk) {
@@ -222,7 +222,7 @@ static double length_back(const Seen *seen, const double x[2], const double y[2]
                  seen->back[2] * d[0] + seen->back[3] * d[1]);
 }
 
-/* What is integrated over the normal angle of what the walk sees. */
+/* The integrand over the normal angle of the mapped set. */
 static double integrand(CpsiWalk *walk, bool area, double theta) {
     double x[2];
     const double h = cpsi_walk_visit(walk, theta, x), slope = cos(theta) * x[1] - sin(theta) * x[0];
@@ -242,7 +242,7 @@ static double gauss(CpsiWalk *walk, bool area, double a, double b) {
     return sum;
 }
 
-/* By halving; `unit` is what the result is relative to, for a whole turn. */
+/* Adaptive halving; `unit` is the size that the error is relative to, for a whole turn. */
 static double integrate(CpsiWalk *walk, bool area, double a, double b, double whole, double unit,
                         int depth, double *gap) {
     if (!going(walk)) return 0;
@@ -256,8 +256,8 @@ static double integrate(CpsiWalk *walk, bool area, double a, double b, double wh
     return left + right;
 }
 
-/* An arc: its sector as the walk sees it, its length as it is, from one true normal angle to the
- * other. */
+/* An arc: its sector in the image, and its length in the original plane, from one true normal angle
+ * to the other. */
 static void along_arc(CpsiWalk *walk, const Seen *seen, const CpsiOutlinePiece *piece,
                       CpsSetMeasure *measure) {
     enum { DEPTH = 40 };
@@ -298,14 +298,14 @@ static void along_piece(CpsiWalk *walk, const Seen *seen, const CpsiOutlinePiece
     measure->perimeter += chord;
     measure->area += 0.5 * cross(x, y);
     if (piece->kind == CPSI_PIECE_CORNER) {
-        /* a way that turns by an eighth of a circle at most between two of its points is at most a
-         * tenth longer */
+        /* a path that turns by at most an eighth of a circle between two of its points is at most a
+         * tenth longer than its chord */
         measure->perimeter_gap += (1.1 * seen->longest - seen->shortest) * piece->drift;
         measure->area_gap += piece->drift * piece->drift;
         return;
     }
-    /* where the tangents meet: the chord's way from x along the first; and no further off the chord
-     * than the drift */
+    /* The intersection of the tangents bounds the length; the distance from the chord is also at
+     * most the drift. */
     const double d[2] = {y[0] - x[0], y[1] - x[1]},
                  along = (cos(b) * d[0] + sin(b) * d[1]) / sin(b - a);
     const double meet[2] = {x[0] - along * sin(a), x[1] + along * cos(a)},
@@ -323,7 +323,7 @@ static void along_outline(CpsiWalk *walk, CpsSetMeasure *measure) {
     for (int k = 0; k < walk->count && going(walk); k++) {
         const CpsiOutlinePiece *piece = &walk->piece[k],
                                *next = &walk->piece[(k + 1) % walk->count];
-        /* a corner that was not one point is an arc, though a small one */
+        /* a corner that is not exactly one point is a small arc */
         polygonal =
             polygonal && piece->kind == CPSI_PIECE_CORNER && piece->drift <= 1e-13 * walk->size;
         along_piece(walk, &seen, piece, measure);
@@ -338,7 +338,8 @@ static void along_outline(CpsiWalk *walk, CpsSetMeasure *measure) {
     measure->area_gap += walk->gap * measure->perimeter;
 }
 
-/* A flat set, and what its width may add: a rectangle along its basis holds it. */
+/* A flat set. The contribution of its width is bounded by the rectangle along its basis that
+ * contains it. */
 static void flat(CpsiWalk *walk, CpsSetMeasure *measure) {
     double x[2], width[2];
     for (int k = 0; k < 2; k++)

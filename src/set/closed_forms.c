@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Closed forms: support of primitives; projection and gauge of primitives and of what is put
- * together from them without meeting (products, translates, scales; for gauges intersections too).
- * Margins are in margin.c.
+/* Closed forms: support of primitives; projection and gauge of primitives and of sets composed of
+ * them without intersections (products, translates, scales; for gauges intersections too). Margins
+ * are in margin.c.
  *
- *     ball        h = <w, c> + r|w|                     ellipsoid   h = <w, c> + sqrt(w'Sw)
- *     box         h = sum max(w_i low_i, w_i high_i)     cone
- *         h = 0 on its polar, else infinite
- *     gauge of a ball with 0 inside: the positive root of (r^2 - |c|^2) t^2 + 2 <c, x> t - |x|^2 =
- *         0
- *     polar of a ball with 0 in it: h is the ball's gauge t, attained at its gradient (w - t
- *         c)/(<c, w - t c> + t r^2) */
+ *     ball        h = <w, c> + r|w|
+ *     ellipsoid   h = <w, c> + sqrt(w'Sw)
+ *     box         h = sum max(w_i low_i, w_i high_i)
+ *     cone        h = 0 on its polar, else infinite
+ *     gauge of a ball that contains 0: the positive root of
+ *                 (r^2 - |c|^2) t^2 + 2 <c, x> t - |x|^2 = 0
+ *     polar of a ball that contains 0: h is the ball's gauge t, attained at its gradient
+ *                 (w - t c)/(<c, w - t c> + t r^2) */
 #include <math.h>
 #include <string.h>
 
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* Directions closer than this (radians) are taken as parallel, where a set is unbounded across. */
+/* Directions closer than this (radians) count as parallel where a set is unbounded in the direction
+ * normal to them. */
 static const double PARALLEL = 1e-12;
 
 /* ---- support ---- */
@@ -108,7 +110,7 @@ static double support_subspace(const CpsSet *set, const double *w, double *point
     return 0;
 }
 
-/* A half space or a strip: rows a and perhaps -a. */
+/* A half-space or a strip: rows a and perhaps -a. */
 static bool is_strip(const CpsSet *set) {
     if (set->kind != CPSI_SET_INEQUALITIES || set->count < 1 || set->count > 2) return false;
     if (set->count == 1) return true;
@@ -133,19 +135,20 @@ static double support_strip(const CpsSet *set, const double *w, double *point) {
     return factor * end;
 }
 
-/* ---- a ball seen from 0 ---- */
+/* ---- balls and the origin ---- */
 
-/* 0 lies on the boundary of a ball to this share of its square radius; further inside the root has
- * its digits. */
+/* The boundary of a ball passes through 0 where 0 is this near to it, relative to the square of the
+ * radius. INSIDE: farther inside than this the root keeps its digits. */
 static const double THROUGH_ZERO = 1e-14, INSIDE = 1e-6;
 
-/* Has the root its digits?  Towards the centre it has them always. */
+/* Whether the root keeps its digits. Towards the centre it always does. */
 static bool gauge_is_known(double square, double cc, double cx) {
     return cx > 0 || fabs(square - cc) <= THROUGH_ZERO * square || cc < square * (1 - INSIDE);
 }
 
 /* Root for a ball of square radius `square` about c, given the products. With 0 on the boundary the
- * ball's multiples fill the open half-space of its centre: |x|^2/2<c, x> there, else infinite. */
+ * multiples of the ball fill the open half-space of its centre: |x|^2/2<c, x> there, else
+ * infinite. */
 static double gauge_ball(double square, double cc, double cx, double xx) {
     const double lead = square - cc;
     if (xx == 0) return 0;
@@ -161,9 +164,9 @@ static double center(const CpsSet *ball, const double *shift, int i) {
     return ball->a[i] + (shift ? shift[i] : 0);
 }
 
-/* Support of the polar of a ball that holds 0. With 0 on the boundary it is a paraboloid, which
- * nothing bounds across its axis either, though its one ray, -c, does not lead there. False where 0
- * lies outside or the gauge has no digits. */
+/* Support of the polar of a ball that contains 0. With 0 on the boundary the polar is a paraboloid:
+ * it is unbounded in directions across its axis too, although its only ray is -c. Returns false
+ * where 0 lies outside or the gauge has lost its digits. */
 static bool support_polar(const CpsSet *set, const double *w, double *point, double *value) {
     const CpsSet *part = set->part[0],
                  *ball = part->kind == CPSI_SET_TRANSLATE ? part->part[0] : part;

@@ -5,7 +5,7 @@
  *     C + ball                   margin in C, inside or outside, plus the radius
  *     translates, scales, images by similarities    the part's margin times the factor
  *     preimages by L with L L' = s^2 I
- *         margin of L p + shift over s: a ball is mapped onto one
+ *         margin of L p + shift over s, since L maps balls onto balls
  *     polar of points v_k                           least (1 - <v_k, p>)/|v_k| */
 #include <math.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* The length s of the rows of a map whose rows are normal to each other and of one length, to
+/* The length s of the rows of a map whose rows are normal to each other and of one length, up to
  * rounding; else 0. */
 static double similar(int rows, int n, const double *map) {
     const double size = cpsi_norm(n, map);
@@ -25,7 +25,7 @@ static double similar(int rows, int n, const double *map) {
     return size;
 }
 
-/* C + ball: all parts but one are balls and points. */
+/* C + ball, where all parts but one are balls and points. */
 static bool sum_margin(const CpsSet *set, const double *p, double *separating, double *margin) {
     const CpsSet *other = NULL;
     const int n = set->n;
@@ -114,8 +114,8 @@ static bool ellipsoid_margin(const CpsSet *set, const double *p, double *radius)
     return done;
 }
 
-/* The radius that fits round a point of the set, something negative for others; false where no
- * formula is known. */
+/* The radius of the largest ball round a point of the set, a negative number for other points.
+ * Returns false where no formula is known. */
 static bool inner_radius(const CpsSet *set, const double *p, double *radius) {
     const int n = set->n;
     double least = INFINITY, part = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* From rows to the reduced form (conic_form.h): the equations are eliminated by an orthonormal
- * basis of their null space, the unknowns that no cone sees become lines of the set or vanish, and
- * the rest is brought to size one. */
+ * basis of their null space, the unknowns that appear in no cone become lines of the set or vanish,
+ * and the remaining rows are scaled to size one. */
 #include "set/conic_form.h"
 
 #include <math.h>
@@ -13,13 +13,14 @@
 #include "ipm/cones.h"
 #include "linalg/dense.h"
 
-/* Unknowns, and numbers in one matrix, that a dense solver takes. */
+/* Limits for the number of unknowns and of entries of one matrix in the dense solver. */
 static const size_t MOST_UNKNOWNS = 2000, MOST_NUMBERS = 32u << 20;
-/* Equations contradict each other beyond this share of the size of the data. */
+/* Equations contradict each other where their residual exceeds this share of the size of the
+ * data. */
 static const double CONTRADICTION = 1e-9;
-/* What is left of constants that cancel each other, some tens, beside the largest of them. */
+/* Rounding of constants that cancel each other, some tens of them, relative to the largest. */
 static const double ROUNDING = 1e-14;
-/* Numbers below this share of what they were before an elimination are rounding. */
+/* Numbers below this share of their size before an elimination are rounding. */
 static const double NOISE = 1e-11;
 
 CpsStatus cpsi_conic_rows_new(CpsiCount count, int used, CpsiConicRows **out, CpsError *err) {
@@ -71,13 +72,15 @@ double *cpsi_conic_rows_cone(CpsiConicRows *conic, int dim) {
 
 /* Scratch of a reduction. */
 typedef struct Work {
-    double *equation, *rhs; /* the equations, made orthonormal, completed (unknowns, unknowns) */
-    double *start;          /* (unknowns) a solution of the equations */
-    double *rows, *map; /* rows and x over what is left, affine (rows, left + 1), (n, left + 1) */
-    double *span;       /* orthonormal basis of what the rows see, completed */
-    double *lines;      /* (lines + left, n) */
-    double *reach;      /* (n) size of the rows of x before */
-    double length;      /* largest constant of a row of size one */
+    /* the equations, made orthonormal and completed to a basis (unknowns, unknowns) */
+    double *equation, *rhs;
+    double *start; /* (unknowns) a solution of the equations */
+    /* rows and x over the remaining unknowns, affine: (rows, left + 1), (n, left + 1) */
+    double *rows, *map;
+    double *span;  /* orthonormal basis of the row space, completed */
+    double *lines; /* (lines + left, n) */
+    double *reach; /* (n) previous size of the rows of x */
+    double length; /* largest constant of a row of size one */
 } Work;
 
 static void layout_work(CpsiArena *arena, Work *work, const CpsiConicRows *conic, int n,
@@ -95,8 +98,8 @@ static void layout_work(CpsiArena *arena, Work *work, const CpsiConicRows *conic
     work->lines = CPSI_TAKE(arena, ((size_t)lines + u) * (size_t)n, double);
 }
 
-/* Rows (count, from + 1) over v rewritten over t, v = start + basis' t, basis (to, from); basis
- * NULL is the identity. */
+/* Express rows (count, from + 1) over v as rows over t, v = start + basis' t, basis (to, from);
+ * basis NULL is the identity. */
 static void substitute(int count, int from, int to, const double *start, const double *basis,
                        const double *in, double *out) {
     for (int i = 0; i < count; i++) {
@@ -109,8 +112,8 @@ static void substitute(int count, int from, int to, const double *start, const d
     }
 }
 
-/* Solve the equations: start, and in the rows from the rank on a basis of what they leave free.
- * Returns the rank, or -1. */
+/* Solve the equations: `start`, and a basis of their null space in the rows of work->equation after
+ * the first `rank`. Returns the rank, or -1. */
 static int eliminate(const CpsiConicRows *conic, Work *work, double tolerance) {
     const int u = conic->unknowns;
     double largest = 0, noise = 0;
@@ -172,7 +175,7 @@ void cpsi_conic_form_free(CpsiConicForm *form) {
     free(form);
 }
 
-/* Is the constant cone of rows (dim, left + 1) without unknowns met, up to `slack`? */
+/* Whether rows (dim, left + 1) without unknowns lie in their cone, up to `slack`. */
 static bool constant_holds(const double *rows, int dim, int left, double slack) {
     const size_t w = (size_t)left + 1;
     double r = 0;
@@ -180,7 +183,7 @@ static bool constant_holds(const double *rows, int dim, int left, double slack) 
     return rows[left] - r >= -slack;
 }
 
-/* Copy the cones that see an unknown, each brought to size one, and measure v. */
+/* Copy the cones that contain an unknown, each scaled to size one, and determine the unit of v. */
 static void collect_cones(const CpsiConicRows *conic, int left, const double *rows, double length,
                           CpsiConicForm *form) {
     const size_t w = (size_t)left + 1;
@@ -194,7 +197,7 @@ static void collect_cones(const CpsiConicRows *conic, int left, const double *ro
             most = fmax(most, cpsi_norm(left, &rows[(size_t)r * w]));
             shift = fmax(shift, fabs(rows[(size_t)r * w + (size_t)left]));
         }
-        /* what elimination leaves of a row beside this is its rounding */
+        /* a row whose elimination leaves less than this share is rounding */
         if (!(most > NOISE * before)) {
             if (!constant_holds(&rows[(size_t)i * w], d, left, CONTRADICTION * before * length))
                 form->empty = true;
@@ -213,7 +216,7 @@ static void collect_cones(const CpsiConicRows *conic, int left, const double *ro
     for (int i = 0; i < form->rows; i++) form->b[i] /= form->size;
 }
 
-/* The form over the unknowns t that are left, rows and map affine in them. */
+/* The form over the remaining unknowns t, in which rows and map are affine. */
 static CpsiConicForm *assemble(const CpsiConicRows *conic, int n, int left, int lines,
                                const double *rows, const double *map, const double *q,
                                double length) {
@@ -228,7 +231,7 @@ static CpsiConicForm *assemble(const CpsiConicRows *conic, int n, int left, int 
             form->p[(size_t)i * (size_t)left + (size_t)j] =
                 map[(size_t)i * ((size_t)left + 1) + (size_t)j] * form->size;
     }
-    /* what moves along a line need not be said twice */
+    /* remove the components along the lines, which are represented already */
     for (int l = 0; l < lines; l++)
         for (int j = -1; j < left; j++) {
             double *column = j < 0 ? form->origin : &form->p[j], along = 0;
@@ -239,8 +242,8 @@ static CpsiConicForm *assemble(const CpsiConicRows *conic, int n, int left, int 
     return form;
 }
 
-/* The unknowns that the rows see, as an orthonormal basis in work->span, and the lines of x that
- * the others make. Returns how many are seen; *lines grows. */
+/* An orthonormal basis in work->span of the row space, and the lines of x that the other unknowns
+ * generate. Returns the dimension of the row space; *lines increases. */
 static int split(const CpsiConicRows *conic, int n, int left, Work *work, int *lines) {
     const size_t l = (size_t)left, w = l + 1;
     for (int i = 0; i < n; i++) {
@@ -252,7 +255,7 @@ static int split(const CpsiConicRows *conic, int n, int left, Work *work, int *l
         const double before =
             cpsi_norm(conic->unknowns, &conic->row[(size_t)i * (size_t)conic->width]);
         if (!(cpsi_norm(left, row) > NOISE * before)) memset(row, 0, l * sizeof *row);
-        /* what a row has left is told from rounding by what it was */
+        /* whether a remaining row is rounding is decided by its size before */
         for (size_t j = 0; j < l; j++)
             work->span[(size_t)i * l + j] = before > 0 ? row[j] / before : 0;
     }
@@ -290,7 +293,8 @@ CpsStatus cpsi_conic_form_reduce(const CpsiConicRows *conic, int n, const double
         form = cpsi_conic_form_new(n, 0, 0, 0, 0);
         if (form) form->empty = true;
     } else {
-        /* over what the equations leave free, then over what the cones see of it */
+        /* restrict to the null space of the equations, then to the part of it that the cones depend
+         * on */
         const int left = u - rank;
         const double *basis = rank > 0 ? &work.equation[(size_t)rank * (size_t)u] : NULL;
         substitute(conic->rows, u, left, work.start, basis, conic->row, work.rows);
@@ -298,7 +302,8 @@ CpsStatus cpsi_conic_form_reduce(const CpsiConicRows *conic, int n, const double
         for (int i = 0; i < n; i++)
             work.reach[i] = cpsi_norm(u, &x[(size_t)i * (size_t)conic->width]);
         const int seen = split(conic, n, left, &work, &lines);
-        if (seen < left) { /* the narrower rows lie before the ones still to be read */
+        /* the narrower rows are written before the rows that are still to be read */
+        if (seen < left) {
             double *scratch = work.start;
             for (int part = 0; part < 2; part++) {
                 double *rows = part ? work.map : work.rows;

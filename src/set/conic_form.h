@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The conic form of a set and the solver on it.
  *
- * Every expression without user's sets is  { x : exists y, E (x, y) = e, A (x, y) + b in K },  K a
+ * Every expression without user's sets is { x : exists y, E (x, y) = e, A (x, y) + b in K }, K a
  * product of half-lines and second-order cones, built node by node (conic_rows.c): "X in t C" for
  * affine X and t of the unknowns is a list of rows for each kind of C. Eliminating the equations by
- * an orthonormal basis of their null space leaves the reduced form
+ * an orthonormal basis of their null space gives the reduced form
  *
  *     C = { origin + P v + Q' l :  A v + b in K },     A of full column rank, l free,
  *
- * on which all questions are small conic programs in v. */
+ * on which every query is a small conic program in v. */
 #ifndef CAPSTAN_SRC_SET_CONIC_FORM_H
 #define CAPSTAN_SRC_SET_CONIC_FORM_H
 
@@ -20,19 +20,19 @@
 typedef struct CpsiConicForm {
     int n;        /* of x */
     int unknowns; /* of v */
-    int lines;    /* rows of Q: directions in which the set is a line, whatever v */
+    int lines;    /* rows of Q: directions of lines contained in the set */
     int rows, cones, largest_cone;
     bool empty;     /* the equations contradict each other */
     int *dim;       /* (cones) */
     double *origin; /* (n) */
     double *p;      /* (n, unknowns) */
     double *q;      /* (lines, n) orthonormal */
-    double *a, *b;  /* (rows, unknowns), (rows): each cone's rows of size one */
-    double size;    /* v is in units of this length */
+    double *a, *b;  /* (rows, unknowns), (rows): the rows of each cone are scaled to size one */
+    double size;    /* unit of length of v */
 } CpsiConicForm;
 
-/* Rows over unknowns (x, y), while an expression is being written out. An affine expression is
- * `width` numbers: the coefficients of the unknowns and then the constant. */
+/* Rows over unknowns (x, y) while an expression is being written. An affine expression is `width`
+ * numbers: the coefficients of the unknowns and then the constant. */
 typedef struct CpsiConicRows {
     int unknowns, width;        /* width = unknowns + 1 */
     int equations, rows, cones; /* written so far */
@@ -40,38 +40,39 @@ typedef struct CpsiConicRows {
     double *equation;           /* (equations, width) = 0 */
     double *row;                /* (rows, width) in K */
     int *dim;                   /* (cones) */
-    double constant; /* largest one that went into an equation, before others cancelled it */
+    double constant;            /* largest one that occurred in an equation, before cancellation */
     int max_equations, max_rows, max_cones;
 } CpsiConicRows;
 
-/* How much one expression needs. */
+/* Sizes that an expression needs. */
 typedef struct CpsiCount {
     size_t unknowns, equations, rows, cones;
 } CpsiCount;
 
-/* Add what the rows of a set need. */
+/* Add the sizes that the rows of a set need. */
 void cpsi_conic_rows_count(const CpsSet *set, CpsiCount *count);
-/* Room for `count`, CPS_ERR_LIMIT where it is beyond what a dense solver should be asked; the first
- * `used` unknowns are the caller's. */
+/* Memory for `count`; CPS_ERR_LIMIT where that is too large for a dense solver. The first `used`
+ * unknowns are the caller's. */
 CpsStatus cpsi_conic_rows_new(CpsiCount count, int used, CpsiConicRows **out, CpsError *err);
 void cpsi_conic_rows_free(CpsiConicRows *conic);
-/* The next equation; the next cone's rows, `dim` of them; all zero. */
+/* The next equation; the next cone's `dim` rows; all zero. */
 double *cpsi_conic_rows_equation(CpsiConicRows *conic);
 double *cpsi_conic_rows_cone(CpsiConicRows *conic, int dim);
-/* Write "X in t set": X (set's n, width) and t (width) affine; the closure at t = 0. False: no
- * memory. */
+/* Write "X in t set": X (set's n, width) and t (width) affine; the closure at t = 0. Returns false
+ * when memory does not suffice. */
 bool cpsi_conic_rows_write(CpsiConicRows *conic, const CpsSet *set, const double *x,
                            const double *t);
 
 /* The reduced form of { x (n, width) : the rows }. A row of the equations counts as dependent when
- * no more than the share `tolerance` of it is left by the others. `lines` more rows q (lines, n) or
- * NULL are directions known to be lines. */
+ * no more than the share `tolerance` of it remains after subtracting the others. `lines` more rows
+ * q (lines, n) or NULL are directions known to be lines. */
 CpsStatus cpsi_conic_form_reduce(const CpsiConicRows *conic, int n, const double *x, int lines,
                                  const double *q, double tolerance, CpsiConicForm **out,
                                  CpsError *err);
 /* The reduced form of a set; the caller frees it (conic_make.c). */
 CpsStatus cpsi_conic_form_make(const CpsSet *set, CpsiConicForm **out, CpsError *err);
-/* A form of zeros with room for so many unknowns, lines, rows and cones; NULL: no memory. */
+/* A form of zeros with memory for these numbers of unknowns, lines, rows and cones; NULL when
+ * memory does not suffice. */
 CpsiConicForm *cpsi_conic_form_new(int n, int unknowns, int lines, int rows, int cones);
 void cpsi_conic_form_free(CpsiConicForm *form);
 
@@ -88,22 +89,22 @@ typedef struct CpsiSolution {
 CpsStatus cpsi_conic_form_minimise(const CpsiConicForm *form, const double *c,
                                    CpsiSolution *solution, CpsError *err);
 void cpsi_solution_free(CpsiSolution *solution);
-/* Make the outcome CPS_SET_NOT_ATTAINED where the point that attains the value is too far away to
- * be one. */
+/* Change the outcome to CPS_SET_NOT_ATTAINED where the point that attains the value is too far away
+ * to count as a point. */
 void cpsi_check_attained(const CpsiConicForm *form, const double *c, CpsiSolution *solution);
 
-/* The solver's z are this sure: sqrt of its complementarity. No smaller angle is told from 0 on a
- * conic form. */
+/* Accuracy of the solver's z: the square root of its complementarity. Smaller angles cannot be
+ * distinguished from 0 on a conic form. */
 #define CPSI_LEAST_ANGLE 3e-8
-/* Equations of a face that differ by less than this share are one: the directions of z are known
- * that well. */
+/* Equations of a face that differ by less than this share are the same, since the directions of z
+ * have this accuracy. */
 #define CPSI_SAME_EQUATION 1e-7
-/* The part of the form on the face of its cones that the multipliers z of `at` select, each known
- * to `angle`, written round the point with s and x (restrict.c). */
+/* The part of the form on the face of its cones that the multipliers z of `at` select, each
+ * accurate to `angle`, written relative to the point with s and x (restrict.c). */
 CpsStatus cpsi_conic_form_restrict(const CpsiConicForm *form, const CpsiSolution *at, double angle,
                                    CpsiConicForm **out, CpsError *err);
-/* Replace a form without interior by one over the faces of its cones that it lies in; *touching
- * becomes true then (touching.c). */
+/* Replace a form without interior by one over the faces of its cones that it lies in, and set
+ * *touching to true then (touching.c). */
 CpsStatus cpsi_conic_form_deepen(CpsiConicForm **form, bool *touching, CpsError *err);
 
 #endif

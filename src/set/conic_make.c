@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reduced form of a set (conic_form.h): its rows are written (conic_rows.c), then reduced
+/* The reduced form of a set (conic_form.h): its rows are written (conic_rows.c) and then reduced
  * (conic_form.c). */
 #include <stdlib.h>
 

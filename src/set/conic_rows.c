@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* "X in t C" as conic rows, node by node; X and t are affine in the unknowns. With t >= 0 the rows
- * describe the closure of the cone over C x {1} (its perspective), which is what hulls, gauges and
- * polars need; with t = 1 the set itself.
+ * describe the closure of the cone over C x {1} (its perspective), which hulls, gauges and polars
+ * need; with t = 1 they describe the set itself.
  *
- *     product, intersection, preimage, translate, scale     rows of the parts on parts of X
- *     image       X = L y, y in t C                          new unknowns y
- *     sum         X = X_1 + ... + X_k, X_i in t C_i
- *         new unknowns X_2 .. X_k; of an image y_i, X_i = L_i y_i
+ *     product, intersection, preimage, translate, scale
+ *                 rows of the parts on parts of X
+ *     image       X = L y, y in t C: new unknowns y
+ *     sum         X = X_1 + ... + X_k, X_i in t C_i: new unknowns X_2 .. X_k; for an image
+ *                 new unknowns y_i with X_i = L_i y_i
  *     hull        the same with X_i in t_i C_i, sum t_i = t, t_i >= 0
  *     polar       h_C(X) <= t by conic duality: with C = {origin + P v + Q'l : A v + b in K},
- *                 Q X = 0,  A'z + P'X = 0,  <origin, X> + b.z <= t,  z in
- *                           K                                      */
+ *                 Q X = 0,  A'z + P'X = 0,  <origin, X> + b.z <= t,  z in K */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "set/set.h"
 
-/* How a node is written: as it is made, or by its own form. */
+/* The kind as which a node is written: its own, or a conic form. */
 static CpsiSetKind kind_of(const CpsSet *set) { return set->touching ? CPSI_SET_CONIC : set->kind; }
 
-/* In a sum or hull: is X_k written as L y, so that only y is unknown?  The first is what the others
- * leave. */
+/* Whether X_k of a sum or hull is written as L y with unknowns y. This does not hold for the first
+ * part, which is X less the other parts. */
 static bool is_carried(const CpsSet *set, int k) {
     return k > 0 && kind_of(set->part[k]) == CPSI_SET_IMAGE;
 }
@@ -106,9 +106,9 @@ void cpsi_conic_rows_count(const CpsSet *set, CpsiCount *count) {
 
 /* ---- rows of primitives ---- */
 
-/* A coefficient that is this small beside the two it is the sum of is their rounding: maps and
- * bases are right to some tens of eps. An equation made of rounding alone would be scaled up to a
- * full one. */
+/* A sum of two coefficients that is this small relative to them is their rounding: maps and bases
+ * are accurate to some tens of eps. Without this, an equation of rounding errors alone would be
+ * scaled to size one. */
 static const double CANCELLED = 1e-14;
 
 /* out += factor in, both affine */
@@ -120,8 +120,8 @@ static void add(const CpsiConicRows *conic, double factor, const double *in, dou
     out[conic->unknowns] += factor * in[conic->unknowns];
 }
 
-/* The same for an equation, whose constants may cancel: the largest tells what is left from
- * rounding. */
+/* The same for an equation. Its constants may cancel, so the largest one is recorded, relative to
+ * which the sum may be rounding. */
 static void balance(CpsiConicRows *conic, double factor, const double *in, double *equation) {
     add(conic, factor, in, equation);
     conic->constant = fmax(conic->constant, fabs(factor * in[conic->width - 1]));
@@ -139,7 +139,7 @@ static void add_product(const CpsiConicRows *conic, int n, double factor, const 
         if (a[i] != 0) add(conic, factor * a[i], &x[(size_t)i * (size_t)conic->width], out);
 }
 
-/* by facets */
+/* the rows of a hull from its facets */
 static void hull_rows(CpsiConicRows *conic, const CpsiHull *hull, const double *x,
                       const double *t) {
     const size_t n = (size_t)hull->n;
@@ -162,7 +162,7 @@ static void points_rows(CpsiConicRows *conic, const CpsSet *set, const double *x
         return;
     }
     const int n = set->n, first = conic->next;
-    /* X = sum factor_k point_k, factors >= 0 that add up to t */
+    /* X = sum factor_k point_k, with factors >= 0 whose sum is t */
     double *equation = NULL;
     for (int i = 0; i < n; i++) {
         equation = cpsi_conic_rows_equation(conic);
@@ -261,8 +261,8 @@ static void conic_rows(CpsiConicRows *conic, const CpsSet *set, const double *x,
             equation[first + j] += form->p[(size_t)i * (size_t)u + (size_t)j];
         for (int l = 0; l < form->lines; l++) equation[first + u + l] += form->q[l * n + i];
     }
-    if (form->empty)
-        add(conic, 1, t, cpsi_conic_rows_equation(conic)); /* t = 0 has no solution with t = 1 */
+    if (form->empty) /* the equation t = 0 has no solution with t = 1 */
+        add(conic, 1, t, cpsi_conic_rows_equation(conic));
     for (int k = 0, i = 0; k < form->cones; k++) {
         double *rows = cpsi_conic_rows_cone(conic, form->dim[k]);
         for (int r = 0; r < form->dim[k]; r++, i++, rows += conic->width) {
@@ -275,7 +275,7 @@ static void conic_rows(CpsiConicRows *conic, const CpsSet *set, const double *x,
 
 static void polar_rows(CpsiConicRows *conic, const CpsSet *set, const double *x, const double *t) {
     const CpsiConicForm *form = set->dual;
-    if (!form || form->empty) return; /* the polar of nothing is everything */
+    if (!form || form->empty) return; /* the polar of the empty set is the whole space */
     const int n = set->n, u = form->unknowns, first = conic->next;
     conic->next += form->rows;
     for (int l = 0; l < form->lines; l++)
@@ -309,7 +309,7 @@ static bool parts_rows(CpsiConicRows *conic, const CpsSet *set, const double *x,
     return true;
 }
 
-/* the part of a map, translate or scale, on the X that goes with it */
+/* the part of a map, translate or scale, for the corresponding X */
 static bool mapped_rows(CpsiConicRows *conic, const CpsSet *set, const double *x, const double *t) {
     const CpsSet *part = set->part[0];
     const int n = set->n;
@@ -330,7 +330,7 @@ static bool mapped_rows(CpsiConicRows *conic, const CpsSet *set, const double *x
             break;
         default:
             add(conic, 1 / set->scalar, &x[(size_t)i * w], yi);
-            break; /* scale by a factor other than 0 */
+            break; /* scale by a factor that is not 0 */
         }
     }
     if (set->kind == CPSI_SET_IMAGE)
@@ -347,14 +347,15 @@ static bool mapped_rows(CpsiConicRows *conic, const CpsSet *set, const double *x
 static bool sum_rows(CpsiConicRows *conic, const CpsSet *set, const double *x, const double *t) {
     const int n = set->n;
     const bool hull = set->kind == CPSI_SET_HULL;
-    int most = n; /* components of a part */
+    int most = n; /* largest number of components of a part */
     for (int k = 1; k < set->count; k++)
         if (is_carried(set, k) && set->part[k]->part[0]->n > most) most = set->part[k]->part[0]->n;
     const size_t w = (size_t)conic->width, each = ((size_t)most + 1) * w;
     double *parts = calloc((size_t)set->count * each, sizeof *parts),
            *last = parts ? parts + (size_t)most * w : NULL;
     if (!parts) return false;
-    /* X_k or y_k, and t_k, are new unknowns but for the first, which is what is left */
+    /* X_k or y_k, and t_k, are new unknowns, except for the first part, which is X and t less the
+     * others */
     memcpy(parts, x, (size_t)n * w * sizeof *x);
     memcpy(last, t, w * sizeof *t);
     for (int k = 1; k < set->count; k++) {
@@ -408,7 +409,7 @@ bool cpsi_conic_rows_write(CpsiConicRows *conic, const CpsSet *set, const double
     case CPSI_SET_IMAGE:
     case CPSI_SET_TRANSLATE:
     case CPSI_SET_SCALE: return mapped_rows(conic, set, x, t);
-    case CPSI_SET_USER: return true; /* asked for by nobody: cpsi_set_has_user comes first */
+    case CPSI_SET_USER: return true; /* never reached: cpsi_set_has_user is checked before */
     }
     return true;
 }

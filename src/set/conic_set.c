@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reduced conic form of a set (conic_form.h), handed out. */
+/* Public access to the reduced conic form of a set (conic_form.h). */
 #include <math.h>
 
 #include "set/set.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Minimise <c, x> over a reduced form with the interior-point loop, and judge what came out. */
+/* Minimise <c, x> over a reduced form with the interior-point loop, and judge the result. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,17 +9,17 @@
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* Residuals and gap, relative to data of order one, below which a solution is taken; the answers
- * promise 1e-9. */
+/* A solution is accepted where residuals and gap, relative to data of order one, are below this;
+ * the answers promise 1e-9. */
 static const double ACCEPT = 1e-9;
 
-/* What an answer may be off by, relative to its value and to the size of the data. */
+/* Promised error of an answer, relative to its value and to the size of the data. */
 static const double PROMISE = 1e-8;
 
-/* A cost below this share of what it could be is rounding. */
+/* A cost below this share of its possible size is rounding. */
 static const double NOISE = 1e-12;
 
-/* Everything a solution holds, in one block. */
+/* All arrays of a solution, in one block. */
 typedef struct Layout {
     CpsiConicProgram *program;
     double *cost, *x;
@@ -38,7 +38,7 @@ void cpsi_solution_free(CpsiSolution *solution) {
     *solution = (CpsiSolution){.outcome = CPS_SET_INACCURATE};
 }
 
-/* A direction along a line of the set in which <c, x> falls: true where there is one. */
+/* Returns whether <c, x> decreases along a line of the set; ray is then that direction. */
 static bool along_lines(const CpsiConicForm *form, const double *c, double size, double *ray) {
     double most = 1e-10 * size;
     bool found = false;
@@ -59,7 +59,7 @@ static void place(const CpsiConicForm *form, const double *v, bool ray, double *
                cpsi_dot(form->unknowns, &form->p[(size_t)i * (size_t)form->unknowns], v);
 }
 
-/* Is the set empty?  Where it is, a ray means nothing. */
+/* Whether the set is empty; a ray has no meaning where it is. */
 static bool is_empty(const CpsiConicForm *form, const Layout *layout) {
     memset(layout->cost, 0, (size_t)form->unknowns * sizeof *layout->cost);
     return form->unknowns > 0 && form->rows > 0 &&
@@ -87,7 +87,7 @@ static void run(const CpsiConicForm *form, const double *c, const Layout *layout
     solution->z = result.z;
     place(form, solution->v, result.outcome == CPSI_CONIC_UNBOUNDED, solution->x);
     solution->value = cpsi_dot(n, c, solution->x);
-    /* what the complementarity and the residuals leave open */
+    /* error from the complementarity and the residuals */
     const double far = 1 + cpsi_norm(u, solution->v) + cpsi_norm(form->rows, solution->z);
     solution->gap = solution->scale * (result.gap + result.residual * far);
     const double least = form->size + cpsi_norm(n, solution->x);

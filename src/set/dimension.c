@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Dimension, boundedness and the place of 0, from the support function alone.
+/* Dimension, boundedness and position of 0, from the support function alone.
  *
- * Directions D in which the set has been seen to extend are collected one by one: a unit w normal
- * to D and to the directions found flat is asked for the points x+, x- where <w, .> is largest and
- * least; x+ - x- joins D where the width h(w) + h(-w) is more than the tolerance, else w is flat.
- * The mean of all points found (a ray counts as a step along it) lies in the relative interior:
- * their hull has the set's dimension. */
+ * Directions D in which the set extends are collected one by one. For a unit vector w normal to D
+ * and to the directions found flat, the points x+, x- are computed where <w, .> is largest and
+ * smallest. Where the width h(w) + h(-w) exceeds the tolerance, x+ - x- is added to D, else w is
+ * flat. The mean of all points found (a ray counts as a step along it) lies in the relative
+ * interior, because the hull of the points has the set's dimension. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,10 +13,11 @@
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* The search: rows 0 .. dimension - 1 of basis are D, then `flat` flat ones, then candidates. */
+/* The search: rows 0 .. dimension - 1 of basis are D, followed by `flat` flat directions and then
+ * by candidates. */
 typedef struct Search {
     const CpsSet *set;
-    double width; /* below it: flat */
+    double width; /* a smaller width counts as flat */
     int dimension, flat;
     double *basis; /* (n, n) */
     double *sum;   /* (n) sum of the points found */
@@ -25,13 +26,13 @@ typedef struct Search {
     bool bounded, exact;
 } Search;
 
-/* Put v, made normal to D, in as the next row of D; false where nothing of it is left. */
+/* Make v normal to D and add it as the next row of D. Returns false where nothing of it remains. */
 static bool join_direction(Search *search, const double *v) {
     const size_t n = (size_t)search->set->n;
     double *basis = search->basis, *row = search->turned;
     memcpy(row, v, n * sizeof *row);
     const double before = cpsi_norm((int)n, row);
-    /* the flat ones too: along them there is nothing but rounding */
+    /* normal to the flat directions too, along which there is only rounding */
     for (int twice = 0; twice < 2; twice++)
         for (int k = 0; k < search->dimension + search->flat; k++) {
             const double along = cpsi_dot((int)n, row, &basis[(size_t)k * n]);
@@ -67,7 +68,7 @@ static CpsStatus probe(Search *search, CpsSetOutcome *outcome, CpsError *err) {
     }
     const bool up = high.outcome == CPS_SET_UNBOUNDED, down = low.outcome == CPS_SET_UNBOUNDED;
     const bool flat = !up && !down && !(high.value + low.value > search->width);
-    /* a ray is a step of a typical length from the points there are */
+    /* a ray counts as a step of a typical length */
     const double step = cpsi_set_size(set), plus = up ? step / cpsi_norm((int)n, search->plus) : 1,
                  minus = down ? step / cpsi_norm((int)n, search->minus) : 1;
     for (size_t i = 0; i < n; i++) {
@@ -90,7 +91,7 @@ static CpsStatus probe(Search *search, CpsSetOutcome *outcome, CpsError *err) {
     return CPS_OK;
 }
 
-/* A point of the set, for a set whose probes met rays only. */
+/* A point of the set, used where every direction tried gave rays. */
 static CpsStatus any_point(const CpsSet *set, double *point, CpsError *err) {
     CpsSetAnswer answer;
     memset(point, 0, (size_t)set->n * sizeof *point);
@@ -98,7 +99,7 @@ static CpsStatus any_point(const CpsSet *set, double *point, CpsError *err) {
     return status;
 }
 
-/* The centre: the mean of the points, moved along the rays of each unbounded probe. */
+/* The centre: the mean of the points, moved along the rays of each unbounded direction. */
 static CpsStatus search_all(Search *search, double *rays, CpsSetOutcome *outcome, CpsError *err) {
     const size_t n = (size_t)search->set->n;
     CpsStatus status = CPS_OK;
@@ -116,7 +117,7 @@ static CpsStatus search_all(Search *search, double *rays, CpsSetOutcome *outcome
     return status;
 }
 
-/* Is some coordinate unbounded? */
+/* Whether some coordinate is unbounded. */
 static CpsStatus check_bounded(const CpsSet *set, double *w, bool *bounded, CpsError *err) {
     CpsStatus status = CPS_OK;
     memset(w, 0, (size_t)set->n * sizeof *w);
@@ -133,8 +134,8 @@ static CpsStatus check_bounded(const CpsSet *set, double *w, bool *bounded, CpsE
     return status;
 }
 
-/* Where is 0?  In the relative interior when the set reaches out of it both ways along every
- * direction of its basis. */
+/* The position of 0. It is in the relative interior when the set extends from it both ways along
+ * every direction of its basis. */
 static CpsStatus place_zero(const CpsSet *set, const double *center, const double *basis,
                             double *zero, double *work, CpsSetFacts *facts, CpsError *err) {
     const size_t n = (size_t)set->n;
@@ -146,7 +147,7 @@ static CpsStatus place_zero(const CpsSet *set, const double *center, const doubl
     if (status) return status;
     facts->has_zero = known != CPSI_ZERO_UNKNOWN;
     if (!facts->has_zero && far > near) {
-        /* does the whole set lie on the centre's side of 0? */
+        /* check whether the whole set lies on the centre's side of 0 */
         for (size_t i = 0; i < n; i++) work[i] = -center[i] / far;
         status = cpsi_support(set, work, NULL, &answer, err);
         if (status || (answer.outcome == CPS_SET_ANSWERED && answer.value < -near - answer.gap))
@@ -163,7 +164,7 @@ static CpsStatus place_zero(const CpsSet *set, const double *center, const doubl
     }
     facts->zero_relative = facts->has_zero;
     if (known == CPSI_ZERO_RELATIVE || !facts->has_zero) {
-        /* decided */
+        /* already decided */
     } else if (facts->dimension == set->n && cpsi_closed_margin(set, zero, NULL, &margin)) {
         facts->zero_relative = margin > facts->tolerance;
     } else {
@@ -179,9 +180,9 @@ static CpsStatus place_zero(const CpsSet *set, const double *center, const doubl
     return status;
 }
 
-/* Of the polar of a bounded set all is known: 0 lies inside, and it is bounded where 0 lies inside
- * the set. No search along directions would tell: the polar of a ball through 0 is a paraboloid,
- * which grows without a ray. */
+/* The facts of the polar of a bounded set are known: 0 lies inside it, and it is bounded where 0
+ * lies inside the set. A search along directions could not decide this: the polar of a ball through
+ * 0 is a paraboloid, which is unbounded in directions that are not rays. */
 static CpsStatus facts_of_polar(const CpsSet *set, CpsSetFacts *facts, double *center,
                                 double *basis, bool *known, CpsError *err) {
     const size_t n = (size_t)set->n;

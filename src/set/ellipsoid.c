@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The point of an ellipsoid's boundary that is nearest to a given one, from outside and from
- * inside.
+/* The point of an ellipsoid's boundary nearest to a given point, from outside and from inside.
  *
- * In the axes, with half axes e_i and the point at y, the nearest one is x_i = e_i^2 y_i/(e_i^2 +
- * m) for the m that puts it on the boundary: sum of (e_i y_i/(e_i^2 + m))^2 = 1. Of its roots the
- * one with m > -e_1^2, e_1 the least half axis, belongs to the nearest point; m > 0 outside. The
- * unknown is s = m + e_1^2 > 0, in which the sum falls. A point without any component along the
- * shortest axes may have no such root: then s = 0, and those components of x are what is left to
- * 1. */
+ * In the axes, with half axes e_i and the point y, the nearest point is x_i = e_i^2 y_i/(e_i^2 + m)
+ * for the m that places it on the boundary: sum of (e_i y_i/(e_i^2 + m))^2 = 1. Of the roots, the
+ * one with m > -e_1^2, e_1 the smallest half axis, belongs to the nearest point; m > 0 outside. The
+ * unknown is s = m + e_1^2 > 0, in which the sum is decreasing. For a point without component along
+ * the shortest axes there may be no such root. Then s = 0, and those components of x make up the
+ * difference of the sum to 1. */
 #include <math.h>
 #include <string.h>
 
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* Turn columns j and k of w and of v (n, n) until those of w are normal to each other; false where
- * they were. */
+/* Rotate columns j and k of w and of v (n, n) until those of w are normal to each other. Returns
+ * false where they already were. */
 static bool turn_columns(int n, int j, int k, double *w, double *v) {
     double jj = 0, kk = 0, jk = 0;
     for (int i = 0; i < n; i++) {
@@ -37,8 +36,8 @@ static bool turn_columns(int n, int j, int k, double *w, double *v) {
 }
 
 /* Half axes (n) and, as columns of v (n, n), their directions: the singular values of the inverse
- * Cholesky factor by one-sided Jacobi turns, which keep the small ones' digits (Demmel and Veselic
- * 1992). */
+ * Cholesky factor by one-sided Jacobi rotations, which keep the relative accuracy of the small ones
+ * (Demmel and Veselic 1992). */
 static bool find_axes(const CpsSet *set, double *w, double *v, double *half) {
     enum { SWEEPS = 40 };
     const int n = set->n;
@@ -68,8 +67,8 @@ static double find_root(int n, const double *half, const double *y, double least
     double low = 0, high = 0;
     for (int i = 0; i < n; i++) {
         const double pull = half[i] * fabs(y[i]), above = (half[i] - least) * (half[i] + least);
-        low = fmax(low, pull - above); /* one term alone is 1 there or more */
-        high = hypot(high, pull);      /* all together are 1 there or less */
+        low = fmax(low, pull - above); /* at this lower bound a single term is at least 1 */
+        high = hypot(high, pull);      /* at this upper bound the sum of all terms is at most 1 */
     }
     for (int k = 0; k < 2000 && high - low > 2e-16 * high; k++) {
         const double s = low > 0 && high > 4 * low ? sqrt(low) * sqrt(high) : 0.5 * (low + high);
@@ -114,7 +113,7 @@ bool cpsi_ellipsoid_nearest(const CpsSet *set, const double *p, double *nearest,
             x[j] = above > 0 ? half[j] * (half[j] * y[j] / above) : 0;
             filled += j != shortest ? x[j] / half[j] * (x[j] / half[j]) : 0;
         }
-        /* the component left open, or lost where it is small: to the boundary */
+        /* the undetermined component, or one lost in rounding: place the point on the boundary */
         if (*inside && fabs(y[shortest]) <= 1e-9 * least)
             x[shortest] = copysign(least * sqrt(fmax(0, 1 - filled)), y[shortest]);
         *distance = 0;

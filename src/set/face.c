@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The face {x in C : <w, x> = h(w)} as a set of its own.
  *
- * Down the expression as far as it goes: the face of a product, sum, image, translate or scale is
- * the same operation on the parts' faces at w's image; of a hull the hull of the faces that reach
- * the maximum, where they are bounded; of the primitives a point, a smaller hull, a smaller box. On
- * a conic form the multipliers of the interior-point solution tell the face cone by cone
- * (restrict.c). */
+ * It is computed recursively: the face of a product, sum, image, translate or scale is the same
+ * operation on the faces of the parts at w's image; that of a hull is the hull of the faces that
+ * attain the maximum, where they are bounded; that of a primitive is a point, a smaller hull or a
+ * smaller box. For a conic form the multipliers of the interior-point solution determine the face
+ * cone by cone (restrict.c). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +13,8 @@
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* Directions of a face below this share of the largest, and lengths below this share of the form's,
- * are rounding. */
+/* Directions of a face below this share of the largest one, and lengths below this share of the
+ * form's, are rounding. */
 static const double NOISE = 1e-9;
 
 static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSet **out,
@@ -22,7 +22,8 @@ static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSe
 
 /* ---- conic forms ---- */
 
-/* Directions that x can take over the form: the rank of P beside the lines, and one direction. */
+/* The dimension of the set of x of the form: the rank of P and the lines; `first` is one
+ * direction. */
 static int directions(const CpsiConicForm *form, double *first, double *scratch) {
     const size_t n = (size_t)form->n, u = (size_t)form->unknowns;
     size_t count = 0;
@@ -43,7 +44,8 @@ static int directions(const CpsiConicForm *form, double *first, double *scratch)
     return rank;
 }
 
-/* The simplest set that a form is: a point, a segment, or the form itself, which is taken over. */
+/* The simplest set that equals a form: a point, a segment, or the form itself. Takes ownership of
+ * the form. */
 static CpsStatus simplest(CpsiConicForm *form, const double *x, CpsSet **out, CpsError *err) {
     const int n = form->n;
     CpsiSolution end[2] = {{.outcome = CPS_SET_INACCURATE}, {.outcome = CPS_SET_INACCURATE}};
@@ -97,7 +99,7 @@ static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, Cp
                                  .value = -solution.value,
                                  .gap = solution.gap,
                                  .tolerance = angle};
-        /* a form without cones is an affine space, and all of it is the face */
+        /* a form without cones is an affine space, which is its own face */
         if (!solution.s)
             *out = cps_set_retain(set);
         else
@@ -163,7 +165,7 @@ static CpsStatus face_of_rays(const CpsSet *set, const double *w, double slack, 
 
 /* ---- operations ---- */
 
-/* Faces of the parts, each at its piece of w; those below the hull's maximum are left out. */
+/* Faces of the parts, each for its components of w; parts below the hull's maximum are left out. */
 static CpsStatus face_of_parts(const CpsSet *set, const double *w, double slack, double value,
                                CpsSet **out, CpsSetAnswer *answer, CpsError *err) {
     CpsSet **face = calloc((size_t)set->count, sizeof(CpsSet *));
@@ -229,7 +231,7 @@ static CpsStatus face_of_mapped(const CpsSet *set, const double *w, double slack
     return status;
 }
 
-/* slack: what w may be off by, in the units of w. */
+/* `slack`: the error of w, in the units of w. */
 static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSet **out,
                          CpsSetAnswer *answer, CpsError *err) {
     *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
@@ -261,8 +263,8 @@ static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSe
         case CPSI_SET_PRODUCT:
         case CPSI_SET_SUM: status = face_of_parts(set, w, slack, value, out, answer, err); break;
         case CPSI_SET_HULL:
-            /* an unbounded part adds its directions to the faces of all others: of the closure the
-             * conic form knows them */
+            /* An unbounded part adds its directions to the faces of all others. The conic form
+             * contains them, because it describes the closure. */
             if (set->closure)
                 status = conic_face(set, w, slack, out, answer, err);
             else

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The hull of points: its span, then its facets in coordinates of the span (hull.h); projection,
- * margin and gauge from these. */
+/* The hull of points: its affine span, then its facets in coordinates of the span (hull.h);
+ * projection, margin and gauge from these. */
 #include "set/hull.h"
 
 #include <math.h>
@@ -9,12 +9,13 @@
 
 #include "linalg/dense.h"
 
-/* Points nearer to the span of others than this share of the size lie in it. */
+/* A point nearer than this share of the size to the span of the others lies in it. */
 static const double FLAT = 1e-12;
-/* A corner nearer to the line of its neighbours than this share of the size is none: rounding of
- * its coordinates. */
+/* A corner nearer than this share of the size to the line through its neighbours is rounding and is
+ * dropped. */
 static const double STRAIGHT = 4e-15;
-/* Triangles whose corners lie in each other's planes to this share of the size are one facet. */
+/* Triangles belong to one facet when their corners lie in each other's planes up to this share of
+ * the size. */
 static const double ONE_FACET = 1e-11;
 /* An offset below this share of the size is 0. */
 static const double THROUGH_ZERO = 1e-14;
@@ -46,7 +47,7 @@ static int chain(int count, const double *c, const int *order, int step, double 
         }
         corner[top++] = next;
     }
-    return top - 1; /* the last begins the other chain */
+    return top - 1; /* the last point is the first one of the other chain */
 }
 
 int cpsi_polygon(int count, const double *c, double size, int *order, int *corner) {
@@ -62,8 +63,8 @@ int cpsi_polygon(int count, const double *c, double size, int *order, int *corne
 
 /* ---- the span ---- */
 
-/* Orthonormal rows of the span of the points, each towards the farthest point left; that point in
- * `start`. More than 3: 4. */
+/* Orthonormal rows of the span of the points, each in the direction of the farthest remaining
+ * point; these points in `start`. Returns the dimension, 4 if it is more than 3. */
 static int span(int n, int count, const double *points, double *basis, int start[4], double *size) {
     double *away = &basis[3 * (size_t)n];
     start[0] = 0;
@@ -108,19 +109,19 @@ static CpsiHull *hull_new(int n, int dimension, int rows, int pieces) {
     hull->row = (double *)(void *)(hull + 1);
     hull->offset = hull->row + m * w;
     hull->level = hull->offset + m;
-    hull->basis = hull->level + normals; /* completed by the normals */
+    hull->basis = hull->level + normals; /* the normals complete the basis */
     hull->normal = hull->basis + d * w;
     hull->origin = hull->basis + w * w;
     hull->piece = hull->origin + w;
     return hull;
 }
 
-/* The span in place: basis, normals and levels. */
+/* Set basis, normals and levels of the span. */
 static void place_span(CpsiHull *hull, const double *points, const double *basis) {
     const size_t n = (size_t)hull->n, d = (size_t)hull->dimension;
     memcpy(hull->basis, basis, d * n * sizeof *basis);
     memcpy(hull->origin, points, n * sizeof *points);
-    /* a hull that fills the space keeps its axes */
+    /* a hull of full dimension keeps the coordinate axes */
     if (d == n) {
         memset(hull->basis, 0, n * n * sizeof *basis);
         for (size_t i = 0; i < n; i++) hull->basis[i * n + i] = 1;
@@ -161,7 +162,7 @@ static CpsiHull *segment(int n, int count, const double *points, const double *b
     return hull;
 }
 
-/* Edge by edge. */
+/* The hull of a polygon, edge by edge. */
 static CpsiHull *polygon(int n, int count, const double *points, const double *basis,
                          const double *c, double size) {
     int *order = malloc(3 * (size_t)count * sizeof *order + 2 * sizeof *order),
@@ -201,7 +202,7 @@ static double area_of(const CpsiTriangle *t, const double *c) {
                  u[0] * v[1] - u[1] * v[0]);
 }
 
-/* Which triangles make one facet: the root of each is the largest of them. */
+/* Determine which triangles form one facet; a facet is represented by its largest triangle. */
 static void join_facets(int triangles, const CpsiTriangle *triangle, const double *c, double size,
                         int *root) {
     for (int t = 0; t < triangles; t++) root[t] = t;
@@ -280,7 +281,7 @@ CpsiHull *cpsi_hull_new(int n, int count, const double *points, bool *known) {
     return hull;
 }
 
-/* ---- questions ---- */
+/* ---- projection, margin, gauge ---- */
 
 double cpsi_hull_margin(const CpsiHull *hull, const double *p) {
     double least = INFINITY;
@@ -304,7 +305,7 @@ double cpsi_hull_gauge(const CpsiHull *hull, const double *p) {
     return value;
 }
 
-/* The nearest point of a segment in d coordinates. */
+/* The nearest point of a segment, in d coordinates. */
 static void nearest_on_edge(int d, const double *a, const double *b, const double *p,
                             double *nearest) {
     double along = 0, square = 0;
@@ -316,7 +317,8 @@ static void nearest_on_edge(int d, const double *a, const double *b, const doubl
     for (int i = 0; i < d; i++) nearest[i] = t < 1 ? a[i] + t * (b[i] - a[i]) : b[i];
 }
 
-/* Of a triangle: its foot, where that lies inside, else on an edge. */
+/* The nearest point of a triangle: the foot of the perpendicular where that lies inside, else a
+ * point of an edge. */
 static void nearest_on_triangle(const double *corner, const double *p, double *nearest) {
     const double *a = corner, *b = corner + 3, *c = corner + 6;
     double u[3], v[3], w[3], best = INFINITY, uu = 0, uv = 0, vv = 0, uw = 0, vw = 0;

@@ -13,41 +13,42 @@ typedef struct CpsiHull {
     double *row, *offset;   /* (rows, n), (rows) */
     double *normal, *level; /* (n - dimension, n), (n - dimension) */
     double *basis, *origin; /* (dimension, n), (n): x = origin + basis' c */
-    int pieces;             /* of the boundary: edges of a polygon in their order, triangles */
+    int pieces;             /* pieces of the boundary: edges of a polygon in order, or triangles */
     double *piece; /* (pieces, dimension, dimension) their corners c; of a segment its two ends */
     double size;   /* largest distance of a point from the origin */
 } CpsiHull;
 
-/* The hull of `count` points (count, n). *out NULL: no memory. `known` false: it has a dimension
- * above 3, or rounding does not tell its facets. */
+/* The hull of `count` points (count, n). *out is NULL when memory does not suffice. `known` is
+ * false where the dimension is above 3 or rounding prevents the determination of the facets. */
 CpsiHull *cpsi_hull_new(int n, int count, const double *points, bool *known);
 void cpsi_hull_free(CpsiHull *hull);
 
 /* The nearest point of the hull. */
 void cpsi_hull_project(const CpsiHull *hull, const double *p, double *nearest);
-/* The radius of the largest ball within the affine span round a point of it, negative outside. */
+/* The radius of the largest ball within the affine span round a point of it; negative outside. */
 double cpsi_hull_margin(const CpsiHull *hull, const double *p);
-/* The least t with p in t hull, of a hull with 0 in it. */
+/* The smallest t with p in t hull, for a hull that contains 0. */
 double cpsi_hull_gauge(const CpsiHull *hull, const double *p);
 
 /* ---- the two algorithms, in coordinates c (count, d) of the span ---- */
 
-/* Corners of the planar hull, counterclockwise: their places in `corner` (count); returns how many.
- * The monotone chain (Andrew 1979), n log n. `order` (count) is scratch. */
+/* Corners of the planar hull, counterclockwise, as indices in `corner` (count). Returns their
+ * number. The monotone chain (Andrew 1979), n log n. `order` (count) is scratch. */
 int cpsi_polygon(int count, const double *c, double size, int *order, int *corner);
 
-/* A triangle of a hull in space, seen counterclockwise from outside. */
+/* A triangle of a hull in space, counterclockwise as seen from outside. */
 typedef struct CpsiTriangle {
-    int corner[3], neighbour[3]; /* neighbour k lies beyond the edge from corner k to the next */
+    int corner[3], neighbour[3]; /* neighbour k is adjacent at the edge from corner k to the next */
     double normal[3], offset;
-    int first, farthest; /* points outside it, as a list; -1: none */
-    double distance;     /* of the farthest */
+    int first, farthest; /* list of the points outside it; -1: none */
+    double distance;     /* distance of the farthest one */
     bool gone, visible;
 } CpsiTriangle;
 
 /* All triangles of the hull of points in space that span it, by Quickhull (Barber, Dobkin and
- * Huhdanpaa 1996); start: four of them. *triangles is the caller's to free; returns how many, gone
- * ones among them, 0: no memory, -1: rounding decides. */
+ * Huhdanpaa 1996); `start` are four of the points. The caller frees *triangles. Returns their
+ * number, including deleted ones; 0 when memory does not suffice; -1 where rounding prevents an
+ * answer. */
 int cpsi_quickhull(int count, const double *c, double size, const int start[4],
                    CpsiTriangle **triangles);
 

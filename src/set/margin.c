@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The margin of a point: how large a ball round it fits in a set, or minus its distance from it.
+/* The margin of a point: the radius of the largest ball round it inside a set, or minus its
+ * distance from the set.
  *
- * Closed forms are in closed_margin.c. Inside any other set of the plane, it is the least distance
- * h(w) - <w, p> over unit w, enclosed by bisection of the turn: what was asked bounds it from
- * above, the chords between the points found from below. In more dimensions the least distance is
- * no convex problem; a ball that fits and a distance that is reached enclose it. */
+ * Closed forms are in closed_margin.c. Inside any other planar set it is the minimum of h(w) - <w,
+ * p> over unit w, enclosed by bisection of the angle: values at computed angles bound it from
+ * above, the chords between the points found from below. In more dimensions this minimum is not a
+ * convex problem; it is enclosed by a ball that fits and a distance that is attained. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,10 +17,10 @@ static const double TURN = 6.283185307179586476925;
 
 /* ---- inside a planar set ---- */
 
-/* A part of the turn; the boundary in it lies beyond the chord from x to y. */
+/* An interval of angles; the boundary in it lies on or beyond the chord from x to y. */
 typedef struct Sector {
-    double from, to, x[2], y[2]; /* x, y as seen from the point */
-    double least;                /* its distance is not less */
+    double from, to, x[2], y[2]; /* x, y relative to the point */
+    double least;                /* lower bound of the distance in it */
 } Sector;
 
 static double chord_distance(const double x[2], const double y[2]) {
@@ -31,7 +32,7 @@ static double chord_distance(const double x[2], const double y[2]) {
     return (x[0] * d[1] - x[1] * d[0]) / size;
 }
 
-/* Ask at an angle; false where the support has no answer. */
+/* Evaluate the support at an angle; false where it has no answer. */
 static bool look(const CpsSet *set, const double *p, double theta, double x[2], double *most,
                  CpsSetAnswer *answer, CpsStatus *status, CpsError *err) {
     const double w[2] = {cos(theta), sin(theta)};
@@ -46,13 +47,13 @@ static bool look(const CpsSet *set, const double *p, double theta, double x[2], 
     return true;
 }
 
-/* *found: false where a support has no answer. */
+/* The margin by bisection. *found is false where a support has no answer. */
 static CpsStatus planar_margin(const CpsSet *set, const double *p, CpsSetAnswer *answer,
                                bool *found, CpsError *err) {
     enum { STARTS = 8, LOOKS = 400 };
     Sector sector[LOOKS];
     double most = INFINITY, least = 0;
-    const double first = 0.1234567; /* no special one */
+    const double first = 0.1234567; /* an angle without special meaning */
     CpsSetAnswer asked = {.exact = true};
     CpsStatus status = CPS_OK;
     int count = 0, worst = 0;
@@ -72,11 +73,11 @@ static CpsStatus planar_margin(const CpsSet *set, const double *p, CpsSetAnswer 
             worst = sector[k].least < sector[worst].least ? k : worst;
         least = fmin(sector[worst].least, most);
         Sector *s = &sector[worst];
-        /* 1e-15: what rounding leaves of the difference */
+        /* 1e-15: rounding of the difference */
         if (most - least <= 1e-13 * most + 1e-15 * cpsi_set_size(set) || count == LOOKS ||
             s->to - s->from < 1e-14)
             break;
-        /* the chord's own normal, where an edge lies; for arcs it is as good as the middle */
+        /* the normal of the chord, which finds edges; for arcs it is as good as the middle */
         double at = atan2(s->x[0] - s->y[0], s->y[1] - s->x[1]), z[2];
         at += TURN * ceil((s->from - at) / TURN);
         if (!(at > s->from + 1e-3 * (s->to - s->from) && at < s->to - 1e-3 * (s->to - s->from)))
@@ -95,10 +96,10 @@ static CpsStatus planar_margin(const CpsSet *set, const double *p, CpsSetAnswer 
     return CPS_OK;
 }
 
-/* ---- inside others ---- */
+/* ---- inside sets of more dimensions ---- */
 
-/* A ball that is certain to fit: the hull of what is reached along the axes holds one of radius
- * 1/|1/t|; no larger one than the least t does. */
+/* A ball that certainly fits: the hull of the points reached along the axes contains one of radius
+ * 1/|1/t|. None larger than the smallest t fits. */
 static CpsStatus inscribed(const CpsSet *set, const double *p, CpsSetAnswer *answer,
                            CpsError *err) {
     double sum = 0, most = INFINITY;
@@ -141,7 +142,7 @@ CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separ
     status = cps_set_project(set, point, NULL, nearest, answer, err);
     if (!status && answer->outcome == CPS_SET_ANSWERED) {
         const double distance = answer->value;
-        /* the direction of a distance lost in rounding says nothing */
+        /* when the distance is rounding, its direction is meaningless */
         const bool outside = distance > fmax(answer->gap, 1e-10 * cpsi_set_size(set));
         for (int i = 0; separating && i < n; i++)
             separating[i] = outside ? (point[i] - nearest[i]) / distance : 0;

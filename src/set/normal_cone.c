@@ -2,14 +2,14 @@
 /* The normal cone N = {w : <w, x - p> <= 0 for every x of C} as a set of its own.
  *
  * With C = {origin + P v + Q'l : A v + b in K} and a point v of the fibre over p whose s = A v + b
- * lies as far inside K as it can:
+ * is as far inside K as possible:
  *
  *     N = {w : Q w = 0,  P'w + A'z = 0,  z in K,  z.s = 0}
  *         (Rockafellar 1970, theorem 23.9 and its proof)
  *
- * and z.s = 0 says cone by cone: s inside, z = 0; s on the boundary, z on the ray of Js; s = 0, z
- * anywhere in the cone. Products, translates and scales of sets go down to their parts first (M77
- * §8). */
+ * where z.s = 0 holds cone by cone: for s inside, z = 0; for s on the boundary, z on the ray of Js;
+ * for s = 0, z anywhere in the cone. For products, translates and scales the cones of the parts are
+ * computed first (M77 §8). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,11 +18,11 @@
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* Equations that differ by less than this share are one. A point off by `tolerance` turns a normal
- * by tolerance/radius, for radii down to a hundredth of the set. */
+/* Equations that differ by less than this share are the same. A point with the error `tolerance`
+ * has normals with the error tolerance/radius, for radii down to a hundredth of the set. */
 static const double SAME_EQUATION = 1e-7, TURN = 100;
 
-/* What each cone of the form does at p. */
+/* How each cone of the form is active at p. */
 typedef enum Touch { FREE, RAY, TIP } Touch;
 
 static Touch touch_of(const double *s, int d, double tolerance) {
@@ -31,10 +31,10 @@ static Touch touch_of(const double *s, int d, double tolerance) {
     return d > 1 && s[0] > tolerance ? RAY : TIP;
 }
 
-/* The fibre over p: v = v0 + (what P does not see), with rows  A v + b + tau e in K. The least tau
- * takes s as far inside as it goes: tau = 0 for p on the boundary, and where rounding has put p
- * beside it the solution is still unique and well conditioned. tau >= -1 ends what has no boundary.
- * Fills s (rows of the form). */
+/* The fibre over p: v = v0 + (null space of P), with rows A v + b + tau e in K. The minimum of tau
+ * places s as far inside as possible: tau = 0 for p on the boundary; where rounding has displaced p
+ * from the boundary, the solution is still unique and well conditioned. tau >= -1 bounds the
+ * problem for sets without boundary. Writes s (rows of the form). */
 static CpsStatus fibre(const CpsiConicForm *form, const double *p, double *s,
                        CpsSetOutcome *outcome, CpsError *err) {
     const int n = form->n, u = form->unknowns;
@@ -48,7 +48,7 @@ static CpsStatus fibre(const CpsiConicForm *form, const double *p, double *s,
     if (status) return status;
     for (int i = 0; i < n; i++) {
         double *row = cpsi_conic_rows_equation(conic), gap = p[i] - form->origin[i];
-        /* what p has along the lines does not matter */
+        /* the components of p along the lines do not matter */
         for (int l = 0; l < form->lines; l++)
             for (int j = 0; j < n; j++)
                 gap -= form->q[l * n + i] * form->q[l * n + j] * (p[j] - form->origin[j]);
@@ -97,7 +97,8 @@ static CpsStatus fibre(const CpsiConicForm *form, const double *p, double *s,
     return status;
 }
 
-/* A simplicial cone of half-lines is its rays: {P v : A v >= 0} = columns of P A^-1. */
+/* A simplicial cone given by half-lines is spanned by its rays: {P v : A v >= 0} = columns of P
+ * A^-1. */
 static CpsStatus as_rays(CpsiConicForm *form, CpsSet **out, CpsError *err) {
     const size_t n = (size_t)form->n, u = (size_t)form->unknowns, lines = (size_t)form->lines;
     bool simple = form->rows == form->unknowns && form->largest_cone <= 1;
@@ -124,7 +125,8 @@ static CpsStatus as_rays(CpsiConicForm *form, CpsSet **out, CpsError *err) {
                 ray[i] = cpsi_dot(form->unknowns, &form->p[i * u], column);
             const double size = cpsi_norm(form->n, ray);
             for (size_t i = 0; i < n; i++) ray[i] = size > 0 ? ray[i] / size : 0;
-            simple = simple && size > 0; /* a combination of the unknowns that P does not see */
+            /* a combination of the unknowns that lies in the null space of P */
+            simple = simple && size > 0;
         }
         if (simple)
             for (size_t l = 0; l < lines; l++)
@@ -141,7 +143,8 @@ static CpsStatus as_rays(CpsiConicForm *form, CpsSet **out, CpsError *err) {
     return status;
 }
 
-/* The z of one cone as new unknowns: its part of P'w + A'z = 0, and what keeps it in the cone. */
+/* The z of one cone as new unknowns: its contribution to P'w + A'z = 0, and the rows that keep it
+ * in the cone. */
 static void write_touch(CpsiConicRows *conic, const CpsiConicForm *form, const double *s, int i,
                         int d, Touch touch, double *equations) {
     const int u = form->unknowns;
@@ -172,7 +175,7 @@ static CpsStatus build_cone(const CpsiConicForm *form, const double *s, double t
                        .cones = (size_t)form->cones};
     CpsStatus status = cpsi_conic_rows_new(count, n, &conic, err);
     if (status) return status;
-    /* P'w + A'z = 0, divided by the length in P */
+    /* P'w + A'z = 0, divided by the unit of length in P */
     double *equations = conic->equation;
     for (int j = 0; j < u; j++) {
         double *row = cpsi_conic_rows_equation(conic);
@@ -184,7 +187,7 @@ static CpsStatus build_cone(const CpsiConicForm *form, const double *s, double t
     CPSI_FOR_CONES(k, i, form->cones, form->dim)
         write_touch(conic, form, &s[i], i, form->dim[k], touch_of(&s[i], form->dim[k], tolerance),
                     equations);
-    /* unknowns that no cone took stay 0 */
+    /* unknowns that were not used remain 0 */
     CpsiConicRows *whole = NULL;
     count = (CpsiCount){.unknowns = (size_t)conic->next,
                         .equations = (size_t)conic->equations,
@@ -274,7 +277,7 @@ static CpsStatus cone_of_moved(const CpsSet *set, const double *p, double tolera
     return status;
 }
 
-/* The rays of the facets that p lies on, and the normals of the span both ways. */
+/* The rays of the facets that contain p, and the normals of the span in both directions. */
 static CpsStatus cone_of_hull(const CpsSet *set, const double *p, double tolerance, CpsSet **out,
                               CpsError *err) {
     const CpsiHull *hull = set->hull;
@@ -327,8 +330,8 @@ CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tol
     status = cpsi_smooth_sum_cone(set, point, share, &known, cone, answer, err);
     if (status || known) return status;
 
-    /* how far off is the point?  Of a cone, which has no size, the point's own length is what
-     * lengths are compared with, unless the caller has chosen a tolerance */
+    /* Distance of the point from the set. A cone has no size, so its unit of length is the length
+     * of the point, unless the caller has given a tolerance. */
     double *nearest = malloc(2 * (size_t)set->n * sizeof *nearest),
            *asked = nearest ? nearest + set->n : NULL;
     if (!nearest) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");

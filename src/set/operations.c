@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constructors of the operations: dimensions are checked, parts retained, and the conic form made
- * at once where every question will need it (intersection, preimage, polar have no closed support
- * function in general). */
+/* Constructors of the operations. They check dimensions and retain the parts. Where every query
+ * will need the conic form (intersection, preimage and polar have no closed support function in
+ * general) they compute it at once. */
 #include <math.h>
 #include <string.h>
 
 #include "set/set.h"
 
-/* Parts there, as many as allowed; all of the same space unless it is a product. */
+/* Check that the parts exist, that their number is allowed, and that all have the same dimension
+ * unless the operation is a product. */
 static CpsStatus check_parts(bool product, int count, const CpsSet *const *parts, int *n,
                              CpsSet **out, CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the set");
@@ -30,7 +31,8 @@ static CpsStatus check_parts(bool product, int count, const CpsSet *const *parts
     return CPS_OK;
 }
 
-/* Give the node its form, or free it. Users' sets have none. */
+/* Compute the form of the node, or free the node on failure. Nodes with users' sets have no
+ * form. */
 static CpsStatus finish(CpsSet *set, CpsSet **out, CpsError *err) {
     CpsStatus status = CPS_OK;
     if (!cpsi_set_has_user(set)) {
@@ -46,9 +48,9 @@ static CpsStatus finish(CpsSet *set, CpsSet **out, CpsError *err) {
     return status;
 }
 
-/* ---- closed as it is written? ---- */
+/* ---- closedness ---- */
 
-/* Bounded by the way it is written; false means unknown. */
+/* Whether the set is known to be bounded from its expression; false means unknown. */
 static bool known_bounded(const CpsSet *set) {
     int bounded = 0;
     switch (set->kind) {
@@ -71,7 +73,7 @@ static bool known_bounded(const CpsSet *set) {
     return set->kind == CPSI_SET_INTERSECTION ? bounded > 0 : bounded == set->count;
 }
 
-/* A polyhedron by the way it is written. */
+/* Whether the set is known to be a polyhedron from its expression. */
 static bool known_polyhedral(const CpsSet *set) {
     switch (set->kind) {
     case CPSI_SET_POINTS:
@@ -90,9 +92,10 @@ static bool known_polyhedral(const CpsSet *set) {
     return true;
 }
 
-/* A sum is closed when all parts but one are bounded, or the unbounded ones are polyhedra
- * (Rockafellar 1970, theorem 19.3 and corollary 9.1.2); an image of a bounded set or a polyhedron
- * is; the hull of bounded sets is (theorem 17.2). */
+/* Whether the expression may describe a set that is not closed. A sum is closed when all parts but
+ * one are bounded, or when the unbounded ones are polyhedra (Rockafellar 1970, theorem 19.3 and
+ * corollary 9.1.2); an image of a bounded set or a polyhedron is closed; the hull of bounded sets
+ * is closed (theorem 17.2). */
 static bool need_not_be_closed(const CpsSet *set) {
     int unbounded = 0, curved = 0;
     for (int k = 0; k < set->count; k++) {
@@ -134,7 +137,7 @@ CpsStatus cps_set_hull(int count, const CpsSet *const *parts, CpsSet **out, CpsE
     return status;
 }
 
-/* One part and a finite array of `count` numbers. */
+/* Check one part and an array of `count` finite numbers. */
 static CpsStatus check_one(const char *name, const CpsSet *set, size_t count, const double *numbers,
                            CpsSet **out, CpsError *err) {
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the set");

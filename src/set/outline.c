@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Planar sets: the walk once round the normal angle (outline.h), their corners, the rays of a
- * cone. */
+/* Planar sets: their boundary followed once round the normal angle (outline.h), their corners, the
+ * rays of a cone. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,10 +11,10 @@
 #include "set/outline.h"
 
 static const double TURN = 6.283185307179586476925;
-/* [rad] A corner that opens less than this is not looked for: over such angles arcs of radii below
- * a thousandth of the size move by less than SAME. */
+/* [rad] Corners with a smaller range of normal angles are not searched for: over such a range arcs
+ * with radii below a thousandth of the size move by less than SAME. */
 static const double LEAST_OPENING = 1e-6;
-/* Points closer than this share of the size are one; an arc is smooth to a tenth of it. */
+/* Points closer than this share of the size are the same; an arc is smooth to a tenth of it. */
 static const double SAME = 1e-9;
 
 static bool going(const CpsiWalk *walk) {
@@ -66,12 +66,13 @@ static void add_piece(CpsiWalk *walk, CpsiOutlinePiece piece) {
     walk->piece[walk->count++] = piece;
 }
 
-/* The corner x over these angles; at one end the answer was `other`. */
+/* Add the corner x for a range of angles; at one end of the range the point found was `other`. */
 static void add_corner(CpsiWalk *walk, double from, double to, const double *x,
                        const double *other) {
     CpsiOutlinePiece *last = walk->count > 0 ? &walk->piece[walk->count - 1] : NULL;
     const double drift = hypot(other[0] - x[0], other[1] - x[1]);
-    /* go on with the last piece where it is the same; arcs stay as smooth as they were found */
+    /* extend the last piece where it is the same corner; arcs are not merged, since each was found
+     * smooth by itself */
     if (last && last->kind == CPSI_PIECE_CORNER &&
         hypot(x[0] - last->x[0], x[1] - last->x[1]) <= 10 * SAME * walk->size) {
         last->drift += hypot(x[0] - last->y[0], x[1] - last->y[1]) + drift;
@@ -83,8 +84,8 @@ static void add_corner(CpsiWalk *walk, double from, double to, const double *x,
               (CpsiOutlinePiece){CPSI_PIECE_CORNER, from, to, {x[0], x[1]}, {x[0], x[1]}, drift});
 }
 
-/* The angle up to which the corner x answers, from `at`, where it does (as `last`), on this side of
- * `limit`. */
+/* The angle on this side of `limit` up to which the point is the corner x. It is x at `at`; on
+ * return `last` is the point found there. */
 static double corner_ends(CpsiWalk *walk, const double x[2], double at, double last[2],
                           double limit) {
     for (int k = 0; k < 60 && going(walk) && fabs(limit - at) > 1e-13; k++) {
@@ -101,9 +102,9 @@ static double corner_ends(CpsiWalk *walk, const double x[2], double at, double l
     return at;
 }
 
-/* Does the polynomial through x at the nine points cos(k pi/8) of [a, b] foretell x elsewhere?  The
- * barycentric formula (Berrut and Trefethen 2004). A corner or an edge shifts what comes after it,
- * which no polynomial does. */
+/* Whether the polynomial through x at the nine points cos(k pi/8) of [a, b] predicts x at other
+ * angles. The barycentric formula (Berrut and Trefethen 2004). After a corner or an edge x is
+ * displaced, which no polynomial predicts. */
 static bool smooth(CpsiWalk *walk, double a, const double x[2], double b, const double y[2]) {
     static const double NODE[] = {-1, -0.9238795325112867, -0.7071067811865475, -0.3826834323650898,
                                   0,  0.3826834323650898,  0.7071067811865475,  0.9238795325112867,
@@ -130,7 +131,7 @@ static bool smooth(CpsiWalk *walk, double a, const double x[2], double b, const 
     return true;
 }
 
-/* The angle in [a, b] whose normal is the chord's, and x there. */
+/* The angle in [a, b] whose normal is that of the chord, and the point z there. */
 static double at_chord(CpsiWalk *walk, double a, const double x[2], double b, const double y[2],
                        double z[2]) {
     double m = atan2(x[0] - y[0], y[1] - x[1]);
@@ -141,7 +142,7 @@ static double at_chord(CpsiWalk *walk, double a, const double x[2], double b, co
     return m;
 }
 
-/* The pieces from angle a, where x answers, to b, where y does. */
+/* The pieces from angle a with the point x to b with the point y. */
 static void divide(CpsiWalk *walk, double a, const double x[2], double b, const double y[2]) {
     if (!going(walk)) return;
     if (same(walk, x, y)) {
@@ -153,7 +154,8 @@ static void divide(CpsiWalk *walk, double a, const double x[2], double b, const 
     cpsi_walk_visit(walk, m - 0.5 * (m - a), first);
     cpsi_walk_visit(walk, m + 0.5 * (b - m), last);
     const double height =
-        (z[0] - x[0]) * cos(m) + (z[1] - x[1]) * sin(m); /* of the boundary over the chord */
+        /* height of the boundary above the chord */
+        (z[0] - x[0]) * cos(m) + (z[1] - x[1]) * sin(m);
     const bool edge = height <= 1e-13 * walk->size;
     if (edge && same(walk, x, first) && same(walk, y, last)) {
         add_corner(walk, a, m, x, first);
@@ -165,13 +167,13 @@ static void divide(CpsiWalk *walk, double a, const double x[2], double b, const 
                             CPSI_PIECE_SHORT, a, b, {x[0], x[1]}, {y[0], y[1]}, fmax(height, 0)});
         return;
     }
-    /* another corner, as on polygons */
+    /* another corner lies between, as on polygons */
     if (!edge && (same(walk, z, first) || same(walk, z, last))) {
         divide(walk, a, x, m, z);
         divide(walk, m, z, b, y);
         return;
     }
-    /* a corner at one end reaches to where it does */
+    /* extend a corner at one end as far as it goes */
     const double middle = 0.5 * (a + b);
     double end = middle;
     cpsi_walk_visit(walk, middle, z);
@@ -191,7 +193,7 @@ static void divide(CpsiWalk *walk, double a, const double x[2], double b, const 
     }
 }
 
-/* Once round from an angle that is no special one. */
+/* Once round, beginning at an angle without special meaning. */
 void cpsi_walk_round(CpsiWalk *walk) {
     enum { STARTS = 8 };
     double x[STARTS + 1][2];
@@ -202,7 +204,7 @@ void cpsi_walk_round(CpsiWalk *walk) {
         divide(walk, first + k * TURN / STARTS, x[k], first + (k + 1) * TURN / STARTS, x[k + 1]);
 }
 
-/* ---- what is asked ---- */
+/* ---- public functions ---- */
 
 CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, CpsSetFacts *facts,
                           double **room, CpsError *err) {
@@ -228,7 +230,7 @@ CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, C
         facts->outcome = CPS_SET_ANSWERED;
     if (facts->outcome == CPS_SET_ANSWERED && !facts->bounded) facts->outcome = CPS_SET_UNBOUNDED;
     walk->outcome = facts->outcome;
-    /* in the plane R^2 its own axes, so that corners come counterclockwise */
+    /* in R^2 use the coordinate axes, so that corners are counterclockwise */
     if (set->n == 2 && facts->dimension == 2) {
         basis[0] = basis[3] = 1;
         basis[1] = basis[2] = 0;
@@ -261,7 +263,7 @@ static void store_ends(CpsiWalk *walk, int capacity, double *points, int *count)
     }
 }
 
-/* The vertices of a set of dimension 3 and more: those that it was made of. */
+/* The vertices of a set of dimension 3 and more, where it was constructed from points. */
 static bool store_known(const CpsSet *set, int capacity, double *points, int *count) {
     const int n = set->n;
     if (set->kind == CPSI_SET_POINTS) {
@@ -305,7 +307,7 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
             cpsi_walk_round(&walk);
             for (int k = 0; k < walk.count && going(&walk); k++) {
                 const CpsiOutlinePiece *piece = &walk.piece[k], *first = walk.piece;
-                /* the walk starts inside a piece, which then ends it as well */
+                /* the first piece may be continued by the last one */
                 const bool again =
                     k > 0 && k == walk.count - 1 && first->kind == CPSI_PIECE_CORNER &&
                     piece->kind == CPSI_PIECE_CORNER &&
@@ -330,11 +332,11 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
 
 /* ---- rays of a cone ---- */
 
-/* A direction outside a cone by less than this share lies on its boundary: what projections are
- * right to, with a margin. */
+/* A direction outside a cone by less than this share lies on its boundary: the accuracy of
+ * projections, with a margin. */
 static const double ON_CONE = 1e-8;
 
-/* A cone of dimension one or two in its plane: a direction inside, and the plane's axes (2, n). */
+/* A cone of dimension one or two: a direction inside it, and the axes of its plane (2, n). */
 typedef struct PlanarCone {
     const CpsSet *set;
     const double *basis;
@@ -342,8 +344,8 @@ typedef struct PlanarCone {
     double *d, *nearest; /* (n) */
 } PlanarCone;
 
-/* The unit vector at angle t, and its distance from the cone; the point nearest to it is left in
- * `nearest`. */
+/* The unit vector at angle t, and its distance from the cone; `nearest` is the nearest point of the
+ * cone. */
 static CpsStatus probe(const PlanarCone *cone, double t, double *distance, CpsSetAnswer *answer,
                        CpsError *err) {
     const int n = cone->set->n;
@@ -364,9 +366,9 @@ static void store_ray(int n, const double *ray, int capacity, double *rays, int 
     ++*count;
 }
 
-/* The bounding ray on one side of `middle`, an angle inside the cone. Turning away by less than a
- * quarter turn past the boundary, the nearest point of the cone lies on the bounding ray. *turned:
- * by how much, PI where the cone goes on that far. */
+/* The bounding ray on one side of `middle`, an angle inside the cone. For directions up to a
+ * quarter turn beyond the boundary, the nearest point of the cone lies on the bounding ray.
+ * *turned: angle to the ray, PI where the cone extends that far. */
 static CpsStatus bounding_ray(const PlanarCone *cone, double middle, int sign, double *turned,
                               double *ray, CpsSetAnswer *answer, CpsError *err) {
     enum { PROBES = 6 };
@@ -386,8 +388,8 @@ static CpsStatus bounding_ray(const PlanarCone *cone, double middle, int sign, d
     return CPS_OK;
 }
 
-/* Generators of a cone of dimension two: its two bounding rays; a half-plane has them opposite and
- * one between; a plane four. */
+/* Generators of a cone of dimension two: its two bounding rays; for a half-plane two opposite ones
+ * and one between; for a plane four. */
 static CpsStatus planar_rays(const PlanarCone *cone, const double *centre, int capacity,
                              double *rays, int *count, CpsSetAnswer *answer, CpsError *err) {
     const int n = cone->set->n;
@@ -402,7 +404,7 @@ static CpsStatus planar_rays(const PlanarCone *cone, const double *centre, int c
         status =
             bounding_ray(cone, middle, side ? 1 : -1, &turned[side], &ray[side * n], answer, err);
     if (!status && answer->outcome == CPS_SET_ANSWERED &&
-        opening > 0.75 * TURN) { /* no convex cone but the plane opens so far */
+        opening > 0.75 * TURN) { /* the plane is the only convex cone with such an opening */
         for (int k = 0; k < 4; k++) {
             for (int i = 0; i < n; i++) ray[i] = (k % 2 ? -1 : 1) * cone->basis[k / 2 * n + i];
             store_ray(n, ray, capacity, rays, count);
@@ -448,7 +450,7 @@ CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double
         }
         return CPS_OK;
     }
-    if (set->kind == CPSI_SET_SCALE) { /* by a factor other than 0 */
+    if (set->kind == CPSI_SET_SCALE) { /* by a factor that is not 0 */
         const CpsStatus status =
             cps_set_rays(set->part[0], tolerance, capacity, rays, count, answer, err);
         if (set->scalar < 0)

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The outline of a planar set, by going once round the normal angle (outline.c).
+/* The outline of a planar set, followed once round the normal angle (outline.c).
  *
  * x(theta) attains h(theta) = max <w, x>, w = (cos theta, sin theta). Over an interval of angles
  * the boundary is one of
- *     a corner   x at both ends is the same point, and then in between as well
- *     an edge    both ends lie on one line of support: a corner up to its angle and the other after
- *                it
- *     an arc     a polynomial foretells x
- *     short      none of these, however small the interval gets (a tolerance)
- * Intervals are halved until they are one of the four. The walk may see the set through an affine
- * map `turn`, in which a thin set is round: what is a corner or an edge does not depend on it. */
+ *     corner   x is the same point at both ends, and therefore between them
+ *     edge     both ends lie on one line of support: one corner up to its angle, then the other
+ *     arc      a polynomial predicts x
+ *     short    none of these, although the interval is as short as the tolerance
+ * Intervals are halved until they are one of the four. The set may be replaced by its image under
+ * an affine map `turn`, in which a thin set is round; corners and edges remain corners and
+ * edges. */
 #ifndef CAPSTAN_SRC_SET_OUTLINE_H
 #define CAPSTAN_SRC_SET_OUTLINE_H
 
@@ -21,20 +21,21 @@ typedef struct CpsiOutlinePiece {
     CpsiPieceKind kind;
     double from, to;   /* angles */
     double x[2], y[2]; /* at from, at to */
-    double drift; /* corner: length of the way from x to y through what was taken for one point;
-                   * short: how far the boundary is from the chord at most */
+    /* corner: length of the path from x to y through points that were taken for one; short: bound
+     * for the distance of the boundary from the chord */
+    double drift;
 } CpsiOutlinePiece;
 
-/* The set seen in its plane: point = center + basis' (two numbers), x = turn (the two numbers). */
+/* The set in its plane: point = center + basis' (two numbers), x = turn (the two numbers). */
 typedef struct CpsiWalk {
     const CpsSet *set;
     const double *center, *basis;
     double turn[4];
     double *w, *point;       /* (n) scratch */
-    double size;             /* what a length x is relative to */
-    double opening;          /* least angle of a corner */
-    int looks;               /* made so far */
-    CpsiOutlinePiece *piece; /* the caller's to free */
+    double size;             /* unit of length for tolerances */
+    double opening;          /* smallest range of angles of a corner */
+    int looks;               /* number of supports evaluated so far */
+    CpsiOutlinePiece *piece; /* freed by the caller */
     int count, room;
     bool exact;
     double gap;
@@ -43,12 +44,12 @@ typedef struct CpsiWalk {
     CpsError *err;
 } CpsiWalk;
 
-/* Supports to be asked for before what is left counts as short: a point known to its gap's root
- * only is smooth nowhere. */
+/* Number of supports after which the remaining intervals count as short: a point known only to the
+ * square root of its gap is nowhere smooth. */
 enum { CPSI_MOST_LOOKS = 50000 };
 
-/* Ready to look at a set of dimension `facts->dimension`; outcome UNBOUNDED or EMPTY where there is
- * no outline. *room is the caller's to free. */
+/* Prepare for a set of dimension `facts->dimension`; outcome UNBOUNDED or EMPTY where there is no
+ * outline. The caller frees *room. */
 CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, CpsSetFacts *facts,
                           double **room, CpsError *err);
 /* x(theta); returns h. */

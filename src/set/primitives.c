@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constructors of the primitive sets: arguments are checked, copied, and brought to one of a few
- * kinds. */
+/* Constructors of the primitive sets: arguments are checked, copied, and reduced to a few kinds. */
 #include <math.h>
 #include <string.h>
 
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* Segments and triangles are written by their points, as what lies in spaces that are larger. */
+/* Segments and triangles are written by their points, as sets of low dimension in larger spaces. */
 enum { LEAST_POINTS = 4, MOST_COMPONENTS = 64 };
 
 static CpsStatus check_space(int n, CpsSet **out, CpsError *err) {
@@ -70,7 +69,7 @@ CpsStatus cps_set_ball(int n, const double *center, double radius, CpsSet **out,
     if (!(radius >= 0) || !isfinite(radius))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "radius is %g, expected a finite number >= 0",
                          radius);
-    /* without radius a ball is a point */
+    /* a ball without radius is a point */
     status =
         cpsi_set_new(radius > 0 ? CPSI_SET_BALL : CPSI_SET_POINTS, n, 1, NULL, (size_t)n, out, err);
     if (status) return status;
@@ -98,7 +97,7 @@ CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, Cp
     if (status) return status;
     set->b = set->a + w;
     set->c = set->b + w * w;
-    double *lower = set->c + w * w; /* scratch behind what is kept */
+    double *lower = set->c + w * w; /* scratch after the arrays that are kept */
     if (center) memcpy(set->a, center, w * sizeof *center);
     memcpy(set->b, shape, w * w * sizeof *shape);
     if (!cpsi_cholesky(n, shape, lower)) {
@@ -133,7 +132,7 @@ CpsStatus cps_set_interval(double low, double high, CpsSet **out, CpsError *err)
     return cps_set_box(1, &low, &high, out, err);
 }
 
-/* rows that are 0 would say something about no point; the user should know */
+/* a row of zeros would be no condition; it is reported as an error */
 static CpsStatus check_normals(int n, int count, const double *rows, CpsError *err) {
     for (int k = 0; k < count; k++)
         if (cpsi_norm(n, &rows[(size_t)k * (size_t)n]) == 0)

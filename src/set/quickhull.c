@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Quickhull in space (Barber, Dobkin and Huhdanpaa 1996): each point outside is kept with one
- * triangle that sees it. The farthest point of a triangle replaces all triangles that it sees by
- * those from their common edge, the horizon, to itself. */
+/* Quickhull in space (Barber, Dobkin and Huhdanpaa 1996). Each point outside the hull is assigned
+ * to one triangle that is visible from it. The farthest point of a triangle replaces all triangles
+ * visible from it by the triangles between it and their common boundary, the horizon. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "set/hull.h"
 
-/* Points nearer to a plane than this share of the size lie on it. */
+/* Points nearer to a plane than this share of the size lie in it. */
 static const double ON_PLANE = 1e-12;
-/* A triangle flatter than this (area by the square of the size) has no normal that rounding does
- * not decide. */
+/* The normal of a triangle flatter than this (area over the square of the size) is determined by
+ * rounding. */
 static const double NO_AREA = 1e-14;
 
 typedef struct Work {
@@ -20,10 +20,10 @@ typedef struct Work {
     double size;
     CpsiTriangle *triangle;
     int triangles, room;
-    int *next;    /* (count) the next point outside the same triangle */
-    int *at;      /* (count) the new triangle whose edge starts there */
-    int *stack;   /* triangles that are visible, in the order found */
-    int *horizon; /* (3 each) triangle beyond, its edge, unused */
+    int *next;    /* (count) next point in the list of the same triangle */
+    int *at;      /* (count) the new triangle whose edge begins there */
+    int *stack;   /* visible triangles, in the order found */
+    int *horizon; /* (3 each) triangle across the edge, its edge, unused */
     int stack_room;
 } Work;
 
@@ -32,7 +32,7 @@ static double height(const Work *w, const CpsiTriangle *t, int p) {
     return t->normal[0] * x[0] + t->normal[1] * x[1] + t->normal[2] * x[2] - t->offset;
 }
 
-/* One more triangle; -1: no memory, -2: no area. */
+/* Add a triangle; -1: no memory, -2: no area. */
 static int add(Work *w, int a, int b, int c) {
     if (w->triangles == w->room) {
         const int room = 2 * w->room + 64;
@@ -56,7 +56,7 @@ static int add(Work *w, int a, int b, int c) {
     return w->triangles++;
 }
 
-/* Give a point to the triangle, where it is outside it. */
+/* Assign a point to the triangle if it is outside it. */
 static bool take(Work *w, int triangle, int p) {
     CpsiTriangle *t = &w->triangle[triangle];
     const double d = height(w, t, p);
@@ -79,7 +79,7 @@ static void link(Work *w, int one, int edge, int other) {
             w->triangle[other].neighbour[k] = one;
 }
 
-/* The four triangles of a tetrahedron, and all points to those that see them. */
+/* The four triangles of a tetrahedron, with all points assigned. */
 static int begin(Work *w, const int start[4]) {
     static const int FACE[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
     for (int f = 0; f < 4; f++) {
@@ -87,7 +87,7 @@ static int begin(Work *w, const int start[4]) {
         const int made = add(w, v[0], v[1], v[2]);
         if (made < 0) return made;
     }
-    /* all of them see the corner opposite, or none does */
+    /* the opposite corner must be visible from none of them */
     int opposite = start[3];
     if (height(w, &w->triangle[0], opposite) > 0) {
         w->triangles = 0;
@@ -106,7 +106,7 @@ static int begin(Work *w, const int start[4]) {
     return 0;
 }
 
-/* Room for all triangles on the stack and their edges. */
+/* Allocate for all triangles on the stack and their edges. */
 static bool grow(Work *w) {
     if (w->stack_room >= w->triangles) return true;
     const int room = 2 * w->triangles + 64;
@@ -118,8 +118,8 @@ static bool grow(Work *w) {
     return stack && horizon;
 }
 
-/* Triangles that see p, from one of them on; the edges between those and the others. Returns how
- * many edges. */
+/* The triangles visible from p, searched from one of them, and the edges between those and the
+ * others. Returns the number of edges. */
 static int look(Work *w, int from, int p, int *seen) {
     int edges = 0;
     *seen = 0;
@@ -142,7 +142,7 @@ static int look(Work *w, int from, int p, int *seen) {
     return edges;
 }
 
-/* Replace what p sees. Returns 0, -1: no memory, -2: rounding decides. */
+/* Replace the triangles visible from p. Returns 0; -1: no memory; -2: determined by rounding. */
 static int put(Work *w, int from, int p) {
     if (!grow(w)) return -1;
     int seen, edges = look(w, from, p, &seen);
@@ -153,7 +153,7 @@ static int put(Work *w, int from, int p) {
                   beyond = w->triangle[inside].neighbour[e];
         const int made = add(w, a, b, p);
         if (made < 0) return made;
-        if (w->at[a] >= first) return -2; /* the horizon passes a corner twice */
+        if (w->at[a] >= first) return -2; /* the horizon passes through a corner twice */
         w->at[a] = made;
         link(w, made, 0, beyond);
     }

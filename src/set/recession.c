@@ -22,7 +22,7 @@ CpsStatus cpsi_set_recession(const CpsSet *set, CpsSet **out, CpsError *err) {
         status = cpsi_conic_form_reduce(conic, (int)n, x, 0, NULL, 1e-11, &form, err);
     free(x);
     cpsi_conic_rows_free(conic);
-    /* of a bounded set 0 alone is left, in no interior */
+    /* for a bounded set only 0 remains, which has no interior */
     if (!status) status = cpsi_conic_form_deepen(&form, &touching, err);
     if (!status) return cpsi_set_from_conic_form(form, out, err);
     cpsi_conic_form_free(form);

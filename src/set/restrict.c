@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A conic form restricted to a face of its cones. The interior-point solution (v, s, z) of a
- * program on the form lies in the relative interior of the optimal set, so z tells the face cone by
- * cone:
+ * program on the form lies in the relative interior of the optimal set, so z determines the face
+ * cone by cone:
  *
- *     z = 0                    the cone's rows stay as they are
- *     z on the boundary        s stays on the ray of Jz:  its other components are equations, s
- *                              along it >= 0
+ *     z = 0                    the cone's rows remain as they are
+ *     z on the boundary        s lies on the ray of Jz: its other components are equations, and
+ *                              s along the ray >= 0
  *     z inside (or z > 0)      s = 0
  *
- * written around the solution found, dv = v - v*, so that rounding cannot make the face empty. */
+ * written relative to the solution found, dv = v - v*, so that rounding cannot make the face
+ * empty. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,7 @@
 /* Coefficients of rows of size one below this are rounding. */
 static const double NOISE = 1e-9;
 
-/* Affine row over dv: a'(A dv) + constant, a over d rows of the form from i on. */
+/* Affine row over dv: a'(A dv) + constant, with a over d rows of the form beginning with i. */
 static void combine(const CpsiConicForm *form, int i, int d, const double *a, double constant,
                     double *row) {
     const int u = form->unknowns;
@@ -31,7 +32,7 @@ static void combine(const CpsiConicForm *form, int i, int d, const double *a, do
     row[u] += constant;
 }
 
-/* An equation; rows of nothing but rounding are left out. */
+/* An equation; rows that are only rounding are left out. */
 static void equation(CpsiConicRows *conic, const CpsiConicForm *form, int i, int d,
                      const double *a) {
     double *row = cpsi_conic_rows_equation(conic);
@@ -46,7 +47,7 @@ static void cone_on_face(CpsiConicRows *conic, const CpsiConicForm *form, const 
                          int i, int d, double angle, double *a) {
     const double *s = &at->s[i], *z = &at->z[i];
     double *rows, size = cpsi_norm(d - 1, z + 1);
-    if (z[0] <= angle) { /* not pressed */
+    if (z[0] <= angle) { /* inactive */
         rows = cpsi_conic_rows_cone(conic, d);
         for (int r = 0; r < d; r++)
             combine(form, i + r, 1, (const double[]){1}, s[r],

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Nodes of set expressions: making, holding, letting go, and their text. */
+/* Nodes of set expressions: construction, reference count, and their text. */
 #include "set/set.h"
 
 #include <math.h>
@@ -31,7 +31,7 @@ const char *cps_set_outcome_text(CpsSetOutcome outcome) {
 CpsStatus cpsi_set_new(CpsiSetKind kind, int n, int count, const CpsSet *const *parts,
                        size_t doubles, CpsSet **out, CpsError *err) {
     const size_t held = parts ? (size_t)count : 0;
-    /* one block: the node, its parts, its numbers; sizes are bounded by CPS_SET_MAX_... */
+    /* one block for the node, its parts and its numbers; sizes are bounded by CPS_SET_MAX_... */
     const size_t head = (sizeof(CpsSet) + held * sizeof(CpsSet *) + 15) / 16 * 16;
     CpsSet *set = doubles < (SIZE_MAX / 2 - head) / sizeof(double)
                       ? calloc(1, head + doubles * sizeof(double))
@@ -64,7 +64,7 @@ CpsStatus cpsi_set_from_conic_form(CpsiConicForm *form, CpsSet **out, CpsError *
 }
 
 CpsSet *cps_set_retain(const CpsSet *set) {
-    CpsSet *held = (CpsSet *)(uintptr_t)set; /* the count is the one thing that changes */
+    CpsSet *held = (CpsSet *)(uintptr_t)set; /* a set is constant except for its reference count */
     if (held) atomic_fetch_add(&held->refcount, 1);
     return held;
 }
@@ -114,7 +114,7 @@ static double largest(size_t count, const double *numbers) {
     return most;
 }
 
-/* largest coordinate of the data, 0 for what has no length */
+/* largest coordinate of the data, 0 for sets without a length */
 static double reach(const CpsSet *set) {
     const size_t n = (size_t)set->n, count = (size_t)set->count;
     double most = 0;
@@ -128,7 +128,7 @@ static double reach(const CpsSet *set) {
             if (isfinite(set->b[k]))
                 most = fmax(most, fabs(set->b[k]) / largest(n, &set->a[k * n]));
         return most;
-    case CPSI_SET_CONIC: /* without offsets it is a cone, of no size */
+    case CPSI_SET_CONIC: /* without offsets it is a cone, which has no size */
         if (largest((size_t)set->form->rows, set->form->b) > 0) most = set->form->size;
         return fmax(most, largest(n, set->form->origin));
     case CPSI_SET_SUBSPACE:
@@ -173,7 +173,7 @@ __attribute__((format(printf, 2, 3))) static void put(Text *text, const char *fo
     if (wrote > 0) text->length += (size_t)wrote;
 }
 
-/* numbers apart by blanks, at most eight of them */
+/* numbers separated by blanks, at most eight of them */
 static void write_numbers(Text *text, size_t count, const double *numbers) {
     for (size_t i = 0; i < count && i < 8; i++) put(text, "%s%.9g", i ? " " : "", numbers[i]);
     if (count > 8) put(text, " ..");

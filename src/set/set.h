@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The node of a set's expression, as the files of this folder see it. Nodes never change after
- * their constructor. */
+/* The node of a set's expression, as the files of this folder use it. Nodes never change after
+ * construction. */
 #ifndef CAPSTAN_SRC_SET_SET_H
 #define CAPSTAN_SRC_SET_SET_H
 
@@ -11,7 +11,7 @@
 #include "set/conic_form.h"
 #include "set/hull.h"
 
-/* kind: its arrays in `data` */
+/* kind: the arrays of its data */
 typedef enum CpsiSetKind {
     CPSI_SET_POINTS,    /* a: points (count, n): hull of points, segment, point */
     CPSI_SET_BALL,      /* a: center (n); scalar: radius */
@@ -24,7 +24,7 @@ typedef enum CpsiSetKind {
                               others its normals */
     CPSI_SET_RAYS,         /* a: rays (count, n) */
     CPSI_SET_USER,
-    CPSI_SET_CONIC, /* own form: a face or cone that the solver found */
+    CPSI_SET_CONIC, /* its own form: a face or cone that the solver found */
     CPSI_SET_PRODUCT,
     CPSI_SET_INTERSECTION,
     CPSI_SET_PREIMAGE, /* a: map (part's n, n); b: shift (part's n) */
@@ -39,86 +39,88 @@ typedef enum CpsiSetKind {
 struct CpsSet {
     atomic_int refcount;
     CpsiSetKind kind;
-    int n;             /* of R^n */
-    int count;         /* points, rows, rays or parts */
-    bool closure;      /* it need not be closed as it is written: its closure is meant */
+    int n;     /* of R^n */
+    int count; /* points, rows, rays or parts */
+    /* the expression may describe a set that is not closed; the node stands for its closure */
+    bool closure;
     CpsSet **part;     /* (count) for operations */
-    double *a, *b, *c; /* see the kind; inside the node's own block */
+    double *a, *b, *c; /* see the kind; inside the node's memory block */
     double scalar;
     CpsSetSupport *support; /* of a user's set */
     void *user;
-    CpsiConicForm *form; /* conic form where questions need it at once, else NULL */
+    CpsiConicForm *form; /* conic form where every query needs it, else NULL */
     CpsiConicForm *dual;
-    CpsiHull *hull; /* of points: their facets, where they are known */
-    bool touching;  /* its parts meet without an interior: what is written of it is its form
-                       (touching.c) */
+    CpsiHull *hull; /* of points: the facets, where they are known */
+    /* its parts have no common interior point; its rows are written from its form (touching.c) */
+    bool touching;
 };
 
-/* A node with room for `doubles` numbers at a; parts are retained, their array copied. */
+/* A node with memory for `doubles` numbers at a; parts are retained, their array copied. */
 CpsStatus cpsi_set_new(CpsiSetKind kind, int n, int count, const CpsSet *const *parts,
                        size_t doubles, CpsSet **out, CpsError *err);
 
-/* A set from a form that the solver restricted: the form now belongs to the set, or is freed. */
+/* A set from a restricted form. The form then belongs to the set, or is freed on failure. */
 CpsStatus cpsi_set_from_conic_form(CpsiConicForm *form, CpsSet **out, CpsError *err);
 
-/* Are all `count` numbers finite?  Otherwise CPS_ERR_ARGUMENT with the name of the argument and the
- * place. */
+/* Check that all `count` numbers are finite; otherwise CPS_ERR_ARGUMENT with the name of the
+ * argument and the index. */
 CpsStatus cpsi_set_finite(const char *name, size_t count, const double *numbers, CpsError *err);
 
-/* Does the expression hold a user's set? */
+/* Whether the expression contains a user's set. */
 bool cpsi_set_has_user(const CpsSet *set);
 
-/* A point further away than this many sizes counts as none. */
+/* A point farther away than this many sizes does not count as attained. */
 #define CPSI_SET_FAR 1e6
 
-/* A length typical of the data, > 0: what a relative tolerance is relative to. */
+/* A typical length of the data, > 0, the unit for relative tolerances. */
 double cpsi_set_size(const CpsSet *set);
-/* A cone by the way it is written, as nothing in it has a length; then its size is 1 for want of
- * one. */
+/* Whether the set is a cone by its expression, since no part of it has a length; its size is then 1
+ * by convention. */
 bool cpsi_set_is_cone(const CpsSet *set);
 
-/* Numbers of a node's size: on the stack while they are few. */
+/* An array of a node's size, on the stack where it is small. */
 typedef struct CpsiScratch {
     double few[64];
     double *many;
 } CpsiScratch;
-double *cpsi_scratch_take(CpsiScratch *scratch, size_t count); /* NULL: no memory */
+/* NULL when memory does not suffice */
+double *cpsi_scratch_take(CpsiScratch *scratch, size_t count);
 void cpsi_scratch_give(CpsiScratch *scratch);
 
 /* ---- closed forms (closed_forms.c, closed_margin.c, ellipsoid.c): false where there is none for
  * this expression ---- */
 
-/* Of primitives. point may be NULL; a value INFINITY puts a ray there. */
+/* For primitives. point may be NULL; where the value is INFINITY it is a ray. */
 bool cpsi_closed_support(const CpsSet *set, const double *w, double *point, double *value);
-/* The radius of the largest ball round p inside, or minus the distance of p and the unit separating
- * direction (may be NULL). */
+/* The radius of the largest ball round p inside the set, or minus the distance of p and the unit
+ * separating direction (may be NULL). */
 bool cpsi_closed_margin(const CpsSet *set, const double *p, double *separating, double *margin);
 /* Nearest point in the Euclidean norm. */
 bool cpsi_closed_project(const CpsSet *set, const double *p, double *nearest);
-/* Of an ellipsoid: the point of its boundary that is nearest to p, and whether p is inside. */
+/* The point of an ellipsoid's boundary that is nearest to p, and whether p is inside. */
 bool cpsi_ellipsoid_nearest(const CpsSet *set, const double *p, double *nearest, double *distance,
                             bool *inside);
-/* Of a set that contains 0. */
+/* For a set that contains 0. */
 bool cpsi_closed_gauge(const CpsSet *set, const double *p, double *value);
 
-/* ---- questions without the checks of the public calls ---- */
+/* ---- queries without the checks of the public calls ---- */
 
-/* The arguments of a question: a set, finite numbers, a place for the answer. */
+/* Check the arguments of a query: a set, finite numbers, and memory for the answer. */
 CpsStatus cpsi_set_check(const CpsSet *set, const char *name, const double *numbers,
                          const void *answer, CpsError *err);
-/* Where 0 is, as far as the way a set is written tells (zero.c). */
+/* The position of 0, as far as the expression shows it (zero.c). */
 typedef enum CpsiZero { CPSI_ZERO_UNKNOWN, CPSI_ZERO_INSIDE, CPSI_ZERO_RELATIVE } CpsiZero;
 CpsStatus cpsi_set_locate_zero(const CpsSet *set, CpsiZero *known, CpsError *err);
 CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer,
                        CpsError *err);
-/* back = L'w for an image by L; what cancels to rounding is 0, so that no unbounded part makes
- * infinity of it. */
+/* back = L'w for an image by L; components that are the rounding of cancelled terms are set to 0,
+ * so that they do not become infinite with an unbounded part. */
 void cpsi_pull_back(const CpsSet *image, const double *w, double *back);
-/* The largest t with p + t d in the set (INFINITY if all are), for p in the set. */
+/* The largest t with p + t d in the set (INFINITY if every t is), for p in the set. */
 CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSetAnswer *answer,
                      CpsError *err);
 CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, CpsError *err);
-/* The normal cone at p of a sum of many balls and their images, where formulas give it: *known is
+/* The normal cone at p of a sum of many balls and their images, where formulas exist; *known is
  * false where they do not (smooth_sum.c). */
 CpsStatus cpsi_smooth_sum_cone(const CpsSet *set, const double *p, double share, bool *known,
                                CpsSet **cone, CpsSetAnswer *answer, CpsError *err);

@@ -5,14 +5,15 @@
  *     h(w) = sum r_k |L_k'w|,    grad h = sum r_k L_k y_k,    y_k = L_k'w/|L_k'w|,
  *     H = sum (r_k/|L_k'w|) (L_k L_k' - (L_k y_k)(L_k y_k)'),
  *
- * smooth wherever no L_k'w is 0. With q the point less the centre,
+ * which is smooth where no L_k'w is 0. With q the point less the centre,
  *
  *     1/gauge(q) = min { h(w) : <w, q> = 1 },        -distance^2/2 = min h(w) - <w, q> + |w|^2/2,
  *
- * two smooth convex problems in w alone, each solved by damped Newton steps: time goes with the
- * number of parts, where the conic form takes its cube. The minimiser of the first is a normal of
- * the sum at q/gauge. It is the only one where H has a rank of one less than the space: then grad h
- * takes the value q/gauge on no other ray near by, and a normal cone is convex. */
+ * are two smooth convex problems in w alone, each solved by damped Newton steps. Their time is
+ * proportional to the number of parts, that of the conic form to its cube. The minimiser of the
+ * first is a normal of the sum at q/gauge. It is the only one where the rank of H is one less than
+ * the dimension of the space: then grad h takes the value q/gauge on no other ray near by, and a
+ * normal cone is convex. */
 #include "base/status.h"
 #include "linalg/dense.h"
 #include "set/set.h"
@@ -21,20 +22,20 @@
 #include <string.h>
 
 enum { MOST = 3, STEPS = 60 };
-/* With fewer parts the conic form takes milliseconds. */
+/* With fewer parts the conic form takes only milliseconds. */
 static const int MANY = 20;
-/* h is not called smooth where a part's |L_k'w| is below this share of |L_k||w|, nor its Hessian of
- * full rank below this share of its trace: normals would lose more digits than the promised ones.
- */
+/* h does not count as smooth where a part's |L_k'w| is below this share of |L_k||w|, nor its
+ * Hessian as of full rank below this share of its trace, since normals would be less accurate than
+ * promised. */
 static const double SMOOTH = 1e-6;
-/* Where Newton's decrement is this small beside the value rounding hides whether the value falls;
- * each of the last steps squares what w is off by. */
+/* Where Newton's decrement is this small relative to the value, rounding prevents a test of
+ * descent. Each of the last steps squares the error of w. */
 static const double NEAR = 1e-10;
 static const int LAST = 2;
-/* A point counts as inside where the ball round it has this many times the tolerance. */
+/* A point counts as inside where the ball round it has a radius of this many tolerances. */
 static const double CLEARLY = 10;
 
-/* The ball of a part, and the map L (n, ball->n) by which it enters the sum. */
+/* The ball of a part, and the map L (n, ball->n) that is applied to it in the sum. */
 static const CpsSet *ball_of(const CpsSet *part, double *map) {
     const CpsSet *ball = part->kind == CPSI_SET_IMAGE ? part->part[0] : part;
     for (int i = 0; i < part->n; i++)
@@ -75,14 +76,14 @@ static bool support(const CpsSet *set, const double *w, double *h, double *gradi
     return true;
 }
 
-/* h(w) - curvature (<w, q> - |w|^2/2), of h = h(w). */
+/* h(w) - curvature (<w, q> - |w|^2/2), for given h = h(w). */
 static double objective(int n, double h, double curvature, const double *w, const double *q) {
     return h - curvature * (cpsi_dot(n, w, q) - 0.5 * cpsi_dot(n, w, w));
 }
 
 /* The minimum of h(w) - curvature (<w, q> - |w|^2/2), curvature 0 or 1, over w = start + basis't,
- * basis (free, n). w holds the start and then the minimiser. False where h is not smooth on the
- * way, or nothing is found. */
+ * basis (free, n). w holds the start and then the minimiser. Returns false where h is not smooth at
+ * an iterate, or the iteration does not converge. */
 static bool minimise(const CpsSet *set, const double *q, double curvature, int unknowns,
                      const double *basis, double *w, double *value, double *hessian) {
     const int n = set->n;
@@ -110,8 +111,8 @@ static bool minimise(const CpsSet *set, const double *q, double curvature, int u
         const bool near = decrement <= NEAR * fabs(*value);
         if (near && ++last > LAST) return true;
 
-        /* half the Newton step, as often as the value does not fall by a tenth of what the step
-         * promises */
+        /* halve the Newton step until the value decreases by at least a tenth of the predicted
+         * decrease */
         double to[MOST];
         bool taken = false;
         for (double share = 1; !taken && share > 1e-12; share *= 0.5) {
@@ -129,7 +130,7 @@ static bool minimise(const CpsSet *set, const double *q, double curvature, int u
     return false;
 }
 
-/* Is it a sum that is meant here?  Then q is p less its centre. */
+/* Whether the set is a sum of the kind treated here; q is then p less its centre. */
 static bool is_meant(const CpsSet *set, const double *p, double *q) {
     const int n = set->n;
     if (set->kind != CPSI_SET_SUM || set->count < MANY || n < 2 || n > MOST) return false;
@@ -145,8 +146,8 @@ static bool is_meant(const CpsSet *set, const double *p, double *q) {
     return true;
 }
 
-/* A ball of this radius lies in the sum: h(w)^2 >= w'M w with M = sum r_k^2 L_k L_k', whose least
- * eigenvalue is at least det M/(trace M/(n - 1))^(n - 1). */
+/* The radius of a ball that lies in the sum: h(w)^2 >= w'M w with M = sum r_k^2 L_k L_k', whose
+ * smallest eigenvalue is at least det M/(trace M/(n - 1))^(n - 1). */
 static double least_radius(const CpsSet *set) {
     const int n = set->n;
     double m[MOST * MOST] = {0}, trace = 0;
@@ -166,7 +167,8 @@ static double least_radius(const CpsSet *set) {
     return sqrt(determinant / pow(trace / (n - 1), n - 1));
 }
 
-/* Has the Hessian, which does not see w, the rank n - 1?  By its least eigenvalue across w. */
+/* Whether the Hessian, whose null space contains w, has the rank n - 1, from its smallest
+ * eigenvalue normal to w. */
 static bool is_round(int n, const double *hessian) {
     double trace = 0, minors = 0;
     for (int i = 0; i < n; i++) trace += hessian[i * n + i];
@@ -177,7 +179,7 @@ static bool is_round(int n, const double *hessian) {
     return n == 2 ? trace > 0 : minors > SMOOTH * trace * trace;
 }
 
-/* The directions across q, (n - 1, n) orthonormal, and the multiple of q with <w, q> = 1. */
+/* The directions normal to q, (n - 1, n) orthonormal, and the multiple of q with <w, q> = 1. */
 static void across(int n, const double *q, double *basis, double *w) {
     double rows[MOST * MOST] = {0};
     const double size = cpsi_norm(n, q);
@@ -205,7 +207,8 @@ CpsStatus cpsi_smooth_sum_cone(const CpsSet *set, const double *p, double share,
     if (!(far > 0)) return CPS_OK;
     across(n, q, basis, w);
     if (!minimise(set, q, 0, n - 1, basis, w, &least, hessian)) return CPS_OK;
-    const double inside = 1 - 1 / least; /* of the way from the boundary to the centre */
+    /* relative distance from the boundary towards the centre */
+    const double inside = 1 - 1 / least;
     if (inside * radius > CLEARLY * share * size) {
         *known = true;
         return cps_set_cone_of_rays(n, 0, NULL, cone, err);
@@ -217,7 +220,7 @@ CpsStatus cpsi_smooth_sum_cone(const CpsSet *set, const double *p, double share,
         return *known ? cps_set_cone_of_rays(n, 1, w, cone, err) : CPS_OK;
     }
     if (inside > 0) return CPS_OK;
-    /* outside, by how far? */
+    /* for a point outside: its distance */
     const double guess = (1 - least) / cpsi_norm(n, w), length = cpsi_norm(n, w);
     double value;
     for (int i = 0; i < n; i++) w[i] *= guess / length;

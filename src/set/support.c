@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Support, extent, projection and gauge: the closed form first, else a small conic program.
+/* Support, extent, projection and gauge: the closed form where there is one, else a small conic
+ * program.
  *
- * The support function follows the expression down as far as it goes (M77 §8 and §10):
+ * The support function is computed recursively from the expression (M77 §8 and §10):
  *     h of a product, of a sum = the sum of the parts' h      h of L C (w) = h_C(L'w)
  *     h of C + g = h_C + <w, g>     h of f C (w) = |f| h_C(sign(f) w)
  *         h of a hull = the largest of the parts' h
- * and meets intersections, preimages and polars with the conic form that they carry. */
+ * Intersections, preimages and polars use the conic form that they carry. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,10 +14,11 @@
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* The gap, relative to value and size, up to which a value that only a far point attains is one.
- * Its certificate loses what the point is far; what has no bound at all is off by order 1. */
+/* The gap, relative to value and size, up to which a value that is attained only at a far point is
+ * finite. Its certificate loses accuracy with the distance of the point; where the value is
+ * unbounded the gap is of order 1. */
 static const double ASYMPTOTIC = 3e-2;
-/* What is left of terms that cancel to rounding, beside the largest. */
+/* Rounding of terms that cancel, relative to the largest term. */
 static const double CANCELLED = 4e-16;
 
 CpsStatus cpsi_set_conic_form(const CpsSet *set, const CpsiConicForm **form, CpsiConicForm **made,
@@ -41,7 +43,7 @@ void cpsi_check_attained(const CpsiConicForm *form, const double *c, CpsiSolutio
     solution->outcome = CPS_SET_NOT_ATTAINED;
     solution->gap =
         fmax(solution->gap,
-             size / CPSI_SET_FAR); /* a hyperbola's distance from its asymptote out there */
+             size / CPSI_SET_FAR); /* distance of a hyperbola from its asymptote at that point */
 }
 
 static CpsStatus conic_support(const CpsSet *set, const double *w, double *point,
@@ -71,7 +73,8 @@ static CpsStatus conic_support(const CpsSet *set, const double *w, double *point
     return status;
 }
 
-/* Join the answer for one more part: nothing is worse than empty, then refusals, then unbounded. */
+/* Combine with the answer for one more part: "empty" takes precedence over refusals, and these over
+ * "unbounded". */
 static void join(CpsSetAnswer *whole, const CpsSetAnswer *part) {
     static const int RANK[] = {
         [CPS_SET_ANSWERED] = 0,   [CPS_SET_NOT_ATTAINED] = 1,  [CPS_SET_UNBOUNDED] = 2,
@@ -82,7 +85,8 @@ static void join(CpsSetAnswer *whole, const CpsSetAnswer *part) {
     whole->gap += part->gap;
 }
 
-/* Product and sum. Where one part is unbounded the point is its ray, and 0 from the others. */
+/* Product and sum. Where one part is unbounded the point is its ray, with 0 from the other
+ * parts. */
 static CpsStatus support_parts(const CpsSet *set, const double *w, double *point,
                                CpsSetAnswer *answer, CpsError *err) {
     const bool product = set->kind == CPSI_SET_PRODUCT;
@@ -170,7 +174,7 @@ static CpsStatus support_hull(const CpsSet *set, const double *w, double *point,
     for (int k = 0; !status && k < set->count; k++) {
         CpsSetAnswer one;
         status = cpsi_support(set->part[k], w, point ? piece : NULL, &one, err);
-        if (status || one.outcome == CPS_SET_EMPTY) continue; /* nothing to add */
+        if (status || one.outcome == CPS_SET_EMPTY) continue; /* no contribution */
         const bool refused =
             one.outcome == CPS_SET_INACCURATE || one.outcome == CPS_SET_NOT_AVAILABLE;
         const bool exact = answer->exact && one.exact,
@@ -206,7 +210,8 @@ static CpsStatus support_user(const CpsSet *set, const double *w, double *point,
     return CPS_OK;
 }
 
-/* Far points of the parts may make a near one of an image or sum, which the closure then holds. */
+/* Points of the parts that are far away may have a near sum or image, which then belongs to the
+ * closure. */
 static CpsStatus in_closure(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer,
                             CpsError *err) {
     if (answer->outcome != CPS_SET_NOT_ATTAINED) return CPS_OK;
@@ -253,10 +258,10 @@ CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSet
     return conic_support(set, w, point, answer, err);
 }
 
-/* ---- programs with unknowns of their own ---- */
+/* ---- programs with additional unknowns ---- */
 
-/* Rows for one set with `own` unknowns first; x (n, width) and t (width) are zero and the caller's
- * to fill. */
+/* Rows of one set after `own` unknowns of the query; x (n, width) and t (width) are zero, and the
+ * caller fills them. */
 typedef struct Ask {
     CpsiConicRows *conic;
     double *x, *t;
@@ -365,7 +370,7 @@ static CpsStatus conic_project(const CpsSet *set, const double *p, const double 
     if (status) return status;
     const size_t w = (size_t)ask.conic->width;
     double *rows = cpsi_conic_rows_cone(ask.conic, n + 1);
-    rows[n] = 1; /* the unknown r comes after x */
+    rows[n] = 1; /* the unknown r follows x */
     for (int i = 0; i < n; i++) {
         double *row = &rows[(size_t)(i + 1) * w];
         for (int j = i; j < (lower ? n : i + 1); j++) {

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sets whose parts touch without a common interior: facial reduction (Borwein and Wolkowicz 1981).
+/* Sets whose parts have no common interior point: facial reduction (Borwein and Wolkowicz 1981).
  *
  * The form {v : A v + b in K} has an interior where some v has A v + b - t e in K with t > 0, e the
- * middle of the cones. The largest such t, at most 1, is a program with an interior on both sides:
+ * middle of the cones. The largest such t, at most 1, is a program with interior points of both the
+ * primal and the dual:
  *
  *     max t,   A v + b - t e in K,   t <= 1           dual:  A'z = 0,  z in K,  <z, e> = 1,
  *         min b.z
  *
  * Where it is 0, every v of the form has <z, A v + b> = 0: the form lies in the face of K that z
- * selects, and is written over that face (restrict.c). Each round lowers the dimension, so that
- * there are no more of them than unknowns. Programs on the form that is left have multipliers
- * again. */
+ * selects, and is written over that face (restrict.c). Each round lowers the dimension, so there
+ * are at most as many rounds as unknowns. Programs on the resulting form have multipliers again. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,13 +19,13 @@
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* Parts that overlap, or miss each other, by less than this share of their size touch: what the
- * depth is known to. A lens of this thickness is as wide as its root. */
+/* Parts touch when they overlap, or are separated, by less than this share of their size, which is
+ * the accuracy of the depth. The width of a lens of this thickness is its square root. */
 static const double TOUCH = 1e-13;
-/* This share inside, and no more need be asked. */
+/* A point this deep inside suffices. */
 static const double CLEAR = 1e-6;
 
-/* The program for the depth as a form of its own, over (v, t). */
+/* The program for the depth as a form, over (v, t). */
 static CpsiConicForm *depth_form(const CpsiConicForm *form) {
     const size_t u = (size_t)form->unknowns, w = u + 1, m = (size_t)form->rows;
     CpsiConicForm *depth = cpsi_conic_form_new(form->unknowns + 1, form->unknowns + 1, 0,
@@ -47,15 +47,15 @@ static CpsiConicForm *depth_form(const CpsiConicForm *form) {
     return depth;
 }
 
-/* Are the cones' parts of s all this deep inside? */
+/* Whether s is at least this deep inside every cone. */
 static bool all_inside(const CpsiConicForm *form, const double *s) {
     CPSI_FOR_CONES(k, i, form->cones, form->dim)
         if (!(s[i] - cpsi_norm(form->dim[k] - 1, &s[i + 1]) > CLEAR)) return false;
     return true;
 }
 
-/* Is an inner point seen at once, at v = 0 or where the solver ends that has nothing to
- * minimise? */
+/* Whether an interior point is found at once: at v = 0, or where the solver ends with a zero
+ * objective. */
 static CpsStatus is_clear(const CpsiConicForm *form, const double *nothing, bool *clear,
                           CpsError *err) {
     *clear = all_inside(form, form->b);
@@ -67,7 +67,7 @@ static CpsStatus is_clear(const CpsiConicForm *form, const double *nothing, bool
     return status;
 }
 
-/* One round: *reduced, or NULL where the form has an interior, is empty, or the depth is not
+/* One round: *reduced, or NULL where the form has an interior, is empty, or its depth is not
  * known. */
 static CpsStatus reduce_once(const CpsiConicForm *form, CpsiConicForm **reduced, CpsError *err) {
     const size_t u = (size_t)form->unknowns;

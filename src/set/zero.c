@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where 0 is in a set, as far as the way the set is written tells. */
+/* The position of 0 in a set, as far as the expression of the set shows it. */
 #include <math.h>
 #include <string.h>
 
 #include "linalg/dense.h"
 #include "set/set.h"
 
-/* By a closed margin with a ball round 0; a box or product that is flat in some components has 0 in
- * its relative interior all the same. */
+/* From a closed margin, with a ball round 0. A box or product that is flat in some components may
+ * still have 0 in its relative interior. */
 static CpsiZero known_primitive(const CpsSet *set, const double *zero) {
     const double least = 1e-7 * cpsi_set_size(set);
     double margin;
@@ -53,8 +53,9 @@ static CpsiZero known_primitive(const CpsSet *set, const double *zero) {
     return margin > least ? CPSI_ZERO_RELATIVE : CPSI_ZERO_INSIDE;
 }
 
-/* Relative interiors go with sums, products, images, hulls and, where they meet, with intersections
- * and preimages (Rockafellar 1970, 6.4-6.9): what all parts have, the whole has. */
+/* Relative interiors are preserved by sums, products, images, hulls and, where they have a common
+ * point, by intersections and preimages (Rockafellar 1970, 6.4-6.9): what holds for all parts holds
+ * for the whole. */
 static CpsiZero known_zero(const CpsSet *set, const double *zero) {
     CpsiZero least = CPSI_ZERO_RELATIVE;
     switch (set->kind) {
@@ -76,7 +77,7 @@ static CpsiZero known_zero(const CpsSet *set, const double *zero) {
     return least;
 }
 
-/* The largest space that the set or one of its parts lies in. */
+/* The largest dimension of the spaces of the set and its parts. */
 static size_t most_components(const CpsSet *set) {
     size_t most = (size_t)set->n;
     for (int k = 0; set->part && k < set->count; k++) {
