@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The other side of resistance laws: phi*(-F), velocities, and how far a pair is from the law.
+/* The conjugate side of resistance laws: phi*(-F), velocities, and the residual of a pair.
  *
- * phi* of a sum is the least sum of the terms' conjugates over all ways of sharing F among them
- * (conjugate_sum.c). Closed forms:
+ * phi* of a sum is the minimum of the sum of the terms' conjugates over all ways to share F among
+ * them (conjugate_sum.c). Closed forms:
  *
- *   one term h(g)               h*(gauge of C at F)
- *   viscous                     <F, D^-1 F>/2, V = -D^-1 F
- *   dry                         0 in the sum of the sets, infinite outside
- *   dry, and viscous c |V|^2/2  |F - P|^2/2c, P the projection of F on that sum, V = -(F - P)/c;
- *                               where P is closed */
+ *    one term h(g)               h*(gauge of C at F)
+ *    viscous                     <F, D^-1 F>/2, V = -D^-1 F
+ *    dry                         0 in the sum of the sets, infinite outside
+ *    dry, and viscous c |V|^2/2  |F - P|^2/2c, P the projection of F on that sum,
+ *                                V = -(F - P)/c; where P is closed */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "law/resistance.h"
 
-/* A force outside the dry set by less than this part of its length is on its boundary. */
+/* A force outside the dry set by less than this share of its length is on its boundary. */
 static const double ON_BOUNDARY = 1e-12;
 
 static CpsStatus out_of_memory(CpsError *err) {
@@ -43,7 +43,8 @@ CpsStatus cpsi_dry_sum(const CpsResistance *law, CpsSet **dry, CpsError *err) {
     return status;
 }
 
-/* c of the viscous terms' matrices c I together; -1 where one is no multiple of the identity */
+/* the sum of c over the viscous terms' matrices c I; -1 where one is not a multiple of the
+ * identity */
 static double viscosity_of(const CpsResistance *law) {
     const size_t n = (size_t)law->n;
     double sum = 0;
@@ -58,7 +59,8 @@ static double viscosity_of(const CpsResistance *law) {
     return sum;
 }
 
-/* viscosity 0: none; excess (n). Means nothing where the answer is not exact. */
+/* viscosity 0: no viscous term; excess (n). The result is meaningless where the answer is not
+ * exact. */
 static CpsStatus closed_conjugate(const CpsSet *dry, int n, double viscosity, const double *force,
                                   double *velocity, double *excess, CpsSetAnswer *answer,
                                   CpsError *err) {
@@ -100,7 +102,7 @@ static CpsStatus viscous_conjugate(const CpsResistance *law, const double *force
     return CPS_OK;
 }
 
-/* *closed: was there a closed form?  Else the answer means nothing. */
+/* *closed: whether there is a closed form; if not, the answer is meaningless. */
 static CpsStatus quadratic_conjugate(const CpsResistance *law, const double *force,
                                      double *velocity, bool *closed, CpsSetAnswer *answer,
                                      CpsError *err) {
@@ -132,7 +134,7 @@ static CpsStatus term_conjugate(const CpsResistance *law, const double *force, d
 
     CpsiTermDual dual;
     status = cpsi_term_dual(term, gauge.value, &dual, err);
-    /* beyond the largest slope by rounding it is on it */
+    /* a force beyond the largest slope by rounding only is on it */
     if (status == CPS_OK && isinf(dual.value)) {
         status = cpsi_term_dual(term, gauge.value * (1 - ON_BOUNDARY), &dual, err);
         answer->tolerance = ON_BOUNDARY * cpsi_norm(law->n, force);
@@ -172,7 +174,7 @@ CpsStatus cps_resistance_conjugate(const CpsResistance *law, const double *force
     return cpsi_conjugate_sum(law, force, velocity, NULL, answer, err);
 }
 
-/* ---- a pair ---- */
+/* ---- residual of a pair ---- */
 
 CpsStatus cps_resistance_residual(const CpsResistance *law, const double *force,
                                   const double *velocity, double *gap, double *distance,

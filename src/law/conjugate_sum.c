@@ -5,13 +5,13 @@
  *         over all ways F_1 + F_2 + .. = F of sharing the force
  *              = max  - <V, F> - sum of h_i(g_i(V))   over all velocities
  *
- * Any shares give an upper bound and any velocity a lower one, both from the terms' closed forms;
- * their difference is the gap. To find good ones, each h* is replaced by pieces on which its slope
- * is straight, for which the shares are a conic program (inf_convolution.h) that also gives the
- * velocity. The next pieces lie between two points of each curve h': the gauge of the share found,
- * and where the velocity found meets the curve. The solution is between them but for the error of
- * the chord, so that their distance squares from pass to pass, as in Newton's method; and a chord
- * is convex however long it is, so that the first ones may be. */
+ * Any shares give an upper bound and any velocity gives a lower one, both from the terms' closed
+ * forms; their difference is the gap. To find good ones, each h* is replaced by a function whose
+ * slope is piecewise linear. For it the shares are a conic program (inf_convolution.h), which also
+ * gives the velocity. The nodes of the next pass are placed at two points of each curve h': at the
+ * gauge of the share found, and where the velocity found meets the curve. The solution lies between
+ * them up to the error of the chord, so that their distance is squared from pass to pass, as in
+ * Newton's method. A chord of any length is convex, so the first pieces may be long. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,48 +20,47 @@
 #include "law/resistance.h"
 #include "set/set.h"
 
-/* Gaps relative to phi + phi*: at which to stop at once (rounding), at which to stop when a pass
- * gains nothing, and the one promised. A velocity is wrong by the root of its gap, so that the last
- * pass is worth its time. */
+/* Gaps relative to phi + phi*: at which the passes end at once (rounding), at which they end when a
+ * pass brings no progress, and which is promised. The error of a velocity is the square root of its
+ * gap, so that the last pass is worth its time. */
 static const double TARGET = 1e-15, ENOUGH = 1e-11, PROMISE = 1e-9;
-/* A force outside by less than this part of its length is on the boundary: what the conic program
- * leaves. */
+/* A force outside by less than this share of its length is on the boundary: the accuracy of the
+ * conic program. */
 static const double ON_BOUNDARY = 1e-9;
-/* The gauge of a force that was scaled to its limit. */
+/* Rounding of the gauge of a force that was scaled to its limit. */
 static const double ROUNDING = 1e-14;
-/* Passes at most, and without progress. */
+/* Largest number of passes, and of passes without progress. */
 enum { PASSES = 40, IDLE = 10 };
-/* A bracket is widened by the first share of it on both sides, but not by less than the second
- * share of t: there its chord and curve are one. */
+/* A bracket is widened by the first share of its width on both sides, but at least by the second
+ * share of t, over which chord and curve are equal. */
 static const double WIDEN = 0.3, NARROWEST = 1e-8;
-/* Ranges beyond this many times the typical one are without end. */
+/* Ranges beyond this many times the typical one count as infinite. */
 static const double WITHOUT_END = 1e9;
-/* The range of a term is where it alone costs this many times the best split: room for better
- * ones. */
+/* The range of a term ends where the term alone costs this many times the best split found, a
+ * margin for better splits. */
 static const double ROOM = 4;
-/* The speed whose slope stands for the limit, and what keeps a limit that is only approached out of
- * reach by rounding.
- */
+/* The speed at which the slope counts as its limit. SHORT keeps rounding from reaching a limit that
+ * is only approached. */
 static const double FAST = 1e100, SHORT = 1e-12;
 /* A bracket whose speeds have a larger ratio is divided. */
 static const double WIDE = 2;
-/* Slopes of h* on both sides of a point that differ by more are a jump. */
+/* Slopes of h* on the two sides of a point that differ by more than this are a jump. */
 static const double JUMP = 1e-9;
 
 /* One term of the sum. */
 typedef struct Part {
-    CpsiTerm term; /* the law's, or all viscous ones together */
-    CpsSet *set;   /* a hold */
+    CpsiTerm term; /* a term of the law, or all viscous terms together */
+    CpsSet *set;   /* retained */
     CpsiConicForm *made;
     const CpsiConicForm *form;
-    double limit; /* h' at the highest speeds: no gauge goes beyond */
-    double range; /* what is to be looked at: beyond it the term alone costs more than the best
-                     split */
-    double t, g;  /* gauge of its share; g(V) */
+    double limit; /* h' at the highest speeds, an upper bound of the gauge */
+    /* range of the gauge to consider: beyond it the term alone costs more than the best split */
+    double range;
+    double t, g; /* gauge of its share; g(V) */
 } Part;
 
-/* What shares and a velocity prove: phi* is at most `upper`, at least `lower`, but for the error of
- * the terms' own answers. */
+/* Bounds from shares and a velocity: lower <= phi* <= upper, up to the errors of the terms' own
+ * answers. */
 typedef struct Bounds {
     double *velocity; /* (n) */
     double upper, lower, potential, error;
@@ -72,12 +71,13 @@ typedef struct Sum {
     const double *force;
     Part *part;       /* (count) */
     CpsiShare *share; /* (count) */
-    double *block;    /* all numbers below */
+    double *block;    /* memory of all arrays below */
     Bounds now, best;
     double *cost; /* (count) */
     double *work; /* (2n) */
     double *kept; /* (count, n) the shares of the best upper bound */
-    int *place;   /* (count) the law's term; the first for all viscous ones */
+    /* (count) index of the term in the law; that of the first for the viscous terms */
+    int *place;
     CpsSetOutcome outcome;
 } Sum;
 
@@ -98,7 +98,7 @@ static CpsStatus add_part(Sum *sum, const CpsiTerm *term, CpsSet *set, CpsError 
     return status == CPS_OK ? cpsi_set_conic_form(set, &part->form, &part->made, err) : status;
 }
 
-/* all viscous terms are one: the ellipsoid of their matrix, h = g^2/2 */
+/* all viscous terms together are one: the ellipsoid of their matrix, h = g^2/2 */
 static CpsStatus add_viscous(Sum *sum, const CpsResistance *law, CpsError *err) {
     const size_t size = (size_t)law->n * (size_t)law->n;
     double *matrix = calloc(size, sizeof *matrix);
@@ -136,7 +136,7 @@ static CpsStatus sum_make(const CpsResistance *law, const double *force, Sum *su
     sum->place = calloc(count, sizeof *sum->place);
     if (!sum->part || !sum->share || !sum->block || !sum->place)
         return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    double *at = sum->block + count * n; /* after the shares */
+    double *at = sum->block + count * n; /* stored after the shares */
     sum->now = (Bounds){.velocity = at};
     sum->best = (Bounds){.velocity = at + n, .upper = INFINITY, .lower = -INFINITY};
     sum->work = at + 2 * n;
@@ -158,9 +158,8 @@ static CpsStatus sum_make(const CpsResistance *law, const double *force, Sum *su
 
 /* ---- bounds ---- */
 
-/* h*(gauge) of one share, its gauge and the error of that; a gauge beyond the limit by less than
- * `slack` of it is on it.
- */
+/* h*(gauge) of one share, its gauge and the error of the gauge; a gauge beyond the limit by less
+ * than the share `slack` is on the limit */
 static CpsStatus cost_of_share(const Part *part, const double *force, double slack, double *t,
                                double *cost, double *error, CpsError *err) {
     CpsSetAnswer gauge;
@@ -177,7 +176,7 @@ static CpsStatus cost_of_share(const Part *part, const double *force, double sla
     return status;
 }
 
-/* the part that bears work (n) beside its share at the least more cost; -1: none */
+/* the part that can bear work (n) in addition to its share at the least extra cost; -1: none */
 static CpsStatus choose_bearer(Sum *sum, double slack, const double *cost, int *bearer,
                                double *more, CpsError *err) {
     const size_t n = (size_t)sum->n;
@@ -196,9 +195,9 @@ static CpsStatus choose_bearer(Sum *sum, double slack, const double *cost, int *
     return CPS_OK;
 }
 
-/* The shares are right but for what the conic program leaves. Each is put into its limit, and what
- * then lacks to F is given to the part that bears it best; where none does within its limit but for
- * rounding, F is on the boundary. */
+/* The shares have the error of the conic program. Each is brought within its limit, and the
+ * difference to F is given to the part that bears it at the least cost. Where that is possible only
+ * up to rounding, F is on the boundary. */
 static CpsStatus bound_above(Sum *sum, CpsError *err) {
     const size_t n = (size_t)sum->n;
     double *lack = sum->work, more, *cost = sum->cost;
@@ -215,7 +214,9 @@ static CpsStatus bound_above(Sum *sum, CpsError *err) {
         }
         if (status != CPS_OK) return status;
         if (isinf(
-                cost[i])) { /* rounding put it beside a cone or a flat set: what is in every set */
+                /* rounding displaced it from a cone or a flat set: use the vector that all sets
+                 * contain */
+                cost[i])) {
             memset(share, 0, n * sizeof *share);
             cost[i] = part->t = 0;
         }
@@ -236,7 +237,7 @@ static CpsStatus bound_above(Sum *sum, CpsError *err) {
 static CpsStatus bound_below(Sum *sum, CpsError *err) {
     const int n = sum->n;
     double *turned = sum->work, *velocity = sum->now.velocity;
-    /* a component that is rounding would be forbidden by a set without end on that side */
+    /* a component that is only rounding would be excluded by a set unbounded on that side */
     const double least = ROUNDING * cpsi_norm(n, velocity);
     for (int a = 0; a < n; a++) {
         if (!(fabs(velocity[a]) > least)) velocity[a] = 0;
@@ -263,7 +264,8 @@ static CpsStatus bound_below(Sum *sum, CpsError *err) {
     return CPS_OK;
 }
 
-/* keep the better of each kind; true where that brings them closer by more than rounding */
+/* Keep the better of each kind. Returns true where that reduces their difference by more than
+ * rounding. */
 static bool keep_best(Sum *sum) {
     const Bounds *now = &sum->now;
     Bounds *best = &sum->best;
@@ -286,8 +288,8 @@ static double scale_of(const Sum *sum) { return sum->best.potential + sum->best.
 
 /* ---- pieces ---- */
 
-/* The first split: no cost up to h'(0), then one that is the same everywhere for a force as long as
- * F. */
+/* The first split: no cost up to h'(0), and beyond it the same cost for all terms, for a force as
+ * long as F. */
 static CpsStatus first_pieces(Sum *sum, CpsError *err) {
     const double length = cpsi_norm(sum->n, sum->force);
     for (int i = 0; i < sum->count; i++) {
@@ -311,8 +313,8 @@ static CpsStatus first_pieces(Sum *sum, CpsError *err) {
     return CPS_OK;
 }
 
-/* The range of a term: h' where speed x h' - h = h*(h') passes `energy`, to a factor 2^(1/4) of
- * speed. */
+/* The range of a term: h' where speed x h' - h = h*(h') reaches `energy`, with the speed accurate
+ * to a factor 2^(1/4). */
 static CpsStatus find_range(Part *part, double energy, CpsError *err) {
     double g = 1, h, slope, factor = 2;
     CpsStatus status = cpsi_term_at(&part->term, g, &h, &slope, err);
@@ -331,7 +333,7 @@ static CpsStatus find_range(Part *part, double energy, CpsError *err) {
         g *= factor;
         status = cpsi_term_at(&part->term, g, &h, &slope, err);
     }
-    while (status == CPS_OK && isinf(slope) && g > 1e-150) { /* beyond the end of h */
+    while (status == CPS_OK && isinf(slope) && g > 1e-150) { /* beyond the domain of h */
         g /= factor;
         status = cpsi_term_at(&part->term, g, &h, &slope, err);
     }
@@ -340,7 +342,7 @@ static CpsStatus find_range(Part *part, double energy, CpsError *err) {
     return status;
 }
 
-/* pieces between nodes 0 .. pieces of the share */
+/* slopes of the pieces between nodes 0 .. pieces of the share */
 static CpsStatus slopes(Part *part, CpsiShare *share, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (int k = 0; k <= share->pieces && status == CPS_OK; k++) {
@@ -352,14 +354,14 @@ static CpsStatus slopes(Part *part, CpsiShare *share, CpsError *err) {
     return status;
 }
 
-/* one more node, where it leaves pieces of some width */
+/* add a node, unless the piece would be too narrow */
 static void add_node(CpsiShare *share, double t) {
     if (!(t > share->node[share->pieces] + 0.1 * NARROWEST * t)) return;
     share->node[++share->pieces] = t;
 }
 
-/* A node within a bracket: where the slope of h* jumps at its end `other`; in a wide one, where
- * speed is between those of its ends in ratio; else 0. */
+/* A node inside a bracket: where the slope of h* jumps at its end `other`; in a wide bracket at the
+ * geometric mean of the speeds of its ends; else 0. */
 static CpsStatus middle_node(const Part *part, double other, double low, double high,
                              double *middle, CpsError *err) {
     CpsiTermDual at = {0}, slow = {0}, fast = {0};
@@ -375,8 +377,8 @@ static CpsStatus middle_node(const Part *part, double other, double low, double 
     return status;
 }
 
-/* Nodes at 0, round the two points of the curve that the last split found, and at the end of the
- * range. */
+/* Nodes at 0, on both sides of the two points of the curve that the last split gave, and at the end
+ * of the range. */
 static CpsStatus nodes(Part *part, CpsiShare *share, bool first, CpsError *err) {
     if (first) {
         add_node(share, part->t);
@@ -416,7 +418,7 @@ static CpsStatus next_pieces(Sum *sum, bool first, CpsError *err) {
 
 /* ---- the conjugate ---- */
 
-/* What the first split costs beyond h'(0), relative to |F|: 0 where rest bears F. */
+/* Cost of the first split beyond h'(0), relative to |F|: 0 where F can be borne at rest. */
 static double beyond_rest(const Sum *sum) {
     double cost = 0;
     for (int i = 0; i < sum->count; i++) {
@@ -462,7 +464,7 @@ static CpsStatus conjugate(Sum *sum, double *velocity, CpsSetAnswer *answer, Cps
     memcpy(sum->kept, sum->block, (size_t)sum->count * n * sizeof *sum->kept);
     if (beyond_rest(sum) <= ON_BOUNDARY) return CPS_OK;
 
-    /* these shares and rest are the first bounds */
+    /* these shares and the velocity 0 are the first bounds */
     memset(sum->now.velocity, 0, n * sizeof *sum->now.velocity);
     status = bound_above(sum, err);
     if (status == CPS_OK) keep_best(sum);

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A user's function h of speed: checked wherever it is evaluated, and its conjugate by bisection.
+/* A user's function h of speed: checked at every evaluation, and its conjugate by bisection.
  *
- * h is convex and increasing from h(0) = 0 when its slopes do not fall and every tangent passes
- * below what is known of it; each evaluation is held against speed 0, and each step of a bisection
- * against both ends of its bracket. */
+ * h is convex and increasing from h(0) = 0 when its slopes do not decrease and every tangent lies
+ * below the known points. Each evaluation is compared with speed 0, and each step of a bisection
+ * with both ends of its bracket. */
 #include "base/status.h"
 #include "law/resistance.h"
 
-/* Values and slopes of a function written with care are right to a few ulps, differences of them to
- * more. */
+/* Values and slopes of a carefully written function are accurate to a few ulps, differences of them
+ * less so. */
 static const double SLACK = 1e-9;
-/* Slopes that differ by less are one: the function is straight there. */
+/* Slopes that differ by less are equal: the function is linear there. */
 static const double STRAIGHT = 1e-14;
-/* Speeds beyond all that is asked for; their squares neither overflow nor vanish. */
+/* Speeds beyond these are never needed; the squares of these neither overflow nor vanish. */
 static const double FASTEST = 1e150, SLOWEST = 1e-150;
-/* Values below this may have lost all digits. */
+/* Smaller values may have lost all digits. */
 static const double VANISHING = 1e-290;
 
 /* A point of h. */
@@ -31,7 +31,7 @@ static CpsStatus falls(double slow, double high, double fast, double low, CpsErr
         high, slow, low, fast);
 }
 
-/* Is h convex between two points?  h(b) - h(a) lies between the slopes times b - a. */
+/* Check that h is convex between two points: h(b) - h(a) lies between the slopes times b - a. */
 static CpsStatus check_between(const Point *a, const Point *b, CpsError *err) {
     if (isinf(b->h)) return CPS_OK;
     if (isinf(a->h) || a->slope > b->slope + SLACK * b->slope + VANISHING)
@@ -82,7 +82,8 @@ CpsStatus cpsi_function_at(const CpsiTerm *term, double g, double *h, double *sl
     return status;
 }
 
-/* Speeds far apart tell a slope that falls, speeds close together one that does not belong to h. */
+/* Points far apart detect a decreasing slope, points close together a slope that is not the
+ * derivative of h. */
 CpsStatus cpsi_function_check(const CpsiTerm *term, CpsError *err) {
     Point last, next;
     CpsStatus status = evaluate(term, 0, &last, err);
@@ -96,8 +97,8 @@ CpsStatus cpsi_function_check(const CpsiTerm *term, CpsError *err) {
 
 /* ---- conjugate ---- */
 
-/* Bracket (below, above) of neighbouring speeds with slope(below) < s <= slope(above), at or after
- * `below`; above->g INFINITY where no slope reaches s. */
+/* A bracket (below, above) of neighbouring speeds with slope(below) < s <= slope(above), at or
+ * after `below`; above->g is INFINITY where no slope reaches s. */
 static CpsStatus find(const CpsiTerm *term, double s, Point *below, Point *above, CpsError *err) {
     CpsStatus status = CPS_OK;
     *above = *below;
@@ -122,7 +123,7 @@ static CpsStatus find(const CpsiTerm *term, double s, Point *below, Point *above
     return status;
 }
 
-/* the user's own h*, held against h */
+/* the user's own h*, checked against h */
 static CpsStatus given_dual(const CpsiTerm *term, double s, CpsiTermDual *dual, CpsError *err) {
     double value, g;
     Point at;
@@ -152,8 +153,8 @@ CpsStatus cpsi_function_dual(const CpsiTerm *term, double s, CpsiTermDual *dual,
     *dual = (CpsiTermDual){INFINITY, INFINITY, INFINITY};
     if (isinf(above.g)) return CPS_OK;
 
-    /* the least speed is the right end, unless h is infinite there; the largest where the slope
-     * leaves s */
+    /* the smallest speed is the right end, unless h is infinite there; the largest is where the
+     * slope leaves s */
     const Point at = isinf(above.h) ? below : above;
     *dual = (CpsiTermDual){fmax(s * at.g - at.h, 0), at.g, at.g};
     const double leave = s + STRAIGHT * s;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The conic program of a shared force (inf_convolution.h).
  *
- * Unknowns y: of each share the v of its set's form and the part of t in each piece; last r, above
- * the quadratic costs.
+ * Unknowns y: for each share the v of its set's form and the part of t in each piece; the last one
+ * is r, an upper bound of the quadratic costs.
  *
  *     A_i v_i + b_i t_i in K_i        0 <= part <= width
  *         (r + 1/2, r - 1/2, sqrt(curvature) part, ..) in K
  *     E y = sum over i of (origin_i t_i + P_i v_i) = F
  *
- * The equations are taken in the space that the sets reach beside their lines, and eliminated;
+ * The equations are restricted to the space that the sets span beside their lines, and eliminated;
  * their multipliers are minus the velocity. Forces are divided by |F|, v_i by the share's unit,
  * parts by their width, costs by `energy`. */
 #include "law/inf_convolution.h"
@@ -22,28 +22,31 @@
 #include "conic/dense_program.h"
 #include "linalg/dense.h"
 
-/* Directions that differ by less are one: the forms are right to 1e-11. */
+/* Directions that differ by less are the same: the forms are accurate to 1e-11. */
 static const double SAME = 1e-10;
-/* A force further beside the space of the sets, relative to its length, is not in it. */
+/* A force is not in the space of the sets where its distance from it, relative to its length, is
+ * larger than this. */
 static const double BESIDE = 1e-9;
-/* The caller judges by closed forms; a program that ends worse than this is told from one that ends
- * well by nothing. */
+/* The caller judges the result by closed forms. Results with larger residuals are rejected, since
+ * they cannot be distinguished from failures. */
 static const double ACCEPT = 1e-9;
-/* Unknowns, and numbers in one matrix, that a dense solver takes; the same as for a set's form. */
+/* Limits for the unknowns and for the numbers in one matrix of a dense solver; the same as for a
+ * set's form. */
 static const size_t MOST_UNKNOWNS = 2000, MOST_NUMBERS = 32u << 20;
 
 typedef struct Program {
     int n, unknowns, rows, cones, largest, lines, rank, left;
     double force_unit, energy;
-    double *space;          /* (unknowns + lines, n): rows of lines, then of the space reached */
-    double *column;         /* (n, unknowns + 1): E, and what it lacks to F */
+    /* (unknowns + lines, n): rows of lines, then of the space that the sets span */
+    double *space;
+    double *column;         /* (n, unknowns + 1): E, and the remainder to F */
     double *equation, *rhs; /* (rank, unknowns) E in the basis of the space */
-    double *basis;  /* (unknowns, unknowns): the equations orthonormal, then what they leave free */
+    double *basis;  /* (unknowns, unknowns): the equations orthonormalised, then their null space */
     double *normal; /* (3 n n + 2 n) scratch of the normal equations */
     double *start;  /* (unknowns) */
     double *row, *offset;     /* (rows, unknowns) */
     double *cost;             /* (unknowns) */
-    double *row_left, *b, *c; /* the same over what is left free */
+    double *row_left, *b, *c; /* the same restricted to the null space */
     double *y, *w;            /* (unknowns) */
     int *dim;
 } Program;
@@ -53,7 +56,7 @@ static double width_of(const CpsiShare *share, int piece) {
     return isinf(width) ? share->unit : width;
 }
 
-/* curvature x width^2/energy: how much of the cost of a full piece is not linear, twice */
+/* curvature x width^2/energy: twice the quadratic part of the cost of a full piece */
 static double bend(const CpsiShare *share, int piece, double energy) {
     if (isinf(share->node[piece + 1])) return 0;
     return fmax(share->before[piece] - share->after[piece], 0) * width_of(share, piece) / energy;
@@ -103,7 +106,7 @@ static void layout(CpsiArena *arena, Program *p) {
 
 /* ---- writing ---- */
 
-/* E and what the forces at y = 0 lack to F */
+/* E, and F less the forces at y = 0 */
 static void write_columns(Program *p, int count, const CpsiShare *share, const double *force) {
     const size_t u = (size_t)p->unknowns, n = (size_t)p->n;
     for (size_t a = 0; a < n; a++) {
@@ -122,7 +125,7 @@ static void write_columns(Program *p, int count, const CpsiShare *share, const d
     }
 }
 
-/* the next cone, of `dim` rows; returns its first row */
+/* the next cone, of `dim` rows; returns the index of its first row */
 static size_t next_cone(int dim, int *rows, int *cones, int *dims) {
     const int first = *rows;
     dims[(*cones)++] = dim;
@@ -174,8 +177,8 @@ static void write_rows(Program *p, int count, const CpsiShare *share) {
 
 /* ---- the equations ---- */
 
-/* The equations in an orthonormal basis of the space reached beside lines; false where F is not in
- * it. */
+/* The equations in an orthonormal basis of the spanned space beside lines. Returns false where F is
+ * not in it. */
 static bool write_equations(Program *p, int count, const CpsiShare *share) {
     const size_t u = (size_t)p->unknowns, n = (size_t)p->n;
     int lines = 0;
@@ -255,7 +258,8 @@ static void read_forces(const Program *p, int count, CpsiShare *share) {
     }
 }
 
-/* The multipliers of the equations, from what cost and rows leave: E E' lambda = E (c - A'z). */
+/* The multipliers of the equations from the residual of the stationarity: E E' lambda = E (c -
+ * A'z). */
 static bool read_velocity(const Program *p, const double *z, double scale, double *velocity) {
     const size_t u = (size_t)p->unknowns, k = (size_t)p->rank;
     double *square = p->normal, *factor = square + k * k, *inverse = factor + k * k,

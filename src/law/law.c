@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Friction laws: a set with 0 in it, and the constructions of M77 sections 7, 8 and 10 that keep it
- * so.
+/* Friction laws: a set that contains 0, and the constructions of M77 sections 7, 8 and 10 that
+ * preserve this.
  *
- * Only cps_law_friction has to look for 0: products, preimages and sums of images of sets that
+ * Only cps_law_friction has to check for 0: products, preimages and sums of images of sets that
  * contain 0 contain it. */
 #include "law/law.h"
 
@@ -12,7 +12,7 @@
 
 #include "base/status.h"
 
-/* Relative tolerance on which side of a boundary a point lies (composition rule). */
+/* Relative tolerance for the side of a boundary on which a point lies (composition rule). */
 static const double BOUNDARY_TOLERANCE = 1e-9;
 
 static CpsStatus out_of_memory(CpsError *err) {
@@ -29,7 +29,7 @@ CpsStatus cpsi_law_check_vector(const char *what, int n, const double *a, CpsErr
     return CPS_OK;
 }
 
-/* A law around a set whose hold it takes over, in every case; factors NULL: the set itself is the
+/* A law for a set, whose reference it takes over in every case. factors NULL: the set itself is the
  * one factor. */
 static CpsStatus make_law(CpsSet *set, int factor_count, CpsSet *const *factor, CpsLaw **out,
                           CpsError *err) {
@@ -48,7 +48,7 @@ static CpsStatus make_law(CpsSet *set, int factor_count, CpsSet *const *factor, 
 }
 
 CpsLaw *cps_law_retain(const CpsLaw *law) {
-    CpsLaw *held = (CpsLaw *)(uintptr_t)law; /* a law is constant but for its count */
+    CpsLaw *held = (CpsLaw *)(uintptr_t)law; /* a law is constant except for its reference count */
     if (held) atomic_fetch_add(&held->refcount, 1);
     return held;
 }
@@ -76,7 +76,7 @@ CpsStatus cps_law_friction(const CpsSet *set, CpsLaw **out, CpsError *err) {
                          "the set of forces is empty: no force goes with any velocity; a friction "
                          "law contains 0");
 
-    /* a user's set is known by its support alone: it is taken at its word */
+    /* of a user's set only the support is known, so its statement that it contains 0 is accepted */
     const bool known = facts.outcome == CPS_SET_ANSWERED;
     if (!known && facts.outcome != CPS_SET_NOT_AVAILABLE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -132,7 +132,7 @@ CpsStatus cps_law_product(int count, const CpsLaw *const *parts, CpsLaw **out, C
     CpsStatus status = check_laws(count, parts, out, err);
     if (status != CPS_OK) return status;
 
-    /* products of products are one product of all their factors */
+    /* a product of products is one product of all their factors */
     size_t factor_count = 0;
     for (int i = 0; i < count; i++) factor_count += (size_t)parts[i]->factor_count;
     if (factor_count > CPS_SET_MAX_ITEMS)
@@ -208,9 +208,9 @@ const char *cps_composition_text(CpsComposition composition) {
     return (unsigned)composition < 4 ? SENTENCE[composition] : "?";
 }
 
-/* Where the point lies in one factor: interior, relative interior, or boundary. By the dimension of
- * the normal cone, which is that of the complement of the affine hull exactly on the relative
- * interior. */
+/* The position of the point in one factor: interior, relative interior, or boundary. It follows
+ * from the dimension of the normal cone, which on the relative interior, and only there, equals
+ * that of the complement of the affine hull. */
 static CpsStatus place_in_factor(const CpsSet *factor, const double *point, CpsComposition *place,
                                  CpsError *err) {
     CpsSetFacts facts, cone_facts;
@@ -233,8 +233,8 @@ static CpsStatus place_in_factor(const CpsSet *factor, const double *point, CpsC
     return status;
 }
 
-/* The worst place of the factors at L x, x in the relative interior of L^-1(C): if any force of
- * range(L) lies in the relative interiors of the factors that need it, so does this one
+/* The worst position in the factors of L x, for x in the relative interior of L^-1(C): if any force
+ * of range(L) lies in the relative interiors of the factors that require it, so does this one
  * (Rockafellar 6.1 and 6.7). */
 static CpsStatus find_composition(int n, const double *map, const CpsLaw *law,
                                   const CpsSet *reduced, CpsComposition *composition,
@@ -305,7 +305,8 @@ CpsStatus cps_law_load(const CpsLaw *law, const double *load, CpsLoadedLaw **out
 }
 
 CpsLoadedLaw *cps_loaded_law_retain(const CpsLoadedLaw *law) {
-    CpsLoadedLaw *held = (CpsLoadedLaw *)(uintptr_t)law; /* constant but for its count */
+    /* constant except for its reference count */
+    CpsLoadedLaw *held = (CpsLoadedLaw *)(uintptr_t)law;
     if (held) atomic_fetch_add(&held->refcount, 1);
     return held;
 }

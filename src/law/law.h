@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a friction law is inside, and checks that its files share. */
+/* The content of a friction law, and checks that its files share. */
 #ifndef CAPSTAN_SRC_LAW_LAW_H
 #define CAPSTAN_SRC_LAW_LAW_H
 
@@ -9,13 +9,13 @@
 #include "capstan/law.h"
 #include "linalg/dense.h"
 
-/* C, and the factors it is a product of (itself, where it is none): the composition rule looks at
- * each on its own. */
+/* C, and the factors of which it is a product (itself if it is none), because the composition rule
+ * examines each factor separately. */
 struct CpsLaw {
     atomic_int refcount;
     CpsSet *set;
     int factor_count;
-    CpsSet *factor[]; /* (factor_count), each with a hold */
+    CpsSet *factor[]; /* (factor_count), each retained */
 };
 
 /* are all components finite numbers? */
@@ -28,7 +28,7 @@ static inline bool cpsi_all_finite(int n, const double *a) {
 /* CPS_OK, or CPS_ERR_ARGUMENT with a message that calls the vector `what`. */
 CpsStatus cpsi_law_check_vector(const char *what, int n, const double *a, CpsError *err);
 
-/* Is the set polyhedral by construction? */
+/* Whether the set is polyhedral by construction. */
 bool cpsi_law_polyhedral(const CpsSet *set);
 
 #endif

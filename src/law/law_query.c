@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Questions to a friction law or a loaded law: dissipation, forces, velocities, and how far a pair
- * is from the law in the five forms of M77 sections 3-7. */
+/* Queries of a friction law or a loaded law: dissipation, forces, velocities, and the residual of a
+ * pair in the five forms of M77 sections 3-7. */
 #include <stdlib.h>
 
 #include "base/status.h"
 #include "law/law.h"
 
-/* A force outside by less than this part of the forces' size is on the boundary: rounding of its
+/* A force outside by less than this share of the forces' size is on the boundary: rounding of its
  * components. */
 static const double ON_BOUNDARY = 1e-12;
 
@@ -14,7 +14,7 @@ static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
 }
 
-/* -V, after the checks that all questions about a velocity share; free *opposite */
+/* -V, after the checks common to all queries about a velocity; the caller frees *opposite */
 static CpsStatus turn(const CpsSet *set, const double *velocity, double **opposite, CpsError *err) {
     if (!set) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law's set is NULL");
     const int n = cps_set_space(set);
@@ -127,7 +127,7 @@ CpsStatus cps_set_residual(const CpsSet *set, const double *force, const double 
             r.power = -cpsi_dot(n, velocity, force);
         }
 
-        /* a step that makes step V as long as the forces are large */
+        /* the step for which step V is as large as the forces */
         const double speed = cpsi_norm(n, velocity);
         const double largest =
             fmax(cpsi_norm(n, force), isfinite(phi.value) ? cpsi_norm(n, maximal) : 0);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is a set polyhedral by construction? Images, sums, hulls, polars and preimages of polyhedra are
- * polyhedra (Rockafellar 19), so the leaves decide; a set of R is an interval, however it came
- * about. */
+/* Whether a set is polyhedral by construction. Images, sums, hulls, polars and preimages of
+ * polyhedra are polyhedra (Rockafellar 19), so the leaves of the expression decide. A set of
+ * dimension 1 is an interval, however it was constructed. */
 #include "law/law.h"
 #include "set/set.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Resistance laws: how they are made and what is refused, potential, power and forces. (M77 section
- * 7, remark 1; M70 section 7) */
+/* Resistance laws: construction with its checks, potential, power and forces (M77 section 7, remark
+ * 1; M70 section 7). */
 #include "law/resistance.h"
 
 #include <stdint.h>
@@ -9,8 +9,8 @@
 
 #include "base/status.h"
 
-/* Symmetric to this part of the largest entry: decimal input of a symmetric matrix is exactly so, a
- * computed one to rounding. */
+/* Symmetric up to this share of the largest entry: decimal input of a symmetric matrix is exactly
+ * symmetric, a computed matrix up to rounding. */
 static const double SYMMETRY = 1e-12;
 
 static CpsStatus out_of_memory(CpsError *err) {
@@ -24,7 +24,7 @@ static size_t data_size(int n, const CpsiTerm *term) {
     return term->kind == CPSI_TABLE ? 2 * (size_t)term->count : 0;
 }
 
-/* a copy of the term with holds and memory of its own */
+/* a copy of the term with its own references and memory */
 static bool copy_term(int n, const CpsiTerm *from, CpsiTerm *to) {
     const size_t size = data_size(n, from);
     *to = *from;
@@ -37,7 +37,8 @@ static bool copy_term(int n, const CpsiTerm *from, CpsiTerm *to) {
 }
 
 CpsResistance *cps_resistance_retain(const CpsResistance *law) {
-    CpsResistance *held = (CpsResistance *)(uintptr_t)law; /* constant but for its count */
+    /* constant except for its reference count */
+    CpsResistance *held = (CpsResistance *)(uintptr_t)law;
     if (held) atomic_fetch_add(&held->refcount, 1);
     return held;
 }
@@ -51,7 +52,7 @@ void cps_resistance_release(CpsResistance *law) {
     free(law);
 }
 
-/* an empty law with room for `count` terms */
+/* an empty law with memory for `count` terms */
 static CpsResistance *make(int n, size_t count) {
     CpsResistance *law = malloc(sizeof *law + count * sizeof law->term[0]);
     if (law) {
@@ -99,8 +100,8 @@ static CpsStatus check_symmetric(int n, const double *matrix, CpsError *err) {
     return CPS_OK;
 }
 
-/* D = L L' with the largest pivot first, L (n, rank) in the first columns of rows of n; false where
- * D has a negative value. What is left below SYMMETRY of D is rounding. */
+/* D = L L' with the largest pivot first, L (n, rank) in the first columns of rows of n. Returns
+ * false where D has a negative eigenvalue. A remainder below SYMMETRY of D is rounding. */
 static bool factor_semidefinite(int n, const double *matrix, double *l, int *rank) {
     const size_t w = (size_t)n;
     double largest = 0;
@@ -136,7 +137,7 @@ static bool factor_semidefinite(int n, const double *matrix, double *l, int *ran
     return true;
 }
 
-/* g(V) = |L'V| of the flat ellipsoid L B, phi = g^2/2; without rank nothing resists. */
+/* g(V) = |L'V| of the flat ellipsoid L B, phi = g^2/2; with rank 0 there is no resistance. */
 static CpsStatus make_flat(int n, int rank, const double *l, CpsResistance **out, CpsError *err) {
     CpsSet *ball = NULL, *flat = NULL;
     const size_t w = (size_t)n, r = (size_t)rank;
@@ -180,7 +181,7 @@ CpsStatus cps_resistance_viscous(int n, const double *matrix, CpsResistance **ou
     else if (rank < n)
         status = make_flat(n, rank, factor, out, err);
     else {
-        /* make_one only copies it */
+        /* make_one only copies the matrix */
         const CpsiTerm term = {.kind = CPSI_VISCOUS, .data = (double *)matrix};
         status = make_one(n, &term, out, err);
     }
@@ -356,7 +357,7 @@ CpsStatus cps_resistance_value(const CpsResistance *law, const double *velocity,
     return status;
 }
 
-/* the forces of one term: h'(g) times a face, or a point; *forces NULL where there are none */
+/* The forces of one term: h'(g) times a face, or a point. *forces is NULL where there are none. */
 static CpsStatus term_forces(int n, const CpsiTerm *term, const double *velocity, double tolerance,
                              CpsSet **forces, CpsSetAnswer *answer, CpsError *err) {
     if (term->kind == CPSI_VISCOUS) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Resistance laws inside: a list of terms h(g), and what each answers about its h. */
+/* The content of resistance laws: a list of terms h(g), and the queries of each h. */
 #ifndef CAPSTAN_SRC_LAW_RESISTANCE_H
 #define CAPSTAN_SRC_LAW_RESISTANCE_H
 
@@ -17,9 +17,9 @@ typedef enum CpsiTermKind {
  * V>. */
 typedef struct CpsiTerm {
     CpsiTermKind kind;
-    CpsSet *set;           /* a hold; viscous: NULL */
+    CpsSet *set;           /* retained; NULL for viscous terms */
     double degree, factor; /* power: factor g^degree / degree */
-    int count;             /* table: points of h' */
+    int count;             /* table: number of points of h' */
     double *data;          /* table: speeds, then factors (2 count); viscous: D (n x n); owned */
     CpsSpeedLaw *h;        /* function */
     CpsSpeedConjugate *conjugate;
@@ -32,35 +32,34 @@ struct CpsResistance {
     CpsiTerm term[]; /* (count) */
 };
 
-/* h and h' at g >= 0. Fails only for a user's function, with the reason. */
+/* h and h' at g >= 0. Fails only for a user's function; the message gives the reason. */
 CpsStatus cpsi_term_at(const CpsiTerm *term, double g, double *h, double *slope, CpsError *err);
 
-/* h*(s) = max over g >= 0 of s g - h(g), and the least and largest g that attain it; all INFINITY
- * where there is none.
- */
+/* h*(s) = max over g >= 0 of s g - h(g), and the smallest and largest g that attain it; all
+ * INFINITY where there is no maximum. */
 typedef struct CpsiTermDual {
     double value, low, high;
 } CpsiTermDual;
 CpsStatus cpsi_term_dual(const CpsiTerm *term, double s, CpsiTermDual *dual, CpsError *err);
 
-/* The same for a user's function (function.c), and the checks at its making. */
+/* The same for a user's function (function.c), and the checks when it is constructed. */
 CpsStatus cpsi_function_at(const CpsiTerm *term, double g, double *h, double *slope, CpsError *err);
 CpsStatus cpsi_function_dual(const CpsiTerm *term, double s, CpsiTermDual *dual, CpsError *err);
 CpsStatus cpsi_function_check(const CpsiTerm *term, CpsError *err);
 
-/* False for a power without factor and a table of zeros: no force at any speed. */
+/* False for a power without factor and for a table of zeros, which have no force at any speed. */
 bool cpsi_term_resists(const CpsiTerm *term);
 
 /* cps_resistance_conjugate for any sum of terms (conjugate_sum.c). share (count, n) or NULL: the
- * terms' shares of the force at least cost. */
+ * terms' shares of the force in the split of least cost. */
 CpsStatus cpsi_conjugate_sum(const CpsResistance *law, const double *force, double *velocity,
                              double *share, CpsSetAnswer *answer, CpsError *err);
 
 /* The sum of the dry terms' sets. */
 CpsStatus cpsi_dry_sum(const CpsResistance *law, CpsSet **dry, CpsError *err);
 
-/* The velocities of one term, no viscous one, at its share of the force, known to the share
- * `tolerance` (velocities.c); *out NULL: not known. */
+/* The velocities of one term, not a viscous one, at its share of the force with relative error
+ * `tolerance` (velocities.c). *out is NULL where they are not known. */
 CpsStatus cpsi_term_velocities(int n, const CpsiTerm *term, const double *force, double tolerance,
                                CpsSet **out, CpsError *err);
 

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All velocities at a force: the subgradients of phi* at -F.
+/* All velocities for a force: the subgradients of phi* at -F.
  *
- * For shares F_1 + F_2 + .. = F of least cost, V goes with F when it goes with every term at its
- * share (the gaps of the terms add up to that of the sum). A term h(g) has at the gauge s of its
- * share the velocities
+ * For shares F_1 + F_2 + .. = F of least cost, V is a velocity for F exactly when it is one for
+ * every term at its share (the gaps of the terms add up to that of the sum). For a term h(g), at
+ * the gauge s of its share, the velocities are
  *
  *     -V normal to C at F_i/s,      low <= g(V) = -<V, F_i/s> <= high,
  *         [low, high] the speeds where h' is s,
  *
- * all of the first cone where C is dry and F_i on its boundary, and those of g(V) = 0 where s is
- * below h'(0). Shares and gauges are known to a tolerance: each term's set is moved to hold the one
- * velocity that is known. */
+ * the whole normal cone where C is dry and F_i on its boundary, and those with g(V) = 0 where s is
+ * below h'(0). Shares and gauges are known up to a tolerance, so each term's set is moved to
+ * contain the one velocity that is known. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,20 +19,20 @@
 
 /* Relative error of the shares of a sum, and of the gauge of one term. */
 static const double SHARED = 1e-6, ALONE = 1e-9;
-/* A set that is further from the velocity than this share of it does not belong to the force; [m/s]
- * at rest. */
+/* A set does not belong to the force where its distance from the velocity exceeds this share of the
+ * velocity, or [m/s] at rest. */
 static const double MOST_MOVED = 1e-3, REST = 1e-12;
 
 static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
 }
 
-/* The speeds of a term at the gauge s, which is right to `tolerance`: at a piece where h' is
- * constant all of it. */
+/* The speeds of a term at the gauge s, which has the error `tolerance`: the whole interval where h'
+ * is constant. */
 static CpsStatus speeds(const CpsiTerm *term, double s, double tolerance, double *low, double *high,
                         CpsError *err) {
     CpsiTermDual below = {0}, above = {0};
-    /* the slopes of a table are known */
+    /* the slopes of a table are exact */
     if (term->kind == CPSI_TABLE)
         for (int i = 0; i < term->count; i++) {
             const double slope = term->data[term->count + i];
@@ -45,7 +45,7 @@ static CpsStatus speeds(const CpsiTerm *term, double s, double tolerance, double
     if (status == CPS_OK) status = cpsi_term_dual(term, s * (1 + tolerance), &above, err);
     *low = below.low;
     *high = above.high;
-    /* a slope that rises has one speed, though s is not known better */
+    /* where the slope increases there is one speed, though s has an error */
     if (status == CPS_OK && isfinite(above.high) &&
         above.high - below.low <= 1e3 * tolerance * above.high)
         *low = *high = 0.5 * (below.low + above.high);
@@ -82,7 +82,7 @@ CpsStatus cpsi_term_velocities(int n, const CpsiTerm *term, const double *force,
     return status;
 }
 
-/* `set` moved so that it holds x; *out NULL where it is too far away. */
+/* `set` moved so that it contains x; *out is NULL where it is too far away. */
 static CpsStatus move_to(const CpsSet *set, const double *x, CpsSet **out, CpsError *err) {
     const int n = cps_set_space(set);
     CpsSetAnswer near;
@@ -100,7 +100,7 @@ static CpsStatus move_to(const CpsSet *set, const double *x, CpsSet **out, CpsEr
     return status;
 }
 
-/* The terms' sets at their shares, met. */
+/* The intersection of the terms' sets at their shares. */
 static CpsStatus meet(const CpsResistance *law, const double *share, const double *velocity,
                       CpsSet **out, CpsSetAnswer *answer, CpsError *err) {
     CpsSet **part = calloc((size_t)law->count, sizeof *part);
@@ -126,13 +126,13 @@ static CpsStatus meet(const CpsResistance *law, const double *share, const doubl
     else if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED && parts > 0)
         status = cps_set_intersection(parts, (const CpsSet *const *)part, out, err);
     else if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED)
-        status = cps_set_inequalities(law->n, 0, NULL, NULL, out, err); /* nothing resists */
+        status = cps_set_inequalities(law->n, 0, NULL, NULL, out, err); /* there is no resistance */
     for (int i = 0; i < parts; i++) cps_set_release(part[i]);
     free(part);
     return status;
 }
 
-/* One point where the set has no other, to the tolerance of cps_set_facts. */
+/* A point where the set is one point, up to the tolerance of cps_set_facts. */
 static CpsStatus simplest(CpsSet *set, int n, const double *velocity, CpsSet **out,
                           CpsSetAnswer *answer, CpsError *err) {
     CpsSetFacts facts;
