@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The tension of a regularised solution at an end, as that of an exact step is reported
- * (src/cable/report.c): the pull of the last element, with the weight, the reaction and the
- * friction of its half beside the end. The friction is the neighbouring node's per length, with the
- * end's own zone factor. */
+/* The tension of a regularised solution at an end, defined as the reported tension of an exact step
+ * (src/cable/report.c): the force of the last element, with the weight, the reaction and the
+ * friction of its half next to the end. The friction is the neighbouring node's per length, with
+ * the end's own zone factor. */
 #include <math.h>
 
 #include "regularized/band_blocks.h"
 #include "regularized/handle.h"
 
-/* An end this near to the obstacle, per length of the line, lies on it. */
+/* An end at most this far from the obstacle, per length of the line, lies on it. */
 static const double TOUCH = 1e-9;
 
 /* Friction on place j. */
@@ -21,14 +21,14 @@ static Vec3 friction(const CpsRegularized *classic, int j) {
     return vec3_scale(-c->bound[j] / sqrt(delta * delta + vec3_dot(slid, slid)), slid);
 }
 
-/* The height of the held place j above the plane, by that of its neighbour. */
+/* The height of the held place j above the plane, from that of its neighbour. */
 static double height(const CpsiCells *c, const double *place, int j, int next) {
     return c->gap[next] + vec3_dot(cpsi_at(c->normal, next),
                                    vec3_sub(cpsi_at(place, j), cpsi_at(c->reference, next)));
 }
 
-/* What the support of the held place j gives [N]; *up the part of it along the normal where j lies
- * on the obstacle and is pressed against it, else 0. */
+/* The force of the support on the held place j [N]. *up is its component along the normal where j
+ * lies on the obstacle and is pressed against it, else 0. */
 static Vec3 support(const CpsRegularized *classic, int j, double *up) {
     const CpsiCells *c = &classic->cells;
     const int next = j == 0 ? 1 : j - 1;

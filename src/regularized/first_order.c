@@ -15,7 +15,7 @@ static Vec3 slope(const CpsiFirstOrder *f, int i) {
     return vec3_scale(1 / f->step->own.width[i], vec3_sub(cpsi_at(f->u, i + 1), cpsi_at(f->u, i)));
 }
 
-/* (84), and the tension of the reference with it */
+/* (84), plus the tension of the reference */
 static Vec3 tension(const CpsiFirstOrder *f, int i) {
     const double k = 1 / f->step->compliance, s = f->stretch[i], e = f->strain[i];
     const Vec3 du = slope(f, i), t = cpsi_at(f->tangent, i);
@@ -32,7 +32,8 @@ void cpsi_first_order_tension(const CpsiFirstOrder *f, int element, double out[3
 
 /* ---- friction and contact ---- */
 
-/* q + r u_T before it is brought back into the disc, and R - r (n.u + gap) before it is cut at 0 */
+/* q + r u_T before its projection onto the disc, and R - r (n.u + gap) before it is limited to R >=
+ * 0 */
 static Vec3 pressed(const CpsiFirstOrder *f, int j, double *push) {
     const CpsiCells *c = &f->step->own;
     const Vec3 u = cpsi_at(f->u, j), n = cpsi_at(c->normal, j);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* P10.1 solved by rounds of multipliers, and the verdict on it (see first_order.h and
- * capstan/regularized.h). */
+/* P10.1 solved by the method of multipliers, and the judgement of its solution (see first_order.h
+ * and capstan/regularized.h). */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -14,22 +14,24 @@
 
 enum { MAX_ROUNDS = 200, NEWTON_LIMIT = 500, STUCK_ROUNDS = 6 };
 
-/* a reference strain below this is none: what positions of a slack line leave of 1 */
+/* A smaller reference strain counts as zero: it is the rounding of 1 in positions of a slack
+ * line. */
 static const double SLACK_STRAIN = 1e-9;
 
-/* forces below this part of the step's are none, and where displacements run away rounding is let
- * in up to the second; a strain below this part of the step's force over K is none */
+/* Forces below the first share of the step's force count as zero; where displacements diverge,
+ * rounding errors up to the second share are allowed. A strain below the third share of the step's
+ * force over K counts as zero. */
 static const double FORCE_TOLERANCE = 1e-9, FORCE_ROUNDING = 1e-7, STRAIN_TOLERANCE = 1e-6;
 
-/* stiffness of the multipliers, first and largest, and of the anchor, in K over length^2 */
+/* stiffness of the multipliers, initial and largest, and of the anchor, in K over length^2 */
 static const double AUGMENT_FIRST = 1e2, AUGMENT_MOST = 1e7, AUGMENT_GROWTH = 10, ANCHOR = 1e-4;
 
-/* a round that leaves more than this part of the residual was slow */
+/* a round that leaves more than this share of the residual counts as slow */
 static const double SLOW = 0.3;
 
 struct CpsFirstOrder {
     CpsiArena arena;
-    CpsiFirstOrder f; /* f.step is only there while it is solved */
+    CpsiFirstOrder f; /* f.step is valid only during a solve */
     int elements;
     double *arc, *tension, *along, *friction;
     double *unknown, *work;
@@ -78,7 +80,8 @@ static void layout(CpsFirstOrder *s, int elements, CpsiArena *arena) {
     s->work = CPSI_TAKE(arena, 3 * n * (4 + CPSI_FIRST_ORDER_BAND + 1), double);
 }
 
-/* a node this near to the obstacle, per length of the line, touches it, as with strict contact */
+/* a node at most this far from the obstacle, per length of the line, touches it, as with strict
+ * contact */
 static const double TOUCH = 1e-9;
 
 /* (77), or (16) at every node */
@@ -112,8 +115,8 @@ static void set_reference(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
 
 /* ---- rounds ---- */
 
-/* Take the multipliers and displacements of a round over; returns the largest force by which they
- * changed, that of the anchor included, and notes the largest of the anchor. */
+/* Accept the multipliers and displacements of a round. Returns the largest force by which they
+ * changed, including that of the anchor, and records the largest force of the anchor. */
 static double accept_solution(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
     const CpsiCells *c = &f->step->own;
     double change = 0, held_most = 0;
@@ -139,7 +142,7 @@ static double accept_solution(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
     return change;
 }
 
-/* what rounding leaves of a force at the displacements reached */
+/* rounding error of a force at the present displacements */
 static double rounding(const CpsiFirstOrder *f) {
     const CpsiCells *c = &f->step->own;
     double far = 0, stiffest = 0;
@@ -149,8 +152,8 @@ static double rounding(const CpsiFirstOrder *f) {
     return 8 * DBL_EPSILON * far * (stiffest + f->augment * f->step->length);
 }
 
-/* Rounds of multipliers until they rest, or until the anchor has carried the same force for several
- * rounds, or for ever. */
+/* Rounds of multipliers until they converge, until the anchor has carried the same force for
+ * several rounds, or up to the limit of rounds. */
 static void run_rounds(CpsFirstOrder *s) {
     CpsiFirstOrder *f = &s->f;
     CpsFirstOrderReport *r = &s->report;
@@ -175,7 +178,7 @@ static void run_rounds(CpsFirstOrder *s) {
             return;
         }
 
-        /* a force on the anchor that does not fade is one that nothing else carries */
+        /* a force on the anchor that does not decrease is balanced by nothing else */
         const double held = vec3_norm(vec3_load(r->unbalanced));
         stuck = held > 1e-6 * force && held > 0.99 * held_before ? stuck + 1 : 0;
         held_before = held;
@@ -187,9 +190,9 @@ static void run_rounds(CpsFirstOrder *s) {
 
 /* ---- the answer ---- */
 
-/* At a free end that is slack (84) has T along t_R alone, and (86) lets it only pull: the part of
- * the end force that (87) can then not hold for. The obstacle takes what presses on it. Lumped,
- * half an element's friction and weight may carry it. */
+/* At a slack free end (84) has T only along t_R, and by (86) it can only pull: the part of the end
+ * force for which (87) then cannot hold. The obstacle balances what presses on it. In the lumped
+ * model friction and weight of half an element may balance it too. */
 static Vec3 end_excess(const CpsiFirstOrder *f) {
     const int last = f->step->own.cells;
     if (f->step->held || f->strain[last - 1] > 0) return vec3(0, 0, 0);

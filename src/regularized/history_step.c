@@ -1,24 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One step of a history that the regularised method makes by itself (see cps_regularized_next).
+/* One step of a history that is computed by the regularised method alone (see
+ * cps_regularized_next).
  *
  * On a plane psi is linear: psi at the last solution is the gap of the exact reference plus n times
- * the way between the two. It may be negative, by what the penalty let in; taken as it is, (16),
- * and not as 0, (35), or every step would sink deeper. */
+ * the difference between the two configurations. It may be negative by the penetration that the
+ * penalty allows. It is used unchanged, as in (16), and not replaced by 0, as in (35); otherwise
+ * the line would sink deeper in every step. */
 #include <math.h>
 
 #include "base/status.h"
 #include "regularized/band_blocks.h"
 #include "regularized/handle.h"
 
-/* [N] what the obstacle pushed on a place of the last solution: the penalty's force, or where an
- * end was held that of its half element */
+/* [N] reaction of the obstacle on a place of the last solution: the penalty's force, or for a held
+ * end that of its half element */
 static double push_of(const CpsRegularized *previous, int j, double height) {
     const CpsiCells *own = &previous->cells;
     if (j == own->cells && previous->step.held) return cpsi_end_push(previous, CPS_END_B);
     return previous->f.parameters.penalty * own->share[j] * fmax(0, -height);
 }
 
-/* reference, gap and bound of a node as the last solution has them */
+/* reference, gap and bound of a node from the last solution */
 static void continue_node(CpsiCells *own, const CpsRegularized *previous, double friction, int j) {
     const Vec3 from = cpsi_at(own->reference, j), now = cpsi_at(previous->f.place, j),
                n = cpsi_at(own->normal, j);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The method of S90 section 5 on a copied step (see capstan/regularized.h): memory, the way from
- * coarse parameters to those asked for, the report. */
+/* The method of S90 section 5 on a copied step (see capstan/regularized.h): memory, continuation
+ * from coarse parameters to the final ones, report. */
 #include "capstan/regularized.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 enum { MAX_CELLS = 1000000, COARSE_CELLS = 25 };
 
-/* from the reference to the parameters asked for, by steps no larger than this */
+/* the parameters change by at most this factor from one step of the continuation to the next */
 static const double CONTINUATION_FACTOR = 30;
 
 CpsStatus cps_regularized_create(const CpsLineView *step, CpsRegularized **out, CpsError *err) {
@@ -56,16 +56,17 @@ CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *classic) {
     double load = 0;
     for (int k = 0; k < 3 * (step->own.cells + 1); ++k) load += fabs(step->own.load[k]);
     const double per_length = fmax(load, 1e-3 * step->force) / step->length;
-    return (CpsRegularizedParameters){
-        .cells = COARSE_CELLS,
-        .penalty = 10 * per_length / step->length,             /* sinks a tenth of the length */
-        .stiffness = 1e-3 * per_length * pow(step->length, 3), /* bends under its own weight */
-        .delta = 0.03 * step->length};
+    return (CpsRegularizedParameters){.cells = COARSE_CELLS,
+                                      /* the line sinks in by a tenth of its length */
+                                      .penalty = 10 * per_length / step->length,
+                                      /* the line bends under its own weight */
+                                      .stiffness = 1e-3 * per_length * pow(step->length, 3),
+                                      .delta = 0.03 * step->length};
 }
 
-/* A corner of the line, as at the clamped end, is bent within an element of length w by a force of
- * (1/n)/w^2: with more than 800 elements 1/n has to shrink as w^2, or what it leaves grows with the
- * mesh. */
+/* A corner of the line, for instance at the clamped end, is bent within an element of length w by a
+ * force of (1/n)/w^2. With more than 800 elements 1/n must therefore decrease as w^2, otherwise its
+ * effect would grow with the mesh. */
 CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *classic) {
     if (!classic) return (CpsRegularizedParameters){0};
     const CpsiStep *step = &classic->step;
@@ -77,8 +78,8 @@ CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *classic) {
     fine.penalty *= 1e6;
     fine.stiffness *= 1e-9;
     fine.delta *= 1e-7;
-    if (finer < 1 - 1e-9)
-        fine.stiffness *= finer * finer; /* 800 equal elements are not finer by rounding */
+    if (finer < 1 - 1e-9) /* 800 equal elements must not count as finer because of rounding */
+        fine.stiffness *= finer * finer;
     return fine;
 }
 
@@ -94,8 +95,7 @@ static void layout(CpsRegularized *c, int cells, CpsiArena *arena) {
     c->tension = CPSI_TAKE(arena, places, double);
 }
 
-/* the places as they are at the start: the reference, or the last solution where the cells are the
- * same */
+/* the initial positions: the reference, or the last solution where the cells are the same */
 static CpsStatus prepare(CpsRegularized *c, int cells, CpsError *err) {
     if (c->asked == cells) return CPS_OK;
     CpsiArena arena = {0};
@@ -118,15 +118,15 @@ static CpsStatus prepare(CpsRegularized *c, int cells, CpsError *err) {
 
 static double between(double from, double to, double t) { return from * pow(to / from, t); }
 
-/* 1/n on the way: without stiffness at its end, P5.1, down to a thousandth of the fine one; without
- * one at its beginning there is none. */
+/* 1/n during the continuation. Without stiffness at its end (P5.1) it goes down to a thousandth of
+ * the fine one; without stiffness at its beginning it is 0 throughout. */
 static double stiffness_between(const CpsRegularized *c, double from, double to, double t) {
     if (!(from > 0)) return to;
     return between(from, to > 0 ? to : 1e-3 * fmin(from, cps_regularized_fine(c).stiffness), t);
 }
 
-/* Minimise at parameters on the way, then at those asked for: a smaller smoothing or stiffness
- * begins where the larger one ended. */
+/* Minimise at the parameters of the continuation, then at the final ones: a smaller smoothing or
+ * stiffness starts from the solution with the larger one. */
 static void follow(CpsRegularized *c, CpsRegularizedParameters from,
                    const CpsRegularizedParameters *to, int max_iterations,
                    CpsRegularizedReport *report) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Damped Newton steps judged by slopes (see newton.h). */
+/* Damped Newton steps with a line search on the slope (see newton.h). */
 #include "regularized/newton.h"
 
 #include <float.h>
@@ -8,16 +8,16 @@
 
 #include "linalg/band.h"
 
-/* a step ends where the slope is at most this part of the first one: looser is cheaper, tighter
- * searches longer */
+/* a line search ends where the slope is at most this share of the initial one: a larger share is
+ * cheaper, a smaller one searches longer */
 static const double SLOPE_LEFT = 0.1;
 enum { MAX_SEARCH = 40 };
 
-/* so many steps in a row that move nothing by more than rounding are the end */
+/* the iteration ends after this many successive steps that change x by no more than rounding */
 enum { PATIENCE = 8 };
 
-/* damping: its first value, its growth when steps are cut, and what counts as none
- * [damping_unit] */
+/* damping: initial value, growth when steps are shortened, and the value below which it counts as
+ * zero [damping_unit] */
 static const double DAMPING_FIRST = 1e-8, DAMPING_GROWTH = 10, DAMPING_LEAST = 1e-13,
                     DAMPING_MOST = 1e4;
 
@@ -31,7 +31,7 @@ static double dot(int n, const double *a, const double *b) {
     return sum;
 }
 
-/* NaN and infinity come out as infinity */
+/* NaN and infinity give infinity */
 static double largest(int n, const double *g) {
     double most = 0;
     for (int i = 0; i < n; ++i) {
@@ -41,7 +41,8 @@ static double largest(int n, const double *g) {
     return most;
 }
 
-/* slope of f along the direction at x + t direction, which is left in trial with its gradient */
+/* Slope of f at x + t direction along the direction. The point and its gradient are left in
+ * trial. */
 static double slope_at(const CpsiSmooth *f, const double *x, double t, Space *s,
                        CpsiNewton *newton) {
     for (int i = 0; i < f->unknowns; ++i) s->trial[i] = x[i] + t * s->direction[i];
@@ -50,9 +51,9 @@ static double slope_at(const CpsiSmooth *f, const double *x, double t, Space *s,
     return dot(f->unknowns, s->trial_gradient, s->direction);
 }
 
-/* A step length with a slope near 0, by false position between a falling and a rising end
- * (Illinois: an end that stays twice counts half); trial and its gradient belong to it. 0: nothing
- * to gain. */
+/* A step length with a slope near 0, by false position between a point of negative and one of
+ * positive slope (the Illinois variant: an end that is kept twice counts half). trial and its
+ * gradient belong to it. Returns 0 where no decrease is possible. */
 static double search(const CpsiSmooth *f, const double *x, double first, Space *s,
                      CpsiNewton *newton) {
     const double small = SLOPE_LEFT * fabs(first);
@@ -66,7 +67,7 @@ static double search(const CpsiSmooth *f, const double *x, double first, Space *
             low_slope = slope;
             if (side < 0) high_slope /= 2;
             side = -1;
-        } else { /* NaN too: too far */
+        } else { /* also for NaN: the step is too long */
             high = t;
             high_slope = isfinite(slope) ? slope : INFINITY;
             if (side > 0) low_slope /= 2;
@@ -80,13 +81,13 @@ static double search(const CpsiSmooth *f, const double *x, double first, Space *
                 : low + (isfinite(high_slope) ? 0.5 : 0.1) * width;
         if (!(width > 1e-15 * high)) break;
     }
-    /* the falling end gains for certain */
+    /* the end with negative slope has certainly a lower value */
     if (low > 0) slope_at(f, x, low, s, newton);
     return low;
 }
 
-/* the Newton direction, with more damping until the matrix is definite; false when no damping
- * suffices */
+/* the Newton direction, with increasing damping until the matrix is positive definite; false where
+ * no damping suffices */
 static bool find_direction(const CpsiSmooth *f, const double *x, double *damping, Space *s) {
     const int n = f->unknowns;
     for (; *damping <= DAMPING_MOST; *damping = fmax(DAMPING_FIRST, DAMPING_GROWTH * *damping)) {
@@ -115,7 +116,7 @@ void cpsi_newton_minimise(const CpsiSmooth *f, double *x, CpsiNewton *newton, do
         if (newton->converged || newton->iterations == newton->max_iterations) return;
         ++newton->iterations;
 
-        /* a direction, a step along it */
+        /* compute a direction and a step along it */
         if (!find_direction(f, x, &damping, &s)) return;
         const double slope = dot(n, s.gradient, s.direction), t = search(f, x, slope, &s, newton);
         if (t > 0) {
@@ -123,7 +124,7 @@ void cpsi_newton_minimise(const CpsiSmooth *f, double *x, CpsiNewton *newton, do
             memcpy(s.gradient, s.trial_gradient, (size_t)n * sizeof *x);
         }
 
-        /* damp more where steps are cut, less where they are whole */
+        /* increase the damping after shortened steps, decrease it after full ones */
         if (t < 0.2)
             damping = fmax(DAMPING_FIRST, DAMPING_GROWTH * damping);
         else if (t > 0.6)

@@ -2,11 +2,12 @@
 /* The minimum of a convex function with a continuous gradient and a band Hessian, by damped Newton
  * steps.
  *
- * Along a descent direction the slope of a convex function only rises, so a step is judged by
- * slopes alone: it is long enough and not too long where the slope has come down to a tenth.
- * Energies, whose differences drown in rounding near the minimum, are never compared. Where the
- * Hessian jumps (|x'| = 1, a node touching) the direction is that of one of its limits; the
- * function asked for keeps it definite by `damping`, which grows while steps have to be cut. */
+ * Along a descent direction the slope of a convex function is nondecreasing, so the line search
+ * uses slopes only: a step is accepted where the slope has decreased to a tenth. Values of the
+ * function are never compared, because near the minimum their differences are lost in rounding.
+ * Where the Hessian is discontinuous (|x'| = 1, a node coming into contact) one of its limits is
+ * used; the function that computes it keeps it positive definite with `damping`, which is increased
+ * while steps have to be shortened. */
 #ifndef CAPSTAN_SRC_REGULARIZED_NEWTON_H
 #define CAPSTAN_SRC_REGULARIZED_NEWTON_H
 
@@ -19,23 +20,24 @@ typedef struct CpsiSmooth {
     void (*gradient)(void *user, const double *x, double *g);
     /* a = Hessian at x as a band matrix (zeroed before); damping >= 0 in units of `damping_unit` */
     void (*hessian)(void *user, const double *x, double damping, double *a);
-    double damping_unit; /* what makes damping comparable with the Hessian's own terms */
+    double damping_unit; /* unit of the damping, comparable with the Hessian's entries */
 } CpsiSmooth;
 
 typedef struct CpsiNewton {
     /* in */
-    double tolerance; /* done when no component of the gradient exceeds it */
+    double tolerance; /* converged when no component of the gradient is larger */
     int max_iterations;
     /* out */
     bool converged;
     int iterations, evaluations; /* factorisations and gradients */
-    double residual;             /* largest component of the gradient, NaN never */
+    double residual;             /* largest component of the gradient, never NaN */
 } CpsiNewton;
 
-/* Improve x (unknowns) until converged, the iteration limit, or no direction leads down any more.
- *   work   4*unknowns + unknowns*(band + 1) numbers
- * x always ends at a point with a finite gradient, not worse along each line searched than where it
- * began. */
+/* Improve x (unknowns) until it has converged, the iteration limit is reached, or no direction of
+ * descent is found.
+ *    work   4*unknowns + unknowns*(band + 1) numbers
+ * On return x is a point with a finite gradient. It is no worse along each searched line than the
+ * point where that search began. */
 void cpsi_newton_minimise(const CpsiSmooth *f, double *x, CpsiNewton *newton, double *work);
 
 #endif

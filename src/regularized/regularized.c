@@ -24,8 +24,8 @@ double cpsi_regularized_tension(const CpsiRegularized *f, int cell) {
     return fmax(0, (vec3_norm(slope(f, cell)) - 1) / f->step->compliance);
 }
 
-/* u_i - u_(i-1) = sum over the last three places of coefficient times place; *first is the first of
- * them */
+/* u_i - u_(i-1) = sum over the last three places of coefficient times position; *first is the first
+ * of the three */
 static int bend_stencil(const CpsiCells *c, int cell, double coefficient[3]) {
     const double now = 1 / c->width[cell], before = cell > 0 ? 1 / c->width[cell - 1] : 0;
     coefficient[0] = before;
@@ -34,7 +34,7 @@ static int bend_stencil(const CpsiCells *c, int cell, double coefficient[3]) {
     return cell - 1;
 }
 
-/* tangential part of the way from the reference, and how far inside the obstacle (< 0) or away from
+/* tangential displacement from the reference, and *distance from the obstacle, negative inside
  * it */
 static Vec3 slip(const CpsiRegularized *f, int j, double *distance) {
     const CpsiCells *c = f->cells;
@@ -160,6 +160,6 @@ double cpsi_regularized_limit(const CpsiRegularized *f) {
     for (int j = 0; j <= c->cells; ++j)
         stiffest =
             fmax(stiffest, f->parameters.penalty * c->share[j] + c->bound[j] / f->parameters.delta);
-    /* a place is known to its rounding; what holds it turns that into a force */
+    /* rounding of a place's coordinates, times the stiffness that holds it */
     return fmax(1e-10 * f->step->force, 8 * DBL_EPSILON * far * stiffest);
 }

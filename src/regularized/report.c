@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a configuration of S90 section 5 costs, how far it is from the step's solution, and what its
- * parameters leave undone. */
+/* The report on a configuration of S90 section 5: its energies, its distance from the step's
+ * solution, and the remaining errors due to its parameters. */
 #include <math.h>
 
 #include "base/larger.h"
 #include "regularized/band_blocks.h"
 #include "regularized/regularized.h"
 
-/* a friction force this part below its bound is one that (36) allows no slip */
+/* a friction force below this share of its bound is one for which (36) allows no slip */
 static const double BELOW_BOUND = 0.99;
 
 static Vec3 slope(const CpsiRegularized *f, int cell) {
@@ -36,7 +36,7 @@ static void measure_cells(const CpsiRegularized *f, CpsRegularizedReport *r, dou
     r->tension_rms = sqrt(square / *length);
 }
 
-/* (1/n) x'' where a cell begins; 0 past end B */
+/* (1/n) x'' at the beginning of a cell; 0 beyond end B */
 static Vec3 moment(const CpsiRegularized *f, int cell) {
     if (cell == f->cells->cells) return vec3(0, 0, 0);
     const Vec3 before = cell > 0 ? slope(f, cell - 1) : vec3(0, 0, 0);
@@ -44,8 +44,8 @@ static Vec3 moment(const CpsiRegularized *f, int cell) {
                       vec3_sub(slope(f, cell), before));
 }
 
-/* The force in a cell is its tension and the bending force, the difference of moments over its
- * width. The part along the cell, where negative, is a push. */
+/* The force in a cell is its tension and the bending force, which is the difference of moments over
+ * its width. A negative component along the cell is a compression. */
 static void measure_compression(const CpsiRegularized *f, CpsRegularizedReport *r) {
     for (int i = 0; i < f->cells->cells; ++i) {
         const Vec3 u = slope(f, i), shear = vec3_sub(moment(f, i), moment(f, i + 1));
@@ -57,8 +57,8 @@ static void measure_compression(const CpsiRegularized *f, CpsRegularizedReport *
 
 /* ---- places ---- */
 
-/* what friction and contact would have to give so that tensions (45) alone carry the loads, beyond
- * what they may */
+/* by how much friction and contact would have to exceed what they can give for tensions (45) alone
+ * to carry the loads */
 static double excess(const CpsiRegularized *f, int j, double distance) {
     const CpsiCells *c = f->cells;
     Vec3 need = vec3_scale(-1, cpsi_at(c->load, j));

@@ -43,12 +43,12 @@ static void fill_own(CpsiCells *own, const CpsLineView *view) {
     for (size_t i = 0; i < elements; ++i) {
         own->share[i] += own->width[i] / 2;
         own->share[i + 1] += own->width[i] / 2;
-        /* |x''|^2 between the middles of neighbours; before the first one u = 0 at a = 0 */
+        /* |x''|^2 between the middles of neighbouring cells; before the first one u = 0 at a = 0 */
         own->bend[i] = 2 / (own->width[i] + (i > 0 ? own->width[i - 1] : 0));
     }
 }
 
-/* J** + j of the view, the elastic part from its tensions and not from positions */
+/* J** + j of the view, with the elastic part from its tensions and not from positions */
 static double energy_of(const CpsiCells *own, double compliance) {
     double energy = 0;
     for (int i = 0; i < own->cells; ++i)
@@ -105,14 +105,15 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
 
 /* ---- external approximations ---- */
 
-/* the element of `own` that arc lies in, searched onward from *i, and how far along it, 0..1 */
+/* The element of `own` that contains arc, searched from *i onward. Returns the position in it,
+ * 0..1. */
 static double locate(const CpsiCells *own, double arc, int *i) {
     while (*i + 1 < own->cells && own->arc[*i + 1] < arc) ++*i;
     const double t = (arc - own->arc[*i]) / own->width[*i];
     return t <= 0 ? 0 : t >= 1 ? 1 : t;
 }
 
-/* exact at both ends, and one side may be infinite there */
+/* exact at both ends, even where the other end is infinite */
 static double mix(double t, double a, double b) {
     return t <= 0 ? a : t >= 1 ? b : (1 - t) * a + t * b;
 }
@@ -126,7 +127,7 @@ double cpsi_zone_ratio(const CpsiCells *cells, int place, int next) {
     return cells->factor[next] > 0 ? cells->factor[place] / cells->factor[next] : 0;
 }
 
-/* friction bound per length; a held node has none, and is given its neighbour's with its own zone
+/* friction bound per length; a held node has none and gets its neighbour's with its own zone
  * factor */
 static double bound_at(const CpsiStep *step, int node) {
     const CpsiCells *own = &step->own;
@@ -135,7 +136,7 @@ static double bound_at(const CpsiStep *step, int node) {
            (from == node ? 1 : cpsi_zone_ratio(own, node, from));
 }
 
-/* everything at place j of the external cells, from element i and position t along it */
+/* all data at place j of the external cells, from element i and position t along it */
 static void sample(CpsiCells *c, int j, const CpsiStep *step, int i, double t) {
     const CpsiCells *own = &step->own;
     const size_t k = 3 * (size_t)j;
@@ -149,7 +150,7 @@ static void sample(CpsiCells *c, int j, const CpsiStep *step, int i, double t) {
     c->bound[j] = c->share[j] * mix(t, bound_at(step, i), bound_at(step, i + 1));
     c->factor[j] = mix(t, own->factor[i], own->factor[i + 1]);
 
-    /* loads per length without the force on end B, which stays on the last place */
+    /* loads per length without the force on end B, which remains on the last place */
     for (int x = 0; x < 3; ++x) {
         double per[2];
         for (int side = 0; side < 2; ++side) {
@@ -179,7 +180,7 @@ static void fill_external(CpsiCells *c, const CpsiStep *step) {
         const double t = locate(&step->own, c->arc[j], &i);
         sample(c, j, step, i, t);
     }
-    /* u = 0 up to h/2: the first place stays where end A is; of j_delta it has its share, a
+    /* u = 0 up to h/2: the first place remains where end A is, and its part of j_delta is a
      * constant */
     memcpy(c->reference, step->own.reference, 3 * sizeof(double));
     memcpy(c->position, step->own.position, 3 * sizeof(double));

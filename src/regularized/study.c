@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The study of S90 annex 4: h, then lambda, then n, then delta to their limits (theorems 9.1 and
+/* The study of S90 annex 4: first h, then lambda, n and delta go to their limits (theorems 9.1 and
  * 9.2, result 5.6).
  *
- * An order of convergence is taken from three successive values, |v0 - v1|/|v1 - v2| = factor^rate,
- * which needs no limit. Tensions are compared where all cells of a stage have a middle: in stage h
- * at multiples of its first h, then in the middles of the step's elements. */
+ * An order of convergence is computed from three successive values, |v0 - v1|/|v1 - v2| =
+ * factor^rate, which does not require the limit. Tensions are compared at places that lie in cells
+ * of all values of a stage: in stage h at multiples of its first h, then in the middles of the
+ * step's elements. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,7 @@
 
 enum { MAX_VALUES = 64, MAX_COARSEST = 100000, MAX_HALVINGS = 10, NEWTON_LIMIT = 2000 };
 
-/* A tension field kept: a copy of a view. */
+/* A copy of the tension field of a view. */
 typedef struct Kept {
     CpsiArena arena;
     CpsRegularizedView view;
@@ -35,7 +36,7 @@ typedef struct Trail {
     int samples;
     double *place;      /* (samples) [m] */
     double *tension[3]; /* (samples) [N] */
-    double change;      /* rms between the newest two tensions */
+    double change;      /* root mean square difference of the newest two tensions */
     double change_before;
 } Trail;
 
@@ -44,7 +45,8 @@ const char *cps_study_stage_name(CpsStudyStage stage) {
     return stage >= 0 && stage < CPS_STUDY_STAGES ? KEY[stage] : "unknown";
 }
 
-/* So many divisions by *factor, 10 at most, make `ratio`; 0 where that is 1 or less. */
+/* The number of divisions by *factor, at most 10, that reduce by `ratio`; 0 where ratio is 1 or
+ * less. */
 static int divisions(double ratio, double *factor) {
     const double decades = log10(ratio);
     const int count = (int)ceil(decades - 1e-9);
@@ -67,12 +69,12 @@ CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
          cells < last && options.values[CPS_STUDY_H] < MAX_HALVINGS; cells *= 2)
         ++options.values[CPS_STUDY_H];
     if (to->cells >
-        0) { /* the first of them so that the last is the one asked for, or a few more */
+        0) { /* the first h, such that the last one is that asked for, or smaller by a few cells */
         const int halvings = 1 << (options.values[CPS_STUDY_H] - 1);
         from->cells = (last + halvings - 1) / halvings;
         if (from->cells < 2) from->cells = 2;
     }
-    /* lambda begins with the first value, n and delta below it */
+    /* lambda starts with the first value, n and delta with the one after it */
     options.values[CPS_STUDY_LAMBDA] =
         1 + divisions(to->penalty / from->penalty, &options.factor[CPS_STUDY_LAMBDA]);
     options.values[CPS_STUDY_N] =
@@ -102,7 +104,7 @@ CpsStudyOptions cps_study_options(const CpsRegularized *classic) {
 
 /* ---- rates ---- */
 
-/* NaN where the changes do not keep their sign: no order shows there */
+/* NaN where the changes have different signs, since there is no order of convergence then */
 static double rate_of(double change_before, double change, double factor) {
     return change_before / change > 0 ? log(change_before / change) / log(factor) : NAN;
 }
@@ -113,8 +115,8 @@ static double rms_between(int count, const double *a, const double *b) {
     return sqrt(sum / count);
 }
 
-/* begin a stage: nothing to compare with on other cells; of another parameter the value at rest is
- * the first */
+/* Begin a stage. In stage h there is no value to compare with yet, since the cells differ; in the
+ * other stages the final value of the preceding stage is the first one. */
 static void begin_stage(Trail *trail, CpsStudyStage stage, const CpsRegularizedStep *step,
                         int coarsest) {
     if (stage >= CPS_STUDY_N) {
@@ -136,7 +138,7 @@ static void sample(const CpsRegularized *classic, const Trail *trail, double *te
             cpsi_between_middles(view.cells, view.arc_length, view.tension, trail->place[i]);
 }
 
-/* take the newest solution in and give the row its rates */
+/* add the newest solution and compute the rates of its row */
 static void follow(Trail *trail, const CpsRegularized *classic, double factor, CpsStudyRow *row) {
     double *oldest = trail->tension[2];
     trail->tension[2] = trail->tension[1];
@@ -187,7 +189,7 @@ static CpsStatus keep(Kept *kept, const CpsRegularizedView *view, CpsError *err)
     return CPS_OK;
 }
 
-/* value k of a stage: its own parameter carried on, the others where they came to rest */
+/* value k of a stage: its own parameter is reduced, the others keep their final values */
 static void advance(CpsStudyStage stage, const CpsStudyOptions *options, int k,
                     CpsRegularizedParameters *p) {
     const double factor = options->factor[stage];
@@ -199,7 +201,7 @@ static void advance(CpsStudyStage stage, const CpsStudyOptions *options, int k,
         if (k > 0)
             p->penalty *= factor;
         else
-            p->cells = 0; /* the step's elements from here on */
+            p->cells = 0; /* the step's own elements from this stage on */
         break;
     case CPS_STUDY_N: p->stiffness /= factor; break;
     case CPS_STUDY_DELTA: p->delta /= factor; break;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is a configuration a solution of a solved step, and if not, why? S90 theorem 6.3, in the form of
- * the local gaps of docs/theory.md (3): with forces p, F, R in balance,
+/* Whether a configuration is a solution of a solved step, and if not, why not: S90 theorem 6.3, in
+ * the form of the local gaps of docs/theory.md (3). With forces p, F, R in equilibrium,
  *
- *   J** + j at y - minimum = sum l (W(e) + W*(p) - p.e) + sum (A |u_T| + F.u_T) + sum R (n.u +
- *       gap),
+ *    J** + j at y - minimum = sum l (W(e) + W*(p) - p.e) + sum (A |u_T| + F.u_T)
+ *                             + sum R (n.u + gap),
  *
- * up to the gap of the step itself. Each sum vanishes exactly where y has the tension field p,
- * slides in the normal cone of F, and keeps contact where R > 0. Every term is written without
+ * up to the gap of the step itself. Each sum is 0 exactly where y has the tension field p, slides
+ * in the normal cone of F, and keeps contact where R > 0. Every term is written without
  * cancellation. */
 #include <math.h>
 
@@ -35,7 +35,7 @@ const char *cps_judgement_text(CpsJudgement judgement) {
     return known(judgement) ? JUDGEMENT[judgement].sentence : "unknown judgement";
 }
 
-/* A sum, and where its largest term is. */
+/* A sum, and the place of its largest term. */
 typedef struct Worst {
     double sum, most, arc;
 } Worst;
@@ -48,9 +48,10 @@ static void accept(Worst *worst, double value, double arc) {
     }
 }
 
-/* W(e) + W*(p) - p.e with W = ((|e| - 1)^+)^2/(2c), W* = |p| + c |p|^2/2. Written as the squares
- * that are left: |p||e| - p.e = |p x e|^2/(|p||e| + p.e), and (d - c|p|)^2/(2c) or |p| (1 - |e|)
- * with d = (|e| - 1)^+. Inextensible: d has to be 0, which is judged as a length. */
+/* W(e) + W*(p) - p.e with W = ((|e| - 1)^+)^2/(2c), W* = |p| + c |p|^2/2, written as a sum of
+ * nonnegative terms: |p||e| - p.e = |p x e|^2/(|p||e| + p.e), and (d - c|p|)^2/(2c) or |p| (1 -
+ * |e|) with d = (|e| - 1)^+. For an inextensible line d has to be 0, which is checked as a
+ * length. */
 static double segment_gap(double c, Vec3 e, Vec3 p) {
     const double length = vec3_norm(e), force = vec3_norm(p), along = vec3_dot(p, e);
     const Vec3 cross = vec3_cross(p, e);
@@ -71,8 +72,8 @@ static double slip_gap(double bound, Vec3 slid, Vec3 friction) {
     return fmax(0, bound - force) * length + turned;
 }
 
-/* No gap is asked to be less than this, per length and force, the largest or all loads together
- * (docs/theory.md (5)). */
+/* Smallest limit of a gap, per length and force, where the force is the largest or that of all
+ * loads together (docs/theory.md (5)). */
 static const double GAP_FLOOR = 1e-12;
 
 static bool held(const CpsLineView *step, int node) {

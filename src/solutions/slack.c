@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The slack of a step and what holds it (see slack.h and capstan/solutions.h). */
+/* The slack of a step and the nodes that hold it (see slack.h and capstan/solutions.h). */
 #include "solutions/slack.h"
 
 #include <math.h>
@@ -7,19 +7,20 @@
 #include "base/larger.h"
 #include "regularized/band_blocks.h"
 
-/* an element is slack with a tension below this part of the step's largest force: its complement,
- * the slack, is then larger */
+/* an element is slack where its tension is below this share of the step's largest force: the
+ * complementary variable, the slack, is then larger */
 static const double SLACK_TENSION = 1e-5;
 
-/* a friction force this part below its bound is at it: what a step's certificate of 1e-8 leaves of
- * it */
+/* a friction force at most this share below its bound is at its bound: the accuracy of a step with
+ * a certificate of 1e-8 */
 static const double AT_BOUND = 1e-6;
 
-/* a reaction below this part of it is none: a step leaves some 1e-13 where there is a distance */
+/* a reaction below this share of the force counts as zero: a step leaves about 1e-13 at nodes with
+ * a distance */
 static const double NO_PUSH = 1e-11;
 
-/* directions [rad] and cosines that differ by less are the same; a slip shorter than the second,
- * per length, is none */
+/* directions [rad] and cosines that differ by less are equal; a slip shorter than the second
+ * number, per length, counts as zero */
 static const double SAME = 1e-6, SLIP = 1e-9;
 
 double cpsi_slack_force(const CpsLineView *step) {
@@ -38,7 +39,7 @@ static bool is_slack(const CpsLineView *step, int element, double force) {
     return step->tension[element] <= SLACK_TENSION * force;
 }
 
-/* without friction, and without tension on either side; an end has to be free */
+/* without friction, and without tension on either side; for an end: a free one */
 static bool is_loose(const CpsLineView *step, int node, double force) {
     const int n = step->elements;
     if (node == 0 || node == n) {
@@ -51,7 +52,7 @@ static bool is_loose(const CpsLineView *step, int node, double force) {
 
 /* ---- pieces ---- */
 
-/* the plane on which the loose nodes of a piece lie, if there is one */
+/* the plane of the loose nodes of a piece, if there is one */
 static void find_plane(const CpsLineView *step, double force, CpsiPiece *piece) {
     const int from = piece->first + !piece->open[0], to = piece->last + piece->open[1];
     const Vec3 a = cpsi_at(step->position, piece->first),
@@ -69,8 +70,8 @@ static void find_plane(const CpsLineView *step, double force, CpsiPiece *piece) 
         }
     }
     if (piece->grounded) return;
-    /* in the air without load: any plane through the chord, a level one across it where that is
-     * told apart from it */
+    /* in the air without load: any plane through the chord; a level one across the chord unless
+     * that is too near to the vertical */
     const Vec3 chord = vec3_sub(b, a), up = cpsi_at(step->normal, from <= to ? from : piece->first);
     const Vec3 z = vec3_norm(up) > 0 ? up : vec3(0, 0, 1);
     Vec3 side = vec3_cross(z, chord);
@@ -118,8 +119,8 @@ static bool is_held(const CpsLineView *step, int node) {
            (node == step->elements && step->end[CPS_END_B].kind == CPS_END_HELD);
 }
 
-/* may a node go along the unit vector v of its plane by itself and leave a solution? Friction at
- * its bound lets it slide on, or back as far as it has slid. */
+/* Whether a node can move along the unit vector v of its plane by itself, with a solution as the
+ * result. Friction at its bound lets it slide on, or back as far as it has slipped. */
 static bool may_go(const CpsLineView *step, int node, Vec3 v) {
     if (is_held(step, node)) return false;
     if (!(step->friction_bound[node] > 0)) return true;
@@ -132,8 +133,8 @@ static bool may_go(const CpsLineView *step, int node, Vec3 v) {
     return along < 0 || slid > SLIP * step->arc_length[step->elements];
 }
 
-/* does the element between a node that goes along v and the next one, on side 0 or 1, carry that
- * one along? Not where it is short, or becomes so. */
+/* Whether the element between a node that moves along v and the next one, on side 0 or 1, moves
+ * that node too. It does not where it is shorter than its length, or becomes so. */
 static bool carries(const CpsLineView *step, int node, int side, Vec3 v, double force) {
     const int i = side == 0 ? node - 1 : node, other = side == 0 ? node - 1 : node + 1;
     if (!is_slack(step, i, force)) return true;
@@ -143,7 +144,7 @@ static bool carries(const CpsLineView *step, int node, int side, Vec3 v, double 
     return !(vec3_dot(e, v) < -SAME * vec3_norm(e));
 }
 
-/* may a node, with all that it carries along, move along v? */
+/* whether a node, with all nodes that it moves, can move along v */
 static bool cluster_goes(const CpsLineView *step, int node, Vec3 v, double force) {
     if (!may_go(step, node, v)) return false;
     for (int side = 0; side < 2; ++side) {
@@ -156,7 +157,7 @@ static bool cluster_goes(const CpsLineView *step, int node, Vec3 v, double force
     return true;
 }
 
-/* a node at its bound that may slide on or back */
+/* whether a node at its bound can slide on or back */
 static bool may_slide(const CpsLineView *step, int node, double force) {
     const Vec3 f = cpsi_at(step->friction, node);
     const double size = vec3_norm(f);
@@ -167,7 +168,7 @@ static bool may_slide(const CpsLineView *step, int node, double force) {
 
 /* ---- the list ---- */
 
-/* what holds a node, added to its part */
+/* count what holds a node in the part that it belongs to */
 static void note_node(const CpsLineView *step, int j, double force, CpsSlackPart *part) {
     part->grounded = part->grounded || step->reaction[j] > 0;
     part->rubs = part->rubs || step->friction_bound[j] > 0;

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The slack of a step laid out at its full length: S90 (55) with a tangent of one's own where T =
- * 0.
+/* Configurations with the slack of a step stretched to its full length: S90 (55), with tangents of
+ * our choice where T = 0.
  *
- * Between two nodes that stay, the elements of a piece (slack.h) reach r_i within the plane of its
- * loose nodes: their length, but for an element that comes down from a node above the plane. Laid
- * out in groups of one direction each, the groups and the chord between the feet of the two nodes
- * are the sides of a triangle, or of a quadrilateral. Taking half of the length first gives two
- * straight pieces, taking elements for the shorter side in turn a meander. With the two sides
- * differing by as much of the chord as the elements let them the triangle is flat: to and fro along
- * the chord itself. Where the sides differ by more than the chord, as with an odd number of
- * elements between nodes that nearly meet, the last element is laid across first. Where that does
- * not close either there are three groups: elements up to half of the way round, the element across
- * that half, and the rest; each is at most half, so that they close whenever any directions of the
- * elements do. */
+ * Between two nodes that remain in place, the elements of a piece (slack.h) have reaches r_i within
+ * the plane of its loose nodes: their lengths, except for an element that comes down from a node
+ * above the plane. The elements are divided into groups of one direction each. The groups and the
+ * chord between the projections of the two nodes are the sides of a triangle or a quadrilateral.
+ *
+ * Taking half of the length first gives two straight parts; taking elements alternately for the
+ * shorter side gives a meander. If the lengths of the two sides differ by as much of the chord as
+ * the elements allow, the triangle is flat: the piece goes back and forth along the chord. Where
+ * the sides differ by more than the chord, as with an odd number of elements between nodes that
+ * nearly coincide, the last element is placed across first. Where the polygon still does not close
+ * there are three groups: the elements up to half of the length, the element at that half, and the
+ * rest. Each of them is at most half of the length, so that they close whenever any directions of
+ * the elements do. */
 #include <math.h>
 #include <string.h>
 
@@ -42,16 +44,16 @@ typedef struct Laying {
     const CpsLineView *step;
     CpsiPiece piece;
     CpsCompletion how;
-    double chord, length; /* between the feet, and the sum of what the elements reach */
+    double chord, length; /* chord between the projections; sum of the elements' reaches */
     double side[3];
-    bool third; /* three groups */
+    bool third; /* whether there are three groups */
 } Laying;
 
 static double reach(const Laying *lay, int i) {
     return cpsi_piece_reach(lay->step, &lay->piece, i);
 }
 
-/* The group of element i; `gone` is the length laid out before it in each group. */
+/* The group of element i; `gone` is the length already laid out in each group. */
 static int group_of(const Laying *lay, int i, const double gone[3]) {
     const double before = gone[0] + gone[1] + gone[2], r = reach(lay, i);
     if (lay->third) {
@@ -63,7 +65,7 @@ static int group_of(const Laying *lay, int i, const double gone[3]) {
     case CPS_COMPLETION_STRAIGHT:
         return !(before < 0.5 * lay->length * (1 - CPSI_FULL) || i == lay->piece.first);
     default:
-        /* on, unless that leads past the place due at the end of the element */
+        /* forward, unless that leads beyond the position prescribed for the end of the element */
         return !(gone[0] - gone[1] + r <=
                  lay->chord * (before + r) / lay->length * (1 + CPSI_FULL));
     }
@@ -77,7 +79,7 @@ static void measure_sides(Laying *lay) {
     }
 }
 
-/* unit vectors along the plane: along the chord, and across it to the left */
+/* unit vectors in the plane: along the chord, and across it to the left */
 static void axes(const Laying *lay, Vec3 *along, Vec3 *across) {
     const Vec3 n = lay->piece.normal, chord = vec3_sub(lay->piece.foot[1], lay->piece.foot[0]);
     Vec3 t = chord;
@@ -109,8 +111,8 @@ static void directions(const Laying *lay, double out[3][2]) {
         }
         return;
     }
-    /* a diagonal from the start to the end of the second group makes two triangles, with the chord
-     * and with the first two groups */
+    /* the diagonal from the start to the end of the second group gives two triangles, one with the
+     * chord and one with the first two groups */
     const double least = fmax(fabs(l[0] - l[1]), fabs(l[2] - d)),
                  most = fmin(l[0] + l[1], l[2] + d);
     const double diagonal = clamp((least + most) / 2, least, most),
@@ -133,8 +135,8 @@ static Laying begin(const CpsLineView *step, const CpsiPiece *piece, CpsCompleti
     return lay;
 }
 
-/* sides differ by no more than the chord, and reach across it: after an element laid across they
- * need not */
+/* Whether the sides differ by no more than the chord, and are together long enough for it. After an
+ * element has been placed across this may not hold. */
 static bool two_close(Laying *lay) {
     lay->third = false;
     measure_sides(lay);
@@ -149,7 +151,7 @@ static bool three_close(Laying *lay) {
     return lay->side[0] <= half && lay->side[1] <= half;
 }
 
-/* The piece without its last element, which is laid across the chord. */
+/* The piece without its last element, which is placed across the chord. */
 static Laying without_last(const Laying *lay) {
     CpsiPiece piece = lay->piece;
     Vec3 along, across;
@@ -160,8 +162,8 @@ static Laying without_last(const Laying *lay) {
     return begin(lay->step, &piece, lay->how);
 }
 
-/* Lay out a piece between two nodes that stay; false where no directions close: one element is
- * longer than all others and the chord. */
+/* Lay out a piece between two nodes that remain in place. Returns false where no directions close
+ * the polygon: one element is longer than all others and the chord together. */
 static bool place_slack(Laying lay, double *position) {
     if (!two_close(&lay)) {
         Laying shorter = lay.piece.last > lay.piece.first + 1 ? without_last(&lay) : lay;
@@ -187,8 +189,8 @@ static bool place_slack(Laying lay, double *position) {
     return true;
 }
 
-/* Straight on to a free end, from the last node that stays, in the direction in which the end
- * lies. */
+/* Lay out a piece straight to a free end, from the last node that remains in place, in the present
+ * direction of the end. */
 static void place_straight_on(const Laying *lay, double *position) {
     const CpsiPiece *piece = &lay->piece;
     Vec3 along, across;
