@@ -497,15 +497,15 @@ def ask_capstan(capstan, folder, c, velocity, force):
     if not found:
         return None, reason
     first = found["answers"][0]
-    outcome = first["forces"].get("outcome", "CPS_SET_ANSWERED") if first["dissipation_W"] is None else "CPS_SET_ANSWERED"
-    value = {"CPS_SET_UNBOUNDED": math.inf}.get(outcome, first["dissipation_W"])
+    outcome = first["forces"].get("outcome", "CPS_SET_OUTCOME_ANSWERED") if first["dissipation_W"] is None else "CPS_SET_OUTCOME_ANSWERED"
+    value = {"CPS_SET_OUTCOME_UNBOUNDED": math.inf}.get(outcome, first["dissipation_W"])
     answers = {"support": (math.nan if value is None else value, "exact" if first["exact"] else outcome if value is None else "")}
     outside = found["pairs"][1]["outside_N"]
     answers["distance"] = (math.nan if outside is None else outside, "")
     found, reason = ask(capstan, folder, {"polar": c}, f"--velocity={text([-x for x in force])}")
     if found:
         first = found["answers"][0]
-        unbounded = first["forces"].get("outcome") == "CPS_SET_UNBOUNDED"
+        unbounded = first["forces"].get("outcome") == "CPS_SET_OUTCOME_UNBOUNDED"
         value = math.inf if unbounded else first["dissipation_W"]
         answers["gauge"] = (math.nan if value is None else value, "exact" if first["exact"] else "")
     else:

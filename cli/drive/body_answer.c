@@ -128,7 +128,7 @@ static bool print_body(DriveRun *run) {
 static void print_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const double low[3],
                        const double high[3]) {
     static const char *const NAME[] = {"vx", "vy", "w"};
-    if (m->outcome == CPS_SET_NOT_ATTAINED) {
+    if (m->outcome == CPS_SET_OUTCOME_NOT_ATTAINED) {
         printf("  no motion: %s\n", cps_set_outcome_text(m->outcome));
         return;
     }
@@ -177,7 +177,7 @@ static bool tell_push(DriveRun *run, int i) {
         cps_planar_motions(b->planar, push->rows, push->map, push->velocity, 0, low, high,
                            &run->err) != CPS_OK)
         return false;
-    run->answered = run->answered && m.outcome == CPS_SET_ANSWERED;
+    run->answered = run->answered && m.outcome == CPS_SET_OUTCOME_ANSWERED;
     if (run->json) {
         if (i) fputs(",\n    ", stdout);
         json_push(push, &m, low, high);
@@ -223,7 +223,7 @@ static bool go(DriveRun *run, Trail *t) {
     for (int i = 1; i < t->count && good; i++) {
         good = cps_planar_tow(run->file->body.planar, &t->tow, t->end + 2 * (size_t)i, &t->last,
                               &run->err) == CPS_OK;
-        if (good && t->last.outcome != CPS_SET_ANSWERED) t->inaccurate++;
+        if (good && t->last.outcome != CPS_SET_OUTCOME_ANSWERED) t->inaccurate++;
         if (good && t->last.pulled) {
             t->unsettled += !t->last.settled;
             t->lower += t->last.lower;

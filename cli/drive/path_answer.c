@@ -91,7 +91,7 @@ static bool go(DriveRun *run, Sweep *s) {
         CpsSweepStep step;
         good = cps_sweep_step(w->law, &s->state, s->end + i * n, &step, &run->err) == CPS_OK;
         if (!good) break;
-        s->inaccurate += step.outcome != CPS_SET_ANSWERED;
+        s->inaccurate += step.outcome != CPS_SET_OUTCOME_ANSWERED;
         memcpy(s->position + i * n, s->state.position, n * sizeof *s->position);
         memcpy(s->force + i * n, step.force, n * sizeof *s->force);
         s->stored = step.stored;

@@ -74,8 +74,8 @@ static void json_rope(const RopeRun *r, double length, double sliding, double te
 static void print_velocity(const RopeRun *r) {
     const CpsMotionReport *p = cps_motion_report(r->motion);
     double length, sliding, tension;
-    r->run->answered = r->run->answered && p->outcome != CPS_MOTION_INACCURATE;
-    if (p->outcome == CPS_MOTION_BLOCKED || p->outcome == CPS_MOTION_NO_BALANCE) {
+    r->run->answered = r->run->answered && p->outcome != CPS_MOTION_OUTCOME_INACCURATE;
+    if (p->outcome == CPS_MOTION_OUTCOME_BLOCKED || p->outcome == CPS_MOTION_OUTCOME_NO_BALANCE) {
         r->run->none = true;
         if (r->run->json)
             drive_json_word("outcome", cps_motion_outcome_name(p->outcome));

@@ -77,12 +77,12 @@ static bool query_all(DriveRun *run, const CpsMotion *motion, Asked what, All *a
     all->n = what == FORCES       ? force_components(s->system)
              : what == VELOCITIES ? s->parameters
                                   : s->driven;
-    all->set = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
+    all->set = (CpsSolutionSet){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     all->low = NULL;
     const CpsMotionOutcome outcome = cps_motion_report(motion)->outcome;
     if (s->parameters + force_components(s->system) > MOST_DENSE ||
-        outcome == CPS_MOTION_NO_BALANCE || outcome == CPS_MOTION_BLOCKED ||
-        outcome == CPS_MOTION_NOT_ATTAINED)
+        outcome == CPS_MOTION_OUTCOME_NO_BALANCE || outcome == CPS_MOTION_OUTCOME_BLOCKED ||
+        outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED)
         return true;
     all->low = calloc(2 * (size_t)all->n + 1, sizeof *all->low);
     if (!all->low) {
@@ -100,7 +100,7 @@ static void free_all(All *all) {
 }
 
 static void print_all(const All *all, const char *what) {
-    if (all->set.outcome != CPS_SET_ANSWERED)
+    if (all->set.outcome != CPS_SET_OUTCOME_ANSWERED)
         printf("  all %s: %s\n", what,
                all->low ? cps_set_outcome_text(all->set.outcome)
                         : "not looked for (no solution, or a large system)");
@@ -123,13 +123,13 @@ static double tidy(double x, double scale) { return fabs(x) <= 1e-13 * scale ? 0
 /* "omega 0", or "omega 0 (from -3.3 to 0)" where it is not unique */
 static void print_component(const char *name, double x, double scale, const All *all, int i) {
     printf("%s%s %.10g", i ? ", " : "", name, tidy(x, scale));
-    if (all->set.outcome == CPS_SET_ANSWERED && !all->set.unique &&
+    if (all->set.outcome == CPS_SET_OUTCOME_ANSWERED && !all->set.unique &&
         all->high[i] - all->low[i] > all->set.tolerance)
         printf(" (from %.6g to %.6g)", tidy(all->low[i], scale), tidy(all->high[i], scale));
 }
 
 static void print_velocity(const CpsDriveSystem *s, const double *v, const All *all) {
-    double scale = all->set.outcome == CPS_SET_ANSWERED ? all->set.tolerance : 0;
+    double scale = all->set.outcome == CPS_SET_OUTCOME_ANSWERED ? all->set.tolerance : 0;
     for (int i = 0; i < s->parameters; i++) scale = fmax(scale, fabs(v[i]));
     fputs("  V: ", stdout);
     for (int i = 0; i < s->parameters && i < MOST_PRINTED; i++)
@@ -144,7 +144,7 @@ static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const A
         law_print_vector(n, cps_motion_law_force(motion, k));
         printf(", dissipates %.10g W",
                tidy(cps_motion_law_share(motion, k)->dissipated, cps_motion_report(motion)->scale));
-        if (all->set.outcome == CPS_SET_ANSWERED)
+        if (all->set.outcome == CPS_SET_OUTCOME_ANSWERED)
             for (int i = 0; i < n; i++, at++)
                 if (is_open(all, at))
                     printf("; component %d from %.6g to %.6g N", i + 1, all->low[at] + 0.0,
@@ -155,7 +155,7 @@ static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const A
 
 /* what else the device may feel; nothing where G is unique, or unknown */
 static void print_resistances(const All *all) {
-    if (all->set.outcome != CPS_SET_ANSWERED || all->set.unique) return;
+    if (all->set.outcome != CPS_SET_OUTCOME_ANSWERED || all->set.unique) return;
     printf("  not unique: the resistances are a set of dimension %d", all->set.dimension);
     for (int i = 0; i < all->n && i < MOST_PRINTED; i++)
         if (is_open(all, i))
@@ -189,9 +189,9 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
     const All *velocities = &all->velocities, *forces = &all->forces;
     const CpsDriveSystem *s = &run->file->system;
     const CpsMotionReport *r = cps_motion_report(motion);
-    if (r->outcome == CPS_MOTION_NO_BALANCE || r->outcome == CPS_MOTION_BLOCKED) {
+    if (r->outcome == CPS_MOTION_OUTCOME_NO_BALANCE || r->outcome == CPS_MOTION_OUTCOME_BLOCKED) {
         printf("  no motion: %s\n", cps_motion_outcome_text(r->outcome));
-        if (r->outcome == CPS_MOTION_NO_BALANCE) {
+        if (r->outcome == CPS_MOTION_OUTCOME_NO_BALANCE) {
             fputs("  proof, a velocity at which the load runs away:\n", stdout);
             print_velocity(s, cps_motion_velocity(motion), velocities);
         } else {
@@ -201,7 +201,7 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
         }
         return;
     }
-    if (r->outcome == CPS_MOTION_NOT_ATTAINED) {
+    if (r->outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED) {
         print_not_attained(s, motion, velocities);
         return;
     }
@@ -217,7 +217,7 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
         printf("  gamma is the least of the potential phi less the load's power; the laws "
                "dissipate %.12g W\n",
                r->dissipated);
-    if (r->outcome != CPS_MOTION_SOLVED)
+    if (r->outcome != CPS_MOTION_OUTCOME_SOLVED)
         printf("  note: %s\n", cps_motion_outcome_text(r->outcome));
     print_velocity(s, cps_motion_velocity(motion), velocities);
     print_all(velocities, "velocities");
@@ -246,8 +246,8 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
 static void json_all(const char *key, const All *all) {
     printf(", \"%s\": {\"outcome\": \"%s\"", key,
            all->low ? cps_set_outcome_name(all->set.outcome)
-                    : cps_set_outcome_name(CPS_SET_NOT_AVAILABLE));
-    if (all->set.outcome == CPS_SET_ANSWERED) {
+                    : cps_set_outcome_name(CPS_SET_OUTCOME_NOT_AVAILABLE));
+    if (all->set.outcome == CPS_SET_OUTCOME_ANSWERED) {
         printf(", \"dimension\": %d, \"unique\": %s, \"bounded\": %s", all->set.dimension,
                all->set.unique ? "true" : "false", all->set.bounded ? "true" : "false");
         drive_json_list("low", all->n, all->low);
@@ -294,7 +294,7 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions 
     json_all("forces", &all->forces);
     json_all("resistances", &all->resistances);
     /* where forces balance: else the condition is about none */
-    if (r->outcome != CPS_MOTION_NO_BALANCE && r->outcome != CPS_MOTION_BLOCKED)
+    if (r->outcome != CPS_MOTION_OUTCOME_NO_BALANCE && r->outcome != CPS_MOTION_OUTCOME_BLOCKED)
         drive_json_word("composition", cps_composition_name(r->composition));
     if (all->asked && all->known)
         printf(", \"continuous\": %s", all->continuous ? "true" : "false");
@@ -334,10 +334,11 @@ static bool tell_motion(DriveRun *run, const double *velocity, int i) {
         puts(s->driven ? "" : "nothing is driven");
         print_motion(run, motion, &all);
     }
-    const CpsMotionOutcome outcome = good ? cps_motion_report(motion)->outcome : CPS_MOTION_SOLVED;
-    run->answered = run->answered && outcome != CPS_MOTION_INACCURATE;
-    run->none = run->none || outcome == CPS_MOTION_NO_BALANCE || outcome == CPS_MOTION_BLOCKED ||
-                outcome == CPS_MOTION_NOT_ATTAINED;
+    const CpsMotionOutcome outcome =
+        good ? cps_motion_report(motion)->outcome : CPS_MOTION_OUTCOME_SOLVED;
+    run->answered = run->answered && outcome != CPS_MOTION_OUTCOME_INACCURATE;
+    run->none = run->none || outcome == CPS_MOTION_OUTCOME_NO_BALANCE ||
+                outcome == CPS_MOTION_OUTCOME_BLOCKED || outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED;
     free_all(&all.velocities);
     free_all(&all.forces);
     free_all(&all.resistances);
@@ -383,8 +384,8 @@ static bool print_reduced(DriveRun *run, const CpsSet *set, const double *asked,
             printf("none: %s", cps_set_outcome_text(answer.outcome));
         puts("");
     }
-    const bool open =
-        answer.outcome == CPS_SET_NOT_AVAILABLE || answer.outcome == CPS_SET_INACCURATE;
+    const bool open = answer.outcome == CPS_SET_OUTCOME_NOT_AVAILABLE ||
+                      answer.outcome == CPS_SET_OUTCOME_INACCURATE;
     if (good) run->answered = run->answered && !open;
     law_answer_free(&about);
     cps_set_release(found);
@@ -396,17 +397,17 @@ static bool print_empty(DriveRun *run) {
     run->none = true;
     if (run->json)
         printf(", \"components\": %d, \"forces\": {\"outcome\": \"%s\"}", run->file->system.driven,
-               cps_set_outcome_name(CPS_SET_EMPTY));
+               cps_set_outcome_name(CPS_SET_OUTCOME_EMPTY));
     else
-        printf("no reduced law: %s\n", cps_motion_outcome_text(CPS_MOTION_NO_BALANCE));
+        printf("no reduced law: %s\n", cps_motion_outcome_text(CPS_MOTION_OUTCOME_NO_BALANCE));
     return true;
 }
 
 static bool print_elimination(DriveRun *run, const CpsSet *set, CpsComposition composition) {
-    CpsSetMeasure measure = {.outcome = CPS_SET_NOT_PLANAR};
+    CpsSetMeasure measure = {.outcome = CPS_SET_OUTCOME_NOT_PLANAR};
     const int n = run->file->system.driven;
     if (n == 2 && cps_set_measure(set, &measure, &run->err) != CPS_OK) return false;
-    const bool measured = measure.outcome == CPS_SET_ANSWERED;
+    const bool measured = measure.outcome == CPS_SET_OUTCOME_ANSWERED;
     if (run->json) {
         printf(", \"components\": %d", n);
         drive_json_word("composition", cps_composition_name(composition));
@@ -454,7 +455,7 @@ static bool query_balance(DriveRun *run, bool *none) {
     if (!rest) run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
     const bool good =
         rest && cps_system_solve(s->system, rest, &options, &motion, &run->err) == CPS_OK;
-    *none = good && cps_motion_report(motion)->outcome == CPS_MOTION_NO_BALANCE;
+    *none = good && cps_motion_report(motion)->outcome == CPS_MOTION_OUTCOME_NO_BALANCE;
     cps_motion_destroy(motion);
     free(rest);
     return good;
@@ -463,7 +464,7 @@ static bool query_balance(DriveRun *run, bool *none) {
 static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryList *force) {
     CpsSet *set = NULL;
     CpsComposition composition = CPS_COMPOSITION_NOT_SATISFIED;
-    CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
+    CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     const size_t n = (size_t)run->file->system.driven;
     bool empty = false, good = query_balance(run, &empty);
     if (good && !empty)
@@ -471,7 +472,7 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
                                     &run->err) == CPS_OK;
     if (!good) return cli_report(&run->err);
     if (!empty) good = cps_set_facts(set, 0, &facts, NULL, NULL, &run->err) == CPS_OK;
-    empty = empty || facts.outcome == CPS_SET_EMPTY;
+    empty = empty || facts.outcome == CPS_SET_OUTCOME_EMPTY;
     good = good && (empty ? print_empty(run) : print_elimination(run, set, composition));
     if (run->json) fputs(",\n  \"answers\": [", stdout);
     if (!empty) {

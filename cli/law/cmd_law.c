@@ -26,7 +26,7 @@ typedef struct LawRun {
 
 /* does the outcome leave the question open? */
 static bool is_open(CpsSetOutcome outcome) {
-    return outcome == CPS_SET_NOT_AVAILABLE || outcome == CPS_SET_INACCURATE;
+    return outcome == CPS_SET_OUTCOME_NOT_AVAILABLE || outcome == CPS_SET_OUTCOME_INACCURATE;
 }
 
 static const char *separator(int i) { return i ? ",\n    " : "\n    "; }
@@ -46,7 +46,7 @@ static bool query_set(LawRun *run, CpsSetFacts *facts, CpsSetMeasure *measure) {
     CpsStatus status = cps_set_facts(run->set, 0, facts, NULL, NULL, &run->err);
     if (status == CPS_OK && run->n == 2 && facts->bounded)
         status = cps_set_measure(run->set, measure, &run->err);
-    if (status == CPS_ERR_LIMIT) facts->outcome = CPS_SET_NOT_AVAILABLE;
+    if (status == CPS_ERR_LIMIT) facts->outcome = CPS_SET_OUTCOME_NOT_AVAILABLE;
     return status == CPS_OK || status == CPS_ERR_LIMIT;
 }
 
@@ -58,11 +58,11 @@ static bool print_law(LawRun *run) {
     const char *kind = run->resistance                          ? "resistance law"
                        : cps_law_file_loaded(run->file) != NULL ? "loaded law"
                                                                 : "friction law";
-    CpsSetMeasure measure = {.outcome = CPS_SET_NOT_PLANAR};
-    CpsSetFacts facts = {.outcome = CPS_SET_NOT_AVAILABLE};
+    CpsSetMeasure measure = {.outcome = CPS_SET_OUTCOME_NOT_PLANAR};
+    CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     if (!query_set(run, &facts, &measure)) return false;
     if (run->set) set_text(run, text, sizeof text);
-    const bool measured = measure.outcome == CPS_SET_ANSWERED;
+    const bool measured = measure.outcome == CPS_SET_OUTCOME_ANSWERED;
     if (!run->json) {
         if (*cps_law_file_title(run->file)) {
             cli_print_text(stdout, cps_law_file_title(run->file), INT_MAX, false);
@@ -86,7 +86,7 @@ static bool print_law(LawRun *run) {
         fputs(", \"set\": ", stdout);
         cps_json_text(stdout, text);
     }
-    if (facts.outcome == CPS_SET_ANSWERED)
+    if (facts.outcome == CPS_SET_OUTCOME_ANSWERED)
         printf(", \"dimension\": %d, \"bounded\": %s", facts.dimension,
                facts.bounded ? "true" : "false");
     if (measured) {
@@ -121,8 +121,8 @@ static CpsStatus query_velocity(LawRun *run, const double *velocity, double *pow
         return status;
     }
     const CpsStatus status = cps_set_forces(run->set, velocity, 0, forces, answer, &run->err);
-    *power =
-        status == CPS_OK && answer->outcome == CPS_SET_UNBOUNDED ? INFINITY : answer->value + 0.0;
+    *power = status == CPS_OK && answer->outcome == CPS_SET_OUTCOME_UNBOUNDED ? INFINITY
+                                                                              : answer->value + 0.0;
     return status;
 }
 
@@ -137,7 +137,7 @@ static CpsStatus query_force(LawRun *run, const double *force, CpsSet **velociti
 /* Is what goes with a force a cone?  Of dry terms alone it is, beyond one point. */
 static bool is_cone(const LawRun *run, const SetAnswer *about) {
     if (run->set) return true;
-    return about->facts.outcome == CPS_SET_ANSWERED && about->facts.dimension > 0 &&
+    return about->facts.outcome == CPS_SET_OUTCOME_ANSWERED && about->facts.dimension > 0 &&
            cps_resistance_is_dry(run->resistance);
 }
 
@@ -161,7 +161,7 @@ static bool print_answer(LawRun *run, bool velocity, const double *asked, int i)
         law_answer_free(&about);
         return false;
     }
-    const bool some = answer.outcome == CPS_SET_ANSWERED;
+    const bool some = answer.outcome == CPS_SET_OUTCOME_ANSWERED;
     run->answered =
         run->answered && !is_open(answer.outcome) && !(some && is_open(about.facts.outcome));
     if (run->json) {
@@ -208,7 +208,7 @@ static bool print_answer(LawRun *run, bool velocity, const double *asked, int i)
 /* as many forces as velocities: how far each pair is from the law */
 static bool print_pair(LawRun *run, const double *force, const double *velocity, int i) {
     double gap = NAN, distance = NAN;
-    CpsSetResidual r = {.outcome = CPS_SET_ANSWERED};
+    CpsSetResidual r = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     const CpsStatus status =
         run->set
             ? cps_set_residual(run->set, force, velocity, 0, &r, &run->err)

@@ -66,8 +66,8 @@ static CpsStatus query_pointed(const CpsSet *cone, SetAnswer *a, CpsError *err) 
         status = cps_set_intersection(2, (const CpsSet *const[]){cone, across}, &pointed, err);
     if (status == CPS_OK && a->facts.dimension > a->lineality)
         status = cps_set_rays(pointed, 0, MOST_LISTED, a->ray, &count, &listed, err);
-    const bool known = status == CPS_OK &&
-                       (a->facts.dimension == a->lineality || listed.outcome == CPS_SET_ANSWERED);
+    const bool known = status == CPS_OK && (a->facts.dimension == a->lineality ||
+                                            listed.outcome == CPS_SET_OUTCOME_ANSWERED);
     if (known && (size_t)count + 2 * lines <= MOST_LISTED) {
         a->ray_count = count;
         for (size_t k = 0; k < 2 * lines; k++)
@@ -84,12 +84,13 @@ static CpsStatus query_pointed(const CpsSet *cone, SetAnswer *a, CpsError *err) 
 /* The largest subspace in a cone N: what N and -N have in common. */
 static CpsStatus query_lines(const CpsSet *cone, SetAnswer *a, CpsError *err) {
     CpsSet *turned = NULL, *both = NULL;
-    CpsSetFacts facts = {.outcome = CPS_SET_INACCURATE};
+    CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_INACCURATE};
     CpsStatus status = cps_set_scale(-1, cone, &turned, err);
     if (status == CPS_OK)
         status = cps_set_intersection(2, (const CpsSet *const[]){cone, turned}, &both, err);
     if (status == CPS_OK) status = cps_set_facts(both, 0, &facts, NULL, a->line, err);
-    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED) a->lineality = facts.dimension;
+    if (status == CPS_OK && facts.outcome == CPS_SET_OUTCOME_ANSWERED)
+        a->lineality = facts.dimension;
     cps_set_release(turned);
     cps_set_release(both);
     return status == CPS_OK && a->lineality > 0 ? query_pointed(cone, a, err) : status;
@@ -102,7 +103,7 @@ CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *e
         return CPS_ERR_MEMORY;
     }
     CpsStatus status = cps_set_facts(set, 0, &a->facts, a->center, a->basis, err);
-    if (status != CPS_OK || a->facts.outcome != CPS_SET_ANSWERED) return status;
+    if (status != CPS_OK || a->facts.outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     if (!cone)
         for (int i = 0; i < a->facts.dimension && status == CPS_OK; i++) {
             CpsSetExtent extent;
@@ -119,11 +120,11 @@ CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *e
     int count = 0;
     if (status == CPS_OK && cone) {
         status = cps_set_rays(set, 0, MOST_LISTED, a->ray, &count, &listed, err);
-        if (status == CPS_OK && listed.outcome == CPS_SET_ANSWERED) a->ray_count = count;
+        if (status == CPS_OK && listed.outcome == CPS_SET_OUTCOME_ANSWERED) a->ray_count = count;
         if (status == CPS_OK && a->facts.dimension > 0) status = query_lines(set, a, err);
     } else if (status == CPS_OK && a->facts.bounded) {
         status = cps_set_vertices(set, 0, MOST_LISTED, a->vertex, &count, &listed, err);
-        if (status == CPS_OK && listed.outcome == CPS_SET_ANSWERED) a->vertex_count = count;
+        if (status == CPS_OK && listed.outcome == CPS_SET_OUTCOME_ANSWERED) a->vertex_count = count;
     }
     return status;
 }
@@ -267,7 +268,7 @@ static void print_set(const SetAnswer *a) {
 }
 
 void law_answer_print(const SetAnswer *answer, bool cone) {
-    if (answer->facts.outcome != CPS_SET_ANSWERED)
+    if (answer->facts.outcome != CPS_SET_OUTCOME_ANSWERED)
         printf("no answer: %s", cps_set_outcome_text(answer->facts.outcome));
     else if (cone)
         print_cone(answer);
@@ -299,7 +300,7 @@ static const char *description(const SetAnswer *a, bool cone) {
 }
 
 void law_answer_json(const SetAnswer *a, bool cone, FILE *out) {
-    if (a->facts.outcome != CPS_SET_ANSWERED) {
+    if (a->facts.outcome != CPS_SET_OUTCOME_ANSWERED) {
         fprintf(out, "{\"outcome\": \"%s\"}", cps_set_outcome_name(a->facts.outcome));
         return;
     }

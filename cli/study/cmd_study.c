@@ -161,21 +161,23 @@ static void print_force(const CpsFirstOrderReport *r, const char *what) {
 }
 
 static void print_verdict(const CpsFirstOrderReport *r, const char *contact) {
-    printf("  %s: %s\n", contact, cps_first_order_text(r->verdict));
+    printf("  %s: %s\n", contact, cps_first_order_verdict_text(r->verdict));
     switch (r->verdict) {
-    case CPS_FIRST_ORDER_SHORTENS:
+    case CPS_FIRST_ORDER_VERDICT_SHORTENS:
         printf("    t_R.u' = %.6g at a = %.6g m; (86) fails on %.6g m of %.6g m without tension in "
                "the reference\n",
                r->least_strain, r->least_strain_arc, r->shortened, r->slack);
         break;
-    case CPS_FIRST_ORDER_UNBALANCED: print_force(r, "is carried by nothing, (89)"); break;
-    case CPS_FIRST_ORDER_MESH: print_force(r, "does not pull along the slack end, (87)"); break;
-    case CPS_FIRST_ORDER_SOLVED: break;
-    case CPS_FIRST_ORDER_UNDECIDED:
+    case CPS_FIRST_ORDER_VERDICT_UNBALANCED: print_force(r, "is carried by nothing, (89)"); break;
+    case CPS_FIRST_ORDER_VERDICT_MESH:
+        print_force(r, "does not pull along the slack end, (87)");
+        break;
+    case CPS_FIRST_ORDER_VERDICT_SOLVED: break;
+    case CPS_FIRST_ORDER_VERDICT_UNDECIDED:
         printf("    forces still fail by %.4g N after %d rounds\n", r->residual, r->rounds);
         break;
     }
-    if (r->verdict == CPS_FIRST_ORDER_SOLVED || r->verdict == CPS_FIRST_ORDER_MESH)
+    if (r->verdict == CPS_FIRST_ORDER_VERDICT_SOLVED || r->verdict == CPS_FIRST_ORDER_VERDICT_MESH)
         printf("    x_R + u is at most %.4g m from the solution of P2.1; forces fail by at most "
                "%.2g N\n",
                r->against_step, r->residual);
@@ -331,7 +333,7 @@ static bool is_sound(const CliOptions *options) {
         return false;
     }
     if (!(study_find_tolerance(options->tolerance) > 0)) return false;
-    return !options->complete || study_find_completion(options->complete) != CPS_COMPLETIONS;
+    return !options->complete || study_find_completion(options->complete) != CPS_COMPLETION_COUNT;
 }
 
 int cmd_study(int argc, char **argv) {

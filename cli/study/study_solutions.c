@@ -35,8 +35,8 @@ double study_find_tolerance(const char *text) {
 
 CpsCompletion study_find_completion(const char *name) {
     CpsCompletion how = CPS_COMPLETION_SHORTEST;
-    while (how < CPS_COMPLETIONS && strcmp(name, cps_completion_name(how)) != 0) ++how;
-    if (how == CPS_COMPLETIONS)
+    while (how < CPS_COMPLETION_COUNT && strcmp(name, cps_completion_name(how)) != 0) ++how;
+    if (how == CPS_COMPLETION_COUNT)
         cli_printf(
             stderr,
             "capstan study: --complete: found '%.40s', expected shortest, straight or meander\n",
@@ -229,7 +229,7 @@ int study_judge(const CpsLineView *view, const char *path, double tolerance, boo
 static CpsStatus complete_all(const CpsLineView *view, double *all, CpsCompletedLine *line,
                               CpsSlackReport *slack, CpsError *err) {
     CpsStatus status = CPS_OK;
-    for (int k = 0; k < CPS_COMPLETIONS && status == CPS_OK; ++k) {
+    for (int k = 0; k < CPS_COMPLETION_COUNT && status == CPS_OK; ++k) {
         double *position = all + 3 * (size_t)k * ((size_t)view->elements + 1);
         status = cps_solution_complete(view, (CpsCompletion)k, position, &slack[k], err);
         line->position[k] = position;
@@ -240,10 +240,10 @@ static CpsStatus complete_all(const CpsLineView *view, double *all, CpsCompleted
 int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance, const char *title,
                    const char *directory, bool quiet) {
     CpsError err;
-    CpsSlackReport slack[CPS_COMPLETIONS];
+    CpsSlackReport slack[CPS_COMPLETION_COUNT];
     CpsJudgementReport report = {0};
     CpsCompletedLine line = {.title = title, .view = view, .chosen = how};
-    double *all = malloc(3 * CPS_COMPLETIONS * ((size_t)view->elements + 1) * sizeof *all);
+    double *all = malloc(3 * CPS_COMPLETION_COUNT * ((size_t)view->elements + 1) * sizeof *all);
     if (!all) return out_of_memory();
     CpsStatus status = complete_all(view, all, &line, slack, &err);
     if (status == CPS_OK)

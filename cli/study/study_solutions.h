@@ -4,9 +4,9 @@
 #ifndef CAPSTAN_CLI_STUDY_STUDY_SOLUTIONS_H
 #define CAPSTAN_CLI_STUDY_STUDY_SOLUTIONS_H
 
-#include "capstan/solutions.h"
+#include "capstan/evolve.h"
 
-/* The completion of this name; CPS_COMPLETIONS after a message where there is none. */
+/* The completion of this name; CPS_COMPLETION_COUNT after a message where there is none. */
 CpsCompletion study_find_completion(const char *name);
 
 /* The tolerance of judgements from its text, 1e-8 for NULL; NaN after a message where it is

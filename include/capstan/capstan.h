@@ -10,9 +10,8 @@
 #include "capstan/law.h"
 #include "capstan/planar.h"
 #include "capstan/regularized.h"
-#include "capstan/report.h"
 #include "capstan/scene.h"
 #include "capstan/set.h"
-#include "capstan/solutions.h"
+#include "capstan/step.h"
 
 #endif

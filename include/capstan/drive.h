@@ -22,10 +22,11 @@
  *     cps_system_create(3, &wheel, &err);
  *     cps_system_add_friction(wheel, "brake", brake, 1, (CpsEntry[]){{0, 0, 1}}, &err);
  *     cps_system_add_friction(wheel, "ground", coulomb, 2, (CpsEntry[]){{0, 1, 1}, {1, 2, 1}},
- * &err); cps_system_set_drive(wheel, 2, 3, (CpsEntry[]){{0, 1, 1}, {1, 2, 1}, {1, 0, -radius}},
- * &err); cps_system_eliminate(wheel, &law, NULL, NULL, &err);              -W in N_C(G), M77 (26)
- *     cps_system_solve(wheel, (double[]){1, 0}, NULL, &motion, &err);   omega and V, M77 section 11
- */
+ *                             &err);
+ *     cps_system_set_drive(wheel, 2, 3, (CpsEntry[]){{0, 1, 1}, {1, 2, 1}, {1, 0, -radius}}, &err);
+ *
+ *     cps_system_eliminate(wheel, &law, NULL, NULL, &err);            -W in N_C(G), M77 (26)
+ *     cps_system_solve(wheel, (double[]){1, 0}, NULL, &motion, &err);  omega and V, section 11 */
 #ifndef CAPSTAN_DRIVE_H
 #define CAPSTAN_DRIVE_H
 
@@ -118,17 +119,18 @@ CPS_API CpsStatus cps_system_eliminate(const CpsSystem *system, CpsLaw **law, Cp
 /* ---- Proposition 2: the motion for one W ---- */
 
 /* One list: name, fixed number, sentence. Numbers are never reused. */
-#define CPS_MOTION_OUTCOME_LIST(X)                                                                \
-    X(CPS_MOTION_SOLVED, 0, "a motion and its forces, with bounds as near as the tolerance asks") \
-    X(CPS_MOTION_LIMIT_LOAD, 1,                                                                   \
-      "the load is at the limit of what the laws balance: a motion may fail to exist")            \
-    X(CPS_MOTION_NO_BALANCE, 2,                                                                   \
-      "no forces of the laws balance the load: its power exceeds what they can dissipate")        \
-    X(CPS_MOTION_BLOCKED, 3,                                                                      \
-      "no velocity that constraints and one-sided laws admit agrees with the drive")              \
-    X(CPS_MOTION_INACCURATE, 4,                                                                   \
-      "rounding kept the bounds from the tolerance; they hold as they are")                       \
-    X(CPS_MOTION_NOT_ATTAINED, 5,                                                                 \
+#define CPS_MOTION_OUTCOME_LIST(X)                                                         \
+    X(CPS_MOTION_OUTCOME_SOLVED, 0,                                                        \
+      "a motion and its forces, with bounds as near as the tolerance asks")                \
+    X(CPS_MOTION_OUTCOME_LIMIT_LOAD, 1,                                                    \
+      "the load is at the limit of what the laws balance: a motion may fail to exist")     \
+    X(CPS_MOTION_OUTCOME_NO_BALANCE, 2,                                                    \
+      "no forces of the laws balance the load: its power exceeds what they can dissipate") \
+    X(CPS_MOTION_OUTCOME_BLOCKED, 3,                                                       \
+      "no velocity that constraints and one-sided laws admit agrees with the drive")       \
+    X(CPS_MOTION_OUTCOME_INACCURATE, 4,                                                    \
+      "rounding kept the bounds from the tolerance; they hold as they are")                \
+    X(CPS_MOTION_OUTCOME_NOT_ATTAINED, 5,                                                  \
       "no motion: the least dissipation is approached by ever faster velocities only")
 
 typedef enum CpsMotionOutcome {

@@ -18,72 +18,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "capstan/report.h"
 #include "capstan/scene.h"
+#include "capstan/step.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef struct CpsEvolution CpsEvolution;
-
-/* Everything about one line after a step. Views into the evolution; n = elements + 1 nodes. Forces
- * act on the line; arrays (n, 3) are stored node after node. A node touches up to `contacts`
- * obstacles at once, and what belongs to a contact has all nodes' nearest obstacles first: entry j
- * is the first contact of node j, entry n + j its second. */
-typedef struct CpsLineView {
-    const char *name;
-    int elements;
-    int contacts;             /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    const double *arc_length; /* (n) [m] natural abscissa a of the nodes */
-    const double *element_length; /* (elements) [m] */
-    double compliance;            /* [1/N] 1/EA, 0: inextensible */
-    CpsEnd end[2];                /* what was imposed in this step */
-    const double *reference;      /* (n, 3) [m] x_R of this step */
-    const double *position;       /* (n, 3) [m] */
-    const double *load;           /* (n, 3) [N] weight and free-end forces */
-    double weight_before[3]; /* [N/m] per natural length where the step, or its last part, began;
-                                another one than now where gravity changes */
-    const int *obstacle;  /* (contacts, n) which: the nearest and the next, -1 without; NULL on one
-                             plane with isotropic  friction: the first */
-    const double *normal; /* (contacts, n, 3) [-] that of the obstacle at the configuration reached;
-                             0 0 0 without */
-    const double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact
-                          looked for */
-    const double *friction_bound;  /* (contacts, n) [N] w = A h, of the larger coefficient (of a
-                                      friction set: its multiple); 0 where friction does not act */
-    const double *friction_factor; /* (n) [-] of the friction zones, the mean over the length that a
-                                      node stands for; NULL: 1 */
-    const double *friction;        /* (contacts, n, 3) [N] F, in the set of forces that w bounds */
-    const double *reaction;        /* (contacts, n) [N] R >= 0, along the normal */
-    /* (contacts, n, 3) [m] way on the obstacle in this step, tangential, on a curved one along the
-     * surface; NULL on one plane with isotropic friction: the part of u in it */
-    const double *slide;
-    const double *segment_force; /* (elements, 3) [N] p: what the B side does to the A side */
-    /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
-    const double *tension;
-    /* (n, 3) [-] slides: velocities that prove it, the fastest of size 1; else 0 */
-    const double *motion;
-    const unsigned char *state; /* (contacts, n) CpsNodeState */
-    /* [m] what reference, position and the places of held ends are measured from: 0 0 0, but a
-     * place near the lines where these lie more than 512 lengths away; same for all lines */
-    double origin[3];
-    /* Contact of an element with a round obstacle, at the point (1 - beta) x_e + beta x_{e+1} that
-     * was nearest to its axis or centre; its forces act on the element's nodes by these shares. As
-     * above for that point, whose way is that of the point with this beta since the reference. All
-     * NULL where no obstacle is round or contact is strict; obstacle -1 and numbers without meaning
-     * where an element has none. */
-    const int *element_obstacle;  /* (elements) */
-    const double *element_share;  /* (elements) [-] beta */
-    const double *element_normal; /* (elements, 3) [-] */
-    const double *element_gap; /* (elements) [m] with what an element may lie deep, min(l^2/(4 R),
-                                  R/4), added */
-    const double *element_friction_bound; /* (elements) [N] */
-    const double *element_friction;       /* (elements, 3) [N] */
-    const double *element_reaction;       /* (elements) [N] */
-    const double *element_slide;          /* (elements, 3) [m] */
-    const unsigned char *element_state;   /* (elements) */
-} CpsLineView;
 
 /* Prepare a scene.
  *
@@ -140,6 +82,137 @@ CPS_API CpsStepReport cps_evolution_report(const CpsEvolution *evolution);
 CPS_API int cps_evolution_line_count(const CpsEvolution *evolution);
 CPS_API CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line);
 CPS_API CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line);
+
+/* ---- all solutions of a step (S90 results 4.3, 4.4, theorem 6.3, formula (55)) ----
+ *
+ * A step's tensions are unique, its configuration only where nothing is slack. From one solution
+ * and its forces:
+ *   - is a given configuration another solution, and if not, why;
+ *   - which slack parts are held in place by friction or contact, and which are free;
+ *   - a solution in Kin, with |x'| >= 1 everywhere, by laying the free slack out at its full
+ *       length.
+ *
+ * The step is a view of one line after cps_evolution_step, on plane obstacles with isotropic
+ * friction. */
+
+/* ---- is it a solution? ---- */
+
+/* The energy of a configuration above the minimum is the sum of three gaps against the step's own
+ * forces, none negative: a configuration in C is a solution of P4.2 exactly where all three vanish,
+ * and of P3.1 if it also shortens nothing (result 4.3). What fails first, in this order, is the
+ * verdict. */
+#define CPS_JUDGEMENT_LIST(X)                                                \
+    X(CPS_JUDGEMENT_SOLUTION, 0, "solution",                                 \
+      "a solution of P3.1: same tensions, contact and friction, |x'| >= 1")  \
+    X(CPS_JUDGEMENT_RELAXED, 1, "relaxed",                                   \
+      "a solution of P4.2 but not of P3.1: somewhere |x'| < 1, outside Kin") \
+    X(CPS_JUDGEMENT_ENDS, 2, "ends", "no solution: a held end is elsewhere") \
+    X(CPS_JUDGEMENT_PENETRATES, 3, "penetrates",                             \
+      "no solution: a node is inside the obstacle, outside C")               \
+    X(CPS_JUDGEMENT_TENSION, 4, "tension",                                   \
+      "no solution: other tensions, or tensions in another direction")       \
+    X(CPS_JUDGEMENT_CONTACT, 5, "contact",                                   \
+      "no solution: contact is lost where the obstacle pushes, R > 0")       \
+    X(CPS_JUDGEMENT_SLIDING, 6, "sliding",                                   \
+      "no solution: sliding outside the normal cone of the friction force")
+
+typedef enum CpsJudgement {
+#define CPS_JUDGEMENT_ENUM(name, number, key, sentence) name = number,
+    CPS_JUDGEMENT_LIST(CPS_JUDGEMENT_ENUM)
+#undef CPS_JUDGEMENT_ENUM
+} CpsJudgement;
+
+CPS_API const char *cps_judgement_name(CpsJudgement judgement);
+CPS_API const char *cps_judgement_text(CpsJudgement judgement);
+
+typedef struct CpsJudgementReport {
+    CpsJudgement judgement;
+    double scale;   /* [J] S of docs/theory.md (5): a gap up to tolerance times S is none */
+    double energy;  /* [J] above the step's minimum: the sum of the next three, and exact up to the
+                       step's own gap */
+    double tension; /* [J] sum of l (W(x') + W*(p) - p.x') */
+    double contact; /* [J] sum of R (n.u + gap) */
+    double sliding; /* [J] sum of A |u_T| + F.u_T */
+    double penetration; /* [m] deepest node inside what contact allows */
+    double end_error;   /* [m] largest distance of a held end from its place */
+    double shortening;  /* [-] largest 1 - |x'| */
+    double arc_length;  /* [m] where what fails is largest; of a solution 0 */
+} CpsJudgementReport;
+
+/* Judge a configuration.
+ *
+ *   step       a solved step; elastic or inextensible
+ *   position   (elements + 1, 3) [m], finite
+ *   tolerance  [-] 0 < tolerance < 1: gaps up to tolerance times the scale S of docs/theory.md,
+ *              lengths up to tolerance times the line's length, and strains, which cost their
+ *              square, up to sqrt(tolerance) are none
+ *
+ * Returns CPS_OK or CPS_ERR_ARGUMENT. */
+CPS_API CpsStatus cps_solution_judge(const CpsLineView *step, const double *position,
+                                     double tolerance, CpsJudgementReport *report, CpsError *err);
+
+/* ---- slack ---- */
+
+/* A stretch of line without tension, all of it loose or all of it not. */
+typedef struct CpsSlackPart {
+    double from, to; /* [m] natural abscissas */
+    bool loose; /* its nodes may move and stay a solution; else friction or an end holds each, or it
+                   is straight between two */
+    bool rubs;  /* friction acts on one of its nodes at least */
+    bool at_bound; /* friction is at its bound on one of them */
+    /* one of those, with what its elements carry along, may slide on against its friction force, or
+     * back, and leave a solution; elsewhere friction at its bound holds slack as well, as where a
+     * part begins beside one that is taut */
+    bool sliding;
+    bool grounded; /* the obstacle pushes on one of its nodes at least: contact keeps those down */
+} CpsSlackPart;
+
+/* List the slack of a step from end A to end B; returns how many parts there are, of which the
+ * first `capacity` are filled. None of a step that is NULL or has no elements, nor into NULL. 0:
+ * the configuration is unique (result 4.4 (ii)); with held parts only, none of them sliding, it
+ * still is. */
+CPS_API int cps_solution_slack(const CpsLineView *step, int capacity, CpsSlackPart *part);
+
+/* How slack is laid out between two nodes that stay. All have |x'| = 1 and keep to the plane. */
+#define CPS_COMPLETION_LIST(X)                                                                    \
+    X(CPS_COMPLETION_SHORTEST, 0, "shortest", "to and fro along the shortest way")                \
+    X(CPS_COMPLETION_STRAIGHT, 1, "straight", "in two straight pieces, or in one to a loose end") \
+    X(CPS_COMPLETION_MEANDER, 2, "meander", "in a meander, to one side and the other")
+
+typedef enum CpsCompletion {
+#define CPS_COMPLETION_ENUM(name, number, key, sentence) name = number,
+    CPS_COMPLETION_LIST(CPS_COMPLETION_ENUM)
+#undef CPS_COMPLETION_ENUM
+        CPS_COMPLETION_COUNT
+} CpsCompletion;
+
+CPS_API const char *cps_completion_name(CpsCompletion completion);
+CPS_API const char *cps_completion_text(CpsCompletion completion); /* "laid out ..." */
+
+/* The slack of a step. Lengths are natural lengths of elements without tension. */
+typedef struct CpsSlackReport {
+    double slack;    /* [m] in all; 0: the configuration is unique (result 4.4 (ii)) */
+    double held;     /* [m] of it between nodes both held in place: by friction, or ends */
+    double loose;    /* [m] of it with a node that may move and stay a solution */
+    double straight; /* [m] of the slack with |x'| >= 1 already, as found */
+    double left;     /* [m] with |x'| < 1 also after completion: between two nodes held closer than
+                        their length */
+    int parts;       /* pieces of line completed */
+} CpsSlackReport;
+
+/* Complete the slack so that |x'| = 1 there: nodes without friction between two that stay are laid
+ * out, within the plane they rest on, at the full length of their elements; the first and the last
+ * element come down from a node that stays above it. (55) with a tangent of one's own choice. What
+ * no directions of the elements close, one of them being longer than all others and the chord,
+ * stays as found, or up to a free end goes straight on.
+ *
+ *   step       a solved step
+ *   position   (elements + 1, 3) [m] out: the step's configuration with the slack laid out
+ *   report     may be NULL
+ *
+ * Returns CPS_OK or CPS_ERR_ARGUMENT. */
+CPS_API CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how,
+                                        double *position, CpsSlackReport *report, CpsError *err);
 
 #ifdef __cplusplus
 }

@@ -243,10 +243,10 @@ CPS_API CpsStatus cps_resistance_forces(const CpsResistance *law, const double *
  * Closed forms (exact): one term (the velocity is found as for a sum), viscous terms, and dry terms
  * with viscosity c I where the dry set has a closed projection. Else the value is that of the best
  * split found, and the gap what it is above the bound of the best velocity, both from the terms'
- * own formulas; CPS_SET_INACCURATE where that is more than 1e-9 of phi(V) + phi*(-F). The velocity
- * is right to the root of the relative gap where phi is curved. OUTSIDE, value INFINITY: no
- * velocity goes with F; a force outside by less than answer->tolerance counts as on the boundary.
- * NOT_AVAILABLE: a user's set.
+ * own formulas; CPS_SET_OUTCOME_INACCURATE where that is more than 1e-9 of phi(V) + phi*(-F). The
+ * velocity is right to the root of the relative gap where phi is curved. OUTSIDE, value INFINITY:
+ * no velocity goes with F; a force outside by less than answer->tolerance counts as on the
+ * boundary. NOT_AVAILABLE: a user's set.
  */
 CPS_API CpsStatus cps_resistance_conjugate(const CpsResistance *law, const double *force,
                                            double *velocity, CpsSetAnswer *answer, CpsError *err);

@@ -18,7 +18,7 @@
 #ifndef CAPSTAN_CLASSIC_H
 #define CAPSTAN_CLASSIC_H
 
-#include "capstan/evolve.h"
+#include "capstan/step.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -140,11 +140,11 @@ CPS_API CpsStatus cps_regularized_next(const CpsLineView *step, double friction,
 /* ---- the study: h, then lambda, then n, then delta ---- */
 
 typedef enum CpsStudyStage {
-    CPS_STUDY_H,
-    CPS_STUDY_LAMBDA,
-    CPS_STUDY_N,
-    CPS_STUDY_DELTA,
-    CPS_STUDY_STAGES
+    CPS_STUDY_STAGE_H,
+    CPS_STUDY_STAGE_LAMBDA,
+    CPS_STUDY_STAGE_N,
+    CPS_STUDY_STAGE_DELTA,
+    CPS_STUDY_STAGE_COUNT
 } CpsStudyStage;
 
 CPS_API const char *cps_study_stage_name(CpsStudyStage stage); /* "h", "lambda", "n", "delta" */
@@ -162,11 +162,11 @@ typedef struct CpsStudyRow {
 } CpsStudyRow;
 
 typedef struct CpsStudyOptions {
-    CpsRegularizedParameters from; /* cells: of the coarsest external approximation */
-    int values[CPS_STUDY_STAGES];  /* solves per stage, 1..64 */
-    double
-        factor[CPS_STUDY_STAGES]; /* each value is the one before it divided by this, > 1; h: 2 */
-    int max_iterations;           /* per solve */
+    CpsRegularizedParameters from;        /* cells: of the coarsest external approximation */
+    int values[CPS_STUDY_STAGE_COUNT];    /* solves per stage, 1..64 */
+    double factor[CPS_STUDY_STAGE_COUNT]; /* each value is the one before it divided by this, > 1;
+                                             h: 2 */
+    int max_iterations;                   /* per solve */
 } CpsStudyOptions;
 
 typedef struct CpsStudy CpsStudy;
@@ -206,22 +206,23 @@ CPS_API CpsRegularizedView cps_study_stage_end(const CpsStudy *study, CpsStudySt
 /* What became of it. P10.1 minimises a convex quadratic energy plus friction over the displacements
  * u that contact allows and then asks the minimiser to shorten no slack part, (86): the strain
  * t_R.u' of all minimisers is the same, so the question has one answer. */
-#define CPS_FIRST_ORDER_LIST(X)                                                                    \
-    X(CPS_FIRST_ORDER_SOLVED, 0, "solved", "a solution of P10.1")                                  \
-    X(CPS_FIRST_ORDER_SHORTENS, 1, "shortens",                                                     \
+#define CPS_FIRST_ORDER_VERDICT_LIST(X)                                                            \
+    X(CPS_FIRST_ORDER_VERDICT_SOLVED, 0, "solved", "a solution of P10.1")                          \
+    X(CPS_FIRST_ORDER_VERDICT_SHORTENS, 1, "shortens",                                             \
       "no solution: the balance (90) shortens a slack part, t_R.u' < 0 where (86) asks for >= 0")  \
-    X(CPS_FIRST_ORDER_UNBALANCED, 2, "unbalanced",                                                 \
+    X(CPS_FIRST_ORDER_VERDICT_UNBALANCED, 2, "unbalanced",                                         \
       "no solution: a force across the line, which (84) lets nothing carry where the reference "   \
       "is slack")                                                                                  \
-    X(CPS_FIRST_ORDER_UNDECIDED, 3, "undecided", "not decided: the iteration came to no end")      \
-    X(CPS_FIRST_ORDER_MESH, 4, "mesh_only",                                                        \
+    X(CPS_FIRST_ORDER_VERDICT_UNDECIDED, 3, "undecided",                                           \
+      "not decided: the iteration came to no end")                                                 \
+    X(CPS_FIRST_ORDER_VERDICT_MESH, 4, "mesh_only",                                                \
       "a solution on this mesh only: (87) has none, half an element carries the force on a slack " \
       "end")
 
 typedef enum CpsFirstOrderVerdict {
-#define CPS_FIRST_ORDER_ENUM(name, number, key, sentence) name = number,
-    CPS_FIRST_ORDER_LIST(CPS_FIRST_ORDER_ENUM)
-#undef CPS_FIRST_ORDER_ENUM
+#define CPS_FIRST_ORDER_VERDICT_ENUM(name, number, key, sentence) name = number,
+    CPS_FIRST_ORDER_VERDICT_LIST(CPS_FIRST_ORDER_VERDICT_ENUM)
+#undef CPS_FIRST_ORDER_VERDICT_ENUM
 } CpsFirstOrderVerdict;
 
 /* Which nodes the obstacle keeps out. (77) asks u.n >= 0 on D(x_R), where the reference touches,
@@ -232,8 +233,8 @@ typedef enum CpsFirstOrderContact {
     CPS_FIRST_ORDER_CONTACT_GAINED
 } CpsFirstOrderContact;
 
-CPS_API const char *cps_first_order_name(CpsFirstOrderVerdict verdict);
-CPS_API const char *cps_first_order_text(CpsFirstOrderVerdict verdict);
+CPS_API const char *cps_first_order_verdict_name(CpsFirstOrderVerdict verdict);
+CPS_API const char *cps_first_order_verdict_text(CpsFirstOrderVerdict verdict);
 
 typedef struct CpsFirstOrderReport {
     CpsFirstOrderVerdict verdict;

@@ -9,7 +9,6 @@
 #include "capstan/evolve.h"
 #include "capstan/io.h"
 #include "capstan/regularized.h"
-#include "capstan/solutions.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -166,11 +165,11 @@ CPS_API CpsStatus cps_methods_write(const char *directory, const char *title, in
                                     const CpsMethodHistory *method, int steps, int points,
                                     const char *const *step_name, CpsError *err);
 
-/* A step with its slack laid out in every way (solutions.h). */
+/* A step with its slack laid out in every way (evolve.h). */
 typedef struct CpsCompletedLine {
     const char *title;
     const CpsLineView *view;
-    const double *position[CPS_COMPLETIONS]; /* (elements + 1, 3) [m] each */
+    const double *position[CPS_COMPLETION_COUNT]; /* (elements + 1, 3) [m] each */
     CpsCompletion chosen;
 } CpsCompletedLine;
 

@@ -32,16 +32,17 @@ typedef struct CpsSet CpsSet;
 
 /* Why a question has no answer. One list: name, fixed number, sentence. Numbers are never
  * reused. */
-#define CPS_SET_OUTCOME_LIST(X)                                                                    \
-    X(CPS_SET_ANSWERED, 0, "answered")                                                             \
-    X(CPS_SET_EMPTY, 1, "the set is empty")                                                        \
-    X(CPS_SET_UNBOUNDED, 2, "the set is unbounded where the question needs a bound")               \
-    X(CPS_SET_NOT_ATTAINED, 3, "the least upper bound is reached by no point that is near enough") \
-    X(CPS_SET_OUTSIDE, 4, "the point lies outside the set by more than the tolerance")             \
-    X(CPS_SET_NO_ZERO, 5, "the set does not contain 0")                                            \
-    X(CPS_SET_NOT_PLANAR, 6, "the set has a dimension other than the question is for")             \
-    X(CPS_SET_NOT_AVAILABLE, 7, "a user's set answers its support, not this question")             \
-    X(CPS_SET_INACCURATE, 8, "rounding errors kept the answer from the accuracy promised")
+#define CPS_SET_OUTCOME_LIST(X)                                                                \
+    X(CPS_SET_OUTCOME_ANSWERED, 0, "answered")                                                 \
+    X(CPS_SET_OUTCOME_EMPTY, 1, "the set is empty")                                            \
+    X(CPS_SET_OUTCOME_UNBOUNDED, 2, "the set is unbounded where the question needs a bound")   \
+    X(CPS_SET_OUTCOME_NOT_ATTAINED, 3,                                                         \
+      "the least upper bound is reached by no point that is near enough")                      \
+    X(CPS_SET_OUTCOME_OUTSIDE, 4, "the point lies outside the set by more than the tolerance") \
+    X(CPS_SET_OUTCOME_NO_ZERO, 5, "the set does not contain 0")                                \
+    X(CPS_SET_OUTCOME_NOT_PLANAR, 6, "the set has a dimension other than the question is for") \
+    X(CPS_SET_OUTCOME_NOT_AVAILABLE, 7, "a user's set answers its support, not this question") \
+    X(CPS_SET_OUTCOME_INACCURATE, 8, "rounding errors kept the answer from the accuracy promised")
 
 typedef enum CpsSetOutcome {
 #define CPS_SET_OUTCOME_ENUM(name, number, sentence) name = number,
@@ -113,7 +114,8 @@ CPS_API CpsStatus cps_set_segment(int n, const double *from, const double *to, C
  * that attains it to `point`; return false when there is none. The set must be closed, convex,
  * bounded and not empty, and the function fit for every thread that asks. It answers support and
  * extent, also inside sums, images, products, translates, scales and hulls, and what only needs
- * these (dimension, vertices, area of the plane); everything else is CPS_SET_NOT_AVAILABLE. */
+ * these (dimension, vertices, area of the plane); everything else is CPS_SET_OUTCOME_NOT_AVAILABLE.
+ */
 typedef bool CpsSetSupport(void *user, int n, const double *direction, double *value,
                            double *point);
 CPS_API CpsStatus cps_set_user(int n, CpsSetSupport *support, void *user, CpsSet **out,
@@ -145,8 +147,8 @@ CPS_API CpsStatus cps_set_polar(const CpsSet *set, CpsSet **out, CpsError *err);
 
 /* ---- questions ---- */
 
-/* An answer. Only outcome and tolerance mean something where the outcome is not CPS_SET_ANSWERED
- * (but see support). */
+/* An answer. Only outcome and tolerance mean something where the outcome is not
+ * CPS_SET_OUTCOME_ANSWERED (but see support). */
 typedef struct CpsSetAnswer {
     CpsSetOutcome outcome;
     bool exact;   /* by a closed form: wrong by rounding only */
@@ -196,21 +198,21 @@ CPS_API CpsStatus cps_set_gauge(const CpsSet *set, const double *point, CpsSetAn
 /* The face {x in set : <w, x> = h(w)} as a set of its own; value: h(w). The direction 0 exposes the
  * whole set. `tolerance`: an angle in radians by which the direction may be off, > 0 (1e-9 is a
  * good one); 0 picks 1e-9. *face is a new set, or NULL where the outcome is not
- * CPS_SET_ANSWERED. */
+ * CPS_SET_OUTCOME_ANSWERED. */
 CPS_API CpsStatus cps_set_face(const CpsSet *set, const double *direction, double tolerance,
                                CpsSet **face, CpsSetAnswer *answer, CpsError *err);
 
 /* The normal cone {w : <w, x - point> <= 0 for every x of the set} as a set; value: the distance of
  * the point from the set. `tolerance`: relative to the size of the set, how far from a constraint
- * the point still touches it; 0 picks 1e-9. A point outside by more is CPS_SET_OUTSIDE. *cone is a
- * new set or NULL. */
+ * the point still touches it; 0 picks 1e-9. A point outside by more is CPS_SET_OUTCOME_OUTSIDE.
+ * *cone is a new set or NULL. */
 CPS_API CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tolerance,
                                       CpsSet **cone, CpsSetAnswer *answer, CpsError *err);
 
 /* What a set is like. `tolerance`: width below which the set counts as flat, relative to its
  * largest width; 0 picks 1e-7. */
 typedef struct CpsSetFacts {
-    CpsSetOutcome outcome; /* CPS_SET_EMPTY: dimension -1 */
+    CpsSetOutcome outcome; /* CPS_SET_OUTCOME_EMPTY: dimension -1 */
     bool exact;
     bool closure; /* see CpsSetAnswer */
     bool bounded;
@@ -229,9 +231,9 @@ CPS_API CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts
 /* The extreme points of a set of dimension <= 2 (in any R^n), counterclockwise in the plane R^2:
  * the ends of a segment, the corners of a planar set, which may have arcs between them; points
  * whose normal cone has full dimension. Other sets: the points of a hull of points or a box with at
- * most 2^16 corners, else CPS_SET_NOT_PLANAR. At most `capacity` are written to points (capacity x
- * n); *count is how many there are. `tolerance`: the least angle [rad] by which the normal cone of
- * a corner opens, up to 0.5; 0 picks 1e-6. */
+ * most 2^16 corners, else CPS_SET_OUTCOME_NOT_PLANAR. At most `capacity` are written to points
+ * (capacity x n); *count is how many there are. `tolerance`: the least angle [rad] by which the
+ * normal cone of a corner opens, up to 0.5; 0 picks 1e-6. */
 CPS_API CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity,
                                    double *points, int *count, CpsSetAnswer *answer, CpsError *err);
 
@@ -259,8 +261,8 @@ CPS_API CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, Cps
  * K a product of half-lines and second-order cones, A of full column rank with each cone's rows of
  * size one. */
 typedef struct CpsSetConic {
-    CpsSetOutcome outcome; /* CPS_SET_EMPTY, CPS_SET_UNBOUNDED (it holds a line) or
-                              CPS_SET_NOT_AVAILABLE: all else is 0 */
+    CpsSetOutcome outcome; /* CPS_SET_OUTCOME_EMPTY, CPS_SET_OUTCOME_UNBOUNDED (it holds a line) or
+                              CPS_SET_OUTCOME_NOT_AVAILABLE: all else is 0 */
     int space, unknowns, rows, cones;
     const int *dim;           /* (cones) 1: z >= 0; d: z_1 >= |(z_2, .., z_d)| */
     const double *origin, *p; /* (space), (space x unknowns) */

@@ -145,7 +145,7 @@ static void detect(CpsiLine *line, int j, bool keep_active) {
     nearest(line, j, vec3_load(&line->base[3 * j]), keep_active, on);
     for (int i = 0; i < line->contacts; i++) before[i] = save_contact(line, j + i * n);
     for (int i = 0; i < line->contacts; i++) {
-        SavedContact now = {.obstacle_index = on[i], .gap = INFINITY, .state = CPS_NODE_FREE};
+        SavedContact now = {.obstacle_index = on[i], .gap = INFINITY, .state = CPS_NODE_STATE_FREE};
         vec3_store(now.normal, reference_normal(line, on[i], j));
         for (int k = 0; k < line->contacts; k++)
             if (before[k].obstacle_index == on[i] && on[i] >= 0) now = before[k];
@@ -169,7 +169,7 @@ static bool clearance(const CpsiLine *line, const double *x, int e, int k, doubl
  * at the point where the element last faced the obstacle. */
 static void detect_element(CpsiLine *line, int e) {
     const int c = cpsi_line_contacts(line) + e;
-    SavedContact now = {.obstacle_index = -1, .gap = INFINITY, .state = CPS_NODE_FREE};
+    SavedContact now = {.obstacle_index = -1, .gap = INFINITY, .state = CPS_NODE_STATE_FREE};
     const SavedContact before = save_contact(line, c);
     double least = INFINITY;
     if (is_kept(line, c)) return;
@@ -184,7 +184,8 @@ static void detect_element(CpsiLine *line, int e) {
         if (had)
             now = before;
         else
-            now = (SavedContact){.obstacle_index = k, .gap = INFINITY, .state = CPS_NODE_FREE};
+            now =
+                (SavedContact){.obstacle_index = k, .gap = INFINITY, .state = CPS_NODE_STATE_FREE};
     }
     restore_contact(line, c, &now);
 }
@@ -330,14 +331,15 @@ static void set_reference(CpsiLine *line, int c, bool frictionless) {
     /* contact everywhere, or only where the reference touches (S90 (35)): nodes below the surface
      * are then free */
     const bool near = fabs(gap) <= CPSI_TOUCH * line->length,
-               touches =
-                   line->contact_everywhere ? obstacle && line->state[c] != CPS_NODE_FREE : near;
+               touches = line->contact_everywhere
+                             ? obstacle && line->state[c] != CPS_NODE_STATE_FREE
+                             : near;
     const bool has_friction = touches && !held && !frictionless;
     line->friction_bound[c] = has_friction ? line->friction_law[c].friction * line->reaction[c] : 0;
     line->gap[c] = !held && near ? 0 : INFINITY;
     if (is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
     /* a free contact has no reaction; remove what the loop left of it */
-    if (!held && (!is_watched(line, c, gap) || line->state[c] == CPS_NODE_FREE))
+    if (!held && (!is_watched(line, c, gap) || line->state[c] == CPS_NODE_STATE_FREE))
         cpsi_contact_clear(line, c);
 }
 
@@ -363,7 +365,7 @@ void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
         line->gap[c] = INFINITY;
     }
     for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
-        if (line->state[c] == CPS_NODE_FREE)
+        if (line->state[c] == CPS_NODE_STATE_FREE)
             line->obstacle_index[c] =
                 -1; /* detected again when the element penetrates an obstacle */
     if (line->has_local_axes)

@@ -66,7 +66,7 @@ static bool touches(const CpsiLine *line, int c) {
     if (!isfinite(line->gap[c])) return false;
     const int j = cpsi_line_node(line, c);
     const Vec3 u = vec3_sub(vec3_load(&line->position[3 * j]), vec3_load(&line->reference[3 * j]));
-    return line->state[c] != CPS_NODE_FREE ||
+    return line->state[c] != CPS_NODE_STATE_FREE ||
            vec3_dot(vec3_load(&line->normal[3 * c]), u) + line->gap[c] <= CPSI_TOUCH * line->length;
 }
 
@@ -92,7 +92,7 @@ static void free_tangents(const CpsiLine *line, const CpsiForceLaw *law, int c,
     cpsi_frame_to(slip, cpsi_line_axes(line, c), slide);
     for (int a = 0; a < 2; a++) slip[a] = fabs(set->ratio[a] * slip[a]);
     const double still = EXACT * line->length;
-    const bool rest_count = line->state[c] == CPS_NODE_STICK && !law->exact;
+    const bool rest_count = line->state[c] == CPS_NODE_STATE_STICK && !law->exact;
     for (int a = 0; a < 2; a++) {
         const double slid = set->box ? slip[a] : sqrt(slip[0] * slip[0] + slip[1] * slip[1]);
         out[a] = set->ratio[a] > 0 && (rest_count || slid <= still);

@@ -50,7 +50,7 @@ CpsStatus cpsi_friction_set_check(const CpsSet *set, const char *name, CpsError 
     CpsSetFacts facts;
     const CpsStatus status = cps_set_facts(set, 0, &facts, NULL, NULL, err);
     if (status) return status;
-    if (facts.outcome != CPS_SET_ANSWERED)
+    if (facts.outcome != CPS_SET_OUTCOME_ANSWERED)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': friction set: %s", name,
                          cps_set_outcome_text(facts.outcome));
     if (!facts.bounded)

@@ -108,7 +108,7 @@ static Vec3 start_force(const CpsiLine *line, int e) {
 void cpsi_line_start_reaction(CpsiLine *line, double touch) {
     for (int j = 0; j < line->n; j++) {
         line->reaction[j] = 0;
-        line->state[j] = CPS_NODE_FREE;
+        line->state[j] = CPS_NODE_STATE_FREE;
         const Vec3 x = vec3_load(&line->position[3 * j]);
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
@@ -118,7 +118,7 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         if (j + 1 < line->n) sum = vec3_add(sum, start_force(line, j));
         const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));
         line->reaction[j] = reaction > 0 ? reaction : 0;
-        line->state[j] = CPS_NODE_STICK;
+        line->state[j] = CPS_NODE_STATE_STICK;
         if (line->has_local_axes) line->obstacle_index[j] = on;
     }
 }

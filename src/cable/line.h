@@ -15,7 +15,7 @@
 #include "base/arena.h"
 #include "cable/anderson.h"
 #include "cable/friction_set.h"
-#include "capstan/evolve.h"
+#include "capstan/step.h"
 #include "geometry/obstacle.h"
 
 typedef struct CpsiFrictionLaw CpsiFrictionLaw; /* friction_law.h */

@@ -33,7 +33,7 @@ static Vec3 force_of(const CpsiLine *line, int e) { return vec3_load(&line->segm
 static int carrying_contact(const CpsiLine *line, int j) {
     int best = -1;
     for (int c = j; c < cpsi_line_contacts(line); c += line->n)
-        if (line->state[c] != CPS_NODE_FREE &&
+        if (line->state[c] != CPS_NODE_STATE_FREE &&
             (best < 0 || line->reaction[c] > line->reaction[best]))
             best = c;
     return best;
@@ -86,12 +86,12 @@ static void add_support(const CpsiLine *line, int j, int e, int inward, Span *sp
     int k = j;
     for (int next; next = k + inward, next >= 0 && next < line->n; k = next) {
         const int at = carrying_contact(line, k);
-        if (at < 0 || line->state[at] != CPS_NODE_SLIP) break;
+        if (at < 0 || line->state[at] != CPS_NODE_STATE_SLIP) break;
         slides += line->element_length[inward < 0 ? next : k];
     }
     const int last = carrying_contact(line, k);
     const bool drawn = (k == 0 || k == line->n - 1) && !cpsi_line_is_held(line, k) && last >= 0 &&
-                       line->state[last] == CPS_NODE_SLIP;
+                       line->state[last] == CPS_NODE_STATE_SLIP;
     const double compliance =
         drawn ? 1e6 * (span->compliance[0] + span->compliance[4] + span->compliance[8])
               : slides * line->compliance;
@@ -127,7 +127,7 @@ static double span_error(const CpsiLine *line, int first, int last) {
  * where the node slips on a curved obstacle. */
 static double bend_error(const CpsiLine *line, int j) {
     const int c = carrying_contact(line, j);
-    if (j == 0 || j == line->n - 1 || c < 0 || line->state[c] != CPS_NODE_SLIP ||
+    if (j == 0 || j == line->n - 1 || c < 0 || line->state[c] != CPS_NODE_STATE_SLIP ||
         !(line->reaction[c] > 0))
         return 0;
     if (cpsi_line_obstacle(line, c)->kind == CPS_OBSTACLE_PLANE) return 0;

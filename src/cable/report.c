@@ -30,26 +30,26 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     const double density =
         weight > 0 ? weight : line->report.certificate.largest_force / line->length;
     CpsLineReport *report = &line->report;
-    memset(line->state, CPS_NODE_FREE, (size_t)cpsi_line_all_contacts(line));
+    memset(line->state, CPS_NODE_STATE_FREE, (size_t)cpsi_line_all_contacts(line));
     for (int k = 0; k < program->unilateral.count; k++) {
         const int c = program->unilateral.contact[k];
         if (line->reaction[c] >
             density * cpsi_line_contact_share(line, c) * program->unilateral.s[k])
-            line->state[c] = CPS_NODE_STICK;
+            line->state[c] = CPS_NODE_STATE_STICK;
     }
     for (int k = 0; k < program->disc.count; k++) {
         const int c = program->disc.contact[k];
         const double *z = program->disc.z[k], *s = program->disc.s[k],
                      slide = sqrt(s[1] * s[1] + s[2] * s[2]);
-        if (line->state[c] == CPS_NODE_STICK &&
+        if (line->state[c] == CPS_NODE_STATE_STICK &&
             slide * z[0] > z[0] - sqrt(z[1] * z[1] + z[2] * z[2]))
-            line->state[c] = CPS_NODE_SLIP;
+            line->state[c] = CPS_NODE_STATE_SLIP;
     }
     for (int k = 0; k < program->conic.count; k++) {
         const int c = program->conic.contact[k];
-        if (line->state[c] == CPS_NODE_STICK &&
+        if (line->state[c] == CPS_NODE_STATE_STICK &&
             cpsi_friction_conic_slip(program, k) > cpsi_friction_conic_margin(&program->conic, k))
-            line->state[c] = CPS_NODE_SLIP;
+            line->state[c] = CPS_NODE_STATE_SLIP;
     }
     report->dissipated = dissipated(line);
     for (int i = 1; i < line->n; i++) {
@@ -115,7 +115,7 @@ static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     if (line->has_local_axes) line->obstacle_index[j] = on;
     line->friction_law[j] = cpsi_friction_law(line, j);
     line->state[j] =
-        CPS_NODE_STICK; /* if it is released in the next step, it starts with this friction */
+        CPS_NODE_STATE_STICK; /* if it is released in the next step, it starts with this friction */
     const Vec3 friction = half_friction(line, end, on, n, up);
     vec3_store(line->report.end[end].friction, friction);
     line->report.dissipated -= vec3_dot(friction, cpsi_line_end_slide(line, end, on));
@@ -145,7 +145,7 @@ void cpsi_line_report_ends(CpsiLine *line) {
 static bool touches(const CpsiLine *line, int j, const CpsiObstacle *k, double *density) {
     if (j < 0 || j >= line->n) return false;
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
-        if (line->state[c] == CPS_NODE_FREE || cpsi_line_obstacle(line, c) != k) continue;
+        if (line->state[c] == CPS_NODE_STATE_FREE || cpsi_line_obstacle(line, c) != k) continue;
         *density = line->reaction[c] / cpsi_line_share(line, j);
         return true;
     }
@@ -174,7 +174,7 @@ static double grounded_part(const CpsiLine *line, int c) {
 /* Has the node of contact c slid? The motion of a held end is imposed. */
 static bool has_slid(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c), end = j == 0 ? CPS_END_A : CPS_END_B;
-    if (!cpsi_line_is_held(line, j)) return line->state[c] == CPS_NODE_SLIP;
+    if (!cpsi_line_is_held(line, j)) return line->state[c] == CPS_NODE_STATE_SLIP;
     const int k = line->has_local_axes ? line->obstacle_index[c] : 0;
     return vec3_norm(cpsi_line_end_slide(line, end, k)) > CPSI_TOUCH * line->length;
 }
@@ -184,7 +184,7 @@ void cpsi_line_report_lengths(CpsiLine *line) {
         double part = 0;
         bool slips = false;
         for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
-            if (line->state[c] == CPS_NODE_FREE) continue;
+            if (line->state[c] == CPS_NODE_STATE_FREE) continue;
             part = fmax(part, grounded_part(line, c));
             slips = slips || has_slid(line, c);
         }

@@ -162,7 +162,7 @@ CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsiKinematics *kinematics, Cp
     if (status == CPS_OK) status = with_friction(motion, WEAK * motion->force, far, &far_size, err);
     if (status == CPS_OK && near_size > 0 && far_size > GROWTH * near_size &&
         far_size > FAR * motion->driven) {
-        motion->report.outcome = CPS_MOTION_NOT_ATTAINED;
+        motion->report.outcome = CPS_MOTION_OUTCOME_NOT_ATTAINED;
         /* what the drive imposes is no part of the direction */
         memset(near, 0, n * sizeof *near);
         cpsi_kinematics_project(kinematics, motion->driving, near);

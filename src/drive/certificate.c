@@ -146,10 +146,11 @@ static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *
     CpsStatus status = cps_set_dissipation(piece->set, u, NULL, &phi, err);
     if (status == CPS_OK) status = cps_set_contains(piece->set, f, NULL, &margin, err);
     if (status != CPS_OK) return status;
-    part->potential = phi.outcome == CPS_SET_ANSWERED || phi.outcome == CPS_SET_NOT_ATTAINED
-                          ? phi.value + phi.gap
-                          : INFINITY;
-    part->outside = margin.outcome == CPS_SET_ANSWERED ? fmax(0, -margin.value) : INFINITY;
+    part->potential =
+        phi.outcome == CPS_SET_OUTCOME_ANSWERED || phi.outcome == CPS_SET_OUTCOME_NOT_ATTAINED
+            ? phi.value + phi.gap
+            : INFINITY;
+    part->outside = margin.outcome == CPS_SET_OUTCOME_ANSWERED ? fmax(0, -margin.value) : INFINITY;
     if (!program || (phi.exact && isfinite(part->potential) && margin.exact)) return CPS_OK;
 
     /* the tighter of two certificates, each with what it leaves open */
@@ -157,7 +158,7 @@ static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *
     if (form.potential + form.missing < part->potential || !isfinite(part->potential)) {
         part->potential = form.potential;
         part->missing = form.missing;
-        if (phi.outcome == CPS_SET_UNBOUNDED) part->forbidden = form.forbidden;
+        if (phi.outcome == CPS_SET_OUTCOME_UNBOUNDED) part->forbidden = form.forbidden;
     }
     part->outside = fmin(part->outside, form.outside);
     return CPS_OK;
@@ -190,7 +191,8 @@ static CpsStatus term_conjugate(const CpsiPiece *piece, const double *f, Part *p
         piece->term->kind == CPSI_TABLE ? piece->term->data[2 * piece->term->count - 1] : INFINITY;
     const double s = fmin(gauge.value, end);
     if (gauge.value > end) part->outside = (1 - end / gauge.value) * cpsi_norm(piece->space, f);
-    if (gauge.outcome == CPS_SET_ANSWERED) status = cpsi_term_dual(piece->term, s, &dual, err);
+    if (gauge.outcome == CPS_SET_OUTCOME_ANSWERED)
+        status = cpsi_term_dual(piece->term, s, &dual, err);
     part->conjugate = dual.value;
     return status;
 }
@@ -232,7 +234,8 @@ static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, 
         CpsResistanceValue value;
         const CpsStatus status = cps_resistance_value(law->resistance, u, &value, NULL, err);
         if (status != CPS_OK) return status;
-        share.potential = value.outcome == CPS_SET_ANSWERED || value.outcome == CPS_SET_NOT_ATTAINED
+        share.potential = value.outcome == CPS_SET_OUTCOME_ANSWERED ||
+                                  value.outcome == CPS_SET_OUTCOME_NOT_ATTAINED
                               ? value.potential + value.gap
                               : INFINITY;
     }

@@ -69,10 +69,10 @@ static CpsStatus gather(const CpsSystem *system, CpsSet **out, CpsError *err) {
 static CpsStatus only_zero(const CpsSet *one, const CpsSet *other, bool *known, bool *only,
                            CpsError *err) {
     CpsSet *both = NULL;
-    CpsSetFacts facts = {.outcome = CPS_SET_INACCURATE};
+    CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_INACCURATE};
     CpsStatus status = cps_set_intersection(2, (const CpsSet *const[]){one, other}, &both, err);
     if (status == CPS_OK) status = cps_set_facts(both, 0, &facts, NULL, NULL, err);
-    *known = facts.outcome == CPS_SET_ANSWERED;
+    *known = facts.outcome == CPS_SET_OUTCOME_ANSWERED;
     *only = facts.dimension == 0;
     cps_set_release(both);
     return status;

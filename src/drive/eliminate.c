@@ -197,7 +197,7 @@ static CpsStatus only_force(const Reduction *r, const CpsSet *product, CpsSet **
     CpsStatus status = cps_set_contains(product, r->dense.start, NULL, &inside, err);
     const double size = fmax(1, cpsi_norm(r->dense.components, r->dense.start));
     const bool out_of_it =
-        inside.outcome == CPS_SET_ANSWERED && inside.value < -CONTRADICTION * size;
+        inside.outcome == CPS_SET_OUTCOME_ANSWERED && inside.value < -CONTRADICTION * size;
     if (status == CPS_OK && out_of_it)
         status = cps_set_inequalities(r->m, 2, rows, (const double[]){-1, -1}, out, err);
     else if (status == CPS_OK)

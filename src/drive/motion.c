@@ -120,7 +120,7 @@ static double force_size(const CpsSystem *system) {
 
 /* No velocity is allowed: the least dissipation of none is infinite. */
 static void block(CpsMotionReport *report) {
-    report->outcome = CPS_MOTION_BLOCKED;
+    report->outcome = CPS_MOTION_OUTCOME_BLOCKED;
     report->value = report->lower = report->upper = INFINITY;
 }
 
@@ -156,8 +156,8 @@ static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, dou
         report->load_factor = cpsi_drive_program_factor(&program);
     else if (outcome != CPSI_CONIC_UNBOUNDED)
         report->load_factor = NAN;
-    if (outcome == CPSI_CONIC_FAILED) report->outcome = CPS_MOTION_INACCURATE;
-    if (report->load_factor < 1 + band) report->outcome = CPS_MOTION_LIMIT_LOAD;
+    if (outcome == CPSI_CONIC_FAILED) report->outcome = CPS_MOTION_OUTCOME_INACCURATE;
+    if (report->load_factor < 1 + band) report->outcome = CPS_MOTION_OUTCOME_LIMIT_LOAD;
     if (report->load_factor < 1) {
         const size_t m = (size_t)motion->system->drive.rows;
         double *driving = malloc((m + 1) * sizeof *driving);
@@ -171,7 +171,7 @@ static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, dou
             cpsi_motion_recover_forces(motion, &program);
             status = cpsi_motion_certify(motion, &program, err);
             if (report->upper < 0) {
-                report->outcome = CPS_MOTION_NO_BALANCE;
+                report->outcome = CPS_MOTION_OUTCOME_NO_BALANCE;
                 report->value = report->lower = report->upper = -INFINITY;
             } else {
                 memcpy(motion->driving, driving, m * sizeof *driving);
@@ -254,13 +254,13 @@ static CpsStatus try_once(const Trial *trial, double speed, bool even, bool *nea
 static CpsStatus try_both(const Trial *trial, double speed, bool *near, CpsError *err) {
     const CpsMotionReport *report = &trial->motion->report;
     CpsStatus status = try_once(trial, speed, false, near, err);
-    if (status != CPS_OK || report->outcome == CPS_MOTION_BLOCKED) return status;
+    if (status != CPS_OK || report->outcome == CPS_MOTION_OUTCOME_BLOCKED) return status;
     if (*near &&
         report->minimum <= (FEW + EACH * trial->motion->system->components) * report->scale)
         return CPS_OK;
     const double apart = *near ? report->minimum : INFINITY;
     status = try_once(trial, speed, true, near, err);
-    if (status != CPS_OK || report->outcome == CPS_MOTION_BLOCKED ||
+    if (status != CPS_OK || report->outcome == CPS_MOTION_OUTCOME_BLOCKED ||
         (*near && report->minimum < apart))
         return status;
     return isfinite(apart) ? try_once(trial, speed, false, near, err) : CPS_OK;
@@ -286,8 +286,9 @@ static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics,
     for (size_t k = 0; k < (resistance ? sizeof GUESS / sizeof *GUESS : 1); k++) {
         bool near = false;
         const CpsStatus status = try_both(&trial, speed * GUESS[k], &near, err);
-        if (status != CPS_OK || motion->report.outcome == CPS_MOTION_BLOCKED || near) return status;
-        motion->report.outcome = CPS_MOTION_INACCURATE;
+        if (status != CPS_OK || motion->report.outcome == CPS_MOTION_OUTCOME_BLOCKED || near)
+            return status;
+        motion->report.outcome = CPS_MOTION_OUTCOME_INACCURATE;
     }
     return CPS_OK;
 }
@@ -303,10 +304,10 @@ CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving,
         motion->force = force_size(system);
         start_velocity(motion, made);
         /* can the load be balanced at all, and with which forces in hand? */
-        if (motion->report.outcome == CPS_MOTION_SOLVED && cpsi_system_loaded(system))
+        if (motion->report.outcome == CPS_MOTION_OUTCOME_SOLVED && cpsi_system_loaded(system))
             status = balance_load(motion, made, options->boundary, err);
-        motion->possible = motion->report.outcome == CPS_MOTION_SOLVED ||
-                           motion->report.outcome == CPS_MOTION_LIMIT_LOAD;
+        motion->possible = motion->report.outcome == CPS_MOTION_OUTCOME_SOLVED ||
+                           motion->report.outcome == CPS_MOTION_OUTCOME_LIMIT_LOAD;
         if (status == CPS_OK && motion->possible) status = move(motion, made, options, err);
     }
     if (status == CPS_OK) {
@@ -328,7 +329,8 @@ const double *cps_motion_velocity(const CpsMotion *motion) {
     return motion ? motion->velocity : NULL;
 }
 const double *cps_motion_direction(const CpsMotion *motion) {
-    return motion && motion->report.outcome == CPS_MOTION_NOT_ATTAINED ? motion->direction : NULL;
+    return motion && motion->report.outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED ? motion->direction
+                                                                               : NULL;
 }
 const double *cps_motion_resistance(const CpsMotion *motion) {
     return motion ? motion->resistance : NULL;

@@ -47,8 +47,8 @@ void cpsi_motion_recover_forces(CpsMotion *motion, const CpsiDriveProgram *progr
  * velocities of one-sided laws on the boundary of those that are allowed. */
 CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program, CpsError *err);
 
-/* Makes the outcome CPS_MOTION_NOT_ATTAINED where the infimum is (attainment.c); asked where
- * Proposition 1's condition does not hold. */
+/* Makes the outcome CPS_MOTION_OUTCOME_NOT_ATTAINED where the infimum is (attainment.c); asked
+ * where Proposition 1's condition does not hold. */
 CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsiKinematics *kinematics, CpsError *err);
 
 /* Where the forces in the middle of all that balance lie in the laws' sets (composition.c). */

@@ -43,8 +43,8 @@ static CpsPathStep account(const CpsMotion *motion, const double *w, int m, doub
 }
 
 static bool has_motion(CpsMotionOutcome outcome) {
-    return outcome != CPS_MOTION_NO_BALANCE && outcome != CPS_MOTION_BLOCKED &&
-           outcome != CPS_MOTION_NOT_ATTAINED;
+    return outcome != CPS_MOTION_OUTCOME_NO_BALANCE && outcome != CPS_MOTION_OUTCOME_BLOCKED &&
+           outcome != CPS_MOTION_OUTCOME_NOT_ATTAINED;
 }
 
 CpsStatus cps_system_drive_path(const CpsSystem *system, int count, const double *duration,

@@ -78,16 +78,16 @@ static CpsStatus compose(const CpsMotion *motion, const CpsSolutionSet *forces, 
 CpsStatus cps_motion_resistances(const CpsMotion *motion, double tolerance, CpsSolutionSet *all,
                                  double *low, double *high, CpsError *err) {
     if (!motion || !all) return cpsi_fail(err, CPS_ERR_ARGUMENT, "motion or all is NULL");
-    *all = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
+    *all = (CpsSolutionSet){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     const CpsSystem *system = motion->system;
     const size_t n = (size_t)system->n, m = (size_t)system->drive.rows,
                  c = (size_t)system->components, rows = m + (size_t)system->constraint.rows;
     if (m == 0 || c == 0) return CPS_OK;
     CpsSolutionSet forces;
-    CpsSetFacts facts = {.outcome = CPS_SET_NOT_AVAILABLE};
+    CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     int lines = 0, kept = 0;
     CpsStatus status = cps_motion_forces(motion, tolerance, &forces, NULL, NULL, err);
-    if (status != CPS_OK || forces.outcome != CPS_SET_ANSWERED) return status;
+    if (status != CPS_OK || forces.outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     double *carried = calloc(m * n + m * c + rows * m + m, sizeof *carried), *map = carried + m * n,
            *line = map + m * c, *direction = line + rows * m;
     if (!carried) status = out_of_memory(err);
@@ -103,7 +103,7 @@ CpsStatus cps_motion_resistances(const CpsMotion *motion, double tolerance, CpsS
     if (status == CPS_OK) status = compose(motion, &forces, map, kept, line, &all->set, err);
     if (status == CPS_OK)
         status = cps_set_facts(all->set, forces.tolerance, &facts, NULL, NULL, err);
-    if (facts.outcome == CPS_SET_ANSWERED)
+    if (facts.outcome == CPS_SET_OUTCOME_ANSWERED)
         for (size_t j = 0; status == CPS_OK && j < m; j++) {
             CpsSetExtent extent;
             memset(direction, 0, m * sizeof *direction);

@@ -33,7 +33,7 @@ static CpsStatus out_of_memory(CpsError *err) {
 void cps_solution_set_clear(CpsSolutionSet *all) {
     if (!all) return;
     cps_set_release(all->set);
-    *all = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
+    *all = (CpsSolutionSet){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
 }
 
 /* The set being put together: parts in the coordinates y or t. */
@@ -82,7 +82,7 @@ static CpsStatus require(Gather *g, const CpsSet *set, const double *x, double s
     CpsSetAnswer near;
     CpsStatus status = cps_set_project(set, x, NULL, g->point, &near, err);
     if (status != CPS_OK) return status;
-    if (near.outcome != CPS_SET_ANSWERED) {
+    if (near.outcome != CPS_SET_OUTCOME_ANSWERED) {
         g->found.outcome = near.outcome;
         return CPS_OK;
     }
@@ -118,9 +118,9 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
                         double *high, CpsError *err) {
     CpsSolutionSet *found = &g->found;
     const size_t w = (size_t)n, q = (size_t)g->space;
-    if (found->outcome == CPS_SET_ANSWERED && found->moved > MOST_MOVED * g->tolerance)
-        found->outcome = CPS_SET_INACCURATE;
-    if (found->outcome != CPS_SET_ANSWERED) return CPS_OK;
+    if (found->outcome == CPS_SET_OUTCOME_ANSWERED && found->moved > MOST_MOVED * g->tolerance)
+        found->outcome = CPS_SET_OUTCOME_INACCURATE;
+    if (found->outcome != CPS_SET_OUTCOME_ANSWERED) return CPS_OK;
     found->bounded = true;
     for (size_t i = 0; i < w; i++) {
         if (low) low[i] = origin[i];
@@ -138,22 +138,23 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
         status = cps_set_intersection(g->parts, (const CpsSet *const *)g->part, &inside, err);
     else if (status == CPS_OK)
         status = whole_space(g->space, &inside, err);
-    for (size_t i = 0; status == CPS_OK && i < w && found->outcome == CPS_SET_ANSWERED; i++) {
+    for (size_t i = 0; status == CPS_OK && i < w && found->outcome == CPS_SET_OUTCOME_ANSWERED;
+         i++) {
         CpsSetExtent extent;
         for (size_t j = 0; j < q; j++) direction[j] = turned[i * q + j] = g->basis[j * w + i];
         if (scale_of(g->space, direction) == 0) continue;
         status = cps_set_extent(inside, direction, &extent, err);
         if (status != CPS_OK) break;
         found->outcome = extent.outcome;
-        if (extent.outcome != CPS_SET_ANSWERED) break;
+        if (extent.outcome != CPS_SET_OUTCOME_ANSWERED) break;
         if (!isfinite(extent.low) || !isfinite(extent.high)) found->bounded = false;
         widest = fmax(widest, extent.high - extent.low);
         if (low) low[i] = origin[i] + extent.low;
         if (high) high[i] = origin[i] + extent.high;
     }
     /* a set no wider than the tolerance is a point; else widths below it are flat */
-    CpsSetFacts facts = {.outcome = CPS_SET_ANSWERED};
-    if (status == CPS_OK && found->outcome == CPS_SET_ANSWERED &&
+    CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_ANSWERED};
+    if (status == CPS_OK && found->outcome == CPS_SET_OUTCOME_ANSWERED &&
         !(widest <= g->tolerance * size)) {
         const double flat =
             isfinite(widest) ? fmin(0.1, g->tolerance * size / widest) : g->tolerance;
@@ -162,7 +163,7 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
     }
     found->dimension = facts.dimension;
     found->unique = facts.dimension == 0;
-    if (status == CPS_OK && found->outcome == CPS_SET_ANSWERED)
+    if (status == CPS_OK && found->outcome == CPS_SET_OUTCOME_ANSWERED)
         status = cps_set_image(n, turned, inside, &image, err);
     if (status == CPS_OK && image) status = cps_set_translate(origin, image, &found->set, err);
     cps_set_release(inside);
@@ -174,8 +175,8 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
 static bool has_solution(const CpsMotion *motion) {
     const CpsMotionReport *report = &motion->report;
     const CpsMotionOutcome outcome = report->outcome;
-    return (outcome == CPS_MOTION_SOLVED || outcome == CPS_MOTION_LIMIT_LOAD ||
-            outcome == CPS_MOTION_INACCURATE) &&
+    return (outcome == CPS_MOTION_OUTCOME_SOLVED || outcome == CPS_MOTION_OUTCOME_LIMIT_LOAD ||
+            outcome == CPS_MOTION_OUTCOME_INACCURATE) &&
            isfinite(report->value);
 }
 
@@ -187,7 +188,7 @@ static CpsStatus velocities_of_piece(Gather *g, int k, CpsError *err) {
     const int first = motion->system->law[piece->law].first + piece->offset, n = g->dense.n;
     const double *u = &motion->law_velocity[first], *f = &motion->piece_force[motion->piece_at[k]];
     CpsSet *cone = NULL;
-    CpsSetAnswer answer = {.outcome = CPS_SET_NOT_AVAILABLE};
+    CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     const bool term = piece->term && piece->term->kind != CPSI_DRY;
     CpsStatus status;
     if (term && piece->term->kind == CPSI_VISCOUS)
@@ -198,7 +199,7 @@ static CpsStatus velocities_of_piece(Gather *g, int k, CpsError *err) {
         status = cps_set_velocities(piece->set, f, g->tolerance, &cone, &answer, err);
     if (status != CPS_OK) return status;
     if (!cone) {
-        g->found.outcome = term ? CPS_SET_NOT_AVAILABLE : answer.outcome;
+        g->found.outcome = term ? CPS_SET_OUTCOME_NOT_AVAILABLE : answer.outcome;
         return CPS_OK;
     }
     for (int i = 0; i < piece->space; i++)
@@ -231,11 +232,11 @@ static CpsStatus value_beside(const CpsMotion *motion, const double *d, double s
         if (law->resistance) {
             CpsResistanceValue of = {0};
             status = cps_resistance_value(law->resistance, u, &of, NULL, err);
-            *value += of.outcome == CPS_SET_ANSWERED ? of.potential : INFINITY;
+            *value += of.outcome == CPS_SET_OUTCOME_ANSWERED ? of.potential : INFINITY;
         } else {
             CpsSetAnswer phi = {0};
             status = cps_set_dissipation(cps_law_set(law->friction), u, NULL, &phi, err);
-            *value += phi.outcome == CPS_SET_ANSWERED ? phi.value : INFINITY;
+            *value += phi.outcome == CPS_SET_OUTCOME_ANSWERED ? phi.value : INFINITY;
         }
     }
     return status;
@@ -255,9 +256,9 @@ static CpsStatus check_told_apart(Gather *g, CpsError *err) {
             (k % 2 ? -1 : 1) * NEIGHBOUR * motion->speed / fmax(scale_of((int)n, d), 1e-300);
         status = value_beside(motion, d, step, work, &beside, err);
         if (status == CPS_OK && beside - motion->report.upper < motion->report.minimum)
-            g->found.outcome = CPS_SET_INACCURATE;
+            g->found.outcome = CPS_SET_OUTCOME_INACCURATE;
     }
-    if (g->found.outcome != CPS_SET_ANSWERED) {
+    if (g->found.outcome != CPS_SET_OUTCOME_ANSWERED) {
         cps_set_release(g->found.set);
         g->found.set = NULL;
     }
@@ -268,12 +269,13 @@ static CpsStatus check_told_apart(Gather *g, CpsError *err) {
 CpsStatus cps_motion_velocities(const CpsMotion *motion, double tolerance, CpsSolutionSet *all,
                                 double *low, double *high, CpsError *err) {
     if (!motion || !all) return cpsi_fail(err, CPS_ERR_ARGUMENT, "motion or all is NULL");
-    *all = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
+    *all = (CpsSolutionSet){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     if (!has_solution(motion)) return CPS_OK;
     Gather g;
     CpsStatus status = begin(motion, tolerance, false, &g, err);
-    for (int k = 0;
-         status == CPS_OK && k < motion->system->pieces && g.found.outcome == CPS_SET_ANSWERED; k++)
+    for (int k = 0; status == CPS_OK && k < motion->system->pieces &&
+                    g.found.outcome == CPS_SET_OUTCOME_ANSWERED;
+         k++)
         status = velocities_of_piece(&g, k, err);
     if (status == CPS_OK)
         status = finish(&g, motion->system->n, motion->velocity, motion->speed, low, high, err);
@@ -303,7 +305,7 @@ static CpsStatus forces_of_piece(Gather *g, const CpsiPiece *piece, CpsError *er
     const int first = motion->system->law[piece->law].first + piece->offset;
     const double *u = &motion->law_velocity[first];
     CpsSet *face = NULL;
-    CpsSetAnswer answer = {.outcome = CPS_SET_ANSWERED};
+    CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     CpsStatus status = CPS_OK;
     /* a law at rest bears any of its forces */
     if (scale_of(piece->space, u) <= g->tolerance * motion->speed)
@@ -318,7 +320,7 @@ static CpsStatus forces_of_piece(Gather *g, const CpsiPiece *piece, CpsError *er
 
 static CpsStatus forces_of_resistance(Gather *g, const CpsiSystemLaw *law, CpsError *err) {
     CpsSet *forces = NULL;
-    CpsSetAnswer answer = {.outcome = CPS_SET_NOT_AVAILABLE};
+    CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     const double *u = &g->motion->law_velocity[law->first];
     double *still = calloc((size_t)law->space + 1, sizeof *still);
     if (!still) return out_of_memory(err);
@@ -335,13 +337,13 @@ static CpsStatus forces_of_resistance(Gather *g, const CpsiSystemLaw *law, CpsEr
 CpsStatus cps_motion_forces(const CpsMotion *motion, double tolerance, CpsSolutionSet *all,
                             double *low, double *high, CpsError *err) {
     if (!motion || !all) return cpsi_fail(err, CPS_ERR_ARGUMENT, "motion or all is NULL");
-    *all = (CpsSolutionSet){.outcome = CPS_SET_NOT_AVAILABLE};
+    *all = (CpsSolutionSet){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     if (!has_solution(motion) || motion->system->components == 0) return CPS_OK;
     const CpsSystem *system = motion->system;
     Gather g;
     CpsStatus status = begin(motion, tolerance, true, &g, err);
-    for (int l = 0; status == CPS_OK && l < system->laws && g.found.outcome == CPS_SET_ANSWERED;
-         l++) {
+    for (int l = 0;
+         status == CPS_OK && l < system->laws && g.found.outcome == CPS_SET_OUTCOME_ANSWERED; l++) {
         const CpsiSystemLaw *law = &system->law[l];
         if (law->resistance) {
             status = forces_of_resistance(&g, law, err);

@@ -51,9 +51,9 @@ CpsStatus cps_system_solve(const CpsSystem *system, const double *driving,
         status = cpsi_motion_composition(system, chosen.boundary, &report->composition,
                                          &report->iterations, err);
         if (status == CPS_OK && report->composition == CPS_COMPOSITION_NOT_SATISFIED &&
-            report->outcome != CPS_MOTION_BLOCKED)
+            report->outcome != CPS_MOTION_OUTCOME_BLOCKED)
             status = cpsi_motion_attained(motion, kinematics, err);
-        if (report->outcome == CPS_MOTION_NOT_ATTAINED)
+        if (report->outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED)
             widen(report, motion->force * motion->driven);
     }
     cpsi_kinematics_free(kinematics);

@@ -6,6 +6,7 @@
 #include "cable/force_set.h"
 #include "cable/friction_set.h"
 #include "cable/least_motion.h"
+#include "capstan/evolve.h"
 #include "evolve/substeps.h"
 
 enum { CPSI_STEP_NAME = 96 };

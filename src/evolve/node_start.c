@@ -173,9 +173,9 @@ void cpsi_node_start(CpsiLine *line, const CpsLine *def) {
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
         line->reaction[j] = 0;
-        line->state[j] = CPS_NODE_FREE;
+        line->state[j] = CPS_NODE_STATE_FREE;
         if (!(fabs(gap) <= TOUCH * line->length)) continue;
-        line->state[j] = CPS_NODE_STICK;
+        line->state[j] = CPS_NODE_STATE_STICK;
         if (line->has_local_axes) line->obstacle_index[j] = on;
         if (start->reaction) {
             line->reaction[j] = start->reaction[j];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Keys, sentences and kinds of outcomes, and keys of ranges, from the lists in evolve.h. */
-#include "capstan/evolve.h"
+/* Keys, sentences and kinds of outcomes, and keys of ranges, from the lists in step.h. */
+#include "capstan/step.h"
 
 const char *cps_outcome_name(CpsOutcome outcome) {
     switch (outcome) {

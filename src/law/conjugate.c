@@ -22,7 +22,7 @@ static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
 }
 
-static const CpsSetAnswer NO_VELOCITY = {.outcome = CPS_SET_OUTSIDE,
+static const CpsSetAnswer NO_VELOCITY = {.outcome = CPS_SET_OUTCOME_OUTSIDE,
                                          .exact = true,
                                          .value = INFINITY};
 
@@ -65,7 +65,8 @@ static CpsStatus closed_conjugate(const CpsSet *dry, int n, double viscosity, co
                                   double *velocity, double *excess, CpsSetAnswer *answer,
                                   CpsError *err) {
     const CpsStatus status = cps_set_project(dry, force, NULL, excess, answer, err);
-    if (status != CPS_OK || answer->outcome != CPS_SET_ANSWERED || !answer->exact) return status;
+    if (status != CPS_OK || answer->outcome != CPS_SET_OUTCOME_ANSWERED || !answer->exact)
+        return status;
     for (int i = 0; i < n; i++) excess[i] = force[i] - excess[i];
     answer->tolerance = ON_BOUNDARY * cpsi_norm(n, force);
     const bool inside = cpsi_norm(n, excess) <= answer->tolerance;
@@ -130,7 +131,7 @@ static CpsStatus term_conjugate(const CpsResistance *law, const double *force, d
     CpsStatus status = cps_set_gauge(term->set, force, &gauge, err);
     if (status != CPS_OK) return status;
     *answer = gauge;
-    if (gauge.outcome != CPS_SET_ANSWERED) return CPS_OK;
+    if (gauge.outcome != CPS_SET_OUTCOME_ANSWERED) return CPS_OK;
 
     CpsiTermDual dual;
     status = cpsi_term_dual(term, gauge.value, &dual, err);
@@ -192,12 +193,13 @@ CpsStatus cps_resistance_residual(const CpsResistance *law, const double *force,
     double away = forces ? NAN : INFINITY;
     if (status == CPS_OK && forces)
         status = cps_set_project(forces, force, NULL, point, &nearest, err);
-    if (status == CPS_OK && forces && nearest.outcome == CPS_SET_ANSWERED) away = nearest.value;
+    if (status == CPS_OK && forces && nearest.outcome == CPS_SET_OUTCOME_ANSWERED)
+        away = nearest.value;
     free(point);
     cps_set_release(forces);
     if (status != CPS_OK) return status;
-    const bool known =
-        conjugate.outcome == CPS_SET_ANSWERED || conjugate.outcome == CPS_SET_OUTSIDE;
+    const bool known = conjugate.outcome == CPS_SET_OUTCOME_ANSWERED ||
+                       conjugate.outcome == CPS_SET_OUTCOME_OUTSIDE;
     *gap = known ? value.potential + conjugate.value + cpsi_dot(law->n, velocity, force) : NAN;
     *distance = away;
     return CPS_OK;

@@ -87,7 +87,7 @@ static CpsStatus add_part(Sum *sum, const CpsiTerm *term, CpsSet *set, CpsError 
     Part *part = &sum->part[sum->count++];
     *part = (Part){.term = *term, .set = set, .limit = INFINITY};
     if (cpsi_set_has_user(set)) {
-        sum->outcome = CPS_SET_NOT_AVAILABLE;
+        sum->outcome = CPS_SET_OUTCOME_NOT_AVAILABLE;
         return CPS_OK;
     }
     double h;
@@ -129,7 +129,7 @@ static void sum_free(Sum *sum) {
 
 static CpsStatus sum_make(const CpsResistance *law, const double *force, Sum *sum, CpsError *err) {
     const size_t n = (size_t)law->n, count = (size_t)law->count;
-    *sum = (Sum){.n = law->n, .force = force, .outcome = CPS_SET_ANSWERED};
+    *sum = (Sum){.n = law->n, .force = force, .outcome = CPS_SET_OUTCOME_ANSWERED};
     sum->part = calloc(count, sizeof *sum->part);
     sum->share = calloc(count, sizeof *sum->share);
     sum->block = calloc((2 * count + 4) * n + count, sizeof *sum->block);
@@ -167,7 +167,7 @@ static CpsStatus cost_of_share(const Part *part, const double *force, double sla
     CpsStatus status = cpsi_gauge(part->set, force, &gauge, err);
     *t = *cost = INFINITY;
     *error = 0;
-    if (status != CPS_OK || gauge.outcome != CPS_SET_ANSWERED) return status;
+    if (status != CPS_OK || gauge.outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     *t = gauge.value > part->limit && gauge.value <= part->limit * (1 + slack) ? part->limit
                                                                                : gauge.value;
     status = cpsi_term_dual(&part->term, *t, &dual, err);
@@ -248,9 +248,10 @@ static CpsStatus bound_below(Sum *sum, CpsError *err) {
         CpsSetAnswer g;
         double h, slope;
         CpsStatus status = cpsi_support(sum->part[i].set, turned, NULL, &g, err);
-        sum->part[i].g = g.outcome == CPS_SET_ANSWERED || g.outcome == CPS_SET_NOT_ATTAINED
-                             ? fmax(g.value, 0)
-                             : INFINITY;
+        sum->part[i].g =
+            g.outcome == CPS_SET_OUTCOME_ANSWERED || g.outcome == CPS_SET_OUTCOME_NOT_ATTAINED
+                ? fmax(g.value, 0)
+                : INFINITY;
         if (status == CPS_OK && isfinite(sum->part[i].g)) {
             status = cpsi_term_at(&sum->part[i].term, sum->part[i].g, &h, &slope, err);
             sum->now.potential += h;
@@ -434,12 +435,12 @@ static CpsStatus refine(Sum *sum, CpsError *err) {
     CpsStatus status = CPS_OK;
     int idle = 0;
     for (int pass = 0; pass < PASSES && idle < IDLE && status == CPS_OK; pass++) {
-        CpsSetOutcome outcome = CPS_SET_ANSWERED;
+        CpsSetOutcome outcome = CPS_SET_OUTCOME_ANSWERED;
         status = next_pieces(sum, pass == 0, err);
         if (status == CPS_OK)
             status = cpsi_inf_convolution(sum->n, sum->count, sum->share, sum->force,
                                           sum->best.upper, sum->now.velocity, &outcome, err);
-        if (status != CPS_OK || outcome != CPS_SET_ANSWERED) break;
+        if (status != CPS_OK || outcome != CPS_SET_OUTCOME_ANSWERED) break;
         status = bound_above(sum, err);
         if (status == CPS_OK) status = bound_below(sum, err);
         idle = keep_best(sum) ? 0 : idle + 1;
@@ -458,8 +459,9 @@ static CpsStatus conjugate(Sum *sum, double *velocity, CpsSetAnswer *answer, Cps
     if (status != CPS_OK) return status;
     const double length = cpsi_norm(sum->n, sum->force);
     *answer = (CpsSetAnswer){.outcome = outcome, .value = INFINITY};
-    if (outcome != CPS_SET_ANSWERED) return CPS_OK;
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .tolerance = ON_BOUNDARY * length};
+    if (outcome != CPS_SET_OUTCOME_ANSWERED) return CPS_OK;
+    *answer =
+        (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .tolerance = ON_BOUNDARY * length};
     if (velocity) memset(velocity, 0, n * sizeof *velocity);
     memcpy(sum->kept, sum->block, (size_t)sum->count * n * sizeof *sum->kept);
     if (beyond_rest(sum) <= ON_BOUNDARY) return CPS_OK;
@@ -473,7 +475,7 @@ static CpsStatus conjugate(Sum *sum, double *velocity, CpsSetAnswer *answer, Cps
     answer->value = sum->best.upper;
     answer->gap = gap_of(sum) + sum->best.error;
     if (!(answer->gap <= PROMISE * scale_of(sum)) || isinf(answer->gap))
-        answer->outcome = CPS_SET_INACCURATE;
+        answer->outcome = CPS_SET_OUTCOME_INACCURATE;
     if (velocity) memcpy(velocity, sum->best.velocity, n * sizeof *velocity);
     return CPS_OK;
 }
@@ -482,10 +484,10 @@ CpsStatus cpsi_conjugate_sum(const CpsResistance *law, const double *force, doub
                              double *share, CpsSetAnswer *answer, CpsError *err) {
     Sum sum;
     CpsStatus status = sum_make(law, force, &sum, err);
-    if (status == CPS_OK && sum.outcome != CPS_SET_ANSWERED) {
+    if (status == CPS_OK && sum.outcome != CPS_SET_OUTCOME_ANSWERED) {
         *answer = (CpsSetAnswer){.outcome = sum.outcome, .value = NAN};
     } else if (status == CPS_OK && cpsi_norm(law->n, force) == 0) {
-        *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
+        *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
         if (velocity) memset(velocity, 0, (size_t)law->n * sizeof *velocity);
     } else if (status == CPS_OK) {
         status = conjugate(&sum, velocity, answer, err);

@@ -295,17 +295,18 @@ static CpsSetOutcome solve(Program *p, CpsiConicProgram *conic, int count, CpsiS
     for (int j = 0; j < p->left; j++) p->c[j] /= scale;
     conic->data = (CpsiConicData){.dim = p->dim, .a = p->row_left, .b = p->b, .c = p->c};
     const CpsiConicResult result = cpsi_conic_solve(conic, ACCEPT);
-    if (result.outcome == CPSI_CONIC_INFEASIBLE) return CPS_SET_OUTSIDE;
-    if (result.outcome == CPSI_CONIC_UNBOUNDED) return CPS_SET_INACCURATE;
+    if (result.outcome == CPSI_CONIC_INFEASIBLE) return CPS_SET_OUTCOME_OUTSIDE;
+    if (result.outcome == CPSI_CONIC_UNBOUNDED) return CPS_SET_OUTCOME_INACCURATE;
     memcpy(p->y, p->start, (size_t)p->unknowns * sizeof *p->y);
     const double *free_part = &p->basis[(size_t)p->rank * (size_t)p->unknowns];
     for (int j = 0; j < p->left; j++)
         for (int i = 0; i < p->unknowns; i++)
             p->y[i] += result.x[j] * free_part[(size_t)j * (size_t)p->unknowns + (size_t)i];
     for (int i = 0; i < p->unknowns; i++)
-        if (!isfinite(p->y[i])) return CPS_SET_INACCURATE;
+        if (!isfinite(p->y[i])) return CPS_SET_OUTCOME_INACCURATE;
     read_forces(p, count, share);
-    return read_velocity(p, result.z, scale, velocity) ? CPS_SET_ANSWERED : CPS_SET_INACCURATE;
+    return read_velocity(p, result.z, scale, velocity) ? CPS_SET_OUTCOME_ANSWERED
+                                                       : CPS_SET_OUTCOME_INACCURATE;
 }
 
 CpsStatus cpsi_inf_convolution(int n, int count, CpsiShare *share, const double *force,
@@ -326,7 +327,7 @@ CpsStatus cpsi_inf_convolution(int n, int count, CpsiShare *share, const double 
     layout(&arena, &p);
     write_columns(&p, count, share, force);
     write_rows(&p, count, share);
-    *outcome = CPS_SET_OUTSIDE;
+    *outcome = CPS_SET_OUTCOME_OUTSIDE;
     CpsStatus status = CPS_OK;
     if (write_equations(&p, count, share)) {
         eliminate(&p);

@@ -71,14 +71,14 @@ CpsStatus cps_law_friction(const CpsSet *set, CpsLaw **out, CpsError *err) {
     CpsSetFacts facts;
     const CpsStatus status = cps_set_facts(set, 0, &facts, NULL, NULL, err);
     if (status != CPS_OK) return status;
-    if (facts.outcome == CPS_SET_EMPTY)
+    if (facts.outcome == CPS_SET_OUTCOME_EMPTY)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "the set of forces is empty: no force goes with any velocity; a friction "
                          "law contains 0");
 
     /* of a user's set only the support is known, so its statement that it contains 0 is accepted */
-    const bool known = facts.outcome == CPS_SET_ANSWERED;
-    if (!known && facts.outcome != CPS_SET_NOT_AVAILABLE)
+    const bool known = facts.outcome == CPS_SET_OUTCOME_ANSWERED;
+    if (!known && facts.outcome != CPS_SET_OUTCOME_NOT_AVAILABLE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "cannot tell whether the set of forces contains 0: %s",
                          cps_set_outcome_text(facts.outcome));
@@ -218,10 +218,10 @@ static CpsStatus place_in_factor(const CpsSet *factor, const double *point, CpsC
     CpsSet *cone = NULL;
     *place = CPS_COMPOSITION_NOT_SATISFIED;
     CpsStatus status = cps_set_facts(factor, 0, &facts, NULL, NULL, err);
-    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED)
+    if (status == CPS_OK && facts.outcome == CPS_SET_OUTCOME_ANSWERED)
         status = cps_set_normal_cone(factor, point, BOUNDARY_TOLERANCE, &cone, &answer, err);
     if (status == CPS_OK && cone) status = cps_set_facts(cone, 0, &cone_facts, NULL, NULL, err);
-    if (status == CPS_OK && cone && cone_facts.outcome == CPS_SET_ANSWERED) {
+    if (status == CPS_OK && cone && cone_facts.outcome == CPS_SET_OUTCOME_ANSWERED) {
         if (cone_facts.dimension == 0)
             *place = CPS_COMPOSITION_INTERIOR;
         else if (cone_facts.dimension == cps_set_space(factor) - facts.dimension)
@@ -246,9 +246,9 @@ static CpsStatus find_composition(int n, const double *map, const CpsLaw *law,
     CpsSetFacts facts;
     CpsStatus status = cps_set_facts(reduced, 0, &facts, center, NULL, err);
     *composition = CPS_COMPOSITION_INTERIOR;
-    if (status == CPS_OK && facts.outcome != CPS_SET_ANSWERED)
+    if (status == CPS_OK && facts.outcome != CPS_SET_OUTCOME_ANSWERED)
         *composition = CPS_COMPOSITION_NOT_SATISFIED;
-    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED) {
+    if (status == CPS_OK && facts.outcome == CPS_SET_OUTCOME_ANSWERED) {
         for (int i = 0; i < rows; i++) force[i] = cpsi_dot(n, map + (size_t)i * (size_t)n, center);
         for (int i = 0, at = 0; i < law->factor_count && status == CPS_OK; i++) {
             CpsComposition place;

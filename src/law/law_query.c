@@ -69,7 +69,7 @@ static CpsStatus normal_cone_form(const CpsSet *set, const double *force, const 
     for (int i = 0; i < n; i++) trial[i] = force[i] - r->step * velocity[i];
     const CpsStatus status = cps_set_project(set, trial, NULL, nearest, &answer, err);
     if (status != CPS_OK) return status;
-    if (answer.outcome != CPS_SET_ANSWERED) {
+    if (answer.outcome != CPS_SET_OUTCOME_ANSWERED) {
         r->normal_cone = NAN;
         return CPS_OK;
     }
@@ -117,10 +117,11 @@ CpsStatus cps_set_residual(const CpsSet *set, const double *force, const double 
     status = cps_set_project(set, force, NULL, work, &nearest, err);
     if (status == CPS_OK) status = cps_set_dissipation(set, velocity, maximal, &phi, err);
     if (status == CPS_OK) {
-        r.outside = nearest.outcome == CPS_SET_ANSWERED ? nearest.value : NAN;
+        r.outside = nearest.outcome == CPS_SET_OUTCOME_ANSWERED ? nearest.value : NAN;
         r.outcome = phi.outcome;
-        r.gap = fmax(phi.gap, nearest.outcome == CPS_SET_ANSWERED ? nearest.gap : 0);
-        if (phi.outcome == CPS_SET_ANSWERED || phi.outcome == CPS_SET_NOT_ATTAINED) {
+        r.gap = fmax(phi.gap, nearest.outcome == CPS_SET_OUTCOME_ANSWERED ? nearest.gap : 0);
+        if (phi.outcome == CPS_SET_OUTCOME_ANSWERED ||
+            phi.outcome == CPS_SET_OUTCOME_NOT_ATTAINED) {
             power_forms(n, force, velocity, maximal, phi.value, &r);
         } else {
             r.variational = r.maximum_dissipation = r.dissipation = r.inverse = INFINITY;

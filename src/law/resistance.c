@@ -309,7 +309,7 @@ static double viscous_force(int n, const double *matrix, const double *velocity,
 /* potential and power of one term; work (n) */
 static CpsStatus term_value(int n, const CpsiTerm *term, const double *velocity, double *work,
                             CpsResistanceValue *value, CpsError *err) {
-    *value = (CpsResistanceValue){.outcome = CPS_SET_ANSWERED};
+    *value = (CpsResistanceValue){.outcome = CPS_SET_OUTCOME_ANSWERED};
     if (term->kind == CPSI_VISCOUS) {
         value->power = viscous_force(n, term->data, velocity, work);
         value->potential = 0.5 * value->power;
@@ -319,7 +319,7 @@ static CpsStatus term_value(int n, const CpsiTerm *term, const double *velocity,
     CpsStatus status = cps_set_dissipation(term->set, velocity, NULL, &g, err);
     if (status != CPS_OK) return status;
     value->outcome = g.outcome;
-    if (g.outcome != CPS_SET_ANSWERED && g.outcome != CPS_SET_NOT_ATTAINED) {
+    if (g.outcome != CPS_SET_OUTCOME_ANSWERED && g.outcome != CPS_SET_OUTCOME_NOT_ATTAINED) {
         value->potential = value->power = INFINITY;
         return CPS_OK;
     }
@@ -341,12 +341,12 @@ CpsStatus cps_resistance_value(const CpsResistance *law, const double *velocity,
     if (status != CPS_OK) return status;
     double *work = malloc((size_t)law->n * sizeof *work);
     if (!work) return out_of_memory(err);
-    CpsResistanceValue sum = {.outcome = CPS_SET_ANSWERED};
+    CpsResistanceValue sum = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     for (int i = 0; i < law->count && status == CPS_OK; i++) {
         CpsResistanceValue value;
         status = term_value(law->n, &law->term[i], velocity, work, &value, err);
         if (status != CPS_OK) break;
-        if (sum.outcome == CPS_SET_ANSWERED) sum.outcome = value.outcome;
+        if (sum.outcome == CPS_SET_OUTCOME_ANSWERED) sum.outcome = value.outcome;
         sum.potential += value.potential;
         sum.power += value.power;
         sum.gap += value.gap;
@@ -364,7 +364,8 @@ static CpsStatus term_forces(int n, const CpsiTerm *term, const double *velocity
         double *force = malloc((size_t)n * sizeof *force);
         if (!force) return out_of_memory(err);
         const double power = viscous_force(n, term->data, velocity, force);
-        *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true, .value = power};
+        *answer =
+            (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true, .value = power};
         const CpsStatus status = cps_set_point(n, force, forces, err);
         free(force);
         return status;
@@ -377,7 +378,7 @@ static CpsStatus term_forces(int n, const CpsiTerm *term, const double *velocity
         status = cpsi_term_at(term, speed, &potential, &slope, err);
         answer->value = speed * slope;
         if (status == CPS_OK && isinf(slope))
-            answer->outcome = CPS_SET_UNBOUNDED;
+            answer->outcome = CPS_SET_OUTCOME_UNBOUNDED;
         else if (status == CPS_OK)
             status = cps_set_scale(slope, face, forces, err);
     }
@@ -393,20 +394,20 @@ CpsStatus cps_resistance_forces(const CpsResistance *law, const double *velocity
     if (status != CPS_OK) return status;
     CpsSet **part = calloc((size_t)law->count, sizeof *part), *sum = NULL;
     if (!part) return out_of_memory(err);
-    CpsSetAnswer all = {.outcome = CPS_SET_ANSWERED, .exact = true};
+    CpsSetAnswer all = {.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     for (int i = 0; i < law->count && status == CPS_OK; i++) {
         CpsSetAnswer one;
         status = term_forces(law->n, &law->term[i], velocity, tolerance, &part[i], &one, err);
         if (status != CPS_OK) break;
-        if (all.outcome == CPS_SET_ANSWERED) all.outcome = one.outcome;
+        if (all.outcome == CPS_SET_OUTCOME_ANSWERED) all.outcome = one.outcome;
         all.exact = all.exact && one.exact;
         all.value += one.value;
         all.gap += one.gap;
         all.tolerance = fmax(all.tolerance, one.tolerance);
     }
-    if (status == CPS_OK && all.outcome == CPS_SET_ANSWERED && law->count > 1)
+    if (status == CPS_OK && all.outcome == CPS_SET_OUTCOME_ANSWERED && law->count > 1)
         status = cps_set_sum(law->count, (const CpsSet *const *)part, &sum, err);
-    else if (status == CPS_OK && all.outcome == CPS_SET_ANSWERED)
+    else if (status == CPS_OK && all.outcome == CPS_SET_OUTCOME_ANSWERED)
         sum = cps_set_retain(part[0]);
     for (int i = 0; i < law->count; i++) cps_set_release(part[i]);
     free(part);

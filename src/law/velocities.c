@@ -61,7 +61,7 @@ CpsStatus cpsi_term_velocities(int n, const CpsiTerm *term, const double *force,
     if (!point) return out_of_memory(err);
     CpsStatus status = cps_set_gauge(term->set, force, &gauge, err);
     const bool known =
-        status == CPS_OK && gauge.outcome == CPS_SET_ANSWERED && isfinite(gauge.value);
+        status == CPS_OK && gauge.outcome == CPS_SET_OUTCOME_ANSWERED && isfinite(gauge.value);
     if (known) status = speeds(term, gauge.value, tolerance, &low, &high, err);
     const bool moves = high > 0 && gauge.value > tolerance;
     if (known && moves)
@@ -89,8 +89,8 @@ static CpsStatus move_to(const CpsSet *set, const double *x, CpsSet **out, CpsEr
     double *shift = malloc((size_t)n * sizeof *shift);
     if (!shift) return out_of_memory(err);
     CpsStatus status = cps_set_project(set, x, NULL, shift, &near, err);
-    const bool there =
-        near.outcome == CPS_SET_ANSWERED && near.value <= MOST_MOVED * cpsi_norm(n, x) + REST;
+    const bool there = near.outcome == CPS_SET_OUTCOME_ANSWERED &&
+                       near.value <= MOST_MOVED * cpsi_norm(n, x) + REST;
     for (int i = 0; i < n; i++) shift[i] = x[i] - shift[i];
     if (status == CPS_OK && there && near.value > 0)
         status = cps_set_translate(shift, set, out, err);
@@ -108,24 +108,24 @@ static CpsStatus meet(const CpsResistance *law, const double *share, const doubl
     CpsStatus status = CPS_OK;
     int parts = 0;
     const double tolerance = law->count > 1 ? SHARED : ALONE;
-    for (int i = 0; i < law->count && status == CPS_OK && answer->outcome == CPS_SET_ANSWERED;
-         i++) {
+    for (int i = 0;
+         i < law->count && status == CPS_OK && answer->outcome == CPS_SET_OUTCOME_ANSWERED; i++) {
         CpsSet *own = NULL;
         if (!cpsi_term_resists(&law->term[i])) continue;
         status = cpsi_term_velocities(law->n, &law->term[i], &share[(size_t)i * (size_t)law->n],
                                       tolerance, &own, err);
         if (status == CPS_OK && own) status = move_to(own, velocity, &part[parts], err);
         if (status == CPS_OK && !part[parts])
-            answer->outcome = CPS_SET_INACCURATE;
+            answer->outcome = CPS_SET_OUTCOME_INACCURATE;
         else
             parts++;
         cps_set_release(own);
     }
-    if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED && parts == 1)
+    if (status == CPS_OK && answer->outcome == CPS_SET_OUTCOME_ANSWERED && parts == 1)
         *out = cps_set_retain(part[0]);
-    else if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED && parts > 0)
+    else if (status == CPS_OK && answer->outcome == CPS_SET_OUTCOME_ANSWERED && parts > 0)
         status = cps_set_intersection(parts, (const CpsSet *const *)part, out, err);
-    else if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED)
+    else if (status == CPS_OK && answer->outcome == CPS_SET_OUTCOME_ANSWERED)
         status = cps_set_inequalities(law->n, 0, NULL, NULL, out, err); /* there is no resistance */
     for (int i = 0; i < parts; i++) cps_set_release(part[i]);
     free(part);
@@ -137,9 +137,9 @@ static CpsStatus simplest(CpsSet *set, int n, const double *velocity, CpsSet **o
                           CpsSetAnswer *answer, CpsError *err) {
     CpsSetFacts facts;
     CpsStatus status = cps_set_facts(set, 0, &facts, NULL, NULL, err);
-    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED && facts.dimension > 0)
+    if (status == CPS_OK && facts.outcome == CPS_SET_OUTCOME_ANSWERED && facts.dimension > 0)
         *out = cps_set_retain(set);
-    else if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED)
+    else if (status == CPS_OK && facts.outcome == CPS_SET_OUTCOME_ANSWERED)
         status = cps_set_point(n, velocity, out, err);
     else if (status == CPS_OK)
         answer->outcome = facts.outcome;
@@ -167,27 +167,27 @@ CpsStatus cps_resistance_velocities(const CpsResistance *law, const double *forc
     double *share = velocity + n;
     CpsSet *set = NULL;
     CpsStatus status = cps_resistance_conjugate(law, force, velocity, answer, err);
-    if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED && dry) {
+    if (status == CPS_OK && answer->outcome == CPS_SET_OUTCOME_ANSWERED && dry) {
         CpsSet *sum = NULL;
         CpsSetAnswer cone;
         status = cpsi_dry_sum(law, &sum, err);
         if (status == CPS_OK) status = cps_set_velocities(sum, force, 0, &set, &cone, err);
         if (status == CPS_OK && !set) answer->outcome = cone.outcome;
         cps_set_release(sum);
-    } else if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED && !viscous) {
-        CpsSetAnswer shared = {.outcome = CPS_SET_ANSWERED};
+    } else if (status == CPS_OK && answer->outcome == CPS_SET_OUTCOME_ANSWERED && !viscous) {
+        CpsSetAnswer shared = {.outcome = CPS_SET_OUTCOME_ANSWERED};
         if (law->count == 1)
             memcpy(share, force, n * sizeof *share);
         else
             status = cpsi_conjugate_sum(law, force, NULL, share, &shared, err);
-        if (status == CPS_OK && shared.outcome != CPS_SET_ANSWERED)
+        if (status == CPS_OK && shared.outcome != CPS_SET_OUTCOME_ANSWERED)
             answer->outcome = shared.outcome;
         else if (status == CPS_OK)
             status = meet(law, share, velocity, &set, answer, err);
     }
     if (status == CPS_OK && set)
         status = simplest(set, law->n, velocity, velocities, answer, err);
-    else if (status == CPS_OK && answer->outcome == CPS_SET_ANSWERED)
+    else if (status == CPS_OK && answer->outcome == CPS_SET_OUTCOME_ANSWERED)
         status = cps_set_point(law->n, velocity, velocities, err);
     cps_set_release(set);
     free(velocity);

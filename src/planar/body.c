@@ -82,7 +82,7 @@ static CpsStatus check_law(const char *name, const CpsPatch *patch, CpsError *er
                          cps_law_space(patch->law));
     CpsSetFacts facts;
     const CpsStatus status = cps_set_facts(cps_law_set(patch->law), 0, &facts, NULL, NULL, err);
-    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED && !facts.bounded)
+    if (status == CPS_OK && facts.outcome == CPS_SET_OUTCOME_ANSWERED && !facts.bounded)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has a law with forces without bound", name);
     return status;
 }
@@ -255,7 +255,7 @@ CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist
                                        double wrench[3], double *by_patch, CpsSetAnswer *answer,
                                        CpsError *err) {
     double total[3] = {0, 0, 0};
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     for (int k = 0; k < body->count; k++) {
         const CpsiPatch *patch = &body->patch[k];
         CpsiFrictionDisc rub;
@@ -263,7 +263,7 @@ CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist
         cpsi_patch_velocity(patch, twist, velocity);
         const CpsStatus status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &rub, err);
         if (status != CPS_OK) return status;
-        if (rub.outcome != CPS_SET_ANSWERED) answer->outcome = rub.outcome;
+        if (rub.outcome != CPS_SET_OUTCOME_ANSWERED) answer->outcome = rub.outcome;
         answer->exact = answer->exact && rub.exact;
         answer->value += rub.power;
         answer->gap += rub.gap;
@@ -273,8 +273,8 @@ CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist
             rub.torque + patch->position[0] * rub.force[1] - patch->position[1] * rub.force[0];
         if (by_patch) by_patch[k] = rub.power;
     }
-    if (answer->outcome == CPS_SET_ANSWERED && !isfinite(answer->value))
-        answer->outcome = CPS_SET_INACCURATE;
+    if (answer->outcome == CPS_SET_OUTCOME_ANSWERED && !isfinite(answer->value))
+        answer->outcome = CPS_SET_OUTCOME_INACCURATE;
     if (wrench)
         for (int i = 0; i < 3; i++) wrench[i] = total[i];
     return CPS_OK;

@@ -76,7 +76,7 @@ CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tolerance is %g, expected a number >= 0",
                          tolerance);
     CpsStatus status = cpsi_planar_finite("twist", 3, twist, err);
-    CpsPlanarBounds found = {.outcome = CPS_SET_ANSWERED};
+    CpsPlanarBounds found = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     for (int k = 0; k < body->count && status == CPS_OK; k++) {
         const CpsiPatch *patch = &body->patch[k];
         double velocity[2];
@@ -84,13 +84,13 @@ CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double
         if (cpsi_patch_is_area(patch)) {
             if (!bound_area(patch, velocity, twist[2], tolerance > 0 ? tolerance : TOLERANCE,
                             &found))
-                found.outcome = CPS_SET_INACCURATE;
+                found.outcome = CPS_SET_OUTCOME_INACCURATE;
             continue;
         }
         CpsiFrictionDisc rub;
         status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &rub, err);
         if (status != CPS_OK) break;
-        if (rub.outcome != CPS_SET_ANSWERED) found.outcome = rub.outcome;
+        if (rub.outcome != CPS_SET_OUTCOME_ANSWERED) found.outcome = rub.outcome;
         const double slack = rub.gap + ROUNDING * rub.power;
         found.lower += fmax(rub.power - slack, 0);
         found.upper += rub.power + slack;

@@ -139,12 +139,12 @@ static bool evaluate(Search *self, Place *place) {
     self->status =
         cpsi_planar_dissipation_rate(self->body, twist, place->force, NULL, &answer, self->err);
     if (self->status != CPS_OK) return false;
-    if (answer.outcome != CPS_SET_ANSWERED) self->outcome = answer.outcome;
+    if (answer.outcome != CPS_SET_OUTCOME_ANSWERED) self->outcome = answer.outcome;
     place->force[2] /= reach;
     place->value = answer.value;
     place->gap = answer.gap;
     self->strongest = fmax(self->strongest, sqrt(dot(place->force, place->force)));
-    return answer.outcome == CPS_SET_ANSWERED;
+    return answer.outcome == CPS_SET_OUTCOME_ANSWERED;
 }
 
 static bool minimise(Search *self, int level, Place *place);
@@ -232,8 +232,9 @@ static bool minimise(Search *self, int level, Place *place) {
             const double fall = fabs(first.value - end[1].place.value);
             *place = first;
             place->gap += fall;
-            if (!(fall <= 0.25 * PROMISED * first.value)) self->outcome = CPS_SET_NOT_ATTAINED;
-            return self->outcome == CPS_SET_ANSWERED;
+            if (!(fall <= 0.25 * PROMISED * first.value))
+                self->outcome = CPS_SET_OUTCOME_NOT_ATTAINED;
+            return self->outcome == CPS_SET_OUTCOME_ANSWERED;
         }
         end[0] = end[1];
         step *= 2;
@@ -263,7 +264,7 @@ static bool turn_free_directions(Search *self, Place *place) {
 
 static CpsStatus begin(Search *self, const CpsPlanar *body, int rows, const double *map,
                        const double *velocity, CpsError *err) {
-    *self = (Search){.body = body, .outcome = CPS_SET_ANSWERED, .err = err};
+    *self = (Search){.body = body, .outcome = CPS_SET_OUTCOME_ANSWERED, .err = err};
     return set_drive(self, rows, map, velocity, err);
 }
 
@@ -283,7 +284,7 @@ CpsStatus cps_planar_drive(const CpsPlanar *body, int rows, const double *map,
         out.lower = fmax(-dot(place.force, self.start) - slack, 0);
         out.upper = place.value + slack;
         if (!(out.upper - out.lower <= PROMISED * out.upper + 4 * rounding))
-            out.outcome = CPS_SET_INACCURATE;
+            out.outcome = CPS_SET_OUTCOME_INACCURATE;
         for (int i = 0; i < 3; i++) {
             out.twist[i] = i < 2 ? place.y[i] : place.y[i] / body->reach;
             out.wrench[i] = i < 2 ? place.force[i] : place.force[i] * body->reach;
@@ -330,7 +331,7 @@ CpsStatus cps_planar_motions(const CpsPlanar *body, int rows, const double *map,
     CpsPlanarMotion motion;
     CpsStatus status = cps_planar_drive(body, rows, map, velocity, &motion, err);
     if (status != CPS_OK) return status;
-    if (motion.outcome != CPS_SET_ANSWERED)
+    if (motion.outcome != CPS_SET_OUTCOME_ANSWERED)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "there is no motion to look around: %s",
                          cps_set_outcome_text(motion.outcome));
     const double middle[3] = {motion.twist[0], motion.twist[1], motion.twist[2] * body->reach};

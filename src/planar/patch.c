@@ -332,7 +332,7 @@ static void rub_polygon(const CpsiPatch *patch, const double velocity[2], double
 
 CpsStatus cpsi_patch_dissipation_rate(const CpsiPatch *patch, const double velocity[2], double w,
                                       CpsiFrictionDisc *rub, CpsError *err) {
-    *rub = (CpsiFrictionDisc){.outcome = CPS_SET_ANSWERED, .exact = true};
+    *rub = (CpsiFrictionDisc){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     switch (patch->kind) {
     case CPS_PATCH_POINT:
         if (patch->set) return rub_law(patch, velocity, rub, err);

@@ -32,13 +32,13 @@ CpsStatus cps_sweep_step(const CpsLaw *law, CpsSweep *sweep, const double *end, 
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the stiffness is %g N/m, expected more than 0", k);
 
     double trial[MOST];
-    CpsSweepStep out = {.outcome = CPS_SET_ANSWERED};
+    CpsSweepStep out = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     CpsSetAnswer answer;
     for (int i = 0; i < n; i++) trial[i] = k * (sweep->position[i] - end[i]);
     status = cps_set_project(cps_law_set(law), trial, NULL, out.force, &answer, err);
     if (status != CPS_OK) return status;
     out.outcome = answer.outcome;
-    if (answer.outcome != CPS_SET_ANSWERED) {
+    if (answer.outcome != CPS_SET_OUTCOME_ANSWERED) {
         *step = (CpsSweepStep){.outcome = answer.outcome};
         return CPS_OK;
     }

@@ -106,8 +106,9 @@ static CpsStatus settle(const CpsPlanar *body, const CpsTow *tow, const Way *way
         CpsPlanarMotion motion;
         const CpsStatus status = drive_step(body, tow, way, middle, chord, &motion, err);
         if (status != CPS_OK) return status;
-        step->outcome = fabs(motion.twist[2]) <= MOST_TURN ? motion.outcome : CPS_SET_INACCURATE;
-        if (step->outcome != CPS_SET_ANSWERED) return CPS_OK;
+        step->outcome =
+            fabs(motion.twist[2]) <= MOST_TURN ? motion.outcome : CPS_SET_OUTCOME_INACCURATE;
+        if (step->outcome != CPS_SET_OUTCOME_ANSWERED) return CPS_OK;
 
         const double last[2] = {chord[0], chord[1]}, turned = step->twist[2];
         middle = middle_of(tow->pose[2], motion.twist[2]);
@@ -138,11 +139,11 @@ CpsStatus cps_planar_tow(const CpsPlanar *body, CpsTow *tow, const double target
     const Way way = {.before = {tow->end[0] - hitch[0], tow->end[1] - hitch[1]},
                      .after = {target[0] - hitch[0], target[1] - hitch[1]}};
 
-    CpsTowStep out = {.outcome = CPS_SET_ANSWERED,
+    CpsTowStep out = {.outcome = CPS_SET_OUTCOME_ANSWERED,
                       .pulled = hypot(way.after[0], way.after[1]) > tow->rope};
     if (out.pulled) status = settle(body, tow, &way, &out, err);
     if (status != CPS_OK) return status;
-    if (out.outcome == CPS_SET_ANSWERED) {
+    if (out.outcome == CPS_SET_OUTCOME_ANSWERED) {
         out.settled = out.settled || !out.pulled;
         cps_planar_move(tow->pose, out.twist);
         for (int i = 0; i < 2; i++) tow->end[i] = target[i];

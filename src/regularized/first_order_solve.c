@@ -42,7 +42,7 @@ static const struct {
     const char *key, *sentence;
 } VERDICT[] = {
 #define CPS_FIRST_ORDER_TEXT(name, number, key, sentence) [number] = {key, sentence},
-    CPS_FIRST_ORDER_LIST(CPS_FIRST_ORDER_TEXT)
+    CPS_FIRST_ORDER_VERDICT_LIST(CPS_FIRST_ORDER_TEXT)
 #undef CPS_FIRST_ORDER_TEXT
 };
 
@@ -50,11 +50,11 @@ static bool known(CpsFirstOrderVerdict verdict) {
     return (unsigned)verdict < sizeof VERDICT / sizeof *VERDICT;
 }
 
-const char *cps_first_order_name(CpsFirstOrderVerdict verdict) {
+const char *cps_first_order_verdict_name(CpsFirstOrderVerdict verdict) {
     return known(verdict) ? VERDICT[verdict].key : "unknown";
 }
 
-const char *cps_first_order_text(CpsFirstOrderVerdict verdict) {
+const char *cps_first_order_verdict_text(CpsFirstOrderVerdict verdict) {
     return known(verdict) ? VERDICT[verdict].sentence : "unknown verdict";
 }
 
@@ -162,7 +162,7 @@ static void run_rounds(CpsFirstOrder *s) {
     const CpsiSmooth smooth = cpsi_first_order_smooth(f);
     f->augment = AUGMENT_FIRST * unit;
     f->anchor = ANCHOR * unit;
-    r->verdict = CPS_FIRST_ORDER_UNDECIDED;
+    r->verdict = CPS_FIRST_ORDER_VERDICT_UNDECIDED;
     double held_before = 0;
     for (int stuck = 0; r->rounds < MAX_ROUNDS && stuck < STUCK_ROUNDS; ++r->rounds) {
         const double noise = fmin(rounding(f), FORCE_ROUNDING * force);
@@ -174,7 +174,7 @@ static void run_rounds(CpsFirstOrder *s) {
         const double residual_before = r->rounds > 0 ? r->residual : INFINITY;
         r->residual = fmax(accept_solution(f, r), newton.residual);
         if (r->residual <= fmax(FORCE_TOLERANCE * force, 10 * newton.tolerance)) {
-            r->verdict = CPS_FIRST_ORDER_SOLVED;
+            r->verdict = CPS_FIRST_ORDER_VERDICT_SOLVED;
             return;
         }
 
@@ -184,7 +184,7 @@ static void run_rounds(CpsFirstOrder *s) {
         held_before = held;
         if (r->residual > SLOW * residual_before)
             f->augment = fmin(AUGMENT_GROWTH * f->augment, AUGMENT_MOST * unit);
-        if (stuck == STUCK_ROUNDS) r->verdict = CPS_FIRST_ORDER_UNBALANCED;
+        if (stuck == STUCK_ROUNDS) r->verdict = CPS_FIRST_ORDER_VERDICT_UNBALANCED;
     }
 }
 
@@ -206,10 +206,10 @@ static Vec3 end_excess(const CpsiFirstOrder *f) {
 static void judge_end(CpsFirstOrder *s) {
     CpsFirstOrderReport *r = &s->report;
     const Vec3 excess = end_excess(&s->f);
-    if (r->verdict != CPS_FIRST_ORDER_SOLVED ||
+    if (r->verdict != CPS_FIRST_ORDER_VERDICT_SOLVED ||
         !(vec3_norm(excess) > FORCE_TOLERANCE * s->f.step->force))
         return;
-    r->verdict = CPS_FIRST_ORDER_MESH;
+    r->verdict = CPS_FIRST_ORDER_VERDICT_MESH;
     vec3_store(r->unbalanced, excess);
     r->unbalanced_arc = s->f.step->length;
 }
@@ -238,9 +238,9 @@ static void finish(CpsFirstOrder *s) {
         r->against_step =
             cpsi_max_nan(r->against_step, vec3_norm(vec3_sub(reached, cpsi_at(c->position, j))));
     }
-    if (r->verdict == CPS_FIRST_ORDER_SOLVED && r->shortened > 0)
-        r->verdict = CPS_FIRST_ORDER_SHORTENS;
-    if (r->verdict != CPS_FIRST_ORDER_UNBALANCED) {
+    if (r->verdict == CPS_FIRST_ORDER_VERDICT_SOLVED && r->shortened > 0)
+        r->verdict = CPS_FIRST_ORDER_VERDICT_SHORTENS;
+    if (r->verdict != CPS_FIRST_ORDER_VERDICT_UNBALANCED) {
         memset(r->unbalanced, 0, sizeof r->unbalanced);
         r->unbalanced_arc = 0;
     }
@@ -284,7 +284,7 @@ void cps_first_order_destroy(CpsFirstOrder *solution) {
 
 CpsFirstOrderReport cps_first_order_report(const CpsFirstOrder *solution) {
     return solution ? solution->report
-                    : (CpsFirstOrderReport){.verdict = CPS_FIRST_ORDER_UNDECIDED};
+                    : (CpsFirstOrderReport){.verdict = CPS_FIRST_ORDER_VERDICT_UNDECIDED};
 }
 
 CpsFirstOrderView cps_first_order_view(const CpsFirstOrder *solution) {

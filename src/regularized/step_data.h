@@ -10,7 +10,7 @@
 #define CAPSTAN_SRC_REGULARIZED_STEP_DATA_H
 
 #include "base/arena.h"
-#include "capstan/evolve.h"
+#include "capstan/step.h"
 
 /* Quantities lumped at m + 1 places, and of the m cells between them. */
 typedef struct CpsiCells {

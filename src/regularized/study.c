@@ -26,7 +26,7 @@ typedef struct Kept {
 struct CpsStudy {
     CpsStudyRow *row;
     int rows, room;
-    Kept end[CPS_STUDY_STAGES];
+    Kept end[CPS_STUDY_STAGE_COUNT];
 };
 
 /* The last values of a stage, newest first. */
@@ -41,8 +41,8 @@ typedef struct Trail {
 } Trail;
 
 const char *cps_study_stage_name(CpsStudyStage stage) {
-    static const char *const KEY[CPS_STUDY_STAGES] = {"h", "lambda", "n", "delta"};
-    return stage >= 0 && stage < CPS_STUDY_STAGES ? KEY[stage] : "unknown";
+    static const char *const KEY[CPS_STUDY_STAGE_COUNT] = {"h", "lambda", "n", "delta"};
+    return stage >= 0 && stage < CPS_STUDY_STAGE_COUNT ? KEY[stage] : "unknown";
 }
 
 /* The number of divisions by *factor, at most 10, that reduce by `ratio`; 0 where ratio is 1 or
@@ -65,33 +65,34 @@ CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
     CpsRegularizedParameters *from = &options.from;
     const int last = to->cells > 0 ? to->cells : 4 * cps_regularized_step(classic).elements;
     int cells = from->cells;
-    for (options.values[CPS_STUDY_H] = 1;
-         cells < last && options.values[CPS_STUDY_H] < MAX_HALVINGS; cells *= 2)
-        ++options.values[CPS_STUDY_H];
+    for (options.values[CPS_STUDY_STAGE_H] = 1;
+         cells < last && options.values[CPS_STUDY_STAGE_H] < MAX_HALVINGS; cells *= 2)
+        ++options.values[CPS_STUDY_STAGE_H];
     if (to->cells >
         0) { /* the first h, such that the last one is that asked for, or smaller by a few cells */
-        const int halvings = 1 << (options.values[CPS_STUDY_H] - 1);
+        const int halvings = 1 << (options.values[CPS_STUDY_STAGE_H] - 1);
         from->cells = (last + halvings - 1) / halvings;
         if (from->cells < 2) from->cells = 2;
     }
     /* lambda starts with the first value, n and delta with the one after it */
-    options.values[CPS_STUDY_LAMBDA] =
-        1 + divisions(to->penalty / from->penalty, &options.factor[CPS_STUDY_LAMBDA]);
-    options.values[CPS_STUDY_N] =
-        to->stiffness > 0 ? divisions(from->stiffness / to->stiffness, &options.factor[CPS_STUDY_N])
-                          : 1;
-    options.values[CPS_STUDY_DELTA] =
-        divisions(from->delta / to->delta, &options.factor[CPS_STUDY_DELTA]);
-    if (options.values[CPS_STUDY_LAMBDA] == 1) from->penalty = to->penalty;
+    options.values[CPS_STUDY_STAGE_LAMBDA] =
+        1 + divisions(to->penalty / from->penalty, &options.factor[CPS_STUDY_STAGE_LAMBDA]);
+    options.values[CPS_STUDY_STAGE_N] =
+        to->stiffness > 0
+            ? divisions(from->stiffness / to->stiffness, &options.factor[CPS_STUDY_STAGE_N])
+            : 1;
+    options.values[CPS_STUDY_STAGE_DELTA] =
+        divisions(from->delta / to->delta, &options.factor[CPS_STUDY_STAGE_DELTA]);
+    if (options.values[CPS_STUDY_STAGE_LAMBDA] == 1) from->penalty = to->penalty;
     if (!(to->stiffness > 0)) {
         from->stiffness = 0;
-    } else if (options.values[CPS_STUDY_N] == 0) {
+    } else if (options.values[CPS_STUDY_STAGE_N] == 0) {
         from->stiffness = 10 * to->stiffness;
-        options.values[CPS_STUDY_N] = 1;
+        options.values[CPS_STUDY_STAGE_N] = 1;
     }
-    if (options.values[CPS_STUDY_DELTA] == 0) {
+    if (options.values[CPS_STUDY_STAGE_DELTA] == 0) {
         from->delta = 10 * to->delta;
-        options.values[CPS_STUDY_DELTA] = 1;
+        options.values[CPS_STUDY_STAGE_DELTA] = 1;
     }
     return options;
 }
@@ -119,14 +120,14 @@ static double rms_between(int count, const double *a, const double *b) {
  * other stages the final value of the preceding stage is the first one. */
 static void begin_stage(Trail *trail, CpsStudyStage stage, const CpsRegularizedStep *step,
                         int coarsest) {
-    if (stage >= CPS_STUDY_N) {
+    if (stage >= CPS_STUDY_STAGE_N) {
         trail->count = 1;
         return;
     }
     trail->count = 0;
-    trail->samples = stage == CPS_STUDY_H ? coarsest - 1 : step->elements;
+    trail->samples = stage == CPS_STUDY_STAGE_H ? coarsest - 1 : step->elements;
     for (int i = 0; i < trail->samples; ++i)
-        trail->place[i] = stage == CPS_STUDY_H
+        trail->place[i] = stage == CPS_STUDY_STAGE_H
                               ? (i + 1) * step->length / coarsest
                               : (step->arc_length[i] + step->arc_length[i + 1]) / 2;
 }
@@ -194,18 +195,18 @@ static void advance(CpsStudyStage stage, const CpsStudyOptions *options, int k,
                     CpsRegularizedParameters *p) {
     const double factor = options->factor[stage];
     switch (stage) {
-    case CPS_STUDY_H:
+    case CPS_STUDY_STAGE_H:
         if (k > 0) p->cells *= 2;
         break;
-    case CPS_STUDY_LAMBDA:
+    case CPS_STUDY_STAGE_LAMBDA:
         if (k > 0)
             p->penalty *= factor;
         else
             p->cells = 0; /* the step's own elements from this stage on */
         break;
-    case CPS_STUDY_N: p->stiffness /= factor; break;
-    case CPS_STUDY_DELTA: p->delta /= factor; break;
-    case CPS_STUDY_STAGES: break;
+    case CPS_STUDY_STAGE_N: p->stiffness /= factor; break;
+    case CPS_STUDY_STAGE_DELTA: p->delta /= factor; break;
+    case CPS_STUDY_STAGE_COUNT: break;
     }
 }
 
@@ -214,7 +215,7 @@ static CpsStatus run_stages(CpsRegularized *classic, const CpsStudyOptions *opti
                             CpsError *err) {
     const CpsRegularizedStep step = cps_regularized_step(classic);
     CpsRegularizedParameters p = options->from;
-    for (CpsStudyStage stage = CPS_STUDY_H; stage < CPS_STUDY_STAGES; ++stage) {
+    for (CpsStudyStage stage = CPS_STUDY_STAGE_H; stage < CPS_STUDY_STAGE_COUNT; ++stage) {
         begin_stage(trail, stage, &step, options->from.cells);
         for (int k = 0; k < options->values[stage]; ++k) {
             advance(stage, options, k, &p);
@@ -237,7 +238,7 @@ static CpsStatus run_stages(CpsRegularized *classic, const CpsStudyOptions *opti
 }
 
 static CpsStatus check(const CpsStudyOptions *options, CpsError *err) {
-    for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
+    for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
         const char *key = cps_study_stage_name((CpsStudyStage)s);
         if (!(options->values[s] >= 1 && options->values[s] <= MAX_VALUES))
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -251,9 +252,9 @@ static CpsStatus check(const CpsStudyOptions *options, CpsError *err) {
     if (!(options->from.cells >= 2 && options->from.cells <= MAX_COARSEST))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "cells to begin with: found %d, expected 2 to %d",
                          options->from.cells, (int)MAX_COARSEST);
-    if (options->factor[CPS_STUDY_H] != 2)
+    if (options->factor[CPS_STUDY_STAGE_H] != 2)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "factor of stage h: found %g, expected 2",
-                         options->factor[CPS_STUDY_H]);
+                         options->factor[CPS_STUDY_STAGE_H]);
     return CPS_OK;
 }
 
@@ -270,7 +271,7 @@ CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *options,
         (size_t)(elements > options->from.cells ? elements : options->from.cells);
     double *trails = calloc(4 * samples, sizeof *trails);
     if (study) {
-        for (int s = 0; s < CPS_STUDY_STAGES; ++s) study->room += options->values[s];
+        for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) study->room += options->values[s];
         study->row = calloc((size_t)study->room, sizeof *study->row);
     }
     if (!study || !trails || !study->row) {
@@ -290,7 +291,7 @@ CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *options,
 
 void cps_study_destroy(CpsStudy *study) {
     if (!study) return;
-    for (int s = 0; s < CPS_STUDY_STAGES; ++s) cpsi_arena_free(&study->end[s].arena);
+    for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) cpsi_arena_free(&study->end[s].arena);
     free(study->row);
     free(study);
 }
@@ -302,6 +303,6 @@ const CpsStudyRow *cps_study_row(const CpsStudy *study, int row) {
 }
 
 CpsRegularizedView cps_study_stage_end(const CpsStudy *study, CpsStudyStage stage) {
-    return study && stage >= 0 && stage < CPS_STUDY_STAGES ? study->end[stage].view
-                                                           : (CpsRegularizedView){0};
+    return study && stage >= 0 && stage < CPS_STUDY_STAGE_COUNT ? study->end[stage].view
+                                                                : (CpsRegularizedView){0};
 }

@@ -27,13 +27,13 @@
 #include "set/outline.h"
 
 static bool going(const CpsiWalk *walk) {
-    return walk->status == CPS_OK && walk->outcome == CPS_SET_ANSWERED;
+    return walk->status == CPS_OK && walk->outcome == CPS_SET_OUTCOME_ANSWERED;
 }
 
 static double cross(const double x[2], const double y[2]) { return x[0] * y[1] - x[1] * y[0]; }
 
 static bool exactly(CpsSetMeasure *measure, double area, double perimeter) {
-    *measure = (CpsSetMeasure){.outcome = CPS_SET_ANSWERED,
+    *measure = (CpsSetMeasure){.outcome = CPS_SET_OUTCOME_ANSWERED,
                                .exact = true,
                                .area = area,
                                .perimeter = perimeter};
@@ -354,7 +354,7 @@ static void flat(CpsiWalk *walk, CpsSetMeasure *measure) {
 CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *err) {
     if (!set || !measure)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", set ? "measure" : "set");
-    *measure = (CpsSetMeasure){.outcome = CPS_SET_NOT_PLANAR};
+    *measure = (CpsSetMeasure){.outcome = CPS_SET_OUTCOME_NOT_PLANAR};
     if (set->n != 2) return CPS_OK;
     const double factor = likeness(set);
     if (factor > 0) {
@@ -370,7 +370,7 @@ CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *e
     CpsiWalk walk;
     CpsSetFacts facts;
     double *room;
-    *measure = (CpsSetMeasure){.outcome = CPS_SET_ANSWERED};
+    *measure = (CpsSetMeasure){.outcome = CPS_SET_OUTCOME_ANSWERED};
     CpsStatus status = cpsi_walk_start(set, 0, &walk, &facts, &room, err);
     if (!status && going(&walk)) {
         if (facts.dimension == 2)
@@ -378,7 +378,8 @@ CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *e
         else
             flat(&walk, measure);
     }
-    if (walk.outcome != CPS_SET_ANSWERED) *measure = (CpsSetMeasure){.outcome = walk.outcome};
+    if (walk.outcome != CPS_SET_OUTCOME_ANSWERED)
+        *measure = (CpsSetMeasure){.outcome = walk.outcome};
     if (!status) status = walk.status;
     free(walk.piece);
     free(room);

@@ -89,8 +89,8 @@ typedef struct CpsiSolution {
 CpsStatus cpsi_conic_form_minimise(const CpsiConicForm *form, const double *c,
                                    CpsiSolution *solution, CpsError *err);
 void cpsi_solution_free(CpsiSolution *solution);
-/* Change the outcome to CPS_SET_NOT_ATTAINED where the point that attains the value is too far away
- * to count as a point. */
+/* Change the outcome to CPS_SET_OUTCOME_NOT_ATTAINED where the point that attains the value is too
+ * far away to count as a point. */
 void cpsi_check_attained(const CpsiConicForm *form, const double *c, CpsiSolution *solution);
 
 /* Accuracy of the solver's z: the square root of its complementarity. Smaller angles cannot be

@@ -7,14 +7,15 @@
 CpsStatus cps_set_conic(const CpsSet *set, CpsSetConic *conic, CpsError *err) {
     if (!set || !conic) return cpsi_fail(err, CPS_ERR_ARGUMENT, "set and conic are both needed");
     if (cpsi_set_has_user(set)) {
-        *conic = (CpsSetConic){.outcome = CPS_SET_NOT_AVAILABLE};
+        *conic = (CpsSetConic){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
         return CPS_OK;
     }
     CpsiConicForm *form = NULL;
     const CpsStatus status = cpsi_conic_form_make(set, &form, err);
     if (status) return status;
     if (form->empty || form->lines > 0) {
-        *conic = (CpsSetConic){.outcome = form->empty ? CPS_SET_EMPTY : CPS_SET_UNBOUNDED};
+        *conic = (CpsSetConic){.outcome =
+                                   form->empty ? CPS_SET_OUTCOME_EMPTY : CPS_SET_OUTCOME_UNBOUNDED};
         cpsi_conic_form_free(form);
         return CPS_OK;
     }

@@ -35,7 +35,7 @@ static void layout_program(CpsiArena *arena, Layout *layout, const CpsiConicForm
 
 void cpsi_solution_free(CpsiSolution *solution) {
     free(solution->block);
-    *solution = (CpsiSolution){.outcome = CPS_SET_INACCURATE};
+    *solution = (CpsiSolution){.outcome = CPS_SET_OUTCOME_INACCURATE};
 }
 
 /* Returns whether <c, x> decreases along a line of the set; ray is then that direction. */
@@ -79,8 +79,8 @@ static void run(const CpsiConicForm *form, const double *c, const Layout *layout
     for (int j = 0; j < u; j++) layout->cost[j] = size > floor ? layout->cost[j] / size : 0;
 
     const CpsiConicResult result = cpsi_conic_solve(layout->program, ACCEPT);
-    static const CpsSetOutcome OUTCOME[] = {CPS_SET_ANSWERED, CPS_SET_EMPTY, CPS_SET_UNBOUNDED,
-                                            CPS_SET_INACCURATE};
+    static const CpsSetOutcome OUTCOME[] = {CPS_SET_OUTCOME_ANSWERED, CPS_SET_OUTCOME_EMPTY,
+                                            CPS_SET_OUTCOME_UNBOUNDED, CPS_SET_OUTCOME_INACCURATE};
     solution->outcome = OUTCOME[result.outcome];
     solution->v = result.x;
     solution->s = result.s;
@@ -93,7 +93,7 @@ static void run(const CpsiConicForm *form, const double *c, const Layout *layout
     const double least = form->size + cpsi_norm(n, solution->x);
     if (!(solution->gap <= PROMISE * (fabs(solution->value) + cpsi_norm(n, c) * least)) &&
         result.outcome == CPSI_CONIC_SOLVED)
-        solution->outcome = CPS_SET_INACCURATE;
+        solution->outcome = CPS_SET_OUTCOME_INACCURATE;
 }
 
 CpsStatus cpsi_conic_form_minimise(const CpsiConicForm *form, const double *c,
@@ -103,26 +103,27 @@ CpsStatus cpsi_conic_form_minimise(const CpsiConicForm *form, const double *c,
     layout_program(&arena, &layout, form);
     if (!cpsi_arena_allocate(&arena))
         return cpsi_fail(err, CPS_ERR_MEMORY, "no memory to solve on a set");
-    *solution = (CpsiSolution){.outcome = CPS_SET_ANSWERED, .scale = 1, .block = arena.block};
+    *solution =
+        (CpsiSolution){.outcome = CPS_SET_OUTCOME_ANSWERED, .scale = 1, .block = arena.block};
     layout_program(&arena, &layout, form);
     layout.program->data =
         (CpsiConicData){.dim = form->dim, .a = form->a, .b = form->b, .c = layout.cost};
     solution->x = layout.x;
     solution->v = layout.cost;
     if (form->empty)
-        solution->outcome = CPS_SET_EMPTY;
+        solution->outcome = CPS_SET_OUTCOME_EMPTY;
     else if (form->rows > 0 && form->unknowns > 0)
         run(form, c, &layout, solution);
     else {
         memcpy(solution->x, form->origin, (size_t)form->n * sizeof *solution->x);
         solution->value = cpsi_dot(form->n, c, solution->x);
     }
-    if (solution->outcome == CPS_SET_ANSWERED &&
+    if (solution->outcome == CPS_SET_OUTCOME_ANSWERED &&
         along_lines(form, c, cpsi_norm(form->n, c), solution->x)) {
-        solution->outcome = CPS_SET_UNBOUNDED;
+        solution->outcome = CPS_SET_OUTCOME_UNBOUNDED;
         solution->value = -INFINITY;
     }
-    if (solution->outcome == CPS_SET_UNBOUNDED && is_empty(form, &layout))
-        solution->outcome = CPS_SET_EMPTY;
+    if (solution->outcome == CPS_SET_OUTCOME_UNBOUNDED && is_empty(form, &layout))
+        solution->outcome = CPS_SET_OUTCOME_EMPTY;
     return CPS_OK;
 }

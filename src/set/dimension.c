@@ -61,12 +61,14 @@ static CpsStatus probe(Search *search, CpsSetOutcome *outcome, CpsError *err) {
     const CpsSetAnswer *both[] = {&high, &low};
     for (int k = 0; k < 2; k++) {
         search->exact = search->exact && both[k]->exact;
-        if (both[k]->outcome > CPS_SET_NOT_ATTAINED || both[k]->outcome == CPS_SET_EMPTY) {
+        if (both[k]->outcome > CPS_SET_OUTCOME_NOT_ATTAINED ||
+            both[k]->outcome == CPS_SET_OUTCOME_EMPTY) {
             *outcome = both[k]->outcome;
             return CPS_OK;
         }
     }
-    const bool up = high.outcome == CPS_SET_UNBOUNDED, down = low.outcome == CPS_SET_UNBOUNDED;
+    const bool up = high.outcome == CPS_SET_OUTCOME_UNBOUNDED,
+               down = low.outcome == CPS_SET_OUTCOME_UNBOUNDED;
     const bool flat = !up && !down && !(high.value + low.value > search->width);
     /* a ray counts as a step of a typical length */
     const double step = cpsi_set_size(set), plus = up ? step / cpsi_norm((int)n, search->plus) : 1,
@@ -81,7 +83,8 @@ static CpsStatus probe(Search *search, CpsSetOutcome *outcome, CpsError *err) {
         search->flat++;
         return CPS_OK;
     }
-    if (up || down || high.outcome == CPS_SET_NOT_ATTAINED || low.outcome == CPS_SET_NOT_ATTAINED)
+    if (up || down || high.outcome == CPS_SET_OUTCOME_NOT_ATTAINED ||
+        low.outcome == CPS_SET_OUTCOME_NOT_ATTAINED)
         search->bounded = false;
     for (size_t i = 0; i < n; i++)
         search->plus[i] = up     ? search->plus[i]
@@ -103,7 +106,8 @@ static CpsStatus any_point(const CpsSet *set, double *point, CpsError *err) {
 static CpsStatus search_all(Search *search, double *rays, CpsSetOutcome *outcome, CpsError *err) {
     const size_t n = (size_t)search->set->n;
     CpsStatus status = CPS_OK;
-    while (!status && *outcome == CPS_SET_ANSWERED && search->dimension + search->flat < (int)n) {
+    while (!status && *outcome == CPS_SET_OUTCOME_ANSWERED &&
+           search->dimension + search->flat < (int)n) {
         const int before = search->dimension;
         const bool bounded = search->bounded;
         search->bounded = true;
@@ -122,11 +126,12 @@ static CpsStatus check_bounded(const CpsSet *set, double *w, bool *bounded, CpsE
     CpsStatus status = CPS_OK;
     memset(w, 0, (size_t)set->n * sizeof *w);
     for (int i = 0; !status && *bounded && i < set->n; i++) {
-        CpsSetAnswer answer = {.outcome = CPS_SET_ANSWERED};
+        CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_ANSWERED};
         for (int sign = -1; !status && sign <= 1; sign += 2) {
             w[i] = sign;
             status = cpsi_support(set, w, NULL, &answer, err);
-            if (answer.outcome == CPS_SET_UNBOUNDED || answer.outcome == CPS_SET_NOT_ATTAINED)
+            if (answer.outcome == CPS_SET_OUTCOME_UNBOUNDED ||
+                answer.outcome == CPS_SET_OUTCOME_NOT_ATTAINED)
                 *bounded = false;
         }
         w[i] = 0;
@@ -150,13 +155,14 @@ static CpsStatus place_zero(const CpsSet *set, const double *center, const doubl
         /* check whether the whole set lies on the centre's side of 0 */
         for (size_t i = 0; i < n; i++) work[i] = -center[i] / far;
         status = cpsi_support(set, work, NULL, &answer, err);
-        if (status || (answer.outcome == CPS_SET_ANSWERED && answer.value < -near - answer.gap))
+        if (status ||
+            (answer.outcome == CPS_SET_OUTCOME_ANSWERED && answer.value < -near - answer.gap))
             return status;
     }
     memset(zero, 0, n * sizeof *zero);
     if (!facts->has_zero) {
         status = cps_set_project(set, zero, NULL, work, &answer, err);
-        if (status || answer.outcome != CPS_SET_ANSWERED) {
+        if (status || answer.outcome != CPS_SET_OUTCOME_ANSWERED) {
             if (!status) facts->outcome = answer.outcome;
             return status;
         }
@@ -172,7 +178,8 @@ static CpsStatus place_zero(const CpsSet *set, const double *center, const doubl
             for (size_t i = 0; i < n; i++)
                 work[i] = (k & 1 ? -1 : 1) * basis[(size_t)(k / 2) * n + i];
             status = cpsi_reach(set, zero, work, &answer, err);
-            const bool out = answer.outcome == CPS_SET_ANSWERED && answer.value > facts->tolerance;
+            const bool out =
+                answer.outcome == CPS_SET_OUTCOME_ANSWERED && answer.value > facts->tolerance;
             if (!status && !out) facts->zero_relative = false;
         }
     }
@@ -190,7 +197,8 @@ static CpsStatus facts_of_polar(const CpsSet *set, CpsSetFacts *facts, double *c
     *known = false;
     if (set->kind != CPSI_SET_POLAR) return CPS_OK;
     const CpsStatus status = cps_set_facts(set->part[0], 0, &part, NULL, NULL, err);
-    if (status != CPS_OK || part.outcome != CPS_SET_ANSWERED || !part.bounded) return status;
+    if (status != CPS_OK || part.outcome != CPS_SET_OUTCOME_ANSWERED || !part.bounded)
+        return status;
     facts->exact = *known = true;
     facts->dimension = set->n;
     facts->bounded = part.zero_interior;
@@ -209,7 +217,7 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
                          tolerance);
     const size_t n = (size_t)set->n;
     bool known = false;
-    *facts = (CpsSetFacts){.outcome = CPS_SET_ANSWERED,
+    *facts = (CpsSetFacts){.outcome = CPS_SET_OUTCOME_ANSWERED,
                            .tolerance = (tolerance > 0 ? tolerance : 1e-7) * cpsi_set_size(set)};
     CpsStatus status = facts_of_polar(set, facts, center, basis, &known, err);
     if (status != CPS_OK || known) return status;
@@ -225,12 +233,12 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
                      .bounded = true,
                      .exact = true};
     double *rays = room + n * n + 4 * n, *work = room + n * n + 5 * n;
-    *facts = (CpsSetFacts){.outcome = CPS_SET_ANSWERED,
+    *facts = (CpsSetFacts){.outcome = CPS_SET_OUTCOME_ANSWERED,
                            .closure = set->closure,
                            .dimension = -1,
                            .tolerance = search.width};
     status = search_all(&search, rays, &facts->outcome, err);
-    if (!status && facts->outcome == CPS_SET_ANSWERED) {
+    if (!status && facts->outcome == CPS_SET_OUTCOME_ANSWERED) {
         facts->exact = search.exact;
         facts->dimension = search.dimension;
         facts->bounded = search.bounded;
@@ -243,7 +251,7 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
         if (center) memcpy(center, search.sum, n * sizeof *center);
         if (basis) memcpy(basis, search.basis, n * n * sizeof *basis);
         if (!status && cpsi_set_has_user(set))
-            facts->outcome = CPS_SET_NOT_AVAILABLE;
+            facts->outcome = CPS_SET_OUTCOME_NOT_AVAILABLE;
         else if (!status)
             status = place_zero(set, search.sum, search.basis, work, search.plus, facts, err);
     }

@@ -48,7 +48,8 @@ static int directions(const CpsiConicForm *form, double *first, double *scratch)
  * the form. */
 static CpsStatus simplest(CpsiConicForm *form, const double *x, CpsSet **out, CpsError *err) {
     const int n = form->n;
-    CpsiSolution end[2] = {{.outcome = CPS_SET_INACCURATE}, {.outcome = CPS_SET_INACCURATE}};
+    CpsiSolution end[2] = {{.outcome = CPS_SET_OUTCOME_INACCURATE},
+                           {.outcome = CPS_SET_OUTCOME_INACCURATE}};
     double *d = malloc((1 + (size_t)form->unknowns + (size_t)form->lines) * (size_t)n * sizeof *d);
     CpsStatus status = d ? CPS_OK : cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a face");
     const int rank = d ? directions(form, d, d + n) : 0;
@@ -62,7 +63,8 @@ static CpsStatus simplest(CpsiConicForm *form, const double *x, CpsSet **out, Cp
             for (int i = 0; i < n; i++) d[i] = -d[i];
             status = cpsi_conic_form_minimise(form, d, &end[k], err);
         }
-        if (!status && end[0].outcome == CPS_SET_ANSWERED && end[1].outcome == CPS_SET_ANSWERED) {
+        if (!status && end[0].outcome == CPS_SET_OUTCOME_ANSWERED &&
+            end[1].outcome == CPS_SET_OUTCOME_ANSWERED) {
             double length = 0;
             for (int i = 0; i < n; i++) length = hypot(length, end[1].x[i] - end[0].x[i]);
             if (length > NOISE * form->size)
@@ -86,16 +88,16 @@ static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, Cp
     const int n = set->n;
     const CpsiConicForm *form;
     CpsiConicForm *made, *face = NULL;
-    CpsiSolution solution = {.outcome = CPS_SET_INACCURATE};
+    CpsiSolution solution = {.outcome = CPS_SET_OUTCOME_INACCURATE};
     double *c = malloc((size_t)n * sizeof *c);
     if (!c) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
     for (int i = 0; i < n; i++) c[i] = -w[i];
     CpsStatus status = cpsi_set_conic_form(set, &form, &made, err);
     if (!status) status = cpsi_conic_form_minimise(form, c, &solution, err);
     if (!status) cpsi_check_attained(form, c, &solution);
-    if (!status && solution.outcome == CPS_SET_ANSWERED) {
+    if (!status && solution.outcome == CPS_SET_OUTCOME_ANSWERED) {
         const double angle = fmax(slack / cpsi_norm(n, w), CPSI_LEAST_ANGLE);
-        *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED,
+        *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED,
                                  .value = -solution.value,
                                  .gap = solution.gap,
                                  .tolerance = angle};
@@ -172,12 +174,13 @@ static CpsStatus face_of_parts(const CpsSet *set, const double *w, double slack,
     if (!face) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a face");
     CpsStatus status = CPS_OK;
     int count = 0;
-    for (int k = 0, at = 0; !status && answer->outcome == CPS_SET_ANSWERED && k < set->count; k++) {
-        CpsSetAnswer one = {.outcome = CPS_SET_ANSWERED};
+    for (int k = 0, at = 0;
+         !status && answer->outcome == CPS_SET_OUTCOME_ANSWERED && k < set->count; k++) {
+        CpsSetAnswer one = {.outcome = CPS_SET_OUTCOME_ANSWERED};
         if (set->kind == CPSI_SET_HULL) {
             status = cpsi_support(set->part[k], w, NULL, &one, err);
             const double size = cpsi_set_size(set);
-            if (status || one.outcome == CPS_SET_EMPTY ||
+            if (status || one.outcome == CPS_SET_OUTCOME_EMPTY ||
                 one.value + one.gap < value - slack * size - 1e-12 * fabs(value))
                 continue;
         }
@@ -185,11 +188,11 @@ static CpsStatus face_of_parts(const CpsSet *set, const double *w, double slack,
         answer->tolerance = fmax(answer->tolerance, one.tolerance);
         answer->exact = answer->exact && one.exact;
         answer->outcome = one.outcome;
-        if (!status && one.outcome == CPS_SET_ANSWERED) count++;
+        if (!status && one.outcome == CPS_SET_OUTCOME_ANSWERED) count++;
         if (set->kind == CPSI_SET_PRODUCT) at += set->part[k]->n;
     }
     const CpsSet *const *parts = (const CpsSet *const *)face;
-    if (!status && answer->outcome == CPS_SET_ANSWERED) {
+    if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED) {
         if (count == 1)
             *out = cps_set_retain(face[0]);
         else if (set->kind == CPSI_SET_PRODUCT)
@@ -220,7 +223,7 @@ static CpsStatus face_of_mapped(const CpsSet *set, const double *w, double slack
     }
     CpsStatus status = face_of(part, back, slack * fabs(size), &face, answer, err);
     free(back);
-    if (status || answer->outcome != CPS_SET_ANSWERED) return status;
+    if (status || answer->outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     if (set->kind == CPSI_SET_IMAGE)
         status = cps_set_image(set->n, set->a, face, out, err);
     else if (set->kind == CPSI_SET_SCALE)
@@ -234,7 +237,7 @@ static CpsStatus face_of_mapped(const CpsSet *set, const double *w, double slack
 /* `slack`: the error of w, in the units of w. */
 static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSet **out,
                          CpsSetAnswer *answer, CpsError *err) {
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     if (cpsi_norm(set->n, w) <= slack) {
         *out = cps_set_retain(set);
         return CPS_OK;
@@ -245,7 +248,7 @@ static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSe
     const double value = answer->value;
     const bool conic = !answer->exact;
     answer->tolerance = slack / cpsi_norm(set->n, w);
-    if (!status && answer->outcome == CPS_SET_ANSWERED) switch (set->kind) {
+    if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED) switch (set->kind) {
         case CPSI_SET_POINTS: status = face_of_points(set, w, slack, best, out, err); break;
         case CPSI_SET_BALL:
         case CPSI_SET_ELLIPSOID: status = cps_set_point(set->n, best, out, err); break;
@@ -273,13 +276,13 @@ static CpsStatus face_of(const CpsSet *set, const double *w, double slack, CpsSe
         case CPSI_SET_IMAGE:
         case CPSI_SET_TRANSLATE:
         case CPSI_SET_SCALE: status = face_of_mapped(set, w, slack, out, answer, err); break;
-        case CPSI_SET_USER: answer->outcome = CPS_SET_NOT_AVAILABLE; break;
+        case CPSI_SET_USER: answer->outcome = CPS_SET_OUTCOME_NOT_AVAILABLE; break;
         case CPSI_SET_CONIC:
         case CPSI_SET_INTERSECTION:
         case CPSI_SET_PREIMAGE:
         case CPSI_SET_POLAR: status = conic_face(set, w, slack, out, answer, err); break;
         }
-    if (answer->outcome == CPS_SET_ANSWERED) answer->value = value;
+    if (answer->outcome == CPS_SET_OUTCOME_ANSWERED) answer->value = value;
     free(best);
     return status;
 }
@@ -301,7 +304,7 @@ CpsStatus cps_set_face(const CpsSet *set, const double *direction, double tolera
     status = face_of(set, direction, slack, &found, answer, err);
     if (status) return status;
     answer->closure = set->closure;
-    if (answer->outcome == CPS_SET_ANSWERED) {
+    if (answer->outcome == CPS_SET_OUTCOME_ANSWERED) {
         *face = found;
     } else {
         *face = NULL;

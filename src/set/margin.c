@@ -38,7 +38,7 @@ static bool look(const CpsSet *set, const double *p, double theta, double x[2], 
     const double w[2] = {cos(theta), sin(theta)};
     CpsSetAnswer one;
     *status = cpsi_support(set, w, x, &one, err);
-    if (*status || one.outcome != CPS_SET_ANSWERED) return false;
+    if (*status || one.outcome != CPS_SET_OUTCOME_ANSWERED) return false;
     x[0] -= p[0];
     x[1] -= p[1];
     *most = fmin(*most, one.value - w[0] * p[0] - w[1] * p[1]);
@@ -108,15 +108,15 @@ static CpsStatus inscribed(const CpsSet *set, const double *p, CpsSetAnswer *ans
     if (!d) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
     memset(d, 0, (size_t)set->n * sizeof *d);
     CpsStatus status = CPS_OK;
-    for (int i = 0; !status && answer->outcome == CPS_SET_ANSWERED && i < set->n; i++) {
+    for (int i = 0; !status && answer->outcome == CPS_SET_OUTCOME_ANSWERED && i < set->n; i++) {
         double least = INFINITY;
         for (int sign = -1; !status && sign <= 1; sign += 2) {
             CpsSetAnswer reach;
             d[i] = sign;
             status = cpsi_reach(set, p, d, &reach, err);
             if (status) break;
-            if (reach.outcome == CPS_SET_INACCURATE) answer->outcome = reach.outcome;
-            const bool there = reach.outcome == CPS_SET_ANSWERED;
+            if (reach.outcome == CPS_SET_OUTCOME_INACCURATE) answer->outcome = reach.outcome;
+            const bool there = reach.outcome == CPS_SET_OUTCOME_ANSWERED;
             least = fmin(least, there ? fmax(reach.value - reach.gap, 0) : 0);
             most = fmin(most, there ? fmax(reach.value + reach.gap, 0) : 0);
         }
@@ -134,13 +134,14 @@ CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separ
     CpsStatus status = cpsi_set_check(set, "point", point, answer, err);
     if (status) return status;
     const int n = set->n;
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true, .closure = set->closure};
+    *answer =
+        (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true, .closure = set->closure};
     if (cpsi_closed_margin(set, point, separating, &answer->value)) return CPS_OK;
     CpsiScratch scratch;
     double *nearest = cpsi_scratch_take(&scratch, (size_t)n);
     if (!nearest) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
     status = cps_set_project(set, point, NULL, nearest, answer, err);
-    if (!status && answer->outcome == CPS_SET_ANSWERED) {
+    if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED) {
         const double distance = answer->value;
         /* when the distance is rounding, its direction is meaningless */
         const bool outside = distance > fmax(answer->gap, 1e-10 * cpsi_set_size(set));

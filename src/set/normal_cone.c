@@ -79,7 +79,7 @@ static CpsStatus fibre(const CpsiConicForm *form, const double *p, double *s,
     if (status) return status;
 
     /* v at the deepest point of the fibre */
-    CpsiSolution solution = {.outcome = CPS_SET_INACCURATE};
+    CpsiSolution solution = {.outcome = CPS_SET_OUTCOME_INACCURATE};
     double *c = calloc((size_t)u + 1, sizeof *c);
     if (!c)
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
@@ -88,7 +88,7 @@ static CpsStatus fibre(const CpsiConicForm *form, const double *p, double *s,
         status = cpsi_conic_form_minimise(reduced, c, &solution, err);
     }
     *outcome = solution.outcome;
-    if (!status && solution.outcome == CPS_SET_ANSWERED)
+    if (!status && solution.outcome == CPS_SET_OUTCOME_ANSWERED)
         for (int i = 0; i < form->rows; i++)
             s[i] = cpsi_dot(u, &form->a[(size_t)i * (size_t)u], solution.x) + form->b[i];
     cpsi_solution_free(&solution);
@@ -232,7 +232,7 @@ static CpsStatus conic_cone(const CpsSet *set, const double *p, double tolerance
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     else
         status = fibre(form, p, s, &answer->outcome, err);
-    if (!status && answer->outcome == CPS_SET_ANSWERED)
+    if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED)
         status = build_cone(form, s, tolerance, fmax(SAME_EQUATION, TURN * tolerance), out, err);
     free(s);
     cpsi_conic_form_free(made);
@@ -247,10 +247,11 @@ static CpsStatus cone_of_product(const CpsSet *set, const double *p, double tole
     CpsSet **cone = calloc((size_t)set->count, sizeof(CpsSet *));
     if (!cone) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a normal cone");
     CpsStatus status = CPS_OK;
-    for (int k = 0, at = 0; !status && answer->outcome == CPS_SET_ANSWERED && k < set->count;
+    for (int k = 0, at = 0;
+         !status && answer->outcome == CPS_SET_OUTCOME_ANSWERED && k < set->count;
          at += set->part[k++]->n)
         status = cone_at(set->part[k], p + at, tolerance, &cone[k], answer, err);
-    if (!status && answer->outcome == CPS_SET_ANSWERED)
+    if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED)
         status = cps_set_product(set->count, (const CpsSet *const *)cone, out, err);
     for (int k = 0; k < set->count; k++) cps_set_release(cone[k]);
     free(cone);
@@ -267,7 +268,7 @@ static CpsStatus cone_of_moved(const CpsSet *set, const double *p, double tolera
     CpsSet *cone = NULL;
     CpsStatus status = cone_at(set->part[0], y, tolerance, &cone, answer, err);
     free(y);
-    if (status || answer->outcome != CPS_SET_ANSWERED) return status;
+    if (status || answer->outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     if (shift || set->scalar > 0)
         *out = cone;
     else {
@@ -324,7 +325,7 @@ CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tol
                          tolerance);
     const double share = tolerance > 0 ? tolerance : 1e-9;
     *cone = NULL;
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE, .tolerance = share};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE, .tolerance = share};
     if (cpsi_set_has_user(set)) return CPS_OK;
     bool known;
     status = cpsi_smooth_sum_cone(set, point, share, &known, cone, answer, err);
@@ -342,16 +343,17 @@ CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, double tol
     status = cps_set_project(set, asked, NULL, nearest, answer, err);
     const double distance = answer->value, size = cpsi_set_size(set);
     answer->tolerance = share;
-    if (!status && answer->outcome == CPS_SET_ANSWERED && distance > fmax(share, 1e-9) * size)
-        answer->outcome = CPS_SET_OUTSIDE;
+    if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED &&
+        distance > fmax(share, 1e-9) * size)
+        answer->outcome = CPS_SET_OUTCOME_OUTSIDE;
     const double *at = distance > answer->gap ? nearest : asked;
-    if (!status && answer->outcome == CPS_SET_ANSWERED)
+    if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED)
         status = cone_at(set, at, share, &found, answer, err);
     free(nearest);
     answer->value = distance * unit;
     answer->exact = false;
     answer->closure = set->closure;
-    if (!status && answer->outcome == CPS_SET_ANSWERED)
+    if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED)
         *cone = found;
     else
         cps_set_release(found);

@@ -18,7 +18,7 @@ static const double LEAST_OPENING = 1e-6;
 static const double SAME = 1e-9;
 
 static bool going(const CpsiWalk *walk) {
-    return walk->status == CPS_OK && walk->outcome == CPS_SET_ANSWERED;
+    return walk->status == CPS_OK && walk->outcome == CPS_SET_OUTCOME_ANSWERED;
 }
 
 double cpsi_walk_visit(CpsiWalk *walk, double theta, double x[2]) {
@@ -26,7 +26,7 @@ double cpsi_walk_visit(CpsiWalk *walk, double theta, double x[2]) {
     const double c = cos(theta), s = sin(theta), *turn = walk->turn, *center = walk->center,
                  *basis = walk->basis;
     double along = turn[0] * c + turn[2] * s, across = turn[1] * c + turn[3] * s, p[2] = {0, 0};
-    CpsSetAnswer answer = {.outcome = CPS_SET_INACCURATE};
+    CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_INACCURATE};
     walk->looks++;
     const double stretch = hypot(along, across);
     along /= stretch;
@@ -34,7 +34,7 @@ double cpsi_walk_visit(CpsiWalk *walk, double theta, double x[2]) {
     for (int i = 0; i < n; i++) walk->w[i] = along * basis[i] + across * basis[n + i];
     if (going(walk))
         walk->status = cpsi_support(walk->set, walk->w, walk->point, &answer, walk->err);
-    if (walk->status == CPS_OK && answer.outcome != CPS_SET_ANSWERED)
+    if (walk->status == CPS_OK && answer.outcome != CPS_SET_OUTCOME_ANSWERED)
         walk->outcome = answer.outcome;
     walk->exact = walk->exact && answer.exact;
     walk->gap = fmax(walk->gap, answer.gap);
@@ -209,8 +209,8 @@ void cpsi_walk_round(CpsiWalk *walk) {
 CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, CpsSetFacts *facts,
                           double **room, CpsError *err) {
     const size_t n = (size_t)set->n;
-    *walk = (CpsiWalk){.outcome = CPS_SET_INACCURATE};
-    *facts = (CpsSetFacts){.outcome = CPS_SET_INACCURATE};
+    *walk = (CpsiWalk){.outcome = CPS_SET_OUTCOME_INACCURATE};
+    *facts = (CpsSetFacts){.outcome = CPS_SET_OUTCOME_INACCURATE};
     *room = malloc((n * n + 3 * n) * sizeof **room);
     if (!*room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the outline of a set");
     double *center = *room, *basis = center + n;
@@ -226,9 +226,10 @@ CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, C
                        .err = err};
     const CpsStatus status = cps_set_facts(set, 0, facts, center, basis, err);
     if (status) return status;
-    if (facts->outcome == CPS_SET_NOT_AVAILABLE && facts->dimension >= 0)
-        facts->outcome = CPS_SET_ANSWERED;
-    if (facts->outcome == CPS_SET_ANSWERED && !facts->bounded) facts->outcome = CPS_SET_UNBOUNDED;
+    if (facts->outcome == CPS_SET_OUTCOME_NOT_AVAILABLE && facts->dimension >= 0)
+        facts->outcome = CPS_SET_OUTCOME_ANSWERED;
+    if (facts->outcome == CPS_SET_OUTCOME_ANSWERED && !facts->bounded)
+        facts->outcome = CPS_SET_OUTCOME_UNBOUNDED;
     walk->outcome = facts->outcome;
     /* in R^2 use the coordinate axes, so that corners are counterclockwise */
     if (set->n == 2 && facts->dimension == 2) {
@@ -252,7 +253,7 @@ static void store_point(const CpsiWalk *walk, const double x[2], int capacity, d
 static void store_ends(CpsiWalk *walk, int capacity, double *points, int *count) {
     const int n = walk->set->n;
     for (int sign = -1; sign <= 1 && going(walk); sign += 2) {
-        CpsSetAnswer answer = {.outcome = CPS_SET_INACCURATE};
+        CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_INACCURATE};
         for (int i = 0; i < n; i++) walk->w[i] = sign * walk->basis[i];
         walk->status = cpsi_support(walk->set, walk->w, walk->point, &answer, walk->err);
         if (walk->status == CPS_OK) walk->outcome = answer.outcome;
@@ -298,7 +299,7 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
     double *room;
     *count = 0;
     CpsStatus status = cpsi_walk_start(set, tolerance, &walk, &facts, &room, err);
-    if (!status && walk.outcome == CPS_SET_ANSWERED) {
+    if (!status && walk.outcome == CPS_SET_OUTCOME_ANSWERED) {
         if (facts.dimension == 0)
             store_point(&walk, (const double[]){0, 0}, capacity, points, count);
         else if (facts.dimension == 1)
@@ -317,7 +318,7 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
                     store_point(&walk, piece->x, capacity, points, count);
             }
         } else if (!store_known(set, capacity, points, count))
-            walk.outcome = CPS_SET_NOT_PLANAR;
+            walk.outcome = CPS_SET_OUTCOME_NOT_PLANAR;
     }
     *answer = (CpsSetAnswer){.outcome = walk.outcome,
                              .exact = walk.exact,
@@ -355,7 +356,7 @@ static CpsStatus probe(const PlanarCone *cone, double t, double *distance, CpsSe
     CpsSetAnswer near;
     const CpsStatus status = cps_set_project(cone->set, cone->d, NULL, cone->nearest, &near, err);
     *distance = near.value;
-    if (!status && near.outcome != CPS_SET_ANSWERED) answer->outcome = near.outcome;
+    if (!status && near.outcome != CPS_SET_OUTCOME_ANSWERED) answer->outcome = near.outcome;
     return status;
 }
 
@@ -378,7 +379,7 @@ static CpsStatus bounding_ray(const PlanarCone *cone, double middle, int sign, d
         const double t = 0.5 * TURN * k / PROBES;
         double distance = 0;
         const CpsStatus status = probe(cone, middle + sign * t, &distance, answer, err);
-        if (status || answer->outcome != CPS_SET_ANSWERED) return status;
+        if (status || answer->outcome != CPS_SET_OUTCOME_ANSWERED) return status;
         memcpy(ray, cone->d, (size_t)n * sizeof *ray);
         if (!(distance > ON_CONE)) continue;
         memcpy(ray, cone->nearest, (size_t)n * sizeof *ray);
@@ -399,17 +400,17 @@ static CpsStatus planar_rays(const PlanarCone *cone, const double *centre, int c
     double *ray = malloc(2 * (size_t)n * sizeof *ray);
     if (!ray) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the rays of a cone");
     CpsStatus status = CPS_OK;
-    for (int side = 0; side < 2 && !status && answer->outcome == CPS_SET_ANSWERED;
+    for (int side = 0; side < 2 && !status && answer->outcome == CPS_SET_OUTCOME_ANSWERED;
          side++, opening += turned[side - 1])
         status =
             bounding_ray(cone, middle, side ? 1 : -1, &turned[side], &ray[side * n], answer, err);
-    if (!status && answer->outcome == CPS_SET_ANSWERED &&
+    if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED &&
         opening > 0.75 * TURN) { /* the plane is the only convex cone with such an opening */
         for (int k = 0; k < 4; k++) {
             for (int i = 0; i < n; i++) ray[i] = (k % 2 ? -1 : 1) * cone->basis[k / 2 * n + i];
             store_ray(n, ray, capacity, rays, count);
         }
-    } else if (!status && answer->outcome == CPS_SET_ANSWERED) {
+    } else if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED) {
         store_ray(n, ray, capacity, rays, count);
         store_ray(n, ray + n, capacity, rays, count);
         if (opening > 0.5 * TURN - ON_CONE) store_ray(n, centre, capacity, rays, count);
@@ -424,7 +425,7 @@ static CpsStatus line_rays(const PlanarCone *cone, int capacity, double *rays, i
     for (int side = 0; side < 2; side++) {
         double distance = 0;
         const CpsStatus status = probe(cone, side ? 0.5 * TURN : 0, &distance, answer, err);
-        if (status || answer->outcome != CPS_SET_ANSWERED) return status;
+        if (status || answer->outcome != CPS_SET_OUTCOME_ANSWERED) return status;
         if (!(distance > ON_CONE)) store_ray(cone->set->n, cone->d, capacity, rays, count);
     }
     return CPS_OK;
@@ -439,7 +440,7 @@ CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected >= 0", tolerance);
     const size_t n = (size_t)set->n;
     *count = 0;
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     if (set->kind == CPSI_SET_RAYS || set->kind == CPSI_SET_SUBSPACE) {
         const int sides = set->kind == CPSI_SET_RAYS ? 1 : 2;
         for (int k = 0; k < sides * set->count; k++, ++*count) {
@@ -464,12 +465,12 @@ CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double
     CpsStatus status = cps_set_facts(set, 0, &facts, room, room + n, err);
     answer->outcome = facts.outcome;
     answer->exact = false;
-    if (!status && facts.outcome == CPS_SET_ANSWERED && facts.dimension > 0) {
+    if (!status && facts.outcome == CPS_SET_OUTCOME_ANSWERED && facts.dimension > 0) {
         const PlanarCone cone = {set, room + n, facts.dimension, room + n + n * n,
                                  room + 2 * n + n * n};
         answer->tolerance = ON_CONE;
         if (facts.dimension > 2 || facts.bounded || !facts.has_zero)
-            answer->outcome = CPS_SET_NOT_PLANAR;
+            answer->outcome = CPS_SET_OUTCOME_NOT_PLANAR;
         else if (facts.dimension == 1)
             status = line_rays(&cone, capacity, rays, count, answer, err);
         else

@@ -199,7 +199,7 @@ CpsStatus cpsi_smooth_sum_cone(const CpsSet *set, const double *p, double share,
     *known = false;
     if (!is_meant(set, p, q)) return CPS_OK;
     const double size = cpsi_set_size(set), far = cpsi_norm(n, q), radius = least_radius(set);
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .tolerance = share};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .tolerance = share};
     if (far < radius - CLEARLY * share * size) {
         *known = true;
         return cps_set_cone_of_rays(n, 0, NULL, cone, err);
@@ -227,6 +227,6 @@ CpsStatus cpsi_smooth_sum_cone(const CpsSet *set, const double *p, double share,
     if (!minimise(set, q, 1, n, n == 2 ? TWO : ALL, w, &value, hessian)) return CPS_OK;
     answer->value = sqrt(fmax(0, -2 * value));
     *known = answer->value > fmax(share, 1e-9) * size;
-    if (*known) answer->outcome = CPS_SET_OUTSIDE;
+    if (*known) answer->outcome = CPS_SET_OUTCOME_OUTSIDE;
     return CPS_OK;
 }

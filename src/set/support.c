@@ -35,12 +35,14 @@ CpsStatus cpsi_set_conic_form(const CpsSet *set, const CpsiConicForm **form, Cps
 
 void cpsi_check_attained(const CpsiConicForm *form, const double *c, CpsiSolution *solution) {
     const CpsSetOutcome outcome = solution->outcome;
-    if ((outcome != CPS_SET_ANSWERED && outcome != CPS_SET_INACCURATE) || !solution->s) return;
+    if ((outcome != CPS_SET_OUTCOME_ANSWERED && outcome != CPS_SET_OUTCOME_INACCURATE) ||
+        !solution->s)
+        return;
     double far = 0;
     for (int i = 0; i < form->n; i++) far = hypot(far, solution->x[i] - form->origin[i]);
     const double size = fabs(solution->value) + form->size * cpsi_norm(form->n, c);
     if (far <= CPSI_SET_FAR * form->size || solution->gap > ASYMPTOTIC * size) return;
-    solution->outcome = CPS_SET_NOT_ATTAINED;
+    solution->outcome = CPS_SET_OUTCOME_NOT_ATTAINED;
     solution->gap =
         fmax(solution->gap,
              size / CPSI_SET_FAR); /* distance of a hyperbola from its asymptote at that point */
@@ -63,8 +65,8 @@ static CpsStatus conic_support(const CpsSet *set, const double *w, double *point
         *answer = (CpsSetAnswer){.outcome = solution.outcome,
                                  .value = -solution.value,
                                  .gap = solution.gap};
-        if (solution.outcome == CPS_SET_EMPTY) answer->value = -INFINITY;
-        if (solution.outcome == CPS_SET_UNBOUNDED) answer->value = INFINITY;
+        if (solution.outcome == CPS_SET_OUTCOME_EMPTY) answer->value = -INFINITY;
+        if (solution.outcome == CPS_SET_OUTCOME_UNBOUNDED) answer->value = INFINITY;
         if (point) memcpy(point, solution.x, (size_t)n * sizeof *point);
         cpsi_solution_free(&solution);
     }
@@ -77,8 +79,9 @@ static CpsStatus conic_support(const CpsSet *set, const double *w, double *point
  * "unbounded". */
 static void join(CpsSetAnswer *whole, const CpsSetAnswer *part) {
     static const int RANK[] = {
-        [CPS_SET_ANSWERED] = 0,   [CPS_SET_NOT_ATTAINED] = 1,  [CPS_SET_UNBOUNDED] = 2,
-        [CPS_SET_INACCURATE] = 3, [CPS_SET_NOT_AVAILABLE] = 4, [CPS_SET_EMPTY] = 5};
+        [CPS_SET_OUTCOME_ANSWERED] = 0,      [CPS_SET_OUTCOME_NOT_ATTAINED] = 1,
+        [CPS_SET_OUTCOME_UNBOUNDED] = 2,     [CPS_SET_OUTCOME_INACCURATE] = 3,
+        [CPS_SET_OUTCOME_NOT_AVAILABLE] = 4, [CPS_SET_OUTCOME_EMPTY] = 5};
     if (RANK[part->outcome] > RANK[whole->outcome]) whole->outcome = part->outcome;
     whole->exact = whole->exact && part->exact;
     whole->value += part->value;
@@ -99,19 +102,19 @@ static CpsStatus support_parts(const CpsSet *set, const double *w, double *point
     CpsStatus status = CPS_OK;
     for (int k = 0, at = 0; !status && k < set->count; k++) {
         const CpsSet *part = set->part[k];
-        const bool bounded = answer->outcome != CPS_SET_UNBOUNDED;
+        const bool bounded = answer->outcome != CPS_SET_OUTCOME_UNBOUNDED;
         CpsSetAnswer one;
         status = cpsi_support(part, w + at, point ? piece : NULL, &one, err);
         if (status) break;
-        const bool ray = one.outcome == CPS_SET_UNBOUNDED;
+        const bool ray = one.outcome == CPS_SET_OUTCOME_UNBOUNDED;
         if (point && ray && bounded) memset(point, 0, (size_t)n * sizeof *point);
         if (bounded || ray)
             for (int i = 0; point && i < part->n; i++) point[at + i] += piece[i];
         join(answer, &one);
         if (product) at += part->n;
     }
-    if (answer->outcome == CPS_SET_UNBOUNDED) answer->value = INFINITY;
-    if (answer->outcome == CPS_SET_EMPTY) answer->value = -INFINITY;
+    if (answer->outcome == CPS_SET_OUTCOME_UNBOUNDED) answer->value = INFINITY;
+    if (answer->outcome == CPS_SET_OUTCOME_EMPTY) answer->value = -INFINITY;
     cpsi_scratch_give(&scratch);
     return status;
 }
@@ -154,7 +157,7 @@ static CpsStatus support_moved(const CpsSet *set, const double *w, double *point
     if (!turned) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
     for (int i = 0; i < n; i++) turned[i] = shift ? w[i] : w[i] * set->scalar;
     const CpsStatus status = cpsi_support(set->part[0], turned, point, answer, err);
-    const bool ray = answer->outcome == CPS_SET_UNBOUNDED;
+    const bool ray = answer->outcome == CPS_SET_OUTCOME_UNBOUNDED;
     if (!status)
         for (int i = 0; point && i < n; i++)
             point[i] = shift ? point[i] + (ray ? 0 : set->a[i]) : point[i] * set->scalar;
@@ -169,14 +172,14 @@ static CpsStatus support_hull(const CpsSet *set, const double *w, double *point,
     CpsiScratch scratch;
     double *piece = cpsi_scratch_take(&scratch, (size_t)n);
     if (!piece) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_EMPTY, .exact = true, .value = -INFINITY};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_EMPTY, .exact = true, .value = -INFINITY};
     CpsStatus status = CPS_OK;
     for (int k = 0; !status && k < set->count; k++) {
         CpsSetAnswer one;
         status = cpsi_support(set->part[k], w, point ? piece : NULL, &one, err);
-        if (status || one.outcome == CPS_SET_EMPTY) continue; /* no contribution */
-        const bool refused =
-            one.outcome == CPS_SET_INACCURATE || one.outcome == CPS_SET_NOT_AVAILABLE;
+        if (status || one.outcome == CPS_SET_OUTCOME_EMPTY) continue; /* no contribution */
+        const bool refused = one.outcome == CPS_SET_OUTCOME_INACCURATE ||
+                             one.outcome == CPS_SET_OUTCOME_NOT_AVAILABLE;
         const bool exact = answer->exact && one.exact,
                    better = one.value > answer->value || refused;
         const double gap = fmax(answer->gap, one.gap);
@@ -197,12 +200,12 @@ static CpsStatus support_user(const CpsSet *set, const double *w, double *point,
     CpsiScratch scratch;
     double *place = cpsi_scratch_take(&scratch, (size_t)set->n);
     if (!place) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE, .exact = true};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE, .exact = true};
     double value = 0;
     bool good = set->support(set->user, set->n, w, &value, place) && isfinite(value);
     for (int i = 0; good && i < set->n; i++) good = isfinite(place[i]);
     if (good) {
-        answer->outcome = CPS_SET_ANSWERED;
+        answer->outcome = CPS_SET_OUTCOME_ANSWERED;
         answer->value = value;
     }
     if (good && point) memcpy(point, place, (size_t)set->n * sizeof *point);
@@ -214,10 +217,10 @@ static CpsStatus support_user(const CpsSet *set, const double *w, double *point,
  * closure. */
 static CpsStatus in_closure(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer,
                             CpsError *err) {
-    if (answer->outcome != CPS_SET_NOT_ATTAINED) return CPS_OK;
+    if (answer->outcome != CPS_SET_OUTCOME_NOT_ATTAINED) return CPS_OK;
     if (point) {
         if (cpsi_norm(set->n, point) <= CPSI_SET_FAR * cpsi_set_size(set))
-            answer->outcome = CPS_SET_ANSWERED;
+            answer->outcome = CPS_SET_OUTCOME_ANSWERED;
         return CPS_OK;
     }
     CpsiScratch scratch;
@@ -232,7 +235,8 @@ CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSet
                        CpsError *err) {
     double value;
     if (cpsi_closed_support(set, w, point, &value)) {
-        *answer = (CpsSetAnswer){.outcome = isinf(value) ? CPS_SET_UNBOUNDED : CPS_SET_ANSWERED,
+        *answer = (CpsSetAnswer){.outcome = isinf(value) ? CPS_SET_OUTCOME_UNBOUNDED
+                                                         : CPS_SET_OUTCOME_ANSWERED,
                                  .exact = true,
                                  .value = value};
         return CPS_OK;
@@ -252,7 +256,7 @@ CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSet
     default: break;
     }
     if (cpsi_set_has_user(set)) {
-        *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE};
+        *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
         return CPS_OK;
     }
     return conic_support(set, w, point, answer, err);
@@ -305,7 +309,7 @@ static CpsStatus support_solve(Ask *ask, const CpsSet *set, int outputs, const d
 
 CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSetAnswer *answer,
                      CpsError *err) {
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     if (cpsi_set_has_user(set)) return CPS_OK;
     Ask ask;
     CpsStatus status =
@@ -323,8 +327,8 @@ CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSet
     if (status) return status;
     *answer =
         (CpsSetAnswer){.outcome = solution.outcome, .value = -solution.value, .gap = solution.gap};
-    if (solution.outcome == CPS_SET_UNBOUNDED) {
-        answer->outcome = CPS_SET_ANSWERED;
+    if (solution.outcome == CPS_SET_OUTCOME_UNBOUNDED) {
+        answer->outcome = CPS_SET_OUTCOME_ANSWERED;
         answer->value = INFINITY;
     }
     cpsi_solution_free(&solution);
@@ -332,9 +336,9 @@ CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSet
 }
 
 CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, CpsError *err) {
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     if (cpsi_closed_gauge(set, p, &answer->value)) return CPS_OK;
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     if (cpsi_set_has_user(set)) return CPS_OK;
     /* min t with p in t C */
     Ask ask;
@@ -351,8 +355,8 @@ CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, C
     if (status) return status;
     *answer =
         (CpsSetAnswer){.outcome = solution.outcome, .value = solution.value, .gap = solution.gap};
-    if (solution.outcome == CPS_SET_EMPTY) {
-        answer->outcome = CPS_SET_ANSWERED;
+    if (solution.outcome == CPS_SET_OUTCOME_EMPTY) {
+        answer->outcome = CPS_SET_OUTCOME_ANSWERED;
         answer->value = INFINITY;
     }
     cpsi_solution_free(&solution);
@@ -383,7 +387,7 @@ static CpsStatus conic_project(const CpsSet *set, const double *p, const double 
     ask.t[w - 1] = 1;
     CpsiScratch scratch;
     double *c = cpsi_scratch_take(&scratch, (size_t)n + 1);
-    CpsiSolution solution = {.outcome = CPS_SET_INACCURATE};
+    CpsiSolution solution = {.outcome = CPS_SET_OUTCOME_INACCURATE};
     for (int i = 0; c && i <= n; i++) c[i] = i == n;
     if (!c)
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a projection");
@@ -435,12 +439,13 @@ CpsStatus cps_set_extent(const CpsSet *set, const double *direction, CpsSetExten
                              .closure = set->closure,
                              .low = -low.value,
                              .high = high.value,
-                             .low_attained = low.outcome == CPS_SET_ANSWERED,
-                             .high_attained = high.outcome == CPS_SET_ANSWERED,
+                             .low_attained = low.outcome == CPS_SET_OUTCOME_ANSWERED,
+                             .high_attained = high.outcome == CPS_SET_OUTCOME_ANSWERED,
                              .gap = fmax(high.gap, low.gap)};
     const CpsSetAnswer *both[] = {&high, &low};
     for (int k = 0; k < 2; k++)
-        if (both[k]->outcome > CPS_SET_NOT_ATTAINED || both[k]->outcome == CPS_SET_EMPTY)
+        if (both[k]->outcome > CPS_SET_OUTCOME_NOT_ATTAINED ||
+            both[k]->outcome == CPS_SET_OUTCOME_EMPTY)
             extent->outcome = both[k]->outcome;
     return CPS_OK;
 }
@@ -452,7 +457,8 @@ CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *
     const size_t n = set ? (size_t)set->n : 0;
     if (!status && metric) status = cpsi_set_finite("metric", n * n, metric, err);
     if (status) return status;
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true, .closure = set->closure};
+    *answer =
+        (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true, .closure = set->closure};
     if (!metric && cpsi_closed_project(set, point, nearest)) {
         for (size_t i = 0; i < n; i++) answer->value = hypot(answer->value, point[i] - nearest[i]);
         return CPS_OK;
@@ -471,7 +477,7 @@ CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *
             status = cpsi_fail(err, CPS_ERR_ARGUMENT, "metric is not symmetric positive definite");
     }
     if (!status && cpsi_set_has_user(set))
-        *answer = (CpsSetAnswer){.outcome = CPS_SET_NOT_AVAILABLE};
+        *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     else if (!status)
         status = conic_project(set, point, lower, nearest, answer, err);
     answer->closure = set->closure;
@@ -488,15 +494,15 @@ CpsStatus cps_set_gauge(const CpsSet *set, const double *point, CpsSetAnswer *an
            *nearest = zero ? zero + set->n : NULL;
     if (!zero) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a point");
     memset(zero, 0, (size_t)set->n * sizeof *zero);
-    *answer = (CpsSetAnswer){.outcome = CPS_SET_ANSWERED, .exact = true};
+    *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     CpsiZero known;
     status = cpsi_set_locate_zero(set, &known, err);
     if (!status && known == CPSI_ZERO_UNKNOWN)
         status = cps_set_project(set, zero, NULL, nearest, answer, err);
     cpsi_scratch_give(&scratch);
-    if (status || answer->outcome != CPS_SET_ANSWERED) return status;
+    if (status || answer->outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     if (answer->value > 1e-9 * cpsi_set_size(set)) {
-        *answer = (CpsSetAnswer){.outcome = CPS_SET_NO_ZERO};
+        *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NO_ZERO};
         return CPS_OK;
     }
     status = cpsi_gauge(set, point, answer, err);

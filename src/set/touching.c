@@ -60,9 +60,10 @@ static CpsStatus is_clear(const CpsiConicForm *form, const double *nothing, bool
                           CpsError *err) {
     *clear = all_inside(form, form->b);
     if (*clear) return CPS_OK;
-    CpsiSolution at = {.outcome = CPS_SET_INACCURATE};
+    CpsiSolution at = {.outcome = CPS_SET_OUTCOME_INACCURATE};
     const CpsStatus status = cpsi_conic_form_minimise(form, nothing, &at, err);
-    *clear = status == CPS_OK && at.outcome == CPS_SET_ANSWERED && at.s && all_inside(form, at.s);
+    *clear = status == CPS_OK && at.outcome == CPS_SET_OUTCOME_ANSWERED && at.s &&
+             all_inside(form, at.s);
     cpsi_solution_free(&at);
     return status;
 }
@@ -71,7 +72,7 @@ static CpsStatus is_clear(const CpsiConicForm *form, const double *nothing, bool
  * known. */
 static CpsStatus reduce_once(const CpsiConicForm *form, CpsiConicForm **reduced, CpsError *err) {
     const size_t u = (size_t)form->unknowns;
-    CpsiSolution at = {.outcome = CPS_SET_INACCURATE};
+    CpsiSolution at = {.outcome = CPS_SET_OUTCOME_INACCURATE};
     bool clear = false;
     double *cost = calloc(u + 1 + (size_t)form->n, sizeof *cost);
     CpsiConicForm *depth = NULL;
@@ -83,7 +84,7 @@ static CpsStatus reduce_once(const CpsiConicForm *form, CpsiConicForm **reduced,
         cost[u] = -1;
         status = cpsi_conic_form_minimise(depth, cost, &at, err);
     }
-    if (!status && at.outcome == CPS_SET_ANSWERED && fabs(at.value) <= TOUCH) {
+    if (!status && at.outcome == CPS_SET_OUTCOME_ANSWERED && fabs(at.value) <= TOUCH) {
         double *x = &cost[u + 1];
         for (int i = 0; i < form->n; i++)
             x[i] = form->origin[i] + cpsi_dot(form->unknowns, &form->p[(size_t)i * u], at.x);

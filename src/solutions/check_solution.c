@@ -12,7 +12,7 @@
 
 #include "base/larger.h"
 #include "base/status.h"
-#include "capstan/solutions.h"
+#include "capstan/evolve.h"
 #include "regularized/band_blocks.h"
 
 static const struct {

@@ -9,7 +9,7 @@
 #define CAPSTAN_SRC_SOLUTIONS_SLACK_H
 
 #include "base/vec3.h"
-#include "capstan/solutions.h"
+#include "capstan/evolve.h"
 
 /* An element whose stretch is less than this below 1 counts as stretched to its length [-]. */
 #define CPSI_FULL 1e-9

@@ -31,12 +31,12 @@ static const struct {
 };
 
 const char *cps_completion_name(CpsCompletion completion) {
-    return (unsigned)completion < CPS_COMPLETIONS ? COMPLETION[completion].key : "unknown";
+    return (unsigned)completion < CPS_COMPLETION_COUNT ? COMPLETION[completion].key : "unknown";
 }
 
 const char *cps_completion_text(CpsCompletion completion) {
-    return (unsigned)completion < CPS_COMPLETIONS ? COMPLETION[completion].sentence
-                                                  : "unknown completion";
+    return (unsigned)completion < CPS_COMPLETION_COUNT ? COMPLETION[completion].sentence
+                                                       : "unknown completion";
 }
 
 /* A piece, how it is laid out, and the sides of its polygon [m]. */
@@ -232,7 +232,7 @@ CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, doub
     if (!step || !position || step->elements < 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "step or position is NULL, or the step has no elements");
-    if ((unsigned)how >= CPS_COMPLETIONS)
+    if ((unsigned)how >= CPS_COMPLETION_COUNT)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "completion: found %d, expected shortest, straight or meander", (int)how);
     if (step->slide)

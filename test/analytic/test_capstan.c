@@ -49,7 +49,7 @@ static double slide(double mu, double theta, int n, double angle) {
     RigRun run = rig_open(&rig);
     const CpsLineView view = rig_step(&run);
     if (mu * theta < 10)
-        for (int j = 1; j <= n; j++) CHECK_INT(view.state[j], CPS_NODE_SLIP);
+        for (int j = 1; j <= n; j++) CHECK_INT(view.state[j], CPS_NODE_STATE_SLIP);
     const double ratio = rig_tension(&view, n) / rig_tension(&view, 0);
     rig_close(&run);
     return ratio;
@@ -217,7 +217,8 @@ static void reversal(void **state) {
         CHECK_RELATIVE(rig_tension(&view, N), pow(k, N), turning);
         view = rig_next(&run);
         for (int j = 1; j <= N; j++)
-            if (abs(j - m) > 3) CHECK_INT(view.state[j], j <= m ? CPS_NODE_STICK : CPS_NODE_SLIP);
+            if (abs(j - m) > 3)
+                CHECK_INT(view.state[j], j <= m ? CPS_NODE_STATE_STICK : CPS_NODE_STATE_SLIP);
         char name[48];
         snprintf(name, sizeof name, "turned back, m = %d of %d", m, N);
         const double exact = tau * pow(k, m - N);

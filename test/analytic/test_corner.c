@@ -116,7 +116,7 @@ static void check_slide(const Corner *corner, const CpsLineView *view, double pu
                    0, 1e-8 * load);
         CHECK_NEAR(along(&view->friction[3 * c], corner->e), -corner->mu[k] * corner->reaction[k],
                    1e-8 * load);
-        if (corner->mu[k] > 0) CHECK_INT(view->state[c], CPS_NODE_SLIP);
+        if (corner->mu[k] > 0) CHECK_INT(view->state[c], CPS_NODE_STATE_SLIP);
     }
 }
 
@@ -314,7 +314,7 @@ static void string_in_a_corner(void **state) {
                                       view.position[3 * n] - length);
         CHECK_LESS(fabs(error), q * h * h / (8 * stiffness) + run.motion);
         for (int j = 1; j < n; j++)
-            if (view.state[j] == CPS_NODE_SLIP)
+            if (view.state[j] == CPS_NODE_STATE_SLIP)
                 for (int c = j; c < 2 * (n + 1); c += n + 1)
                     CHECK_NEAR(view.reaction[c], w[view.obstacle[c]] * h,
                                1e-8 * pull); /* as above */

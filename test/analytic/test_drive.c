@@ -54,7 +54,7 @@ static CpsMotion *solve(const CpsSystem *system, const double *w) {
 /* bounds are honest, near, and made of admissible V and F */
 static void certified(const CpsMotion *motion) {
     const CpsMotionReport *r = cps_motion_report(motion);
-    CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
+    CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
     CHECK_BETWEEN(r->minimum, -1e-13 * r->scale, 1e-8 * r->scale);
     CHECK_BETWEEN(r->drive, 0, 1e-12);
     CHECK_BETWEEN(r->constraint, 0, 1e-9);
@@ -196,7 +196,7 @@ static void extents(const CpsMotion *motion, bool forces, int dimension, int n, 
     double from[8], to[8];
     ok(forces ? cps_motion_forces(motion, 0, &all, from, to, &err)
               : cps_motion_velocities(motion, 0, &all, from, to, &err));
-    CHECK_INT(all.outcome, CPS_SET_ANSWERED);
+    CHECK_INT(all.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_INT(all.dimension, dimension);
     CHECK_INT(all.unique, dimension == 0);
     for (int i = 0; i < n; i++) {
@@ -282,13 +282,13 @@ static void loads(void **state) {
     cps_motion_destroy(motion);
 
     motion = solve(limit, NULL);
-    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_LIMIT_LOAD);
+    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_OUTCOME_LIMIT_LOAD);
     CHECK_RELATIVE(cps_motion_report(motion)->load_factor, 1, VALUE);
     CHECK_INT(cps_motion_report(motion)->composition, CPS_COMPOSITION_NOT_SATISFIED);
     cps_motion_destroy(motion);
 
     motion = solve(heavy, NULL);
-    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_NO_BALANCE);
+    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_OUTCOME_NO_BALANCE);
     CHECK_RELATIVE(cps_motion_report(motion)->load_factor, 0.5, VALUE);
     const double *v = cps_motion_velocity(motion);
     CHECK_RELATIVE(v[1] / v[0], 4.0 / 3, ROOT);
@@ -332,7 +332,7 @@ static void infimum_not_attained(void **state) {
         ok(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err));
         CpsMotion *motion = solve(system, (const double[]){2});
         const CpsMotionReport *r = cps_motion_report(motion);
-        CHECK_INT(r->outcome, CPS_MOTION_NOT_ATTAINED);
+        CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_NOT_ATTAINED);
         CHECK_NEAR(r->upper, 0,
                    1e-6 * (k ? 20 : 2)); /* the root of rounding, of the size of force times W */
         CHECK_GREATER(r->upper, 0);
@@ -350,7 +350,7 @@ static void infimum_not_attained(void **state) {
     CpsSystem *still = block(0, 10);
     ok(cps_system_set_drive(still, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err));
     CpsMotion *motion = solve(still, (const double[]){0});
-    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_LIMIT_LOAD);
+    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_OUTCOME_LIMIT_LOAD);
     cps_motion_destroy(motion);
     cps_system_destroy(still);
 }
@@ -404,14 +404,14 @@ static void told_apart(void **state) {
     CHECK_NEAR(cps_motion_velocity(motion)[0], 0, ROOT / 0.3);
     CHECK_NEAR(cps_motion_resistance(motion)[0], -500 * 1e-6,
                500 * ROOT); /* the force is against W */
-    assert_true(all.outcome != CPS_SET_ANSWERED ||
+    assert_true(all.outcome != CPS_SET_OUTCOME_ANSWERED ||
                 (all.unique && fabs(low[0]) < 1e-6 && fabs(high[0]) < 1e-6));
     cps_solution_set_clear(&all);
     cps_motion_destroy(motion);
     /* aside by a hundredth they are told apart */
     motion = solve(system, (const double[]){1e-2, 1});
     ok(cps_motion_velocities(motion, 0, &all, low, high, &err));
-    CHECK_INT(all.outcome, CPS_SET_ANSWERED);
+    CHECK_INT(all.outcome, CPS_SET_OUTCOME_ANSWERED);
     assert_true(all.unique);
     cps_solution_set_clear(&all);
     cps_motion_destroy(motion);
@@ -427,7 +427,8 @@ static void loads_beside_the_limit(void **state) {
             CpsSystem *system = block(6 * (1 + side * pow(10, -k)), 8 * (1 + side * pow(10, -k)));
             CpsMotion *motion = solve(system, NULL);
             const CpsMotionReport *r = cps_motion_report(motion);
-            CHECK_INT(r->outcome, side > 0 ? CPS_MOTION_NO_BALANCE : CPS_MOTION_LIMIT_LOAD);
+            CHECK_INT(r->outcome,
+                      side > 0 ? CPS_MOTION_OUTCOME_NO_BALANCE : CPS_MOTION_OUTCOME_LIMIT_LOAD);
             if (side > 0)
                 assert_true(isinf(r->value) && r->value < 0);
             else

@@ -380,7 +380,7 @@ static void the_form_is_the_set(void **state) {
         const CpsSet *set = cps_scene_file_scene(file)->obstacle->friction_set;
         CpsSetConic form;
         must(cps_set_conic(set, &form, &err), &err);
-        CHECK_INT(form.outcome, CPS_SET_ANSWERED);
+        CHECK_INT(form.outcome, CPS_SET_OUTCOME_ANSWERED);
         CHECK_INT(form.space, 2);
         const size_t n = (size_t)form.unknowns, m = (size_t)form.rows;
         Conic *conic = conic_create(n, m);
@@ -418,11 +418,11 @@ static void what_has_no_form_says_so(void **state) {
     for (int k = 0; k < 2; k++) must(cps_set_point(2, (double[]){k, 0}, &point[k], &err), &err);
     must(cps_set_intersection(2, (const CpsSet *const[]){point[0], point[1]}, &none, &err), &err);
     must(cps_set_conic(strip, &form, &err), &err);
-    CHECK_INT(form.outcome, CPS_SET_UNBOUNDED);
+    CHECK_INT(form.outcome, CPS_SET_OUTCOME_UNBOUNDED);
     must(cps_set_conic(none, &form, &err), &err);
-    CHECK_INT(form.outcome, CPS_SET_EMPTY);
+    CHECK_INT(form.outcome, CPS_SET_OUTCOME_EMPTY);
     must(cps_set_conic(point[0], &form, &err), &err);
-    CHECK_INT(form.outcome, CPS_SET_ANSWERED);
+    CHECK_INT(form.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_INT(form.unknowns, 0);
     cps_set_conic_free(&form);
     cps_set_conic_free(&form);

@@ -30,7 +30,7 @@ static CpsLaw *set_law(CpsSet *set) {
 static double dissipation(const CpsLaw *law, const double *velocity, double *force) {
     CpsSetAnswer answer;
     assert_int_equal(cps_set_dissipation(cps_law_set(law), velocity, force, &answer, NULL), CPS_OK);
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     return answer.value;
 }
 
@@ -81,7 +81,7 @@ static void wheel_forces(void **state) {
     /* rolling straight on: the whole edge, a segment of side forces */
     const double along[2] = {0, 1};
     assert_int_equal(cps_set_forces(cps_law_set(law), along, 0, &forces, &answer, NULL), CPS_OK);
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_RELATIVE(answer.value, 200, EXACT);
     assert_int_equal(cps_set_vertices(forces, 0, 4, vertex, &count, &answer, NULL), CPS_OK);
     CHECK_INT(count, 2);
@@ -113,7 +113,7 @@ static void wheel_corner_velocities(void **state) {
     int count = 0;
     assert_int_equal(cps_set_velocities(cps_law_set(law), corner, 0, &velocities, &answer, NULL),
                      CPS_OK);
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     assert_int_equal(cps_set_rays(velocities, 0, 4, ray, &count, &answer, NULL), CPS_OK);
     CHECK_INT(count, 2);
     const double sine = fabs(ray[0] * ray[3] - ray[1] * ray[2]),
@@ -136,7 +136,7 @@ static void wheel_corner_velocities(void **state) {
     cps_set_release(velocities);
     assert_int_equal(cps_set_velocities(cps_law_set(law), outside, 0, &velocities, &answer, NULL),
                      CPS_OK);
-    assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_OUTSIDE);
     assert_null(velocities);
     cps_law_release(law);
 }
@@ -272,7 +272,7 @@ static void dry_and_power(void **state) {
         assert_int_equal(cps_resistance_power(unit, p, c, &part[1], NULL), CPS_OK);
         CpsResistance *law = sum_of(2, part);
         assert_int_equal(cps_resistance_conjugate(law, force, found, &answer, NULL), CPS_OK);
-        assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+        assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
         /* phi + phi* is up to k/x + 1 and p/(p - 1) times phi* */
         CHECK_RELATIVE(answer.value, x * speed * (1 - 1 / p), SHARED * 20);
         CHECK_RELATIVE(found[0], 0.8 * speed, SHARED_VELOCITY * 10);
@@ -467,9 +467,9 @@ static int velocity_rays(const CpsSet *set, const double *force, double *ray) {
     CpsSetAnswer answer;
     int count = 0;
     assert_int_equal(cps_set_velocities(set, force, 0, &velocities, &answer, NULL), CPS_OK);
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     assert_int_equal(cps_set_rays(velocities, 0, 4, ray, &count, &answer, NULL), CPS_OK);
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     cps_set_release(velocities);
     return count;
 }
@@ -537,7 +537,7 @@ static void speeds_at(const CpsResistance *law, double s, double low, double hig
         assert_int_equal(cps_resistance_velocities(law, (double[]){s * n[0], s * n[1]}, &velocities,
                                                    &answer, NULL),
                          CPS_OK);
-        CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+        CHECK_INT(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
         assert_int_equal(cps_set_extent(velocities, (double[]){-n[0], -n[1]}, &extent, NULL),
                          CPS_OK);
         CHECK_NEAR(extent.low, low, 1e-7);
@@ -626,7 +626,7 @@ static void semidefinite_viscosity(void **state) {
     cps_set_release(velocities);
     assert_int_equal(cps_resistance_velocities(law, (double[]){1, 0}, &velocities, &answer, NULL),
                      CPS_OK);
-    CHECK_INT(answer.outcome, CPS_SET_OUTSIDE);
+    CHECK_INT(answer.outcome, CPS_SET_OUTCOME_OUTSIDE);
     assert_int_equal(cps_resistance_viscous(2, (double[]){1, 2, 2, 3.9}, &none, NULL),
                      CPS_ERR_ARGUMENT);
     assert_int_equal(cps_resistance_viscous(2, (double[]){0, 0, 0, 0}, &none, NULL), CPS_OK);
@@ -648,11 +648,11 @@ static void friction_cone(void **state) {
         const double a = 0.3 * k, v[3] = {cos(a), sin(a), f * (k % 2 ? 1.001 : 0.999)},
                      tip[3] = {0, 0, 0};
         assert_int_equal(cps_set_dissipation(cone, v, NULL, &answer, NULL), CPS_OK);
-        CHECK_INT(answer.outcome, k % 2 ? CPS_SET_ANSWERED : CPS_SET_UNBOUNDED);
+        CHECK_INT(answer.outcome, k % 2 ? CPS_SET_OUTCOME_ANSWERED : CPS_SET_OUTCOME_UNBOUNDED);
         const double force[3] = {2 * f * cos(a), 2 * f * sin(a), 2},
                      along[3] = {-cos(a), -sin(a), f};
         assert_int_equal(cps_set_velocities(cone, force, 0, &velocities, &answer, NULL), CPS_OK);
-        CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+        CHECK_INT(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
         double nearest[3];
         assert_int_equal(cps_set_project(velocities, along, NULL, nearest, &answer, NULL), CPS_OK);
         CHECK_NEAR(answer.value, 0, 1e-8);

@@ -52,7 +52,7 @@ static double power(const CpsPlanar *body, double vx, double vy, double w, doubl
     assert_int_equal(cps_planar_dissipation(body, (double[3]){vx, vy, w}, wrench, NULL, &answer,
                                             NULL),
                      CPS_OK);
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     return answer.value;
 }
 
@@ -63,7 +63,7 @@ static void prove(const CpsPlanar *body, double vx, double vy, double w) {
     const double twist[3] = {vx, vy, w}, value = power(body, vx, vy, w, wrench);
     CpsPlanarBounds bounds;
     assert_int_equal(cps_planar_bounds(body, twist, 0, &bounds, NULL), CPS_OK);
-    assert_int_equal(bounds.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(bounds.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_BETWEEN(value, bounds.lower, bounds.upper);
     CHECK_LESS(bounds.upper - bounds.lower, 1.000001e-6 * bounds.upper);
     CHECK_RELATIVE(-(wrench[0] * vx + wrench[1] * vy + wrench[2] * w), value, EXACT);
@@ -305,7 +305,7 @@ static void drive_end(const CpsPlanar *body, double gamma, double turning, doubl
         assert_int_equal(cps_planar_drive(body, rows, map + 6 - 3 * rows, velocity + 2 - rows,
                                           &motion, NULL),
                          CPS_OK);
-        assert_int_equal(motion.outcome, CPS_SET_ANSWERED);
+        assert_int_equal(motion.outcome, CPS_SET_OUTCOME_ANSWERED);
         CHECK_NEAR(motion.lower, gamma, tolerance);
         CHECK_NEAR(motion.upper, gamma, tolerance);
         CHECK_LESS(motion.lower, motion.upper);
@@ -349,7 +349,7 @@ static void driven_disc_by_cells(void **state) {
         assert_int_equal(cps_system_set_drive(system, 2, 3, rim, NULL), CPS_OK);
         assert_int_equal(cps_system_solve(system, (double[2]){0, 1}, NULL, &motion, NULL), CPS_OK);
         const CpsMotionReport *report = cps_motion_report(motion);
-        assert_int_equal(report->outcome, CPS_MOTION_SOLVED);
+        assert_int_equal(report->outcome, CPS_MOTION_OUTCOME_SOLVED);
         gamma[side] = side ? report->upper : report->lower;
         cps_motion_destroy(motion);
         cps_system_destroy(system);
@@ -401,7 +401,7 @@ static void bipod_motions(void **state) {
                      CPS_OK);
     assert_int_equal(cps_system_solve(system, PUSH, NULL, &solved, NULL), CPS_OK);
     assert_int_equal(cps_motion_velocities(solved, 0, &all, low, high, NULL), CPS_OK);
-    assert_int_equal(all.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(all.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_INT(all.dimension, 1);
     CHECK_NEAR(low[2], -1, 1e-6); /* its tolerance */
     CHECK_NEAR(high[2], 1, 1e-6);
@@ -424,7 +424,7 @@ static void bipod_forces(void **state) {
     assert_int_equal(cps_set_forces(cps_law_set(law), (double[3]){0, 1, 1}, 0, &forces, &answer,
                                     NULL),
                      CPS_OK);
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_NEAR(answer.value, 1,
                1e-10); /* the sum of two closed forms, found through a set's answer */
     assert_int_equal(cps_set_facts(forces, 0, &facts, NULL, NULL, NULL), CPS_OK);

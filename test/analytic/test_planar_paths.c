@@ -42,7 +42,7 @@ static Towed tow_along(const CpsPlanar *body, CpsTow tow, const Arc *arc, int st
         const double target[2] = {arc->start[0] + arc->radius * sin(a),
                                   arc->start[1] + arc->radius * (1 - cos(a))};
         assert_int_equal(cps_planar_tow(body, &towed.tow, target, &step, NULL), CPS_OK);
-        assert_int_equal(step.outcome, CPS_SET_ANSWERED);
+        assert_int_equal(step.outcome, CPS_SET_OUTCOME_ANSWERED);
         assert_true(step.pulled);
         assert_true(step.lower <= step.upper);
         towed.unsettled += !step.settled;
@@ -86,7 +86,7 @@ static void axle_follows_tractrix(void **state) {
             assert_int_equal(cps_planar_tow(body, &tow, (double[2]){0, 4.0 * i / steps}, &step,
                                             NULL),
                              CPS_OK);
-            assert_int_equal(step.outcome, CPS_SET_ANSWERED);
+            assert_int_equal(step.outcome, CPS_SET_OUTCOME_ANSWERED);
             assert_true(step.settled);
         }
         error[k] = hypot(tow.pose[0] - L / cosh(2), tow.pose[1] - (4 - L * tanh(2)));
@@ -220,7 +220,7 @@ static void spring_draws_tractrix(void **state) {
             assert_int_equal(cps_sweep_step(law, &sweep, (double[2]){0, 2.0 * i / steps}, &step,
                                             NULL),
                              CPS_OK);
-            assert_int_equal(step.outcome, CPS_SET_ANSWERED);
+            assert_int_equal(step.outcome, CPS_SET_OUTCOME_ANSWERED);
         }
         const double exact[2] = {1 / cosh(2), 2 - tanh(2)};
         CHECK_NEAR(hypot(sweep.position[0] - exact[0], sweep.position[1] - exact[1]), KNOWN[k],

@@ -64,33 +64,33 @@ static void study_of_example_5_7(void **state) {
 
     // h: piecewise constant slopes, an energy of second order
     for (int back = 0; back < 4; back++) {
-        double rate = row_of(study, CPS_STUDY_H, back)->rate_energy;
+        double rate = row_of(study, CPS_STUDY_STAGE_H, back)->rate_energy;
         CHECK_NEAR(show("5.7, regularised", "rate in h of the energy", 2, rate), 0, 0.05);
     }
     // lambda: penetrations are R/lambda, energies fall by R^2/(2 lambda): first order, to what the
     // next power leaves
     for (int back = 0; back < 3; back++) {
-        double rate = row_of(study, CPS_STUDY_LAMBDA, back)->rate_energy;
+        double rate = row_of(study, CPS_STUDY_STAGE_LAMBDA, back)->rate_energy;
         CHECK_NEAR(show("5.7, regularised", "rate in 1/lambda of the energy", 1, rate), 0, 0.02);
     }
     // n: x'(0) = 0 against |x'| >= 1 makes a layer at the clamped end. Under a tension T it is
     // (1/(n T))^(1/2) wide and costs T times that; once it is thinner than an element, 1/(n h)
     for (int back = 3; back < 6; back++) {
-        double rate = row_of(study, CPS_STUDY_N, back)->rate_energy;
+        double rate = row_of(study, CPS_STUDY_STAGE_N, back)->rate_energy;
         CHECK_NEAR(show("5.7, regularised", "rate in 1/n of the energy, layer resolved", 0.5, rate),
                    0, 0.1);
     }
     CHECK_NEAR(show("5.7, regularised", "rate in 1/n of the energy, at fixed h", 1,
-                    row_of(study, CPS_STUDY_N, 0)->rate_energy),
+                    row_of(study, CPS_STUDY_STAGE_N, 0)->rate_energy),
                0, 0.01);
     // delta: delta times the bound where the line sticks
     for (int back = 0; back < 3; back++) {
-        double rate = row_of(study, CPS_STUDY_DELTA, back)->rate_energy;
+        double rate = row_of(study, CPS_STUDY_STAGE_DELTA, back)->rate_energy;
         CHECK_NEAR(show("5.7, regularised", "rate in delta of the energy", 1, rate), 0, 0.02);
     }
 
-    const CpsRegularizedReport *last = &row_of(study, CPS_STUDY_DELTA, 0)->report;
-    const CpsRegularizedParameters *p = &row_of(study, CPS_STUDY_DELTA, 0)->parameters;
+    const CpsRegularizedReport *last = &row_of(study, CPS_STUDY_STAGE_DELTA, 0)->report;
+    const CpsRegularizedParameters *p = &row_of(study, CPS_STUDY_STAGE_DELTA, 0)->parameters;
     double penalty = 9.81 * 9.81 * (6.28 - 0.5 / 9.81) / (2 * p->penalty),
            bending = p->stiffness / (6.28 / 800);
     double smoothing = p->delta * 0.0255 * 9.81 * 6.28;
@@ -218,7 +218,7 @@ static void p10_1_without_solution(void **state) {
     Annex t;
     const double eta = 0.4, h = 1.0 / ELEMENTS;
     open_annex(&t, -eta, 0, 0);
-    assert_int_equal(t.report.verdict, CPS_FIRST_ORDER_SHORTENS);
+    assert_int_equal(t.report.verdict, CPS_FIRST_ORDER_VERDICT_SHORTENS);
     CpsFirstOrderView view = cps_first_order_view(t.first_order);
     double error = 0, mirrored = 0;
     for (int i = 0; i < ELEMENTS; i++) {
@@ -243,7 +243,7 @@ static void p10_1_with_solution(void **state) {
     Annex t;
     const double eta = 0.4;
     open_annex(&t, eta, 0, 0);
-    assert_int_equal(t.report.verdict, CPS_FIRST_ORDER_SOLVED);
+    assert_int_equal(t.report.verdict, CPS_FIRST_ORDER_VERDICT_SOLVED);
     CpsFirstOrderView view = cps_first_order_view(t.first_order);
     double error = 0;
     for (int j = 0; j <= ELEMENTS; j++) {
@@ -263,7 +263,7 @@ static void p10_1_across_a_slack_end(void **state) {
     for (int up = 0; up < 2; up++) {
         Annex t;
         open_annex(&t, 0, up ? 0 : 0.3, up ? 0.3 : 0);
-        assert_int_equal(t.report.verdict, CPS_FIRST_ORDER_UNBALANCED);
+        assert_int_equal(t.report.verdict, CPS_FIRST_ORDER_VERDICT_UNBALANCED);
         // displacements that run away to 1e7 m leave rounding of 1e-7 of the force
         CHECK_NEAR(t.report.unbalanced[up ? 2 : 1], 0.3 - h / 2, 1e-3);
         CHECK_NEAR(t.report.unbalanced_arc, 1, 0);
@@ -282,7 +282,8 @@ static void p10_1_of_the_mesh_alone(void **state) {
         Annex t;
         open_annex(&t, force[k][0], force[k][1], force[k][2]);
         // pulled along, or pressed onto the bed: a solution of the continuum too
-        assert_int_equal(t.report.verdict, k < 3 ? CPS_FIRST_ORDER_MESH : CPS_FIRST_ORDER_SOLVED);
+        assert_int_equal(t.report.verdict,
+                         k < 3 ? CPS_FIRST_ORDER_VERDICT_MESH : CPS_FIRST_ORDER_VERDICT_SOLVED);
         for (int c = 0; c < 3; c++)
             CHECK_NEAR(t.report.unbalanced[c], k < 3 ? force[k][c] : 0, 1e-15);
         CHECK_NEAR(t.report.unbalanced_arc, k < 3 ? 1 : 0, 0);
@@ -314,7 +315,7 @@ static void p10_1_with_either_contact(void **state) {
             gained ? CPS_FIRST_ORDER_CONTACT_GAINED : CPS_FIRST_ORDER_CONTACT_TOUCHING;
         assert_int_equal(cps_first_order_solve(classic, contact, &solution, &err), CPS_OK);
         assert_int_equal(cps_first_order_report(solution).contact, contact);
-        assert_int_equal(cps_first_order_report(solution).verdict, CPS_FIRST_ORDER_SOLVED);
+        assert_int_equal(cps_first_order_report(solution).verdict, CPS_FIRST_ORDER_VERDICT_SOLVED);
         const CpsFirstOrderView u = cps_first_order_view(solution);
         for (int j = 0; j <= ELEMENTS; j++)
             lowest[gained] =
@@ -351,7 +352,7 @@ static void p10_1_is_the_first_order(void **state) {
                                                &t.first_order, &err),
                          CPS_OK);
         t.report = cps_first_order_report(t.first_order);
-        assert_int_equal(t.report.verdict, CPS_FIRST_ORDER_SOLVED);
+        assert_int_equal(t.report.verdict, CPS_FIRST_ORDER_VERDICT_SOLVED);
         CHECK_NEAR(t.report.slack, 0, 0);
         difference[level] = t.report.against_step;
         close_annex(&t);

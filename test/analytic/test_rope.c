@@ -87,7 +87,7 @@ static void pulled_aslant(void **state) {
         const CpsMotionReport *r = solve(&c, (double[]){cos(psi), sin(psi)});
         print_message("straight, %d elements: gamma %.12g, gap %.1e\n", elements, r->value,
                       r->upper - r->lower);
-        CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
+        CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
         /* the solver's own bound, 1e-8 of a scale of about 1 */
         CHECK_NEAR(r->value, (1 - 0.5 * h) * cos(psi) + 0.5 * h, 1e-8);
         assert_true(r->lower <= r->upper);
@@ -114,7 +114,7 @@ static void arc_bound(void **state) {
         const double last = tension(&c, elements - 1), h = theta / elements;
         print_message("arc, %d elements: largest tension %.9g, bound %.9g\n", elements, last,
                       sin(theta));
-        CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
+        CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
         /* it is reached up to the half element of friction at the end, T' = cos(theta) */
         CHECK_NEAR(last, sin(theta) - 0.5 * h * cos(theta), 0.5 * h * h + 1e-7);
         CHECK_LESS(last, sin(theta));
@@ -130,7 +130,7 @@ static void pulled_apart(void **state) {
     Case c = make(20, true, true);
     straight(&c, 1);
     const CpsMotionReport *r = solve(&c, (double[]){-1, 0, 1, 0});
-    CHECK_INT(r->outcome, CPS_MOTION_BLOCKED);
+    CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_BLOCKED);
     const double *g = cps_motion_resistance(c.motion);
     CHECK_LESS(-g[0] + g[2], 0);
     finish(&c);
@@ -139,7 +139,7 @@ static void pulled_apart(void **state) {
     c = make(20, true, true);
     straight(&c, 1);
     r = solve(&c, (double[]){1, 0, -1, 0});
-    CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
+    CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
     /* half an element of friction at each end */
     CHECK_NEAR(r->value, 2 * 0.5 / 20, 1e-8);
     finish(&c);
@@ -154,7 +154,7 @@ static void inextensible(void **state) {
         Case c = make(elements, false, false);
         straight(&c, 2);
         const CpsMotionReport *r = solve(&c, (double[]){-1, 0});
-        CHECK_INT(r->outcome, CPS_MOTION_SOLVED);
+        CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
         CHECK_NEAR(r->value, 2, 1e-8); /* the solver's own bound, of a scale of 2 */
         for (int i = 0; i < elements; i++)
             CHECK_NEAR(tension(&c, i), -(i + 0.5) * 2 / elements, 1e-6);
@@ -176,7 +176,7 @@ static void inextensible(void **state) {
     CHECK_GREATER(value[0], 10 * value[1]);
     Case c = make(20, true, false);
     straight(&c, 1);
-    CHECK_INT(solve(&c, (double[]){1, 0, -1, 0})->outcome, CPS_MOTION_BLOCKED);
+    CHECK_INT(solve(&c, (double[]){1, 0, -1, 0})->outcome, CPS_MOTION_OUTCOME_BLOCKED);
     finish(&c);
 }
 

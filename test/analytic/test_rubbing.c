@@ -297,7 +297,7 @@ static void ratchet(void **state) {
             CHECK_LESS(fabs(error), q * h * h / (8 * STIFFNESS) + 1e-6); /* as above */
             double slips = 0;
             for (int j = 0; j <= n; j++)
-                slips += view.state[j] == CPS_NODE_SLIP ? j == n ? h / 2 : h : 0;
+                slips += view.state[j] == CPS_NODE_STATE_SLIP ? j == n ? h / 2 : h : 0;
             CHECK_NEAR(show("ratchet", "slip length [m]", pull / q, slips), 0, 1.01 * h);
             CHECK_NEAR(slips, cps_evolution_line_report(r.evolution, 0).slipping, 1e-9);
             cps_evolution_destroy(r.evolution);

@@ -24,7 +24,7 @@ static double support(const CpsSet *set, double a, double b) {
     const double w[2] = {a, b};
     CpsSetAnswer answer;
     DO(cps_set_support(set, w, NULL, &answer, &err));
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     return answer.value;
 }
 
@@ -113,7 +113,7 @@ static void wheel_support_area_and_corners(void **state) {
             CpsSet *cone;
             double ray[4];
             DO(cps_set_normal_cone(set, &corner[2 * k], 0, &cone, &answer, &err));
-            assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+            assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
             DO(cps_set_rays(cone, 0, 2, ray, &count, &answer, &err));
             CHECK_INT(count, 2);
             const double angle = acos(ray[0] * ray[2] + ray[1] * ray[3]);
@@ -143,7 +143,7 @@ static void wheel_faces(void **state) {
         CpsSetFacts facts;
         CpsSetExtent extent;
         DO(cps_set_face(set, CASE[k].w, 0, &face, &answer, &err));
-        assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+        assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
         DO(cps_set_facts(face, 0, &facts, NULL, NULL, &err));
         CHECK_INT(facts.dimension, CASE[k].dimension);
         DO(cps_set_extent(face, (const double[]){1, 0}, &extent, &err));
@@ -196,7 +196,7 @@ static void measured(const char *what, const CpsSet *set, double area, double pe
                      double tolerance) {
     CpsSetMeasure measure;
     DO(cps_set_measure(set, &measure, &err));
-    assert_int_equal(measure.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(measure.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_RELATIVE(show(what, area, measure.area), area, tolerance);
     CHECK_RELATIVE(show("  perimeter", perimeter, measure.perimeter), perimeter, tolerance);
     /* the gap is true, to the rounding of the expected values */
@@ -316,7 +316,7 @@ static void polygons_and_cut_discs(void **state) {
 static void margin(const CpsSet *set, double x, double y, double want, bool exact) {
     CpsSetAnswer answer;
     DO(cps_set_contains(set, (const double[]){x, y}, NULL, &answer, &err));
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_NEAR(answer.value, want, 1e-12);
     CHECK_LESS(fabs(answer.value - want), answer.gap + 1e-14);
     assert_int_equal(answer.exact, exact);
@@ -487,7 +487,7 @@ static void touching_sets(void **state) {
         assert_int_equal(cps_set_intersection(2, (const CpsSet *const *)part, &both, NULL), CPS_OK);
         assert_int_equal(cps_set_support(both, (double[]){-n[1], n[0]}, point, &answer, NULL),
                          CPS_OK);
-        CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+        CHECK_INT(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
         CHECK_NEAR(point[0], 0, 1e-7);
         CHECK_NEAR(point[1], 0, 1e-7); /* the root of what rounding lets them overlap */
         assert_int_equal(cps_set_facts(both, 0, &facts, NULL, NULL, NULL), CPS_OK);
@@ -512,7 +512,7 @@ static void touching_sets(void **state) {
                      CPS_OK);
     assert_int_equal(cps_set_project(touch, (double[]){3, 4}, NULL, nearest, &answer, NULL),
                      CPS_OK);
-    CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+    CHECK_INT(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_NEAR(answer.value, 5, 1e-9);
     cps_set_release(touch);
     assert_int_equal(cps_set_half_space(3, (double[]){0, 0, -1}, -1, &half, NULL), CPS_OK);
@@ -539,7 +539,7 @@ static void gauge_through_zero(void **state) {
         CpsSetAnswer answer;
         assert_int_equal(cps_set_ball(2, c, r, &ball, NULL), CPS_OK);
         assert_int_equal(cps_set_gauge(ball, x, &answer, NULL), CPS_OK);
-        CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+        CHECK_INT(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
         if (along > 0)
             CHECK_RELATIVE(answer.value, 9 / (2 * along), 1e-12);
         else
@@ -559,7 +559,7 @@ static void face_of_an_unbounded_hull(void **state) {
     assert_int_equal(cps_set_half_space(2, (double[]){0, 1}, 0, &part[1], NULL), CPS_OK);
     assert_int_equal(cps_set_hull(2, (const CpsSet *const *)part, &hull, NULL), CPS_OK);
     assert_int_equal(cps_set_face(hull, (double[]){0, 1}, 0, &face, &answer, NULL), CPS_OK);
-    CHECK_INT(answer.outcome, CPS_SET_ANSWERED);
+    CHECK_INT(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     assert_int_equal(cps_set_extent(face, (double[]){1, 0}, &extent, NULL), CPS_OK);
     assert_true(isinf(extent.low) && isinf(extent.high));
     assert_int_equal(cps_set_extent(face, (double[]){0, 1}, &extent, NULL), CPS_OK);

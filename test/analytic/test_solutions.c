@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "capstan/solutions.h"
+#include "capstan/evolve.h"
 #include "cases.h"
 
 enum { ELEMENTS = 100, COORDINATES = 3 * (ELEMENTS + 1) };
@@ -67,7 +67,7 @@ static void slack_on_a_smooth_bed(void **state) {
         CpsJudgementReport own = judge(&b);
         assert_int_equal(own.judgement, CPS_JUDGEMENT_RELAXED);
         CHECK_GREATER(own.shortening, 0.1);
-        for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
+        for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETION_COUNT; how++) {
             CpsSlackReport slack = complete(&b, how);
             CHECK_NEAR(slack.slack, 1, 1e-12);
             CHECK_NEAR(slack.loose, 1, 1e-12);
@@ -97,7 +97,7 @@ static void slack_between_ends_that_meet(void **state) {
     case_move(&b.c, 1, 0.05, 0, 0);
     b.run = case_open(&b.c);
     b.view = case_step(&b.run);
-    for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
+    for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETION_COUNT; how++) {
         CpsSlackReport slack = complete(&b, how);
         CHECK_NEAR(slack.left, 0, 0);
         CpsJudgementReport laid = judge(&b);
@@ -110,7 +110,7 @@ static void slack_between_ends_that_meet(void **state) {
 /* Laid out in each shape, by the program: C, |x'| and the place of the ends are looked at node by
  * node, on the bed z = 0. */
 static void check_laid(Bench *b, bool closes) {
-    for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
+    for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETION_COUNT; how++) {
         CpsSlackReport slack = complete(b, how);
         CHECK_BETWEEN(slack.left, closes ? 0 : 0.1, closes ? 0 : 1);
         assert_int_equal(judge(b).judgement,
@@ -394,7 +394,7 @@ static void loose_end(void **state) {
     CpsSlackPart part;
     CHECK_INT(cps_solution_slack(&b.view, 1, &part), 1);
     assert_true(part.loose && part.grounded && !part.rubs);
-    for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETIONS; how++) {
+    for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETION_COUNT; how++) {
         complete(&b, how);
         assert_int_equal(judge(&b).judgement, CPS_JUDGEMENT_SOLUTION);
         const double *tip = &b.position[3 * ELEMENTS];

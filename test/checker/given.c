@@ -64,7 +64,7 @@ static void compare_sets(Compare *compare, const CpsObstacle *o, const Surface *
         const double angle = 6.283185307179586 * i / DIRECTIONS, d[2] = {cos(angle), sin(angle)};
         CpsSetAnswer answer;
         if (cps_set_support(o->friction_set, d, NULL, &answer, NULL) != CPS_OK ||
-            answer.outcome != CPS_SET_ANSWERED)
+            answer.outcome != CPS_SET_OUTCOME_ANSWERED)
             return;
         const double file = (double)conic_support(s->set, (Real[]){d[0], d[1]});
         if (fabs(file - answer.value) <= answer.gap + 1e-9 * (double)s->set->reach) continue;

@@ -170,7 +170,7 @@ class Suite:
         self.near("power of grease", bingham["answers"][0]["dissipation_W"], 5)
         self.near("velocity of grease", bingham["answers"][1]["velocities"]["center"][1], 1)
         outside = self.ask(wheel, "--force", "0,300")
-        self.expect("no velocity", outside["answers"][0]["velocities"] == {"outcome": "CPS_SET_OUTSIDE"}, outside)
+        self.expect("no velocity", outside["answers"][0]["velocities"] == {"outcome": "CPS_SET_OUTCOME_OUTSIDE"}, outside)
 
         # every example answers in words and is drawn
         for name in sorted(os.listdir(examples)):

@@ -132,7 +132,7 @@ def hitch_and_slope(r):
     text = open(os.path.join(r.examples, "slope-load.yaml")).read()
     heavy = r.run(r.write(text.replace("down: 80", "down: 120")), "--json", "-v", "0,0")
     a = json.loads(heavy.stdout)["answers"][0]
-    expect("too heavy: proof", heavy.returncode == 5 and a["outcome"] == "CPS_MOTION_NO_BALANCE" and a["V"][0] > 0, a)
+    expect("too heavy: proof", heavy.returncode == 5 and a["outcome"] == "CPS_MOTION_OUTCOME_NO_BALANCE" and a["V"][0] > 0, a)
     # one part in 1e12 above the limit nothing balances, and no law is claimed of it
     block = ("capstan: 1\nsystem:\n  parameters: [x, y]\n  laws: [{name: block, on: [x, y], law: {disc: 100}}]\n"
              "  drive: [x]\n  load: {y: %s}\n")
@@ -145,7 +145,7 @@ def hitch_and_slope(r):
     expect("a load that no law meets", r.run(r.write(loose), "-e", "-v", "1").returncode == 5, "")
     limit = r.run(r.write(text.replace("down: 80", "down: 110")), "--json", "-v", "0,0")
     a = json.loads(limit.stdout)["answers"][0]
-    expect("limit load", limit.returncode == 0 and a["outcome"] == "CPS_MOTION_LIMIT_LOAD" and a["velocities"]["high"][0] is None, a)
+    expect("limit load", limit.returncode == 0 and a["outcome"] == "CPS_MOTION_OUTCOME_LIMIT_LOAD" and a["velocities"]["high"][0] is None, a)
 
 
 def bodies(r):

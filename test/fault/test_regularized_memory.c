@@ -4,6 +4,7 @@
  * them at link time. */
 #include <stdlib.h>
 
+#include "capstan/evolve.h"
 #include "capstan/regularized.h"
 #include "check.h"
 #include "refuse.h"
@@ -17,7 +18,7 @@ static CpsStatus questions(const CpsLineView *view) {
     CpsStatus status = cps_regularized_create(view, &classic, NULL);
     if (status == CPS_OK) {
         CpsStudyOptions options = cps_study_options(classic);
-        for (int s = 0; s < CPS_STUDY_STAGES; s++) options.values[s] = 2;
+        for (int s = 0; s < CPS_STUDY_STAGE_COUNT; s++) options.values[s] = 2;
         status = cps_study_run(classic, &options, NULL, NULL, &study, NULL);
     }
     if (status == CPS_OK)

@@ -26,7 +26,8 @@ enum { MOST_ASKED = 4 };
 
 /* only what is said to be answered must be finite */
 static void expect_number(const CpsSetAnswer *answer) {
-    if (answer->outcome == CPS_SET_ANSWERED && (!isfinite(answer->value) || isnan(answer->gap)))
+    if (answer->outcome == CPS_SET_OUTCOME_ANSWERED &&
+        (!isfinite(answer->value) || isnan(answer->gap)))
         abort();
 }
 
@@ -52,11 +53,12 @@ static void ask_resistance(const CpsResistance *law) {
     CpsResistanceValue value;
     CpsSetAnswer answer;
     CpsStatus status = cps_resistance_value(law, velocity, &value, NULL, NULL);
-    if (status == CPS_OK && value.outcome == CPS_SET_ANSWERED &&
+    if (status == CPS_OK && value.outcome == CPS_SET_OUTCOME_ANSWERED &&
         (isnan(value.potential) || isnan(value.power)))
         abort();
     if (status == CPS_OK) status = cps_resistance_conjugate(law, velocity, found, &answer, NULL);
-    if (status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && isnan(answer.value)) abort();
+    if (status == CPS_OK && answer.outcome == CPS_SET_OUTCOME_ANSWERED && isnan(answer.value))
+        abort();
     if (status == CPS_ERR_ARGUMENT || status == CPS_ERR_INPUT) abort();
 }
 

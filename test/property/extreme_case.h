@@ -47,7 +47,7 @@ static double away(const CpsSet *cone, int n, const double *d) {
     CpsSetAnswer answer;
     need(cps_set_project(cone, d, NULL, nearest, &answer, &err), "project");
     (void)n;
-    return answer.outcome == CPS_SET_ANSWERED ? answer.value : INFINITY;
+    return answer.outcome == CPS_SET_OUTCOME_ANSWERED ? answer.value : INFINITY;
 }
 
 /* -normals (count, n), lines both ways: all of them lie in the cone; it has the dimension; and what
@@ -59,7 +59,7 @@ static void compare_cone(const CpsSet *law, int n, const double *force, int coun
     CpsSetAnswer answer;
     CpsSetFacts facts;
     need(cps_set_velocities(law, force, 0, &cone, &answer, &err), "velocities");
-    same("outcome of velocities", answer.outcome, CPS_SET_ANSWERED);
+    same("outcome of velocities", answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     if (!cone) return;
     need(cps_set_facts(cone, 0, &facts, NULL, NULL, &err), "facts");
     same("dimension of the cone", facts.dimension, dimension);

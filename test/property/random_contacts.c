@@ -33,7 +33,7 @@ static double away(const CpsSet *cone, int n, const double *d) {
     for (int i = 0; i < n; i++) size = hypot(size, d[i]);
     for (int i = 0; i < n; i++) unit[i] = d[i] / size;
     need(cps_set_project(cone, unit, NULL, nearest, &answer, &err), "project");
-    return answer.outcome == CPS_SET_ANSWERED ? answer.value : INFINITY;
+    return answer.outcome == CPS_SET_OUTCOME_ANSWERED ? answer.value : INFINITY;
 }
 
 /* A law of contacts and the force that it has at the velocity -w. */
@@ -73,7 +73,7 @@ static void try_one(int most) {
         CpsSetFacts facts;
         for (int i = 0; i < n; i++) asked[i] = SHARE[k] * force[i];
         need(cps_set_velocities(sum, asked, 0, &cone, &answer, &err), "velocities");
-        if (answer.outcome != (k < 2 ? CPS_SET_ANSWERED : CPS_SET_OUTSIDE))
+        if (answer.outcome != (k < 2 ? CPS_SET_OUTCOME_ANSWERED : CPS_SET_OUTCOME_OUTSIDE))
             fail("outcome of velocities", answer.outcome);
         if (cone) {
             need(cps_set_facts(cone, 0, &facts, NULL, NULL, &err), "facts");

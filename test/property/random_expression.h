@@ -56,8 +56,8 @@ CpsSet *random_round_zero(int n, int depth);
 
 /* ---- answers ---- */
 
-/* A case ends answered and right; refused for the reason that was due; open (CPS_SET_INACCURATE);
- * or wrong. */
+/* A case ends answered and right; refused for the reason that was due; open
+ * (CPS_SET_OUTCOME_INACCURATE); or wrong. */
 typedef enum Verdict { ANSWERED, REFUSED, OPEN, WRONG } Verdict;
 
 /* "--seed S" or "--cases N" from the command line; false where it is neither. */

@@ -295,12 +295,12 @@ static void try_touching(void) {
     CpsSetFacts facts;
     for (int i = 0; i < n; i++) w[i] = digit(3);
     need(cps_set_support(both, w, NULL, &answer, &err), "support");
-    same("outcome of the support", answer.outcome, CPS_SET_ANSWERED);
+    same("outcome of the support", answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     near("support", answer.value, kind < 2 ? dot(n, w, touch) : 0,
          allowed * (1 + sqrt(dot(n, w, w))));
     for (int i = 0; i < space; i++) far[i] = (kind < 2 ? touch[i] : 0) + size * (i == 0);
     need(cps_set_project(both, far, NULL, nearest, &answer, &err), "project");
-    same("outcome of the projection", answer.outcome, CPS_SET_ANSWERED);
+    same("outcome of the projection", answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     near("distance", answer.value, size, allowed);
     need(cps_set_facts(both, 1e-5, &facts, NULL, NULL, &err), "facts");
     same("dimension", facts.dimension, 0);
@@ -337,12 +337,13 @@ static void try_unbounded(void) {
     CpsSetExtent extent;
     need(cps_set_support(set, w, point, &answer, &err), "support");
     const bool infinite = line ? side != 0 : side > 0;
-    same("outcome of the support", answer.outcome, infinite ? CPS_SET_UNBOUNDED : CPS_SET_ANSWERED);
+    same("outcome of the support", answer.outcome,
+         infinite ? CPS_SET_OUTCOME_UNBOUNDED : CPS_SET_OUTCOME_ANSWERED);
     if (!infinite) near("support", answer.value, dot(2, w, c) + r * sqrt(dot(2, w, w)), CLOSE * 10);
     if (side == 0) {
         const double at = dot(2, e, c);
         need(cps_set_face(set, w, 0, &face, &answer, &err), "face");
-        same("outcome of the face", answer.outcome, CPS_SET_ANSWERED);
+        same("outcome of the face", answer.outcome, CPS_SET_OUTCOME_ANSWERED);
         if (face) need(cps_set_extent(face, e, &extent, &err), "extent");
         if (face && !isinf(extent.high)) fail("face ends", extent.high, INFINITY);
         if (face && line && !isinf(extent.low)) fail("face begins", extent.low, -INFINITY);
@@ -382,7 +383,7 @@ static void try_flat(void) {
     const double w = digit(3), works = e[1] == 0 && (held || e[2] == 0), power = -size * e[0] * w;
     const double gamma = works ? fmax(-power, 2 * power) : 0, allowed = 1e-7 * size * 10;
     need(cps_system_solve(system, &w, NULL, &motion, &err), "solve");
-    same("outcome", cps_motion_report(motion)->outcome, CPS_MOTION_SOLVED);
+    same("outcome", cps_motion_report(motion)->outcome, CPS_MOTION_OUTCOME_SOLVED);
     near("gamma", cps_motion_report(motion)->value, gamma, allowed);
     if (!(cps_motion_report(motion)->lower <= gamma + allowed))
         fail("lower bound", cps_motion_report(motion)->lower, gamma);
@@ -431,13 +432,14 @@ static void try_limit(void) {
                          : round ? r * fabs(w) * sqrt(fmax(0, 1 - factor * factor))
                                  : a * fabs(w);
     if (beyond)
-        same("beyond the limit", report->outcome, CPS_MOTION_NO_BALANCE);
+        same("beyond the limit", report->outcome, CPS_MOTION_OUTCOME_NO_BALANCE);
     else if (at && !attained)
-        same("at the limit", report->outcome, CPS_MOTION_NOT_ATTAINED);
-    else if (report->outcome != CPS_MOTION_SOLVED && report->outcome != CPS_MOTION_LIMIT_LOAD &&
+        same("at the limit", report->outcome, CPS_MOTION_OUTCOME_NOT_ATTAINED);
+    else if (report->outcome != CPS_MOTION_OUTCOME_SOLVED &&
+             report->outcome != CPS_MOTION_OUTCOME_LIMIT_LOAD &&
              !(round && power >= 9 &&
-               report->outcome == CPS_MOTION_NOT_ATTAINED)) /* V = w tan: 3e4 w and more */
-        fail("below the limit", report->outcome, CPS_MOTION_SOLVED);
+               report->outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED)) /* V = w tan: 3e4 w and more */
+        fail("below the limit", report->outcome, CPS_MOTION_OUTCOME_SOLVED);
     if (beyond)
         same("no gamma", isinf(report->value) && report->value < 0, 1);
     else {
@@ -477,7 +479,7 @@ static void try_table(void) {
     CpsSetAnswer answer;
     CpsSetExtent extent;
     need(cps_resistance_velocities(all, force, &velocities, &answer, &err), "velocities");
-    same("outcome", answer.outcome, CPS_SET_ANSWERED);
+    same("outcome", answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     if (velocities) {
         need(cps_set_extent(velocities, (double[]){-u[0], -u[1]}, &extent, &err), "extent");
         near("least speed", r * extent.low, low[where], 1e-5); /* g = r |V| */
@@ -524,7 +526,7 @@ static void wheel_motion(const Wheel *wheel, double *v) {
  * one found, where that is said to be the only one. */
 static void belongs(const char *what, const CpsSolutionSet *all, int n, const double *expected,
                     const double *low, const double *high, const double *allowed) {
-    if (all->outcome == CPS_SET_ANSWERED)
+    if (all->outcome == CPS_SET_OUTCOME_ANSWERED)
         for (int i = 0; i < n; i++)
             if (!(low[i] - allowed[i] <= expected[i] && expected[i] <= high[i] + allowed[i]))
                 fail(what, low[i], expected[i]);
@@ -555,7 +557,7 @@ static void try_wheel(void) {
     const double speed = fmax(fabs(wheel.w[0]), fabs(wheel.w[1])), length = hypot(v[1], v[2]);
     const double gamma = wheel.ground * length + wheel.brake * fabs(v[0]),
                  power = wheel.ground * speed;
-    same("outcome", report->outcome, CPS_MOTION_SOLVED);
+    same("outcome", report->outcome, CPS_MOTION_OUTCOME_SOLVED);
     /* the promise is 1e-8 of the power scale, in which a strong brake that does not slip has a
      * part */
     near("gamma", report->value, gamma, 1e-9 * power);
@@ -607,7 +609,7 @@ static void support_of_polar(const CpsSet *polar, int n, double rho, double r, c
     CpsSetAnswer answer;
     need(cps_set_support(polar, w, at, &answer, &err), "support of the polar");
     same("outcome of the polar's support", answer.outcome,
-         none ? CPS_SET_UNBOUNDED : CPS_SET_ANSWERED);
+         none ? CPS_SET_OUTCOME_UNBOUNDED : CPS_SET_OUTCOME_ANSWERED);
     if (none) return;
     near("support of the polar", answer.value, t, 1e-9 * t);
     near("where it is attained", dot(n, at, w), t, 1e-9 * t);
@@ -629,7 +631,7 @@ static void try_polar(void) {
     need(cps_set_ball(n, c, r, &ball, &err), "ball");
     need(cps_set_polar(ball, &polar, &err), "polar");
     need(cps_set_facts(polar, 0, &facts, NULL, NULL, &err), "facts");
-    same("outcome of the facts", facts.outcome, CPS_SET_ANSWERED);
+    same("outcome of the facts", facts.outcome, CPS_SET_OUTCOME_ANSWERED);
     same("dimension", facts.dimension, n);
     same("0 is inside", facts.zero_interior, true);
     same("bounded", facts.bounded, rho < 1);
@@ -648,14 +650,14 @@ static void try_polar(void) {
             near("gauge on the boundary", answer.value, square / (2 * r * s),
                  1e-9 * square / (2 * r * s));
         else
-            same("no gauge", isinf(answer.value) || answer.outcome != CPS_SET_ANSWERED, 1);
+            same("no gauge", isinf(answer.value) || answer.outcome != CPS_SET_OUTCOME_ANSWERED, 1);
     }
     /* the polar at 1/h along w, h = <w, c> + r |w|: its boundary, where there is one */
     const double h = dot(n, w, c) + r;
     CpsSetAnswer inside;
     for (int i = 0; i < n; i++) x[i] = w[i] * (h > 1e-9 * r ? 0.5 / h : 1 / r);
     need(cps_set_contains(polar, x, NULL, &inside, &err), "contains");
-    same("outcome of the margin", inside.outcome, CPS_SET_ANSWERED);
+    same("outcome of the margin", inside.outcome, CPS_SET_OUTCOME_ANSWERED);
     if (!(inside.value >= -1e-9 / r)) fail("a point of the polar", inside.value, 0);
     if (h > 1e-9 * r) {
         for (int i = 0; i < n; i++) x[i] = w[i] * 1.5 / h;
@@ -695,7 +697,7 @@ static void friction_cone(void) {
     w[n - 1] = -f * length + digit(1);
     need(cps_set_support(cone, w, NULL, &answer, &err), "support");
     same("outcome of the support", answer.outcome,
-         f * length + w[n - 1] > 1e-9 ? CPS_SET_UNBOUNDED : CPS_SET_ANSWERED);
+         f * length + w[n - 1] > 1e-9 ? CPS_SET_OUTCOME_UNBOUNDED : CPS_SET_OUTCOME_ANSWERED);
     const int where = below(3); /* at the tip, inside, on the mantle */
     if (where > 0) force[n - 1] = N;
     for (int i = 0; i < n - 1; i++) force[i] = where == 2 ? f * N * e[i] : 0;
@@ -742,7 +744,8 @@ static void one_sided(void) {
          "drive");
     need(cps_system_solve(system, w, NULL, &motion, &err), "solve");
     const CpsMotionReport *report = cps_motion_report(motion);
-    same("outcome", report->outcome, w[0] < 0 ? CPS_MOTION_BLOCKED : CPS_MOTION_SOLVED);
+    same("outcome", report->outcome,
+         w[0] < 0 ? CPS_MOTION_OUTCOME_BLOCKED : CPS_MOTION_OUTCOME_SOLVED);
     if (w[0] >= 0) near("gamma", report->value, b * w[0] + 2 * b * fabs(w[1]), 1e-8 * b);
     if (w[0] >= 0) same("Proposition 1", report->composition, CPS_COMPOSITION_INTERIOR);
     CpsSolutionSet all;

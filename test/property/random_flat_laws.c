@@ -223,8 +223,8 @@ static void compare(const Case *c, const CpsLaw *law, double gamma, double size)
     CpsMotion *motion = NULL;
     need(cps_system_solve(system, w, NULL, &motion, &err), "solve");
     const CpsMotionReport *report = cps_motion_report(motion);
-    if (report->outcome != CPS_MOTION_SOLVED)
-        fail("outcome", report->outcome, CPS_MOTION_SOLVED);
+    if (report->outcome != CPS_MOTION_OUTCOME_SOLVED)
+        fail("outcome", report->outcome, CPS_MOTION_OUTCOME_SOLVED);
     else if (!(fabs(report->value - gamma) <= allowed))
         fail("gamma of the motion", report->value, gamma);
     if (!(report->lower <= gamma + allowed && report->upper >= gamma - allowed))
@@ -234,8 +234,8 @@ static void compare(const Case *c, const CpsLaw *law, double gamma, double size)
     CpsSetAnswer phi;
     for (int i = 0; i < c->drive; i++) w[i] = -w[i];
     need(cps_set_support(forces, w, NULL, &phi, &err), "support");
-    if (phi.outcome != CPS_SET_ANSWERED)
-        fail("outcome of the reduced law", phi.outcome, CPS_SET_ANSWERED);
+    if (phi.outcome != CPS_SET_OUTCOME_ANSWERED)
+        fail("outcome of the reduced law", phi.outcome, CPS_SET_OUTCOME_ANSWERED);
     else if (!(fabs(phi.value - gamma) <= allowed))
         fail("gamma of the reduced law", phi.value, gamma);
     cps_set_release(forces);

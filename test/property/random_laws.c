@@ -186,8 +186,8 @@ static CpsLaw *random_law(int n, int depth) {
 
 static bool is_answered(CpsSetOutcome outcome) {
     questions++;
-    open += outcome != CPS_SET_ANSWERED;
-    return outcome == CPS_SET_ANSWERED;
+    open += outcome != CPS_SET_OUTCOME_ANSWERED;
+    return outcome == CPS_SET_OUTCOME_ANSWERED;
 }
 
 /* the five forms at any force of C */
@@ -196,7 +196,7 @@ static void check_forms(const CpsSet *set, const double *force, const double *ve
     CpsSetResidual r;
     DO(cps_set_residual(set, force, velocity, 0, &r, &err));
     const bool projected = !isnan(r.normal_cone) && !isnan(r.outside);
-    if (!is_answered(projected ? r.outcome : CPS_SET_INACCURATE)) return;
+    if (!is_answered(projected ? r.outcome : CPS_SET_OUTCOME_INACCURATE)) return;
     const double equal = (exact ? ROUNDING : POWER_TOLERANCE) * r.scale + r.gap;
     check(set, "variational form", fabs(r.variational - r.dissipation), equal);
     check(set, "maximum dissipation form", fabs(r.maximum_dissipation - r.dissipation), equal);
@@ -251,7 +251,7 @@ static void check_velocity(const CpsSet *set, const double *velocity) {
             check_velocities(set, center, velocity);
         }
         /* the ends of the set of forces along its first direction */
-        if (facts.outcome == CPS_SET_ANSWERED && facts.dimension > 0)
+        if (facts.outcome == CPS_SET_OUTCOME_ANSWERED && facts.dimension > 0)
             for (int side = -1; side <= 1; side += 2) {
                 for (int i = 0; i < n; i++) twice[i] = side * basis[i];
                 DO(cps_set_support(forces, twice, end, &at, &err));

@@ -384,8 +384,8 @@ static void check(const Case *c, const char *what, double got, double bound) {
 
 static bool is_answered(CpsSetOutcome outcome) {
     questions++;
-    open += outcome != CPS_SET_ANSWERED;
-    return outcome == CPS_SET_ANSWERED;
+    open += outcome != CPS_SET_OUTCOME_ANSWERED;
+    return outcome == CPS_SET_OUTCOME_ANSWERED;
 }
 
 static void random_velocity(int n, double *velocity) {
@@ -425,7 +425,7 @@ static bool check_value(const Case *c, const double *velocity, double *phi, doub
 static bool force_at(const Case *c, const double *velocity, double power, double *force) {
     CpsError err;
     CpsSetAnswer answer;
-    CpsSetFacts facts = {.outcome = CPS_SET_INACCURATE};
+    CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_INACCURATE};
     CpsSet *forces = NULL;
     need(cps_resistance_forces(c->law, velocity, 0, &forces, &answer, &err), &err, "forces");
     if (forces) need(cps_set_facts(forces, 0, &facts, force, NULL, &err), &err, "facts");
@@ -444,7 +444,7 @@ static bool check_conjugate(const Case *c, const double *force, double *value, d
     CpsSetAnswer answer;
     CpsError err;
     need(cps_resistance_conjugate(c->law, force, velocity, &answer, &err), &err, "conjugate");
-    if (answer.outcome == CPS_SET_OUTSIDE && c->bounded) { /* a good answer */
+    if (answer.outcome == CPS_SET_OUTCOME_OUTSIDE && c->bounded) { /* a good answer */
         questions++;
         check(c, "a value outside", -answer.value, -1e300);
         return false;
@@ -466,7 +466,8 @@ static bool check_conjugate(const Case *c, const double *force, double *value, d
     }
     if (!c->one || !(*scale > SMALL)) return true;
     need(cps_resistance_residual(c->law, force, velocity, &gap, &distance, &err), &err, "residual");
-    if (!is_answered(isnan(gap) || isnan(distance) ? CPS_SET_INACCURATE : CPS_SET_ANSWERED))
+    if (!is_answered(isnan(gap) || isnan(distance) ? CPS_SET_OUTCOME_INACCURATE
+                                                   : CPS_SET_OUTCOME_ANSWERED))
         return true;
     check(c, "residual gap", fabs(gap), slack);
     check(c, "F from the forces at its velocity", distance, ROOT * sqrt(dot(n, force, force)));

@@ -51,7 +51,9 @@ static Verdict same(double a, double b, double scale) {
 }
 
 static Verdict verdict_of(CpsSetOutcome outcome) {
-    return outcome == CPS_SET_ANSWERED ? ANSWERED : outcome == CPS_SET_INACCURATE ? OPEN : REFUSED;
+    return outcome == CPS_SET_OUTCOME_ANSWERED     ? ANSWERED
+           : outcome == CPS_SET_OUTCOME_INACCURATE ? OPEN
+                                                   : REFUSED;
 }
 
 /* Where an answer is due, a refusal is wrong. */
@@ -64,9 +66,10 @@ static Verdict both(Verdict a, Verdict b) { return a > b ? a : b; }
 
 /* Two answers to one question. */
 static Verdict compare(const CpsSetAnswer *a, const CpsSetAnswer *b, double scale) {
-    if (a->outcome == CPS_SET_INACCURATE || b->outcome == CPS_SET_INACCURATE) return OPEN;
+    if (a->outcome == CPS_SET_OUTCOME_INACCURATE || b->outcome == CPS_SET_OUTCOME_INACCURATE)
+        return OPEN;
     if (a->outcome != b->outcome) return WRONG;
-    if (a->outcome != CPS_SET_ANSWERED) return REFUSED;
+    if (a->outcome != CPS_SET_OUTCOME_ANSWERED) return REFUSED;
     /* the gaps must explain the difference, but for rounding of sums of some hundred products */
     if (fabs(a->value - b->value) > a->gap + b->gap + 1e-12 * scale) return WRONG;
     return same(a->value, b->value, scale);
@@ -94,17 +97,17 @@ static bool direction(const Sample *sample, double *w, double *x, CpsSetAnswer *
         w[below(n)] = below(2) ? 1 : -1;
     }
     DO(cps_set_support(sample->set, w, x, h, &err));
-    if (h->outcome != CPS_SET_UNBOUNDED) return true;
+    if (h->outcome != CPS_SET_OUTCOME_UNBOUNDED) return true;
     double p[MAX_SPACE], nearest[MAX_SPACE];
     for (int k = 0; k < 20; k++) {
         CpsSetAnswer answer;
         fill(n, 10, p);
         for (int i = 0; i < n; i++) p[i] += sample->inside[i];
         DO(cps_set_project(sample->set, p, NULL, nearest, &answer, &err));
-        if (answer.outcome != CPS_SET_ANSWERED || answer.value < 0.1) continue;
+        if (answer.outcome != CPS_SET_OUTCOME_ANSWERED || answer.value < 0.1) continue;
         for (int i = 0; i < n; i++) w[i] = (p[i] - nearest[i]) / answer.value;
         DO(cps_set_support(sample->set, w, x, h, &err));
-        return h->outcome != CPS_SET_UNBOUNDED;
+        return h->outcome != CPS_SET_OUTCOME_UNBOUNDED;
     }
     return false;
 }
@@ -205,7 +208,7 @@ static Verdict attains(const CpsSet *set, const CpsSet *face, const double *w, d
         if (side > 0) {
             for (int i = 0; i < n; i++) basis[i] = -basis[i];
             DO(cps_set_support(face, basis, end, &answer, &err));
-            if (answer.outcome == CPS_SET_UNBOUNDED) continue;
+            if (answer.outcome == CPS_SET_OUTCOME_UNBOUNDED) continue;
             verdict = due(answer.outcome);
         } else
             memcpy(end, center, (size_t)n * sizeof *end);
@@ -283,7 +286,7 @@ static Verdict split_by_cones(int n, const CpsSet *const *part, const double *x,
         DO(cps_set_preimage(n, map, shift, product, &pairs, &err));
         DO(cps_set_project(pairs, middle, NULL, u, &answer, &err));
         /* rounding may keep the two cones from meeting */
-        verdict = answer.outcome == CPS_SET_EMPTY ? OPEN : due(answer.outcome);
+        verdict = answer.outcome == CPS_SET_OUTCOME_EMPTY ? OPEN : due(answer.outcome);
         cps_set_release(product);
         cps_set_release(pairs);
     }
@@ -403,7 +406,7 @@ static Verdict case_project(int n) {
         /* w is known to rounding: a set that is unbounded across it may say so */
         verdict = verdict_of(h.outcome);
         if (verdict == ANSWERED) verdict = same(h.value, dot(n, w, nearest), norm(n, w) * far);
-        if (h.outcome == CPS_SET_EMPTY) verdict = WRONG;
+        if (h.outcome == CPS_SET_OUTCOME_EMPTY) verdict = WRONG;
     }
     cps_set_release(sample.set);
     return verdict;
@@ -505,15 +508,16 @@ static Verdict case_preimage(int n) {
         DO(cps_set_support(pre, w, x, &a, &err));
         DO(cps_set_support(second, w, u, &b, &err));
         /* endless along what only rounding of L+ has left of w? */
-        const bool rounding =
-            b.outcome == CPS_SET_UNBOUNDED && dot(n, w, u) < 1e-12 * norm(n, w) * norm(n, u);
+        const bool rounding = b.outcome == CPS_SET_OUTCOME_UNBOUNDED &&
+                              dot(n, w, u) < 1e-12 * norm(n, w) * norm(n, u);
         verdict = rounding
                       ? REFUSED
-                      : compare(&a, &b, scale_of(pre, w, a.outcome == CPS_SET_ANSWERED ? x : NULL));
+                      : compare(&a, &b,
+                                scale_of(pre, w, a.outcome == CPS_SET_OUTCOME_ANSWERED ? x : NULL));
         if (m < n && verdict == ANSWERED) { /* but other directions are not */
             fill(n, 1, w);
             DO(cps_set_support(pre, w, x, &a, &err));
-            if (a.outcome != CPS_SET_UNBOUNDED || !(dot(n, w, x) > 0)) verdict = WRONG;
+            if (a.outcome != CPS_SET_OUTCOME_UNBOUNDED || !(dot(n, w, x) > 0)) verdict = WRONG;
         }
         cps_set_release(pre);
     }
@@ -538,8 +542,8 @@ static Verdict check_empty(int n, const CpsSet *set) {
     const CpsSetOutcome all[] = {support.outcome, face.outcome, nearest.outcome, facts.outcome};
     Verdict verdict = ANSWERED;
     for (int k = 0; k < 4; k++)
-        if (all[k] != CPS_SET_EMPTY)
-            verdict = both(verdict, all[k] == CPS_SET_INACCURATE ? OPEN : WRONG);
+        if (all[k] != CPS_SET_OUTCOME_EMPTY)
+            verdict = both(verdict, all[k] == CPS_SET_OUTCOME_INACCURATE ? OPEN : WRONG);
     if (verdict == ANSWERED && (support.value != -INFINITY || facts.dimension != -1 || out))
         verdict = WRONG;
     return verdict;
@@ -598,8 +602,9 @@ static Verdict case_unbounded(int n, const Sample *sample) {
     form = through_form(set);
     DO(cps_set_support(form, ray, x, &up, &err));
     DO(cps_set_face(form, ray, 0, &face, &of, &err));
-    Verdict verdict = up.outcome == CPS_SET_INACCURATE ? OPEN : ANSWERED;
-    if (verdict == ANSWERED && (up.outcome != CPS_SET_UNBOUNDED || up.value != INFINITY || face))
+    Verdict verdict = up.outcome == CPS_SET_OUTCOME_INACCURATE ? OPEN : ANSWERED;
+    if (verdict == ANSWERED &&
+        (up.outcome != CPS_SET_OUTCOME_UNBOUNDED || up.value != INFINITY || face))
         verdict = WRONG;
     if (verdict == ANSWERED && !(dot(n, x, ray) > 0.999 * norm(n, x) * norm(n, ray)))
         verdict = WRONG;

@@ -534,13 +534,13 @@ static void check_reduced(const System *s, const CpsMotion *motion) {
         double w[MOST_ROWS];
         for (int i = 0; i < s->drives; i++) w[i] = factor * s->w[i];
         need(cps_set_dissipation(cps_law_set(law), w, NULL, &phi, &err), "dissipation");
-        if (phi.outcome == CPS_SET_ANSWERED)
+        if (phi.outcome == CPS_SET_OUTCOME_ANSWERED)
             check("reduced law", fabs(phi.value - factor * report->value), VALUE * factor * scale);
     }
     CpsSetAnswer inside;
     need(cps_set_contains(cps_law_set(law), cps_motion_resistance(motion), NULL, &inside, &err),
          "contains");
-    if (inside.outcome == CPS_SET_ANSWERED)
+    if (inside.outcome == CPS_SET_OUTCOME_ANSWERED)
         check("G outside the reduced law", -inside.value, VALUE * report->scale);
     cps_law_release(law);
 }
@@ -551,12 +551,12 @@ static bool extreme(const CpsSet *set, const double *at, int n, double far, doub
     CpsSetAnswer answer;
     for (int i = 0; i < n; i++) direction[i] = uniform(-1, 1);
     need(cps_set_support(set, direction, point, &answer, &err), "support of all solutions");
-    if (answer.outcome == CPS_SET_UNBOUNDED) {
+    if (answer.outcome == CPS_SET_OUTCOME_UNBOUNDED) {
         const double length = norm(n, point);
         for (int i = 0; i < n; i++) point[i] = at[i] + far * point[i] / length;
         return true;
     }
-    return answer.outcome == CPS_SET_ANSWERED;
+    return answer.outcome == CPS_SET_OUTCOME_ANSWERED;
 }
 
 static int asked, open, pushed;
@@ -568,7 +568,7 @@ static void check_velocities(const System *s, const CpsMotion *motion) {
     CpsSolutionSet all;
     need(cps_motion_velocities(motion, 0, &all, NULL, NULL, &err), "all velocities");
     asked++;
-    open += all.outcome != CPS_SET_ANSWERED;
+    open += all.outcome != CPS_SET_OUTCOME_ANSWERED;
     if (all.set) {
         for (int t = 0; t < 3; t++) {
             double point[MOST_N], forbidden = 0;
@@ -593,7 +593,7 @@ static void check_velocities(const System *s, const CpsMotion *motion) {
                 continue;
             if (forbidden > 0) continue;
             need(cps_set_contains(all.set, other, NULL, &inside, &err), "contains");
-            if (inside.outcome == CPS_SET_ANSWERED) {
+            if (inside.outcome == CPS_SET_OUTCOME_ANSWERED) {
                 check("a V left out", -inside.value, PUSH * speed);
                 pushed++;
             }
@@ -610,7 +610,7 @@ static void check_forces(const System *s, const CpsMotion *motion) {
     stack_forces(s, motion, at);
     need(cps_motion_forces(motion, 0, &all, NULL, NULL, &err), "all forces");
     asked++;
-    open += all.outcome != CPS_SET_ANSWERED;
+    open += all.outcome != CPS_SET_OUTCOME_ANSWERED;
     const double force = fmax(largest(s->components, at), largest(s->n, s->load));
     if (all.set)
         for (int t = 0; t < 3; t++) {
@@ -645,7 +645,7 @@ static void check_missed_interior(void) {
     check("missed interior: composition", report->composition != CPS_COMPOSITION_NOT_SATISFIED, 0);
     check("missed interior: lower bound", report->lower, 1e-6 * law.size);
     check("missed interior: upper bound", -report->upper, 0);
-    check("missed interior: attained", report->outcome != CPS_MOTION_NOT_ATTAINED, 0);
+    check("missed interior: attained", report->outcome != CPS_MOTION_OUTCOME_NOT_ATTAINED, 0);
     check("missed interior: no direction", cps_motion_direction(motion) == NULL, 0);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
@@ -668,23 +668,23 @@ static void one_case(uint64_t number) {
     const CpsMotionReport *report = cps_motion_report(motion);
     count_outcome[report->outcome]++;
     switch (report->outcome) {
-    case CPS_MOTION_SOLVED:
-    case CPS_MOTION_LIMIT_LOAD:
+    case CPS_MOTION_OUTCOME_SOLVED:
+    case CPS_MOTION_OUTCOME_LIMIT_LOAD:
         check_solution(&s, motion);
         check_reduced(&s, motion);
         check_velocities(&s, motion);
         check_forces(&s, motion);
         break;
-    case CPS_MOTION_NO_BALANCE:
+    case CPS_MOTION_OUTCOME_NO_BALANCE:
         check("no balance without a load", s.loaded ? 0 : 1, 0);
         check_no_balance(&s, motion);
         break;
-    case CPS_MOTION_BLOCKED:
+    case CPS_MOTION_OUTCOME_BLOCKED:
         check("blocked without a half-line", s.one_sided ? 0 : 1, 0);
         check_blocked(&s, motion);
         break;
-    case CPS_MOTION_NOT_ATTAINED: check_not_attained(&s, motion); break;
-    case CPS_MOTION_INACCURATE:
+    case CPS_MOTION_OUTCOME_NOT_ATTAINED: check_not_attained(&s, motion); break;
+    case CPS_MOTION_OUTCOME_INACCURATE:
         fprintf(stderr, "seed %llu: inaccurate: gap %.3g of %.3g, composition %s\n",
                 (unsigned long long)seed, report->minimum, fmax(fabs(report->value), report->scale),
                 cps_composition_name(report->composition));

@@ -168,12 +168,12 @@ static void unbounded_laws_answer_what_they_can(void **state) {
     OK(cps_set_subspace(2, 1, y, &line, NULL));
     OK(cps_law_friction(line, &law, NULL));
     OK(cps_set_dissipation(cps_law_set(law), along, NULL, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_NEAR(answer.value, 0, 0);
     OK(cps_set_dissipation(cps_law_set(law), against, NULL, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_UNBOUNDED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_UNBOUNDED);
     OK(cps_set_residual(cps_law_set(law), y, against, 0, &r, NULL));
-    assert_int_equal(r.outcome, CPS_SET_UNBOUNDED);
+    assert_int_equal(r.outcome, CPS_SET_OUTCOME_UNBOUNDED);
     CHECK_NEAR(r.dissipation, INFINITY, 0);
     cps_law_release(law);
     cps_set_release(line);
@@ -216,7 +216,7 @@ static void check_pair(const CpsResistance *law, const double *force) {
     double velocity[2], gap, distance;
     CpsSetAnswer answer;
     OK(cps_resistance_conjugate(law, force, velocity, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     OK(cps_resistance_residual(law, force, velocity, &gap, &distance, NULL));
     const double power = fabs(velocity[0] * force[0] + velocity[1] * force[1]);
     CHECK_NEAR(gap, 0, 1e-11 * fmax(power, 1));
@@ -273,7 +273,7 @@ static void table_law(void **state) {
     check_pair(law, force);
     check_pair(law, small);
     OK(cps_resistance_conjugate(law, large, NULL, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_OUTSIDE);
     cps_resistance_release(law);
     cps_law_release(disc);
 }
@@ -310,7 +310,7 @@ static void mixed_sum(void **state) {
     OK(cps_resistance_power(disc, 3, 2, &part[1], NULL));
     OK(cps_resistance_sum(2, (const CpsResistance *const *)part, &sum, NULL));
     OK(cps_resistance_conjugate(sum, force, found, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_RELATIVE(answer.value, 4.0 / 3, CONIC);
     CHECK_NEAR(answer.gap, 0, CONIC * 3);
     CHECK_NEAR(found[0], 1, ROOT);
@@ -342,7 +342,7 @@ static void check_dry_and_viscous(CpsSet *dry, const double *force, double value
     OK(cps_resistance_viscous(2, d, &part[1], NULL));
     OK(cps_resistance_sum(2, (const CpsResistance *const *)part, &sum, NULL));
     OK(cps_resistance_conjugate(sum, force, found, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_NEAR(answer.value, value, CONIC * 3 * value);
     CHECK_NEAR(found[0], v0, ROOT * hypot(v0, v1));
     CHECK_NEAR(found[1], v1, ROOT * hypot(v0, v1));
@@ -400,14 +400,14 @@ static void sums_without_an_answer(void **state) {
     OK(cps_resistance_sum(2, (const CpsResistance *const *)part, &sum, NULL));
     OK(cps_resistance_conjugate(sum, inside, found, &answer, NULL));
     /* the table bears 3.9 = 2 h', h' = 2 g, g = 2 |V|; h*(s) = s^2/4 */
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_RELATIVE(answer.value, 1.95 * 1.95 / 4, CONIC);
     CHECK_NEAR(found[0], -0.4875, ROOT);
     OK(cps_resistance_conjugate(sum, outside, found, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_OUTSIDE);
     assert_true(isinf(answer.value));
     OK(cps_resistance_conjugate(sum, beside, found, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_OUTSIDE);
 
     /* a user's set has no gauge */
     OK(cps_resistance_viscous(2, d, &part[2], NULL));
@@ -419,7 +419,7 @@ static void sums_without_an_answer(void **state) {
     const CpsResistance *has_second_contacts[2] = {part[0], part[2]};
     OK(cps_resistance_sum(2, has_second_contacts, &same, NULL));
     OK(cps_resistance_conjugate(same, inside, found, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_NOT_AVAILABLE);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_NOT_AVAILABLE);
     cps_law_release(law);
     for (int i = 0; i < 3; i++) cps_resistance_release(part[i]);
     cps_resistance_release(sum);
@@ -541,7 +541,7 @@ static void function_law(void **state) {
         CHECK_NEAR(hypot(found[0], found[1]), sqrt(2) - 1, ROOT);
         check_pair(law, force);
         OK(cps_resistance_conjugate(law, strong, found, &answer, NULL));
-        assert_int_equal(answer.outcome, CPS_SET_OUTSIDE);
+        assert_int_equal(answer.outcome, CPS_SET_OUTCOME_OUTSIDE);
         cps_resistance_release(law);
     }
     /* a jump of the slope from 1 to 3 at speed 2: forces between them go with that speed */
@@ -562,12 +562,12 @@ static void function_law(void **state) {
     CHECK_RELATIVE(answer.value, 2.5, 1e-12);
     CHECK_NEAR(found[0], -1, ROOT);
     OK(cps_resistance_forces(part[0], velocity, 0, &forces, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_UNBOUNDED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_UNBOUNDED);
     assert_null(forces);
     OK(cps_resistance_viscous(2, d, &part[1], NULL));
     OK(cps_resistance_sum(2, (const CpsResistance *const *)part, &sum, NULL));
     OK(cps_resistance_conjugate(sum, large, found, &answer, NULL));
-    assert_int_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_RELATIVE(answer.value, 5, CONIC * 3);
     CHECK_NEAR(found[1], -1, ROOT);
     OK(cps_resistance_conjugate(sum, small, found, &answer, NULL));

@@ -235,7 +235,7 @@ static void random_drives(void **state) {
         CpsError err = {.message = ""};
         if (cps_planar_drive(body, rows, map, velocity, &motion, &err) != CPS_OK)
             fail_msg("case %d: %s", i, err.message);
-        if (motion.outcome != CPS_SET_ANSWERED)
+        if (motion.outcome != CPS_SET_OUTCOME_ANSWERED)
             fail_msg("case %d: outcome %d", i, (int)motion.outcome);
         assert_true(motion.lower <= motion.upper);
         CHECK_LESS(motion.upper - motion.lower, 1e-10 * fmax(motion.upper, 1e-2 * motion.scale));
@@ -299,7 +299,7 @@ static void random_drives_against_systems(void **state) {
         assert_int_equal(cps_system_set_drive(system, rows, 3 * rows, entry, NULL), CPS_OK);
         assert_int_equal(cps_system_solve(system, velocity, NULL, &motion, NULL), CPS_OK);
         const CpsMotionReport *report = cps_motion_report(motion);
-        assert_int_equal(report->outcome, CPS_MOTION_SOLVED);
+        assert_int_equal(report->outcome, CPS_MOTION_OUTCOME_SOLVED);
         assert_true(found.lower <= report->upper &&
                     report->lower <= found.upper); /* both enclose gamma */
         cps_motion_destroy(motion);
@@ -386,7 +386,7 @@ static void bad_questions(void **state) {
 
     /* more accuracy than cells can give: said, and the bounds hold */
     assert_int_equal(cps_planar_bounds(body, one, 1e-9, &bounds, NULL), CPS_OK);
-    assert_int_equal(bounds.outcome, CPS_SET_INACCURATE);
+    assert_int_equal(bounds.outcome, CPS_SET_OUTCOME_INACCURATE);
     assert_int_equal(cps_planar_dissipation(body, one, NULL, NULL, &answer, NULL), CPS_OK);
     CHECK_BETWEEN(answer.value, bounds.lower, bounds.upper);
 
@@ -394,7 +394,7 @@ static void bad_questions(void **state) {
     assert_int_equal(cps_planar_dissipation(body, (double[3]){1.7e308, 1.7e308, 0}, NULL, NULL,
                                             &answer, NULL),
                      CPS_OK);
-    assert_int_not_equal(answer.outcome, CPS_SET_ANSWERED);
+    assert_int_not_equal(answer.outcome, CPS_SET_OUTCOME_ANSWERED);
     cps_planar_destroy(body);
 }
 
@@ -411,7 +411,7 @@ static void minimum_not_attained(void **state) {
     assert_int_equal(cps_planar_drive(body, 2, (double[6]){0, 1, 0, 0, 0, 1}, (double[2]){1, 0},
                                       &motion, NULL),
                      CPS_OK);
-    assert_int_equal(motion.outcome, CPS_SET_NOT_ATTAINED);
+    assert_int_equal(motion.outcome, CPS_SET_OUTCOME_NOT_ATTAINED);
     cps_planar_destroy(body);
     cps_law_release(law);
     cps_set_release(ball);
@@ -440,7 +440,7 @@ static void free_turning(void **state) {
         assert_int_equal(cps_planar_drive(body, 1, (double[3]){1, 0, -y}, (double[1]){0.7}, &motion,
                                           NULL),
                          CPS_OK);
-        assert_int_equal(motion.outcome, CPS_SET_ANSWERED);
+        assert_int_equal(motion.outcome, CPS_SET_OUTCOME_ANSWERED);
         CHECK_NEAR(motion.lower, 1.4, 1e-12); /* the promised rounding, of a power of order 1 */
         CHECK_NEAR(motion.upper, 1.4, 1e-12);
         cps_planar_destroy(body);
@@ -455,20 +455,20 @@ static void tow_leaves_the_body(void **state) {
     CpsTow tow = {.pose = {1, 2, 0.5}, .hitch = {0, 1}, .rope = 3, .end = {1, 2}};
     CpsTowStep step;
     assert_int_equal(cps_planar_tow(body, &tow, (double[2]){2, 4}, &step, NULL), CPS_OK);
-    assert_true(step.outcome == CPS_SET_ANSWERED && !step.pulled && step.settled);
+    assert_true(step.outcome == CPS_SET_OUTCOME_ANSWERED && !step.pulled && step.settled);
     CHECK_NEAR(tow.pose[0], 1, 0);
     CHECK_NEAR(tow.pose[2], 0.5, 0);
     CHECK_NEAR(tow.end[1], 4, 0); /* the rope's end has moved all the same */
 
     /* pulled out of the slack, it ends just taut */
     assert_int_equal(cps_planar_tow(body, &tow, (double[2]){2, 5.6}, &step, NULL), CPS_OK);
-    assert_true(step.outcome == CPS_SET_ANSWERED && step.pulled && step.settled);
+    assert_true(step.outcome == CPS_SET_OUTCOME_ANSWERED && step.pulled && step.settled);
     const double x = tow.pose[0] - sin(tow.pose[2]), y = tow.pose[1] + cos(tow.pose[2]);
     CHECK_RELATIVE(hypot(2 - x, 5.6 - y), 3, 1e-12); /* passes settle to 1e-13 */
 
     tow = (CpsTow){.hitch = {0, 1}};
     assert_int_equal(cps_planar_tow(body, &tow, (double[2]){50, 1}, &step, NULL), CPS_OK);
-    assert_int_equal(step.outcome, CPS_SET_INACCURATE);
+    assert_int_equal(step.outcome, CPS_SET_OUTCOME_INACCURATE);
     CHECK_NEAR(tow.pose[2], 0, 0);
     CHECK_NEAR(tow.work, 0, 0);
     cps_planar_destroy(body);

@@ -413,13 +413,13 @@ static void refusals(void **state) {
 
     CpsStudy *study = NULL;
     CpsStudyOptions options = cps_study_options(classic);
-    options.factor[CPS_STUDY_N] = 1;
+    options.factor[CPS_STUDY_STAGE_N] = 1;
     assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_ERR_ARGUMENT);
     assert_null(study);
     assert_non_null(strstr(err.message, "stage n"));
     options = cps_study_options(classic);
-    options.values[CPS_STUDY_H] = options.values[CPS_STUDY_LAMBDA] = options.values[CPS_STUDY_N] =
-        options.values[CPS_STUDY_DELTA] = 1;
+    options.values[CPS_STUDY_STAGE_H] = options.values[CPS_STUDY_STAGE_LAMBDA] =
+        options.values[CPS_STUDY_STAGE_N] = options.values[CPS_STUDY_STAGE_DELTA] = 1;
     assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_OK);
     assert_non_null(cps_study_row(study, cps_study_row_count(study) - 1));
     assert_true(cps_regularized_end_tension(classic, CPS_END_B) >= 0);

@@ -197,7 +197,7 @@ static CpsStatus sample_speed(Graph *g, double speed, double *curve) {
         const double angle = 2 * CPSI_PI * (i + 0.5) / DIRECTIONS;
         CpsSet *forces = NULL;
         CpsSetAnswer answer;
-        CpsSetFacts facts = {.outcome = CPS_SET_INACCURATE};
+        CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_INACCURATE};
         memset(g->velocity, 0, (size_t)g->n * sizeof *g->velocity);
         g->velocity[g->axis[0]] = speed * cos(angle);
         g->velocity[g->axis[1]] = speed * sin(angle);
@@ -207,7 +207,8 @@ static CpsStatus sample_speed(Graph *g, double speed, double *curve) {
         cps_set_release(forces);
         if (status != CPS_OK) return status;
         for (int k = 0; k < 2; k++)
-            curve[2 * i + k] = facts.outcome == CPS_SET_ANSWERED ? g->center[g->axis[k]] : NAN;
+            curve[2 * i + k] =
+                facts.outcome == CPS_SET_OUTCOME_ANSWERED ? g->center[g->axis[k]] : NAN;
     }
     return CPS_OK;
 }

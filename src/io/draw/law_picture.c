@@ -80,8 +80,8 @@ static CpsStatus trace(const CpsSet *set, Curve *curve, CpsError *err) {
         CpsSetAnswer answer;
         const CpsStatus status = cps_set_support(set, w, point, &answer, err);
         if (status != CPS_OK) return status;
-        if (answer.outcome == CPS_SET_EMPTY) return CPS_OK;
-        if (answer.outcome != CPS_SET_ANSWERED)
+        if (answer.outcome == CPS_SET_OUTCOME_EMPTY) return CPS_OK;
+        if (answer.outcome != CPS_SET_OUTCOME_ANSWERED)
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "cannot draw the set of forces: %s",
                              cps_set_outcome_text(answer.outcome));
         curve->count++;
@@ -132,22 +132,23 @@ static CpsStatus cut_off(const Sheet *s, double limits, CpsSet **set) {
 static CpsStatus choose_limit(Sheet *s, const CpsSet *shadow) {
     CpsSetFacts facts;
     CpsStatus status = cps_set_facts(shadow, 0, &facts, NULL, NULL, s->err);
-    if (status != CPS_OK || facts.outcome != CPS_SET_ANSWERED || facts.bounded) return status;
+    if (status != CPS_OK || facts.outcome != CPS_SET_OUTCOME_ANSWERED || facts.bounded)
+        return status;
     double most = 0, corner[2 * MOST_CORNERS];
     int corners = 0;
     CpsSetAnswer answer;
     for (int i = 0; status == CPS_OK && i < DIRECTIONS / 20; i++) {
         const double angle = 40 * CPSI_PI * i / DIRECTIONS;
         status = cps_set_support(shadow, (double[]){cos(angle), sin(angle)}, NULL, &answer, s->err);
-        if (answer.outcome == CPS_SET_ANSWERED) most = fmax(most, fabs(answer.value));
+        if (answer.outcome == CPS_SET_OUTCOME_ANSWERED) most = fmax(most, fabs(answer.value));
     }
     if (status == CPS_OK)
         status = cps_set_contains(shadow, (double[]){0, 0}, NULL, &answer, s->err);
-    if (status == CPS_OK && answer.outcome == CPS_SET_ANSWERED && isfinite(answer.value))
+    if (status == CPS_OK && answer.outcome == CPS_SET_OUTCOME_ANSWERED && isfinite(answer.value))
         most = fmax(most, fabs(answer.value));
     if (status == CPS_OK)
         status = cps_set_vertices(shadow, 0, MOST_CORNERS, corner, &corners, &answer, s->err);
-    if (status == CPS_OK && answer.outcome == CPS_SET_ANSWERED)
+    if (status == CPS_OK && answer.outcome == CPS_SET_OUTCOME_ANSWERED)
         for (int i = 0; i < 2 * corners && i < 2 * MOST_CORNERS; i++)
             most = fmax(most, fabs(corner[i]));
     for (int i = 0; i < s->picture->force_count; i++)
@@ -230,7 +231,8 @@ static CpsStatus draw_corners(Sheet *s, const CpsSet *seen, const CpsSet *set) {
     int count = 0;
     CpsSetAnswer answer;
     CpsStatus status = cps_set_vertices(seen, 0, MOST_CORNERS, corner, &count, &answer, s->err);
-    if (status == CPS_OK && (answer.outcome != CPS_SET_ANSWERED || count > MOST_CORNERS)) count = 0;
+    if (status == CPS_OK && (answer.outcome != CPS_SET_OUTCOME_ANSWERED || count > MOST_CORNERS))
+        count = 0;
     for (int i = 0; i < count && status == CPS_OK; i++) {
         /* where an edge runs into an arc there is one normal: no corner */
         const double *at = corner + 2 * i;
@@ -288,11 +290,11 @@ static void list_velocity(const Sheet *s, int i, const double *velocity, const C
     draw_line(s, 3 * i, colour_of(s, i).hex, text);
     double speed = 0; /* below the rounding of forces times speed phi is 0 */
     for (int k = 0; k < s->n; k++) speed = fmax(speed, fabs(velocity[k]));
-    if (phi->outcome == CPS_SET_ANSWERED)
+    if (phi->outcome == CPS_SET_OUTCOME_ANSWERED)
         snprintf(text, sizeof text, "   %.6g W, %s",
                  fabs(phi->value) > NOTHING * s->size * speed ? phi->value : 0,
                  dimension < 3 ? KIND[dimension] : "a body of forces");
-    else if (phi->outcome == CPS_SET_UNBOUNDED)
+    else if (phi->outcome == CPS_SET_OUTCOME_UNBOUNDED)
         snprintf(text, sizeof text, "   no force: phi is infinite");
     else
         snprintf(text, sizeof text, "   no force: %s", cps_set_outcome_text(phi->outcome));
@@ -341,7 +343,8 @@ static CpsStatus draw_forces(const Sheet *s, const CpsSet *forces, const char *c
     CpsSetFacts facts;
     CpsStatus status = plane_set(s, forces, false, &flat);
     if (status == CPS_OK) status = cps_set_facts(flat, 0, &facts, center, NULL, s->err);
-    if (status == CPS_OK && facts.outcome == CPS_SET_ANSWERED && (facts.bounded || s->limit > 0))
+    if (status == CPS_OK && facts.outcome == CPS_SET_OUTCOME_ANSWERED &&
+        (facts.bounded || s->limit > 0))
         status = draw_planar_forces(s, &flat, &facts, colour, center);
     cps_set_release(flat);
     return status;
@@ -364,7 +367,7 @@ static CpsStatus draw_velocity(const Sheet *s, int i) {
     const double v[2] = {-velocity[s->picture->axis[0]], -velocity[s->picture->axis[1]]},
                  l = hypot(v[0], v[1]);
     const double direction[2] = {l > 0 ? v[0] / l : 0, l > 0 ? v[1] / l : 0};
-    if (answer.outcome == CPS_SET_ANSWERED)
+    if (answer.outcome == CPS_SET_OUTCOME_ANSWERED)
         draw_arrow(s, center, direction, ARROW * s->size, colour.hex);
     list_velocity(s, i, velocity, &answer, facts.dimension < 0 ? 0 : facts.dimension);
     return CPS_OK;

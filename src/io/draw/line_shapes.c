@@ -88,9 +88,9 @@ static void draw_polyline(const Pen *pen, const double *position, int first, int
 }
 
 static const char *band_colour(unsigned char state) {
-    return state == CPSI_SHAPE_IN_AIR ? COLOUR_AIR
-           : state == CPS_NODE_SLIP   ? COLOUR_SLIP
-                                      : COLOUR_STICK;
+    return state == CPSI_SHAPE_IN_AIR     ? COLOUR_AIR
+           : state == CPS_NODE_STATE_SLIP ? COLOUR_SLIP
+                                          : COLOUR_STICK;
 }
 
 static bool rubs_in_air(const CpsResults *results, const CpsiSnapshot *snapshot) {
@@ -108,7 +108,7 @@ static void draw_states(const Pen *pen, const CpsiShape *shape) {
         const unsigned char state = shape->state[first];
         /* a band reaches half way to its neighbours; to the next point is near enough */
         const int to = last + 1 < shape->points ? last + 1 : last;
-        if (state != CPS_NODE_FREE && to > first)
+        if (state != CPS_NODE_STATE_FREE && to > first)
             draw_polyline(pen, shape->position, first, to, band_colour(state), 11, "");
         first = last + 1;
     }

@@ -18,7 +18,7 @@ static CpsStatus holds(const CpsSet *cone, double angle, bool *in, CpsError *err
     CpsSetAnswer answer;
     const CpsStatus status =
         cps_set_project(cone, (double[]){cos(angle), sin(angle)}, NULL, nearest, &answer, err);
-    *in = answer.outcome == CPS_SET_ANSWERED && answer.value <= NEAR;
+    *in = answer.outcome == CPS_SET_OUTCOME_ANSWERED && answer.value <= NEAR;
     return status;
 }
 
@@ -44,7 +44,7 @@ CpsStatus cpsi_planar_cone(const CpsSet *cone, CpsiPlanarCone *out, CpsError *er
     double center[2], basis[4];
     *out = (CpsiPlanarCone){.dimension = -1};
     CpsStatus status = cps_set_facts(cone, 0, &facts, center, basis, err);
-    if (status != CPS_OK || facts.outcome != CPS_SET_ANSWERED) return status;
+    if (status != CPS_OK || facts.outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     out->dimension = facts.dimension;
     if (facts.dimension == 0) return CPS_OK;
     const double middle =

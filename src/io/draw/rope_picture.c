@@ -166,7 +166,7 @@ CpsStatus cps_drive_draw_rope(const CpsDriveFile *file, const CpsMotion *motion,
     if (!file || file->kind != CPS_DRIVE_ROPE || !motion)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the file holds no rope, or there is no motion");
     const CpsMotionOutcome outcome = cps_motion_report(motion)->outcome;
-    if (outcome == CPS_MOTION_BLOCKED || outcome == CPS_MOTION_NO_BALANCE)
+    if (outcome == CPS_MOTION_OUTCOME_BLOCKED || outcome == CPS_MOTION_OUTCOME_NO_BALANCE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "nothing to draw: %s",
                          cps_motion_outcome_text(outcome));
     RopePicture picture = {file, &file->rope, motion, shots ? count : 0, shots};

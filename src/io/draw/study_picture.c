@@ -21,10 +21,10 @@ enum {
 /* errors below this are not shown: rounding, and exact zeros */
 static const double FLOOR = 1e-13;
 
-static const char *const STAGE_NAME[CPS_STUDY_STAGES] = {"h", "\xCE\xBB", "n", "\xCE\xB4"};
+static const char *const STAGE_NAME[CPS_STUDY_STAGE_COUNT] = {"h", "\xCE\xBB", "n", "\xCE\xB4"};
 
 static CpsiColour stage_colour(int stage) {
-    return cpsi_colour(CPSI_SCALE_STEP, (double)stage / (CPS_STUDY_STAGES - 1));
+    return cpsi_colour(CPSI_SCALE_STEP, (double)stage / (CPS_STUDY_STAGE_COUNT - 1));
 }
 
 /* ---- tensions ---- */
@@ -42,7 +42,7 @@ static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     double range[2] = {0, 0};
     for (int i = 0; i < step.elements; ++i) cpsi_range_include(range, step.tension[i]);
-    for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
+    for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
         const CpsRegularizedView view = cps_study_stage_end(files->study, (CpsStudyStage)s);
         for (int i = 0; i < view.cells; ++i) cpsi_range_include(range, view.tension[i]);
     }
@@ -60,7 +60,7 @@ static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
     cpsi_frame_begin(out, &frame, 0);
     draw_tension(out, &frame, step.elements, step.arc_length, step.tension, unit.factor,
                  "stroke=\"#bbb\" stroke-width=\"7\" stroke-linejoin=\"round\"");
-    for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
+    for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
         const CpsRegularizedView view = cps_study_stage_end(files->study, (CpsStudyStage)s);
         snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"%.1f\"", stage_colour(s).hex,
                  3.4 - 0.6 * s);
@@ -72,7 +72,7 @@ static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
 
     /* what is what */
     const double x = LEFT + WIDTH + 20;
-    for (int s = -1; s < CPS_STUDY_STAGES; ++s) {
+    for (int s = -1; s < CPS_STUDY_STAGE_COUNT; ++s) {
         const double y = TENSION_TOP + 30 + 22 * s;
         char text[64];
         if (s < 0)
@@ -112,7 +112,7 @@ static double curve_value(int curve, const CpsRegularizedReport *r,
 
 static void draw_stages(FILE *out, const CpsiFrame *frame, const CpsStudy *study) {
     const int rows = cps_study_row_count(study);
-    for (int s = 0; s < CPS_STUDY_STAGES; ++s) {
+    for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
         int first = rows, last = -1;
         for (int i = rows - 1; i >= 0; --i)
             if (cps_study_row(study, i)->stage == (CpsStudyStage)s) {

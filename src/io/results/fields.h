@@ -3,7 +3,7 @@
 #ifndef CAPSTAN_SRC_IO_RESULTS_FIELDS_H
 #define CAPSTAN_SRC_IO_RESULTS_FIELDS_H
 
-#include "capstan/evolve.h"
+#include "capstan/step.h"
 
 typedef enum CpsiPlace { CPSI_PLACE_NODE, CPSI_PLACE_ELEMENT } CpsiPlace;
 

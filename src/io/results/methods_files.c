@@ -117,9 +117,9 @@ static void completed_picture(const void *what, FILE *out) {
     const CpsCompletedLine *c = what;
     int first, last;
     find_loose(c->view, &first, &last);
-    CpsMethodHistory shape[1 + CPS_COMPLETIONS] = {
+    CpsMethodHistory shape[1 + CPS_COMPLETION_COUNT] = {
         {"as found", c->view->position + 3 * (size_t)first}};
-    for (int k = 0; k < CPS_COMPLETIONS; ++k)
+    for (int k = 0; k < CPS_COMPLETION_COUNT; ++k)
         shape[1 + k] = (CpsMethodHistory){cps_completion_name((CpsCompletion)k),
                                           c->position[k] + 3 * (size_t)first};
     char note[160];
@@ -129,7 +129,7 @@ static void completed_picture(const void *what, FILE *out) {
     const char *const step = "";
     const CpsiMethods m = {.title = c->title,
                            .note = note,
-                           .methods = 1 + CPS_COMPLETIONS,
+                           .methods = 1 + CPS_COMPLETION_COUNT,
                            .steps = 1,
                            .points = last - first + 1,
                            .method = shape,
@@ -140,10 +140,10 @@ static void completed_picture(const void *what, FILE *out) {
 
 CpsStatus cps_completed_write(const char *directory, const CpsCompletedLine *line, CpsError *err) {
     if (!directory || !line || !line->title || !line->view ||
-        (unsigned)line->chosen >= CPS_COMPLETIONS)
+        (unsigned)line->chosen >= CPS_COMPLETION_COUNT)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "directory, line, its title or view is NULL, or none is chosen");
-    for (int k = 0; k < CPS_COMPLETIONS; ++k)
+    for (int k = 0; k < CPS_COMPLETION_COUNT; ++k)
         if (!line->position[k]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "position %d is NULL", k);
     const CpsiFile set[] = {{"completed.csv", completed_table, line},
                             {"completed.svg", completed_picture, line}};

@@ -43,7 +43,7 @@ static size_t node_of(int i, int points, int elements) {
 static unsigned char shown_state(const CpsLineView *view, size_t j) {
     const size_t n = (size_t)view->elements + 1;
     const unsigned char state = cpsi_node_state(view, (int)j);
-    if (state == CPS_NODE_FREE)
+    if (state == CPS_NODE_STATE_FREE)
         for (size_t c = j; c < (size_t)view->contacts * n; c += n) {
             const double *f = view->friction + 3 * c;
             if (f[0] != 0 || f[1] != 0 || f[2] != 0) return CPSI_SHAPE_IN_AIR;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/report.h: what a load step reports: its outcome, the certificate of its answer, the
+/* capstan/step.h: what a load step reports: its outcome, the certificate of its answer, the
  * forces at the ends of a line, and where the energy went. */
-#ifndef CAPSTAN_REPORT_H
-#define CAPSTAN_REPORT_H
+#ifndef CAPSTAN_STEP_H
+#define CAPSTAN_STEP_H
 
 #include "capstan/scene.h"
 
@@ -73,7 +73,11 @@ typedef struct CpsCertificate {
 } CpsCertificate;
 
 /* How a node rests on the obstacle. */
-typedef enum CpsNodeState { CPS_NODE_FREE = 0, CPS_NODE_STICK = 1, CPS_NODE_SLIP = 2 } CpsNodeState;
+typedef enum CpsNodeState {
+    CPS_NODE_STATE_FREE = 0,
+    CPS_NODE_STATE_STICK = 1,
+    CPS_NODE_STATE_SLIP = 2
+} CpsNodeState;
 
 /* What is known of the tensions that hold an inextensible line where it is; they need not be unique
  * (docs/theory.md 4a). */
@@ -214,6 +218,64 @@ typedef struct CpsStepReport {
     double unaccounted;         /* [J] sum of the lines */
     double wall;                /* [s] */
 } CpsStepReport;
+
+/* Everything about one line after a step. Views into the evolution; n = elements + 1 nodes. Forces
+ * act on the line; arrays (n, 3) are stored node after node. A node touches up to `contacts`
+ * obstacles at once, and what belongs to a contact has all nodes' nearest obstacles first: entry j
+ * is the first contact of node j, entry n + j its second. */
+typedef struct CpsLineView {
+    const char *name;
+    int elements;
+    int contacts;             /* of a node: 2 where the scene has more than one obstacle, else 1 */
+    const double *arc_length; /* (n) [m] natural abscissa a of the nodes */
+    const double *element_length; /* (elements) [m] */
+    double compliance;            /* [1/N] 1/EA, 0: inextensible */
+    CpsEnd end[2];                /* what was imposed in this step */
+    const double *reference;      /* (n, 3) [m] x_R of this step */
+    const double *position;       /* (n, 3) [m] */
+    const double *load;           /* (n, 3) [N] weight and free-end forces */
+    double weight_before[3]; /* [N/m] per natural length where the step, or its last part, began;
+                                another one than now where gravity changes */
+    const int *obstacle;  /* (contacts, n) which: the nearest and the next, -1 without; NULL on one
+                             plane with isotropic  friction: the first */
+    const double *normal; /* (contacts, n, 3) [-] that of the obstacle at the configuration reached;
+                             0 0 0 without */
+    const double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact
+                          looked for */
+    const double *friction_bound;  /* (contacts, n) [N] w = A h, of the larger coefficient (of a
+                                      friction set: its multiple); 0 where friction does not act */
+    const double *friction_factor; /* (n) [-] of the friction zones, the mean over the length that a
+                                      node stands for; NULL: 1 */
+    const double *friction;        /* (contacts, n, 3) [N] F, in the set of forces that w bounds */
+    const double *reaction;        /* (contacts, n) [N] R >= 0, along the normal */
+    /* (contacts, n, 3) [m] way on the obstacle in this step, tangential, on a curved one along the
+     * surface; NULL on one plane with isotropic friction: the part of u in it */
+    const double *slide;
+    const double *segment_force; /* (elements, 3) [N] p: what the B side does to the A side */
+    /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
+    const double *tension;
+    /* (n, 3) [-] slides: velocities that prove it, the fastest of size 1; else 0 */
+    const double *motion;
+    const unsigned char *state; /* (contacts, n) CpsNodeState */
+    /* [m] what reference, position and the places of held ends are measured from: 0 0 0, but a
+     * place near the lines where these lie more than 512 lengths away; same for all lines */
+    double origin[3];
+    /* Contact of an element with a round obstacle, at the point (1 - beta) x_e + beta x_{e+1} that
+     * was nearest to its axis or centre; its forces act on the element's nodes by these shares. As
+     * above for that point, whose way is that of the point with this beta since the reference. All
+     * NULL where no obstacle is round or contact is strict; obstacle -1 and numbers without meaning
+     * where an element has none. */
+    const int *element_obstacle;  /* (elements) */
+    const double *element_share;  /* (elements) [-] beta */
+    const double *element_normal; /* (elements, 3) [-] */
+    const double *element_gap; /* (elements) [m] with what an element may lie deep, min(l^2/(4 R),
+                                  R/4), added */
+    const double *element_friction_bound; /* (elements) [N] */
+    const double *element_friction;       /* (elements, 3) [N] */
+    const double *element_reaction;       /* (elements) [N] */
+    const double *element_slide;          /* (elements, 3) [m] */
+    const unsigned char *element_state;   /* (elements) */
+} CpsLineView;
 
 /* A node this near to an obstacle, per length of its line, touches it: far above the rounding of
  * positions, far below anything drawn. */
