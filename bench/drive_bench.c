@@ -71,11 +71,11 @@ int main(void) {
                                   &err),
                  &err);
             const double seconds = now() - begin;
-            const CpsMotionReport *report = cps_motion_report(motion);
+            const CpsMotionReport report = cps_motion_report(motion);
             printf("%8d %10s %8.3f %10.2f %10d %12.1e  %s\n", n + 1,
                    one_sided ? "one-sided" : "rigid", seconds, 1e6 * seconds / (n + 1),
-                   report->iterations, report->minimum / report->scale,
-                   cps_motion_outcome_name(report->outcome));
+                   report.iteration_count, report.minimum / report.scale,
+                   cps_motion_outcome_name(report.outcome));
             cps_motion_destroy(motion);
             cps_system_destroy(system);
         }

@@ -51,12 +51,12 @@ static void measure(const RopeRun *r, double *length, double *sliding, double *t
 
 static void json_rope(const RopeRun *r, double length, double sliding, double tension) {
     const CpsRope *rope = &r->rope->rope;
-    const CpsMotionReport *p = cps_motion_report(r->motion);
+    const CpsMotionReport p = cps_motion_report(r->motion);
     printf(", \"nodes\": %d", rope->nodes);
-    drive_json_word("outcome", cps_motion_outcome_name(p->outcome));
-    drive_json("gamma_W", p->value);
-    drive_json("lower_W", p->lower);
-    drive_json("upper_W", p->upper);
+    drive_json_word("outcome", cps_motion_outcome_name(p.outcome));
+    drive_json("gamma_W", p.value);
+    drive_json("lower_W", p.lower);
+    drive_json("upper_W", p.upper);
     drive_json("length_m", length);
     drive_json("sliding_m", sliding);
     drive_json("tension_max_N", tension);
@@ -72,15 +72,15 @@ static void json_rope(const RopeRun *r, double length, double sliding, double te
 }
 
 static void print_velocity(const RopeRun *r) {
-    const CpsMotionReport *p = cps_motion_report(r->motion);
+    const CpsMotionReport p = cps_motion_report(r->motion);
     double length, sliding, tension;
-    r->run->answered = r->run->answered && p->outcome != CPS_MOTION_OUTCOME_INACCURATE;
-    if (p->outcome == CPS_MOTION_OUTCOME_BLOCKED || p->outcome == CPS_MOTION_OUTCOME_NO_BALANCE) {
+    r->run->answered = r->run->answered && p.outcome != CPS_MOTION_OUTCOME_INACCURATE;
+    if (p.outcome == CPS_MOTION_OUTCOME_BLOCKED || p.outcome == CPS_MOTION_OUTCOME_NO_BALANCE) {
         r->run->none = true;
         if (r->run->json)
-            drive_json_word("outcome", cps_motion_outcome_name(p->outcome));
+            drive_json_word("outcome", cps_motion_outcome_name(p.outcome));
         else
-            printf("no motion: %s\n", cps_motion_outcome_text(p->outcome));
+            printf("no motion: %s\n", cps_motion_outcome_text(p.outcome));
         return;
     }
     measure(r, &length, &sliding, &tension);
@@ -92,8 +92,7 @@ static void print_velocity(const RopeRun *r) {
            length, r->rope->rope.nodes - 1, r->rope->rope.resistance,
            r->rope->driving[r->rope->rope.driven[0] ? 2 : 0],
            r->rope->driving[r->rope->rope.driven[0] ? 3 : 1]);
-    printf("  gamma = %.10g W, proved between bounds %.2g W apart\n", p->value,
-           p->upper - p->lower);
+    printf("  gamma = %.10g W, proved between bounds %.2g W apart\n", p.value, p.upper - p.lower);
     printf("  sliding %.6g m, resting %.6g m; largest tension %.8g N\n", sliding,
            fmax(length - sliding, 0), tension);
     fputs("  resistance of the driven ends: ", stdout);

@@ -79,7 +79,7 @@ static bool query_all(DriveRun *run, const CpsMotion *motion, Asked what, All *a
                                   : s->driven;
     all->set = (CpsSolutionSet){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     all->low = NULL;
-    const CpsMotionOutcome outcome = cps_motion_report(motion)->outcome;
+    const CpsMotionOutcome outcome = cps_motion_report(motion).outcome;
     if (s->parameters + force_components(s->system) > MOST_DENSE ||
         outcome == CPS_MOTION_OUTCOME_NO_BALANCE || outcome == CPS_MOTION_OUTCOME_BLOCKED ||
         outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED)
@@ -143,7 +143,7 @@ static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const A
         printf("  %s: force ", cps_system_law_name(s->system, k));
         law_print_vector(n, cps_motion_law_force(motion, k));
         printf(", dissipates %.10g W",
-               tidy(cps_motion_law_share(motion, k)->dissipated, cps_motion_report(motion)->scale));
+               tidy(cps_motion_law_share(motion, k).dissipated, cps_motion_report(motion).scale));
         if (all->set.outcome == CPS_SET_OUTCOME_ANSWERED)
             for (int i = 0; i < n; i++, at++)
                 if (is_open(all, at))
@@ -175,23 +175,23 @@ static void print_lambda(const CpsMotion *motion) {
 
 static void print_not_attained(const CpsDriveSystem *s, const CpsMotion *motion,
                                const All *velocities) {
-    const CpsMotionReport *r = cps_motion_report(motion);
-    printf("  %s\n", cps_motion_outcome_text(r->outcome));
+    const CpsMotionReport r = cps_motion_report(motion);
+    printf("  %s\n", cps_motion_outcome_text(r.outcome));
     printf("  gamma = %.8g W is an infimum, between bounds %.2g W apart, and not attained; it is "
            "approached along\n",
-           fabs(r->value) <= r->minimum ? 0 : r->value, r->minimum);
+           fabs(r.value) <= r.minimum ? 0 : r.value, r.minimum);
     print_velocity(s, cps_motion_direction(motion), velocities);
-    printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition),
-           cps_composition_text(r->composition));
+    printf("  Proposition 1, %s: %s\n", cps_composition_name(r.composition),
+           cps_composition_text(r.composition));
 }
 
 static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions *all) {
     const All *velocities = &all->velocities, *forces = &all->forces;
     const CpsDriveSystem *s = &run->file->system;
-    const CpsMotionReport *r = cps_motion_report(motion);
-    if (r->outcome == CPS_MOTION_OUTCOME_NO_BALANCE || r->outcome == CPS_MOTION_OUTCOME_BLOCKED) {
-        printf("  no motion: %s\n", cps_motion_outcome_text(r->outcome));
-        if (r->outcome == CPS_MOTION_OUTCOME_NO_BALANCE) {
+    const CpsMotionReport r = cps_motion_report(motion);
+    if (r.outcome == CPS_MOTION_OUTCOME_NO_BALANCE || r.outcome == CPS_MOTION_OUTCOME_BLOCKED) {
+        printf("  no motion: %s\n", cps_motion_outcome_text(r.outcome));
+        if (r.outcome == CPS_MOTION_OUTCOME_NO_BALANCE) {
             fputs("  proof, a velocity at which the load runs away:\n", stdout);
             print_velocity(s, cps_motion_velocity(motion), velocities);
         } else {
@@ -201,24 +201,23 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
         }
         return;
     }
-    if (r->outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED) {
+    if (r.outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED) {
         print_not_attained(s, motion, velocities);
         return;
     }
-    if (isfinite(r->minimum))
-        printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", r->value + 0.0,
-               r->minimum);
+    if (isfinite(r.minimum))
+        printf("  gamma = %.12g W, proved between bounds %.2g W apart\n", r.value + 0.0, r.minimum);
     else
         printf("  gamma is at most %.12g W; no forces in equilibrium were found that bound it from "
                "below\n",
-               r->value + 0.0);
+               r.value + 0.0);
     /* of resistances gamma is not what is dissipated */
-    if (isfinite(r->minimum) && fabs(r->value + r->load_power - r->dissipated) > 1e-6 * r->scale)
+    if (isfinite(r.minimum) && fabs(r.value + r.load_power - r.dissipated) > 1e-6 * r.scale)
         printf("  gamma is the least of the potential phi less the load's power; the laws "
                "dissipate %.12g W\n",
-               r->dissipated);
-    if (r->outcome != CPS_MOTION_OUTCOME_SOLVED)
-        printf("  note: %s\n", cps_motion_outcome_text(r->outcome));
+               r.dissipated);
+    if (r.outcome != CPS_MOTION_OUTCOME_SOLVED)
+        printf("  note: %s\n", cps_motion_outcome_text(r.outcome));
     print_velocity(s, cps_motion_velocity(motion), velocities);
     print_all(velocities, "velocities");
     fputs("  resistance G = ", stdout);
@@ -228,19 +227,19 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
     print_lambda(motion);
     print_laws(s, motion, forces);
     print_all(forces, "forces");
-    if (s->loaded) printf("  load: gives %.10g W; ", tidy(r->load_power, r->scale));
-    if (s->loaded && isnan(r->load_factor)) puts("how much of it can be balanced is not known");
-    if (s->loaded && isfinite(r->load_factor))
-        printf("up to %.6g times as much can be balanced\n", r->load_factor);
-    if (s->loaded && isinf(r->load_factor)) puts("any multiple of it can be balanced");
-    printf("  Proposition 1, %s: %s\n", cps_composition_name(r->composition),
-           cps_composition_text(r->composition));
+    if (s->loaded) printf("  load: gives %.10g W; ", tidy(r.load_power, r.scale));
+    if (s->loaded && isnan(r.load_factor)) puts("how much of it can be balanced is not known");
+    if (s->loaded && isfinite(r.load_factor))
+        printf("up to %.6g times as much can be balanced\n", r.load_factor);
+    if (s->loaded && isinf(r.load_factor)) puts("any multiple of it can be balanced");
+    printf("  Proposition 1, %s: %s\n", cps_composition_name(r.composition),
+           cps_composition_text(r.composition));
     if (all->asked && all->known && !all->continuous)
         puts("  Proposition 2: phi is continuous at no velocity that agrees with W, and a minimum "
              "of it need not be a motion");
     printf("  residuals: drive %.1e, constraints %.1e, equilibrium %.1e, laws %.1e; power gap %.1e "
            "of %.3g W\n",
-           r->drive, r->constraint, r->equilibrium, r->outside, fmax(r->law, 0), r->scale);
+           r.drive, r.constraint, r.equilibrium, r.outside, fmax(r.law, 0), r.scale);
 }
 
 static void json_all(const char *key, const All *all) {
@@ -261,13 +260,13 @@ static void json_laws(const CpsDriveSystem *s, const CpsMotion *motion) {
     fputs(", \"laws\": [", stdout);
     for (int k = 0; k < cps_system_law_count(s->system); k++) {
         const int n = cps_system_law_space(s->system, k);
-        const CpsMotionShare *share = cps_motion_law_share(motion, k);
+        const CpsMotionShare share = cps_motion_law_share(motion, k);
         fputs(k ? ", {\"name\": " : "{\"name\": ", stdout);
         cps_json_text(stdout, cps_system_law_name(s->system, k));
         drive_json_list("velocity", n, cps_motion_law_velocity(motion, k));
         drive_json_list("force_N", n, cps_motion_law_force(motion, k));
-        drive_json("dissipated_W", share->dissipated);
-        drive_json("gap_W", share->gap);
+        drive_json("dissipated_W", share.dissipated);
+        drive_json("gap_W", share.gap);
         putchar('}');
     }
     putchar(']');
@@ -275,15 +274,15 @@ static void json_laws(const CpsDriveSystem *s, const CpsMotion *motion) {
 
 static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions *all) {
     const CpsDriveSystem *s = &run->file->system;
-    const CpsMotionReport *r = cps_motion_report(motion);
-    drive_json_word("outcome", cps_motion_outcome_name(r->outcome));
-    drive_json("gamma_W", r->value);
-    drive_json("lower_W", r->lower);
-    drive_json("upper_W", r->upper);
-    drive_json("scale_W", r->scale);
-    drive_json("dissipated_W", r->dissipated);
+    const CpsMotionReport r = cps_motion_report(motion);
+    drive_json_word("outcome", cps_motion_outcome_name(r.outcome));
+    drive_json("gamma_W", r.value);
+    drive_json("lower_W", r.lower);
+    drive_json("upper_W", r.upper);
+    drive_json("scale_W", r.scale);
+    drive_json("dissipated_W", r.dissipated);
     drive_json_list("V", s->parameters, cps_motion_velocity(motion));
-    if (cps_motion_direction(motion))
+    if (r.outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED)
         drive_json_list("direction", s->parameters, cps_motion_direction(motion));
     drive_json_list("G", s->driven, cps_motion_resistance(motion));
     json_laws(s, motion);
@@ -294,19 +293,19 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions 
     json_all("forces", &all->forces);
     json_all("resistances", &all->resistances);
     /* where forces balance: else the condition is about none */
-    if (r->outcome != CPS_MOTION_OUTCOME_NO_BALANCE && r->outcome != CPS_MOTION_OUTCOME_BLOCKED)
-        drive_json_word("composition", cps_composition_name(r->composition));
+    if (r.outcome != CPS_MOTION_OUTCOME_NO_BALANCE && r.outcome != CPS_MOTION_OUTCOME_BLOCKED)
+        drive_json_word("composition", cps_composition_name(r.composition));
     if (all->asked && all->known)
         printf(", \"continuous\": %s", all->continuous ? "true" : "false");
-    drive_json("load_power_W", r->load_power);
-    drive_json("load_factor", r->load_factor);
+    drive_json("load_power_W", r.load_power);
+    drive_json("load_factor", r.load_factor);
     printf(", \"residuals\": {\"drive\": ");
-    law_json_number(r->drive, stdout);
-    drive_json("constraint", r->constraint);
-    drive_json("equilibrium", r->equilibrium);
-    drive_json("outside", r->outside);
-    drive_json("law_W", r->law);
-    drive_json("minimum_W", r->minimum);
+    law_json_number(r.drive, stdout);
+    drive_json("constraint", r.constraint);
+    drive_json("equilibrium", r.equilibrium);
+    drive_json("outside", r.outside);
+    drive_json("law_W", r.law);
+    drive_json("minimum_W", r.minimum);
     putchar('}');
 }
 
@@ -335,7 +334,7 @@ static bool tell_motion(DriveRun *run, const double *velocity, int i) {
         print_motion(run, motion, &all);
     }
     const CpsMotionOutcome outcome =
-        good ? cps_motion_report(motion)->outcome : CPS_MOTION_OUTCOME_SOLVED;
+        good ? cps_motion_report(motion).outcome : CPS_MOTION_OUTCOME_SOLVED;
     run->answered = run->answered && outcome != CPS_MOTION_OUTCOME_INACCURATE;
     run->none = run->none || outcome == CPS_MOTION_OUTCOME_NO_BALANCE ||
                 outcome == CPS_MOTION_OUTCOME_BLOCKED || outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED;
@@ -455,7 +454,7 @@ static bool query_balance(DriveRun *run, bool *none) {
     if (!rest) run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
     const bool good =
         rest && cps_system_solve(s->system, rest, &options, &motion, &run->err) == CPS_OK;
-    *none = good && cps_motion_report(motion)->outcome == CPS_MOTION_OUTCOME_NO_BALANCE;
+    *none = good && cps_motion_report(motion).outcome == CPS_MOTION_OUTCOME_NO_BALANCE;
     cps_motion_destroy(motion);
     free(rest);
     return good;

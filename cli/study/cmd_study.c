@@ -210,8 +210,10 @@ static void tell(const CpsStudy *study, const CpsFirstOrder *const *first_order,
     printf("exact: J** + j = %.10g J on %d elements; everything below is against it\n\n",
            teller->step.energy, teller->step.elements);
     print_head();
-    for (int i = 0; i < cps_study_row_count(study); ++i)
-        print_row(cps_study_row(study, i), &teller->step);
+    for (int i = 0; i < cps_study_row_count(study); ++i) {
+        const CpsStudyRow row = cps_study_row(study, i);
+        print_row(&row, &teller->step);
+    }
     print_first_order(first_order);
     study_tell_slack(view, tolerance);
     printf("\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, "

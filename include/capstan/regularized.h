@@ -197,7 +197,8 @@ CPS_API CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *
                                 CpsError *err);
 CPS_API void cps_study_destroy(CpsStudy *study); /* NULL is accepted */
 CPS_API int cps_study_row_count(const CpsStudy *study);
-CPS_API const CpsStudyRow *cps_study_row(const CpsStudy *study, int row);
+/* Row 0 .. by value; zeros where there is no such row. */
+CPS_API CpsStudyRow cps_study_row(const CpsStudy *study, int row);
 /* The tensions with which a stage ended; cells = 0 when it was not reached. */
 CPS_API CpsRegularizedView cps_study_stage_end(const CpsStudy *study, CpsStudyStage stage);
 

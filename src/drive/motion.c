@@ -150,7 +150,7 @@ static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, dou
         cpsi_drive_program_new(motion->system, CPSI_AIM_FACTOR, NULL, 1, false, &program, err);
     if (status != CPS_OK) return status;
     cpsi_drive_program_solve(&program);
-    report->iterations += program.result.iterations;
+    report->iteration_count += program.result.iterations;
     const CpsiConicOutcome outcome = program.result.outcome;
     if (outcome == CPSI_CONIC_SOLVED)
         report->load_factor = cpsi_drive_program_factor(&program);
@@ -208,7 +208,7 @@ static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double s
                                               speed, even, &program, err);
     if (status != CPS_OK) return status;
     cpsi_drive_program_solve(&program);
-    report->iterations += program.result.iterations;
+    report->iteration_count += program.result.iterations;
     if (!still) {
         cpsi_drive_program_velocity(&program, motion->velocity);
         if (program.result.outcome == CPSI_CONIC_SOLVED ||
@@ -322,15 +322,14 @@ CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving,
 
 /* ---- views ---- */
 
-const CpsMotionReport *cps_motion_report(const CpsMotion *motion) {
-    return motion ? &motion->report : NULL;
+CpsMotionReport cps_motion_report(const CpsMotion *motion) {
+    return motion ? motion->report : (CpsMotionReport){.outcome = CPS_MOTION_OUTCOME_INACCURATE};
 }
 const double *cps_motion_velocity(const CpsMotion *motion) {
     return motion ? motion->velocity : NULL;
 }
 const double *cps_motion_direction(const CpsMotion *motion) {
-    return motion && motion->report.outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED ? motion->direction
-                                                                               : NULL;
+    return motion ? motion->direction : NULL;
 }
 const double *cps_motion_resistance(const CpsMotion *motion) {
     return motion ? motion->resistance : NULL;
@@ -354,6 +353,6 @@ const double *cps_motion_law_force(const CpsMotion *motion, int k) {
     return has_law(motion, k) ? &motion->law_force[motion->system->law[k].first] : NULL;
 }
 
-const CpsMotionShare *cps_motion_law_share(const CpsMotion *motion, int k) {
-    return has_law(motion, k) ? &motion->share[k] : NULL;
+CpsMotionShare cps_motion_law_share(const CpsMotion *motion, int k) {
+    return has_law(motion, k) ? motion->share[k] : (CpsMotionShare){0};
 }

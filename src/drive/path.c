@@ -30,15 +30,15 @@ static CpsStatus check(const CpsSystem *system, int count, const double *duratio
 
 /* The ledger of one interval. */
 static CpsPathStep account(const CpsMotion *motion, const double *w, int m, double duration) {
-    const CpsMotionReport *report = cps_motion_report(motion);
+    const CpsMotionReport report = cps_motion_report(motion);
     const double *g = cps_motion_resistance(motion);
-    CpsPathStep step = {.outcome = report->outcome};
+    CpsPathStep step = {.outcome = report.outcome};
     for (int k = 0; k < m; k++) step.driven -= duration * w[k] * g[k];
-    step.load = duration * report->load_power;
-    step.dissipated = duration * report->dissipated;
+    step.load = duration * report.load_power;
+    step.dissipated = duration * report.dissipated;
     step.imbalance = step.driven + step.load - step.dissipated;
-    step.lower = duration * report->lower;
-    step.upper = duration * report->upper;
+    step.lower = duration * report.lower;
+    step.upper = duration * report.upper;
     return step;
 }
 
@@ -61,7 +61,7 @@ CpsStatus cps_system_drive_path(const CpsSystem *system, int count, const double
         const double *w = &driving[(size_t)i * (size_t)m];
         status = cps_system_solve(system, w, options, &motion, err);
         if (status != CPS_OK) break;
-        const CpsMotionOutcome outcome = cps_motion_report(motion)->outcome;
+        const CpsMotionOutcome outcome = cps_motion_report(motion).outcome;
         step[i] = (CpsPathStep){.outcome = outcome};
         *done = i + 1;
         if (has_motion(outcome)) {

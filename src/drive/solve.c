@@ -49,7 +49,7 @@ CpsStatus cps_system_solve(const CpsSystem *system, const double *driving,
     CpsMotionReport *report = &motion->report;
     if (motion->possible && chosen.composition) {
         status = cpsi_motion_composition(system, chosen.boundary, &report->composition,
-                                         &report->iterations, err);
+                                         &report->iteration_count, err);
         if (status == CPS_OK && report->composition == CPS_COMPOSITION_NOT_SATISFIED &&
             report->outcome != CPS_MOTION_OUTCOME_BLOCKED)
             status = cpsi_motion_attained(motion, kinematics, err);

@@ -298,8 +298,8 @@ void cps_study_destroy(CpsStudy *study) {
 
 int cps_study_row_count(const CpsStudy *study) { return study ? study->rows : 0; }
 
-const CpsStudyRow *cps_study_row(const CpsStudy *study, int row) {
-    return study && row >= 0 && row < study->rows ? &study->row[row] : NULL;
+CpsStudyRow cps_study_row(const CpsStudy *study, int row) {
+    return study && row >= 0 && row < study->rows ? study->row[row] : (CpsStudyRow){0};
 }
 
 CpsRegularizedView cps_study_stage_end(const CpsStudy *study, CpsStudyStage stage) {

@@ -53,13 +53,13 @@ static CpsMotion *solve(const CpsSystem *system, const double *w) {
 
 /* bounds are honest, near, and made of admissible V and F */
 static void certified(const CpsMotion *motion) {
-    const CpsMotionReport *r = cps_motion_report(motion);
-    CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
-    CHECK_BETWEEN(r->minimum, -1e-13 * r->scale, 1e-8 * r->scale);
-    CHECK_BETWEEN(r->drive, 0, 1e-12);
-    CHECK_BETWEEN(r->constraint, 0, 1e-9);
-    CHECK_BETWEEN(r->equilibrium, 0, 1e-9);
-    CHECK_BETWEEN(r->outside, 0, 1e-12);
+    const CpsMotionReport r = cps_motion_report(motion);
+    CHECK_INT(r.outcome, CPS_MOTION_OUTCOME_SOLVED);
+    CHECK_BETWEEN(r.minimum, -1e-13 * r.scale, 1e-8 * r.scale);
+    CHECK_BETWEEN(r.drive, 0, 1e-12);
+    CHECK_BETWEEN(r.constraint, 0, 1e-9);
+    CHECK_BETWEEN(r.equilibrium, 0, 1e-9);
+    CHECK_BETWEEN(r.outside, 0, 1e-12);
 }
 
 /* ---- the braked wheel: V = (omega, V_i, V_j), W = V - omega a j ---- */
@@ -100,8 +100,8 @@ static void wheel_all_cases(void **state) {
             CpsMotion *motion = solve(system, w);
             wheel_closed_form(BRAKE[b], w, v, &gamma);
             certified(motion);
-            CHECK_NEAR(cps_motion_report(motion)->value, gamma, VALUE * RADIUS);
-            CHECK_INT(cps_motion_report(motion)->composition,
+            CHECK_NEAR(cps_motion_report(motion).value, gamma, VALUE * RADIUS);
+            CHECK_INT(cps_motion_report(motion).composition,
                       b ? CPS_COMPOSITION_INTERIOR : CPS_COMPOSITION_RELATIVE_INTERIOR);
             for (int k = 0; k < 3; k++) CHECK_NEAR(cps_motion_velocity(motion)[k], v[k], ROOT / A);
             /* h = - a j.F, G = F: M77 (19), (20) */
@@ -175,7 +175,7 @@ static void wheel_numbers(void **state) {
         CpsMotion *motion = solve(system, CASE[i]);
         CpsSetAnswer phi;
         certified(motion);
-        CHECK_RELATIVE(cps_motion_report(motion)->value, CASE[i][2], VALUE);
+        CHECK_RELATIVE(cps_motion_report(motion).value, CASE[i][2], VALUE);
         CHECK_NEAR(cps_motion_velocity(motion)[0], CASE[i][3], ROOT / A);
         ok(cps_set_dissipation(cps_law_set(reduced), CASE[i], NULL, &phi, &err));
         CHECK_RELATIVE(phi.value, CASE[i][2], VALUE);
@@ -219,7 +219,7 @@ static void wheel_along_its_plane(void **state) {
             ROOT * RADIUS);
     cps_motion_destroy(motion);
     motion = solve(even, W);
-    CHECK_RELATIVE(cps_motion_report(motion)->value, 500, VALUE);
+    CHECK_RELATIVE(cps_motion_report(motion).value, 500, VALUE);
     extents(motion, false, 1, 3, (const double[]){-1 / 0.3, 0, 0}, (const double[]){0, 0, 1}, ROOT);
     extents(motion, true, 0, 3, (const double[]){150, 0, -500}, (const double[]){150, 0, -500},
             ROOT * RADIUS);
@@ -245,7 +245,7 @@ static void bipod_about_one_support(void **state) {
                             &err));
     CpsMotion *motion = solve(system, (const double[]){0, 1, 1});
     certified(motion);
-    CHECK_RELATIVE(cps_motion_report(motion)->value, 1, VALUE);
+    CHECK_RELATIVE(cps_motion_report(motion).value, 1, VALUE);
     /* the support at rest bears any force of its disc */
     extents(motion, true, 2, 4, (const double[]){-0.5, -0.5, 0, -0.5},
             (const double[]){0.5, 0.5, 0, -0.5}, ROOT);
@@ -255,7 +255,7 @@ static void bipod_about_one_support(void **state) {
     ok(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 2, 1}}, &err));
     motion = solve(system, (const double[]){1});
     certified(motion);
-    CHECK_RELATIVE(cps_motion_report(motion)->value, 1, VALUE);
+    CHECK_RELATIVE(cps_motion_report(motion).value, 1, VALUE);
     extents(motion, false, 1, 3, (const double[]){0, -1, 1}, (const double[]){0, 1, 1}, ROOT);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
@@ -277,19 +277,19 @@ static void loads(void **state) {
               *driven = block(0, 5);
     CpsMotion *motion = solve(light, NULL);
     certified(motion);
-    CHECK_RELATIVE(cps_motion_report(motion)->load_factor, 2, VALUE);
-    CHECK_NEAR(cps_motion_report(motion)->value, 0, 0);
+    CHECK_RELATIVE(cps_motion_report(motion).load_factor, 2, VALUE);
+    CHECK_NEAR(cps_motion_report(motion).value, 0, 0);
     cps_motion_destroy(motion);
 
     motion = solve(limit, NULL);
-    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_OUTCOME_LIMIT_LOAD);
-    CHECK_RELATIVE(cps_motion_report(motion)->load_factor, 1, VALUE);
-    CHECK_INT(cps_motion_report(motion)->composition, CPS_COMPOSITION_NOT_SATISFIED);
+    CHECK_INT(cps_motion_report(motion).outcome, CPS_MOTION_OUTCOME_LIMIT_LOAD);
+    CHECK_RELATIVE(cps_motion_report(motion).load_factor, 1, VALUE);
+    CHECK_INT(cps_motion_report(motion).composition, CPS_COMPOSITION_NOT_SATISFIED);
     cps_motion_destroy(motion);
 
     motion = solve(heavy, NULL);
-    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_OUTCOME_NO_BALANCE);
-    CHECK_RELATIVE(cps_motion_report(motion)->load_factor, 0.5, VALUE);
+    CHECK_INT(cps_motion_report(motion).outcome, CPS_MOTION_OUTCOME_NO_BALANCE);
+    CHECK_RELATIVE(cps_motion_report(motion).load_factor, 0.5, VALUE);
     const double *v = cps_motion_velocity(motion);
     CHECK_RELATIVE(v[1] / v[0], 4.0 / 3, ROOT);
     CHECK_GREATER(12 * v[0] + 16 * v[1], 10 * hypot(v[0], v[1])); /* the proof */
@@ -299,7 +299,7 @@ static void loads(void **state) {
     ok(cps_system_set_drive(driven, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err));
     motion = solve(driven, (const double[]){1});
     certified(motion);
-    CHECK_RELATIVE(cps_motion_report(motion)->value, sqrt(75), VALUE);
+    CHECK_RELATIVE(cps_motion_report(motion).value, sqrt(75), VALUE);
     CHECK_NEAR(cps_motion_velocity(motion)[1], 1 / sqrt(3), ROOT);
     cps_motion_destroy(motion);
     CpsSet *forces = NULL;
@@ -331,12 +331,12 @@ static void infimum_not_attained(void **state) {
                                        (const CpsEntry[]){{0, 0, 1}, {1, 1, 1}}, &err));
         ok(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err));
         CpsMotion *motion = solve(system, (const double[]){2});
-        const CpsMotionReport *r = cps_motion_report(motion);
-        CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_NOT_ATTAINED);
-        CHECK_NEAR(r->upper, 0,
+        const CpsMotionReport r = cps_motion_report(motion);
+        CHECK_INT(r.outcome, CPS_MOTION_OUTCOME_NOT_ATTAINED);
+        CHECK_NEAR(r.upper, 0,
                    1e-6 * (k ? 20 : 2)); /* the root of rounding, of the size of force times W */
-        CHECK_GREATER(r->upper, 0);
-        CHECK_LESS(r->lower, r->upper);
+        CHECK_GREATER(r.upper, 0);
+        CHECK_LESS(r.lower, r.upper);
         const double *d = cps_motion_direction(motion);
         CHECK_NEAR(d[0], 0, 1e-9);
         CHECK_NEAR(d[1], 1, 1e-9);
@@ -350,7 +350,7 @@ static void infimum_not_attained(void **state) {
     CpsSystem *still = block(0, 10);
     ok(cps_system_set_drive(still, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err));
     CpsMotion *motion = solve(still, (const double[]){0});
-    CHECK_INT(cps_motion_report(motion)->outcome, CPS_MOTION_OUTCOME_LIMIT_LOAD);
+    CHECK_INT(cps_motion_report(motion).outcome, CPS_MOTION_OUTCOME_LIMIT_LOAD);
     cps_motion_destroy(motion);
     cps_system_destroy(still);
 }
@@ -426,13 +426,13 @@ static void loads_beside_the_limit(void **state) {
         for (int side = -1; side <= 1; side += 2) {
             CpsSystem *system = block(6 * (1 + side * pow(10, -k)), 8 * (1 + side * pow(10, -k)));
             CpsMotion *motion = solve(system, NULL);
-            const CpsMotionReport *r = cps_motion_report(motion);
-            CHECK_INT(r->outcome,
+            const CpsMotionReport r = cps_motion_report(motion);
+            CHECK_INT(r.outcome,
                       side > 0 ? CPS_MOTION_OUTCOME_NO_BALANCE : CPS_MOTION_OUTCOME_LIMIT_LOAD);
             if (side > 0)
-                assert_true(isinf(r->value) && r->value < 0);
+                assert_true(isinf(r.value) && r.value < 0);
             else
-                CHECK_NEAR(r->value, 0, 0);
+                CHECK_NEAR(r.value, 0, 0);
             cps_motion_destroy(motion);
             cps_system_destroy(system);
         }
@@ -454,7 +454,7 @@ static void weak_beside_strong(void **state) {
         certified(motion);
         /* the solver's own bound, and its root: phi is curved in the velocity that nothing but the
          * ground resists */
-        CHECK_RELATIVE(cps_motion_report(motion)->value,
+        CHECK_RELATIVE(cps_motion_report(motion).value,
                        500 * fabs(W[k][0]) + 1e-9 * fabs(W[k][1]) / 0.3, 1e-8);
         CHECK_NEAR(cps_motion_velocity(motion)[0], -W[k][1] / 0.3, ROOT / 0.3);
         /* it slips in its brake, which then bears all it can; the last slips at a power of 3e-12 W
@@ -508,7 +508,7 @@ static void driver_of_bounded_strength(void **state) {
         ok(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 1, 1}}, &err));
         CpsMotion *motion = solve(system, (const double[]){2});
         certified(motion);
-        CHECK_RELATIVE(cps_motion_report(motion)->value, strong ? 20 : 16, VALUE);
+        CHECK_RELATIVE(cps_motion_report(motion).value, strong ? 20 : 16, VALUE);
         CHECK_NEAR(cps_motion_velocity(motion)[0], strong ? 2 : 0, ROOT);
         CHECK_NEAR(cps_motion_resistance(motion)[0], strong ? -10 : -8, ROOT * 10);
         cps_motion_destroy(motion);
@@ -535,8 +535,8 @@ static void dashpots_in_series(void **state) {
     CpsMotion *motion = solve(system, &W);
     certified(motion);
     const double c = C1 * C2 / (C1 + C2);
-    CHECK_RELATIVE(cps_motion_report(motion)->value, c * W * W / 2, VALUE);
-    CHECK_RELATIVE(cps_motion_report(motion)->dissipated, c * W * W, ROOT);
+    CHECK_RELATIVE(cps_motion_report(motion).value, c * W * W / 2, VALUE);
+    CHECK_RELATIVE(cps_motion_report(motion).dissipated, c * W * W, ROOT);
     CHECK_RELATIVE(cps_motion_velocity(motion)[0], C2 * W / (C1 + C2), ROOT);
     CHECK_RELATIVE(cps_motion_resistance(motion)[0], -c * W, ROOT);
     cps_motion_destroy(motion);
@@ -567,9 +567,9 @@ static void terms_side_by_side(void **state) {
     /* 2 + 3 v + 4 v + 5 = 20 */
     const double v = 13.0 / 7;
     CHECK_RELATIVE(cps_motion_velocity(motion)[0], v, ROOT);
-    CHECK_RELATIVE(cps_motion_report(motion)->value,
+    CHECK_RELATIVE(cps_motion_report(motion).value,
                    2 * v + 3.5 * v * v + 2.5 + 5 * (v - 1) - LOAD * v, VALUE);
-    CHECK_RELATIVE(cps_motion_report(motion)->dissipated, LOAD * v, ROOT);
+    CHECK_RELATIVE(cps_motion_report(motion).dissipated, LOAD * v, ROOT);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
     for (int i = 0; i < 4; i++) cps_resistance_release(part[i]);
@@ -626,7 +626,7 @@ static void straight_rope_at_an_angle(void **state) {
             CpsSystem *system = rope(N[i], 1, 0, HALVES, one_sided);
             CpsMotion *motion = solve(system, (const double[]){cos(PI / 3), sin(PI / 3)});
             certified(motion);
-            CHECK_NEAR(cps_motion_report(motion)->value, WANT[i], VALUE);
+            CHECK_NEAR(cps_motion_report(motion).value, WANT[i], VALUE);
             cps_motion_destroy(motion);
             cps_system_destroy(system);
         }
@@ -648,8 +648,8 @@ static void arc_of_rope(void **state) {
         const double angle = (N[i] - 1) * h;
         CpsMotion *motion = solve(system, (const double[]){cos(angle), sin(angle)});
         certified(motion);
-        CHECK_NEAR(cps_motion_report(motion)->value, tension, VALUE);
-        CHECK_NEAR(cps_motion_report(motion)->value, PRINTED[i], i == 0 ? 6e-8 : 6e-9);
+        CHECK_NEAR(cps_motion_report(motion).value, tension, VALUE);
+        CHECK_NEAR(cps_motion_report(motion).value, PRINTED[i], i == 0 ? 6e-8 : 6e-9);
         cps_motion_destroy(motion);
         cps_system_destroy(system);
     }
@@ -662,7 +662,7 @@ static void pushed_rope(void **state) {
     CpsSystem *system = rope(20, 1, 0, HALVES, true);
     CpsMotion *motion = solve(system, (const double[]){-1, 0});
     certified(motion);
-    CHECK_NEAR(cps_motion_report(motion)->value, 0.025, VALUE);
+    CHECK_NEAR(cps_motion_report(motion).value, 0.025, VALUE);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
 }

@@ -348,9 +348,9 @@ static void driven_disc_by_cells(void **state) {
         const CpsEntry rim[3] = {{0, 0, 1}, {1, 1, 1}, {1, 2, 1}};
         assert_int_equal(cps_system_set_drive(system, 2, 3, rim, NULL), CPS_OK);
         assert_int_equal(cps_system_solve(system, (double[2]){0, 1}, NULL, &motion, NULL), CPS_OK);
-        const CpsMotionReport *report = cps_motion_report(motion);
-        assert_int_equal(report->outcome, CPS_MOTION_OUTCOME_SOLVED);
-        gamma[side] = side ? report->upper : report->lower;
+        const CpsMotionReport report = cps_motion_report(motion);
+        assert_int_equal(report.outcome, CPS_MOTION_OUTCOME_SOLVED);
+        gamma[side] = side ? report.upper : report.lower;
         cps_motion_destroy(motion);
         cps_system_destroy(system);
     }

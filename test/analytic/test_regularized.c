@@ -38,9 +38,9 @@ static void example_5_7(Case *c) {
     case_force(c, 1, 0.5, 0.5, 0.5);
 }
 
-static const CpsStudyRow *row_of(const CpsStudy *study, CpsStudyStage stage, int from_last) {
+static CpsStudyRow row_of(const CpsStudy *study, CpsStudyStage stage, int from_last) {
     int last = cps_study_row_count(study) - 1;
-    while (cps_study_row(study, last)->stage != stage) last--;
+    while (cps_study_row(study, last).stage != stage) last--;
     return cps_study_row(study, last - from_last);
 }
 
@@ -60,49 +60,49 @@ static void study_of_example_5_7(void **state) {
     CpsError err = {0};
     assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_OK);
     for (int i = 0; i < cps_study_row_count(study); i++)
-        assert_true(cps_study_row(study, i)->report.converged);
+        assert_true(cps_study_row(study, i).report.converged);
 
     // h: piecewise constant slopes, an energy of second order
     for (int back = 0; back < 4; back++) {
-        double rate = row_of(study, CPS_STUDY_STAGE_H, back)->rate_energy;
+        double rate = row_of(study, CPS_STUDY_STAGE_H, back).rate_energy;
         CHECK_NEAR(show("5.7, regularised", "rate in h of the energy", 2, rate), 0, 0.05);
     }
     // lambda: penetrations are R/lambda, energies fall by R^2/(2 lambda): first order, to what the
     // next power leaves
     for (int back = 0; back < 3; back++) {
-        double rate = row_of(study, CPS_STUDY_STAGE_LAMBDA, back)->rate_energy;
+        double rate = row_of(study, CPS_STUDY_STAGE_LAMBDA, back).rate_energy;
         CHECK_NEAR(show("5.7, regularised", "rate in 1/lambda of the energy", 1, rate), 0, 0.02);
     }
     // n: x'(0) = 0 against |x'| >= 1 makes a layer at the clamped end. Under a tension T it is
     // (1/(n T))^(1/2) wide and costs T times that; once it is thinner than an element, 1/(n h)
     for (int back = 3; back < 6; back++) {
-        double rate = row_of(study, CPS_STUDY_STAGE_N, back)->rate_energy;
+        double rate = row_of(study, CPS_STUDY_STAGE_N, back).rate_energy;
         CHECK_NEAR(show("5.7, regularised", "rate in 1/n of the energy, layer resolved", 0.5, rate),
                    0, 0.1);
     }
     CHECK_NEAR(show("5.7, regularised", "rate in 1/n of the energy, at fixed h", 1,
-                    row_of(study, CPS_STUDY_STAGE_N, 0)->rate_energy),
+                    row_of(study, CPS_STUDY_STAGE_N, 0).rate_energy),
                0, 0.01);
     // delta: delta times the bound where the line sticks
     for (int back = 0; back < 3; back++) {
-        double rate = row_of(study, CPS_STUDY_STAGE_DELTA, back)->rate_energy;
+        double rate = row_of(study, CPS_STUDY_STAGE_DELTA, back).rate_energy;
         CHECK_NEAR(show("5.7, regularised", "rate in delta of the energy", 1, rate), 0, 0.02);
     }
 
-    const CpsRegularizedReport *last = &row_of(study, CPS_STUDY_STAGE_DELTA, 0)->report;
-    const CpsRegularizedParameters *p = &row_of(study, CPS_STUDY_STAGE_DELTA, 0)->parameters;
-    double penalty = 9.81 * 9.81 * (6.28 - 0.5 / 9.81) / (2 * p->penalty),
-           bending = p->stiffness / (6.28 / 800);
-    double smoothing = p->delta * 0.0255 * 9.81 * 6.28;
-    show("5.7, regularised", "J + j [J]", -3.3278892, last->total);
+    const CpsRegularizedReport last = row_of(study, CPS_STUDY_STAGE_DELTA, 0).report;
+    const CpsRegularizedParameters p = row_of(study, CPS_STUDY_STAGE_DELTA, 0).parameters;
+    double penalty = 9.81 * 9.81 * (6.28 - 0.5 / 9.81) / (2 * p.penalty),
+           bending = p.stiffness / (6.28 / 800);
+    double smoothing = p.delta * 0.0255 * 9.81 * 6.28;
+    show("5.7, regularised", "J + j [J]", -3.3278892, last.total);
     // digits printed, and 1 % of the penalty's share for the uneven reaction near the tip
-    CHECK_NEAR(last->total, -3.3278892 - penalty + bending, 0.01 * penalty + smoothing + 5e-8);
-    CHECK_NEAR(last->penetration, 9.81 / p->penalty, 0.01 * 9.81 / p->penalty);
-    CHECK_LESS(show("5.7, regularised", "tension, rms [N]", 0, last->tension_rms), 1e-5);
-    CHECK_LESS(last->position_max, 1e-5);
-    CHECK_LESS(last->creep, 2 * 7.1 * p->delta); /* slid/smooth < 0.99: slid < 7.02 delta */
+    CHECK_NEAR(last.total, -3.3278892 - penalty + bending, 0.01 * penalty + smoothing + 5e-8);
+    CHECK_NEAR(last.penetration, 9.81 / p.penalty, 0.01 * 9.81 / p.penalty);
+    CHECK_LESS(show("5.7, regularised", "tension, rms [N]", 0, last.tension_rms), 1e-5);
+    CHECK_LESS(last.position_max, 1e-5);
+    CHECK_LESS(last.creep, 2 * 7.1 * p.delta); /* slid/smooth < 0.99: slid < 7.02 delta */
     // bending forces (1/n)/h^2 are gone
-    CHECK_LESS(last->compression, 1e-9);
+    CHECK_LESS(last.compression, 1e-9);
     cps_study_destroy(study);
     cps_regularized_destroy(classic);
     case_close(&run);

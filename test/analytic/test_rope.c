@@ -46,7 +46,7 @@ static void arc(Case *c, double radius, double angle) {
     }
 }
 
-static const CpsMotionReport *solve(Case *c, const double *driving) {
+static CpsMotionReport solve(Case *c, const double *driving) {
     CpsError err = {.message = ""};
     CpsMotionOptions options = cps_motion_options_default();
     options.composition = false;
@@ -84,13 +84,13 @@ static void pulled_aslant(void **state) {
         Case c = make(elements, false, true);
         straight(&c, 1);
         const double h = 1.0 / elements;
-        const CpsMotionReport *r = solve(&c, (double[]){cos(psi), sin(psi)});
-        print_message("straight, %d elements: gamma %.12g, gap %.1e\n", elements, r->value,
-                      r->upper - r->lower);
-        CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
+        const CpsMotionReport r = solve(&c, (double[]){cos(psi), sin(psi)});
+        print_message("straight, %d elements: gamma %.12g, gap %.1e\n", elements, r.value,
+                      r.upper - r.lower);
+        CHECK_INT(r.outcome, CPS_MOTION_OUTCOME_SOLVED);
         /* the solver's own bound, 1e-8 of a scale of about 1 */
-        CHECK_NEAR(r->value, (1 - 0.5 * h) * cos(psi) + 0.5 * h, 1e-8);
-        assert_true(r->lower <= r->upper);
+        CHECK_NEAR(r.value, (1 - 0.5 * h) * cos(psi) + 0.5 * h, 1e-8);
+        assert_true(r.lower <= r.upper);
         /* all nodes but the last follow along the rope */
         const double *v = cps_motion_velocity(c.motion);
         for (int i = 0; i < elements; i++) {
@@ -110,11 +110,11 @@ static void arc_bound(void **state) {
     for (int elements = 100; elements <= 10000; elements *= 10) {
         Case c = make(elements, false, true);
         arc(&c, 1, theta);
-        const CpsMotionReport *r = solve(&c, (double[]){-sin(theta), cos(theta)});
+        const CpsMotionReport r = solve(&c, (double[]){-sin(theta), cos(theta)});
         const double last = tension(&c, elements - 1), h = theta / elements;
         print_message("arc, %d elements: largest tension %.9g, bound %.9g\n", elements, last,
                       sin(theta));
-        CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
+        CHECK_INT(r.outcome, CPS_MOTION_OUTCOME_SOLVED);
         /* it is reached up to the half element of friction at the end, T' = cos(theta) */
         CHECK_NEAR(last, sin(theta) - 0.5 * h * cos(theta), 0.5 * h * h + 1e-7);
         CHECK_LESS(last, sin(theta));
@@ -129,8 +129,8 @@ static void pulled_apart(void **state) {
     (void)state;
     Case c = make(20, true, true);
     straight(&c, 1);
-    const CpsMotionReport *r = solve(&c, (double[]){-1, 0, 1, 0});
-    CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_BLOCKED);
+    CpsMotionReport r = solve(&c, (double[]){-1, 0, 1, 0});
+    CHECK_INT(r.outcome, CPS_MOTION_OUTCOME_BLOCKED);
     const double *g = cps_motion_resistance(c.motion);
     CHECK_LESS(-g[0] + g[2], 0);
     finish(&c);
@@ -139,9 +139,9 @@ static void pulled_apart(void **state) {
     c = make(20, true, true);
     straight(&c, 1);
     r = solve(&c, (double[]){1, 0, -1, 0});
-    CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
+    CHECK_INT(r.outcome, CPS_MOTION_OUTCOME_SOLVED);
     /* half an element of friction at each end */
-    CHECK_NEAR(r->value, 2 * 0.5 / 20, 1e-8);
+    CHECK_NEAR(r.value, 2 * 0.5 / 20, 1e-8);
     finish(&c);
 }
 
@@ -153,9 +153,9 @@ static void inextensible(void **state) {
     for (int elements = 10; elements <= 1000; elements *= 10) {
         Case c = make(elements, false, false);
         straight(&c, 2);
-        const CpsMotionReport *r = solve(&c, (double[]){-1, 0});
-        CHECK_INT(r->outcome, CPS_MOTION_OUTCOME_SOLVED);
-        CHECK_NEAR(r->value, 2, 1e-8); /* the solver's own bound, of a scale of 2 */
+        const CpsMotionReport r = solve(&c, (double[]){-1, 0});
+        CHECK_INT(r.outcome, CPS_MOTION_OUTCOME_SOLVED);
+        CHECK_NEAR(r.value, 2, 1e-8); /* the solver's own bound, of a scale of 2 */
         for (int i = 0; i < elements; i++)
             CHECK_NEAR(tension(&c, i), -(i + 0.5) * 2 / elements, 1e-6);
         finish(&c);
@@ -166,7 +166,7 @@ static void inextensible(void **state) {
     for (int slack = 0; slack < 2; slack++) {
         Case c = make(100, false, slack);
         arc(&c, 1, 1);
-        value[slack] = solve(&c, (double[]){sin(1), -cos(1)})->value;
+        value[slack] = solve(&c, (double[]){sin(1), -cos(1)}).value;
         if (!slack)
             for (int i = 0; i < 100; i++)
                 CHECK_NEAR(cps_motion_law_velocity(c.motion, c.rope.nodes + i)[0], 0,
@@ -176,7 +176,7 @@ static void inextensible(void **state) {
     CHECK_GREATER(value[0], 10 * value[1]);
     Case c = make(20, true, false);
     straight(&c, 1);
-    CHECK_INT(solve(&c, (double[]){1, 0, -1, 0})->outcome, CPS_MOTION_OUTCOME_BLOCKED);
+    CHECK_INT(solve(&c, (double[]){1, 0, -1, 0}).outcome, CPS_MOTION_OUTCOME_BLOCKED);
     finish(&c);
 }
 

@@ -157,7 +157,7 @@ static void driven_by_cells(void) {
              &err);
         need(cps_system_set_drive(system, 2, 3, RIM, &err), &err);
         need(cps_system_solve(system, (const double[]){0, 1}, NULL, &motion, &err), &err);
-        gamma[side] = side ? cps_motion_report(motion)->upper : cps_motion_report(motion)->lower;
+        gamma[side] = side ? cps_motion_report(motion).upper : cps_motion_report(motion).lower;
         cps_motion_destroy(motion);
         cps_system_destroy(system);
     }

@@ -16,12 +16,10 @@
  *              and the reduced law's
  *   limit      a block under a load near, at and beyond what its friction holds, driven across: is
  *              there a motion?
- *   table      the velocities of a resistance law at the kinks, on flat pieces and beyond the end
- *              of its table
+ *   table      velocities of a resistance law at kinks, on flat pieces and beyond its table's end
  *   wheel      a braked wheel whose brake is 1e-15 to 1e6 times as strong as its ground, or just as
  *              strong, sizes from 1e-9 to 1e9, components of W down to 1e-12: gamma, the motion,
  *              the forces
- *
  *   polar      the polar of a ball with 0 inside, on its boundary and outside, and the ball's own
  *              gauge: facts, supports, gauges
  *   cone       friction cones and intervals with infinite ends, as laws and in systems: supports,
@@ -383,10 +381,10 @@ static void try_flat(void) {
     const double w = digit(3), works = e[1] == 0 && (held || e[2] == 0), power = -size * e[0] * w;
     const double gamma = works ? fmax(-power, 2 * power) : 0, allowed = 1e-7 * size * 10;
     need(cps_system_solve(system, &w, NULL, &motion, &err), "solve");
-    same("outcome", cps_motion_report(motion)->outcome, CPS_MOTION_OUTCOME_SOLVED);
-    near("gamma", cps_motion_report(motion)->value, gamma, allowed);
-    if (!(cps_motion_report(motion)->lower <= gamma + allowed))
-        fail("lower bound", cps_motion_report(motion)->lower, gamma);
+    const CpsMotionReport report = cps_motion_report(motion);
+    same("outcome", report.outcome, CPS_MOTION_OUTCOME_SOLVED);
+    near("gamma", report.value, gamma, allowed);
+    if (!(report.lower <= gamma + allowed)) fail("lower bound", report.lower, gamma);
     need(cps_system_eliminate(system, NULL, &forces, NULL, &err), "eliminate");
     CpsSetAnswer phi;
     need(cps_set_support(forces, (const double[]){-w}, NULL, &phi, &err), "support");
@@ -426,26 +424,26 @@ static void try_limit(void) {
     need(cps_system_set_load(system, (double[]){-u[1] * factor * r, u[0] * factor * r}, &err),
          "load");
     need(cps_system_solve(system, &w, NULL, &motion, &err), "solve");
-    const CpsMotionReport *report = cps_motion_report(motion);
+    const CpsMotionReport report = cps_motion_report(motion);
     const bool beyond = side > 0, at = side == 0, attained = !round || w == 0;
     const double gamma = beyond  ? -INFINITY
                          : round ? r * fabs(w) * sqrt(fmax(0, 1 - factor * factor))
                                  : a * fabs(w);
     if (beyond)
-        same("beyond the limit", report->outcome, CPS_MOTION_OUTCOME_NO_BALANCE);
+        same("beyond the limit", report.outcome, CPS_MOTION_OUTCOME_NO_BALANCE);
     else if (at && !attained)
-        same("at the limit", report->outcome, CPS_MOTION_OUTCOME_NOT_ATTAINED);
-    else if (report->outcome != CPS_MOTION_OUTCOME_SOLVED &&
-             report->outcome != CPS_MOTION_OUTCOME_LIMIT_LOAD &&
+        same("at the limit", report.outcome, CPS_MOTION_OUTCOME_NOT_ATTAINED);
+    else if (report.outcome != CPS_MOTION_OUTCOME_SOLVED &&
+             report.outcome != CPS_MOTION_OUTCOME_LIMIT_LOAD &&
              !(round && power >= 9 &&
-               report->outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED)) /* V = w tan: 3e4 w and more */
-        fail("below the limit", report->outcome, CPS_MOTION_OUTCOME_SOLVED);
+               report.outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED)) /* V = w tan: 3e4 w and more */
+        fail("below the limit", report.outcome, CPS_MOTION_OUTCOME_SOLVED);
     if (beyond)
-        same("no gamma", isinf(report->value) && report->value < 0, 1);
+        same("no gamma", isinf(report.value) && report.value < 0, 1);
     else {
         /* near the limit the force is known along the disc to the root of its rounding */
-        near("gamma", report->value, gamma, 1e-6 * a * fmax(1, fabs(w)));
-        if (!(report->lower <= gamma + 1e-9 * a)) fail("lower bound", report->lower, gamma);
+        near("gamma", report.value, gamma, 1e-6 * a * fmax(1, fabs(w)));
+        if (!(report.lower <= gamma + 1e-9 * a)) fail("lower bound", report.lower, gamma);
     }
     cps_motion_destroy(motion);
     cps_system_destroy(system);
@@ -552,17 +550,17 @@ static void try_wheel(void) {
                               &err),
          "drive");
     need(cps_system_solve(system, wheel.w, NULL, &motion, &err), "solve");
-    const CpsMotionReport *report = cps_motion_report(motion);
+    const CpsMotionReport report = cps_motion_report(motion);
     wheel_motion(&wheel, v);
     const double speed = fmax(fabs(wheel.w[0]), fabs(wheel.w[1])), length = hypot(v[1], v[2]);
     const double gamma = wheel.ground * length + wheel.brake * fabs(v[0]),
                  power = wheel.ground * speed;
-    same("outcome", report->outcome, CPS_MOTION_OUTCOME_SOLVED);
+    same("outcome", report.outcome, CPS_MOTION_OUTCOME_SOLVED);
     /* the promise is 1e-8 of the power scale, in which a strong brake that does not slip has a
      * part */
-    near("gamma", report->value, gamma, 1e-9 * power);
-    if (!(report->lower <= gamma * (1 + 1e-12) && gamma * (1 - 1e-12) <= report->upper))
-        fail("bounds", report->lower, gamma);
+    near("gamma", report.value, gamma, 1e-9 * power);
+    if (!(report.lower <= gamma * (1 + 1e-12) && gamma * (1 - 1e-12) <= report.upper))
+        fail("bounds", report.lower, gamma);
     need(cps_motion_velocities(motion, 0, &all, low, high, &err), "velocities");
     belongs("velocities", &all, 3, v, low, high,
             (const double[]){4e-5 * speed, 1e-5 * speed, 1e-5 * speed});
@@ -743,11 +741,11 @@ static void one_sided(void) {
     need(cps_system_set_drive(system, 2, 2, (const CpsEntry[]){{0, 0, 1}, {1, 1, 1}}, &err),
          "drive");
     need(cps_system_solve(system, w, NULL, &motion, &err), "solve");
-    const CpsMotionReport *report = cps_motion_report(motion);
-    same("outcome", report->outcome,
-         w[0] < 0 ? CPS_MOTION_OUTCOME_BLOCKED : CPS_MOTION_OUTCOME_SOLVED);
-    if (w[0] >= 0) near("gamma", report->value, b * w[0] + 2 * b * fabs(w[1]), 1e-8 * b);
-    if (w[0] >= 0) same("Proposition 1", report->composition, CPS_COMPOSITION_INTERIOR);
+    const CpsMotionReport report = cps_motion_report(motion);
+    const int expected = w[0] < 0 ? CPS_MOTION_OUTCOME_BLOCKED : CPS_MOTION_OUTCOME_SOLVED;
+    same("outcome", report.outcome, expected);
+    if (w[0] >= 0) near("gamma", report.value, b * w[0] + 2 * b * fabs(w[1]), 1e-8 * b);
+    if (w[0] >= 0) same("Proposition 1", report.composition, CPS_COMPOSITION_INTERIOR);
     CpsSolutionSet all;
     double low[2], high[2];
     need(cps_motion_resistances(motion, 0, &all, low, high, &err), "resistances");

@@ -222,13 +222,13 @@ static void compare(const Case *c, const CpsLaw *law, double gamma, double size)
     CpsSystem *system = make_system(c, law);
     CpsMotion *motion = NULL;
     need(cps_system_solve(system, w, NULL, &motion, &err), "solve");
-    const CpsMotionReport *report = cps_motion_report(motion);
-    if (report->outcome != CPS_MOTION_OUTCOME_SOLVED)
-        fail("outcome", report->outcome, CPS_MOTION_OUTCOME_SOLVED);
-    else if (!(fabs(report->value - gamma) <= allowed))
-        fail("gamma of the motion", report->value, gamma);
-    if (!(report->lower <= gamma + allowed && report->upper >= gamma - allowed))
-        fail("bounds, lower", report->lower, gamma);
+    const CpsMotionReport report = cps_motion_report(motion);
+    if (report.outcome != CPS_MOTION_OUTCOME_SOLVED)
+        fail("outcome", report.outcome, CPS_MOTION_OUTCOME_SOLVED);
+    else if (!(fabs(report.value - gamma) <= allowed))
+        fail("gamma of the motion", report.value, gamma);
+    if (!(report.lower <= gamma + allowed && report.upper >= gamma - allowed))
+        fail("bounds, lower", report.lower, gamma);
     CpsSet *forces = NULL;
     need(cps_system_eliminate(system, NULL, &forces, NULL, &err), "eliminate");
     CpsSetAnswer phi;

@@ -430,7 +430,7 @@ static double largest(int n, const double *a) {
 }
 
 static void check_solution(const System *s, const CpsMotion *motion) {
-    const CpsMotionReport *report = cps_motion_report(motion);
+    const CpsMotionReport report = cps_motion_report(motion);
     const double *v = cps_motion_velocity(motion), *g = cps_motion_resistance(motion);
     const double *lambda = cps_motion_constraint_forces(motion);
     double forces[MOST_COMPONENTS], r[MOST_N], forbidden = 0, power = 0;
@@ -447,18 +447,18 @@ static void check_solution(const System *s, const CpsMotion *motion) {
     for (int i = 0; i < s->constraints; i++)
         for (int j = 0; j < s->n; j++) r[j] -= s->constraint[i][j] * lambda[i];
     for (int i = 0; i < s->drives; i++) power -= s->w[i] * g[i];
-    const double scale = fmax(fmax(fabs(report->value), report->scale), 1e-12 * force),
+    const double scale = fmax(fmax(fabs(report.value), report.scale), 1e-12 * force),
                  own = objective(s, v, &forbidden);
     check("kinematics", kinematics(s, v, 1), LINEAR * speed);
     check("velocity that a half-line forbids", forbidden, GAP * speed);
     check("equilibrium", largest(s->n, r), GAP * force);
-    check("upper bound below the value at V", own - report->upper, GAP * scale);
-    check("upper bound above the value at V", report->upper - own, GAP * scale);
+    check("upper bound below the value at V", own - report.upper, GAP * scale);
+    check("upper bound above the value at V", report.upper - own, GAP * scale);
     if (!s->resistance)
-        check("lower bound is not the power of G", fabs(report->lower - power), GAP * scale);
-    check("bounds cross", report->lower - report->upper,
+        check("lower bound is not the power of G", fabs(report.lower - power), GAP * scale);
+    check("bounds cross", report.lower - report.upper,
           0); /* what rounding leaves is in the bounds */
-    check("gap", report->upper - report->lower, GAP * scale);
+    check("gap", report.upper - report.lower, GAP * scale);
     for (int k = 0; k < s->laws; k++)
         check("outside", outside(&s->law[k], cps_motion_law_force(motion, k)),
               GAP * fmax(s->law[k].size, force));
@@ -499,11 +499,11 @@ static void check_blocked(const System *s, const CpsMotion *motion) {
 /* Ever faster along the direction, which drives nothing, less and less is dissipated, and at every
  * speed more than gamma. */
 static void check_not_attained(const System *s, const CpsMotion *motion) {
-    const CpsMotionReport *report = cps_motion_report(motion);
+    const CpsMotionReport report = cps_motion_report(motion);
     const double *d = cps_motion_direction(motion), size = fmax(largest(s->drives, s->w), 1e-300);
     double force = 0, last = INFINITY, v[MOST_N], forbidden = 0;
     for (int k = 0; k < s->laws; k++) force = fmax(force, s->law[k].size);
-    check("not attained: Proposition 1 holds", report->composition != CPS_COMPOSITION_NOT_SATISFIED,
+    check("not attained: Proposition 1 holds", report.composition != CPS_COMPOSITION_NOT_SATISFIED,
           0);
     check("not attained: the direction drives", kinematics(s, d, 0), LINEAR);
     for (double t = 1; t <= 1e4; t *= 10) {
@@ -513,7 +513,7 @@ static void check_not_attained(const System *s, const CpsMotion *motion) {
         const double now = objective(s, v, &forbidden);
         /* rounding of velocities t times as large */
         check("not attained: the value rises", now - last, 1e-12 * force * largest(s->n, v));
-        check("not attained: the value falls below the bound", report->lower - now,
+        check("not attained: the value falls below the bound", report.lower - now,
               GAP * force * size + 1e-12 * force * largest(s->n, v));
         last = now;
     }
@@ -522,26 +522,26 @@ static void check_not_attained(const System *s, const CpsMotion *motion) {
 /* ---- both propositions ---- */
 
 static void check_reduced(const System *s, const CpsMotion *motion) {
-    const CpsMotionReport *report = cps_motion_report(motion);
+    const CpsMotionReport report = cps_motion_report(motion);
     CpsLaw *law = NULL;
     CpsComposition composition;
     if (s->loaded || s->resistance) return; /* no law */
     /* drive rows that depend on each other are refused */
     if (cps_system_eliminate(s->system, &law, NULL, &composition, &err) != CPS_OK) return;
-    const double scale = fmax(report->value, report->scale);
+    const double scale = fmax(report.value, report.scale);
     CpsSetAnswer phi;
     for (int factor = 1; factor <= 2; factor++) {
         double w[MOST_ROWS];
         for (int i = 0; i < s->drives; i++) w[i] = factor * s->w[i];
         need(cps_set_dissipation(cps_law_set(law), w, NULL, &phi, &err), "dissipation");
         if (phi.outcome == CPS_SET_OUTCOME_ANSWERED)
-            check("reduced law", fabs(phi.value - factor * report->value), VALUE * factor * scale);
+            check("reduced law", fabs(phi.value - factor * report.value), VALUE * factor * scale);
     }
     CpsSetAnswer inside;
     need(cps_set_contains(cps_law_set(law), cps_motion_resistance(motion), NULL, &inside, &err),
          "contains");
     if (inside.outcome == CPS_SET_OUTCOME_ANSWERED)
-        check("G outside the reduced law", -inside.value, VALUE * report->scale);
+        check("G outside the reduced law", -inside.value, VALUE * report.scale);
     cps_law_release(law);
 }
 
@@ -562,8 +562,8 @@ static bool extreme(const CpsSet *set, const double *at, int n, double far, doub
 static int asked, open, pushed;
 
 static void check_velocities(const System *s, const CpsMotion *motion) {
-    const CpsMotionReport *report = cps_motion_report(motion);
-    const double *v = cps_motion_velocity(motion), scale = fmax(fabs(report->value), report->scale);
+    const CpsMotionReport report = cps_motion_report(motion);
+    const double *v = cps_motion_velocity(motion), scale = fmax(fabs(report.value), report.scale);
     const double speed = largest(s->n, v) > 0 ? largest(s->n, v) : 1; /* at rest any size will do */
     CpsSolutionSet all;
     need(cps_motion_velocities(motion, 0, &all, NULL, NULL, &err), "all velocities");
@@ -575,7 +575,7 @@ static void check_velocities(const System *s, const CpsMotion *motion) {
             if (!extreme(all.set, v, s->n, speed, point)) continue;
             const double size = fmax(1, largest(s->n, point) / speed);
             check("extreme V: kinematics", kinematics(s, point, 1), PUSH * size * speed);
-            check("extreme V: value", objective(s, point, &forbidden) - report->value,
+            check("extreme V: value", objective(s, point, &forbidden) - report.value,
                   PUSH * size * fmax(scale, 1e-9));
             check("extreme V: forbidden", forbidden, PUSH * size * speed);
         }
@@ -589,7 +589,7 @@ static void check_velocities(const System *s, const CpsMotion *motion) {
                     other[j] = j == only ? other[j] : 0;
             for (int j = 0; j < s->n; j++) other[j] = v[j] + 0.1 * speed * other[j];
             if (kinematics(s, other, 1) > LINEAR * speed ||
-                objective(s, other, &forbidden) > report->value)
+                objective(s, other, &forbidden) > report.value)
                 continue;
             if (forbidden > 0) continue;
             need(cps_set_contains(all.set, other, NULL, &inside, &err), "contains");
@@ -603,8 +603,8 @@ static void check_velocities(const System *s, const CpsMotion *motion) {
 }
 
 static void check_forces(const System *s, const CpsMotion *motion) {
-    const CpsMotionReport *report = cps_motion_report(motion);
-    const double scale = fmax(fabs(report->value), report->scale), *v = cps_motion_velocity(motion);
+    const CpsMotionReport report = cps_motion_report(motion);
+    const double scale = fmax(fabs(report.value), report.scale), *v = cps_motion_velocity(motion);
     double at[MOST_COMPONENTS], point[MOST_COMPONENTS], r[MOST_N];
     CpsSolutionSet all;
     stack_forces(s, motion, at);
@@ -622,7 +622,7 @@ static void check_forces(const System *s, const CpsMotion *motion) {
             /* its power is that of the motion, M77 (8) */
             gather(s, point, 1, r);
             if (!s->resistance)
-                check("extreme F: power", fabs(dot(s->n, r, v) + report->value),
+                check("extreme F: power", fabs(dot(s->n, r, v) + report.value),
                       PUSH * scale * fmax(1, own / fmax(force, 1e-300)));
         }
     cps_solution_set_clear(&all);
@@ -641,12 +641,12 @@ static void check_missed_interior(void) {
          "add");
     need(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 1, 1}}, &err), "drive");
     need(cps_system_solve(system, (const double[]){uniform(0.5, 2)}, NULL, &motion, &err), "solve");
-    const CpsMotionReport *report = cps_motion_report(motion);
-    check("missed interior: composition", report->composition != CPS_COMPOSITION_NOT_SATISFIED, 0);
-    check("missed interior: lower bound", report->lower, 1e-6 * law.size);
-    check("missed interior: upper bound", -report->upper, 0);
-    check("missed interior: attained", report->outcome != CPS_MOTION_OUTCOME_NOT_ATTAINED, 0);
-    check("missed interior: no direction", cps_motion_direction(motion) == NULL, 0);
+    const CpsMotionReport report = cps_motion_report(motion);
+    check("missed interior: composition", report.composition != CPS_COMPOSITION_NOT_SATISFIED, 0);
+    check("missed interior: lower bound", report.lower, 1e-6 * law.size);
+    check("missed interior: upper bound", -report.upper, 0);
+    check("missed interior: attained", report.outcome != CPS_MOTION_OUTCOME_NOT_ATTAINED, 0);
+    check("missed interior: no direction", largest(2, cps_motion_direction(motion)), 0);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
     cps_law_release(law.law);
@@ -665,9 +665,9 @@ static void one_case(uint64_t number) {
     make_system(&s);
     CpsMotion *motion = NULL;
     need(cps_system_solve(s.system, s.w, NULL, &motion, &err), "solve");
-    const CpsMotionReport *report = cps_motion_report(motion);
-    count_outcome[report->outcome]++;
-    switch (report->outcome) {
+    const CpsMotionReport report = cps_motion_report(motion);
+    count_outcome[report.outcome]++;
+    switch (report.outcome) {
     case CPS_MOTION_OUTCOME_SOLVED:
     case CPS_MOTION_OUTCOME_LIMIT_LOAD:
         check_solution(&s, motion);
@@ -686,9 +686,9 @@ static void one_case(uint64_t number) {
     case CPS_MOTION_OUTCOME_NOT_ATTAINED: check_not_attained(&s, motion); break;
     case CPS_MOTION_OUTCOME_INACCURATE:
         fprintf(stderr, "seed %llu: inaccurate: gap %.3g of %.3g, composition %s\n",
-                (unsigned long long)seed, report->minimum, fmax(fabs(report->value), report->scale),
-                cps_composition_name(report->composition));
-        failures += report->composition != CPS_COMPOSITION_NOT_SATISFIED;
+                (unsigned long long)seed, report.minimum, fmax(fabs(report.value), report.scale),
+                cps_composition_name(report.composition));
+        failures += report.composition != CPS_COMPOSITION_NOT_SATISFIED;
         break;
     }
     cps_motion_destroy(motion);

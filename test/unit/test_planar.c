@@ -298,10 +298,10 @@ static void random_drives_against_systems(void **state) {
         assert_int_equal(cps_planar_system(body, CPS_PLANAR_INNER, 1, &system, NULL), CPS_OK);
         assert_int_equal(cps_system_set_drive(system, rows, 3 * rows, entry, NULL), CPS_OK);
         assert_int_equal(cps_system_solve(system, velocity, NULL, &motion, NULL), CPS_OK);
-        const CpsMotionReport *report = cps_motion_report(motion);
-        assert_int_equal(report->outcome, CPS_MOTION_OUTCOME_SOLVED);
-        assert_true(found.lower <= report->upper &&
-                    report->lower <= found.upper); /* both enclose gamma */
+        const CpsMotionReport report = cps_motion_report(motion);
+        assert_int_equal(report.outcome, CPS_MOTION_OUTCOME_SOLVED);
+        assert_true(found.lower <= report.upper &&
+                    report.lower <= found.upper); /* both enclose gamma */
         cps_motion_destroy(motion);
         cps_system_destroy(system);
         cps_planar_destroy(body);

@@ -145,12 +145,12 @@ static void draw_strip(FILE *out, const RopePicture *p, double width) {
 
 static CpsStatus draw_rope(void *what, FILE *out, CpsError *err) {
     const RopePicture *p = what;
-    const CpsMotionReport *r = cps_motion_report(p->motion);
+    const CpsMotionReport r = cps_motion_report(p->motion);
     const double width = 2 * SHAPE - 100 + GAP;
     const int rows = p->count > 1 ? (p->count + 5) / 6 : 0;
     char text[160];
     snprintf(text, sizeof text,
-             "heavy inextensible rope on a rough table; least dissipation %.6g W", r->value);
+             "heavy inextensible rope on a rough table; least dissipation %.6g W", r.value);
     cpsi_svg_begin(out, LEFT + width + 40,
                    TOP + HEIGHT + 60 + rows * (STRIP + 30.0) + (rows ? 30 : 0),
                    *p->file->title ? p->file->title : "rope on a table", text);
@@ -165,7 +165,7 @@ CpsStatus cps_drive_draw_rope(const CpsDriveFile *file, const CpsMotion *motion,
                               const double *shots, FILE *out, CpsError *err) {
     if (!file || file->kind != CPS_DRIVE_ROPE || !motion)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the file holds no rope, or there is no motion");
-    const CpsMotionOutcome outcome = cps_motion_report(motion)->outcome;
+    const CpsMotionOutcome outcome = cps_motion_report(motion).outcome;
     if (outcome == CPS_MOTION_OUTCOME_BLOCKED || outcome == CPS_MOTION_OUTCOME_NO_BALANCE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "nothing to draw: %s",
                          cps_motion_outcome_text(outcome));

@@ -99,14 +99,13 @@ static const struct {
                    {"push / force", "#b91c1c", "stroke-dasharray=\"5 3\""},
                    {"force without a carrier / force", "#555555", "stroke-dasharray=\"5 3\""}};
 
-static double curve_value(int curve, const CpsRegularizedReport *r,
-                          const CpsRegularizedStep *step) {
-    const double value[CURVES] = {fabs(r->energy_error) / (step->force * step->length),
-                                  r->tension_rms / step->force,
-                                  r->penetration / step->length,
-                                  r->creep / step->length,
-                                  r->compression / step->force,
-                                  r->friction_excess / step->force};
+static double curve_value(int curve, CpsRegularizedReport r, const CpsRegularizedStep *step) {
+    const double value[CURVES] = {fabs(r.energy_error) / (step->force * step->length),
+                                  r.tension_rms / step->force,
+                                  r.penetration / step->length,
+                                  r.creep / step->length,
+                                  r.compression / step->force,
+                                  r.friction_excess / step->force};
     return log10(fmax(value[curve], FLOOR));
 }
 
@@ -115,7 +114,7 @@ static void draw_stages(FILE *out, const CpsiFrame *frame, const CpsStudy *study
     for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
         int first = rows, last = -1;
         for (int i = rows - 1; i >= 0; --i)
-            if (cps_study_row(study, i)->stage == (CpsStudyStage)s) {
+            if (cps_study_row(study, i).stage == (CpsStudyStage)s) {
                 first = i;
                 last = last < 0 ? i : last;
             }
@@ -137,7 +136,7 @@ static void draw_errors(const CpsStudyFiles *files, FILE *out) {
     double range[2] = {INFINITY, -INFINITY};
     for (int i = 0; i < rows; ++i)
         for (int c = 0; c < CURVES; ++c) {
-            const double value = curve_value(c, &cps_study_row(files->study, i)->report, &step);
+            const double value = curve_value(c, cps_study_row(files->study, i).report, &step);
             if (value > log10(FLOOR)) cpsi_range_include(range, value);
         }
     cpsi_range_pad(range, 0.05);
@@ -157,15 +156,15 @@ static void draw_errors(const CpsStudyFiles *files, FILE *out) {
         for (int i = 0; i < rows; ++i)
             fprintf(out, "%.1f,%.1f ", cpsi_frame_x(&frame, i),
                     cpsi_frame_y(&frame,
-                                 curve_value(c, &cps_study_row(files->study, i)->report, &step)));
+                                 curve_value(c, cps_study_row(files->study, i).report, &step)));
         fputs("\"/>\n", out);
     }
     /* a solve that did not converge is crossed out */
     for (int i = 0; i < rows; ++i) {
-        const CpsStudyRow *row = cps_study_row(files->study, i);
-        if (row->report.converged) continue;
+        const CpsStudyRow row = cps_study_row(files->study, i);
+        if (row.report.converged) continue;
         cpsi_svg_text(out, cpsi_frame_x(&frame, i),
-                      cpsi_frame_y(&frame, curve_value(1, &row->report, &step)) + 4, CPSI_MIDDLE,
+                      cpsi_frame_y(&frame, curve_value(1, row.report, &step)) + 4, CPSI_MIDDLE,
                       "fill=\"#b91c1c\" font-weight=\"bold\"", "\xC3\x97");
     }
     cpsi_frame_end(out);
@@ -183,9 +182,9 @@ void cpsi_picture_study(const CpsStudyFiles *files, FILE *out) {
     const int rows = cps_study_row_count(files->study);
     int iterations = 0, open = 0;
     for (int i = 0; i < rows; ++i) {
-        const CpsStudyRow *row = cps_study_row(files->study, i);
-        iterations += row->report.iterations;
-        open += !row->report.converged;
+        const CpsStudyRow row = cps_study_row(files->study, i);
+        iterations += row.report.iterations;
+        open += !row.report.converged;
     }
     char note[160];
     snprintf(note, sizeof note,

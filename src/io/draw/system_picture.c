@@ -47,11 +47,11 @@ static CpsStatus solve_grid(Maps *m, CpsError *err) {
         CpsMotion *motion = NULL;
         const CpsStatus status = cps_system_solve(s->system, w, &options, &motion, err);
         if (status != CPS_OK) return status;
-        const CpsMotionReport *r = cps_motion_report(motion);
-        const bool none = r->outcome == CPS_MOTION_OUTCOME_NO_BALANCE ||
-                          r->outcome == CPS_MOTION_OUTCOME_BLOCKED ||
-                          r->outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED;
-        m->gamma[at] = none ? NAN : r->value;
+        const CpsMotionReport r = cps_motion_report(motion);
+        const bool none = r.outcome == CPS_MOTION_OUTCOME_NO_BALANCE ||
+                          r.outcome == CPS_MOTION_OUTCOME_BLOCKED ||
+                          r.outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED;
+        m->gamma[at] = none ? NAN : r.value;
         for (int k = 0; k < 2; k++)
             m->resistance[2 * at + k] = none ? NAN : cps_motion_resistance(motion)[k];
         for (int k = 0; k < m->parameters; k++)

@@ -56,15 +56,15 @@ static void write_study(const CpsStudyFiles *files, FILE *out) {
     for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].unit);
     fputc('\n', out);
     for (int r = 0; r < cps_study_row_count(files->study); ++r) {
-        const CpsStudyRow *row = cps_study_row(files->study, r);
-        const int cells = row->parameters.cells > 0 ? row->parameters.cells : step.elements;
-        fprintf(out, "%s,%d", cps_study_stage_name(row->stage), cells);
+        const CpsStudyRow row = cps_study_row(files->study, r);
+        const int cells = row.parameters.cells > 0 ? row.parameters.cells : step.elements;
+        fprintf(out, "%s,%d", cps_study_stage_name(row.stage), cells);
         write_number(out, step.length / cells);
-        fprintf(out, ",%d,%d,%d", row->report.converged, row->report.iterations,
-                row->report.evaluations);
+        fprintf(out, ",%d,%d,%d", row.report.converged, row.report.iterations,
+                row.report.evaluations);
         for (int i = 0; i < COLUMNS; ++i)
             write_number(out,
-                         *(const double *)(const void *)((const char *)row + COLUMN[i].offset));
+                         *(const double *)(const void *)((const char *)&row + COLUMN[i].offset));
         fputc('\n', out);
     }
 }
