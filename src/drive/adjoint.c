@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* B*f of one piece (adjoint.h).
  *
- * A law whose set is flat, a segment say, may be tied to the parameters so that its forces do no
- * work on one of them: the sum over the components is then 0 in exact arithmetic and rounding in
- * floating point. Left in a program whose equations are scaled, that rounding would become a full
- * equation. */
+ * A law with a flat set, for instance a segment, may be connected to the parameters in such a way
+ * that its forces do no work on one of them. The sum over the components is then 0 in exact
+ * arithmetic and a rounding error in floating point. In a program whose equations are scaled, this
+ * rounding error would become an equation of size one. */
 #include "drive/adjoint.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@
 
 #include "base/status.h"
 
-/* A sum this small beside its terms is rounding: vectors of a form come from orthogonal bases,
- * right to some tens of eps. */
+/* A sum this small relative to its terms is rounding: vectors of a form come from orthogonal bases,
+ * which are accurate to some tens of eps. */
 static const double ROUNDING = 1e-13;
 
 CpsStatus cpsi_adjoint_new(const CpsSystem *system, CpsiAdjoint *out, CpsError *err) {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is the infimum gamma(W) attained?
+/* Whether the infimum gamma(W) is attained.
  *
- * Where the balancing forces meet the sets' relative interiors, or miss them in polyhedral factors
- * only, it is (Rockafellar 1970, theorem 31.1). Else phi may fall for ever along a direction d that
- * drives nothing and dissipates nothing. To find out, a friction of s on every parameter is added:
- * then the minimum over E of phi + s |V|_1 is attained by some V(s). As s falls, V(s) goes to a
- * motion where there is one, and beyond all bounds where there is none (a limit of V(s) would be a
- * motion). phi falls like a power of the distance: where it falls like its -p-th, |V(s)| grows like
- * s to the -1/(1 + p). */
+ * It is attained where the balancing forces meet the relative interiors of the sets, or miss them
+ * in polyhedral factors only (Rockafellar 1970, theorem 31.1). Otherwise phi may decrease forever
+ * along a direction d that changes no driving velocity and dissipates nothing. To decide this, a
+ * friction of s on every parameter is added: the minimum over E of phi + s |V|_1 is then attained
+ * by some V(s). As s decreases, V(s) converges to a motion where there is one, and grows without
+ * bound where there is none (a limit of V(s) would be a motion). phi decreases like a power of the
+ * distance: where it decreases like its -p-th power, |V(s)| grows like s to the -1/(1 + p). */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,19 +18,19 @@
 #include "drive/kinematics.h"
 #include "drive/motion.h"
 
-/* The two frictions, relative to the size of forces, and the growth of |V| that means none: |V|
- * grows as s^(-1/5) at least for sets as flat as |x|^(4/3), and stays where a motion needs less
- * than 1e4 times the driving velocity. */
+/* The two frictions, relative to the size of forces, and the growth of |V| above which there is no
+ * motion: |V| grows at least as s^(-1/5) for sets as flat as |x|^(4/3), and remains constant where
+ * a motion needs less than 1e4 times the driving velocity. */
 static const double STRONG = 1e-8, WEAK = 1e-11, GROWTH = 3, FAR = 100;
 
-/* As of the bounds in certificate.c. */
+/* As for the bounds in certificate.c. */
 static const double ROUNDING = 16 * DBL_EPSILON;
 
 static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion");
 }
 
-/* Rows `first` to `first` + count - 1 as entries of their own. */
+/* Rows `first` to `first` + count - 1 as a list of entries. */
 static CpsStatus entries_of(const CpsiRows *rows, int first, int count, CpsEntry **entry,
                             int *entries, CpsError *err) {
     const size_t from = count > 0 ? rows->start[first] : 0,
@@ -44,7 +44,7 @@ static CpsStatus entries_of(const CpsiRows *rows, int first, int count, CpsEntry
     return CPS_OK;
 }
 
-/* The system once more. */
+/* A copy of the system. */
 static CpsStatus copy_system(const CpsSystem *system, CpsSystem **out, CpsError *err) {
     CpsSystem *copy = NULL;
     CpsEntry *entry = NULL;
@@ -111,8 +111,8 @@ static CpsStatus with_friction(const CpsMotion *motion, double s, double *veloci
     return status;
 }
 
-/* phi less the load's power at V, with the rounding of both: of powers that may cancel to
- * nothing. */
+/* phi less the load's power at V, plus the rounding of both, since the powers may cancel to
+ * zero. */
 static double value_at(const CpsMotion *motion) {
     double phi = 0, terms = fabs(motion->report.load_power), speed = 0;
     for (int j = 0; j < motion->system->n; j++)
@@ -124,8 +124,8 @@ static double value_at(const CpsMotion *motion) {
     return phi - motion->report.load_power + ROUNDING * (terms + motion->force * speed);
 }
 
-/* The least value at V + t direction: farther on phi is lower, but lost in the rounding of two
- * large powers. The forces are those that were found, and the lower bound with them. */
+/* The least value at V + t direction. Farther out phi is lower, but it is lost in the rounding of
+ * two large powers. The forces are those that were found, and so is the lower bound. */
 static CpsStatus lower_value(CpsMotion *motion, const double *from, CpsError *err) {
     const size_t n = (size_t)motion->system->n;
     const CpsMotionReport found = motion->report;
@@ -163,7 +163,7 @@ CpsStatus cpsi_motion_attained(CpsMotion *motion, CpsiKinematics *kinematics, Cp
     if (status == CPS_OK && near_size > 0 && far_size > GROWTH * near_size &&
         far_size > FAR * motion->driven) {
         motion->report.outcome = CPS_MOTION_OUTCOME_NOT_ATTAINED;
-        /* what the drive imposes is no part of the direction */
+        /* the velocity imposed by the drive is not part of the direction */
         memset(near, 0, n * sizeof *near);
         cpsi_kinematics_project(kinematics, motion->driving, near);
         for (size_t j = 0; j < n; j++) {

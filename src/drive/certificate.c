@@ -7,9 +7,9 @@
  *     lower = - <W, G> - sum of phi_k*(-F_k)    <=  gamma
  *         if r = 0, F_k in C_k
  *
- * What is missing of the conditions is rounding; it is multiplied by what it acts on, |V_i|, |U_k|,
- * |G|, |lambda|, and taken into the bounds, and so is the rounding of their own arithmetic, so that
- * lower <= upper shows an honest gap. */
+ * The conditions are violated only by rounding. Each violation is multiplied by its factor in the
+ * power, |V_i|, |U_k|, |G| or |lambda|, and included in the bounds. So is the rounding of the
+ * bounds' own arithmetic, so that lower <= upper is a reliable gap. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -25,20 +25,21 @@
  * velocity. */
 static const double ON_BOUNDARY = 1e-8;
 
-/* Forces that miss equilibrium by more than this share of the largest are not in equilibrium: a
- * hundred times what a solution may be off by. */
+/* Forces whose imbalance exceeds this share of the largest force are not in equilibrium: a hundred
+ * times the allowed error of a solution. */
 static const double BALANCED = 1e-6;
 
-/* What closed forms of potentials, conjugates and distances, and the few additions that make a
- * bound of them, may be off by, relative to their size: each is right to a few eps. Sums over rows,
- * columns and laws are in twice the digits. */
+/* Error of the closed forms of potentials, conjugates and distances, and of the few additions in a
+ * bound, relative to their size: each is accurate to a few eps. Sums over rows, columns and laws
+ * are computed with twice the digits. */
 static const double ROUNDING = 16 * DBL_EPSILON;
 
 static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a certificate");
 }
 
-/* A sum in twice the digits: what additions and products round off is kept beside it. */
+/* A sum with twice the digits: the rounding errors of additions and products are stored beside
+ * it. */
 static void add(CpsiSum *sum, double x) {
     const double next = sum->high + x;
     if (isfinite(next))
@@ -56,7 +57,8 @@ static double total(const CpsiSum *sum) {
     return isfinite(sum->high) ? sum->high + sum->low : sum->high;
 }
 
-/* <row i, x> - y: the residual itself, where <row i, x> alone is rounding of y */
+/* <row i, x> - y, computed as the residual itself, since <row i, x> alone is only accurate to the
+ * rounding of y */
 static double row_residual(const CpsiRows *rows, int i, const double *x, double y) {
     CpsiSum sum = {-y, 0};
     for (size_t e = rows->start[i]; e < rows->start[i + 1]; e++)
@@ -87,20 +89,19 @@ void cpsi_motion_recover_forces(CpsMotion *motion, const CpsiDriveProgram *progr
     cpsi_drive_program_multipliers(program, motion->resistance, motion->constraint);
 }
 
-/* What one piece adds. */
+/* Contribution of one piece. */
 typedef struct Part {
     double potential, conjugate, outside, forbidden, missing;
 } Part;
 
-/* phi(U) and the distance of F from C by the conic form, F = o + P v: with z of the program, A'z =
+/* phi(U) and the distance of F from C by the conic form, F = o + P v. With z of the program, A'z =
  * P'U + e,
  *
  *     phi(U) <= -<U, o> + b.z + <e, v'> for every v' of the form,
- *         F is outside by no more than A v + b is
- *     outside K.
+ *         F is outside by at most the distance of A v + b from K.
  *
- * For sets without a closed form, and for velocities that the recession of an unbounded set forbids
- * by rounding. */
+ * It is used for sets without a closed form, and for velocities that the recession of an unbounded
+ * set forbids because of rounding. */
 static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
                     const double *u) {
     const CpsiConicForm *form = program->form[k];
@@ -153,7 +154,7 @@ static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *
     part->outside = margin.outcome == CPS_SET_OUTCOME_ANSWERED ? fmax(0, -margin.value) : INFINITY;
     if (!program || (phi.exact && isfinite(part->potential) && margin.exact)) return CPS_OK;
 
-    /* the tighter of two certificates, each with what it leaves open */
+    /* the tighter of the two certificates, each with its own violations */
     const Part form = by_form(motion, program, k, u);
     if (form.potential + form.missing < part->potential || !isfinite(part->potential)) {
         part->potential = form.potential;
@@ -186,7 +187,7 @@ static CpsStatus term_conjugate(const CpsiPiece *piece, const double *f, Part *p
     CpsiTermDual dual = {.value = INFINITY};
     CpsStatus status = cps_set_gauge(piece->set, f, &gauge, err);
     if (status != CPS_OK) return status;
-    /* past the end of a table: brought back, and the way counted as outside */
+    /* beyond the end of a table: replaced by the end; the difference counts as outside */
     const double end =
         piece->term->kind == CPSI_TABLE ? piece->term->data[2 * piece->term->count - 1] : INFINITY;
     const double s = fmin(gauge.value, end);
@@ -208,7 +209,7 @@ static CpsStatus piece_part(const CpsMotion *motion, const CpsiDriveProgram *pro
     return term_conjugate(piece, f, part, err);
 }
 
-/* Sums over the laws; `terms` of the sizes of what enters the bounds. */
+/* Sums over the laws; `terms` are the sizes of the terms of the bounds. */
 typedef struct Totals {
     CpsiSum potential, conjugate;
     double terms, missing, gap, dissipated, size, outside, forbidden;
@@ -248,7 +249,7 @@ static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, 
     add(&totals->conjugate, conjugate);
     totals->terms += fabs(share.potential) + fabs(conjugate) + speed * force;
     totals->missing += share.outside * speed;
-    /* phi is taken at U, and V gives it a rounding beside U */
+    /* phi is evaluated at U, to which V adds a rounding error */
     for (int i = 0; i < law->space; i++)
         totals->missing +=
             fabs(f[i] * row_residual(&motion->system->map, law->first + i, motion->velocity, u[i]));
@@ -266,7 +267,7 @@ static double largest_of(int n, const double *a) {
     return largest;
 }
 
-/* Kinematics and equilibrium: residuals, and what they may cost the bounds. */
+/* Kinematics and equilibrium: residuals, and their contribution to the bounds. */
 static void measure_balance(CpsMotion *motion, double *above, double *below) {
     const CpsSystem *system = motion->system;
     CpsMotionReport *report = &motion->report;
@@ -331,7 +332,7 @@ CpsStatus cpsi_motion_certify(CpsMotion *motion, const CpsiDriveProgram *program
         motion->speed > 0 ? totals.forbidden / motion->speed : totals.forbidden;
     report->constraint = cpsi_max_nan(report->constraint, forbidden);
     if (!(forbidden <= ON_BOUNDARY)) report->upper = report->value = report->minimum = INFINITY;
-    /* forces that miss balance say nothing about velocities other than V */
+    /* forces that are not in equilibrium prove nothing about velocities other than V */
     if (!(report->equilibrium <= BALANCED)) {
         report->lower = -INFINITY;
         report->minimum = INFINITY;

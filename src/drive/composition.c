@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Proposition 1's condition: do the forces in the middle of all that balance lie inside the laws'
- * sets? */
+/* The condition of Proposition 1: whether the forces in the middle of all forces in equilibrium lie
+ * inside the laws' sets. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,7 +13,7 @@ static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion");
 }
 
-/* Do the forces of the form fill the space? */
+/* Whether the forces of the form have the full dimension of the space. */
 static CpsStatus full_dimension(const CpsiConicForm *form, int space, bool *full, CpsError *err) {
     const size_t n = (size_t)space, count = (size_t)form->unknowns + (size_t)form->lines;
     if (count < n) {
@@ -32,7 +32,7 @@ static CpsStatus full_dimension(const CpsiConicForm *form, int space, bool *full
     return CPS_OK;
 }
 
-/* The least margin of a piece's cones, which are of size one. */
+/* The smallest margin of a piece's cones, whose rows have size one. */
 static double margin_of(const CpsiConicForm *form, const double *s) {
     double least = INFINITY;
     CPSI_FOR_CONES(c, i, form->cones, form->dim)
@@ -57,7 +57,7 @@ CpsStatus cpsi_motion_composition(const CpsSystem *system, double boundary,
             const CpsiConicForm *form = program.form[k];
             const CpsiPiece *piece = &system->piece[k];
             CpsComposition place = CPS_COMPOSITION_INTERIOR;
-            /* neighbours of one set have one dimension */
+            /* neighbouring pieces with the same set have the same dimension */
             if (k == 0 || form != program.form[k - 1])
                 status = full_dimension(form, piece->space, &full, err);
             if (!full) place = CPS_COMPOSITION_RELATIVE_INTERIOR;

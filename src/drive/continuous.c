@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is phi finite and continuous at a velocity that agrees with W (M77, Proposition 2, second half)?
+/* Whether phi is finite and continuous at a velocity that agrees with W (M77, Proposition 2, second
+ * half).
  *
  * phi(V) = sum of phi_k(B_k V) is finite in the interior of its domain and continuous there. With Q
  * the closed cone of all B*R, R_k in the recession cones of the C_k, V is in that interior when <Q,
- * V> > 0 but for 0. So there is one in E = V0 + {D V = 0, C V = 0} exactly when Q contains no line
- * and, by separation, no other than 0 of Q is a combination of rows of D and C with <., V0> <=
- * 0. */
+ * V> > 0 except for 0. So E = V0 + {D V = 0, C V = 0} contains such a V exactly when Q contains no
+ * line and, by separation, no element of Q other than 0 is a combination of rows of D and C with
+ * <., V0> <= 0. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +21,7 @@ static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for Proposition 2");
 }
 
-/* The recession cone of one piece, {0} for a viscous term; *bounded becomes false where it is
+/* The recession cone of one piece, {0} for a viscous term; *bounded is set to false where it is
  * larger. */
 static CpsStatus of_piece(const CpsiPiece *piece, CpsSet **out, bool *bounded, CpsError *err) {
     CpsSetFacts facts = {.bounded = true};
@@ -31,7 +32,7 @@ static CpsStatus of_piece(const CpsiPiece *piece, CpsSet **out, bool *bounded, C
     return cpsi_set_recession(piece->set, out, err);
 }
 
-/* B_k* R of all pieces added up: Q. NULL where all sets are bounded. */
+/* Q, the sum of B_k* R over all pieces. NULL where all sets are bounded. */
 static CpsStatus gather(const CpsSystem *system, CpsSet **out, CpsError *err) {
     const size_t n = (size_t)system->n;
     CpsSet **part = calloc((size_t)system->pieces + 1, sizeof *part);
@@ -65,7 +66,7 @@ static CpsStatus gather(const CpsSystem *system, CpsSet **out, CpsError *err) {
     return status;
 }
 
-/* Is 0 all that two cones have in common?  *known false where there is no answer. */
+/* Whether 0 is the only common element of two cones. *known is false where there is no answer. */
 static CpsStatus only_zero(const CpsSet *one, const CpsSet *other, bool *known, bool *only,
                            CpsError *err) {
     CpsSet *both = NULL;

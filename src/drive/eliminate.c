@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Proposition 1: the law between W and G.
  *
- * With V = E W + N y, F balances exactly where N (B*F + load) = 0, and then G = E*(B*F + load).
- * With F = F0 + L t,
+ * With V = E W + N y, F is in equilibrium exactly where N (B*F + load) = 0, and then G = E*(B*F +
+ * load). With F = F0 + L t,
  *
  *     D = { G0 + M t : F0 + L t in C },     C = C_0 x C_1 x ..,   M = (B E)* L,
  *         G0 = E*(B*F0 + load),
  *
- * an image of a preimage. Where G determines t (M invertible, as for the wheel) it is the preimage
- * by L M^-1 alone; where nothing is left free (no y) the image alone, the sum of the contacts of a
- * rigid body. */
+ * which is an image of a preimage. Where G determines t (M invertible, as for the wheel) it is the
+ * preimage by L M^-1 alone; where no velocity is free (no y) it is the image alone, the sum of the
+ * contacts of a rigid body. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,11 +19,11 @@
 #include "drive/null_space.h"
 #include "linalg/dense.h"
 
-/* Rows of the drive count as dependent at this share: rounding of the given numbers. */
+/* Rows of the drive count as dependent at this share, the rounding of the given numbers. */
 static const double DEPENDENT = 1e-9;
-/* A force outside its law by more than this share of its size is none of it. */
+/* A force farther outside its law than this share of its size is not a force of the law. */
 static const double CONTRADICTION = 1e-9;
-/* Forces nearer to a law's boundary than this share of its size are on it. */
+/* A force nearer to a law's boundary than this share of its size is on the boundary. */
 static const double BOUNDARY = 1e-6;
 
 static CpsStatus out_of_memory(CpsError *err) {
@@ -62,7 +62,7 @@ static CpsStatus carry_drive(const CpsSystem *system, double *carried, CpsError 
     return status;
 }
 
-/* Numbers of a reduction, in one block. */
+/* Arrays of a reduction, in one block. */
 typedef struct Reduction {
     CpsiDense dense;
     int m, p;
@@ -101,7 +101,7 @@ static CpsStatus allocate(Reduction *r, CpsError *err) {
     return CPS_OK;
 }
 
-/* L M^-1, where M is square and its inverse multiplies rounding by no more than 1e8. */
+/* L M^-1, where M is square and its inverse amplifies rounding by no more than 1e8. */
 static void invert(Reduction *r) {
     const size_t c = (size_t)r->dense.components, m = (size_t)r->m;
     double largest = 0;
@@ -112,7 +112,7 @@ static void invert(Reduction *r) {
     for (size_t i = 0; i < m; i++)
         r->invertible = r->invertible && fabs(r->lu[i * m + i]) > 1e-8 * largest;
     if (!r->invertible) return;
-    double *column = r->origin; /* G0 is written later */
+    double *column = r->origin; /* used as scratch; G0 is written later */
     for (size_t j = 0; j < m; j++) {
         memset(column, 0, m * sizeof *column);
         column[j] = 1;
@@ -150,7 +150,7 @@ static CpsStatus reduce(const CpsSystem *system, Reduction *r, CpsError *err) {
     cpsi_dense_round(c * m, size, r->contact);
     cpsi_dense_round(p * m, size, r->outer);
     if (p == m && d->free > 0) invert(r);
-    /* G0 = E*(B*F0 + load), and what the direct preimage adds */
+    /* G0 = E*(B*F0 + load), and the shift of the direct preimage */
     for (size_t j = 0; j < m; j++) {
         r->origin[j] = system->load ? cpsi_dot(d->n, &r->carried[j * n], system->load) : 0;
         for (size_t i = 0; i < c; i++) r->origin[j] += r->contact[i * m + j] * d->start[i];
@@ -170,7 +170,7 @@ static CpsStatus no_force(int m, CpsLaw **out, CpsError *err) {
     return status;
 }
 
-/* without a load: laws all the way */
+/* without a load every intermediate result is a law */
 static CpsStatus compose_law(const Reduction *r, const CpsLaw *product, CpsLaw **out,
                              CpsError *err) {
     if (r->p == 0) return no_force(r->m, out, err);
@@ -185,7 +185,7 @@ static CpsStatus compose_law(const Reduction *r, const CpsLaw *product, CpsLaw *
     return status;
 }
 
-/* The one F0 that balances, as a set of G: empty where the laws do not bear it. */
+/* The only F0 in equilibrium, as a set of G: empty where the laws cannot give it. */
 static CpsStatus only_force(const Reduction *r, const CpsSet *product, CpsSet **out,
                             CpsError *err) {
     const size_t m = (size_t)r->m;
@@ -206,7 +206,7 @@ static CpsStatus only_force(const Reduction *r, const CpsSet *product, CpsSet **
     return status;
 }
 
-/* with a load: the same as sets */
+/* with a load: the same with sets */
 static CpsStatus compose_set(const Reduction *r, const CpsSet *product, CpsSet **out,
                              CpsError *err) {
     if (r->p == 0) return only_force(r, product, out, err);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Projection on D V = W, C V = 0 by one sparse factor and rounds of refinement. */
+/* Projection onto D V = W, C V = 0 by one sparse factor and rounds of iterative refinement. */
 #include "drive/kinematics.h"
 
 #include <math.h>
@@ -11,17 +11,17 @@
 #include "linalg/dense.h"
 #include "linalg/sparse_ldl.h"
 
-/* Regularisation of dependent rows: above rounding; rows that are nearly dependent need more rounds
- * of refinement. */
+/* Regularisation of dependent rows. It is above rounding; rows that are nearly dependent need more
+ * rounds of refinement. */
 static const double REGULAR = 1e-12;
 static const int MOST_ROUNDS = 12;
-/* Entries of the factor. */
+/* Limit for the entries of the factor. */
 static const size_t MOST_ENTRIES = (size_t)500 << 20;
 
 struct CpsiKinematics {
     const CpsSystem *system;
     CpsiRows rows;    /* R */
-    double *size;     /* (rows) norm of each row as it was given */
+    double *size;     /* (rows) norm of each row before scaling */
     double *x, *left; /* (n + rows) */
     CpsiLdl *ldl;
 };
@@ -39,7 +39,7 @@ static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the kinematics");
 }
 
-/* How many entries of R. */
+/* Number of entries of R. */
 static size_t count_entries(const CpsSystem *system, int *rows) {
     size_t count =
         system->drive.start[system->drive.rows] + system->constraint.start[system->constraint.rows];
@@ -160,7 +160,7 @@ CpsStatus cpsi_kinematics_new(const CpsSystem *system, CpsiKinematics **out, Cps
     return status;
 }
 
-/* left (rows) = (W, 0, 0)/size - R V; its largest */
+/* left (rows) = (W, 0, 0)/size - R V. Returns the largest absolute value. */
 static double miss(const CpsiKinematics *k, const double *driving, const double *velocity,
                    double *left) {
     double largest = 0;
@@ -185,7 +185,7 @@ void cpsi_kinematics_project(CpsiKinematics *k, const double *driving, double *v
             k->left[i] = velocity[i];
             velocity[i] += k->x[i];
         }
-        /* the last round may only add rounding: take it back */
+        /* the last round may only have added rounding; it is undone then */
         if (miss(k, driving, velocity, k->left + n) > now)
             memcpy(velocity, k->left, (size_t)n * sizeof *velocity);
     }

@@ -10,15 +10,16 @@
 #include "base/status.h"
 #include "drive/kinematics.h"
 
-/* Rows of drive and constraints contradict W beyond this share of it: rounding of W and refinement
- * leave less. */
+/* Rows of drive and constraints contradict W where the residual exceeds this share of W; rounding
+ * of W and refinement leave less. */
 static const double CONTRADICTION = 1e-9;
 
-/* [m/s] What nothing drives is at rest below this; without W there is no speed to compare with. */
+/* [m/s] Without W there is no speed to compare with, and velocities below this are rest. */
 static const double REST = 1e-12;
 
-/* Bounds that are nearer than this share of the power scale, and as much for each component of the
- * laws, are as near as rounding lets them be. Velocities are then known to its root. */
+/* Bounds whose distance is below this share of the power scale, plus EACH for each component of the
+ * laws, are as near as rounding permits. Velocities are then known to the square root of that
+ * distance. */
 static const double FEW = 1e-12, EACH = 1e-15;
 
 static CpsStatus out_of_memory(CpsError *err) {
@@ -104,7 +105,7 @@ static double largest_of(int n, const double *a) {
     return largest;
 }
 
-/* The largest force that a law or the load is about; where all laws are cones, 1 N. */
+/* The order of magnitude of the largest force of laws and load; 1 N where all laws are cones. */
 static double force_size(const CpsSystem *system) {
     double size = system->load ? largest_of(system->n, system->load) : 0;
     for (int k = 0; k < system->forms; k++) {
@@ -118,7 +119,7 @@ static double force_size(const CpsSystem *system) {
 
 /* ---- the steps ---- */
 
-/* No velocity is allowed: the least dissipation of none is infinite. */
+/* No velocity is admissible; the minimum over the empty set is infinite. */
 static void block(CpsMotionReport *report) {
     report->outcome = CPS_MOTION_OUTCOME_BLOCKED;
     report->value = report->lower = report->upper = INFINITY;
@@ -141,7 +142,8 @@ static void start_velocity(CpsMotion *motion, CpsiKinematics *kinematics) {
 }
 
 /* The largest factor on the load. Where it is below one, V of the program has <load, V> = 1 and
- * phi(V) = factor: a proof, where phi(V) < <load, V> beyond rounding. */
+ * phi(V) = factor, which proves that the load cannot be balanced if phi(V) < <load, V> beyond
+ * rounding. */
 static CpsStatus balance_load(CpsMotion *motion, CpsiKinematics *kinematics, double band,
                               CpsError *err) {
     CpsMotionReport *report = &motion->report;
@@ -190,8 +192,8 @@ static bool has_resistance(const CpsSystem *system) {
     return false;
 }
 
-/* Are the bounds near, and is what they are made of admissible? `least`: a power that does not
- * count. */
+/* Whether the bounds are near to each other, and their velocities and forces admissible. Powers
+ * below `least` do not count. */
 static bool close_enough(const CpsMotionReport *report, double tolerance, double least) {
     const double residual = cpsi_max_nan(cpsi_max_nan(report->drive, report->constraint),
                                          cpsi_max_nan(report->equilibrium, report->outside));
@@ -199,7 +201,7 @@ static bool close_enough(const CpsMotionReport *report, double tolerance, double
            residual <= tolerance;
 }
 
-/* The program itself, with velocities of size `speed`, and the bounds of what comes out. */
+/* Solve the program for velocities of size `speed`, and compute the bounds of the result. */
 static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double speed, bool even,
                          bool still, CpsError *err) {
     CpsMotionReport *report = &motion->report;
@@ -226,14 +228,14 @@ static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double s
     return status;
 }
 
-/* An attempt as it was begun, and how good it was: bounds within the tolerance, the distance
- * between them. */
+/* The conditions of an attempt, and its quality: whether the bounds are within the tolerance, and
+ * their distance. */
 typedef struct Trial {
     CpsMotion *motion;
     CpsiKinematics *kinematics;
-    double first; /* the speed that it is compared with before a motion is known */
+    double first; /* the speed that it is compared with as long as no motion is known */
     CpsMotionOutcome so_far;
-    double tolerance, least; /* of close_enough */
+    double tolerance, least; /* arguments of close_enough */
     bool still;
 } Trial;
 
@@ -247,10 +249,10 @@ static CpsStatus try_once(const Trial *trial, double speed, bool even, bool *nea
     return status;
 }
 
-/* Equations divided each by its own forces tell strong laws from weak ones best; where a weak law's
- * equation decides velocities that a strong one resists, one divisor for all does. So where the
- * first leaves bounds farther apart than rounding does, the second is tried as well, and the one
- * with the nearer bounds is taken. */
+/* Dividing each equation by its own forces resolves weak laws beside strong ones best. Where a weak
+ * law's equation determines velocities that a strong law resists, one divisor for all equations is
+ * better. So where the first scaling leaves bounds farther apart than rounding, the second is tried
+ * as well, and the result with the nearer bounds is kept. */
 static CpsStatus try_both(const Trial *trial, double speed, bool *near, CpsError *err) {
     const CpsMotionReport *report = &trial->motion->report;
     CpsStatus status = try_once(trial, speed, false, near, err);
@@ -266,15 +268,15 @@ static CpsStatus try_both(const Trial *trial, double speed, bool *near, CpsError
     return isfinite(apart) ? try_once(trial, speed, false, near, err) : CPS_OK;
 }
 
-/* A motion. The size of velocities is a guess, and only resistances are about it: another one where
- * it was wrong. */
+/* Compute a motion. The size of velocities is a guess, which matters only for resistances; the
+ * computation is repeated with another one where the guess was wrong. */
 static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics,
                       const CpsMotionOptions *options, CpsError *err) {
     static const double GUESS[] = {1, 100, 0.01, 1e4};
     const double speed = motion->speed > 0 ? motion->speed : 1;
     const bool resistance = has_resistance(motion->system);
-    /* nothing drives, and no load gives power at a rate that a resistance would have to match: rest
-     * is a solution */
+    /* there is no drive, and no load whose power a resistance would have to dissipate: rest is a
+     * solution */
     const bool still = motion->speed == 0 && !(resistance && cpsi_system_loaded(motion->system));
     const Trial trial = {.motion = motion,
                          .kinematics = kinematics,
@@ -303,7 +305,7 @@ CpsStatus cpsi_motion_find(const CpsSystem *system, const double *driving,
     if (status == CPS_OK) {
         motion->force = force_size(system);
         start_velocity(motion, made);
-        /* can the load be balanced at all, and with which forces in hand? */
+        /* check whether the load can be balanced, and by what factor */
         if (motion->report.outcome == CPS_MOTION_OUTCOME_SOLVED && cpsi_system_loaded(system))
             status = balance_load(motion, made, options->boundary, err);
         motion->possible = motion->report.outcome == CPS_MOTION_OUTCOME_SOLVED ||

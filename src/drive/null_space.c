@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Dense bases of free velocities and of balanced forces. */
+/* Dense bases of free velocities and of forces in equilibrium. */
 #include "drive/null_space.h"
 
 #include <math.h>
@@ -8,12 +8,13 @@
 
 #include "base/status.h"
 
-/* Velocities that no law resists count as such at this share of a row: rounding of the given
+/* A velocity is resisted by no law where its row is below this share: rounding of the given
  * numbers. */
 static const double DEPENDENT = 1e-11;
 /* Products below this share of their factors are rounding. */
 static const double ROUNDING = 1e-13;
-/* A load beyond this share that nothing balances contradicts: rounding leaves less. */
+/* A load is contradictory where the part that nothing can balance exceeds this share; rounding
+ * leaves less. */
 static const double CONTRADICTION = 1e-9;
 
 static CpsStatus out_of_memory(CpsError *err) {
@@ -50,7 +51,8 @@ static CpsStatus balance(const CpsSystem *system, CpsiDense *d, CpsError *err) {
                 cpsi_dense_round(1, cpsi_norm(d->n, &d->map[i * n]), &rows[j * c + i]);
             }
             rhs[j] = system->load ? -cpsi_dot(d->n, system->load, &d->kernel[j * n]) : 0;
-            /* what no law resists must carry no load; what is left of a row is its rounding */
+            /* A direction without resistance must carry no load; the remainder of an eliminated row
+             * measures rounding. */
             if (cpsi_norm(d->components, &rows[j * c]) > DEPENDENT * largest) continue;
             memset(&rows[j * c], 0, c * sizeof *rows);
             if (fabs(rhs[j]) > CONTRADICTION * load) d->contradiction = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A system small enough for dense bases: what the reduced law and the sets of all solutions are
- * written in.
+/* A system small enough for dense bases, in which the reduced law and the sets of all solutions are
+ * written.
  *
  *     V = E W + N y         rows of N orthonormal, D N = 0, C N = 0;  D E = 1, C E = 0
  *     F = F0 + L t          rows of L orthonormal: the forces with N (B*F + load) = 0, in
@@ -17,14 +17,15 @@ typedef struct CpsiDense {
     double *kernel;                    /* (free, n) N */
     double *forces;                    /* (balanced, components) L */
     double *start;                     /* (components) F0 of least norm */
-    bool contradiction;                /* nothing balances the load: no F0 */
-    double *all, *force_all;           /* blocks of the bases */
+    bool contradiction;                /* nothing can balance the load: there is no F0 */
+    double *all, *force_all;           /* memory of the bases */
 } CpsiDense;
 
 CpsStatus cpsi_dense_new(const CpsSystem *system, CpsiDense *out, CpsError *err);
 void cpsi_dense_clear(CpsiDense *dense);
 
-/* Zero what is rounding among products of size `size`: a set would take it for a direction. */
+/* Set to zero what is rounding among products of size `size`; a set would treat it as a
+ * direction. */
 void cpsi_dense_round(size_t count, double size, double *a);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A system along a path W(t): one motion per interval, and the ledger of its work.
  *
- * The power of the balance (drive.h) with V is  -<W, G> + <load, V> = - sum <U_k, F_k>: what device
- * and load give is what the laws take. */
+ * The power of the balance (drive.h) with V is -<W, G> + <load, V> = - sum <U_k, F_k>: the laws
+ * dissipate what the device and the load supply. */
 #include <math.h>
 
 #include "base/status.h"

@@ -3,8 +3,8 @@
  *
  * With q = B*F + load in the span of the rows of [D; C], G_j = <e_j, q>, e_j the least velocity
  * with W_j = 1: an affine image of the set of all F. Where rows of the drive depend on each other
- * or on the constraints, sum of c_i row_i = 0, the device may add any multiple of c to G and lambda
- * without a trace elsewhere. */
+ * or on the constraints, sum of c_i row_i = 0, any multiple of c may be added to G and lambda
+ * without any other change. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,7 +49,8 @@ static CpsStatus combine_rows(const CpsSystem *system, double *carried, double *
     return status;
 }
 
-/* The set of all G: the image of the forces, moved along what dependent rows leave open. */
+/* The set of all G: the image of the set of forces, plus the subspace that dependent rows leave
+ * undetermined. */
 static CpsStatus compose(const CpsMotion *motion, const CpsSolutionSet *forces, const double *map,
                          int lines, const double *line, CpsSet **out, CpsError *err) {
     const CpsSystem *system = motion->system;
@@ -57,7 +58,7 @@ static CpsStatus compose(const CpsMotion *motion, const CpsSolutionSet *forces, 
     CpsSet *image = NULL, *moved = NULL, *open = NULL;
     double *shift = malloc(m * sizeof *shift);
     CpsStatus status = shift ? CPS_OK : out_of_memory(err);
-    /* G of the motion goes with its F */
+    /* G of the motion corresponds to its F */
     if (status == CPS_OK)
         for (size_t j = 0; j < m; j++)
             shift[j] = motion->resistance[j] - cpsi_dot((int)c, &map[j * c], motion->law_force);

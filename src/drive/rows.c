@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Entries are checked, sorted by row and column and added up where they meet; arrays double as they
- * grow. */
+/* Entries are checked, sorted by row and column, and added where they have the same place; arrays
+ * double as they grow. */
 #include "drive/rows.h"
 
 #include <limits.h>
@@ -32,7 +32,7 @@ static CpsStatus check(const char *what, int n, int more, int count, const CpsEn
     return CPS_OK;
 }
 
-/* Room for `need` items of `size` bytes, doubling. */
+/* Memory for `need` items of `size` bytes, doubling. */
 static bool grow(void **items, size_t *room, size_t need, size_t size) {
     if (need <= *room) return true;
     const size_t target = need > 2 * *room ? need : 2 * *room;

@@ -5,8 +5,8 @@
 
 #include "capstan/drive.h"
 
-/* Row i: entries start[i] .. start[i + 1], each column once, in increasing order. Zeroed, it has no
- * rows. */
+/* Row i: entries start[i] .. start[i + 1], each column once, in increasing order. A zeroed struct
+ * has no rows. */
 typedef struct CpsiRows {
     int rows;
     size_t row_room, room;
@@ -15,8 +15,9 @@ typedef struct CpsiRows {
     double *value;
 } CpsiRows;
 
-/* Append `rows` rows from entries whose rows count from 0 and whose columns are below n; entries at
- * one place add up. On failure nothing has changed. `what` names them in messages. */
+/* Append `rows` rows from entries whose rows count from 0 and whose columns are below n; entries
+ * with the same place are added. On failure nothing has changed. `what` is their name in
+ * messages. */
 CpsStatus cpsi_rows_append(CpsiRows *rows, const char *what, int n, int more, int count,
                            const CpsEntry *entry, CpsError *err);
 void cpsi_rows_free(CpsiRows *rows);

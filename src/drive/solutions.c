@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* All motions and all forces for one W.
  *
- * Solutions come in pairs freely: every V of a solution goes with every F of another (phi(V) = -
+ * Solutions combine freely: every V of a solution is a solution with every F of another (phi(V) = -
  * <V, F> for both, Proposition 2). So with one pair (V*, F*), in coordinates V = V* + N y, F = F* +
  * L t of null_space.h,
  *
  *     motions   { y : -(U* + B N y) in N_C(F*) }          an intersection of preimages of cones
  *     forces    { t : F* + L t in the face of C at -U* }   an intersection of preimages of faces
  *
- * U* and F* are known to rounding, so a cone or face is moved to the nearest place where it holds
- * them; how far is reported. */
+ * U* and F* are known up to rounding, so a cone or face is translated by the shortest vector for
+ * which it contains them; the length of that vector is reported. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,9 +19,9 @@
 #include "drive/null_space.h"
 #include "linalg/dense.h"
 
-/* How near to rest or to a boundary counts as there, where the caller does not say. */
+/* Distance from rest or from a boundary that counts as zero, where the caller gives none. */
 static const double TOLERANCE = 1e-6;
-/* A neighbour of V, relative to its size. */
+/* A neighbour of V is at this distance, relative to its size. */
 static const double NEIGHBOUR = 1e-2;
 /* A set moved by more than this many tolerances does not belong to the solution. */
 static const double MOST_MOVED = 1000;
@@ -36,11 +36,11 @@ void cps_solution_set_clear(CpsSolutionSet *all) {
     *all = (CpsSolutionSet){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
 }
 
-/* The set being put together: parts in the coordinates y or t. */
+/* The set under construction: parts in the coordinates y or t. */
 typedef struct Gather {
     const CpsMotion *motion;
     CpsiDense dense;
-    int space;           /* of the coordinates */
+    int space;           /* number of coordinates */
     const double *basis; /* (space, size of V or F) */
     double tolerance;
     double *map, *point; /* scratch: (components, space), (components) */
@@ -75,8 +75,8 @@ static CpsStatus begin(const CpsMotion *motion, double tolerance, bool forces, G
     return CPS_OK;
 }
 
-/* Require of the coordinates that x + map (y or t) lies in `set`, moved so that x does; `size` is
- * what "how far" is relative to. */
+/* Require that x + map (y or t) lies in `set`, which is translated so that it contains x; `size` is
+ * the unit of that distance. */
 static CpsStatus require(Gather *g, const CpsSet *set, const double *x, double size,
                          CpsError *err) {
     CpsSetAnswer near;
@@ -100,7 +100,7 @@ static double scale_of(int n, const double *a) {
     return largest;
 }
 
-/* R^n, where nothing is required */
+/* R^n, where there is no condition */
 static CpsStatus whole_space(int n, CpsSet **out, CpsError *err) {
     double *ends = malloc(2 * (size_t)n * sizeof *ends);
     if (!ends) return out_of_memory(err);
@@ -152,7 +152,8 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
         if (low) low[i] = origin[i] + extent.low;
         if (high) high[i] = origin[i] + extent.high;
     }
-    /* a set no wider than the tolerance is a point; else widths below it are flat */
+    /* a set no wider than the tolerance is a point; otherwise widths below the tolerance are
+     * flat */
     CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     if (status == CPS_OK && found->outcome == CPS_SET_OUTCOME_ANSWERED &&
         !(widest <= g->tolerance * size)) {
@@ -242,9 +243,9 @@ static CpsStatus value_beside(const CpsMotion *motion, const double *d, double s
     return status;
 }
 
-/* Do the bounds tell V from its neighbours?  Not where a step of a hundredth along what is free
- * raises phi by less than they are apart: then the motion found is one of several as far as they
- * go, and `no other` would be said of too little. */
+/* Whether the bounds distinguish V from its neighbours. They do not where a step of a hundredth
+ * along a free direction raises phi by less than the distance of the bounds: the motion found is
+ * then one of several within the bounds, and the answer `unique` would be unfounded. */
 static CpsStatus check_told_apart(Gather *g, CpsError *err) {
     const CpsMotion *motion = g->motion;
     const size_t n = (size_t)motion->system->n;
@@ -307,7 +308,7 @@ static CpsStatus forces_of_piece(Gather *g, const CpsiPiece *piece, CpsError *er
     CpsSet *face = NULL;
     CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     CpsStatus status = CPS_OK;
-    /* a law at rest bears any of its forces */
+    /* a law at rest may have any of its forces */
     if (scale_of(piece->space, u) <= g->tolerance * motion->speed)
         face = cps_set_retain(piece->set);
     else

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A driving velocity answered: the motion, where its forces lie, and whether its infimum is
- * attained. */
+/* The answer for a driving velocity: the motion, the position of its forces in their sets, and
+ * whether its infimum is attained. */
 #include <float.h>
 #include <math.h>
 
 #include "base/status.h"
 #include "drive/motion.h"
 
-/* Forces that touch a curved set at one point only are known to the root of their rounding along
- * its boundary, and so is the power that they bound. */
+/* Forces that touch a curved set at only one point are known along its boundary to the square root
+ * of rounding, and so is the power that they bound. */
 static void widen(CpsMotionReport *report, double power) {
     report->lower -= sqrt(16 * DBL_EPSILON) * power;
     report->minimum = report->upper - report->lower;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Building a system. */
+/* Construction of a system. */
 #include "drive/system.h"
 
 #include <math.h>
@@ -69,7 +69,7 @@ int cps_system_law_space(const CpsSystem *system, int k) {
 
 /* ---- laws ---- */
 
-/* Room for one more item, doubling. */
+/* Memory for one more item, doubling. */
 static bool grow(void **items, size_t *room, int count, size_t size) {
     if ((size_t)count < *room) return true;
     const size_t target = *room > 0 ? 2 * *room : 8;
@@ -90,7 +90,8 @@ static char *copy_name(const char *name, int k) {
     return copy;
 }
 
-/* The form of a set; that of the piece before (NULL: none), where it is the same set. */
+/* The form of a set, which is shared with the preceding piece (NULL: none) where that has the same
+ * set. */
 static CpsStatus form_of(CpsSystem *system, const CpsSet *set, const CpsiPiece *last, int *place,
                          CpsError *err) {
     if (last && !last->term && last->set == set) {
@@ -112,7 +113,7 @@ static CpsStatus refuse_user(const char *name, const CpsSet *set, CpsError *err)
                      name);
 }
 
-/* Room for a law with `pieces` pieces and its map; `law` is then at the end of the list, not yet
+/* Memory for a law with `pieces` pieces and its map; `law` is then at the end of the list, not yet
  * counted. */
 static CpsStatus begin_law(CpsSystem *system, const char *name, int space, int pieces,
                            CpsiSystemLaw **law, CpsError *err) {
@@ -130,7 +131,7 @@ static CpsStatus begin_law(CpsSystem *system, const char *name, int space, int p
     return (*law)->name ? CPS_OK : out_of_memory(err);
 }
 
-/* Its map, and count it. */
+/* Append the law's map, and count the law. */
 static CpsStatus end_law(CpsSystem *system, CpsiSystemLaw *law, int count, const CpsEntry *map,
                          CpsError *err) {
     const CpsStatus status =
@@ -164,7 +165,7 @@ CpsStatus cps_system_add_friction(CpsSystem *system, const char *name, const Cps
     return status;
 }
 
-/* Has the term a second-order cone program? */
+/* Whether the term can be written as a second-order cone program. */
 static CpsStatus check_term(const char *name, const CpsiTerm *term, CpsError *err) {
     if (term->kind == CPSI_POWER && term->degree != 2)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -209,7 +210,7 @@ CpsStatus cps_system_add_constraints(CpsSystem *system, int rows, int count, con
     return cpsi_rows_append(&system->constraint, "constraints", system->n, rows, count, map, err);
 }
 
-/* The complement of the span as constraints. */
+/* Add the complement of the span as constraints. */
 static CpsStatus add_complement(CpsSystem *system, int rank, const double *all, CpsError *err) {
     const int n = system->n;
     const size_t w = (size_t)n, rows = (size_t)(n - rank);
@@ -246,7 +247,7 @@ CpsStatus cps_system_add_subspace(CpsSystem *system, int count, const double *sp
     double *all = malloc(high * (size_t)n * sizeof *all);
     if (!all) return out_of_memory(err);
     if (count > 0) memcpy(all, spanning, (size_t)count * (size_t)n * sizeof *all);
-    /* vectors count as dependent at rounding of the given numbers */
+    /* vectors count as dependent at the rounding of the given numbers */
     const int rank = cpsi_orthonormal_rows(count, n, all, NULL, 1e-12);
     cpsi_complete_rows(rank, n, all);
     const CpsStatus status = add_complement(system, rank, all, err);
@@ -306,7 +307,7 @@ CpsStatus cpsi_system_kernel(const CpsSystem *system, double *rhs, int *rank, do
         else
             cpsi_rows_add(&system->constraint, (int)i - system->drive.rows, 1, &q[i * n]);
     }
-    /* rows count as dependent at rounding of the given numbers */
+    /* rows count as dependent at the rounding of the given numbers */
     *rank = cpsi_orthonormal_rows((int)rows, system->n, q, rhs, 1e-11);
     cpsi_complete_rows(*rank, system->n, q);
     *all = q;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writing a system as a conic program, and reading its solution. */
+/* A system written as a conic program, and its solution read back. */
 #include "drive/system_program.h"
 
 #include <limits.h>
@@ -11,8 +11,8 @@
 #include "drive/adjoint.h"
 #include "linalg/dense.h"
 
-/* Residual and gap above which the solver's outcome is no proof by itself; the bounds decide on
- * motions. */
+/* Residual and gap above which the solver's outcome is no proof by itself. Motions are judged by
+ * their bounds. */
 static const double ACCEPT = 1e-7;
 
 static CpsStatus out_of_memory(CpsError *err) {
@@ -29,7 +29,7 @@ void cpsi_drive_program_clear(CpsiDriveProgram *p) {
     *p = (CpsiDriveProgram){0};
 }
 
-/* The forms of all pieces, their places among the unknowns, and the blocks. */
+/* The forms of all pieces, their first unknowns and rows, and the blocks. */
 static CpsStatus gather_forms(CpsiDriveProgram *p, double speed, int *blocks, CpsError *err) {
     const CpsSystem *system = p->system;
     const size_t pieces = (size_t)system->pieces + 1;
@@ -92,7 +92,7 @@ static bool push(List *list, int row, int column, double value) {
     return list->count < INT_MAX;
 }
 
-/* B* F of one piece: entries, and the constant to h */
+/* Append B* F of one piece: entries, and the constant to h. */
 static bool push_piece(const CpsiDriveProgram *p, int k, CpsiAdjoint *adjoint, List *list) {
     const CpsSystem *system = p->system;
     const CpsiConicForm *form = p->form[k];
@@ -153,14 +153,14 @@ static CpsStatus write_equations(CpsiDriveProgram *p, CpsiAim aim, CpsError *err
     return status;
 }
 
-/* A form without offsets is a cone: its unknowns have no size of their own. */
+/* A form without offsets is a cone, whose unknowns have no size of their own. */
 static bool is_cone(const CpsiConicForm *form) {
     for (int i = 0; i < form->rows; i++)
         if (form->b[i] != 0) return false;
     return true;
 }
 
-/* Largest entry of each column; of a block's columns that of the block. */
+/* Largest entry of each column; for the columns of a block, the largest of the block. */
 static void measure_columns(const CpsiDriveProgram *p, double *largest) {
     const CpsiRows *e = &p->equation;
     for (int j = 0; j < p->unknowns; j++) largest[j] = 0;
@@ -173,13 +173,14 @@ static void measure_columns(const CpsiDriveProgram *p, double *largest) {
     }
 }
 
-/* Columns first: cones are brought to the force of all bounded laws together, which bounds what
- * they may have to carry in a chain. Then each equation is divided by its largest entry of a
- * bounded law, and each free column by its largest entry. */
+/* Columns are scaled first: the unknowns of cones by the sum of the forces of all bounded laws,
+ * which bounds what cones may have to carry in a chain. Then each equation is divided by its
+ * largest entry of a bounded law, and each free column by its largest entry. */
 static void scale(CpsiDriveProgram *p, bool even) {
     CpsiRows *e = &p->equation;
     const int n = p->system->n, laws = p->resistance;
-    double *largest = p->c, total = 0, force = 0; /* the objective is written later */
+    /* used as scratch; the objective is written later */
+    double *largest = p->c, total = 0, force = 0;
     measure_columns(p, largest);
     for (int i = 0; i < n; i++) force = fmax(force, fabs(p->h[i]));
     for (int k = 0; k < p->system->pieces; k++) {

@@ -7,26 +7,27 @@
  *
  * whose multipliers are -V. The cost of a piece is phi*(-F): 0 for friction, an unknown of an
  * epigraph for a term of a resistance. Equations are divided by the size of the forces in them, the
- * free unknowns by what makes their largest entry one. */
+ * free unknowns scaled so that their largest entry is one. */
 #ifndef CAPSTAN_SRC_DRIVE_SYSTEM_PROGRAM_H
 #define CAPSTAN_SRC_DRIVE_SYSTEM_PROGRAM_H
 
 #include "conic/sparse_program.h"
 #include "drive/system.h"
 
-/* What the objective is. */
+/* The objective. */
 typedef enum CpsiAim {
-    CPSI_AIM_MOTION, /* the above */
-    CPSI_AIM_FACTOR, /* max mu with mu load in place of load */
-    CPSI_AIM_MIDDLE  /* none: forces in the middle of all that balance */
+    CPSI_AIM_MOTION, /* the one above */
+    CPSI_AIM_FACTOR, /* max mu with mu load instead of load */
+    CPSI_AIM_MIDDLE  /* none: forces in the middle of all forces in equilibrium */
 } CpsiAim;
 
 typedef struct CpsiDriveProgram {
     const CpsSystem *system;
     const CpsiConicForm **form; /* (pieces) of each piece */
-    CpsiConicForm **own;        /* (pieces) made here, for terms; else NULL */
+    CpsiConicForm **own;        /* (pieces) forms constructed here, for terms; else NULL */
     int *first, *line, *row;    /* (pieces) first unknown v, first unknown l, first row */
-    int unknowns, resistance, constraint, factor; /* and where G, lambda, mu begin */
+    /* number of unknowns; first unknowns of G, lambda, mu */
+    int unknowns, resistance, constraint, factor;
     CpsiBlock *block;
     CpsiRows equation;
     double *c, *h;                    /* (unknowns), (n) */
@@ -36,15 +37,15 @@ typedef struct CpsiDriveProgram {
     CpsiConicResult result;
 } CpsiDriveProgram;
 
-/* Write the program down and prepare it. For a motion `driving` (m) is W and `speed` > 0 the size
- * of velocities, for terms. even: all equations are divided by one force, not each by the largest
- * in it. */
+/* Write the program and prepare its solution. For a motion `driving` (m) is W and `speed` > 0 the
+ * size of velocities, for terms. even: all equations are divided by one force instead of each by
+ * the largest in it. */
 CpsStatus cpsi_drive_program_new(const CpsSystem *system, CpsiAim aim, const double *driving,
                                  double speed, bool even, CpsiDriveProgram *out, CpsError *err);
 void cpsi_drive_program_clear(CpsiDriveProgram *p);
 void cpsi_drive_program_solve(CpsiDriveProgram *p);
 
-/* The force of a piece (its space), or where the outcome is a ray, its part of it. */
+/* The force of a piece (its space), or its part of the ray where the outcome is a ray. */
 void cpsi_drive_program_force(const CpsiDriveProgram *p, int piece, double *force);
 /* V (n), G (m), lambda. */
 void cpsi_drive_program_velocity(const CpsiDriveProgram *p, double *velocity);
@@ -53,7 +54,7 @@ void cpsi_drive_program_multipliers(const CpsiDriveProgram *p, double *resistanc
 double cpsi_drive_program_factor(const CpsiDriveProgram *p);
 
 /* The epigraph {(F, e) : phi*(-F) <= e} of a term in conic form; speed is the size of velocities.
- * speed 0: {F : phi*(-F) finite} x {0}. */
+ * For speed 0 it is {F : phi*(-F) finite} x {0}. */
 CpsStatus cpsi_term_form(int n, const CpsiTerm *term, double speed, CpsiConicForm **out,
                          CpsError *err);
 

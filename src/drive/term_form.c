@@ -2,12 +2,12 @@
 /* Terms of resistance laws as epigraphs of their conjugates, e >= phi*(-F).
  *
  *     viscous     phi* = |y|^2/2,  F = L y,  D = L L'
- *         2 a q >= a |y|^2, a second-order cone
+ *                 2 a q >= a |y|^2, a second-order cone
  *     h of gauge  phi* = h*(s),  F in s C;  h' is a sum of ramps from speed x_i that rise by r_i
- *                 with slope m_i, so h* is the inf-convolution of theirs:  s = s_0 + sum of s_i,  0
- *                 <= s_0 <= h'(0),  0 <= s_i <= r_i, e = sum of x_i s_i + s_i^2/(2 m_i)
+ *                 with slope m_i, so h* is the inf-convolution of theirs:  s = s_0 + sum of s_i,
+ *                 0 <= s_0 <= h'(0),  0 <= s_i <= r_i,  e = sum of x_i s_i + s_i^2/(2 m_i)
  *
- * Without their costs these are the forces that the term can bear, all of R^n for a viscous one.
+ * Without their costs these are the forces that the term can have, all of R^n for a viscous one.
  *
  * Each square is q_i >= s_i^2/(2 m_i), written with the size a of q as |(q - a/2, ..)| <= q +
  * a/2. */
@@ -23,7 +23,8 @@ static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a resistance law");
 }
 
-/* The cone |(q - a/2, sqrt(a) y)| <= q + a/2 but for y: its rows; q is unknown number `q`. */
+/* The cone |(q - a/2, sqrt(a) y)| <= q + a/2. Writes its rows except those of y; q is unknown
+ * number `q`. */
 static double *square_cone(CpsiConicRows *raw, int q, double a, int count) {
     double *rows = cpsi_conic_rows_cone(raw, count + 2);
     const size_t w = (size_t)raw->width;
@@ -34,7 +35,7 @@ static double *square_cone(CpsiConicRows *raw, int q, double a, int count) {
     return rows + 2 * w;
 }
 
-/* x (n + 1, width): F and e; F are the first unknowns */
+/* x (n + 1, width): F and e; the first unknowns are F */
 static double *begin_x(const CpsiConicRows *raw, int n) {
     const size_t w = (size_t)raw->width;
     double *x = calloc(((size_t)n + 2) * w, sizeof *x);
@@ -86,13 +87,13 @@ static CpsStatus viscous_form(int n, const double *matrix, double speed, CpsiCon
     return status;
 }
 
-/* One ramp of h': from speed `from` it rises by `rise` (INFINITY: for ever) with `slope`; INFINITY:
- * a step. */
+/* One ramp of h': from speed `from` it rises by `rise` (INFINITY: unbounded) with `slope`;
+ * INFINITY: a step. */
 typedef struct Ramp {
     double from, rise, slope;
 } Ramp;
 
-/* Ramps of a power of degree 2, or a table; at most count + 1. */
+/* Ramps of a power of degree 2, or of a table; at most count + 1. */
 static int ramps_of(const CpsiTerm *term, Ramp *ramp) {
     int count = 0;
     if (term->kind == CPSI_POWER) {
@@ -112,7 +113,8 @@ static int ramps_of(const CpsiTerm *term, Ramp *ramp) {
     return count;
 }
 
-/* Write a ramp: its s is added to t, its cost, where speed > 0, to e; unknowns from raw->next. */
+/* Write a ramp: its s is added to t and its cost, where speed > 0, to e; its unknowns begin at
+ * raw->next. */
 static void ramp_rows(CpsiConicRows *raw, const Ramp *ramp, double speed, double *t, double *e) {
     const int s = raw->next++;
     const size_t w = (size_t)raw->width;
@@ -151,7 +153,7 @@ static CpsStatus gauge_form(int n, const CpsiTerm *term, double speed, CpsiConic
         double *e = x + (size_t)n * w, *t = e + w;
         const double size = cpsi_set_size(term->set);
         for (int k = 0; k < ramps; k++) ramp_rows(raw, &ramp[k], speed * size, t, e);
-        /* no ramp, no force */
+        /* without a ramp there is no force */
         if (ramps == 0)
             for (int i = 0; i < n; i++) cpsi_conic_rows_equation(raw)[i] = 1;
         if (ramps > 0 && !cpsi_conic_rows_write(raw, term->set, x, t)) status = out_of_memory(err);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies: checking and copying patches, and the sum of what they dissipate. */
+/* Bodies: checking and copying patches, and the sum of their dissipation. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,8 @@
 
 static const double TWO_PI = 2 * CPSI_PI;
 
-/* A convex polygon may have corners in line to this part of the product of two sides. */
+/* Three corners of a convex polygon count as collinear up to this share of the product of two
+ * sides. */
 static const double STRAIGHT = 1e-12;
 
 CpsStatus cpsi_planar_finite(const char *what, int n, const double *a, CpsError *err) {
@@ -25,7 +26,7 @@ CpsStatus cpsi_planar_finite(const char *what, int n, const double *a, CpsError 
 
 /* ---- checks of one patch, under its name: "patch 2" ---- */
 
-/* Of a polygon at its corners, later. */
+/* The tilt of a polygon is checked later, at its corners. */
 static CpsStatus check_tilt(const char *name, const CpsPatch *patch, CpsError *err) {
     const bool area = patch->kind != CPS_PATCH_POINT && patch->kind != CPS_PATCH_WHEEL;
     const double tilt = hypot(patch->tilt[0], patch->tilt[1]);
@@ -89,7 +90,8 @@ static CpsStatus check_law(const char *name, const CpsPatch *patch, CpsError *er
 
 static double cross(const double a[2], const double b[2]) { return a[0] * b[1] - a[1] * b[0]; }
 
-/* Convex and counterclockwise: every turn is to the left, and they make one full turn. */
+/* Check that the polygon is convex and counterclockwise: every turn is to the left, and together
+ * they make one full turn. */
 static CpsStatus check_convex(const char *name, const CpsPatch *patch, CpsError *err) {
     const int n = patch->corner_count;
     if (n < 3 || n > CPS_PLANAR_MAX_CELLS || !patch->corner)
@@ -133,7 +135,7 @@ static void turn(const double axis[2], const double v[2], double out[2]) {
     out[1] = y;
 }
 
-/* Corners into body axes, about the centroid, which becomes the patch's position. */
+/* Corners in body axes about the centroid, which becomes the patch's position. */
 static CpsStatus place_polygon(const char *name, const CpsPatch *patch, double *corner,
                                CpsiPatch *out, CpsError *err) {
     const int n = patch->corner_count;
@@ -181,7 +183,7 @@ static CpsStatus place_patch(const char *name, const CpsPatch *patch, double *co
     return CPS_OK;
 }
 
-/* What messages call a patch: `alone`, or its number from 0 where that is NULL. */
+/* The name of a patch in messages: `alone`, or its number from 0 where that is NULL. */
 static const char *patch_name(const char *alone, int k, char number[32]) {
     snprintf(number, 32, "patch %d", k);
     return alone ? alone : number;

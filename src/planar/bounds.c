@@ -2,7 +2,8 @@
 /* Bounds of the dissipation from cells (cells.c), refined until they are near enough.
  *
  * The gap of a cell of width h is of the order of its load x |w| h^2/rho, rho its distance from the
- * centre of rotation, which is integrable: it falls as 1/n^2, and two or three rounds find n. */
+ * centre of rotation, which is integrable: the total gap decreases as 1/n^2, and two or three
+ * rounds find n. */
 #include <float.h>
 #include <math.h>
 
@@ -11,9 +12,9 @@
 
 static const double TOLERANCE = 1e-6;
 
-/* Places, loads and speeds of cells are a dozen operations each, and their sum is compensated: of
- * the power that the load would take if all of it were as fast as the fastest point of the corners,
- * this part covers the rounding. */
+/* Positions, loads and speeds of cells take a dozen operations each, and their sum is compensated.
+ * The rounding error is at most this share of the power that the load would have at the speed of
+ * the fastest corner. */
 static const double ROUNDING = 64 * DBL_EPSILON;
 
 /* sum of strength |v + w x r|; high + low is the sum, compensated (Neumaier) */
@@ -38,11 +39,11 @@ static double add_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, const
     return sum.high + sum.low;
 }
 
-/* Lower and upper bound of an area's power, with upper - lower <= tolerance x upper if cells
- * suffice. */
+/* Lower and upper bound of an area's power, with upper - lower <= tolerance x upper if there are
+ * enough cells. */
 static bool bound_area(const CpsiPatch *patch, const double velocity[2], double w, double tolerance,
                        CpsPlanarBounds *bounds) {
-    /* speeds are scaled to be near 1, so that no square overflows; corners lie within twice the
+    /* speeds are scaled to order one, so that no square overflows; corners lie within twice the
      * size */
     const double fastest = hypot(velocity[0], velocity[1]) + 2 * fabs(w) * patch->size;
     if (!(fastest > 0)) return true;

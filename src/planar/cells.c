@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Cells of an area, and the two bounds of an integral of a convex function over each.
  *
- * Inner (Jensen): the load of a cell at its centroid. Outer: every point of the cell is a mean of
- * the corners of a polygon that holds it, so the load is given to these corners in the same
- * proportions. Proportions are linear in the point, or nearly, and integrate in closed form.
+ * Inner (Jensen): the load of a cell at its centroid. Outer: every point of the cell is a convex
+ * combination of the corners of a polygon that contains the cell, so the load is given to these
+ * corners in the same proportions. Proportions are linear in the point, or nearly, and integrate in
+ * closed form.
  *
- *   rod       pieces; corners are their ends
- *   polygon   triangles (middle, corner, corner), cut into n^2 alike; with pressures p_i at the
- *             three corners of area A, sum s: load A s/3, at barycentric (s + p_i)/(4s); to corner
- *             i goes A (s + p_i)/12
- *   sector    r1 < rho < r2, |theta| < h: held by the trapezium between the rays theta = +-h and
- *             the lines x = r1 cos h and x = r2, with corners at r1 and r2/cos h. A point goes to
- *             the lines as its x says and to the rays as y/(x tan h) says. A ring is the case r1 =
- *             r2 */
+ *     rod       pieces; corners are their ends
+ *     polygon   triangles (middle, corner, corner), each divided into n^2 equal ones; with
+ * pressures p_i at the three corners of area A, sum s: load A s/3, at barycentric (s + p_i)/(4s);
+ * corner i gets A (s + p_i)/12 sector    r1 < rho < r2, |theta| < h: contained in the trapezium
+ * between the rays theta = +-h and the lines x = r1 cos h and x = r2, with corners at r1 and r2/cos
+ * h. A point is distributed to the lines according to its x and to the rays according to y/(x tan
+ * h). A ring is the case r1 = r2 */
 #include "planar/cells.h"
 
 #include <math.h>
 
 #include "base/math.h"
 
-/* Sectors of ring number i of a disc: about as long as wide, and at least 4. */
+/* Number of sectors of ring i of a disc: about as long as wide, and at least 4. */
 static int sectors(int i) {
     const double around = 2 * CPSI_PI * (i + 0.5);
     return around < 4 ? 4 : (int)around;
@@ -63,12 +63,13 @@ double cpsi_cell_contacts(const CpsiPatch *patch, CpsPlanarSide side, int n) {
 static bool rod_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCell *visit,
                       void *user) {
     const double h = patch->size / n, tilt = patch->tilt[0];
-    double carried = 0; /* by the end that this piece shares with the one before */
+    double carried = 0; /* force on the end that this piece shares with the preceding one */
     for (int i = 0; i < n; i++) {
         const double middle = h * (2 * i + 1 - n), pressure = 1 + tilt * middle,
                      load = patch->strength / n * pressure;
         const double off =
-            pressure > 0 ? tilt * h * h / (3 * pressure) : 0; /* the centroid from the middle */
+            /* distance of the centroid from the middle */
+            pressure > 0 ? tilt * h * h / (3 * pressure) : 0;
         const double s = side == CPS_PLANAR_INNER ? middle + off : middle - h;
         const double here = side == CPS_PLANAR_INNER ? load : carried + load * 0.5 * (1 - off / h);
         if (!visit(user, here, (double[2]){s * patch->axis[0], s * patch->axis[1]})) return false;
@@ -81,9 +82,9 @@ static bool rod_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCel
 /* ---- ring and disc ---- */
 
 /* A sector of r1 < rho < r2, |theta| <= h, under the load 1 + along x + across y per unit of its
- * mean: means of x, x^2, y^2; radius of the corners on lines 0 and 1; what goes to the left corner
- * of a line is even + along x along + across x across, to the right one even + along x along -
- * across x across. */
+ * mean: means of x, x^2, y^2; radius of the corners on lines 0 and 1. The left corner of a line
+ * gets even + along x along + across x across, the right one even + along x along - across x
+ * across. */
 typedef struct Sector {
     double x, xx, yy;
     double radius[2], even[2], along[2], across[2];
@@ -100,8 +101,8 @@ static Sector sector_of(double r1, double r2, int count) {
                      .yy = square * (0.5 - wobble),
                      .radius = {r1, r2 / cos(h)}};
 
-    /* means of load x l(x) (1 +- y/(x tan h))/2, with l = zero + slope x being 1 on the line and 0
-     * on the other */
+    /* means of load x l(x) (1 +- y/(x tan h))/2, where l = zero + slope x is 1 on the line and 0 on
+     * the other */
     for (int line = 0; line < 2; line++) {
         const double slope = (line ? 1 : -1) / (r2 - x1), zero = (line ? 0 : 1) - x1 * slope;
         sector.even[line] = 0.5 * (zero + slope * sector.x);
@@ -111,8 +112,8 @@ static Sector sector_of(double r1, double r2, int count) {
     return sector;
 }
 
-/* `count` equal sectors of r1 < rho < r2, which carry `load` together under uniform pressure. A
- * ray's corners serve the sectors on both of its sides. */
+/* `count` equal sectors of r1 < rho < r2, which carry `load` together under uniform pressure. The
+ * corners on a ray belong to the sectors on both of its sides. */
 static bool sector_cells(const CpsiPatch *patch, double load, double r1, double r2, int count,
                          CpsPlanarSide side, CpsiCell *visit, void *user) {
     const Sector sector = sector_of(r1, r2, count);
@@ -157,7 +158,7 @@ static bool disc_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCe
 
 /* ---- polygon ---- */
 
-/* Place of node (i, j) of a triangle's lattice, and the pressure there relative to the mean. */
+/* Position of node (i, j) of a triangle's lattice, and the pressure there relative to the mean. */
 typedef struct Node {
     double r[2], pressure;
 } Node;
@@ -169,7 +170,7 @@ static Node lattice_node(const CpsiPatch *patch, const double *a, const double *
     return node;
 }
 
-/* `strength`: of the triangle under mean pressure */
+/* `strength`: friction force of the triangle under mean pressure */
 static bool triangle_cell(double strength, const Node corner[3], CpsPlanarSide side,
                           CpsiCell *visit, void *user) {
     const double sum = corner[0].pressure + corner[1].pressure + corner[2].pressure;

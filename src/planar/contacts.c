@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A body as a law of wrenches and as a system: its contacts with their maps from the twist.
  *
- * A contact at r with axes u, v moves with (u, r x u) . twist and (v, r x v) . twist. Areas give
- * the contacts of their cells (cells.c). A wheel is M77 section 9: W = V - omega a j, the contact's
- * law on V and the brake's on omega. */
+ * The velocity at a contact at r with axes u, v has the components (u, r x u) . twist and (v, r x
+ * v) . twist. Areas give the contacts of their cells (cells.c). A wheel is M77 section 9: W = V -
+ * omega a j, the contact's law on V and the brake's on omega. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "base/status.h"
 #include "planar/cells.h"
 
-/* Row of the map that gives the component along u of the velocity at r. */
+/* Row of the map for the component along u of the velocity at r. */
 static void velocity_row(const double u[2], const double r[2], double row[3]) {
     row[0] = u[0];
     row[1] = u[1];
@@ -61,7 +61,7 @@ static CpsStatus wheel_law(const CpsiPatch *patch, CpsLaw **out, CpsError *err) 
     return status;
 }
 
-/* What is done with each contact: it takes the law over. */
+/* What is done with each contact; the function takes ownership of the law. */
 typedef struct Contacts Contacts;
 typedef CpsStatus Take(Contacts *self, int patch, CpsLaw *law, const double map[6]);
 
@@ -70,7 +70,7 @@ struct Contacts {
     Take *take;
     CpsError *err;
     CpsStatus status;
-    int patch; /* of the cells being visited */
+    int patch; /* patch of the cells being visited */
     /* for a law */
     int count;
     CpsLaw **law;
@@ -114,7 +114,7 @@ static CpsStatus visit_contacts(Contacts *self, CpsPlanarSide side, int cells) {
     return self->status;
 }
 
-/* How many contacts there will be; each area needs a cell at least. */
+/* Number of contacts; each area needs at least one cell. */
 static CpsStatus count_contacts(const CpsPlanar *body, CpsPlanarSide side, int cells, int *count,
                                 CpsError *err) {
     if (side != CPS_PLANAR_INNER && side != CPS_PLANAR_OUTER)
@@ -178,7 +178,7 @@ CpsStatus cps_planar_law(const CpsPlanar *body, CpsPlanarSide side, int cells, C
 
 /* ---- as a system ---- */
 
-/* a system keeps its own hold on the law */
+/* a system retains the law itself */
 static CpsStatus add_contact(Contacts *self, int patch, CpsLaw *law, const double map[6]) {
     const CpsiPatch *at = &self->body->patch[patch];
     CpsEntry entry[7];

@@ -1,37 +1,38 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A driven body: minimum dissipation over the twists that the drive leaves open (M77 Proposition
+/* A driven body: minimum dissipation over the twists that the drive leaves free (M77 Proposition
  * 2), with its proof.
  *
  * Twists are y = (vx, vy, reach w), so that all three are velocities. The drive fixes y in an
- * affine space of at most two free directions b_1, b_2. A convex function of one of them, the
- * others minimised away, has its minimum where its slope changes sign: a bracket closes on it. At
- * its two ends stand two wrenches of the law with slopes of opposite sign; their mean with slope
- * zero lies in C as well. So the search ends with a wrench of C in balance with the drive, which is
- * Moreau's lower bound -<W, G> <= gamma(W), beside the upper one phi(y). Kinks (a point contact at
- * rest, a wheel that rolls) need no care: there the mean is what balances. */
+ * affine space of at most two free directions b_1, b_2. A convex function of one of them, minimised
+ * over the other, has its minimum where its slope changes sign, which a bracket encloses. At the
+ * two ends of the bracket there are two wrenches of the law with slopes of opposite sign; their
+ * convex combination with slope zero lies in C as well. So the search ends with a wrench of C in
+ * equilibrium with the drive, which gives Moreau's lower bound -<W, G> <= gamma(W), beside the
+ * upper one phi(y). Kinks (a point contact at rest, a wheel that rolls) need no special treatment:
+ * there the convex combination is the wrench in equilibrium. */
 #include <float.h>
 #include <math.h>
 
 #include "base/status.h"
 #include "planar/planar.h"
 
-/* Rows of the map less independent than this are refused: beyond it half of the digits would be
+/* Maps whose rows are less independent than this are refused, since half of the digits would be
  * lost. */
 static const double INDEPENDENT = 1e-8;
 
-/* Upper and lower bound are promised to be this near, relative to the upper one. */
+/* The upper and lower bound are promised to differ by at most this, relative to the upper one. */
 static const double PROMISED = 1e-8;
 
-/* Doublings of the first step, half the speed where it starts, before a minimum counts as not
- * attained: at 1e6 times that speed. */
+/* Number of doublings of the first step, which is half the initial speed, after which a minimum
+ * counts as not attained: at 1e6 times that speed. */
 enum { DOUBLINGS = 22 };
 
-/* Motions are looked for up to this many times the driven speed: beyond, rounding hides what
- * distinguishes them. */
+/* Motions are searched up to this many times the driven speed; beyond, rounding hides the
+ * differences between them. */
 static const double FAR = 1e6;
 
-/* Rounding of phi and of <y, G>, and what the shortest bracket leaves of a kink, relative to |y|
- * and the largest force met. */
+/* Rounding of phi and of <y, G>, and the effect of the shortest bracket at a kink, relative to |y|
+ * and the largest force found. */
 static const double ROUNDING = 64 * DBL_EPSILON;
 
 /* A point of the search. */
@@ -43,12 +44,12 @@ typedef struct Place {
 typedef struct Search {
     const CpsPlanar *body;
     int rows;
-    double q[3][3];     /* orthonormal: the first `rows` span the map's rows, the others are free
-                           directions */
-    double lower[3][3]; /* map = lower q */
+    /* orthonormal: the first `rows` span the map's rows, the others are free directions */
+    double q[3][3];
+    double lower[3][3]; /* the map is lower q */
     double start[3];    /* the shortest y that agrees with the drive */
     double scale;       /* its length */
-    double strongest;   /* largest force met */
+    double strongest;   /* largest force found */
     CpsSetOutcome outcome;
     CpsStatus status;
     CpsError *err;
@@ -64,8 +65,8 @@ static void add(double k, const double a[3], double to[3]) {
 
 /* ---- the affine space of the drive ---- */
 
-/* Gram-Schmidt (twice, for orthogonality to rounding) of a vector against q[0..k-1]; coefficients
- * into row[], its remaining length returned and q[k] set where it is not 0. */
+/* Gram-Schmidt of a vector against q[0..k-1], twice for orthogonality to rounding. The coefficients
+ * are written into row[]. Returns the remaining length, and sets q[k] where it is not 0. */
 static double orthogonalise(double q[3][3], int k, const double vector[3], double *row) {
     double rest[3] = {vector[0], vector[1], vector[2]};
     for (int pass = 0; pass < 2; pass++)
@@ -79,7 +80,7 @@ static double orthogonalise(double q[3][3], int k, const double vector[3], doubl
     return length;
 }
 
-/* Complete q[0..k-1] to three directions by the axis that keeps most of its length. */
+/* Complete q[0..k-1] to three directions, using the axis with the largest remainder. */
 static void complete(double q[3][3], int k) {
     for (; k < 3; k++) {
         int best = 0;
@@ -149,8 +150,8 @@ static bool evaluate(Search *self, Place *place) {
 
 static bool minimise(Search *self, int level, Place *place);
 
-/* The least value with coordinate t along free direction `level`, others open; the slope of that as
- * a function of t. */
+/* The least value with coordinate t along free direction `level`, minimised over the later
+ * directions, and its slope as a function of t. */
 static bool at(Search *self, int level, const double base[3], double t, Place *place,
                double *slope) {
     for (int i = 0; i < 3; i++) place->y[i] = base[i];
@@ -170,9 +171,10 @@ typedef struct End {
     Place place;
 } End;
 
-/* Narrow a bracket of slopes of opposite sign until it is as short as rounding allows or a slope
+/* Narrow a bracket with slopes of opposite sign until it is as short as rounding permits or a slope
  * vanishes: interpolate, truncate towards the middle, project (Oliveira and Takahashi 2020, ITP).
- * As fast as the secant where the slope is smooth, and never more than one step behind halving. */
+ * It is as fast as the secant method where the slope is smooth, and never more than one step behind
+ * bisection. */
 static bool close_bracket(Search *self, int level, const double base[3], End end[2]) {
     const double first = fabs(end[1].t - end[0].t);
     const double limit = 2 * DBL_EPSILON * (self->scale + fmax(fabs(end[0].t), fabs(end[1].t)));
@@ -192,8 +194,8 @@ static bool close_bracket(Search *self, int level, const double base[3], End end
     return true;
 }
 
-/* The mean of two ends whose force has slope 0 along the direction; y, value are those of the
- * flatter end. */
+/* The convex combination of two ends whose force has slope 0 along the direction; y and value are
+ * those of the end with the smaller slope. */
 static void join(const End end[2], Place *out) {
     const double weight = end[0].slope / (end[0].slope - end[1].slope);
     const End *best = fabs(end[0].slope) <= fabs(end[1].slope) ? &end[0] : &end[1];
@@ -203,7 +205,7 @@ static void join(const End end[2], Place *out) {
     out->gap = fmax(end[0].place.gap, end[1].place.gap);
 }
 
-/* Minimise along free directions `level` and above from place->y. */
+/* Minimise along free directions `level` and above, from place->y. */
 static bool minimise(Search *self, int level, Place *place) {
     if (level == 3) return evaluate(self, place);
     const double base[3] = {place->y[0], place->y[1], place->y[2]};
@@ -214,7 +216,7 @@ static bool minimise(Search *self, int level, Place *place) {
         return true;
     }
 
-    /* downhill in steps that double, until the slope turns */
+    /* downhill with doubling steps, until the slope changes sign */
     const Place first = end[0].place;
     const double downhill = end[0].slope > 0 ? -1 : 1;
     double step = 0.5 * sqrt(dot(base, base));
@@ -227,8 +229,8 @@ static bool minimise(Search *self, int level, Place *place) {
         }
         if ((end[1].slope > 0) != (end[0].slope > 0)) break;
         if (doublings == DOUBLINGS) {
-            /* a slope of rounding errors leads nowhere: any place is as good; else down without
-             * end */
+            /* A slope below rounding: every point is a minimiser. Otherwise the problem is
+             * unbounded below. */
             const double fall = fabs(first.value - end[1].place.value);
             *place = first;
             place->gap += fall;
@@ -244,8 +246,8 @@ static bool minimise(Search *self, int level, Place *place) {
     return true;
 }
 
-/* Of two free directions, minimise along the steeper one inside: what is left of its slope is then
- * the smaller part of the other's. */
+/* Of two free directions, the steeper one is minimised inside, so that its remaining slope is the
+ * smaller part of the other's. */
 static bool turn_free_directions(Search *self, Place *place) {
     if (!evaluate(self, place)) return false;
     if (self->rows > 1) return true;
@@ -298,8 +300,8 @@ CpsStatus cps_planar_drive(const CpsPlanar *body, int rows, const double *map,
     return CPS_OK;
 }
 
-/* How far one can go from `middle` along free direction rows (the last to be minimised) before the
- * least value exceeds `level`. */
+/* How far one can go from `middle` along the last free direction before the least value exceeds
+ * `level`. */
 static bool extent(Search *self, const double middle[3], double level, double direction,
                    double *reach) {
     Place place;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Closed forms of the dissipation of one patch, with the wrench of friction.
  *
- * Everything is phi(v, w) = integral of q |v + w x r| over the patch, q = friction x pressure, and
- * its gradient. About the instantaneous centre of rotation |v + w x r| = |w| rho, rho the distance
- * from it: rods and polygons then integrate rho along a line, and so do rings and discs in elliptic
- * integrals. Far from the centre the forms would cancel, but the integrand is analytic there and
- * Gauss's rule exact to rounding. */
+ * The dissipation is phi(v, w) = integral of q |v + w x r| over the patch, q = friction x pressure;
+ * the wrench is its gradient. About the instantaneous centre of rotation |v + w x r| = |w| rho, rho
+ * the distance from it: for rods and polygons rho is then integrated along lines, and for rings and
+ * discs in elliptic integrals. Far from the centre the forms would cancel, but there the integrand
+ * is analytic and Gauss's rule is exact to rounding. */
 #include <float.h>
 #include <math.h>
 
@@ -13,8 +13,8 @@
 #include "linalg/elliptic.h"
 #include "planar/planar.h"
 
-/* Where the centre of rotation lies farther than this many sizes from the patch's middle, Gauss's
- * rule with 8 points leaves (4 + sqrt(15))^-16 = 4e-15 of the value (Bernstein's ellipse through
+/* Where the centre of rotation is farther than this many sizes from the patch's middle, Gauss's
+ * rule with 8 points has the relative error (4 + sqrt(15))^-16 = 4e-15 (Bernstein's ellipse through
  * the centre). */
 static const double FAR = 4;
 
@@ -38,7 +38,7 @@ static Line along_line(double d, double y0, double y1) {
     const double r0 = hypot(d, y0), r1 = hypot(d, y1), far = fmax(fabs(y0), fabs(y1)),
                  near = fabs(d);
 
-    /* j0 is only used times d: below 1e-30 of the length nothing of it is left */
+    /* j0 only occurs multiplied by d, which is negligible below 1e-30 of the length */
     const double j0 = near > 1e-30 * far ? asinh(y1 / near) - asinh(y0 / near) : 0;
     const double products = y1 * r1 - y0 * r0;
     return (Line){.j0 = j0,
@@ -48,7 +48,7 @@ static Line along_line(double d, double y0, double y1) {
                   .i1 = (r1 * r1 * r1 - r0 * r0 * r0) / 3};
 }
 
-/* Friction of strength q at r, added to the rub. */
+/* Add friction of strength q at r to the sum. */
 static void add_point(double q, const double r[2], const double velocity[2], double w,
                       CpsiFrictionDisc *rub) {
     const double v[2] = {velocity[0] - w * r[1], velocity[1] + w * r[0]}, speed = hypot(v[0], v[1]);
@@ -77,7 +77,8 @@ static CpsStatus rub_law(const CpsiPatch *patch, const double velocity[2], CpsiF
                          CpsError *err) {
     double local[2], force[2] = {0, 0};
     CpsSetAnswer answer;
-    if (velocity[0] == 0 && velocity[1] == 0) return CPS_OK; /* at rest any force will do: 0 */
+    /* at rest any force of the set is admissible; 0 is returned */
+    if (velocity[0] == 0 && velocity[1] == 0) return CPS_OK;
     to_axis(patch, velocity, local);
     const CpsStatus status = cps_set_dissipation(patch->set, local, force, &answer, err);
     if (status != CPS_OK) return status;
@@ -89,7 +90,8 @@ static CpsStatus rub_law(const CpsiPatch *patch, const double velocity[2], CpsiF
     return CPS_OK;
 }
 
-/* Half the chord that the strip |j.G| <= s cuts from the disc of radius r; M77 figure 1. */
+/* Half the length of the chord at the edge of the strip |j.G| <= s in the disc of radius r; M77
+ * figure 1. */
 static double half_chord(double r, double s) { return sqrt((r - s) * (r + s)); }
 
 CpsWheelMotion cpsi_wheel_motion(const CpsiPatch *patch, const double velocity[2]) {
@@ -99,8 +101,8 @@ CpsWheelMotion cpsi_wheel_motion(const CpsiPatch *patch, const double velocity[2
     CpsWheelMotion motion = {.velocity = {-along[1], along[0]}};
     const double wi = motion.velocity[0], wj = motion.velocity[1];
 
-    /* held by the brake: it drags; else it rolls until friction along j is what the brake holds:
-     * Vj/|V| = s/r */
+    /* The brake holds the wheel, which then slides; otherwise it rolls until the friction along j
+     * reaches the brake's limit: Vj/|V| = s/r. */
     const bool held = s >= r || r * fabs(wj) <= s * hypot(wi, wj);
     motion.slip[0] = wi;
     motion.slip[1] = held ? wj : copysign(fabs(wi) * s / half_chord(r, s), wj);
@@ -120,7 +122,7 @@ static void rub_wheel(const CpsiPatch *patch, const double velocity[2], CpsiFric
     double fi = -r * wi / speed, fj = -r * wj / speed;
     rub->power = r * speed;
     if (s < r && r * fabs(wj) > s * speed) {
-        /* at the corners; or rolling straight on, to rounding: the middle of an edge */
+        /* at the corners; or, rolling straight ahead up to rounding, at the middle of an edge */
         const double c = half_chord(r, s);
         fi = fabs(wi) <= 4 * DBL_EPSILON * speed ? 0 : -copysign(c, wi);
         fj = -copysign(s, wj);
@@ -158,7 +160,7 @@ static void rub_rod(const CpsiPatch *patch, const double velocity[2], double w,
 
 /* ---- ring and disc ---- */
 
-/* Axes along which a round patch of radius a is solved: e1 from its middle to the centre of
+/* Axes in which a round patch of radius a is computed: e1 from its middle to the centre of
  * rotation, at the distance d, e2 to its left. With u = |w| a, v = |w| d and r at the angle x from
  * e1, the distance from the centre of rotation is
  *
@@ -166,7 +168,7 @@ static void rub_rod(const CpsiPatch *patch, const double velocity[2], double w,
  *         k^2 = 4 u v/(u + v)^2,   x = pi - 2 y.
  *
  * i is the integral of s^2 c^2/d over a quarter turn (elliptic.h), (D - C)/3. Without rotation u =
- * 0, v the speed. */
+ * 0 and v is the speed. */
 typedef struct Round {
     double u, v, a;
     double e1[2], e2[2];
@@ -196,8 +198,8 @@ static Round round_axes(const CpsiPatch *patch, const double velocity[2], double
     return round;
 }
 
-/* The unit vectors away from the centre of rotation add up to (u1, u2): friction is these, turned
- * back by a right angle. */
+/* (u1, u2) is the sum of the unit vectors away from the centre of rotation; friction is this sum,
+ * turned back by a right angle. */
 static void set_round_force(const Round *round, double u1, double u2, double w,
                             CpsiFrictionDisc *rub) {
     const double turn = copysign(1, w);
@@ -221,7 +223,7 @@ static void rub_ring(const CpsiPatch *patch, const double velocity[2], double w,
                   (r.u * one - r.v * cosine + r.tilt[0] * (r.u * cosine - r.v * square));
 }
 
-/* Circles of Gauss's radii with 24 points each, which leave FAR^-24. */
+/* Circles at Gauss's radii with 24 points each, whose relative error is FAR^-24. */
 static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
                      CpsiFrictionDisc *rub) {
     enum { AROUND = 24 };

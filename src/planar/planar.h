@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body on patches, as the files of this folder see it. */
+/* A body on patches, as the files of this folder use it. */
 #ifndef CAPSTAN_SRC_PLANAR_PLANAR_H
 #define CAPSTAN_SRC_PLANAR_PLANAR_H
 
 #include "capstan/planar.h"
 
-/* A checked patch. Polygons: position is the centroid, corners are in body axes from there. */
+/* A checked patch. For polygons the position is the centroid, and corners are in body axes relative
+ * to it. */
 typedef struct CpsiPatch {
     CpsPatchKind kind;
     double position[2];
     double axis[2];  /* unit vector along the first axis */
     double strength; /* [N] friction x load */
-    double size;  /* half length, radius; polygon: of the circle round the centroid that holds it */
-    double strip; /* [N] wheel: brake torque/radius */
+    /* half length, radius; polygon: radius of the circle round the centroid that contains it */
+    double size;
+    double strip;   /* [N] wheel: brake torque/radius */
     double tilt[2]; /* rod: along it; others: in body axes */
     double area;    /* polygon */
     int corner_count;
@@ -22,7 +24,7 @@ typedef struct CpsiPatch {
 
 struct CpsPlanar {
     int count;
-    double reach; /* [m] > 0: what rotations are compared with translations by */
+    double reach; /* [m] > 0: length that converts rotations to translations */
     double *corner;
     CpsiPatch patch[]; /* (count) */
 };
@@ -36,7 +38,7 @@ typedef struct CpsiFrictionDisc {
     double force[2], torque;
 } CpsiFrictionDisc;
 
-/* Closed form of a patch whose position moves with `velocity` while it turns with w. */
+/* Closed form for a patch whose position moves with `velocity` while it turns with w. */
 CpsStatus cpsi_patch_dissipation_rate(const CpsiPatch *patch, const double velocity[2], double w,
                                       CpsiFrictionDisc *rub, CpsError *err);
 

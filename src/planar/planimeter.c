@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Polar planimeter: the area enclosed by a curve from the roll of a wheel that cannot resist
- * rolling (M77 section 10).
+/* Polar planimeter: the area enclosed by a curve, from the rotation of a wheel without resistance
+ * to rolling (M77 section 10).
  *
- * The tracer arm sweeps area L (dn + (L/2 - k) dbeta), n the roll of a wheel at k from the hinge,
- * beta the arm's heading; the hinge's circle sweeps p^2/2 dalpha. Round a closed curve
+ * The tracer arm sweeps the area L (dn + (L/2 - k) dbeta), n the roll of a wheel at k from the
+ * hinge, beta the arm's heading; the hinge's circle sweeps p^2/2 dalpha. Round a closed curve
  *
  *     area = L n + L (L/2 - k) [beta] + p^2 [alpha]/2,
  *
  * brackets being whole turns: L n alone with the pole outside, and pi (L^2 - 2 L k + p^2) more for
  * each turn round it.
  *
- * How far the wheel rolls and slips is left to its law, by minimum dissipation: with no brake W =
- * (sideways, rolling) gives spin -W_j/radius and slip W_i, the segment of forces being that of M77
- * figure 1 with b = 0. */
+ * The division of the wheel's motion into rolling and slipping follows from its law, by minimum
+ * dissipation: without a brake W = (sideways, rolling) gives spin -W_j/radius and slip W_i, the
+ * segment of forces being that of M77 figure 1 with b = 0. */
 #include <math.h>
 
 #include "base/math.h"
 #include "base/status.h"
 #include "planar/planar.h"
 
-/* Nearness to stretched or folded arms that is refused, relative to the arms. */
+/* Arms nearer than this to being stretched or folded are refused, relative to their length. */
 static const double MARGIN = 1e-6;
 
 static CpsStatus check(const CpsPlanimeter *p, int count, const double *point, int steps,
@@ -50,11 +50,11 @@ static CpsStatus check(const CpsPlanimeter *p, int count, const double *point, i
 /* The arms with the tracer at a point. */
 typedef struct Arms {
     double alpha, beta; /* headings of pole arm and tracer arm */
-    double wheel[2];    /* where its contact is */
+    double wheel[2];    /* position of its contact */
 } Arms;
 
-/* Triangle of pole, hinge and tracer: the cosine rule gives the angle at the pole. False: out of
- * reach. */
+/* Triangle of pole, hinge and tracer: the cosine rule gives the angle at the pole. Returns false
+ * where the tracer is out of reach. */
 static bool place_arms(const CpsPlanimeter *p, const double tracer[2], Arms *arms) {
     const double x = tracer[0] - p->pole[0], y = tracer[1] - p->pole[1], far = hypot(x, y);
     const double a = p->pole_arm, l = p->tracer_arm, margin = MARGIN * (a + l);
@@ -73,7 +73,7 @@ static double cross(const double a[2], const double b[2]) { return a[0] * b[1] -
 
 static double half_turn(double angle) { return remainder(angle, 2 * CPSI_PI); }
 
-/* One step of the arms: roll and slip of the wheel, its axis along the mean heading of the tracer
+/* One step of the arms: roll and slip of the wheel, whose axis has the mean heading of the tracer
  * arm. */
 static void roll_wheel(const CpsPlanimeter *p, const Arms *from, const Arms *to,
                        CpsPlanimeterReading *sum) {
@@ -124,7 +124,7 @@ CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count, const
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tracer cannot reach the first point (%g, %g)",
                          point[0], point[1]);
 
-    /* the angles close: whole turns */
+    /* the curve is closed, so the angles change by whole turns */
     const double a = planimeter->pole_arm, l = planimeter->tracer_arm;
     sum.pole_turns = round(sum.pole_turns / (2 * CPSI_PI));
     sum.arm_turns = round(sum.arm_turns / (2 * CPSI_PI));

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A rope on a table as a driven system (see planar.h): V the nodes' velocities, -V_k in N(F_k) for
- * a disc of radius resistance x half the length of the neighbouring elements, and -U_i in N(F_i)
- * for the line of all F_i, which says U_i = 0, or where the rope may go slack for the half-line F_i
- * <= 0, which says U_i <= 0, F_i U_i = 0: tension only where an element keeps its length. */
+/* A rope on a table as a driven system (see planar.h). V are the nodes' velocities. The law of a
+ * node is -V_k in N(F_k) for a disc of radius resistance x half the length of the neighbouring
+ * elements. The law of an element is -U_i in N(F_i): for the line of all F_i, which means U_i = 0;
+ * or, where the rope may become slack, for the half-line F_i <= 0, which means U_i <= 0, F_i U_i =
+ * 0, that is tension only where an element keeps its length. */
 #include "capstan/planar.h"
 
 #include <math.h>
@@ -39,7 +40,7 @@ static double element_length(const CpsRope *rope, int i) {
     return hypot(x[2] - x[0], x[3] - x[1]);
 }
 
-/* nodes of equal friction share one law, and with it its conic form */
+/* nodes of equal friction share one law, and therefore its conic form */
 static CpsStatus add_nodes(CpsSystem *system, const CpsRope *rope, CpsError *err) {
     CpsLaw *law = NULL;
     double last = -1;
@@ -50,7 +51,7 @@ static CpsStatus add_nodes(CpsSystem *system, const CpsRope *rope, CpsError *err
         const double after = i + 1 < rope->nodes ? element_length(rope, i) : 0;
         const double radius = 0.5 * rope->resistance * (before + after);
         const CpsEntry map[] = {{0, 2 * i, 1}, {1, 2 * i + 1, 1}};
-        /* lengths that differ by rounding are one length */
+        /* lengths that differ only by rounding are equal */
         if (!(fabs(radius - last) <= 1e-14 * last)) {
             cps_law_release(law);
             law = NULL;

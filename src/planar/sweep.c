@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sweeping process of a block on a spring (Moreau's catching-up scheme).
  *
- * Friction F = k (u - X) must lie in C, so u stays in X + C/k, and -du is a normal of it where it
- * moves: u is pushed by the set. One step: u' = the point of X' + C/k nearest to u, that is F' =
- * the point of C nearest to k (u - X').
+ * Friction F = k (u - X) must lie in C, so u remains in X + C/k, and where it moves -du is a normal
+ * of that set: the moving set pushes u. One step: u' = the point of X' + C/k nearest to u, that is
+ * F' = the point of C nearest to k (u - X').
  *
  * Ledger: the spring's energy changes by (S + S')/2 . (dX - du) exactly, S = -F. With work (S +
- * S')/2 . dX and dissipation S'. du the defect of a step is (S - S'). du/2, second order; in one
- * component it vanishes where the block slides throughout. */
+ * S')/2 . dX and dissipation S'. du the imbalance of a step is (S - S'). du/2, of second order;
+ * with one component it vanishes where the block slides throughout the step. */
 #include <math.h>
 
 #include "base/status.h"

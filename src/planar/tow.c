@@ -2,28 +2,29 @@
 /* A body towed over the plane: quasi-static steps with finite rotations, and their ledger.
  *
  * In one step the body makes a screw motion: its twist is constant in its own axes, so every
- * contact moves at constant velocity over its patch and the dissipation of the finite motion is phi
- * of the increment, exactly. Turned by theta in all, a point that moves by u in body axes ends
+ * contact moves at constant velocity over its patch, and the dissipation of the finite motion is
+ * exactly phi of the increment. With theta the total angle, a point that moves by u in body axes is
  * displaced by the chord c = sinc(theta/2) R(angle + theta/2) u. The increment is the one of least
  * dissipation whose chord brings the hitch to its target, or to the rope's length from there. With
- * a0, a1 from the hitch, as it is before the step, to the rope's far end before and after,
+ * a0, a1 from the position of the hitch before the step to the rope's far end before and after
+ * it,
  *
  *     |a1 - c|^2 = rope^2   <=>   e.c = e.(a1 - a0) - (rope^2 - |a0|^2)/2,     e = (a0 + a1 - c)/2:
  *
  * e is the rope in the middle of the step, along which it pulls. theta and c on the right are those
- * of the last pass; a pass changes them by the order of the step, so a few settle, and the step is
- * of second order (the first pass: of first). */
+ * of the preceding pass. A pass changes them by the order of the step, so a few passes converge,
+ * and the step is of second order (with the first pass alone: of first). */
 #include <math.h>
 
 #include "base/status.h"
 #include "planar/planar.h"
 
-/* Passes that change the motion by no more than this part have settled. Where more are needed, the
- * motion jumps with the orientation, or the step is as long as the body. */
+/* Passes that change the motion by no more than this share have converged. Where they do not
+ * converge, the motion is discontinuous in the orientation, or the step is as long as the body. */
 static const double SETTLED = 1e-13;
 enum { PASSES = 25 };
 
-/* A step that turns the body further is refused: its chord says little about its path. */
+/* A step that turns the body farther is refused, since its chord says little about its path. */
 static const double MOST_TURN = 2;
 
 /* The orientation in the middle of a screw motion, and the ratio of a chord to its arc. */
@@ -44,7 +45,7 @@ static void turn(double angle, const double v[2], double out[2]) {
     out[1] = y;
 }
 
-/* How far the point r of the body is displaced in the plane by a screw motion. */
+/* Displacement in the plane of the point r of the body by a screw motion. */
 static void displacement(Middle middle, const double twist[3], const double r[2], double chord[2]) {
     const double arc[2] = {twist[0] - twist[2] * r[1], twist[1] + twist[2] * r[0]};
     turn(middle.angle, (double[2]){middle.sinc * arc[0], middle.sinc * arc[1]}, chord);
@@ -70,13 +71,13 @@ static CpsStatus check(const CpsTow *tow, const double target[2], CpsError *err)
     return status;
 }
 
-/* From the hitch before the step: to the rope's far end before and after (without a rope: to the
- * target), a0 and a1. */
+/* a0 and a1: from the hitch before the step to the rope's far end (without a rope: to the target)
+ * before and after it. */
 typedef struct Way {
     double before[2], after[2];
 } Way;
 
-/* One pass: the increment for the middle and the chord of the pass before. */
+/* One pass: the increment for the middle and the chord of the preceding pass. */
 static CpsStatus drive_step(const CpsPlanar *body, const CpsTow *tow, const Way *way, Middle middle,
                             const double chord[2], CpsPlanarMotion *motion, CpsError *err) {
     const double x = tow->hitch[0], y = tow->hitch[1], *a0 = way->before, *a1 = way->after;
