@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan check: read a scene, say what is wrong with it or what is in it; nothing is solved. */
+/* capstan check: read a scene and report its faults, or print a summary of it; nothing is
+ * solved. */
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -87,7 +88,7 @@ static void print_scene(const CpsScene *scene) {
     for (int i = 0; i < scene->obstacle_count; i++) print_obstacle(&scene->obstacle[i]);
     for (int i = 0; i < scene->line_count; i++) print_line(&scene->line[i]);
 
-    /* steps as they will be counted: a start laid by statics is one */
+    /* number of steps as a run counts them: a start that is statically placed is a step */
     int steps = 0;
     for (int i = 0; i < scene->line_count; i++)
         if (scene->line[i].start.kind == CPS_START_LAID) steps = 1;

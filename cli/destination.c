@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where a command writes its results (see destination.h). */
+/* The directory of a command's results (see destination.h). */
 #include "destination.h"
 
 #include <errno.h>
@@ -11,7 +11,7 @@
 #include "commands.h"
 #include "printable.h"
 
-/* A name made of dots alone would be results itself, or what it lies in. */
+/* A name that consists only of dots would mean results itself, or its parent. */
 static char *default_directory(const char *scene, const char *more) {
     const char *slash = strrchr(scene, '/');
     const char *stem = slash ? slash + 1 : scene;
@@ -27,8 +27,8 @@ static char *default_directory(const char *scene, const char *more) {
     return path;
 }
 
-/* Say whether files are of two runs; they stay until what wrote them is run again. False after an
- * error. */
+/* Report that the files in the directory belong to two runs. They remain until the command that
+ * wrote them is run again. False after an error. */
 static bool print_mixed(const char *directory, CpsError *err) {
     char missing[CPS_RESULT_NAME];
     if (cps_results_missing(directory, missing, err) != CPS_OK) return false;
@@ -49,7 +49,7 @@ char *cli_destination(const CliOptions *options, const char *more, int *code) {
         fprintf(stderr, "capstan: out of memory\n");
         return NULL;
     }
-    /* the directory itself is made by the library; its parent only where it is ours */
+    /* the library makes the directory itself; its parent is made here only if it is `results` */
     if (!options->output && mkdir("results", 0777) != 0 && errno != EEXIST) {
         fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n",
                 strerror(errno));

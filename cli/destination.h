@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where a command writes its results. */
+/* The directory of a command's results. */
 #ifndef CAPSTAN_CLI_DESTINATION_H
 #define CAPSTAN_CLI_DESTINATION_H
 
 #include "options.h"
 
-/* The directory given with -o, else results/NAME and `more` for a scene .../NAME.yaml, whose parent
- * is made. One that capstan may not write to is refused before anything is computed. NULL after a
- * message, with the exit code in *code; the caller frees it. */
+/* The directory given with -o; otherwise results/NAME, with `more` appended, for a scene
+ * .../NAME.yaml, whose parent is made. A directory that capstan may not write to is refused before
+ * anything is computed. Returns NULL after a message, with the exit code in *code; the caller frees
+ * the name. */
 char *cli_destination(const CliOptions *options, const char *more, int *code);
 
 #endif

@@ -63,7 +63,8 @@ static void print_version(void) {
 }
 
 int cli_report(const CpsError *err) {
-    /* names and texts come from files: no control character of theirs reaches a terminal */
+    /* names and texts may come from files, and their control characters must not reach a
+     * terminal */
     fputs("capstan: ", stderr);
     cli_print_text(stderr, err->file, INT_MAX, false);
     if (err->file[0] && err->line > 0) fprintf(stderr, ":%d:%d", err->line, err->column);
@@ -119,8 +120,8 @@ static int run_command(int argc, char **argv) {
     return unknown_command(argv[0]);
 }
 
-/* Standard input, output and errors are open: a file opened while one is closed would take its
- * number, and what is printed would go into it. */
+/* Make sure that standard input, output and error are open. Otherwise a file opened later would get
+ * one of their numbers, and printed text would be written into it. */
 static bool hold_standard_streams(void) {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
         if (fcntl(fd, F_GETFD) != -1 || errno != EBADF) continue;
@@ -147,7 +148,7 @@ int main(int argc, char **argv) {
         code = run_command(argc - 1, argv + 1);
     }
 
-    /* a full disk shows only now */
+    /* a full disk is detected only here */
     if (fflush(stdout) != 0 || ferror(stdout)) {
         fprintf(stderr, "capstan: cannot write standard output\n");
         if (code == EXIT_OK || code == EXIT_NOT_CERTIFIED) code = EXIT_IO;

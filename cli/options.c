@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Command-line options: the table drives the parser, the help and the suggestions. */
+/* Command-line options: one table defines the parser, the help and the suggestions. */
 #include "options.h"
 #include "printable.h"
 
@@ -94,7 +94,7 @@ void cli_print_options(FILE *out, unsigned commands) {
     }
 }
 
-/* the option of a command with this long name (length n) or letter, or NULL */
+/* the option of a command with this long name (of length n) or letter, or NULL */
 static const Option *find_option(unsigned command, const char *name, size_t n, char letter) {
     for (int i = 0; i < OPTION_COUNT; i++) {
         const Option *o = &OPTIONS[i];
@@ -132,7 +132,7 @@ static bool unknown_option(const char *command_name, unsigned command, const cha
     return end_message(command_name);
 }
 
-/* take one option at argv[*i], with its argument if it has one */
+/* read one option at argv[*i], with its argument if it has one */
 static bool take_option(int argc, char **argv, int *i, unsigned command, CliOptions *out) {
     const char *given = argv[*i];
     bool is_long = given[1] == '-';
@@ -141,7 +141,7 @@ static bool take_option(int argc, char **argv, int *i, unsigned command, CliOpti
     const Option *o = find_option(command, name, n, is_long ? 0 : *name);
     if (!o) return unknown_option(argv[0], command, given);
 
-    /* what follows the name in the same word: "=value", or for a letter "value" */
+    /* the text after the name in the same word: "=value", or for a letter "value" */
     const char *attached = name[n] ? name + n + (is_long ? 1 : 0) : NULL;
     char *field = (char *)out + o->field;
     if (!o->argument) {

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Which commands an option belongs to. */
+/* The commands that an option belongs to. */
 enum {
     FOR_RUN = 1,
     FOR_CHECK = 2,
@@ -17,7 +17,7 @@ enum {
     FOR_ALL = 63
 };
 
-/* The arguments of an option that may be given more than once. */
+/* The arguments of an option that can be repeated. */
 enum { CLI_LIST_MOST = 256 };
 typedef struct CliList {
     int count;
@@ -27,32 +27,33 @@ typedef struct CliList {
 typedef struct CliOptions {
     bool help, version;
     bool json, quiet, resume;
-    bool overwrite;        /* run, study: --force, in place of what is there */
+    bool overwrite;        /* run, study: --force, replace what is there */
     const char *output;    /* NULL: not given */
     const char *tol;       /* run: path tolerance, NULL: the scene's */
     bool no_paraview;      /* run: no .vtp and .pvd files */
-    const char *fields;    /* run: of result.nc, NULL: all */
+    const char *fields;    /* run: variables of result.nc, NULL: all */
     const char *sync;      /* run: step or end, NULL: step */
     const char *method;    /* run: exact or regularized, NULL: exact */
     const char *operand;   /* the scene or law file, "-" for standard input; NULL: not given */
     const char *plot;      /* law: picture, NULL: none */
     const char *axes;      /* law: components drawn, NULL: the first two */
     bool history;          /* study: all steps by three methods */
-    const char *complete;  /* study: how slack is laid out, NULL: not asked for */
+    const char *complete;  /* study: how slack is laid out, NULL: not requested */
     const char *judge;     /* study: file of a configuration, NULL: none */
-    const char *tolerance; /* study: of judgements, NULL: 1e-8 */
-    const char *delta, *lambda, *n, *h; /* study, run: of the method of 1990, NULL: its own */
-    const char *step;                   /* study: name or number of a step, NULL: the first */
-    bool eliminate;                     /* drive: the reduced law */
-    const char *line;                   /* study: name of a line, NULL: the first */
+    const char *tolerance; /* study: tolerance of judgements, NULL: 1e-8 */
+    /* study, run: parameters of the method of 1990, NULL: its default */
+    const char *delta, *lambda, *n, *h;
+    const char *step; /* study: name or number of a step, NULL: the first */
+    bool eliminate;   /* drive: the reduced law */
+    const char *line; /* study: name of a line, NULL: the first */
     CliList velocity, force;
 } CliOptions;
 
 /* Parse argv[1..argc-1] for one command.
  *
  *   command  a FOR_ bit: options of other commands are refused
- *   operand  what must be given besides, "SCENE.yaml"; in brackets what may be, "[scene|law]";
- *            NULL: nothing
+ *   operand  required operand, "SCENE.yaml"; in brackets an optional one, "[scene|law]"; NULL:
+ *            none
  *
  * Returns true; or false after a message on standard error (exit with EXIT_USAGE). With --help or
  * --version given, a missing operand is accepted. */
@@ -61,7 +62,7 @@ bool cli_parse(int argc, char **argv, unsigned command, const char *operand, Cli
 /* List the options of `commands` (FOR_ bits), one line each. */
 void cli_print_options(FILE *out, unsigned commands);
 
-/* " (did you mean 'x'?)" support: how many leading characters two words share. */
+/* Number of leading characters that two words share, for suggestions " (did you mean 'x'?)". */
 int cli_common_prefix(const char *a, const char *b);
 
 #endif

@@ -14,7 +14,7 @@
 
 bool law_plot_axes(const char *text, int n, int axis[2]) {
     char end;
-    if (n == 1 && !text) { /* nothing to choose */
+    if (n == 1 && !text) { /* there is only one choice */
         axis[0] = axis[1] = 0;
         return true;
     }
@@ -32,7 +32,7 @@ static int cannot_write(const char *path, int code) {
     return EXIT_IO;
 }
 
-/* Draw into an open file and close it; *code: why it could not be written, 0 if it could. */
+/* Draw into an open file and close it; *code: errno of a failure, 0 after success. */
 static CpsStatus draw_and_close(PlotDraw *draw, void *user, int fd, bool sync, int *code,
                                 CpsError *err) {
     *code = 0;
@@ -50,7 +50,7 @@ static CpsStatus draw_and_close(PlotDraw *draw, void *user, int fd, bool sync, i
     return status;
 }
 
-/* "folder/.name.PID.part" for "folder/name"; NULL without memory */
+/* "folder/.name.PID.part" for "folder/name"; NULL when memory does not suffice */
 static char *name_beside(const char *path) {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const size_t room = strlen(path) + 40;
@@ -88,7 +88,7 @@ int cli_plot(PlotDraw *draw, void *user, const char *path) {
     if (there && S_ISDIR(found.st_mode)) return cannot_write(path, EISDIR);
     if (!there || S_ISREG(found.st_mode)) return plot_beside(draw, user, path);
 
-    /* a device or pipe, maybe standard output itself */
+    /* a device or pipe, perhaps standard output itself */
     CpsError err;
     int code = 0;
     fflush(stdout);
@@ -101,7 +101,7 @@ int cli_plot(PlotDraw *draw, void *user, const char *path) {
 
 typedef struct LawDrawing {
     const CpsSet *set;
-    const CpsResistance *resistance; /* where there is no set */
+    const CpsResistance *resistance; /* used where there is no set */
     const CpsLawPicture *picture;
 } LawDrawing;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Text that does not come from the program (see printable.h). */
+/* Printing text that does not come from the program (see printable.h). */
 #include "printable.h"
 
 #include <limits.h>
@@ -15,7 +15,7 @@ void cli_print_text(FILE *out, const char *text, int width, bool pad) {
             c += c1;
         } else {
             fputc(*c, out);
-            /* the rest of a character of several bytes */
+            /* the following bytes of the same character */
             while (*c >= 0x80 && (c[1] & 0xC0) == 0x80) fputc(*++c, out);
         }
         ++used;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far a run has come (see progress.h). */
+/* Progress of a run (see progress.h). */
 #include "progress.h"
 
 #include <stdint.h>
@@ -10,7 +10,7 @@
 
 enum { BAR_WIDTH = 30, NAME_WIDTH = 24, SHORT_TABLE = 40 };
 
-/* a bar drawn more often than this [s] only costs time */
+/* smallest time between two drawings of the bar [s]; more frequent ones would only cost time */
 static const double REDRAW = 0.05;
 
 double cli_now(void) {

@@ -9,27 +9,29 @@
 #include "plot_file.h"
 #include "progress.h"
 
-/* A tow as it went: poses and driven ends, the first being the start. */
+/* The history of a tow: poses and driven ends, of which the first is the start. */
 typedef struct Trail {
     int count;
     double *pose, *end; /* (count, 3), (count, 2) */
     CpsTow tow;
     CpsTowStep last;
     int unsettled, slack, inaccurate;
-    double lower, upper; /* [J] bounds of what was dissipated */
+    double lower, upper; /* [J] bounds of the dissipation */
 } Trail;
 
 /* ---- the law ---- */
 
-/* What a body is like: forces at unit motions, and how far the exact limit surface lies inside the
- * ellipsoid. */
+/* Figures of a body: forces at unit motions, and the largest distance of the exact limit surface
+ * inside the ellipsoid. */
 typedef struct Facts {
     double load, fx, fy, torque, torque_lower, torque_upper, cells;
-    double ellipsoid, ratio; /* least length of the exact surface along a ray in (Fx, M), and vx/(w
-                                torque/fx) there */
+    /* smallest ratio of the exact surface's length to the ellipsoid's along a ray in (Fx, M), and
+     * vx/(w torque/fx) there */
+    double ellipsoid, ratio;
 } Facts;
 
-/* length of the exact surface's point at a motion (cos a, 0, sin a), as a share of the ellipsoid */
+/* length of the exact surface's point for the motion (cos a, 0, sin a), as a share of the
+ * ellipsoid's */
 static double share_of_ellipsoid(const CpsPlanar *body, const Facts *f, double a) {
     const double twist[3] = {cos(a) / f->fx, 0, sin(a) / f->torque};
     double wrench[3];
@@ -39,7 +41,7 @@ static double share_of_ellipsoid(const CpsPlanar *body, const Facts *f, double a
     return hypot(wrench[0] / f->fx, wrench[2] / f->torque);
 }
 
-/* the least share: a scan, then the golden section around it */
+/* the smallest share: a scan, then golden section search around its minimum */
 static void find_ellipsoid(const CpsPlanar *body, Facts *f) {
     const double quarter = 1.57079632679489662, golden = 0.61803398874989485;
     int best = 0;
@@ -136,11 +138,12 @@ static void print_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const
            m->upper - m->lower);
     fputs("  twist (vx, vy, w) = ", stdout);
     law_print_vector(3, m->twist);
-    if (hypot(m->center[0], m->center[1]) < 1e9) /* m; else it does not turn */
+    /* m; for a larger distance the body does not turn */
+    if (hypot(m->center[0], m->center[1]) < 1e9)
         printf(", turns about (%.10g, %.10g)", m->center[0] + 0.0, m->center[1] + 0.0);
     puts("");
-    /* motions that dissipate 1e-9 more than the least are as far apart as its root where they are
-     * unique */
+    /* where motions are unique, those that dissipate at most 1e-9 more than the least differ by the
+     * order of its square root */
     const double width = 1e-3 * (fabs(m->twist[0]) + fabs(m->twist[1]) + fabs(m->twist[2]));
     for (int k = 0; k < 3; k++)
         if (high[k] - low[k] > width)
@@ -167,7 +170,7 @@ static void json_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const 
     putchar('}');
 }
 
-static bool tell_push(DriveRun *run, int i) {
+static bool answer_push(DriveRun *run, int i) {
     const CpsDriveBody *b = &run->file->body;
     const CpsDrivePush *push = &b->push[i];
     CpsPlanarMotion m;
@@ -200,7 +203,7 @@ static bool tell_push(DriveRun *run, int i) {
 
 /* ---- tow ---- */
 
-/* turning radius of the hitch's step */
+/* turning radius of the hitch in the last step */
 static double turning_radius(const Trail *t) {
     const double *w = t->last.twist, *h = t->tow.hitch;
     return w[2] != 0 ? hypot(w[0] - w[2] * h[1], w[1] + w[2] * h[0]) / fabs(w[2]) : INFINITY;
@@ -269,7 +272,7 @@ static void print_tow(DriveRun *run, const Trail *t) {
         printf("  note: %d steps have no certified motion; shorten them\n", t->inaccurate);
 }
 
-/* ---- together ---- */
+/* ---- the whole answer ---- */
 
 typedef struct Drawing {
     const CpsDriveFile *file;
@@ -286,7 +289,7 @@ int drive_answer_body(DriveRun *run) {
     Trail trail = {.count = 0};
     bool good = print_body(run);
     if (run->json) fputs(",\n  \"pushes\": [", stdout);
-    for (int i = 0; i < b->pushes && good; i++) good = tell_push(run, i);
+    for (int i = 0; i < b->pushes && good; i++) good = answer_push(run, i);
     if (run->json) putchar(']');
     if (good && b->tow.points > 0 && (good = go(run, &trail))) print_tow(run, &trail);
     int code = good ? EXIT_OK : cli_report(&run->err);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan drive: read a driven system; find its motion by least dissipation; draw it. */
+/* capstan drive: read a driven system, compute its motion of least dissipation, draw it. */
 #include <limits.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 
 static const char *const KIND[] = {"system", "body", "planimeter", "rope", "sweep"};
 
-/* what goes with other kinds of file only */
+/* refuse options that belong to other kinds of file */
 static int check_options(const CliOptions *options, CpsDriveKind kind) {
     const bool asked =
         options->velocity.count > 0 || options->force.count > 0 || options->eliminate;

@@ -60,7 +60,7 @@ int drive_answer_planimeter(DriveRun *run) {
 
 /* ---- sweep ---- */
 
-/* A sweep as it went, the first row being the start. */
+/* The history of a sweep; the first row is the start. */
 typedef struct Sweep {
     const CpsDriveFile *file;
     int count, inaccurate;

@@ -11,7 +11,7 @@
 #include "plot_file.h"
 #include "progress.h"
 
-/* Nodes slower than this share of the fastest end rest. */
+/* Nodes slower than this share of the fastest end count as at rest. */
 static const double REST = 1e-6;
 
 typedef struct RopeRun {
@@ -112,7 +112,7 @@ static void keep_shot(RopeRun *r, const double *position, size_t stride) {
     }
 }
 
-/* take the steps, keeping shots at even distances */
+/* take the steps, storing configurations at even distances */
 static bool step_through(RopeRun *r, CpsEvolution *evolution) {
     const int steps = r->rope->steps, wanted = r->rope->shots;
     Progress progress =
@@ -137,7 +137,7 @@ static bool step_through(RopeRun *r, CpsEvolution *evolution) {
     return good;
 }
 
-/* the rope and its path as a scene; the arrays are the caller's */
+/* the rope and its path as a scene, in the caller's arrays */
 static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *element,
                             CpsChange *change, CpsStage *stage, CpsEvolution **out, CpsError *err) {
     const int nodes = rope->rope.nodes, steps = rope->steps;
@@ -227,7 +227,7 @@ static void print_path(const RopeRun *r) {
     printf("  end A comes to (%.6g, %.6g)\n", a[0] + 0.0, a[1] + 0.0);
 }
 
-/* ---- together ---- */
+/* ---- the whole answer ---- */
 
 static CpsStatus draw(void *user, FILE *out, CpsError *err) {
     const RopeRun *r = user;

@@ -11,7 +11,8 @@
 #include "plot_file.h"
 #include "progress.h"
 
-/* All solutions are looked for, and components printed, up to so many; JSON has all components. */
+/* All solutions are computed for systems up to the first size, and components are printed up to the
+ * second number; JSON contains all components. */
 enum { MOST_DENSE = 120, MOST_PRINTED = 24 };
 
 /* ---- JSON ---- */
@@ -47,17 +48,17 @@ int drive_no_memory(void) {
 
 /* ---- one motion ---- */
 
-/* Of all V, or all F: extents of the components. */
+/* The set of all V, or of all F: extents of the components. */
 typedef struct All {
     int n;
     CpsSolutionSet set;
     double *low, *high;
 } All;
 
-/* All there is of one motion. */
+/* All solutions for one motion. */
 typedef struct Solutions {
     All velocities, forces, resistances;
-    bool asked, known, continuous; /* Proposition 2, second half: of small systems */
+    bool asked, known, continuous; /* Proposition 2, second half, computed for small systems */
 } Solutions;
 
 static int force_components(const CpsSystem *system) {
@@ -68,7 +69,7 @@ static int force_components(const CpsSystem *system) {
 
 typedef enum Asked { VELOCITIES, FORCES, RESISTANCES } Asked;
 
-/* all solutions of small systems; else an outcome that says so */
+/* all solutions of small systems; else an outcome that says that they were not computed */
 static bool query_all(DriveRun *run, const CpsMotion *motion, Asked what, All *all) {
     typedef CpsStatus Ask(const CpsMotion *, double, CpsSolutionSet *, double *, double *,
                           CpsError *);
@@ -110,14 +111,14 @@ static void print_all(const All *all, const char *what) {
         printf("  not unique: the %s are a set of dimension %d\n", what, all->set.dimension);
 }
 
-/* Is component i open by more than the tolerance? */
+/* Whether the extent of component i exceeds the tolerance. */
 static bool is_open(const All *all, int i) {
     const double low = all->low[i], high = all->high[i];
     return !isfinite(low) || !isfinite(high) ||
            high - low > all->set.tolerance * (fabs(low) + fabs(high));
 }
 
-/* rounding is not shown */
+/* rounding is printed as 0 */
 static double tidy(double x, double scale) { return fabs(x) <= 1e-13 * scale ? 0 : x; }
 
 /* "omega 0", or "omega 0 (from -3.3 to 0)" where it is not unique */
@@ -153,7 +154,7 @@ static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const A
     }
 }
 
-/* what else the device may feel; nothing where G is unique, or unknown */
+/* the other resistances that the device may have; prints nothing where G is unique, or unknown */
 static void print_resistances(const All *all) {
     if (all->set.outcome != CPS_SET_OUTCOME_ANSWERED || all->set.unique) return;
     printf("  not unique: the resistances are a set of dimension %d", all->set.dimension);
@@ -211,7 +212,7 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
         printf("  gamma is at most %.12g W; no forces in equilibrium were found that bound it from "
                "below\n",
                r.value + 0.0);
-    /* of resistances gamma is not what is dissipated */
+    /* with resistance laws gamma is not the dissipated power */
     if (isfinite(r.minimum) && fabs(r.value + r.load_power - r.dissipated) > 1e-6 * r.scale)
         printf("  gamma is the least of the potential phi less the load's power; the laws "
                "dissipate %.12g W\n",
@@ -292,7 +293,7 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions 
     json_all("velocities", &all->velocities);
     json_all("forces", &all->forces);
     json_all("resistances", &all->resistances);
-    /* where forces balance: else the condition is about none */
+    /* only where forces can be in equilibrium; otherwise the condition refers to no forces */
     if (r.outcome != CPS_MOTION_OUTCOME_NO_BALANCE && r.outcome != CPS_MOTION_OUTCOME_BLOCKED)
         drive_json_word("composition", cps_composition_name(r.composition));
     if (all->asked && all->known)
@@ -309,7 +310,7 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions 
     putchar('}');
 }
 
-static bool tell_motion(DriveRun *run, const double *velocity, int i) {
+static bool answer_motion(DriveRun *run, const double *velocity, int i) {
     const CpsDriveSystem *s = &run->file->system;
     CpsMotion *motion = NULL;
     Solutions all = {.velocities = {.low = NULL}};
@@ -391,7 +392,7 @@ static bool print_reduced(DriveRun *run, const CpsSet *set, const double *asked,
     return good;
 }
 
-/* Forces that balance the load: none, where the reduced set is empty. */
+/* Print the set of forces that balance the load where the reduced set is empty. */
 static bool print_empty(DriveRun *run) {
     run->none = true;
     if (run->json)
@@ -441,8 +442,8 @@ static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *veloc
     return EXIT_USAGE;
 }
 
-/* Does nothing balance the load?  Beside the limit this proof decides before a set is known to be
- * empty. */
+/* Whether nothing can balance the load. Near the limit this proof may exist before the set is found
+ * to be empty. */
 static bool query_balance(DriveRun *run, bool *none) {
     const CpsDriveSystem *s = &run->file->system;
     CpsMotionOptions options = cps_motion_options_default();
@@ -488,7 +489,7 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
     return code;
 }
 
-/* ---- all together ---- */
+/* ---- the whole answer ---- */
 
 static void print_system(const DriveRun *run) {
     const CpsDriveSystem *s = &run->file->system;
@@ -517,7 +518,7 @@ static void print_system(const DriveRun *run) {
 static void show_progress(void *user, int done, int all) {
     Progress *progress = user;
     progress->steps = all;
-    /* what is over in a second needs no bar */
+    /* a computation of less than a second shows no progress bar */
     if (cli_now() - progress->begun > 1) progress_step(progress, done, "map");
 }
 
@@ -534,7 +535,8 @@ static int answer_motions(DriveRun *run, const QueryList *velocity) {
     const int count = s->driven ? velocity->count : 1;
     if (run->json) fputs(",\n  \"answers\": [", stdout);
     for (int i = 0; i < count; i++)
-        if (!tell_motion(run, s->driven ? velocity->row + (size_t)i * (size_t)s->driven : NULL, i))
+        if (!answer_motion(run, s->driven ? velocity->row + (size_t)i * (size_t)s->driven : NULL,
+                           i))
             return cli_report(&run->err);
     if (run->json) putchar(']');
     if (count == 0 && !run->json)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan drive: answers by kind of file, readable and as JSON. */
+/* capstan drive: answers by kind of file, as text and as JSON. */
 #ifndef CAPSTAN_CLI_DRIVE_SYSTEM_ANSWER_H
 #define CAPSTAN_CLI_DRIVE_SYSTEM_ANSWER_H
 
@@ -11,13 +11,14 @@ typedef struct DriveRun {
     const CpsDriveFile *file;
     const CliOptions *options;
     bool json;
-    bool answered; /* every question so far; else the command ends with EXIT_NOT_CERTIFIED */
-    bool none;     /* a motion was asked for that does not exist, as was proved: EXIT_NO_SOLUTION */
+    /* every query so far was answered; otherwise the command ends with EXIT_NOT_CERTIFIED */
+    bool answered;
+    bool none; /* a motion that was asked for is proved not to exist: EXIT_NO_SOLUTION */
     CpsError err;
 } DriveRun;
 
 /* Answer and, with --plot, draw. Each returns an exit code, after a message where it is not
- * EXIT_OK. The JSON object is begun with the title, and ended, by the caller. */
+ * EXIT_OK. The caller begins the JSON object with the title, and ends it. */
 int drive_answer_system(DriveRun *run);
 int drive_answer_body(DriveRun *run);
 int drive_answer_planimeter(DriveRun *run);

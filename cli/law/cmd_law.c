@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan law: read a law; answer velocities with sets of forces and forces with sets of
- * velocities; draw it. */
+/* capstan law: read a law, answer velocities with sets of forces and forces with sets of
+ * velocities, draw it. */
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -19,12 +19,13 @@ typedef struct LawRun {
     const CpsResistance *resistance;
     int n;
     bool json;
-    bool answered; /* every question so far: what has no mathematical answer ends with
-                      EXIT_NOT_CERTIFIED */
+    /* every query so far has a mathematical answer; otherwise the command ends with
+     * EXIT_NOT_CERTIFIED */
+    bool answered;
     CpsError err;
 } LawRun;
 
-/* does the outcome leave the question open? */
+/* whether the outcome leaves the query without an answer */
 static bool is_open(CpsSetOutcome outcome) {
     return outcome == CPS_SET_OUTCOME_NOT_AVAILABLE || outcome == CPS_SET_OUTCOME_INACCURATE;
 }
@@ -33,14 +34,14 @@ static const char *separator(int i) { return i ? ",\n    " : "\n    "; }
 
 /* ---- the law itself ---- */
 
-/* the set's expression, cut with an ellipsis where it is long */
+/* the set's expression, shortened with an ellipsis where it is long */
 static void set_text(const LawRun *run, char *text, size_t size) {
     const size_t length = cps_set_text(run->set, text, size);
     if (length >= size) memcpy(text + size - 4, "...", 4);
 }
 
-/* what is told of the whole set; a sum over very many contacts is too large for it, though not for
- * its answers */
+/* properties of the whole set. A sum over very many contacts is too large for them, though not for
+ * its answers. */
 static bool query_set(LawRun *run, CpsSetFacts *facts, CpsSetMeasure *measure) {
     if (!run->set || (!run->json && run->n != 2)) return true;
     CpsStatus status = cps_set_facts(run->set, 0, facts, NULL, NULL, &run->err);
@@ -104,9 +105,9 @@ static bool print_law(LawRun *run) {
     return true;
 }
 
-/* ---- questions ---- */
+/* ---- queries ---- */
 
-/* the dissipated power at V, of a resistance law phi too, which is another number, and the
+/* the dissipated power at V, for a resistance law also phi, which is another number, and the
  * forces */
 static CpsStatus query_velocity(LawRun *run, const double *velocity, double *power,
                                 double *potential, CpsSet **forces, CpsSetAnswer *answer) {
@@ -134,7 +135,8 @@ static CpsStatus query_force(LawRun *run, const double *force, CpsSet **velociti
                : cps_resistance_velocities(run->resistance, force, velocities, answer, &run->err);
 }
 
-/* Is what goes with a force a cone?  Of dry terms alone it is, beyond one point. */
+/* Whether the answer to a force is a cone. With dry terms alone it is, unless it is a single
+ * point. */
 static bool is_cone(const LawRun *run, const SetAnswer *about) {
     if (run->set) return true;
     return about->facts.outcome == CPS_SET_OUTCOME_ANSWERED && about->facts.dimension > 0 &&
@@ -205,7 +207,7 @@ static bool print_answer(LawRun *run, bool velocity, const double *asked, int i)
     return true;
 }
 
-/* as many forces as velocities: how far each pair is from the law */
+/* for as many forces as velocities: the residual of each pair */
 static bool print_pair(LawRun *run, const double *force, const double *velocity, int i) {
     double gap = NAN, distance = NAN;
     CpsSetResidual r = {.outcome = CPS_SET_OUTCOME_ANSWERED};
@@ -263,7 +265,7 @@ static bool print_all(LawRun *run, const QueryList *velocity, const QueryList *f
 
 /* ---- the picture ---- */
 
-/* before the first answer: along which axes is it drawn? */
+/* before the first answer: check the axes of the picture */
 static int check_picture(const LawRun *run, const CliOptions *options) {
     int axis[2];
     if (options->axes && !options->plot) {
@@ -289,7 +291,7 @@ static int draw(LawRun *run, const CliOptions *options, const QueryList *velocit
     return law_plot(run->set, run->resistance, &picture, options->plot);
 }
 
-/* ---- all together ---- */
+/* ---- the whole answer ---- */
 
 static int answer(LawRun *run, const CliOptions *options) {
     QueryList velocity = {.command = "law", .n = run->n}, force = {.command = "law", .n = run->n};

@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows read at most: answers are printed one by one, but kept until the picture is drawn. */
+/* Largest number of rows: answers are printed one by one, but stored until the picture is drawn. */
 enum { MOST_ROWS = 1000000, LONGEST_LINE = 1 << 20 };
 
-/* Beyond it powers would overflow, as in law files. */
+/* Larger numbers would overflow in powers; the limit is that of law files. */
 static const double LARGEST = 1e100;
 
 static int bad(const QueryList *list, const char *where, int line, const char *what,
@@ -41,7 +41,7 @@ static void print_expected(const QueryList *list, char *text, size_t size) {
              list->n);
 }
 
-/* one row "1, 2" of list->n numbers; line 0: of the command line */
+/* one row "1, 2" of list->n numbers; line 0: from the command line */
 static int add_row(const char *text, const char *option, int line, QueryList *list) {
     char expected[80];
     print_expected(list, expected, sizeof expected);
@@ -63,7 +63,7 @@ static int add_row(const char *text, const char *option, int line, QueryList *li
     return EXIT_OK;
 }
 
-/* "vx, vy": as many words as there are columns, each beginning with a letter and no number itself
+/* "vx, vy": as many words as there are columns, each beginning with a letter, none of them a number
  * (nan) */
 static bool is_names(const char *text, int columns) {
     int words = 0;
@@ -80,8 +80,8 @@ static bool is_names(const char *text, int columns) {
     }
 }
 
-/* rows of standard input; blank lines, comments (#) and a line of column names at the top are
- * passed over */
+/* rows of standard input; blank lines, comments (#) and a line of column names at the beginning are
+ * skipped */
 static int read_rows(const char *option, QueryList *list) {
     char *text = NULL, expected[80];
     size_t room = 0;

@@ -8,13 +8,13 @@
 
 /* Rows of n numbers. */
 typedef struct QueryList {
-    const char *command; /* for messages */
+    const char *command; /* name in messages */
     int n, count, room;
     double *row; /* (count x n) */
 } QueryList;
 
-/* Standard input is asked for at most once, by the law file or one of the options. Returns EXIT_OK,
- * or EXIT_USAGE after a message. */
+/* Check that standard input is requested at most once, by the law file or one of the options.
+ * Returns EXIT_OK, or EXIT_USAGE after a message. */
 int law_query_check_input(const char *command, const char *file, const CliList *velocity,
                           const CliList *force);
 

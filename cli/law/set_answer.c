@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More vertices or rays are counted, not listed. */
+/* A larger number of vertices or rays is counted, not listed. */
 enum { MOST_LISTED = 64 };
 
 static const double DEGREES = 57.295779513082320877;
@@ -19,7 +19,7 @@ void law_print_vector(int n, const double *x) {
     putchar(')');
 }
 
-void law_json_number(double x, FILE *out) { cps_json_number(out, x + 0.0); } /* no -0 */
+void law_json_number(double x, FILE *out) { cps_json_number(out, x + 0.0); } /* x + 0.0 avoids -0 */
 
 void law_json_vector(int n, const double *x, FILE *out) {
     fputc('[', out);
@@ -30,7 +30,7 @@ void law_json_vector(int n, const double *x, FILE *out) {
     fputc(']', out);
 }
 
-/* ---- asking ---- */
+/* ---- queries ---- */
 
 static bool take_block(SetAnswer *a) {
     const size_t n = (size_t)a->n;
@@ -53,8 +53,8 @@ static void take_middle(SetAnswer *a) {
     for (int i = 0; i < a->n; i++) a->center[i] += along * a->basis[i];
 }
 
-/* The pointed part of a cone, which lies across its lines: rays where it has dimension 1 or 2, and
- * the lines both ways. */
+/* The pointed part of a cone, normal to its lines: rays where it has dimension 1 or 2, and the
+ * lines in both directions. */
 static CpsStatus query_pointed(const CpsSet *cone, SetAnswer *a, CpsError *err) {
     const size_t n = (size_t)a->n, lines = (size_t)a->lineality;
     CpsSet *across = NULL, *pointed = NULL;
@@ -81,7 +81,7 @@ static CpsStatus query_pointed(const CpsSet *cone, SetAnswer *a, CpsError *err) 
     return status;
 }
 
-/* The largest subspace in a cone N: what N and -N have in common. */
+/* The largest subspace in a cone N: the intersection of N and -N. */
 static CpsStatus query_lines(const CpsSet *cone, SetAnswer *a, CpsError *err) {
     CpsSet *turned = NULL, *both = NULL;
     CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_INACCURATE};
@@ -115,7 +115,7 @@ CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *e
         }
     if (status == CPS_OK && !cone && a->facts.dimension == 1 && a->facts.bounded) take_middle(a);
 
-    /* what can be listed; a cone's rays, else the corners of what is bounded */
+    /* what can be listed: the rays of a cone, the corners of a bounded set */
     CpsSetAnswer listed;
     int count = 0;
     if (status == CPS_OK && cone) {
@@ -134,7 +134,7 @@ void law_answer_free(SetAnswer *answer) {
     answer->block = NULL;
 }
 
-/* ---- in words ---- */
+/* ---- text ---- */
 
 static void print_list(const SetAnswer *a, const double *x, int count) {
     for (int i = 0; i < count && i < MOST_LISTED; i++) {
@@ -170,7 +170,7 @@ static void print_flat(int dimension) {
         fputs(dimension > 1 ? "plane" : "line", stdout);
 }
 
-/* Lines first: then all is said of what lies across them. */
+/* Print the lines first; the description that follows refers to the part normal to them. */
 static void print_cone_with_lines(const SetAnswer *a) {
     const int d = a->facts.dimension, l = a->lineality;
     if (l == d && d == 1) {
@@ -276,7 +276,7 @@ void law_answer_print(const SetAnswer *answer, bool cone) {
         print_set(answer);
 }
 
-/* ---- as JSON ---- */
+/* ---- JSON ---- */
 
 static void json_list(const SetAnswer *a, const char *key, const double *x, int count, FILE *out) {
     fprintf(out, ", \"%s\": [", key);

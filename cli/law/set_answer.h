@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan law: sets as answers, readable and as JSON. */
+/* capstan law: sets as answers, as text and as JSON. */
 #ifndef CAPSTAN_CLI_LAW_SET_ANSWER_H
 #define CAPSTAN_CLI_LAW_SET_ANSWER_H
 
@@ -8,25 +8,25 @@
 #include "capstan/io.h"
 #include "capstan/law.h"
 
-/* What is told of a set: facts, extent along an orthonormal basis of its directions, vertices or
+/* The description of a set: facts, extent along an orthonormal basis of its directions, vertices or
  * rays. */
 typedef struct SetAnswer {
     int n;
     CpsSetFacts facts;
     double gap;         /* of the extents */
     double *center;     /* (n) of the relative interior */
-    double *basis;      /* (n x n), the first `dimension` rows count */
-    double *low, *high; /* (n) extent along them; the first `dimension` count */
+    double *basis;      /* (n x n), of which the first `dimension` rows are used */
+    double *low, *high; /* (n) extent along them, of which the first `dimension` are used */
     int vertex_count;   /* -1: not known */
     double *vertex;     /* (vertex_count x n) */
-    int ray_count;      /* -1: not known, or no cone */
+    int ray_count;      /* -1: not known, or not a cone */
     double *ray;        /* (ray_count x n) unit generators */
     int lineality;      /* of a cone: dimension of the largest subspace in it */
     double *line;       /* (lineality x n) orthonormal */
-    double *block;      /* all of the above */
+    double *block;      /* memory of all arrays above */
 } SetAnswer;
 
-/* Ask a set (a cone if `cone`). Returns CPS_OK or the library's error; free with
+/* Describe a set (a cone if `cone`). Returns CPS_OK or the library's error; free with
  * law_answer_free. */
 CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *answer, CpsError *err);
 void law_answer_free(SetAnswer *answer);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan run: solve a scene step by step, write its results, print a short table; or the same by
- * the method of 1990 (regularized.h).
+ * the method of 1990 (regularized_run.h).
  *
- * The first SIGINT or SIGTERM lets the load step end and keeps the results so far; the second ends
- * at once. A journal of the steps is kept beside the results until the run is finished: after a
- * stop, of whatever kind, --resume goes on from there. */
+ * The first SIGINT or SIGTERM interrupts the load step and keeps the steps before it; the second
+ * ends the program at once. A journal of the steps is kept beside the results until the run is
+ * finished: after an interruption of any kind, --resume continues from there. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +25,7 @@
 
 enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
 
-/* A range narrower than this, per largest force, is one value in the table. */
+/* A range narrower than this, relative to the largest force, is printed as one value. */
 static const double RANGE_SHOWN = 1e-5;
 
 static void print_head(FILE *table) {
@@ -44,7 +44,7 @@ static void print_head(FILE *table) {
     fputc('\n', table);
 }
 
-/* An error of the tension [N], or - where nothing is known of it. */
+/* An error of the tension [N], or - where it is not known. */
 static void print_error(FILE *table, double error) {
     if (isfinite(error))
         fprintf(table, " %8.2g", error);
@@ -52,14 +52,15 @@ static void print_error(FILE *table, double error) {
         fprintf(table, " %8s", "-");
 }
 
-/* [N] of an end; 0 where it is so small a part of the largest force that it is what the loop
- * leaves, 1e-9 and less */
+/* [N] tension at an end; 0 where it is below the accuracy of the solution, 1e-9 of the largest
+ * force */
 static double shown_tension(const CpsLineReport *line, int end) {
     const double tension = line->end[end].tension;
     return tension < 1e-9 * line->certificate.largest_force ? 0 : tension;
 }
 
-/* at the end of a stage, where forces at rest leave the tension of the end's element open */
+/* at the end of a stage, where forces at rest leave the tension of the end's element
+ * undetermined */
 static void print_range(FILE *table, char end, const CpsTensionRange *range, double force) {
     if (range->kind == CPS_RANGE_UNBOUNDED)
         fprintf(table, "%*s element at %c: any tension from %.6g N up may hold it (jammed)\n",
@@ -70,7 +71,7 @@ static void print_range(FILE *table, char end, const CpsTensionRange *range, dou
                 NAME_WIDTH + 1 + LINE_WIDTH, "", end, range->least, range->greatest);
 }
 
-/* [m] natural length of elements with |x'| < 1, by more than the strain that a judgement lets pass
+/* [m] natural length of elements with |x'| < 1, by more than the strain tolerance of a judgement
  * (solutions.h, 1e-8) */
 static double outside_kin(const CpsLineView *view) {
     double length = 0;
@@ -83,8 +84,8 @@ static double outside_kin(const CpsLineView *view) {
     return length;
 }
 
-/* With the friction of the reference a step is P4.2 of S90: does its solution lie in Kin, that is,
- * solve P3.1, and is it the only one? */
+/* With the friction of the reference a step is P4.2 of S90. Print whether its solution lies in Kin,
+ * and therefore solves P3.1, and whether it is unique. */
 static void print_verdict(FILE *verdicts, const char *step, const CpsLineReport *line,
                           const CpsLineView *view) {
     const double length = outside_kin(view);
@@ -125,7 +126,7 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
     }
 }
 
-/* what is not simply solved, said in a sentence with its proof */
+/* print a sentence with the proof for each outcome other than solved */
 static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
@@ -188,26 +189,26 @@ static CpsResultsOptions wanted_results(const CliOptions *options) {
     return wanted;
 }
 
-/* A run: what is solved, where it goes, what is told of it. */
+/* A run: its scene, its results and its output. */
 typedef struct Run {
     const CpsScene *scene;
     CpsEvolution *evolution;
     CpsResults *results;
     CpsJournal *journal;
     Progress progress;
-    Cautions cautions;
+    Warnings warnings;
     FILE *table, *verdicts;
     CpsOutcome worst;
-    bool refused; /* a step could not begin; those before it are kept */
+    bool refused; /* a step could not begin; the steps before it are kept */
 } Run;
 
-/* The step that the evolution stands at goes into the results and the table. */
+/* Add the present step of the evolution to the results and the table. */
 static CpsStatus keep_step(Run *run, CpsError *err) {
     const CpsStatus status = cps_results_append(run->results, run->evolution, err);
     if (status) return status;
     const CpsStepReport report = cps_evolution_report(run->evolution);
     progress_step(&run->progress, report.index + 1, report.name);
-    cautions_step(&run->cautions, run->scene, run->evolution);
+    warnings_note_step(&run->warnings, run->scene, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_OUTCOME_SOLVED ||
         cli_interrupted())
@@ -220,8 +221,8 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     return CPS_OK;
 }
 
-/* The steps of an earlier run into the same directory. */
-static CpsStatus take_back(Run *run, CpsError *err) {
+/* Restore the steps of an earlier run into the same directory from its journal. */
+static CpsStatus replay(Run *run, CpsError *err) {
     int steps = 0;
     for (bool found = true; found;) {
         CpsStatus status = cps_journal_next(run->journal, run->evolution, &found, err);
@@ -235,7 +236,7 @@ static CpsStatus take_back(Run *run, CpsError *err) {
     return CPS_OK;
 }
 
-/* All steps, or until a signal. */
+/* Solve all steps, or until a signal. */
 static CpsStatus take_steps(Run *run, CpsError *err) {
     while (cps_evolution_remaining(run->evolution) > 0 && !cli_interrupted()) {
         CpsStatus status = cps_evolution_step(run->evolution, err);
@@ -246,13 +247,13 @@ static CpsStatus take_steps(Run *run, CpsError *err) {
         if (status) return status;
     }
     progress_end(&run->progress);
-    if (!run->progress.quiet) warnings_print(&run->cautions);
+    if (!run->progress.quiet) warnings_print(&run->warnings);
     return CPS_OK;
 }
 
-/* Open what a run needs, take the steps, finish. */
-static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *options,
-                           CpsError *err) {
+/* Open the results, solve the steps, finish. */
+static CpsStatus execute(Run *run, const char *directory, const CliOptions *options,
+                         CpsError *err) {
     const double begun = cli_now();
     CpsStatus status = cli_evolution_create(run->scene, &run->evolution, err);
     const CpsResultsOptions wanted = wanted_results(options);
@@ -266,13 +267,13 @@ static CpsStatus carry_out(Run *run, const char *directory, const CliOptions *op
     if (status) return status;
     if (wanted.sync_at_end) cps_journal_sync_late(run->journal);
     run->progress = progress_begin(cps_evolution_step_count(run->evolution), options->quiet);
-    if (options->resume) status = take_back(run, err);
+    if (options->resume) status = replay(run, err);
     if (!status) status = take_steps(run, err);
     progress_end(&run->progress);
     const double wall = cli_now() - begun;
     CpsError none;
-    if (run->refused)
-        cps_results_finish(run->results, wall, &none); /* what is told is why it could not go on */
+    if (run->refused) /* the error reported is the one that ended the run */
+        cps_results_finish(run->results, wall, &none);
     if (!status) status = cps_results_finish(run->results, wall, err);
     if (!status && cps_evolution_remaining(run->evolution) == 0)
         cps_journal_remove(run->journal);
@@ -324,7 +325,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
         return EXIT_LIMIT;
     }
     print_head(run.table);
-    const CpsStatus status = carry_out(&run, directory, options, &err);
+    const CpsStatus status = execute(&run, directory, options, &err);
     const bool table = fclose(run.table) == 0, verdicts = fclose(run.verdicts) == 0;
     const bool whole = table && verdicts;
     if (whole && !status && !options->json && !options->quiet) {
@@ -343,7 +344,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     return code;
 }
 
-/* The scene, with what the command line says otherwise. False: a message has been written. */
+/* Change the scene according to the command line. False after a message. */
 static bool adjust(CpsScene *scene, const CliOptions *options) {
     if (!options->tol) return true;
     char *end = NULL;
@@ -356,8 +357,7 @@ static bool adjust(CpsScene *scene, const CliOptions *options) {
     return false;
 }
 
-/* False: --method is none, or does not go with the other options, and a message has been
- * written. */
+/* Check --method, which may be unknown or exclude other options. False after a message. */
 static bool is_sound(const CliOptions *options, bool *regularized) {
     const CpsResultsOptions wanted = wanted_results(options);
     CpsError err;
@@ -393,7 +393,7 @@ int cmd_run(int argc, char **argv) {
     CpsError err;
     if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
 
-    /* while a scene is read there is nothing to keep: a signal ends the program at once */
+    /* while a scene is read there is nothing to keep, so a signal ends the program at once */
     cli_catch_signals();
     CpsScene scene = *cps_scene_file_scene(file);
     if (!adjust(&scene, &options)) {

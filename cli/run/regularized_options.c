@@ -8,7 +8,7 @@
 
 #include "printable.h"
 
-/* A number > 0, NaN where none is given; false where it is something else. */
+/* A number > 0, NaN where none is given; false where the text is something else. */
 static bool read_number(const char *text, const char *name, const char *command, bool infinite,
                         double *out) {
     *out = NAN;

@@ -6,7 +6,7 @@
 #include "capstan/regularized.h"
 #include "options.h"
 
-/* Those given; NaN: the method's own. */
+/* The values given; NaN: the default of the method. */
 typedef struct RegularizedOptions {
     double h, penalty, stiffness, delta;
 } RegularizedOptions;
@@ -14,9 +14,9 @@ typedef struct RegularizedOptions {
 /* False after a message of `command`. */
 bool regularized_options_read(const CliOptions *options, const char *command,
                               RegularizedOptions *out);
-/* Is any of the four given? */
+/* Whether any of the four is given. */
 bool regularized_options_given(const CliOptions *options);
-/* Those of the method, but for the ones given. */
+/* The default parameters of the method, with those given replaced. */
 CpsRegularizedParameters regularized_options_apply(const RegularizedOptions *given,
                                                    const CpsRegularized *classic);
 

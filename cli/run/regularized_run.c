@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan run --method regularized (see regularized.h). */
+/* capstan run --method regularized (see regularized_run.h). */
 #include "run/regularized_run.h"
 
 #include <math.h>
@@ -33,13 +33,13 @@ CpsScene regularized_scene(const CpsScene *scene) {
     return frozen;
 }
 
-void regularized_tell_friction(const CpsScene *scene) {
+void regularized_print_friction(const CpsScene *scene) {
     if (scene->friction == CPS_FRICTION_CONSISTENT)
         puts("friction: A = mu R_R of the reference, (78), in every step, as P2.1 has it; the "
              "scene's own, consistent, is A = mu R at x");
 }
 
-void regularized_tell_steps(const CpsScene *scene) {
+void regularized_print_steps(const CpsScene *scene) {
     if (scene->solver.path_tolerance > 0)
         puts("steps are taken whole, as given: the scene's path_tolerance is not applied to any "
              "method");
@@ -62,7 +62,7 @@ CpsStatus regularized_step(Regularized *method, const CpsLineView *exact,
 
 /* ---- a history ---- */
 
-/* What a line has gone through; step 0 is the start. */
+/* The history of a line; step 0 is the start. */
 typedef struct Track {
     Regularized method;
     int points;
@@ -74,7 +74,7 @@ typedef struct Track {
 typedef struct History {
     const CpsScene *scene;
     CpsEvolution *exact;
-    int steps, done, lines; /* steps and done with the start */
+    int steps, done, lines; /* number of steps with the start, and of steps computed so far */
     Track *track;
     char (*name)[STEP_NAME];
 } History;
@@ -120,7 +120,7 @@ static void store(Track *t, int step, const double *position, const double origi
         to[i] = origin[i % 3] != 0 ? origin[i % 3] + position[i] : position[i];
 }
 
-/* all lines of the step that the exact history has just taken */
+/* all lines for the present step of the exact history */
 static CpsStatus follow(History *h, CpsError *err) {
     for (int i = 0; i < h->lines; ++i) {
         Track *t = &h->track[i];
@@ -136,7 +136,7 @@ static CpsStatus follow(History *h, CpsError *err) {
     return CPS_OK;
 }
 
-/* All steps, or until a signal. The exit code. */
+/* Compute all steps, or until a signal. Returns the exit code. */
 static int take_steps(History *h, bool quiet) {
     CpsError err;
     Progress progress = progress_begin(h->steps - 1, quiet);
@@ -165,7 +165,7 @@ static int take_steps(History *h, bool quiet) {
     return code;
 }
 
-/* ---- what is said ---- */
+/* ---- output ---- */
 
 static double larger(double a, double b) { return b > a ? b : a; }
 
@@ -203,7 +203,7 @@ static void tell(const History *h, const char *directory) {
            directory, h->lines > 1 ? ", .." : "");
 }
 
-/* ---- together ---- */
+/* ---- the whole run ---- */
 
 static bool all_converged(const History *h) {
     for (int i = 0; i < h->lines; ++i)
@@ -272,8 +272,8 @@ int run_regularized(const CpsScene *scene, const char *directory, const CliOptio
             some ? write_results(&h, cli_now() - begun, directory, options) : EXIT_OK;
         if (written != EXIT_OK) code = written;
         if (some && written == EXIT_OK && !options->quiet && !options->json) {
-            regularized_tell_friction(scene);
-            regularized_tell_steps(scene);
+            regularized_print_friction(scene);
+            regularized_print_steps(scene);
             tell(&h, directory);
         }
         if (code == EXIT_OK && !all_converged(&h)) code = EXIT_NOT_CERTIFIED;

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a user must know of a step though it is certified (see warnings.h).
+/* Warnings about a step even if it is certified (see warnings.h).
  *
  * Frozen friction (S90 section 2 d) takes its bound A from the reference. Where the reaction has
- * changed much within the step, A is not mu R any more (example 11.2); where the line has left the
+ * changed much within the step, A is no longer mu R (example 11.2); where the line has left the
  * obstacle, friction still acts on it, and an equilibrium without it may be the true one (example
- * 11.3). Strict contact keeps out only what touched before (11.1). An element that lies inside a
- * round obstacle is said whatever the outcome: the step is then not certified, but for strict
- * contact.
+ * 11.3). Strict contact excludes only the penetration of obstacles that were touched before (11.1).
+ * An element that lies inside a round obstacle is reported whatever the outcome: the step is then
+ * not certified, except with strict contact.
  *
- * A step goes straight from one equilibrium to another. Where energy is made, or much of it set
- * free, the way between them was another one: the line jumped, or took another branch of
+ * A step goes directly from one equilibrium to another. Where energy is created, or much of it is
+ * released, the path between them was another one: the line jumped, or changed to another branch of
  * equilibria.
  *
- * A coordinate is a number of 16 digits. Far from the origin of coordinates what rounding leaves of
- * a length makes a tension, and the stiffer the line the larger a one.
+ * A coordinate is a number of 16 digits. Far from the origin of coordinates its rounding is a
+ * change of length, which causes a tension; the stiffer the line, the larger the tension.
  *
- * Where a line turns by d at one node round an obstacle, the polygon holds tensions up to a ratio
- * k, and a smooth line up to exp(mu d): a mesh that is too coarse for the bend is told by their
- * difference. */
+ * Where a line turns by the angle d at one node round an obstacle, the polygon can hold tensions up
+ * to a ratio k, and a smooth line up to exp(mu d). The difference shows that a mesh is too coarse
+ * for the bend. */
 #include "run/warnings.h"
 
 #include <float.h>
@@ -26,42 +26,42 @@
 
 #include "printable.h"
 
-/* parts of all bounds from which a user is told; a sunk node from a part of the line's length that
- * is no rounding, and an element inside an obstacle from where it is not certified */
-static const double TOLD_BOUND = 0.1, TOLD_LIFTED = 0.01, TOLD_SUNK = 1e-6, TOLD_PIERCED = 1e-10;
-/* a part of the length from which slack decides what is lost: most of it */
-static const double TOLD_SLACK = 0.5;
-/* ... and the tension that rounding of coordinates may make, as a part of the largest force */
-static const double TOLD_ROUNDED = 1e-3;
-/* parts by which the ratios of tensions of polygon and smooth line may differ */
-static const double TOLD_BEND = 0.01;
+/* Limits from which a warning is given: shares of the sum of all friction bounds; the depth of a
+ * node that is no longer rounding, and the depth of an element at which it is not certified, both
+ * relative to the line's length. */
+static const double WARN_BOUND = 0.1, WARN_LIFTED = 0.01, WARN_SUNK = 1e-6, WARN_PIERCED = 1e-10;
+/* slack on more than this share of the length determines most of the answer */
+static const double WARN_SLACK = 0.5;
+/* ... and the tension caused by rounding of coordinates, as a share of the largest force */
+static const double WARN_ROUNDED = 1e-3;
+/* difference of the tension ratios of polygon and smooth line */
+static const double WARN_BEND = 0.01;
 
-/* part of what is dissipated and worked in a step from which a user is told of energy set free
- * without a snap */
-static const double TOLD_FREED = 0.5;
+/* share of the energy exchanged in a step above which energy released without a jump is reported */
+static const double WARN_FREED = 0.5;
 
 static double length3(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-static void note(Cautions *cautions, int kind, double value, double of, const char *step,
+static void note(Warnings *warnings, int kind, double value, double of, const char *step,
                  const char *line) {
-    cautions->kind[kind].steps++;
-    if (!(value > cautions->kind[kind].value)) return;
-    cautions->kind[kind].value = value;
-    cautions->kind[kind].of = of;
-    snprintf(cautions->kind[kind].step, sizeof cautions->kind[kind].step, "%s", step);
-    snprintf(cautions->kind[kind].line, sizeof cautions->kind[kind].line, "%s", line);
+    warnings->kind[kind].steps++;
+    if (!(value > warnings->kind[kind].value)) return;
+    warnings->kind[kind].value = value;
+    warnings->kind[kind].of = of;
+    snprintf(warnings->kind[kind].step, sizeof warnings->kind[kind].step, "%s", step);
+    snprintf(warnings->kind[kind].line, sizeof warnings->kind[kind].line, "%s", line);
 }
 
-static void note_pierced(Cautions *cautions, double value, double of, const char *step,
+static void note_pierced(Warnings *warnings, double value, double of, const char *step,
                          const char *line, const char *obstacle) {
-    const bool worst = value > cautions->kind[CAUTION_PIERCED].value;
-    note(cautions, CAUTION_PIERCED, value, of, step, line);
+    const bool worst = value > warnings->kind[WARNING_PIERCED].value;
+    note(warnings, WARNING_PIERCED, value, of, step, line);
     if (worst)
-        snprintf(cautions->kind[CAUTION_PIERCED].obstacle,
-                 sizeof cautions->kind[CAUTION_PIERCED].obstacle, "%s", obstacle);
+        snprintf(warnings->kind[WARNING_PIERCED].obstacle,
+                 sizeof warnings->kind[WARNING_PIERCED].obstacle, "%s", obstacle);
 }
 
-/* friction on nodes that have left the obstacle, and all bounds together [N] */
+/* friction on nodes that have left the obstacle, and the sum of all bounds [N] */
 static double lifted_friction(const CpsLineView *view, double *bounds) {
     double lifted = 0;
     const double length = view->arc_length[view->elements];
@@ -78,27 +78,27 @@ static double lifted_friction(const CpsLineView *view, double *bounds) {
     return lifted;
 }
 
-/* [J] dissipated plus positive work of a step */
+/* [J] dissipation plus positive work in a step */
 static double exchanged(const CpsLedger *l) {
     return l->dissipated + fmax(0, l->ends) + fmax(0, l->obstacles) + fmax(0, -l->elastic) +
            fmax(0, -l->gravity);
 }
 
-/* Energy that the step made, or set free. The first forces at held ends are not known: their work
- * is known to half of it. */
-static void note_energy(Cautions *cautions, const CpsStepReport *step, const CpsLineReport *line,
+/* Energy that the step created or released. The initial forces at held ends are not known, so their
+ * work is known only to half of it. */
+static void note_energy(Warnings *warnings, const CpsStepReport *step, const CpsLineReport *line,
                         const char *name) {
     const double beside = exchanged(&line->ledger), open = line->ledger.imbalance;
     const double freed = open - (step->index == 0 ? fabs(line->ledger.ends) : 0);
     const double known = line->certificate.gap + 1e-8 * line->certificate.scale;
     if (line->unaccounted > 0)
-        note(cautions, CAUTION_MADE, line->unaccounted, beside, step->name, name);
-    else if (line->snaps == 0 && freed > TOLD_FREED * beside && freed > known)
-        note(cautions, CAUTION_FREED, freed, beside, step->name, name);
+        note(warnings, WARNING_MADE, line->unaccounted, beside, step->name, name);
+    else if (line->snaps == 0 && freed > WARN_FREED * beside && freed > known)
+        note(warnings, WARNING_FREED, freed, beside, step->name, name);
 }
 
-/* [N] tension by rounding of the largest coordinate of an end, eps |x| EA/L; inextensible lines
- * have no such figure */
+/* [N] tension caused by rounding of the largest coordinate of an end, eps |x| EA/L; not defined for
+ * inextensible lines */
 static double rounded_tension(const CpsLineView *view) {
     double reach = 0;
     for (size_t k = 0; k < 3; ++k) {
@@ -111,7 +111,7 @@ static double rounded_tension(const CpsLineView *view) {
                : 0;
 }
 
-void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution *evolution) {
+void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const char *step = report.name;
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
@@ -119,39 +119,39 @@ void cautions_step(Cautions *cautions, const CpsScene *scene, const CpsEvolution
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const double length = view.arc_length[view.elements],
                      pierced = line.certificate.element_penetration;
-        if (line.pierced >= 0 && pierced > TOLD_PIERCED * length)
-            note_pierced(cautions, pierced, length, step, view.name,
+        if (line.pierced >= 0 && pierced > WARN_PIERCED * length)
+            note_pierced(warnings, pierced, length, step, view.name,
                          scene->obstacle[line.pierced].name);
         if (line.outcome != CPS_OUTCOME_SOLVED) continue;
-        note_energy(cautions, &report, &line, view.name);
-        if (line.snaps > 0) note(cautions, CAUTION_JUMPED, line.jump, length, step, view.name);
+        note_energy(warnings, &report, &line, view.name);
+        if (line.snaps > 0) note(warnings, WARNING_JUMPED, line.jump, length, step, view.name);
         const double residual = line.certificate.friction_residual;
         double bounds;
         const double lifted = lifted_friction(&view, &bounds);
-        if (scene->friction == CPS_FRICTION_FROZEN && lifted > TOLD_LIFTED * bounds)
-            note(cautions, CAUTION_LIFTED, lifted, bounds, step, view.name);
-        if (scene->friction == CPS_FRICTION_FROZEN && residual > TOLD_BOUND * bounds && bounds > 0)
-            note(cautions, CAUTION_BOUND, residual, bounds, step, view.name);
+        if (scene->friction == CPS_FRICTION_FROZEN && lifted > WARN_LIFTED * bounds)
+            note(warnings, WARNING_LIFTED, lifted, bounds, step, view.name);
+        if (scene->friction == CPS_FRICTION_FROZEN && residual > WARN_BOUND * bounds && bounds > 0)
+            note(warnings, WARNING_BOUND, residual, bounds, step, view.name);
         const CpsBend *bend = &line.bend;
-        if (bend->turn > 0 && bend->ratio > (1 + TOLD_BEND) * bend->coulomb) {
-            if (bend->ratio / bend->coulomb > cautions->kind[CAUTION_BEND].value) {
-                cautions->bend = *bend;
-                snprintf(cautions->kind[CAUTION_BEND].obstacle,
-                         sizeof cautions->kind[CAUTION_BEND].obstacle, "%s",
+        if (bend->turn > 0 && bend->ratio > (1 + WARN_BEND) * bend->coulomb) {
+            if (bend->ratio / bend->coulomb > warnings->kind[WARNING_BEND].value) {
+                warnings->bend = *bend;
+                snprintf(warnings->kind[WARNING_BEND].obstacle,
+                         sizeof warnings->kind[WARNING_BEND].obstacle, "%s",
                          scene->obstacle[bend->obstacle].name);
             }
-            note(cautions, CAUTION_BEND, bend->ratio / bend->coulomb, 1, step, view.name);
+            note(warnings, WARNING_BEND, bend->ratio / bend->coulomb, 1, step, view.name);
         }
         if (scene->contact == CPS_CONTACT_STRICT &&
-            line.certificate.penetration > TOLD_SUNK * length)
-            note(cautions, CAUTION_SUNK, line.certificate.penetration, length, step, view.name);
-        if (line.slack > TOLD_SLACK * length && line.slipping > 0)
-            note(cautions, CAUTION_SLACK, line.slack, length, step, view.name);
+            line.certificate.penetration > WARN_SUNK * length)
+            note(warnings, WARNING_SUNK, line.certificate.penetration, length, step, view.name);
+        if (line.slack > WARN_SLACK * length && line.slipping > 0)
+            note(warnings, WARNING_SLACK, line.slack, length, step, view.name);
         if (line.places != CPS_PLACES_UNIQUE)
-            note(cautions, CAUTION_PLACES, (double)line.places, 0, step, view.name);
+            note(warnings, WARNING_PLACES, (double)line.places, 0, step, view.name);
         const double rounded = rounded_tension(&view), force = line.certificate.largest_force;
-        if (rounded > TOLD_ROUNDED * force && force > 0)
-            note(cautions, CAUTION_ROUNDED, rounded, force, step, view.name);
+        if (rounded > WARN_ROUNDED * force && force > 0)
+            note(warnings, WARNING_ROUNDED, rounded, force, step, view.name);
     }
 }
 
@@ -171,50 +171,50 @@ void warnings_print_bend(const CpsBend *bend, const char *obstacle) {
 }
 
 static void print_figures(int kind, double value, double of) {
-    if (kind == CAUTION_BOUND)
+    if (kind == WARNING_BOUND)
         fprintf(stderr,
                 "the friction bounds of the reference differ from mu R by %.4g N, of %.4g N in "
                 "all; 'friction: consistent' follows R",
                 value, of);
-    else if (kind == CAUTION_LIFTED)
+    else if (kind == WARNING_LIFTED)
         fprintf(stderr,
                 "friction of %.4g N, of bounds of %.4g N in all, acts where the line has left the "
                 "obstacle, and an equilibrium without it is no solution of this step; 'friction: "
                 "consistent' has none there",
                 value, of);
-    else if (kind == CAUTION_SLACK)
+    else if (kind == WARNING_SLACK)
         fprintf(stderr,
                 "slack over %.4g m of %.4g m: where a line has no tension its place and what "
                 "friction dissipates there depend on the mesh; compare several numbers of elements",
                 value, of);
-    else if (kind == CAUTION_PLACES)
+    else if (kind == WARNING_PLACES)
         fprintf(stderr, "its forces leave a choice of places: %s",
                 value > CPS_PLACES_NEAREST
                     ? "one of them is taken, which says nothing of the others"
                     : "the nearest to where the step began is taken");
-    else if (kind == CAUTION_JUMPED)
+    else if (kind == WARNING_JUMPED)
         fprintf(stderr,
                 "the line jumps by %.4g m, of %.4g m of length, however small the load steps: it "
                 "comes to rest at an equilibrium, which need not be the only one",
                 value, of);
-    else if (kind == CAUTION_MADE)
+    else if (kind == WARNING_MADE)
         fprintf(stderr,
                 "the energy does not close by %.4g J, beside %.4g J dissipated and worked: the "
                 "line jumps, takes another branch, or friction is that of the reference; smaller "
                 "load steps or a 'path_tolerance' tell which",
                 value, of);
-    else if (kind == CAUTION_FREED)
+    else if (kind == WARNING_FREED)
         fprintf(
             stderr,
             "%.4g J are set free, beside %.4g J dissipated and worked: the line falls or jumps, or "
             "the load step is large; smaller load steps or a 'path_tolerance' tell which",
             value, of);
-    else if (kind == CAUTION_ROUNDED)
+    else if (kind == WARNING_ROUNDED)
         fprintf(stderr,
                 "coordinates are so large that their last digit is worth %.4g N of tension, of "
                 "%.4g N: measure places from one near the lines",
                 value, of);
-    else if (kind == CAUTION_SUNK)
+    else if (kind == WARNING_SUNK)
         fprintf(stderr,
                 "the line is %.4g m inside the obstacle, of %.4g m of length: 'contact: strict' "
                 "keeps out only what touched before; 'contact: gained' keeps all out",
@@ -226,25 +226,25 @@ static void print_figures(int kind, double value, double of) {
                 value, of);
 }
 
-void warnings_print(const Cautions *cautions) {
+void warnings_print(const Warnings *warnings) {
     for (int k = 0; k < CAUTIONS; ++k) {
-        if (cautions->kind[k].steps == 0) continue;
+        if (warnings->kind[k].steps == 0) continue;
         fputs("capstan: caution: step ", stderr);
-        cli_print_text(stderr, cautions->kind[k].step, 80, false);
+        cli_print_text(stderr, warnings->kind[k].step, 80, false);
         fputs(", line ", stderr);
-        cli_print_text(stderr, cautions->kind[k].line, 80, false);
-        if (k == CAUTION_PIERCED) {
+        cli_print_text(stderr, warnings->kind[k].line, 80, false);
+        if (k == WARNING_PIERCED) {
             fputs(", obstacle ", stderr);
-            cli_print_text(stderr, cautions->kind[k].obstacle, 80, false);
+            cli_print_text(stderr, warnings->kind[k].obstacle, 80, false);
         }
         fputs(": ", stderr);
-        if (k == CAUTION_BEND) {
+        if (k == WARNING_BEND) {
             fputs("the mesh is coarse for a bend", stderr);
-            warnings_print_bend(&cautions->bend, cautions->kind[CAUTION_BEND].obstacle);
+            warnings_print_bend(&warnings->bend, warnings->kind[WARNING_BEND].obstacle);
         } else
-            print_figures(k, cautions->kind[k].value, cautions->kind[k].of);
-        if (cautions->kind[k].steps > 1)
-            fprintf(stderr, " (the worst of %d)", cautions->kind[k].steps);
+            print_figures(k, warnings->kind[k].value, warnings->kind[k].of);
+        if (warnings->kind[k].steps > 1)
+            fprintf(stderr, " (the worst of %d)", warnings->kind[k].steps);
         fputc('\n', stderr);
     }
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan study: solve a scene up to one of its steps, then that step once more by the methods of
- * Souza de Cursi's paper of 1990: regularised, with h, lambda, n and delta on their way to the
- * limits; and to first order. Tables, pictures, a verdict. Or all solutions of the step: its slack
- * laid out, a configuration judged.
+ * Souza de Cursi's paper of 1990: regularised, with h, lambda, n and delta going to their limits;
+ * and to first order. Prints tables and a judgement, draws pictures. Or it computes all solutions
+ * of the step: configurations with its slack laid out, and the judgement of a given
+ * configuration.
  *
- * The first SIGINT or SIGTERM lets the solve end and keeps what there is; the second ends at
- * once. */
+ * The first SIGINT or SIGTERM ends the present computation and keeps the results so far; the second
+ * ends the program at once. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -28,15 +29,15 @@
 
 /* ---- the step ---- */
 
-static bool is_laid(const CpsScene *scene) {
-    bool laid = false;
+static bool is_placed(const CpsScene *scene) {
+    bool placed = false;
     for (int i = 0; i < scene->line_count; ++i)
-        laid = laid || scene->line[i].start.kind == CPS_START_LAID;
-    return laid;
+        placed = placed || scene->line[i].start.kind == CPS_START_LAID;
+    return placed;
 }
 
-/* Is `asked` the name of the stage, then its last step, or of one of its steps, "pull 3/10"?  The
- * step within the stage from 1, or 0. */
+/* Whether `asked` is the name of the stage, which means its last step, or of one of its steps,
+ * "pull 3/10". Returns the step within the stage from 1, or 0. */
 static int step_of_stage(const CpsStage *stage, const char *asked) {
     const size_t length = strlen(stage->name);
     int k, n;
@@ -48,10 +49,11 @@ static int step_of_stage(const CpsStage *stage, const char *asked) {
     return n == stage->steps && n > 1 && k >= 1 && k <= n ? k : 0;
 }
 
-/* The number of the step asked for, from 1 as a run counts them: by its name, which only one may
- * have, or by that number; without one the first that is not laid. 0 after a message. */
+/* The number of the step asked for, from 1 as a run counts them: by its name, which must be unique,
+ * or by that number; without one the first step that is not statically placed. 0 after a
+ * message. */
 static int find_step(const CpsScene *scene, const char *asked) {
-    int before = is_laid(scene) ? 1 : 0, found = 0, number = 0;
+    int before = is_placed(scene) ? 1 : 0, found = 0, number = 0;
     char end;
     if (!asked) return before + 1;
     if (before && strcmp(asked, "laid") == 0) found = 1;
@@ -78,7 +80,7 @@ static int find_step(const CpsScene *scene, const char *asked) {
     return found;
 }
 
-/* Solve up to a step, counted from 1. The exit code, EXIT_OK when there. */
+/* Solve up to a step, counted from 1. Returns the exit code, EXIT_OK when that step is solved. */
 static int reach_step(CpsEvolution *evolution, int number) {
     CpsError err;
     while (cps_evolution_remaining(evolution) > 0 && !cli_interrupted()) {
@@ -98,7 +100,7 @@ static int reach_step(CpsEvolution *evolution, int number) {
     return EXIT_USAGE;
 }
 
-/* the line asked for, the first one when `asked` is NULL; -1 after a message */
+/* the line asked for, the first line when `asked` is NULL; -1 after a message */
 static int find_line(const CpsEvolution *evolution, const char *asked) {
     if (!asked) return 0;
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i)
@@ -109,13 +111,13 @@ static int find_line(const CpsEvolution *evolution, const char *asked) {
     return -1;
 }
 
-/* ---- what is said ---- */
+/* ---- output ---- */
 
-typedef struct Teller {
+typedef struct StudyPrinter {
     Progress progress;
     CpsRegularizedStep step;
-    bool converged; /* every solve so far */
-} Teller;
+    bool converged; /* whether every solution so far has converged */
+} StudyPrinter;
 
 static void print_rate(double rate) {
     if (isfinite(rate))
@@ -147,10 +149,10 @@ static void print_head(void) {
 }
 
 static bool on_row(void *user, const CpsStudyRow *row, int done, int of) {
-    Teller *teller = user;
-    teller->progress.steps = of;
-    progress_step(&teller->progress, done, cps_study_stage_name(row->stage));
-    teller->converged = teller->converged && row->report.converged;
+    StudyPrinter *printer = user;
+    printer->progress.steps = of;
+    progress_step(&printer->progress, done, cps_study_stage_name(row->stage));
+    printer->converged = printer->converged && row->report.converged;
     return !cli_interrupted();
 }
 
@@ -183,8 +185,8 @@ static void print_verdict(const CpsFirstOrderReport *r, const char *contact) {
                r->against_step, r->residual);
 }
 
-/* P10.1 as it stands, and with every node kept out, where that is the step's own contact and the
- * answer is another one */
+/* P10.1 with the step's own contact, and with contact at every node where that gives another
+ * answer */
 static void print_first_order(const CpsFirstOrder *const *solution) {
     const CpsFirstOrderReport paper = cps_first_order_report(solution[0]),
                               gained = cps_first_order_report(solution[1]);
@@ -205,23 +207,23 @@ static void print_first_order(const CpsFirstOrder *const *solution) {
 }
 
 static void tell(const CpsStudy *study, const CpsFirstOrder *const *first_order,
-                 const CpsLineView *view, const Teller *teller, double tolerance,
+                 const CpsLineView *view, const StudyPrinter *printer, double tolerance,
                  const char *directory) {
     printf("exact: J** + j = %.10g J on %d elements; everything below is against it\n\n",
-           teller->step.energy, teller->step.elements);
+           printer->step.energy, printer->step.elements);
     print_head();
     for (int i = 0; i < cps_study_row_count(study); ++i) {
         const CpsStudyRow row = cps_study_row(study, i);
-        print_row(&row, &teller->step);
+        print_row(&row, &printer->step);
     }
     print_first_order(first_order);
-    study_tell_slack(view, tolerance);
+    study_print_slack(view, tolerance);
     printf("\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, "
            "relaxed.svg\n",
            directory, directory);
 }
 
-/* ---- all together ---- */
+/* ---- the whole study ---- */
 
 static int study_step(const CpsLineView *view, const char *title, const char *directory,
                       const CliOptions *options) {
@@ -229,17 +231,17 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
     CpsRegularized *classic = NULL;
     CpsStudy *study = NULL;
     CpsFirstOrder *first_order[2] = {NULL, NULL};
-    Teller teller = {.converged = true};
+    StudyPrinter printer = {.converged = true};
     RegularizedOptions given;
     if (!regularized_options_read(options, "study", &given)) return EXIT_USAGE;
     CpsStatus status = cps_regularized_create(view, &classic, &err);
     if (status == CPS_OK) {
         const CpsRegularizedParameters to = regularized_options_apply(&given, classic);
         const CpsStudyOptions how = cps_study_options_to(classic, &to);
-        teller.step = cps_regularized_step(classic);
-        teller.progress = progress_begin(1, options->quiet);
-        status = cps_study_run(classic, &how, on_row, &teller, &study, &err);
-        progress_end(&teller.progress);
+        printer.step = cps_regularized_step(classic);
+        printer.progress = progress_begin(1, options->quiet);
+        status = cps_study_run(classic, &how, on_row, &printer, &study, &err);
+        progress_end(&printer.progress);
     }
     if (status == CPS_OK)
         status =
@@ -252,11 +254,11 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
         status = cps_study_write(directory, &files, &err);
     }
     if (status == CPS_OK && !options->quiet)
-        tell(study, (const CpsFirstOrder *const *)first_order, view, &teller,
+        tell(study, (const CpsFirstOrder *const *)first_order, view, &printer,
              study_find_tolerance(options->tolerance), directory);
     const int code = status != CPS_OK    ? cli_report(&err)
                      : cli_interrupted() ? 128 + cli_interrupted()
-                     : teller.converged  ? EXIT_OK
+                     : printer.converged ? EXIT_OK
                                          : EXIT_NOT_CERTIFIED;
     if (status != CPS_OK && view->compliance == 0)
         fputs("capstan study: --complete and --judge take inextensible lines too\n", stderr);
@@ -266,15 +268,15 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
     return code;
 }
 
-/* Say which friction bounds the solutions are judged with. */
+/* Print the friction bounds with which the solutions are judged. */
 static void print_bounds(const CpsScene *scene) {
     puts(scene->friction == CPS_FRICTION_CONSISTENT
              ? "friction: consistent, A = mu R at x; P4.2 and P3.1 are those with this A"
              : "friction: frozen, A = mu R_R of the reference, (78)");
 }
 
-/* The methods of the paper take the frozen history; configurations are judged and completed in the
- * scene's own. */
+/* The methods of the paper use the history with frozen friction; configurations are judged and
+ * completed with the scene's own friction. */
 static int study(const CpsScene *given, const char *directory, const CliOptions *options) {
     CpsError err;
     CpsEvolution *evolution = NULL;
@@ -303,8 +305,8 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
             if (solutions) {
                 print_bounds(given);
             } else {
-                regularized_tell_friction(given);
-                regularized_tell_steps(given);
+                regularized_print_friction(given);
+                regularized_print_steps(given);
             }
         }
         if (options->judge)
@@ -319,7 +321,7 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
     return code;
 }
 
-/* one thing at a time, and one that there is */
+/* exactly one of the possible tasks must be asked for */
 static bool is_sound(const CliOptions *options) {
     if (options->history + (options->judge != NULL) + (options->complete != NULL) > 1) {
         fputs(

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A whole history by three methods (see study_methods.h). The regularised one goes on from its own
- * configurations and reactions; loads and ends are those of the frozen history. */
+/* A whole history by three methods (see study_methods.h). The regularised one continues from its
+ * own configurations and reactions; loads and ends are those of the frozen history. */
 #include "study/study_methods.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ static const char *const METHOD[METHODS] = {"regularised, 1990", "frozen frictio
 
 typedef struct Histories {
     const CpsScene *scene;
-    const char *line; /* as asked for */
+    const char *line; /* as given by the user */
     double friction;  /* mu of the obstacle */
     RegularizedOptions given;
     int steps, points; /* the start is step 0 */
@@ -52,7 +52,7 @@ static void store(Histories *h, int method, int step, const double *position,
         to[i] = origin[i % 3] != 0 ? origin[i % 3] + position[i] : position[i];
 }
 
-/* the step once more by the regularised method */
+/* solve the step with the regularised method too */
 static int regularise(Histories *h, const CpsLineView *view, int step, Regularized *method) {
     CpsError err;
     CpsRegularizedReport report;
@@ -63,13 +63,12 @@ static int regularise(Histories *h, const CpsLineView *view, int step, Regulariz
     return EXIT_OK;
 }
 
-/* all steps of one evolution; the frozen one takes the regularised method along */
+/* all steps of one evolution; the regularised method is computed along with the frozen one */
 static int run_evolution(Histories *h, int method, int line) {
     CpsScene scene = regularized_scene(h->scene);
     if (method == CONSISTENT) {
         scene.friction = CPS_FRICTION_CONSISTENT;
-        scene.solver.halvings =
-            h->scene->solver.halvings; /* nothing promises that a whole step converges */
+        scene.solver.halvings = h->scene->solver.halvings; /* whole steps need not converge */
     }
     CpsError err;
     CpsEvolution *evolution = NULL;
@@ -138,7 +137,7 @@ static int run_all(Histories *h, const char *directory, bool quiet) {
     free(name);
     if (status != CPS_OK) return cli_report(&err);
     if (!quiet) {
-        regularized_tell_steps(h->scene);
+        regularized_print_steps(h->scene);
         tell(h);
     }
     if (!quiet) printf("\nresults   %s: methods.csv, methods.svg\n", directory);

@@ -6,8 +6,8 @@
 #include "capstan/io.h"
 #include "options.h"
 
-/* Run the scene three times, print where end B of the line goes, write methods.csv and methods.svg;
- * returns the exit code. */
+/* Run the scene three times, print the positions of end B of the line, write methods.csv and
+ * methods.svg. Returns the exit code. */
 int study_methods(const CpsScene *scene, const CliOptions *options, const char *directory);
 
 #endif

@@ -24,7 +24,7 @@ static int out_of_memory(void) {
 }
 
 double study_find_tolerance(const char *text) {
-    if (!text) return 1e-8; /* what a step is certified to */
+    if (!text) return 1e-8; /* the accuracy to which a step is certified */
     char *end = NULL;
     const double tolerance = strtod(text, &end);
     if (end != text && *end == '\0' && tolerance > 0 && tolerance < 1) return tolerance;
@@ -73,7 +73,7 @@ static void print_judgement(const char *what, const CpsLineView *view, const dou
         printf("  %s: %s\n", what, cps_judgement_text(report.judgement));
 }
 
-void study_tell_slack(const CpsLineView *view, double tolerance) {
+void study_print_slack(const CpsLineView *view, double tolerance) {
     CpsError err;
     CpsSlackReport slack;
     char what[96];
@@ -97,7 +97,8 @@ static int bad_file(const char *path, int line, const char *found, const char *e
     return EXIT_INPUT;
 }
 
-/* How many columns of a table with names are read: up to z. 0: this is no such line. */
+/* Number of columns read from a table with names: those up to z. 0: the line is not a row of
+ * names. */
 static int named_columns(const char *text) {
     static const char WITH[] = "arc_length,x,y,z", WITHOUT[] = "x,y,z";
     return strncmp(text, WITH, sizeof WITH - 1) == 0         ? 4
@@ -105,8 +106,8 @@ static int named_columns(const char *text) {
                                                              : 0;
 }
 
-/* Numbers of a row into value: `named` of them, whatever follows, or where that is 0 all that there
- * are, at most 4; -1 where there is anything else. */
+/* Read the numbers of a row into `value`: `named` of them, whatever follows, or where that is 0 all
+ * numbers of the row, at most 4; -1 where there is anything else. */
 static int read_row(const char *text, int named, double value[4]) {
     for (int n = 0; n < 4;) {
         char *end;
@@ -121,7 +122,7 @@ static int read_row(const char *text, int named, double value[4]) {
     return -1;
 }
 
-/* Places about the origin of the step's coordinates. */
+/* Positions relative to the origin of the step's coordinates. */
 static int read_nodes(const CpsLineView *view, const char *path, FILE *file, double *position) {
     static const char EXPECTED[] = "x,y,z or arc_length,x,y,z, finite numbers, one row per node";
     char text[512], found[64];
@@ -159,7 +160,8 @@ static int read_nodes(const CpsLineView *view, const char *path, FILE *file, dou
     return EXIT_INPUT;
 }
 
-/* A regular file, or NULL with errno, 0 where it is something else: a pipe would be waited for. */
+/* A regular file, or NULL with errno, 0 where it is something else: reading a pipe could wait
+ * forever. */
 static FILE *open_regular(const char *path) {
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
     struct stat about = {0};
@@ -224,7 +226,7 @@ int study_judge(const CpsLineView *view, const char *path, double tolerance, boo
     return code;
 }
 
-/* ---- slack laid out ---- */
+/* ---- completions ---- */
 
 static CpsStatus complete_all(const CpsLineView *view, double *all, CpsCompletedLine *line,
                               CpsSlackReport *slack, CpsError *err) {

@@ -6,13 +6,14 @@
  * corners in the same proportions. Proportions are linear in the point, or nearly, and integrate in
  * closed form.
  *
- *     rod       pieces; corners are their ends
- *     polygon   triangles (middle, corner, corner), each divided into n^2 equal ones; with
- * pressures p_i at the three corners of area A, sum s: load A s/3, at barycentric (s + p_i)/(4s);
- * corner i gets A (s + p_i)/12 sector    r1 < rho < r2, |theta| < h: contained in the trapezium
- * between the rays theta = +-h and the lines x = r1 cos h and x = r2, with corners at r1 and r2/cos
- * h. A point is distributed to the lines according to its x and to the rays according to y/(x tan
- * h). A ring is the case r1 = r2 */
+ *   rod       pieces; corners are their ends
+ *   polygon   triangles (middle, corner, corner), each divided into n^2 equal ones; with pressures
+ *             p_i at the three corners of area A, sum s: load A s/3, at barycentric (s + p_i)/(4s);
+ *             corner i gets A (s + p_i)/12
+ *   sector    r1 < rho < r2, |theta| < h: contained in the trapezium between the rays theta = +-h
+ *             and the lines x = r1 cos h and x = r2, with corners at r1 and r2/cos h. A point is
+ *             distributed to the lines according to its x and to the rays according to
+ *             y/(x tan h). A ring is the case r1 = r2 */
 #include "planar/cells.h"
 
 #include <math.h>
