@@ -28,6 +28,13 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b) {
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 static inline double vec3_norm(Vec3 a) { return sqrt(vec3_dot(a, a)); }
+/* |a||b| - a.b >= 0 without cancellation, for vectors whose lengths are known. */
+static inline double vec3_angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
+    const double size = size_a * size_b, dot = vec3_dot(a, b);
+    if (!(dot > 0)) return size - dot;
+    const Vec3 cross = vec3_cross(a, b);
+    return vec3_dot(cross, cross) / (size + dot);
+}
 static inline bool vec3_finite(const double a[3]) {
     return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]);
 }

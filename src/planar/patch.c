@@ -11,22 +11,13 @@
 
 #include "base/math.h"
 #include "linalg/elliptic.h"
+#include "linalg/gauss.h"
 #include "planar/planar.h"
 
 /* Where the centre of rotation is farther than this many sizes from the patch's middle, Gauss's
  * rule with 8 points has the relative error (4 + sqrt(15))^-16 = 4e-15 (Bernstein's ellipse through
  * the centre). */
 static const double FAR = 4;
-
-enum { GAUSS = 8 };
-static const double GAUSS_NODE[GAUSS] = {-0.9602898564975363, -0.7966664774136267,
-                                         -0.5255324099163290, -0.1834346424956498,
-                                         0.1834346424956498,  0.5255324099163290,
-                                         0.7966664774136267,  0.9602898564975363};
-static const double GAUSS_WEIGHT[GAUSS] = {0.1012285362903763, 0.2223810344533745,
-                                           0.3137066458778873, 0.3626837833783620,
-                                           0.3626837833783620, 0.3137066458778873,
-                                           0.2223810344533745, 0.1012285362903763};
 
 /* Integrals over y0 < y < y1 at distance d from a point, rho = sqrt(d^2 + y^2). */
 typedef struct Line {
@@ -141,9 +132,10 @@ static void rub_rod(const CpsiPatch *patch, const double velocity[2], double w,
     to_axis(patch, velocity, v);
     CpsiFrictionDisc local = {0};
     if (fabs(w) * a * FAR <= hypot(v[0], v[1])) {
-        for (int i = 0; i < GAUSS; i++) {
-            const double s = a * GAUSS_NODE[i];
-            add_point(q0 * (1 + tilt * s) * a * GAUSS_WEIGHT[i], (double[2]){s, 0}, v, w, &local);
+        for (int i = 0; i < CPSI_GAUSS; i++) {
+            const double s = a * CPSI_GAUSS_NODE[i];
+            add_point(q0 * (1 + tilt * s) * a * CPSI_GAUSS_WEIGHT[i], (double[2]){s, 0}, v, w,
+                      &local);
         }
     } else {
         const Line line = along_line(v[0], v[1] - w * a, v[1] + w * a);
@@ -228,12 +220,12 @@ static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
                      CpsiFrictionDisc *rub) {
     enum { AROUND = 24 };
     for (int i = 0; i < AROUND; i++)
-        for (int j = 0; j < GAUSS; j++) {
-            const double t = 0.5 * (1 + GAUSS_NODE[j]), x = 2 * CPSI_PI * i / AROUND;
+        for (int j = 0; j < CPSI_GAUSS; j++) {
+            const double t = 0.5 * (1 + CPSI_GAUSS_NODE[j]), x = 2 * CPSI_PI * i / AROUND;
             const double r[2] = {patch->size * t * cos(x), patch->size * t * sin(x)};
             const double pressure = 1 + patch->tilt[0] * r[0] + patch->tilt[1] * r[1];
-            add_point(patch->strength * GAUSS_WEIGHT[j] * t / AROUND * pressure, r, velocity, w,
-                      rub);
+            add_point(patch->strength * CPSI_GAUSS_WEIGHT[j] * t / AROUND * pressure, r, velocity,
+                      w, rub);
         }
 }
 
@@ -278,12 +270,13 @@ static void polygon_far(const CpsiPatch *patch, const double velocity[2], double
         const double *a = patch->corner + 2 * i,
                      *b = patch->corner + 2 * ((i + 1) % patch->corner_count);
         const double twice = a[0] * b[1] - a[1] * b[0];
-        for (int j = 0; j < GAUSS; j++)
-            for (int k = 0; k < GAUSS; k++) {
-                const double t = 0.5 * (1 + GAUSS_NODE[j]), u = 0.5 * (1 + GAUSS_NODE[k]);
+        for (int j = 0; j < CPSI_GAUSS; j++)
+            for (int k = 0; k < CPSI_GAUSS; k++) {
+                const double t = 0.5 * (1 + CPSI_GAUSS_NODE[j]), u = 0.5 * (1 + CPSI_GAUSS_NODE[k]);
                 const double r[2] = {t * (a[0] + u * (b[0] - a[0])),
                                      t * (a[1] + u * (b[1] - a[1]))};
-                const double weight = 0.25 * GAUSS_WEIGHT[j] * GAUSS_WEIGHT[k] * t * twice;
+                const double weight =
+                    0.25 * CPSI_GAUSS_WEIGHT[j] * CPSI_GAUSS_WEIGHT[k] * t * twice;
                 add_point(density * weight * (1 + patch->tilt[0] * r[0] + patch->tilt[1] * r[1]), r,
                           velocity, w, rub);
             }

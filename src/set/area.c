@@ -2,16 +2,11 @@
 /* Area and perimeter of planar sets.
  *
  * Closed forms: a translate, scale or similar image has those of its part, times the factor;
- * polygons given by their points; a disc, also cut by parallel lines; an ellipse of half axes a, b,
- * whose perimeter is a complete elliptic integral,
- *
- *     2 pi (a^2 - sum of 2^(k-1) c_k^2)/M,    a, b -> M by arithmetic and geometric means,
- *         c_k^2 = a_k^2 - b_k^2
- *
- * (Abramowitz and Stegun 1964, 17.6). For all other sets the outline is followed once round
- * (outline.h), after an affine map that makes thin sets round. Corners and edges are a polygon. An
- * arc from x at angle a to y at b has, with the origin inside, h its support function and h' = <w',
- * x> (Cauchy; Santalo 1976, I.1),
+ * polygons given by their points; a disc, also cut by parallel lines; an ellipse of half axes
+ * a >= b, whose perimeter is 4 a E(k), k^2 = 1 - (b/a)^2 (elliptic.h). For all other sets the
+ * outline is followed once round (outline.h), after an affine map that makes thin sets round.
+ * Corners and edges are a polygon. An arc from x at angle a to y at b has, with the origin inside,
+ * h its support function and h' = <w', x> (Cauchy; Santalo 1976, I.1),
  *
  *     sector = 1/2 integral of (h^2 - h'^2) + 1/2 [h h'],      length = integral of h + [h'],
  *
@@ -24,6 +19,8 @@
 
 #include "base/math.h"
 #include "linalg/dense.h"
+#include "linalg/elliptic.h"
+#include "linalg/gauss.h"
 #include "set/outline.h"
 
 static bool going(const CpsiWalk *walk) {
@@ -47,20 +44,11 @@ static bool ellipse(const CpsSet *set, CpsSetMeasure *measure) {
      * entries overflows only where the axes do. */
     const double *s = set->b, half = 0.5 * s[0] + 0.5 * s[3],
                  off = hypot(0.5 * s[0] - 0.5 * s[3], s[1]);
-    double a = sqrt(half + off), b = 1 / set->c[0] / a / set->c[3];
+    const double a = sqrt(half + off), b = 1 / set->c[0] / a / set->c[3];
     if (!(b > 0)) return false;
-    const double area = CPSI_PI * a * b, unit = a;
-    a = 1;
-    b /= unit;
-    double left = 0.5 * (1 + b * b), weight = 0.5;
-    while (a - b > 4e-16 * a) { /* converges quadratically: ten steps at an eccentricity of 1e200 */
-        const double c = 0.5 * (a - b), mean = 0.5 * (a + b);
-        b = sqrt(a) * sqrt(b);
-        a = fmax(mean, b);
-        weight *= 2;
-        left -= weight * c * c;
-    }
-    return exactly(measure, area, 2 * CPSI_PI * left / a * unit);
+    const double ratio = fmin(b / a, 1);
+    return exactly(measure, CPSI_PI * a * b,
+                   4 * a * cpsi_elliptic(sqrt((1 - ratio) * (1 + ratio)), ratio).e);
 }
 
 /* A disc of radius r between the lines at low and high from its centre. */
@@ -231,14 +219,13 @@ static double integrand(CpsiWalk *walk, bool area, double theta) {
 
 /* Gauss-Legendre with eight points from a to b. */
 static double gauss(CpsiWalk *walk, bool area, double a, double b) {
-    static const double NODE[] = {0.1834346424956498049, 0.5255324099163289858,
-                                  0.7966664774136267396, 0.9602898564975362317};
-    static const double WEIGHT[] = {0.3626837833783619830, 0.3137066458778872873,
-                                    0.2223810344533744706, 0.1012285362903762592};
     double sum = 0;
-    for (int k = 0; k < 8; k++)
-        sum += 0.5 * (b - a) * WEIGHT[k / 2] *
-               integrand(walk, area, 0.5 * (a + b) + (k & 1 ? -0.5 : 0.5) * (b - a) * NODE[k / 2]);
+    for (int k = 0; k < CPSI_GAUSS; k++) {
+        /* from the middle outwards, right and left in turn */
+        const int i = CPSI_GAUSS / 2 + (k & 1 ? -1 - k / 2 : k / 2);
+        sum += 0.5 * (b - a) * CPSI_GAUSS_WEIGHT[i] *
+               integrand(walk, area, 0.5 * (a + b) + 0.5 * (b - a) * CPSI_GAUSS_NODE[i]);
+    }
     return sum;
 }
 

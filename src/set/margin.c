@@ -10,10 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "linalg/dense.h"
 #include "set/set.h"
 
-static const double TURN = 6.283185307179586476925;
+static const double TURN = 2 * CPSI_PI;
 
 /* ---- inside a planar set ---- */
 

@@ -5,12 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "linalg/dense.h"
 #include "set/set.h"
 
 #include "set/outline.h"
 
-static const double TURN = 6.283185307179586476925;
+static const double TURN = 2 * CPSI_PI;
 /* [rad] Corners with a smaller range of normal angles are not searched for: over such a range arcs
  * with radii below a thousandth of the size move by less than SAME. */
 static const double LEAST_OPENING = 1e-6;

@@ -53,23 +53,17 @@ static void accept(Worst *worst, double value, double arc) {
  * |e|) with d = (|e| - 1)^+. For an inextensible line d has to be 0, which is checked as a
  * length. */
 static double segment_gap(double c, Vec3 e, Vec3 p) {
-    const double length = vec3_norm(e), force = vec3_norm(p), along = vec3_dot(p, e);
-    const Vec3 cross = vec3_cross(p, e);
-    const double turned =
-        along > 0 ? vec3_dot(cross, cross) / (force * length + along) : force * length - along;
+    const double length = vec3_norm(e), force = vec3_norm(p);
     const double longer = fmax(0, length - 1), shorter = fmax(0, 1 - length);
     const double stretched = c > 0 ? (longer - c * force) * (longer - c * force) / (2 * c) : 0;
-    return turned + stretched + force * shorter;
+    return vec3_angle_defect(p, e, force, length) + stretched + force * shorter;
 }
 
 /* A |u| + F.u, at least 0 for |F| <= A */
 static double slip_gap(double bound, Vec3 slid, Vec3 friction) {
-    const double length = vec3_norm(slid), force = vec3_norm(friction),
-                 along = vec3_dot(friction, slid);
-    const Vec3 cross = vec3_cross(friction, slid);
-    const double turned =
-        along < 0 ? vec3_dot(cross, cross) / (force * length - along) : force * length + along;
-    return fmax(0, bound - force) * length + turned;
+    const double length = vec3_norm(slid), force = vec3_norm(friction);
+    return fmax(0, bound - force) * length +
+           vec3_angle_defect(vec3_scale(-1, friction), slid, force, length);
 }
 
 /* Smallest limit of a gap, per length and force, where the force is the largest or that of all
