@@ -24,6 +24,7 @@
 #include "evolve/origin.h"
 #include "evolve/path_check.h"
 #include "evolve/start.h"
+#include "evolve/statics.h"
 
 /* create --------------------------------------------------------------------------------------- */
 

@@ -84,7 +84,7 @@ void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int co
     scratch->trial = path_tolerance ? CPSI_TAKE(arena, 4 * (size_t)n, double) : NULL;
 }
 
-static void save(const CpsiLine *line, CpsiSubsteps *scratch) {
+void cpsi_substeps_save(const CpsiLine *line, CpsiSubsteps *scratch) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(scratch->reaction, line->reaction, contacts * sizeof *line->reaction);
     memcpy(scratch->tension, line->tension, (n - 1) * sizeof *line->tension);
@@ -96,8 +96,7 @@ static void save(const CpsiLine *line, CpsiSubsteps *scratch) {
     memcpy(scratch->position, line->position, 3 * n * sizeof *line->position);
 }
 
-/* Restore the line to the start of the part. */
-static void restore(CpsiLine *line, const CpsiSubsteps *scratch) {
+void cpsi_substeps_restore(CpsiLine *line, const CpsiSubsteps *scratch) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(line->reaction, scratch->reaction, contacts * sizeof *line->reaction);
     memcpy(line->tension, scratch->tension, (n - 1) * sizeof *line->tension);
@@ -282,7 +281,7 @@ typedef struct Trial {
 
 /* Take the halves of a part that was taken whole. */
 static void halve(Advance *substeps, double from, double middle, double to, Trial *trial) {
-    restore(substeps->line, substeps->scratch);
+    cpsi_substeps_restore(substeps->line, substeps->scratch);
     trial->first = accept(substeps, from, middle, substeps->known);
     trial->longest = cpsi_line_largest_displacement(substeps->line, substeps->line->reference);
     if (converged(&trial->first)) trial->second = accept(substeps, middle, to, true);
@@ -322,7 +321,7 @@ static void divide(Advance *substeps, double from, double middle, double to, Tri
     halve(substeps, from, middle, to, trial);
     trial->agrees = trial->good && halves_close_energy(substeps, trial);
     if (trial->good) return;
-    restore(substeps->line, substeps->scratch);
+    cpsi_substeps_restore(substeps->line, substeps->scratch);
     *trial = whole;
     trial->first = accept(substeps, from, to, substeps->known);
 }
@@ -345,7 +344,7 @@ static bool may_relax(const Advance *substeps) {
 
 /* Take a part of the step; `cut`: it may be divided. */
 static Trial try_part(Advance *substeps, double from, double middle, double to, bool cut) {
-    save(substeps->line, substeps->scratch);
+    cpsi_substeps_save(substeps->line, substeps->scratch);
     Trial trial = {.first = accept(substeps, from, to, substeps->known), .agrees = true};
     trial.good = converged(&trial.first);
     if (!trial.good) return trial;
@@ -410,7 +409,7 @@ static bool relax(Advance *substeps, double from, double to) {
                                        substeps->scratch->turn, substeps->known, &done);
     substeps->iterations += done.iterations;
     if (!rests) {
-        restore(line, substeps->scratch);
+        cpsi_substeps_restore(line, substeps->scratch);
         return false;
     }
     whole->parts++;
@@ -451,9 +450,9 @@ static double cost_of(const Advance *substeps, int before, bool good) {
 
 /* As add_slide, from the start of the part; the line is restored if it does not slide. */
 static bool end_in_slide(Advance *substeps, double from, double to) {
-    restore(substeps->line, substeps->scratch);
+    cpsi_substeps_restore(substeps->line, substeps->scratch);
     if (add_slide(substeps, from, to, SLIDES_LEAST)) return true;
-    restore(substeps->line, substeps->scratch);
+    cpsi_substeps_restore(substeps->line, substeps->scratch);
     return false;
 }
 
@@ -482,10 +481,10 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
         if (!trial.good || (!kept && tolerance == 0))
             substeps->wasted += cost_of(substeps, before, trial.good);
         if (!kept && part > least && substeps->wasted < MAX_WASTED_WORK) {
-            restore(substeps->line, substeps->scratch);
+            cpsi_substeps_restore(substeps->line, substeps->scratch);
             if (!trial.good && part == 1 && add_slide(substeps, from, portion.to, SLIDES_CLEARLY))
                 return;
-            restore(substeps->line, substeps->scratch);
+            cpsi_substeps_restore(substeps->line, substeps->scratch);
             part *= 0.5;
             continue;
         }
@@ -526,24 +525,4 @@ void cpsi_line_substeps(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
         advance_portion(&substeps, (Portion){(double)k / count, (double)(k + 1) / count}, halvings);
     }
     line->report = substeps.whole;
-}
-
-void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
-                                const CpsiStepOptions *options, CpsiSubsteps *scratch) {
-    CpsiRelaxation done;
-    save(line, scratch);
-    for (int k = 0; k < line->obstacle_count; k++) scratch->turn[k] = 0;
-    const bool short_of = cpsi_line_step_falls_short(line, options);
-    if (!short_of) cpsi_line_step(line, program, options);
-    int iterations = line->report.iterations;
-    if (line->report.outcome == CPS_OUTCOME_STALLED) {
-        restore(line, scratch);
-        if (!cpsi_line_relax(line, program, options, line->end, scratch->turn, false, &done))
-            restore(line, scratch);
-        cpsi_line_step(line, program, options);
-        iterations += done.iterations + line->report.iterations;
-    }
-    line->report.iterations = iterations;
-    line->report.parts = 1;
-    line->report.share = 1;
 }

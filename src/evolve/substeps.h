@@ -35,9 +35,8 @@ void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int co
 void cpsi_line_substeps(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                         const CpsiMove *move, CpsiSubsteps *scratch, bool known);
 
-/* Statics: the first equilibrium of a line, without friction, from its initial guess. Where the
- * guess is far from any equilibrium, the line first moves towards one as overdamped motion. */
-void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
-                                const CpsiStepOptions *options, CpsiSubsteps *scratch);
+/* Save the state at the start of a part, and return to it. */
+void cpsi_substeps_save(const CpsiLine *line, CpsiSubsteps *scratch);
+void cpsi_substeps_restore(CpsiLine *line, const CpsiSubsteps *scratch);
 
 #endif
