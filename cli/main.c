@@ -87,16 +87,9 @@ static int unknown_command(const char *given) {
     fputs("capstan: unknown command '", stderr);
     cli_print_text(stderr, given, INT_MAX, false);
     fputc('\'', stderr);
-    const Command *best = NULL;
-    int shared = 0;
-    for (int i = 0; i < COMMAND_COUNT; i++) {
-        int n = cli_common_prefix(given, COMMANDS[i].name);
-        if (n > shared) {
-            shared = n;
-            best = &COMMANDS[i];
-        }
-    }
-    if (best) fprintf(stderr, "; did you mean '%s'?", best->name);
+    CpsSuggestion suggestion = {.word = given};
+    for (int i = 0; i < COMMAND_COUNT; i++) cps_suggest(&suggestion, COMMANDS[i].name);
+    if (suggestion.best) fprintf(stderr, "; did you mean '%s'?", suggestion.best);
     fprintf(stderr, "\nTry 'capstan --help'.\n");
     return EXIT_USAGE;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Command-line options: one table defines the parser, the help and the suggestions. */
 #include "options.h"
+#include "capstan/io.h"
 #include "printable.h"
 
 #include <stddef.h>
@@ -76,12 +77,6 @@ static const Option OPTIONS[] = {
 };
 enum { OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0] };
 
-int cli_common_prefix(const char *a, const char *b) {
-    int n = 0;
-    while (a[n] && a[n] == b[n]) n++;
-    return n;
-}
-
 void cli_print_options(FILE *out, unsigned commands) {
     for (int i = 0; i < OPTION_COUNT; i++) {
         const Option *o = &OPTIONS[i];
@@ -118,17 +113,11 @@ static bool end_message(const char *command) {
 static bool unknown_option(const char *command_name, unsigned command, const char *given) {
     begin_message(command_name);
     cli_printf(stderr, "unknown option '%s'", given);
-    const Option *best = NULL;
-    int shared = 0;
+    CpsSuggestion suggestion = {.word = given + 2};
     if (given[1] == '-')
-        for (int i = 0; i < OPTION_COUNT; i++) {
-            int n = cli_common_prefix(given + 2, OPTIONS[i].name);
-            if ((OPTIONS[i].commands & command) && n > shared) {
-                shared = n;
-                best = &OPTIONS[i];
-            }
-        }
-    if (best) fprintf(stderr, "; did you mean '--%s'?", best->name);
+        for (int i = 0; i < OPTION_COUNT; i++)
+            if (OPTIONS[i].commands & command) cps_suggest(&suggestion, OPTIONS[i].name);
+    if (suggestion.best) fprintf(stderr, "; did you mean '--%s'?", suggestion.best);
     return end_message(command_name);
 }
 

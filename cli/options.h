@@ -62,7 +62,4 @@ bool cli_parse(int argc, char **argv, unsigned command, const char *operand, Cli
 /* List the options of `commands` (FOR_ bits), one line each. */
 void cli_print_options(FILE *out, unsigned commands);
 
-/* Number of leading characters that two words share, for suggestions " (did you mean 'x'?)". */
-int cli_common_prefix(const char *a, const char *b);
-
 #endif

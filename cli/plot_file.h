@@ -9,13 +9,9 @@
  * such pair. */
 bool law_plot_axes(const char *text, int n, int axis[2]);
 
-/* A function that draws into an open file. */
-typedef CpsStatus PlotDraw(void *user, FILE *out, CpsError *err);
-
-/* Draw to `path`. A regular file is written under another name beside it and renamed, so that after
- * a failure the old file is still there; a device or pipe is written directly. Returns EXIT_OK, or
- * another exit code after a message on standard error. */
-int cli_plot(PlotDraw *draw, void *user, const char *path);
+/* Draw to `path` as cps_write_file does. Returns EXIT_OK, or another exit code after a message on
+ * standard error. */
+int cli_plot(CpsFileWriter *draw, void *user, const char *path);
 
 /* The same for the picture of a friction law, or where `set` is NULL of a resistance law. */
 int law_plot(const CpsSet *set, const CpsResistance *resistance, const CpsLawPicture *picture,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Velocities and forces as text (see law_query.h). */
 #include "law/law_query.h"
+#include "capstan/io.h"
 #include "printable.h"
 
 #include <ctype.h>
@@ -10,9 +11,6 @@
 
 /* Largest number of rows: answers are printed one by one, but stored until the picture is drawn. */
 enum { MOST_ROWS = 1000000, LONGEST_LINE = 1 << 20 };
-
-/* Larger numbers would overflow in powers; the limit is that of law files. */
-static const double LARGEST = 1e100;
 
 static int bad(const QueryList *list, const char *where, int line, const char *what,
                const char *text) {
@@ -50,15 +48,9 @@ static int add_row(const char *text, const char *option, int line, QueryList *li
         return EXIT_LIMIT;
     }
     double *row = list->row + (size_t)list->count * (size_t)list->n;
-    const char *at = text;
-    for (int i = 0; i < list->n; i++) {
-        char *end;
-        row[i] = strtod(at, &end);
-        if (end == at || !(fabs(row[i]) <= LARGEST)) return bad(list, option, line, expected, text);
-        end += strspn(end, " \t");
-        if (*end != (i + 1 < list->n ? ',' : '\0')) return bad(list, option, line, expected, text);
-        at = end + 1;
-    }
+    const char *rest;
+    if (cps_row_read(text, ",", list->n, row, &rest) < list->n || *rest)
+        return bad(list, option, line, expected, text);
     list->count++;
     return EXIT_OK;
 }

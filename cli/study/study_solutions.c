@@ -109,17 +109,9 @@ static int named_columns(const char *text) {
 /* Read the numbers of a row into `value`: `named` of them, whatever follows, or where that is 0 all
  * numbers of the row, at most 4; -1 where there is anything else. */
 static int read_row(const char *text, int named, double value[4]) {
-    for (int n = 0; n < 4;) {
-        char *end;
-        value[n] = strtod(text, &end);
-        if (end == text || !isfinite(value[n])) return -1;
-        ++n;
-        end += strspn(end, " \t\r\n");
-        if (!*end || (n == named && *end == ',')) return n;
-        if (*end != ',') return -1;
-        text = end + 1;
-    }
-    return -1;
+    const char *rest;
+    const int n = cps_row_read(text, ",", named ? named : 4, value, &rest);
+    return n > 0 && (!*rest || (n == named && *rest == ',')) ? n : -1;
 }
 
 /* Positions relative to the origin of the step's coordinates. */

@@ -52,6 +52,37 @@ CPS_API CpsStatus cps_scene_write_schema(FILE *out, CpsError *err);
 CPS_API void cps_json_text(FILE *out, const char *text);
 CPS_API void cps_json_number(FILE *out, double x);
 
+/* Read up to `most` >= 1 numbers of at most 1e100 from a row of text.
+ *
+ *   separators  one of these characters stands between two numbers, with blanks beside it; where a
+ *               blank is among them, blanks alone separate too
+ *   value       (most)
+ *   rest        what follows the last number that was read, without leading blanks; "" at the end
+ *
+ * Returns how many numbers were read. The calling thread's locale must have a decimal point. */
+CPS_API int cps_row_read(const char *text, const char *separators, int most, double *value,
+                         const char **rest);
+
+/* The nearest of several candidates, for messages "did you mean ..?": begin with {.word = what was
+ * found}. At most a third of a candidate's letters may be wrong; a candidate that begins with the
+ * word, of two letters or more, counts as one wrong letter. */
+typedef struct CpsSuggestion {
+    const char *word, *best; /* best is NULL while no candidate is near enough */
+    int distance;            /* number of wrong letters of best */
+} CpsSuggestion;
+CPS_API void cps_suggest(CpsSuggestion *suggestion, const char *candidate);
+
+/* Write one file that appears completely or not at all: it is written under another name beside
+ * `path`, synced and renamed, so that after a failure the old file is still there. A device or pipe
+ * is written directly.
+ *
+ *   write   fills the open file; a status other than CPS_OK is returned, and nothing is left
+ *   user    argument of `write`
+ *
+ * Returns CPS_OK, CPS_ERR_IO, CPS_ERR_MEMORY or CPS_ERR_ARGUMENT. */
+typedef CpsStatus CpsFileWriter(void *user, FILE *out, CpsError *err);
+CPS_API CpsStatus cps_write_file(const char *path, CpsFileWriter *write, void *user, CpsError *err);
+
 /* ---- laws ---- */
 
 /* A law read from a file. */

@@ -32,6 +32,18 @@ static void scenes(void **state) {
     RUNS(cps_scene_file_destroy(NULL));
     GIVES(cps_scene_file_scene(NULL) == NULL);
     REFUSED(cps_scene_write_schema(NULL, &err));
+    double value;
+    const char *rest;
+    CpsSuggestion suggestion = {0};
+    GIVES(cps_row_read(NULL, ",", 1, &value, &rest) == 0);
+    GIVES(cps_row_read("1", NULL, 1, &value, &rest) == 0);
+    GIVES(cps_row_read("1", ",", 1, NULL, &rest) == 0);
+    GIVES(cps_row_read("1", ",", 1, &value, NULL) == 0);
+    RUNS(cps_suggest(NULL, "word"));
+    RUNS(cps_suggest(&suggestion, "word"));
+    suggestion.word = "word";
+    RUNS(cps_suggest(&suggestion, NULL));
+    GIVES(suggestion.best == NULL);
 }
 
 static void results(void **state) {

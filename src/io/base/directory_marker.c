@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/status.h"
+#include "io/base/write_file.h"
 
 static const char MARKER[] = ".capstan", MARKER_PART[] = ".capstan.part", NOTES[] = ".capstan.run";
 static const char FIRST_LINE[] = "capstan directory 1\n";
@@ -228,11 +229,9 @@ CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *pa
         fprintf(list, "x %s\n", marker->awaited.name[i]);
     for (size_t i = 0; i < marker->written.count; ++i)
         fprintf(list, "w %s\n", marker->written.name[i]);
-    const bool failed = ferror(list) || fflush(list) != 0 || (sync && fsync(fd) != 0);
-    const int code = errno;
-    const bool closed = fclose(list) == 0;
-    if (failed) errno = code;
-    if (!failed && closed && renameat(folder, MARKER_PART, folder, MARKER) == 0) return CPS_OK;
+    const int code = cpsi_close_stream(list, sync);
+    if (code == 0 && renameat(folder, MARKER_PART, folder, MARKER) == 0) return CPS_OK;
+    if (code != 0) errno = code;
     const CpsStatus status = fail_name(path, MARKER, err);
     unlinkat(folder, MARKER_PART, 0);
     return status;

@@ -12,7 +12,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "io/base/write_directory.h"
+#include "capstan/base.h"
+
+enum { CPSI_NAME_SIZE = 256 }; /* of a file with what is added to it while it is temporary */
 
 typedef struct CpsiNames {
     size_t count, capacity;

@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #include "base/status.h"
-#include "io/base/directory_marker.h"
+#include "io/base/write_file.h"
 
 struct CpsiDirectory {
     char *path;
@@ -190,14 +190,8 @@ CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE
 }
 
 CpsStatus cpsi_directory_close_file(CpsiDirectory *directory, FILE *stream, CpsError *err) {
-    errno = 0;
-    const bool failed =
-        ferror(stream) || fflush(stream) != 0 || (!directory->late && fsync(fileno(stream)) != 0);
-    const int flush_code = errno;
-    if (fclose(stream) != 0 || failed)
-        return fail_path(directory, directory->name[directory->count - 1],
-                         failed ? flush_code : errno, err);
-    return CPS_OK;
+    const int code = cpsi_close_stream(stream, !directory->late);
+    return code ? fail_path(directory, directory->name[directory->count - 1], code, err) : CPS_OK;
 }
 
 CpsStatus cpsi_directory_reserve(CpsiDirectory *directory, const char *name, char **path,

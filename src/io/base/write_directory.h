@@ -13,9 +13,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "capstan/base.h"
-
-enum { CPSI_NAME_SIZE = 256 }; /* of a file with what is added to it while it is temporary */
+#include "io/base/directory_marker.h"
 
 typedef struct CpsiDirectory CpsiDirectory;
 

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* `planimeter:`, `rope:` and `sweep:` of a file of driven systems: what follows a curve or a path.
  */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/math.h"
+#include "capstan/io.h"
 #include "io/base/read_file.h"
+#include "io/base/text_rows.h"
 #include "io/read/drive_file.h"
 #include "io/read/key_reader.h"
 #include "io/read/path_points.h"
@@ -29,30 +30,18 @@ static CpsStatus build_circle(const CpsiDocument *d, const CpsiCircleValues *cir
     return CPS_OK;
 }
 
-/* "x, y" per line; blank lines, comments and one line of names are passed over */
-static CpsStatus parse_rows(const CpsiDocument *d, const char *name, char *bytes,
+/* "x, y" per line; the first line may have names */
+static CpsStatus parse_rows(const CpsiDocument *d, const char *name, CpsiTextRows *rows,
                             CpsDrivePlanimeter *out) {
-    size_t lines = 1;
-    for (const char *c = bytes; *c; c++) lines += *c == '\n';
-    double *x = CPSI_POOL_TAKE(d->pool, 2 * lines, double);
+    double *x = CPSI_POOL_TAKE(d->pool, 2 * rows->lines, double);
     if (!x) return cpsi_document_no_memory(d);
-    int count = 0, line = 0;
-    for (char *text = bytes, *next; text; text = next) {
-        line++;
-        if ((next = strchr(text, '\n'))) *next++ = '\0';
-        text += strspn(text, " \t\r");
-        if (!*text || *text == '#') continue;
-        char *end, *last;
-        double *row = x + 2 * (size_t)count;
-        row[0] = strtod(text, &end);
-        const bool number = end != text;
-        end += strspn(end, " \t,;");
-        row[1] = strtod(end, &last);
-        const bool whole = number && last != end && last[strspn(last, " \t\r")] == '\0';
-        if (!number && count == 0 && line == 1) continue;
-        if (!whole || !(fabs(row[0]) <= 1e100) || !(fabs(row[1]) <= 1e100))
+    int count = 0;
+    for (const char *text, *rest; (text = cpsi_text_rows_next(rows));) {
+        const int numbers = cps_row_read(text, " ,;", 2, x + 2 * (size_t)count, &rest);
+        if (rows->line == 1 && !strchr("+-.0123456789", text[strspn(text, " \t\r")])) continue;
+        if (numbers < 2 || *rest)
             return cpsi_fail_at(
-                d->err, CPS_ERR_INPUT, name, line, 1,
+                d->err, CPS_ERR_INPUT, name, rows->line, 1,
                 "found something else, expected two numbers x, y (in m) in each line");
         count++;
     }
@@ -69,15 +58,12 @@ static CpsStatus read_curve_file(const CpsiDocument *d, const CpsiCurveValues *c
     if (!cpsi_is_beside(curve->file))
         return cpsi_document_wrong(d, cpsi_yaml_child(curve->node, "file"), "'file'",
                                    "the name of a file beside this one, without '/'");
-    char *name = cpsi_path_beside(d->pool, d->path, curve->file), *bytes = NULL;
-    size_t size = 0;
+    char *name = cpsi_path_beside(d->pool, d->path, curve->file);
     if (!name) return cpsi_document_no_memory(d);
-    CpsStatus status = cpsi_read_file_itself(name, d->limits->max_bytes, &bytes, &size, d->err);
-    if (status == CPS_OK && strlen(bytes) != size)
-        status =
-            cpsi_fail_at(d->err, CPS_ERR_INPUT, name, 0, 0, "found a zero byte: is this text?");
-    if (status == CPS_OK) status = parse_rows(d, name, bytes, out);
-    free(bytes);
+    CpsiTextRows rows;
+    CpsStatus status = cpsi_text_rows_open(&rows, name, d->limits->max_bytes, d->err);
+    if (status == CPS_OK) status = parse_rows(d, name, &rows, out);
+    free(rows.bytes);
     return status;
 }
 

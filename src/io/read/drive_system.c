@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "capstan/io.h"
 #include "io/read/drive_file.h"
 #include "io/read/key_reader.h"
 
@@ -28,8 +29,8 @@ static CpsStatus find_name(const Names *names, const CpsiYaml *node, const char 
                            int *index) {
     for (*index = 0; *index < names->count; ++*index)
         if (strcmp(names->name[*index], written) == 0) return CPS_OK;
-    CpsiSuggestion suggestion = {.word = written};
-    for (int i = 0; i < names->count; i++) cpsi_suggest(&suggestion, names->name[i]);
+    CpsSuggestion suggestion = {.word = written};
+    for (int i = 0; i < names->count; i++) cps_suggest(&suggestion, names->name[i]);
     if (suggestion.best)
         return cpsi_document_fail(names->d, CPS_ERR_INPUT, node,
                                   "unknown parameter '%.64s'; did you mean '%s'?", written,

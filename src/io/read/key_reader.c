@@ -2,6 +2,7 @@
 /* Reading by tables of keys (see key_reader.h). The recursion is as deep as the tables, not as the
  * file. A size is checked before room is taken for it. */
 #include "io/read/key_reader.h"
+#include "capstan/io.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -355,9 +356,9 @@ static CpsStatus check_owner(const CpsiDocument *d, const CpsiYaml *node, const 
     char wanted[80] = ""; /* stays empty for what is too long for a name */
     if (n < sizeof wanted) memcpy(wanted, node->key, n);
     if (wanted[0] && cpsi_yaml_child(all, wanted)) return CPS_OK;
-    CpsiSuggestion suggestion = {.word = wanted};
+    CpsSuggestion suggestion = {.word = wanted};
     for (const CpsiYaml *one = all ? all->child : NULL; one; one = one->next)
-        cpsi_suggest(&suggestion, one->key);
+        cps_suggest(&suggestion, one->key);
     const int letters = (int)strlen(owner) - 1; /* "line" of "lines" */
     if (suggestion.best)
         return cpsi_document_fail(d, CPS_ERR_INPUT, node,

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "io/base/read_file.h"
+#include "io/base/text_rows.h"
 #include "io/base/yaml.h"
 
 enum { ARC_LENGTH, X, Y, Z, TENSION, REACTION, FRICTION_BOUND, COLUMNS };
@@ -121,21 +121,16 @@ static CpsStatus read_row(Table *t, char *text) {
 
 /* ---- together ---- */
 
-static CpsStatus read_lines(Table *t, char *bytes, CpsiPool *pool) {
-    size_t lines = 1;
-    for (const char *c = bytes; *c; c++) lines += *c == '\n';
+static CpsStatus read_lines(Table *t, CpsiTextRows *rows, CpsiPool *pool) {
     bool named = false;
     CpsStatus status = CPS_OK;
-    for (char *text = bytes, *next; text && status == CPS_OK; text = next) {
-        t->line++;
-        if ((next = strchr(text, '\n'))) *next++ = '\0';
-        const char *first = text + strspn(text, " \t\r");
-        if (!*first || *first == '#') continue;
+    for (char *text; status == CPS_OK && (text = cpsi_text_rows_next(rows));) {
+        t->line = rows->line;
         status = named ? read_row(t, text) : read_names(t, text);
         if (named || status != CPS_OK) continue;
         named = true;
         for (int c = 0; c < COLUMNS && status == CPS_OK; c++) {
-            if (t->has[c]) t->value[c] = CPSI_POOL_TAKE(pool, lines, double);
+            if (t->has[c]) t->value[c] = CPSI_POOL_TAKE(pool, rows->lines, double);
             if (t->has[c] && !t->value[c]) status = no_memory(t);
         }
     }
@@ -161,13 +156,10 @@ static CpsStatus check_arc_length(const Table *t) {
 CpsStatus cpsi_node_file_read(const char *path, size_t max_bytes, CpsiPool *pool, CpsiNodeFile *out,
                               CpsError *err) {
     Table t = {.path = path, .err = err};
-    char *bytes = NULL;
-    size_t size = 0;
-    CpsStatus status = cpsi_read_file_itself(path, max_bytes, &bytes, &size, err);
-    if (status == CPS_OK && strlen(bytes) != size)
-        status = cpsi_fail_at(err, CPS_ERR_INPUT, path, 0, 0, "found a zero byte: is this text?");
-    if (status == CPS_OK) status = read_lines(&t, bytes, pool);
-    free(bytes);
+    CpsiTextRows rows;
+    CpsStatus status = cpsi_text_rows_open(&rows, path, max_bytes, err);
+    if (status == CPS_OK) status = read_lines(&t, &rows, pool);
+    free(rows.bytes);
     if (status == CPS_OK) status = check_arc_length(&t);
     if (status != CPS_OK) return status;
     double *x = CPSI_POOL_TAKE(pool, 3 * (size_t)t.rows, double);

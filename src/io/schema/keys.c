@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What rows of tables of keys say of themselves: names, suggestions and messages (see keys.h). */
 #include "io/schema/keys.h"
+#include "capstan/io.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -30,39 +31,6 @@ const CpsiKey *cpsi_key_find(const CpsiMapping *mapping, const char *written) {
     for (int i = 0; i < mapping->count; i++)
         if (has_name(&mapping->key[i], written)) return &mapping->key[i];
     return NULL;
-}
-
-/* Edits (insert, delete, replace a letter, capitals ignored) between two words of at most 31
- * letters; else 32. */
-static int edit_distance(const char *a, const char *b) {
-    enum { MOST = 32 };
-    const size_t na = strlen(a), nb = strlen(b);
-    if (na >= MOST || nb >= MOST) return MOST;
-    int row[MOST];
-    for (size_t j = 0; j <= nb; j++) row[j] = (int)j;
-    for (size_t i = 1; i <= na; i++) {
-        int diagonal = row[0];
-        row[0] = (int)i;
-        for (size_t j = 1; j <= nb; j++) {
-            const int above = row[j];
-            const bool same = tolower((unsigned char)a[i - 1]) == tolower((unsigned char)b[j - 1]);
-            int least = diagonal + (same ? 0 : 1);
-            if (above + 1 < least) least = above + 1;
-            if (row[j - 1] + 1 < least) least = row[j - 1] + 1;
-            row[j] = least;
-            diagonal = above;
-        }
-    }
-    return row[nb];
-}
-
-void cpsi_suggest(CpsiSuggestion *suggestion, const char *candidate) {
-    const int distance = edit_distance(suggestion->word, candidate);
-    const int allowed = ((int)strlen(candidate) + 2) / 3;
-    if (distance <= allowed && (!suggestion->best || distance < suggestion->distance)) {
-        suggestion->best = candidate;
-        suggestion->distance = distance;
-    }
 }
 
 /* ---- what a row accepts ---- */
@@ -217,11 +185,11 @@ CpsStatus cpsi_key_wrong(const char *file, const CpsiYaml *node, const char *wha
 CpsStatus cpsi_key_unknown(const char *file, const CpsiYaml *node, const char *what,
                            const CpsiMapping *mapping, CpsError *err) {
     const CpsiKey *key = mapping->key;
-    CpsiSuggestion suggestion = {.word = node->key};
+    CpsSuggestion suggestion = {.word = node->key};
     char names[400], start[160];
     Text list = {.text = names, .size = sizeof names};
     for (int i = 0; i < mapping->count; i++)
-        if (!key[i].owner) cpsi_suggest(&suggestion, key[i].name);
+        if (!key[i].owner) cps_suggest(&suggestion, key[i].name);
     if (mapping->word)
         snprintf(start, sizeof start, "unknown %s", mapping->word);
     else

@@ -122,13 +122,6 @@ const CpsiKey *cpsi_key_find(const CpsiMapping *mapping, const char *written);
 /* The number of a word in a row's words, from 0; -1: none of them. */
 int cpsi_key_word(const char *words, const char *written);
 
-/* Keep the nearest of the candidates offered one after the other: start with {.word = written}. */
-typedef struct CpsiSuggestion {
-    const char *word, *best; /* best NULL: nothing near enough */
-    int distance;
-} CpsiSuggestion;
-void cpsi_suggest(CpsiSuggestion *suggestion, const char *candidate);
-
 /* What a row accepts, for messages: "a number in m, greater than 0".
  * text   (size) written, always terminated; returns text */
 const char *cpsi_key_expected(const CpsiKey *key, char *text, size_t size);
