@@ -93,7 +93,7 @@ class Problem:
         self.length = column["element_length"][1:]
         self.reference, self.load, self.normal = vector("reference"), vector("load"), vector("normal")
         self.gap, self.bound = column["gap"], column["friction_bound"]
-        self.answer = Answer(vector("position"), vector("friction"), column["reaction"], vector("segment_force")[1:])
+        self.answer = Answer(vector("position"), vector("friction_force"), column["reaction"], vector("segment_force")[1:])
         self.nodes = len(self.gap)
         self.held = np.zeros(self.nodes, bool)
         self.held[[0, -1]] = self.ends[0][0], self.ends[1][0]

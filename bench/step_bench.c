@@ -108,7 +108,7 @@ static void setup_oc3(Setup *setup) {
     line->stiffness = 384.243e6;
     setup->bed.friction = 0.5;
     setup->bed.point[2] = -320;
-    line->start.kind = CPS_START_LAID;
+    line->start.kind = CPS_START_STATIC;
     line->end[CPS_END_A] = (CpsEnd){CPS_END_HELD, {0, 0, -320}};
     line->end[CPS_END_B] = (CpsEnd){CPS_END_HELD, {848.67, 0, -70}};
     setup->change = (CpsChange){.end = CPS_END_B, .to = {CPS_END_HELD, {850.17, 0, -70}}};
@@ -362,10 +362,10 @@ static void write_view(FILE *out, const CpsLineView *view, const Row *row) {
         fprintf(out, "# end %c %s %.17g %.17g %.17g\n", end == CPS_END_A ? 'A' : 'B',
                 view->end[end].kind == CPS_END_HELD ? "held" : "free", view->end[end].value[0],
                 view->end[end].value[1], view->end[end].value[2]);
-    fprintf(out,
-            "element_length,reference_x,reference_y,reference_z,load_x,load_y,load_z,normal_x,"
-            "normal_y,normal_z,gap,friction_bound,position_x,position_y,position_z,friction_x,"
-            "friction_y,friction_z,reaction,segment_force_x,segment_force_y,segment_force_z\n");
+    fprintf(out, "element_length,reference_x,reference_y,reference_z,load_x,load_y,load_z,normal_x,"
+                 "normal_y,normal_z,gap,friction_bound,position_x,position_y,position_z,"
+                 "friction_force_x,friction_force_y,friction_force_z,reaction,segment_force_x,"
+                 "segment_force_y,segment_force_z\n");
     for (int j = 0; j <= view->elements; j++) {
         fprintf(out, "%.17g", j > 0 ? view->element_length[j - 1] : 0);
         print_vector(out, &view->reference[3 * j]);
@@ -373,7 +373,7 @@ static void write_view(FILE *out, const CpsLineView *view, const Row *row) {
         print_vector(out, &view->normal[3 * j]);
         fprintf(out, ",%.17g,%.17g", view->gap[j], view->friction_bound[j]);
         print_vector(out, &view->position[3 * j]);
-        print_vector(out, &view->friction[3 * j]);
+        print_vector(out, &view->friction_force[3 * j]);
         fprintf(out, ",%.17g", view->reaction[j]);
         print_vector(out, j > 0 ? &view->segment_force[3 * (j - 1)] : none);
         fprintf(out, "\n");

@@ -56,9 +56,9 @@ static void print_end(char letter, const CpsEnd *end) {
     if (end->kind == CPS_END_FREE)
         printf("  end %c: free, force (%g, %g, %g) N\n", letter, v[0], v[1], v[2]);
     else if (isnan(v[0]))
-        printf("  end %c: fixed where the start puts it\n", letter);
+        printf("  end %c: held where the start puts it\n", letter);
     else
-        printf("  end %c: fixed at (%g, %g, %g) m\n", letter, v[0], v[1], v[2]);
+        printf("  end %c: held at (%g, %g, %g) m\n", letter, v[0], v[1], v[2]);
 }
 
 static void print_line(const CpsLine *line) {
@@ -91,7 +91,7 @@ static void print_scene(const CpsScene *scene) {
     /* number of steps as a run counts them: a start that is statically placed is a step */
     int steps = 0;
     for (int i = 0; i < scene->line_count; i++)
-        if (scene->line[i].start.kind == CPS_START_LAID) steps = 1;
+        if (scene->line[i].start.kind == CPS_START_STATIC) steps = 1;
     for (int i = 0; i < scene->stage_count; i++) steps += scene->stage[i].steps;
     printf("history: %d entr%s, %d load step%s in all\nThe scene is valid.\n", scene->stage_count,
            scene->stage_count == 1 ? "y" : "ies", steps, steps == 1 ? "" : "s");

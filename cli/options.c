@@ -23,8 +23,8 @@ static const Option OPTIONS[] = {
      "directory of the results (default: results/SCENE, of a study SCENE-study)"},
     {"json", 0, NULL, FOR_RUN | FOR_LAW | FOR_DRIVE, offsetof(CliOptions, json), false,
      "print one JSON object on standard output"},
-    {"tol", 't', "TOL", FOR_RUN, offsetof(CliOptions, tol), false,
-     "path tolerance: cut steps until halves agree (0: steps as given)"},
+    {"path-tolerance", 't', "TOL", FOR_RUN, offsetof(CliOptions, path_tolerance), false,
+     "path_tolerance of the scene: cut steps until halves agree (0: steps as given)"},
     {"resume", 'r', NULL, FOR_RUN, offsetof(CliOptions, resume), false,
      "go on where a run into the same directory was stopped or killed"},
     {"force", 0, NULL, FOR_RUN | FOR_STUDY, offsetof(CliOptions, overwrite), false,
@@ -77,6 +77,10 @@ static const Option OPTIONS[] = {
 };
 enum { OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0] };
 
+/* Names of earlier versions. */
+static const struct { const char *former, *name; } RENAMED[] = {{"tol", "path-tolerance"}};
+enum { RENAMED_COUNT = sizeof RENAMED / sizeof RENAMED[0] };
+
 void cli_print_options(FILE *out, unsigned commands) {
     for (int i = 0; i < OPTION_COUNT; i++) {
         const Option *o = &OPTIONS[i];
@@ -100,6 +104,19 @@ static const Option *find_option(unsigned command, const char *name, size_t n, c
     return NULL;
 }
 
+/* what an option of the command that earlier versions had is called now, or NULL */
+static const char *renamed_option(unsigned command, const char *given) {
+    if (given[1] != '-') return NULL;
+    for (int i = 0; i < RENAMED_COUNT; i++) {
+        const size_t n = strlen(RENAMED[i].former);
+        const bool former =
+            strcspn(given + 2, "=") == n && memcmp(given + 2, RENAMED[i].former, n) == 0;
+        if (former && find_option(command, RENAMED[i].name, strlen(RENAMED[i].name), 0))
+            return RENAMED[i].name;
+    }
+    return NULL;
+}
+
 /* "capstan check: ", or "capstan: " before any command (an empty name) */
 static void begin_message(const char *command) {
     fprintf(stderr, "capstan%s%s: ", *command ? " " : "", command);
@@ -112,6 +129,11 @@ static bool end_message(const char *command) {
 
 static bool unknown_option(const char *command_name, unsigned command, const char *given) {
     begin_message(command_name);
+    const char *now = renamed_option(command, given);
+    if (now) {
+        cli_printf(stderr, "option '%.*s' is now '--%s'", (int)strcspn(given, "="), given, now);
+        return end_message(command_name);
+    }
     cli_printf(stderr, "unknown option '%s'", given);
     CpsSuggestion suggestion = {.word = given + 2};
     if (given[1] == '-')

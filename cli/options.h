@@ -27,20 +27,20 @@ typedef struct CliList {
 typedef struct CliOptions {
     bool help, version;
     bool json, quiet, resume;
-    bool overwrite;        /* run, study: --force, replace what is there */
-    const char *output;    /* NULL: not given */
-    const char *tol;       /* run: path tolerance, NULL: the scene's */
-    bool no_paraview;      /* run: no .vtp and .pvd files */
-    const char *fields;    /* run: variables of result.nc, NULL: all */
-    const char *sync;      /* run: step or end, NULL: step */
-    const char *method;    /* run: exact or regularized, NULL: exact */
-    const char *operand;   /* the scene or law file, "-" for standard input; NULL: not given */
-    const char *plot;      /* law: picture, NULL: none */
-    const char *axes;      /* law: components drawn, NULL: the first two */
-    bool history;          /* study: all steps by three methods */
-    const char *complete;  /* study: how slack is laid out, NULL: not requested */
-    const char *judge;     /* study: file of a configuration, NULL: none */
-    const char *tolerance; /* study: tolerance of judgements, NULL: 1e-8 */
+    bool overwrite;             /* run, study: --force, replace what is there */
+    const char *output;         /* NULL: not given */
+    const char *path_tolerance; /* run: path tolerance, NULL: the scene's */
+    bool no_paraview;           /* run: no .vtp and .pvd files */
+    const char *fields;         /* run: variables of result.nc, NULL: all */
+    const char *sync;           /* run: step or end, NULL: step */
+    const char *method;         /* run: exact or regularized, NULL: exact */
+    const char *operand;        /* the scene or law file, "-" for standard input; NULL: not given */
+    const char *plot;           /* law: picture, NULL: none */
+    const char *axes;           /* law: components drawn, NULL: the first two */
+    bool history;               /* study: all steps by three methods */
+    const char *complete;       /* study: how slack is laid out, NULL: not requested */
+    const char *judge;          /* study: file of a configuration, NULL: none */
+    const char *tolerance;      /* study: tolerance of judgements, NULL: 1e-8 */
     /* study, run: parameters of the method of 1990, NULL: its default */
     const char *delta, *lambda, *n, *h;
     const char *step; /* study: name or number of a step, NULL: the first */

@@ -139,8 +139,8 @@ static void print_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const
     fputs("  twist (vx, vy, w) = ", stdout);
     law_print_vector(3, m->twist);
     /* m; for a larger distance the body does not turn */
-    if (hypot(m->center[0], m->center[1]) < 1e9)
-        printf(", turns about (%.10g, %.10g)", m->center[0] + 0.0, m->center[1] + 0.0);
+    if (hypot(m->centre[0], m->centre[1]) < 1e9)
+        printf(", turns about (%.10g, %.10g)", m->centre[0] + 0.0, m->centre[1] + 0.0);
     puts("");
     /* where motions are unique, those that dissipate at most 1e-9 more than the least differ by the
      * order of its square root */
@@ -164,7 +164,7 @@ static void json_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const 
     drive_json_list("twist", 3, m->twist);
     drive_json_list("wrench", 3, m->wrench);
     drive_json_list("drive", push->rows, m->drive);
-    drive_json_list("center", 2, m->center);
+    drive_json_list("centre", 2, m->centre);
     drive_json_list("low", 3, low);
     drive_json_list("high", 3, high);
     putchar('}');

@@ -36,8 +36,8 @@ static bool take_block(SetAnswer *a) {
     const size_t n = (size_t)a->n;
     a->block = calloc(2 * n * n + 3 * n + 2 * MOST_LISTED * n, sizeof *a->block);
     if (!a->block) return false;
-    a->center = a->block;
-    a->low = a->center + n;
+    a->centre = a->block;
+    a->low = a->centre + n;
     a->high = a->low + n;
     a->vertex = a->high + n;
     a->ray = a->vertex + MOST_LISTED * n;
@@ -46,11 +46,11 @@ static bool take_block(SetAnswer *a) {
     return true;
 }
 
-/* a segment's center is its middle */
+/* a segment's centre is its middle */
 static void take_middle(SetAnswer *a) {
     double along = 0.5 * (a->low[0] + a->high[0]);
-    for (int i = 0; i < a->n; i++) along -= a->basis[i] * a->center[i];
-    for (int i = 0; i < a->n; i++) a->center[i] += along * a->basis[i];
+    for (int i = 0; i < a->n; i++) along -= a->basis[i] * a->centre[i];
+    for (int i = 0; i < a->n; i++) a->centre[i] += along * a->basis[i];
 }
 
 /* The pointed part of a cone, normal to its lines: rays where it has dimension 1 or 2, and the
@@ -102,7 +102,7 @@ CpsStatus law_answer_ask(const CpsSet *set, bool cone, SetAnswer *a, CpsError *e
         *err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
         return CPS_ERR_MEMORY;
     }
-    CpsStatus status = cps_set_facts(set, 0, &a->facts, a->center, a->basis, err);
+    CpsStatus status = cps_set_facts(set, 0, &a->facts, a->centre, a->basis, err);
     if (status != CPS_OK || a->facts.outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     if (!cone)
         for (int i = 0; i < a->facts.dimension && status == CPS_OK; i++) {
@@ -201,7 +201,7 @@ static void print_cone_with_lines(const SetAnswer *a) {
         print_list(a, a->ray, 2);
     } else {
         fputs(", around", stdout);
-        print_list(a, a->center, 1);
+        print_list(a, a->centre, 1);
     }
 }
 
@@ -222,7 +222,7 @@ static void print_cone(const SetAnswer *a) {
         print_list(a, a->ray, a->ray_count);
     } else {
         printf("a cone of dimension %d around", d);
-        print_list(a, a->center, 1);
+        print_list(a, a->centre, 1);
     }
 }
 
@@ -239,9 +239,9 @@ static void print_line(const SetAnswer *a) {
     const bool down = isfinite(a->high[0]), ends = down || isfinite(a->low[0]);
     double along = down ? a->high[0] : ends ? a->low[0] : 0;
     if (ends)
-        for (int i = 0; i < a->n; i++) along -= a->basis[i] * a->center[i];
+        for (int i = 0; i < a->n; i++) along -= a->basis[i] * a->centre[i];
     fputs(ends ? "a half-line from " : "a line through ", stdout);
-    print_sum(a->n, a->center, along, a->basis);
+    print_sum(a->n, a->centre, along, a->basis);
     fputs(" along ", stdout);
     print_sum(a->n, NULL, down ? -1 : 1, a->basis);
 }
@@ -250,7 +250,7 @@ static void print_set(const SetAnswer *a) {
     const int d = a->facts.dimension;
     if (d == 0) {
         fputs("one: ", stdout);
-        law_print_vector(a->n, a->center);
+        law_print_vector(a->n, a->centre);
     } else if (d == 1 && a->vertex_count == 2) {
         printf("a segment between");
         print_list(a, a->vertex, 2);
@@ -258,7 +258,7 @@ static void print_set(const SetAnswer *a) {
         print_line(a);
     } else {
         printf("a set of dimension %d around ", d);
-        law_print_vector(a->n, a->center);
+        law_print_vector(a->n, a->centre);
         print_extents(a);
         if (a->vertex_count > 0) {
             printf("\n    %d corners", a->vertex_count);
@@ -304,9 +304,9 @@ void law_answer_json(const SetAnswer *a, bool cone, FILE *out) {
         fprintf(out, "{\"outcome\": \"%s\"}", cps_set_outcome_name(a->facts.outcome));
         return;
     }
-    fprintf(out, "{\"dimension\": %d, \"description\": \"%s\", \"center\": ", a->facts.dimension,
+    fprintf(out, "{\"dimension\": %d, \"description\": \"%s\", \"centre\": ", a->facts.dimension,
             description(a, cone));
-    law_json_vector(a->n, a->center, out);
+    law_json_vector(a->n, a->centre, out);
     if (a->vertex_count >= 0) json_list(a, "vertices", a->vertex, a->vertex_count, out);
     if (a->ray_count >= 0) json_list(a, "rays", a->ray, a->ray_count, out);
     if (cone) fprintf(out, ", \"lineality\": %d", a->lineality);

@@ -14,7 +14,7 @@ typedef struct SetAnswer {
     int n;
     CpsSetFacts facts;
     double gap;         /* of the extents */
-    double *center;     /* (n) of the relative interior */
+    double *centre;     /* (n) of the relative interior */
     double *basis;      /* (n x n), of which the first `dimension` rows are used */
     double *low, *high; /* (n) extent along them, of which the first `dimension` are used */
     int vertex_count;   /* -1: not known */
@@ -33,7 +33,7 @@ void law_answer_free(SetAnswer *answer);
 
 /* "a segment from (..) to (..)", "all velocities between the directions (..) and (..)", ... */
 void law_answer_print(const SetAnswer *answer, bool cone);
-/* {"dimension": 1, "center": [..], "vertices": [..], "extent": [..]} */
+/* {"dimension": 1, "centre": [..], "vertices": [..], "extent": [..]} */
 void law_answer_json(const SetAnswer *answer, bool cone, FILE *out);
 
 void law_print_vector(int n, const double *x);           /* (1, 2) */

@@ -121,7 +121,7 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
         for (int e = 0; e < 2; ++e)
             print_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
-        if (solved && scene->friction == CPS_FRICTION_FROZEN && !view.slide)
+        if (solved && scene->friction_policy == CPS_FRICTION_FROZEN && !view.slide)
             print_verdict(verdicts, step.name, &line, &view);
     }
 }
@@ -154,7 +154,8 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
                 fprintf(
                     stderr,
                     " with the friction bounds of the reference; these loads press so that mu R, "
-                    "%.6g N in all, holds the line: 'friction: consistent' has an equilibrium",
+                    "%.6g N in all, holds the line: 'friction_policy: consistent' has an "
+                    "equilibrium",
                     line.coulomb);
         } else if (line.outcome == CPS_OUTCOME_MESH_TOO_COARSE)
             warnings_print_bend(&line.bend, scene->obstacle[line.bend.obstacle].name);
@@ -346,14 +347,14 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
 
 /* Change the scene according to the command line. False after a message. */
 static bool adjust(CpsScene *scene, const CliOptions *options) {
-    if (!options->tol) return true;
+    if (!options->path_tolerance) return true;
     char *end = NULL;
     errno = 0;
-    const double tolerance = scene->solver.path_tolerance = strtod(options->tol, &end);
+    const double tolerance = scene->solver.path_tolerance = strtod(options->path_tolerance, &end);
     const bool within = tolerance == 0 || (tolerance >= 1e-9 && tolerance <= 1);
-    if (end != options->tol && *end == '\0' && errno == 0 && within) return true;
-    cli_printf(stderr, "capstan run: --tol '%s': expected a number, 0 or 1e-9 to 1\n",
-               options->tol);
+    if (end != options->path_tolerance && *end == '\0' && errno == 0 && within) return true;
+    cli_printf(stderr, "capstan run: --path-tolerance '%s': expected a number, 0 or 1e-9 to 1\n",
+               options->path_tolerance);
     return false;
 }
 
@@ -367,9 +368,10 @@ static bool is_sound(const CliOptions *options, bool *regularized) {
                    options->method);
     else if (!*regularized && regularized_options_given(options))
         fputs("capstan run: --lambda, --n and --delta are those of --method regularized\n", stderr);
-    else if (*regularized && (options->resume || options->tol || options->no_paraview ||
+    else if (*regularized && (options->resume || options->path_tolerance || options->no_paraview ||
                               options->fields || options->sync))
-        fputs("capstan run: --method regularized: takes the steps as given, without --tol and "
+        fputs("capstan run: --method regularized: takes the steps as given, without "
+              "--path-tolerance and "
               "--resume, and writes no fields\n",
               stderr);
     else if (options->sync && strcmp(options->sync, "step") != 0 &&

@@ -27,14 +27,14 @@ double regularized_friction(const CpsScene *scene, const char *command) {
 
 CpsScene regularized_scene(const CpsScene *scene) {
     CpsScene frozen = *scene;
-    frozen.friction = CPS_FRICTION_FROZEN;
+    frozen.friction_policy = CPS_FRICTION_FROZEN;
     frozen.solver.path_tolerance = 0;
     frozen.solver.halvings = 0;
     return frozen;
 }
 
 void regularized_print_friction(const CpsScene *scene) {
-    if (scene->friction == CPS_FRICTION_CONSISTENT)
+    if (scene->friction_policy == CPS_FRICTION_CONSISTENT)
         puts("friction: A = mu R_R of the reference, (78), in every step, as P2.1 has it; the "
              "scene's own, consistent, is A = mu R at x");
 }

@@ -73,7 +73,7 @@ static double lifted_friction(const CpsLineView *view, double *bounds) {
         for (size_t x = 0; x < 3; ++x)
             distance += view->normal[3 * c + x] * (view->position[k + x] - view->reference[k + x]);
         *bounds += view->friction_bound[c];
-        if (distance > CPS_TOUCH * length) lifted += length3(view->friction + 3 * c);
+        if (distance > CPS_TOUCH * length) lifted += length3(view->friction_force + 3 * c);
     }
     return lifted;
 }
@@ -128,9 +128,10 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
         const double residual = line.certificate.friction_residual;
         double bounds;
         const double lifted = lifted_friction(&view, &bounds);
-        if (scene->friction == CPS_FRICTION_FROZEN && lifted > WARN_LIFTED * bounds)
+        if (scene->friction_policy == CPS_FRICTION_FROZEN && lifted > WARN_LIFTED * bounds)
             note(warnings, WARNING_LIFTED, lifted, bounds, step, view.name);
-        if (scene->friction == CPS_FRICTION_FROZEN && residual > WARN_BOUND * bounds && bounds > 0)
+        if (scene->friction_policy == CPS_FRICTION_FROZEN && residual > WARN_BOUND * bounds &&
+            bounds > 0)
             note(warnings, WARNING_BOUND, residual, bounds, step, view.name);
         const CpsBend *bend = &line.bend;
         if (bend->turn > 0 && bend->ratio > (1 + WARN_BEND) * bend->coulomb) {
@@ -142,7 +143,7 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
             }
             note(warnings, WARNING_BEND, bend->ratio / bend->coulomb, 1, step, view.name);
         }
-        if (scene->contact == CPS_CONTACT_STRICT &&
+        if (scene->contact_policy == CPS_CONTACT_REFERENCE &&
             line.certificate.penetration > WARN_SUNK * length)
             note(warnings, WARNING_SUNK, line.certificate.penetration, length, step, view.name);
         if (line.slack > WARN_SLACK * length && line.slipping > 0)
@@ -174,13 +175,13 @@ static void print_figures(int kind, double value, double of) {
     if (kind == WARNING_BOUND)
         fprintf(stderr,
                 "the friction bounds of the reference differ from mu R by %.4g N, of %.4g N in "
-                "all; 'friction: consistent' follows R",
+                "all; 'friction_policy: consistent' follows R",
                 value, of);
     else if (kind == WARNING_LIFTED)
         fprintf(stderr,
                 "friction of %.4g N, of bounds of %.4g N in all, acts where the line has left the "
-                "obstacle, and an equilibrium without it is no solution of this step; 'friction: "
-                "consistent' has none there",
+                "obstacle, and an equilibrium without it is no solution of this step; "
+                "'friction_policy: consistent' has none there",
                 value, of);
     else if (kind == WARNING_SLACK)
         fprintf(stderr,
@@ -216,8 +217,9 @@ static void print_figures(int kind, double value, double of) {
                 value, of);
     else if (kind == WARNING_SUNK)
         fprintf(stderr,
-                "the line is %.4g m inside the obstacle, of %.4g m of length: 'contact: strict' "
-                "keeps out only what touched before; 'contact: gained' keeps all out",
+                "the line is %.4g m inside the obstacle, of %.4g m of length: 'contact_policy: "
+                "reference' keeps out only what touched before; 'contact_policy: reached' keeps "
+                "all out",
                 value, of);
     else
         fprintf(stderr,

@@ -32,7 +32,7 @@
 static bool is_placed(const CpsScene *scene) {
     bool placed = false;
     for (int i = 0; i < scene->line_count; ++i)
-        placed = placed || scene->line[i].start.kind == CPS_START_LAID;
+        placed = placed || scene->line[i].start.kind == CPS_START_STATIC;
     return placed;
 }
 
@@ -56,7 +56,7 @@ static int find_step(const CpsScene *scene, const char *asked) {
     int before = is_placed(scene) ? 1 : 0, found = 0, number = 0;
     char end;
     if (!asked) return before + 1;
-    if (before && strcmp(asked, "laid") == 0) found = 1;
+    if (before && strcmp(asked, "static") == 0) found = 1;
     for (int s = 0; s < scene->stage_count; before += scene->stage[s++].steps) {
         const int within = step_of_stage(&scene->stage[s], asked);
         if (within > 0 && found > 0) {
@@ -96,7 +96,7 @@ static int reach_step(CpsEvolution *evolution, int number) {
         if (step.index + 1 == number) return EXIT_OK;
     }
     if (cli_interrupted()) return 128 + cli_interrupted();
-    fprintf(stderr, "capstan study: the scene has no step but a laid one: give it a history\n");
+    fprintf(stderr, "capstan study: the scene has no step but a static one: give it a history\n");
     return EXIT_USAGE;
 }
 
@@ -189,7 +189,7 @@ static void print_verdict(const CpsFirstOrderReport *r, const char *contact) {
  * answer */
 static void print_first_order(const CpsFirstOrder *const *solution) {
     const CpsFirstOrderReport paper = cps_first_order_report(solution[0]),
-                              gained = cps_first_order_report(solution[1]);
+                              reached = cps_first_order_report(solution[1]);
     const CpsFirstOrderView a = cps_first_order_view(solution[0]),
                             b = cps_first_order_view(solution[1]);
     double apart = 0;
@@ -197,9 +197,9 @@ static void print_first_order(const CpsFirstOrder *const *solution) {
         apart = fmax(apart, fabs(a.displacement[k] - b.displacement[k]));
     printf("\nconsistent first-order problem P10.1\n");
     print_verdict(&paper, "C of (77), u.n >= 0 where x_R touches");
-    if (paper.verdict != gained.verdict || apart > 1e-6 * a.arc_length[a.elements])
-        print_verdict(&gained,
-                      "every node kept out, (16), as the step with 'contact: gained' does");
+    if (paper.verdict != reached.verdict || apart > 1e-6 * a.arc_length[a.elements])
+        print_verdict(&reached,
+                      "every node kept out, (16), as the step with 'contact_policy: reached' does");
     if (paper.outside > 0)
         printf("  (on %.6g m the reference has |x_R'| < 1, outside Kin: taken as slack and just "
                "straight)\n",
@@ -244,11 +244,11 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
         progress_end(&printer.progress);
     }
     if (status == CPS_OK)
-        status =
-            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_TOUCHING, &first_order[0], &err);
+        status = cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_REFERENCE, &first_order[0],
+                                       &err);
     if (status == CPS_OK)
         status =
-            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_GAINED, &first_order[1], &err);
+            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_REACHED, &first_order[1], &err);
     if (status == CPS_OK) {
         const CpsStudyFiles files = {title, classic, study, first_order[0]};
         status = cps_study_write(directory, &files, &err);
@@ -270,9 +270,9 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
 
 /* Print the friction bounds with which the solutions are judged. */
 static void print_bounds(const CpsScene *scene) {
-    puts(scene->friction == CPS_FRICTION_CONSISTENT
-             ? "friction: consistent, A = mu R at x; P4.2 and P3.1 are those with this A"
-             : "friction: frozen, A = mu R_R of the reference, (78)");
+    puts(scene->friction_policy == CPS_FRICTION_CONSISTENT
+             ? "friction_policy: consistent, A = mu R at x; P4.2 and P3.1 are those with this A"
+             : "friction_policy: frozen, A = mu R_R of the reference, (78)");
 }
 
 /* The methods of the paper use the history with frozen friction; configurations are judged and

@@ -67,7 +67,7 @@ static int regularise(Histories *h, const CpsLineView *view, int step, Regulariz
 static int run_evolution(Histories *h, int method, int line) {
     CpsScene scene = regularized_scene(h->scene);
     if (method == CONSISTENT) {
-        scene.friction = CPS_FRICTION_CONSISTENT;
+        scene.friction_policy = CPS_FRICTION_CONSISTENT;
         scene.solver.halvings = h->scene->solver.halvings; /* whole steps need not converge */
     }
     CpsError err;

@@ -146,7 +146,7 @@ typedef struct CpsPlanarMotion {
     double wrench[3]; /* of friction, in balance with the drive to rounding; gives `lower` */
     double drive[3];  /* (rows) driving forces, one for each row of the map: sum of drive x velocity
                          = lower */
-    double center[2]; /* [m] instantaneous centre of rotation, in body axes; infinite for a
+    double centre[2]; /* [m] instantaneous centre of rotation, in body axes; infinite for a
                          translation */
 } CpsPlanarMotion;
 

@@ -44,15 +44,15 @@ typedef struct CpsRegularizedReport {
     int iterations;  /* Newton steps, those of the way there (see cps_regularized_solve) included */
     int evaluations; /* gradients */
     double gradient; /* [N] largest force left on a node */
-    double gradient_limit; /* [N] what it was compared with */
-    double total;          /* [J] what is minimised: the five parts below */
-    double elastic;        /* [J] relaxed: only |x'| > 1 costs */
-    double potential;      /* [J] of the loads */
-    double friction;       /* [J] j_delta */
-    double bending;        /* [J] of the vanishing stiffness */
-    double contact;        /* [J] of the penalty */
-    double relaxed;        /* [J] J** + j at the configuration found, without any of the four */
-    double energy_error;   /* [J] total less J** + j of the step's solution */
+    double gradient_limit;  /* [N] what it was compared with */
+    double total;           /* [J] what is minimised: the five parts below */
+    double elastic;         /* [J] relaxed: only |x'| > 1 costs */
+    double potential;       /* [J] of the loads */
+    double friction_energy; /* [J] j_delta */
+    double bending;         /* [J] of the vanishing stiffness */
+    double contact;         /* [J] of the penalty */
+    double relaxed;         /* [J] J** + j at the configuration found, without any of the four */
+    double energy_error;    /* [J] total less J** + j of the step's solution */
     double tension_rms; /* [N] root mean square along the line of the difference of tensions (45) */
     double tension_max; /* [N] largest */
     double position_max; /* [m] largest distance of a node; not small where slack leaves a choice */
@@ -230,8 +230,8 @@ typedef enum CpsFirstOrderVerdict {
  * and nothing elsewhere; with `gained` contact the step itself asks n.u + psi(x_R) >= 0 of every
  * node, (16). The answers differ where a node comes down. */
 typedef enum CpsFirstOrderContact {
-    CPS_FIRST_ORDER_CONTACT_TOUCHING,
-    CPS_FIRST_ORDER_CONTACT_GAINED
+    CPS_FIRST_ORDER_CONTACT_REFERENCE,
+    CPS_FIRST_ORDER_CONTACT_REACHED
 } CpsFirstOrderContact;
 
 CPS_API const char *cps_first_order_verdict_name(CpsFirstOrderVerdict verdict);
@@ -258,19 +258,19 @@ typedef struct CpsFirstOrderReport {
 /* Views into the handle; n = elements + 1 nodes. */
 typedef struct CpsFirstOrderView {
     int elements;
-    const double *arc_length;   /* (n) [m] */
-    const double *displacement; /* (n, 3) [m] u */
-    const double *strain;       /* (elements) [-] t_R.u' */
-    const double *tension;      /* (elements, 3) [N] T_R + the tension of (84) */
-    const double *friction;     /* (n, 3) [N] */
-    const double *reaction;     /* (n) [N] */
+    const double *arc_length;     /* (n) [m] */
+    const double *displacement;   /* (n, 3) [m] u */
+    const double *strain;         /* (elements) [-] t_R.u' */
+    const double *tension;        /* (elements, 3) [N] T_R + the tension of (84) */
+    const double *friction_force; /* (n, 3) [N] */
+    const double *reaction;       /* (n) [N] */
 } CpsFirstOrderView;
 
 typedef struct CpsFirstOrder CpsFirstOrder;
 
 /* Assemble P10.1 about the step's reference and solve it, on the step's own elements.
  *
- *   contact  CPS_FIRST_ORDER_CONTACT_TOUCHING is the paper's, (77)
+ *   contact  CPS_FIRST_ORDER_CONTACT_REFERENCE is the paper's, (77)
  *
  * Returns CPS_OK whatever the verdict, CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_first_order_solve(const CpsRegularized *classic, CpsFirstOrderContact contact,

@@ -68,7 +68,7 @@ typedef enum CpsStartKind {
     CPS_START_STRAIGHT, /* from point[0] to point[1] */
     CPS_START_POLYLINE, /* along point[0..point_count-1] */
     CPS_START_ARC,      /* from point[0], around centre point[1], turning about axis */
-    CPS_START_LAID,     /* by statics: the frictionless equilibrium under the ends given */
+    CPS_START_STATIC,   /* by statics: the frictionless equilibrium under the ends given */
     CPS_START_NODES /* any configuration: node i at point[i], with the forces of the reference if
                        they are known */
 } CpsStartKind;
@@ -155,8 +155,9 @@ typedef enum CpsFrictionPolicy {
 } CpsFrictionPolicy;
 
 typedef enum CpsContactPolicy {
-    CPS_CONTACT_GAINED, /* no node ends below the obstacle: contact may be gained within a step */
-    CPS_CONTACT_STRICT  /* only what touches at the reference is kept out              (S90 (35)) */
+    CPS_CONTACT_REACHED,  /* no node ends below the obstacle: contact may be gained within a step */
+    CPS_CONTACT_REFERENCE /* only what touches at the reference is kept out              (S90 (35))
+                           */
 } CpsContactPolicy;
 
 typedef enum CpsLinearSystem {
@@ -186,8 +187,8 @@ typedef struct CpsScene {
     const CpsLine *line;
     int stage_count; /* >= 0 */
     const CpsStage *stage;
-    CpsFrictionPolicy friction;
-    CpsContactPolicy contact;
+    CpsFrictionPolicy friction_policy;
+    CpsContactPolicy contact_policy;
     CpsSolverOptions solver;
 } CpsScene;
 

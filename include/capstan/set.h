@@ -73,12 +73,12 @@ CPS_API size_t cps_set_text(const CpsSet *set, char *text, size_t size);
 #define CPS_SET_MAX_ITEMS 65536
 
 CPS_API CpsStatus cps_set_point(int n, const double *point, CpsSet **out, CpsError *err);
-/* {x : |x - center| <= radius}, radius >= 0; center NULL means 0 (here and below). */
-CPS_API CpsStatus cps_set_ball(int n, const double *center, double radius, CpsSet **out,
+/* {x : |x - centre| <= radius}, radius >= 0; centre NULL means 0 (here and below). */
+CPS_API CpsStatus cps_set_ball(int n, const double *centre, double radius, CpsSet **out,
                                CpsError *err);
-/* {x : (x - center)' S^-1 (x - center) <= 1}, S symmetric positive definite (n x n): support <w,
- * center> + sqrt(w'Sw). */
-CPS_API CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, CpsSet **out,
+/* {x : (x - centre)' S^-1 (x - centre) <= 1}, S symmetric positive definite (n x n): support <w,
+ * centre> + sqrt(w'Sw). */
+CPS_API CpsStatus cps_set_ellipsoid(int n, const double *centre, const double *shape, CpsSet **out,
                                     CpsError *err);
 /* [low, high] in R; ends may be infinite. */
 CPS_API CpsStatus cps_set_interval(double low, double high, CpsSet **out, CpsError *err);
@@ -226,7 +226,7 @@ typedef struct CpsSetFacts {
  * orthonormal basis of the directions of the affine hull, completed to one of R^n (n x n, or
  * NULL). */
 CPS_API CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
-                                double *center, double *basis, CpsError *err);
+                                double *centre, double *basis, CpsError *err);
 
 /* The extreme points of a set of dimension <= 2 (in any R^n), counterclockwise in the plane R^2:
  * the ends of a segment, the corners of a planar set, which may have arcs between them; points

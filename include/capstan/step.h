@@ -127,9 +127,9 @@ typedef struct CpsEndReport {
     double tension;     /* [N] |force|, the line's tension at this end */
     double work; /* [J] of the force at this end in this step, over its parts: the two add up to
                     `ends` of the ledger */
-    double friction[3];    /* [N] on the half element beside a held end that lies on an obstacle; in
-                              balance with `force` */
-    CpsTensionRange range; /* of the end element, at the last step of a stage */
+    double friction_force[3]; /* [N] on the half element beside a held end that lies on an obstacle;
+                              in balance with `force` */
+    CpsTensionRange range;    /* of the end element, at the last step of a stage */
 } CpsEndReport;
 
 /* The contact at which the mesh changes the law of friction most: a node on a cylinder or sphere at
@@ -246,7 +246,7 @@ typedef struct CpsLineView {
                                       friction set: its multiple); 0 where friction does not act */
     const double *friction_factor; /* (n) [-] of the friction zones, the mean over the length that a
                                       node stands for; NULL: 1 */
-    const double *friction;        /* (contacts, n, 3) [N] F, in the set of forces that w bounds */
+    const double *friction_force;  /* (contacts, n, 3) [N] F, in the set of forces that w bounds */
     const double *reaction;        /* (contacts, n) [N] R >= 0, along the normal */
     /* (contacts, n, 3) [m] way on the obstacle in this step, tangential, on a curved one along the
      * surface; NULL on one plane with isotropic friction: the part of u in it */
@@ -271,7 +271,7 @@ typedef struct CpsLineView {
     const double *element_gap; /* (elements) [m] with what an element may lie deep, min(l^2/(4 R),
                                   R/4), added */
     const double *element_friction_bound; /* (elements) [N] */
-    const double *element_friction;       /* (elements, 3) [N] */
+    const double *element_friction_force; /* (elements, 3) [N] */
     const double *element_reaction;       /* (elements) [N] */
     const double *element_slide;          /* (elements, 3) [m] */
     const unsigned char *element_state;   /* (elements) */

@@ -36,7 +36,7 @@ def what_is(s):
         return "none"
     points = s.get("vertices") or s.get("rays") or []
     if s["description"] in ("point", "zero"):
-        return vector(s["center"])
+        return vector(s["centre"])
     if s["description"] in ("segment", "ray", "sector"):
         return s["description"] + " " + ", ".join(vector(p) for p in points)
     if s["description"] in ("line", "half-plane") and "lines" in s:

@@ -151,7 +151,7 @@ def load_steps(program):
     for n in (1, 10, 30):
         tip = []
         for law in ("frozen", "consistent"):
-            text = read(os.path.join(program.root, program.example("souza-de-cursi-1990"))).replace("friction: frozen", f"friction: {law}")
+            text = read(os.path.join(program.root, program.example("souza-de-cursi-1990"))).replace("friction_policy: frozen", f"friction_policy: {law}")
             path = program.file(f"steps-{n}-{law}.yaml", re.sub(r"(\{name: Y\d, )", rf"\1steps: {n}, ", text))
             _, place = program.run("run", path, "--no-paraview")
             tip.append(summary(place)[-1]["lines"]["cable"]["B"]["position_m"])
@@ -213,13 +213,13 @@ LINE = "lines:\n  line: {{length: 1, elements: 50, weight: 1, stiffness: {}, sta
 
 
 def unbounded(program):
-    text = "capstan: 1\nfriction: frozen\nobstacles: {bed: {plane: {}, friction: 0.3}}\n" + LINE.format("100", "{A: free, B: free}")
+    text = "capstan: 1\nfriction_policy: frozen\nobstacles: {bed: {plane: {}, friction: 0.3}}\n" + LINE.format("100", "{A: free, B: free}")
     _, place = program.run("run", program.file("unbounded.yaml", text + "history: [{line.B: {force: [0.5, 0, 0]}}]\n"))
     return f"{summary(place)[0]['lines']['line']['proof']['fall_N']:.2g}"
 
 
 def infeasible(program):
-    text = "capstan: 1\n" + LINE.format(".inf", "{A: fixed, B: fixed}") + "history: [{line.B: {position: [1.2, 0, 0]}}]\n"
+    text = "capstan: 1\n" + LINE.format(".inf", "{A: held, B: held}") + "history: [{line.B: {position: [1.2, 0, 0]}}]\n"
     _, place = program.run("run", program.file("infeasible.yaml", text))
     return f"{summary(place)[0]['lines']['line']['proof']['excess_m']:.2g}"
 
@@ -251,7 +251,7 @@ def order_of_first_order(program):
     """Distance of P10.1 and P2.1 of a taut line on a smooth bed, for changes of the force of 0.2 and 0.1 N."""
     far = []
     for change in (0.2, 0.1):
-        text = ("capstan: 1\nfriction: frozen\nobstacles: {bed: {plane: {}}}\n" + LINE.format("10", "{A: fixed, B: {force: [1, 0, 0]}}") +
+        text = ("capstan: 1\nfriction_policy: frozen\nobstacles: {bed: {plane: {}}}\n" + LINE.format("10", "{A: held, B: {force: [1, 0, 0]}}") +
                 f"history: [{{line.B: {{force: [1, 0, 0]}}}}, {{line.B: {{force: [1, {change}, {change}]}}}}]\n")
         said, _ = program.run("study", program.file(f"taut-{change}.yaml", text), "--step", "2")
         far.append(float(re.search(r"at most (\S+) m from the solution of P2.1", said)[1]))
@@ -305,8 +305,8 @@ def of_study(file, name, *arguments):
 
 def relaxed(program):
     """Figure 4 is drawn for K = 8 times the tension: a line of K = 8 N pulled by 1 N."""
-    text = ("capstan: 1\nfriction: frozen\nlines:\n  cable: {length: 1, elements: 20, weight: 0, stiffness: 8, "
-            "start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: free}}\nhistory: [{cable.B: {force: [1, 0, 0]}}]\n")
+    text = ("capstan: 1\nfriction_policy: frozen\nlines:\n  cable: {length: 1, elements: 20, weight: 0, stiffness: 8, "
+            "start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: held, B: free}}\nhistory: [{cable.B: {force: [1, 0, 0]}}]\n")
     return os.path.join(program.run("study", program.file("relaxed.yaml", text))[1], "relaxed.svg")
 
 

@@ -356,7 +356,7 @@ void cpsi_contact_reset(CpsiLine *line) {
 void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
                                 CpsFrictionPolicy friction, bool frictionless) {
     const size_t n = (size_t)line->n;
-    line->contact_everywhere = contact == CPS_CONTACT_GAINED;
+    line->contact_everywhere = contact == CPS_CONTACT_REACHED;
     line->frozen = line->has_local_axes && line->contact_everywhere &&
                    friction == CPS_FRICTION_FROZEN && !frictionless;
     memcpy(line->reference, line->position, 3 * n * sizeof *line->reference);

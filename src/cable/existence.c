@@ -48,7 +48,7 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     const Vec3 tangent = vec3_axpy(-normal, n, sum);
     /* all reactions together balance B.n; friction is largest if they act where its coefficient
      * is */
-    if (options->friction == CPS_FRICTION_CONSISTENT && !options->frictionless)
+    if (options->friction_policy == CPS_FRICTION_CONSISTENT && !options->frictionless)
         friction = steepest * fmax(0, -normal);
     const double pull = vec3_norm(tangent), beyond = pull > friction ? pull - friction : 0;
     const double fall = sqrt(beyond * beyond + along * along);
@@ -59,7 +59,7 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.proof_value = fall;
     /* with bounds coupled to the reactions, whose sum is -B.n, friction would hold the line
      * wherever they act */
-    const bool frozen = options->friction == CPS_FRICTION_FROZEN && !options->frictionless;
+    const bool frozen = options->friction_policy == CPS_FRICTION_FROZEN && !options->frictionless;
     if (frozen && along == 0 && pull <= least * -normal) line->report.coulomb = least * -normal;
     return true;
 }

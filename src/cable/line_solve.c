@@ -34,7 +34,8 @@ static const double POSITION_TOL = CPSI_TOUCH;
 static const double LEAST_REACTION = 1e-12;
 
 void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
-    cpsi_contact_set_reference(line, options->contact, options->friction, options->frictionless);
+    cpsi_contact_set_reference(line, options->contact_policy, options->friction_policy,
+                               options->frictionless);
     for (int j = 0; j < line->n; j++)
         for (int a = 0; a < 3; a++)
             line->load[3 * j + a] = cpsi_line_share(line, j) * line->weight[a];
@@ -98,7 +99,8 @@ bool cpsi_line_is_near(const CpsiLine *line) {
  * Strict contact with frozen friction knows the contacts of the reference only; there the straight
  * path from the reference must not pass an obstacle. */
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
-    const bool consistent = line->has_local_axes && options->friction == CPS_FRICTION_CONSISTENT;
+    const bool consistent =
+        line->has_local_axes && options->friction_policy == CPS_FRICTION_CONSISTENT;
     if ((consistent || line->frozen) &&
         !(cpsi_contact_depth(line) <= 0.1 * CPSI_TOUCH * line->length))
         return false;
@@ -131,7 +133,7 @@ CpsOutcome cpsi_line_outcome(const CpsiLine *line, const CpsiStepOptions *option
     const CpsCertificate *c = &line->report.certificate;
     const double tolerance = options->solver.tolerance;
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
-    const bool consistent = options->friction == CPS_FRICTION_FROZEN ||
+    const bool consistent = options->friction_policy == CPS_FRICTION_FROZEN ||
                             c->friction_residual <= CPSI_CLEAN * c->largest_force;
     if (finite && consistent && ipm->residual <= fmax(0.01 * tolerance, CPSI_CLEAN) &&
         c->gap <= tolerance * c->scale && c->stretch_residual <= fmin(tolerance, POSITION_TOL) &&

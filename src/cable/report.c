@@ -117,7 +117,7 @@ static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     line->state[j] =
         CPS_NODE_STATE_STICK; /* if it is released in the next step, it starts with this friction */
     const Vec3 friction = half_friction(line, end, on, n, up);
-    vec3_store(line->report.end[end].friction, friction);
+    vec3_store(line->report.end[end].friction_force, friction);
     line->report.dissipated -= vec3_dot(friction, cpsi_line_end_slide(line, end, on));
     return vec3_sub(vec3_axpy(-up, n, force), friction);
 }

@@ -35,7 +35,7 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
         if (f[0] == 0 && f[1] == 0 && f[2] == 0) continue;
         /* whether F lies in a given set is not computed: its bound must be the one under which F
          * was found, as a bound coupled to the reaction is */
-        if (set->given && !(bound > 0 && options->friction == CPS_FRICTION_CONSISTENT))
+        if (set->given && !(bound > 0 && options->friction_policy == CPS_FRICTION_CONSISTENT))
             return false;
         memcpy(inside, f, sizeof f);
         cpsi_friction_law_clip(set, bound, bound, inside);

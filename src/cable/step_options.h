@@ -7,8 +7,8 @@
 
 typedef struct CpsiStepOptions {
     CpsSolverOptions solver;
-    CpsFrictionPolicy friction;
-    CpsContactPolicy contact;
+    CpsFrictionPolicy friction_policy;
+    CpsContactPolicy contact_policy;
     bool frictionless; /* an initial configuration is computed by statics */
     /* scratch memory of the rule of least motion; NULL: the rule is not applied */
     CpsiLeastMotion *least;

@@ -68,7 +68,7 @@ static void pass_end_report(Tape *tape, CpsEndReport *end) {
     PASS(tape, end->force);
     PASS(tape, end->tension);
     PASS(tape, end->work);
-    PASS(tape, end->friction);
+    PASS(tape, end->friction_force);
     CpsTensionRange *range = &end->range;
     PASS(tape, range->kind);
     PASS(tape, range->least);
@@ -231,10 +231,14 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     uint64_t hash = 14695981039346656037u;
     const CpsSolverOptions *solver = &evolution->options.solver;
-    const int what[] = {evolution->line_count,           evolution->stage_count,
-                        evolution->obstacle_count,       (int)evolution->options.friction,
-                        (int)evolution->options.contact, solver->max_iterations,
-                        (int)solver->linear_system,      solver->halvings};
+    const int what[] = {evolution->line_count,
+                        evolution->stage_count,
+                        evolution->obstacle_count,
+                        (int)evolution->options.friction_policy,
+                        (int)evolution->options.contact_policy,
+                        solver->max_iterations,
+                        (int)solver->linear_system,
+                        solver->halvings};
     hash_bytes(&hash, what, sizeof what);
     hash_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
     hash_numbers(&hash, 3, evolution->origin);

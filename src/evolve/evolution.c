@@ -48,7 +48,7 @@ static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
     for (int k = 0; k < scene->obstacle_count; k++)
         round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
-    return round && scene->contact == CPS_CONTACT_GAINED;
+    return round && scene->contact_policy == CPS_CONTACT_REACHED;
 }
 
 static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
@@ -98,7 +98,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
                  *evolution = placed ? placed : &measured;
     const bool real = placed != NULL;
     evolution->line = CPSI_TAKE(arena, scene->line_count, CpsiLine);
-    evolution->is_laid = CPSI_TAKE(arena, scene->line_count, bool);
+    evolution->is_static = CPSI_TAKE(arena, scene->line_count, bool);
     evolution->mass = CPSI_TAKE(arena, scene->line_count, double);
     evolution->stage = CPSI_TAKE(arena, scene->stage_count + 1, CpsiEvolutionStage);
     evolution->obstacle = CPSI_TAKE(arena, scene->obstacle_count + 1, CpsiObstacle);
@@ -202,7 +202,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         if (line->end[end].kind == CPS_END_HELD) cpsi_start_end(def, end, line->end[end].value);
     }
     switch (def->start.kind) {
-    case CPS_START_LAID: move_to_free_side(line); break;
+    case CPS_START_STATIC: move_to_free_side(line); break;
     case CPS_START_NODES: cpsi_node_start(line, def); break;
     default: cpsi_line_start_reaction(line, CPS_TOUCH * line->length);
     }
@@ -211,8 +211,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
 
 static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->options = (CpsiStepOptions){.solver = scene->solver,
-                                           .friction = scene->friction,
-                                           .contact = scene->contact,
+                                           .friction_policy = scene->friction_policy,
+                                           .contact_policy = scene->contact_policy,
                                            .least = &evolution->least};
     evolution->obstacle_count = scene->obstacle_count;
     for (int k = 0; k < scene->obstacle_count; k++)
@@ -225,8 +225,8 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         evolution->mass[i] = pull > 0 ? scene->line[i].weight / pull : 0;
         if (evolution->line[i].compliance == 0) evolution->line[i].forces = &evolution->forces;
         evolution->move[i].angle = evolution->angle;
-        evolution->is_laid[i] = scene->line[i].start.kind == CPS_START_LAID;
-        evolution->laid = evolution->laid || evolution->is_laid[i];
+        evolution->is_static[i] = scene->line[i].start.kind == CPS_START_STATIC;
+        evolution->has_static = evolution->has_static || evolution->is_static[i];
     }
     for (int i = 0; i < scene->stage_count; i++) {
         const CpsStage *from = &scene->stage[i];
@@ -244,7 +244,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
         evolution->step_count += from->steps;
     }
-    if (evolution->laid) evolution->step_count++;
+    if (evolution->has_static) evolution->step_count++;
     if (evolution->step_count == 0) {
         /* no history: one step to the equilibrium under the initial ends */
         const double *g = scene->gravity;
@@ -418,7 +418,7 @@ static void plan_step(CpsEvolution *evolution) {
 /* Statics: the first equilibrium of lines that start by statics. The other lines take a load step
  * with constant ends. */
 static void place_statically(CpsEvolution *evolution) {
-    snprintf(evolution->step_name, CPSI_STEP_NAME, "laid");
+    snprintf(evolution->step_name, CPSI_STEP_NAME, "static");
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int i = 0; i < evolution->line_count; i++) {
         CpsiLine *line = &evolution->line[i];
@@ -426,13 +426,13 @@ static void place_statically(CpsEvolution *evolution) {
         CpsiMove *move = &evolution->move[i];
         for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
-        if (!evolution->is_laid[i]) {
+        if (!evolution->is_static[i]) {
             cpsi_line_substeps(line, &evolution->program, &options, move, &evolution->scratch,
                                false);
             continue;
         }
         options.frictionless = true;
-        options.contact = CPS_CONTACT_GAINED;
+        options.contact_policy = CPS_CONTACT_REACHED;
         cpsi_line_place_statically(line, &evolution->program, &options, &evolution->scratch);
     }
 }
@@ -479,7 +479,8 @@ static void find_ranges(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->line_count; i++) {
         CpsiLine *line = &evolution->line[i];
         CpsiStepOptions options = evolution->options;
-        options.frictionless = evolution->laid && evolution->done == 0 && evolution->is_laid[i];
+        options.frictionless =
+            evolution->has_static && evolution->done == 0 && evolution->is_static[i];
         if (!cps_outcome_is_certified(line->report.outcome)) continue;
         if (line->forces) {
             cpsi_line_tension_range(line, line->forces, &options);
@@ -508,7 +509,7 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "no load step remains: ask cps_evolution_remaining first");
     const double begin = seconds();
-    const bool statics = evolution->laid && evolution->done == 0;
+    const bool statics = evolution->has_static && evolution->done == 0;
     const CpsStatus status = statics ? CPS_OK : check_grabs(evolution, err);
     if (status) return status;
     if (evolution->interrupt.asked) cps_evolution_save(evolution, evolution->before);
@@ -581,7 +582,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .gap = from->gap,
         .friction_bound = from->friction_bound,
         .friction_factor = from->friction_factor,
-        .friction = from->friction_force,
+        .friction_force = from->friction_force,
         .reaction = from->reaction,
         .slide = from->slide,
         .segment_force = from->segment_force,
@@ -598,7 +599,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
     view.element_normal = from->normal + 3 * first;
     view.element_gap = from->gap + first;
     view.element_friction_bound = from->friction_bound + first;
-    view.element_friction = from->friction_force + 3 * first;
+    view.element_friction_force = from->friction_force + 3 * first;
     view.element_reaction = from->reaction + first;
     view.element_slide = from->slide + 3 * first;
     view.element_state = from->state + first;

@@ -41,8 +41,8 @@ struct CpsEvolution {
     CpsiSubsteps scratch;
     CpsiLine *line;            /* (line_count) */
     CpsiEvolutionStage *stage; /* (stage_count) */
-    bool laid;                 /* the first step places lines by statics */
-    bool *is_laid;             /* (line_count) */
+    bool has_static;           /* the first step places lines by statics */
+    bool *is_static;           /* (line_count) */
     double *
         mass; /* (line_count) [kg/m] weight per gravity; 0 where there is no gravity at the start */
     int done; /* steps taken */

@@ -46,7 +46,7 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
         for (int a = 0; a < 3; a++) {
             start.end[i].position[a] = line->position[3 * j + a];
             start.end[i].force[a] = is_free ? end[i].value[a] : line->report.end[i].force[a];
-            start.end[i].friction[a] = is_free ? 0 : line->report.end[i].friction[a];
+            start.end[i].friction_force[a] = is_free ? 0 : line->report.end[i].friction_force[a];
         }
     }
     return start;
@@ -56,9 +56,9 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
 static double end_work(const CpsEndReport *before, const CpsEndReport *after, bool known) {
     double work = 0;
     for (int a = 0; a < 3; a++) {
-        const double pull = after->force[a] + after->friction[a],
-                     pulled = before->force[a] + before->friction[a];
-        const double force = (known ? 0.5 * (pulled + pull) : pull) - after->friction[a];
+        const double pull = after->force[a] + after->friction_force[a],
+                     pulled = before->force[a] + before->friction_force[a];
+        const double force = (known ? 0.5 * (pulled + pull) : pull) - after->friction_force[a];
         work += force * (after->position[a] - before->position[a]);
     }
     return work;
@@ -74,7 +74,7 @@ static double end_obstacle_work(const CpsiLine *line) {
             const Vec3 own =
                 cpsi_obstacle_slip(&line->obstacle[k], vec3_load(&line->reference[3 * j]),
                                    vec3_load(&line->position[3 * j]));
-            work += vec3_dot(vec3_load(line->report.end[end].friction),
+            work += vec3_dot(vec3_load(line->report.end[end].friction_force),
                              vec3_sub(own, cpsi_line_end_slide(line, end, k)));
         }
     return work;

@@ -96,7 +96,7 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
              * may be there and has no reaction */
             const bool near =
                 gap <= TOUCH * line->length &&
-                (scene->contact == CPS_CONTACT_GAINED || gap >= -TOUCH * line->length);
+                (scene->contact_policy == CPS_CONTACT_REACHED || gap >= -TOUCH * line->length);
             if (!nearest || !near)
                 return cpsi_fail(err, CPS_ERR_ARGUMENT,
                                  "line '%s': start: the %s of node %d is %g N, but it touches no "

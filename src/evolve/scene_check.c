@@ -40,7 +40,7 @@ CpsScene cps_scene_default(void) {
     return (CpsScene){
         .cookie = SCENE_COOKIE,
         .gravity = {0, 0, -9.81},
-        .friction = CPS_FRICTION_CONSISTENT,
+        .friction_policy = CPS_FRICTION_CONSISTENT,
         .solver = {.tolerance = 1e-8,
                    .max_iterations = 60,
                    .linear_system = CPS_LINEAR_SYSTEM_CHAIN,
@@ -113,10 +113,10 @@ static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': unknown kind %d", o->name,
                          (int)o->kind);
     const bool plane = o->kind == CPS_OBSTACLE_PLANE, ball = o->kind == CPS_OBSTACLE_SPHERE;
-    const char *what = plane ? "plane point" : ball ? "sphere center" : "cylinder point";
+    const char *what = plane ? "plane point" : ball ? "sphere centre" : "cylinder point";
     if (!are_usable(o->point))
         return FAIL_AT(plane  ? "plane.point"
-                       : ball ? "sphere.center"
+                       : ball ? "sphere.centre"
                               : "cylinder.point",
                        err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': %s is (%g, %g, %g) m, expected finite numbers", o->name,
@@ -284,7 +284,7 @@ static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
     if (start->kind < CPS_START_STRAIGHT || start->kind > CPS_START_NODES)
         return FAIL_AT("start", err, CPS_ERR_ARGUMENT, "line '%s': start has the unknown kind %d",
                        line->name, (int)start->kind);
-    if (start->kind == CPS_START_LAID || start->kind == CPS_START_NODES) return CPS_OK;
+    if (start->kind == CPS_START_STATIC || start->kind == CPS_START_NODES) return CPS_OK;
     const bool polyline = start->kind == CPS_START_POLYLINE;
     if (!start->point || (polyline ? start->point_count < 2 : start->point_count != 2))
         return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
@@ -329,7 +329,7 @@ static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
     if (!(shape >= length * (1 - tolerance)))
         return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
                        "line '%s': start is %.10g m long, shorter than the line's length %.10g m: "
-                       "lengthen the shape, or use 'laid'",
+                       "lengthen the shape, or use 'static'",
                        line->name, shape, length);
     if (!elastic && !(shape <= length * (1 + tolerance)))
         return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
@@ -361,8 +361,9 @@ static int first_below(const CpsScene *scene, const CpsLine *line, int count, co
  * itself. With strict contact given nodes may lie below it. */
 static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     const bool through =
-        line->start.kind == CPS_START_NODES && scene->contact == CPS_CONTACT_STRICT;
-    if (scene->obstacle_count == 0 || line->start.kind == CPS_START_LAID || through) return CPS_OK;
+        line->start.kind == CPS_START_NODES && scene->contact_policy == CPS_CONTACT_REFERENCE;
+    if (scene->obstacle_count == 0 || line->start.kind == CPS_START_STATIC || through)
+        return CPS_OK;
     CpsiStartWalk walk = cpsi_start_walk(line);
     for (int first = 0; first <= line->elements; first += NODES_AT_ONCE) {
         Vec3 x[NODES_AT_ONCE];
@@ -396,13 +397,14 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
             "line '%s': ends: the force on end %s is (%g, %g, %g) N, expected finite numbers",
             line->name, letter, v[0], v[1], v[2]);
     }
-    const bool laid = line->start.kind == CPS_START_LAID;
+    const bool is_static = line->start.kind == CPS_START_STATIC;
     if (isnan(v[0]) && isnan(v[1]) && isnan(v[2])) {
-        if (!laid) return CPS_OK;
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                       "line '%s': ends: end %s has no position, and a laid start gives none: fix "
-                       "it at [x, y, z]",
-                       line->name, letter);
+        if (!is_static) return CPS_OK;
+        return FAIL_AT(
+            place, err, CPS_ERR_ARGUMENT,
+            "line '%s': ends: end %s has no position, and a static start gives none: fix "
+            "it at [x, y, z]",
+            line->name, letter);
     }
     if (!are_usable(v))
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
@@ -414,7 +416,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                        "line '%s': ends: end %s is %g m below obstacle '%s'", line->name, letter,
                        -above, name);
-    if (laid) return CPS_OK;
+    if (is_static) return CPS_OK;
 
     /* the end of the initial shape: compute it as if no value were given */
     CpsLine open = *line;
@@ -425,7 +427,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
     if (!(off <= place_tolerance(line, vec3_load(v))))
         return FAIL_AT(
             place, err, CPS_ERR_ARGUMENT,
-            "line '%s': ends: end %s is fixed at (%.10g, %.10g, %.10g) m, but the start puts it at "
+            "line '%s': ends: end %s is held at (%.10g, %.10g, %.10g) m, but the start puts it at "
             "(%.10g, %.10g, %.10g) m, %g m away: make them agree, or give no position",
             line->name, letter, v[0], v[1], v[2], start[0], start[1], start[2], off);
     return CPS_OK;
@@ -450,10 +452,10 @@ static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
     if (status == CPS_OK) status = check_start_length(line, err);
     if (status == CPS_OK) status = check_start_height(scene, line, err);
     for (int end = 0; end < 2 && status == CPS_OK; end++) status = check_end(scene, line, end, err);
-    if (status == CPS_OK && line->start.kind == CPS_START_LAID &&
+    if (status == CPS_OK && line->start.kind == CPS_START_STATIC &&
         line->end[0].kind == CPS_END_FREE && line->end[1].kind == CPS_END_FREE)
         status = FAIL_AT("ends", err, CPS_ERR_ARGUMENT,
-                         "line '%s': ends: both are free, but a laid start needs a fixed one",
+                         "line '%s': ends: both are free, but a static start needs a held one",
                          line->name);
     return cpsi_fail_inside(err, status, "lines.%s", line->name);
 }
@@ -588,12 +590,14 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
         return FAIL_AT("solver.linear_system", err, CPS_ERR_ARGUMENT,
                        "solver: linear_system has the unknown value %d",
                        (int)solver->linear_system);
-    if (scene->friction != CPS_FRICTION_FROZEN && scene->friction != CPS_FRICTION_CONSISTENT)
+    if (scene->friction_policy != CPS_FRICTION_FROZEN &&
+        scene->friction_policy != CPS_FRICTION_CONSISTENT)
         return FAIL_AT("friction", err, CPS_ERR_ARGUMENT, "friction: unknown value %d",
-                       (int)scene->friction);
-    if (scene->contact != CPS_CONTACT_GAINED && scene->contact != CPS_CONTACT_STRICT)
+                       (int)scene->friction_policy);
+    if (scene->contact_policy != CPS_CONTACT_REACHED &&
+        scene->contact_policy != CPS_CONTACT_REFERENCE)
         return FAIL_AT("contact", err, CPS_ERR_ARGUMENT, "contact: unknown value %d",
-                       (int)scene->contact);
+                       (int)scene->contact_policy);
     if (!are_usable(scene->gravity))
         return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
                        "gravity: is (%g, %g, %g) m/s2, expected finite numbers", scene->gravity[0],

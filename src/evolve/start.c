@@ -9,7 +9,7 @@ static double element_length(const CpsLine *line, int i) {
 }
 
 double cpsi_start_length(const CpsLine *line) {
-    if (line->start.kind == CPS_START_ARC || line->start.kind == CPS_START_LAID)
+    if (line->start.kind == CPS_START_ARC || line->start.kind == CPS_START_STATIC)
         return line->length;
     double length = 0;
     for (int i = 1; i < line->start.point_count; i++)
@@ -33,7 +33,7 @@ static bool is_placed(const CpsEnd *end) {
     return end->kind == CPS_END_HELD && vec3_finite(end->value);
 }
 
-/* ends of the first guess of a laid line, of which at least one is held */
+/* ends of the first guess of a static line, of which at least one is held */
 static void statics_guess(const CpsLine *line, Vec3 guess[2]) {
     for (int k = 0; k < 2; k++) guess[k] = vec3_load(line->end[k].value);
     for (int k = 0; k < 2; k++) {
@@ -48,7 +48,7 @@ static void statics_guess(const CpsLine *line, Vec3 guess[2]) {
 CpsiStartWalk cpsi_start_walk(const CpsLine *line) {
     CpsiStartWalk walk = {.line = line, .stretch = cpsi_start_length(line) / line->length};
     if (line->start.kind == CPS_START_ARC) walk.arc = cpsi_start_arc(line);
-    if (line->start.kind == CPS_START_LAID) {
+    if (line->start.kind == CPS_START_STATIC) {
         Vec3 guess[2];
         statics_guess(line, guess);
         walk.from = guess[0];
@@ -95,7 +95,7 @@ Vec3 cpsi_start_next(CpsiStartWalk *walk) {
     case CPS_START_POLYLINE: x = polyline_point(walk); break;
     case CPS_START_ARC: x = arc_point(&walk->arc, walk->angle); break;
     case CPS_START_NODES: x = shape_point(line, walk->node); break;
-    case CPS_START_LAID:
+    case CPS_START_STATIC:
         x = vec3_axpy(walk->natural / line->length, vec3_sub(walk->to, walk->from), walk->from);
         if (walk->node == line->elements) x = walk->to;
         break;

@@ -4,9 +4,9 @@
  *   straight, polyline   node i at the shape's arc length a_i s, with a_i its natural abscissa and
  *                        s = shape's length over line's length >= 1: an elastic line is stretched
  * uniformly arc                  nodes on the circle, each chord exactly as long as its element:
- * without tension nodes                where they are given (node_start.h) laid only a first guess
- * for statics: uniformly on the straight line between the held ends, or from the held end along the
- * force on the free one (straight down, -z, when there is none)
+ * without tension nodes                where they are given (node_start.h) static only a first
+ * guess for statics: uniformly on the straight line between the held ends, or from the held end
+ * along the force on the free one (straight down, -z, when there is none)
  *
  * The line must have passed the check of its start (scene_check.c), which itself uses
  * cpsi_start_walk. */
@@ -24,7 +24,7 @@ typedef struct CpsiArc {
 } CpsiArc;
 CpsiArc cpsi_start_arc(const CpsLine *line);
 
-/* [m] Length of the start shape; an arc and a laid start are as long as the line. */
+/* [m] Length of the start shape; an arc and a static start are as long as the line. */
 double cpsi_start_length(const CpsLine *line);
 
 /* Visit the nodes from A to B. */
@@ -37,7 +37,7 @@ typedef struct CpsiStartWalk {
     double behind;  /* [m] polyline: length of the pieces already passed */
     int piece;      /* polyline: piece that the walk is on */
     CpsiArc arc;
-    Vec3 from, to; /* laid: the ends of the guess */
+    Vec3 from, to; /* static: the ends of the guess */
 } CpsiStartWalk;
 CpsiStartWalk cpsi_start_walk(const CpsLine *line);
 Vec3 cpsi_start_next(CpsiStartWalk *walk);

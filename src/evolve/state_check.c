@@ -37,7 +37,8 @@ static bool is_end(const CpsEnd *end) {
 /* Do `current` and `part` agree with the number of steps taken? */
 static bool is_place_in_history(const CpsEvolution *evolution) {
     if (!within(evolution->done, 0, evolution->step_count)) return false;
-    int left = evolution->done - (evolution->laid && evolution->done > 0 ? 1 : 0), current = 0;
+    int left = evolution->done - (evolution->has_static && evolution->done > 0 ? 1 : 0),
+        current = 0;
     while (current < evolution->stage_count && left >= evolution->stage[current].steps)
         left -= evolution->stage[current++].steps;
     return evolution->current == current && evolution->part == left;

@@ -330,15 +330,15 @@ static void divide(Advance *substeps, double from, double middle, double to, Tri
  * definition (S90 P2.1). The friction of the reference may then produce energy, and a path
  * tolerance shows how much that matters. */
 static bool may_branch(const Advance *substeps) {
-    return substeps->options->friction == CPS_FRICTION_CONSISTENT && substeps->jumps < JUMPS;
+    return substeps->options->friction_policy == CPS_FRICTION_CONSISTENT && substeps->jumps < JUMPS;
 }
 
 /* May the line jump? With strict contact and frozen friction a step is one convex problem without a
  * path. */
 static bool may_relax(const Advance *substeps) {
     const CpsiStepOptions *options = substeps->options;
-    const bool strict =
-        options->friction == CPS_FRICTION_FROZEN && options->contact == CPS_CONTACT_STRICT;
+    const bool strict = options->friction_policy == CPS_FRICTION_FROZEN &&
+                        options->contact_policy == CPS_CONTACT_REFERENCE;
     return !strict && substeps->relaxed < RELAXATIONS;
 }
 

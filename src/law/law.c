@@ -240,16 +240,16 @@ static CpsStatus find_composition(int n, const double *map, const CpsLaw *law,
                                   const CpsSet *reduced, CpsComposition *composition,
                                   CpsError *err) {
     const int rows = cps_law_space(law);
-    double *center = malloc(((size_t)n + (size_t)rows) * sizeof *center);
-    if (!center) return out_of_memory(err);
-    double *force = center + n;
+    double *centre = malloc(((size_t)n + (size_t)rows) * sizeof *centre);
+    if (!centre) return out_of_memory(err);
+    double *force = centre + n;
     CpsSetFacts facts;
-    CpsStatus status = cps_set_facts(reduced, 0, &facts, center, NULL, err);
+    CpsStatus status = cps_set_facts(reduced, 0, &facts, centre, NULL, err);
     *composition = CPS_COMPOSITION_INTERIOR;
     if (status == CPS_OK && facts.outcome != CPS_SET_OUTCOME_ANSWERED)
         *composition = CPS_COMPOSITION_NOT_SATISFIED;
     if (status == CPS_OK && facts.outcome == CPS_SET_OUTCOME_ANSWERED) {
-        for (int i = 0; i < rows; i++) force[i] = cpsi_dot(n, map + (size_t)i * (size_t)n, center);
+        for (int i = 0; i < rows; i++) force[i] = cpsi_dot(n, map + (size_t)i * (size_t)n, centre);
         for (int i = 0, at = 0; i < law->factor_count && status == CPS_OK; i++) {
             CpsComposition place;
             status = place_in_factor(law->factor[i], force + at, &place, err);
@@ -257,7 +257,7 @@ static CpsStatus find_composition(int n, const double *map, const CpsLaw *law,
             at += cps_set_space(law->factor[i]);
         }
     }
-    free(center);
+    free(centre);
     return status;
 }
 

@@ -293,8 +293,8 @@ CpsStatus cps_planar_drive(const CpsPlanar *body, int rows, const double *map,
         }
         drive_forces(&self, place.force, out.drive);
         const bool turns = out.twist[2] != 0;
-        out.center[0] = turns ? -out.twist[1] / out.twist[2] : INFINITY;
-        out.center[1] = turns ? out.twist[0] / out.twist[2] : INFINITY;
+        out.centre[0] = turns ? -out.twist[1] / out.twist[2] : INFINITY;
+        out.centre[1] = turns ? out.twist[0] / out.twist[2] : INFINITY;
     }
     *motion = out;
     return CPS_OK;

@@ -89,7 +89,7 @@ static void set_contact(CpsiFirstOrder *f, CpsFirstOrderContact contact) {
     const CpsiCells *c = &f->step->own;
     for (int j = 0; j <= c->cells; ++j) {
         const bool touches = c->gap[j] <= TOUCH * f->step->length;
-        f->gap[j] = contact == CPS_FIRST_ORDER_CONTACT_GAINED ? c->gap[j] : touches ? 0 : INFINITY;
+        f->gap[j] = contact == CPS_FIRST_ORDER_CONTACT_REACHED ? c->gap[j] : touches ? 0 : INFINITY;
     }
 }
 
@@ -251,8 +251,8 @@ CpsStatus cps_first_order_solve(const CpsRegularized *classic, CpsFirstOrderCont
                                 CpsFirstOrder **out, CpsError *err) {
     if (!classic || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic or out is NULL");
     *out = NULL;
-    if (contact != CPS_FIRST_ORDER_CONTACT_TOUCHING && contact != CPS_FIRST_ORDER_CONTACT_GAINED)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "contact: found %d, expected touching or gained",
+    if (contact != CPS_FIRST_ORDER_CONTACT_REFERENCE && contact != CPS_FIRST_ORDER_CONTACT_REACHED)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "contact: found %d, expected reference or reached",
                          (int)contact);
     CpsFirstOrder *s = calloc(1, sizeof *s);
     if (!s) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
@@ -294,6 +294,6 @@ CpsFirstOrderView cps_first_order_view(const CpsFirstOrder *solution) {
                                .displacement = solution->f.u,
                                .strain = solution->along,
                                .tension = solution->tension,
-                               .friction = solution->friction,
+                               .friction_force = solution->friction,
                                .reaction = solution->f.push};
 }

@@ -84,7 +84,7 @@ static void measure_place(const CpsiRegularized *f, int j, CpsRegularizedReport 
     const double slid = vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u)),
                  smooth = hypot(f->parameters.delta, slid);
     r->potential -= vec3_dot(cpsi_at(c->load, j), x);
-    r->friction += c->bound[j] * smooth;
+    r->friction_energy += c->bound[j] * smooth;
     r->relaxed += c->bound[j] * slid;
     if (distance < 0) r->contact += f->parameters.penalty * c->share[j] * distance * distance / 2;
     if (c->bound[j] > 0 && slid < BELOW_BOUND * smooth) r->creep = cpsi_max_nan(r->creep, slid);
@@ -101,6 +101,6 @@ void cpsi_regularized_measure(const CpsiRegularized *f, CpsRegularizedReport *r)
     measure_compression(f, r);
     for (int j = 0; j <= f->cells->cells; ++j) measure_place(f, j, r);
     r->relaxed += r->elastic + r->potential;
-    r->total = r->elastic + r->potential + r->friction + r->bending + r->contact;
+    r->total = r->elastic + r->potential + r->friction_energy + r->bending + r->contact;
     r->energy_error = r->total - f->step->energy;
 }

@@ -160,7 +160,7 @@ static double gauge_ball(double square, double cc, double cx, double xx) {
 }
 
 /* Component i of the ball's centre; shift NULL: none. */
-static double center(const CpsSet *ball, const double *shift, int i) {
+static double centre(const CpsSet *ball, const double *shift, int i) {
     return ball->a[i] + (shift ? shift[i] : 0);
 }
 
@@ -175,7 +175,7 @@ static bool support_polar(const CpsSet *set, const double *w, double *point, dou
     const double square = ball->scalar * ball->scalar;
     double cc = 0, cw = 0;
     for (int i = 0; i < set->n; i++) {
-        const double c = center(ball, shift, i);
+        const double c = centre(ball, shift, i);
         cc += c * c;
         cw += c * w[i];
     }
@@ -184,7 +184,7 @@ static bool support_polar(const CpsSet *set, const double *w, double *point, dou
     const double t = gauge_ball(square, cc, cw, cpsi_dot(set->n, w, w)),
                  slope = cw + t * (square - cc);
     for (int i = 0; point && i < set->n; i++) {
-        const double c = center(ball, shift, i);
+        const double c = centre(ball, shift, i);
         point[i] = isinf(t) ? -c : slope > 0 ? (w[i] - t * c) / slope : 0;
     }
     *value = t;
@@ -309,7 +309,7 @@ static bool moved_ball_gauge(const CpsSet *ball, const double *shift, const doub
                              double *value) {
     double cc = 0, cx = 0;
     for (int i = 0; i < ball->n; i++) {
-        const double c = center(ball, shift, i);
+        const double c = centre(ball, shift, i);
         cc += c * c;
         cx += c * p[i];
     }

@@ -141,10 +141,10 @@ static CpsStatus check_bounded(const CpsSet *set, double *w, bool *bounded, CpsE
 
 /* The position of 0. It is in the relative interior when the set extends from it both ways along
  * every direction of its basis. */
-static CpsStatus place_zero(const CpsSet *set, const double *center, const double *basis,
+static CpsStatus place_zero(const CpsSet *set, const double *centre, const double *basis,
                             double *zero, double *work, CpsSetFacts *facts, CpsError *err) {
     const size_t n = (size_t)set->n;
-    const double near = 1e-9 * cpsi_set_size(set), far = cpsi_norm(set->n, center);
+    const double near = 1e-9 * cpsi_set_size(set), far = cpsi_norm(set->n, centre);
     CpsSetAnswer answer;
     CpsiZero known;
     double margin;
@@ -153,7 +153,7 @@ static CpsStatus place_zero(const CpsSet *set, const double *center, const doubl
     facts->has_zero = known != CPSI_ZERO_UNKNOWN;
     if (!facts->has_zero && far > near) {
         /* check whether the whole set lies on the centre's side of 0 */
-        for (size_t i = 0; i < n; i++) work[i] = -center[i] / far;
+        for (size_t i = 0; i < n; i++) work[i] = -centre[i] / far;
         status = cpsi_support(set, work, NULL, &answer, err);
         if (status ||
             (answer.outcome == CPS_SET_OUTCOME_ANSWERED && answer.value < -near - answer.gap))
@@ -190,7 +190,7 @@ static CpsStatus place_zero(const CpsSet *set, const double *center, const doubl
 /* The facts of the polar of a bounded set are known: 0 lies inside it, and it is bounded where 0
  * lies inside the set. A search along directions could not decide this: the polar of a ball through
  * 0 is a paraboloid, which is unbounded in directions that are not rays. */
-static CpsStatus facts_of_polar(const CpsSet *set, CpsSetFacts *facts, double *center,
+static CpsStatus facts_of_polar(const CpsSet *set, CpsSetFacts *facts, double *centre,
                                 double *basis, bool *known, CpsError *err) {
     const size_t n = (size_t)set->n;
     CpsSetFacts part;
@@ -203,12 +203,12 @@ static CpsStatus facts_of_polar(const CpsSet *set, CpsSetFacts *facts, double *c
     facts->dimension = set->n;
     facts->bounded = part.zero_interior;
     facts->has_zero = facts->zero_relative = facts->zero_interior = true;
-    if (center) memset(center, 0, n * sizeof *center);
+    if (centre) memset(centre, 0, n * sizeof *centre);
     for (size_t i = 0; basis && i < n * n; i++) basis[i] = i % (n + 1) == 0;
     return CPS_OK;
 }
 
-CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts, double *center,
+CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts, double *centre,
                         double *basis, CpsError *err) {
     if (!set || !facts)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", set ? "facts" : "set");
@@ -219,7 +219,7 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
     bool known = false;
     *facts = (CpsSetFacts){.outcome = CPS_SET_OUTCOME_ANSWERED,
                            .tolerance = (tolerance > 0 ? tolerance : 1e-7) * cpsi_set_size(set)};
-    CpsStatus status = facts_of_polar(set, facts, center, basis, &known, err);
+    CpsStatus status = facts_of_polar(set, facts, centre, basis, &known, err);
     if (status != CPS_OK || known) return status;
     double *room = calloc(n * n + 6 * n, sizeof *room);
     if (!room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the facts of a set");
@@ -248,7 +248,7 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
             search.points = 1;
         }
         for (size_t i = 0; i < n; i++) search.sum[i] = search.sum[i] / search.points + rays[i];
-        if (center) memcpy(center, search.sum, n * sizeof *center);
+        if (centre) memcpy(centre, search.sum, n * sizeof *centre);
         if (basis) memcpy(basis, search.basis, n * n * sizeof *basis);
         if (!status && cpsi_set_has_user(set))
             facts->outcome = CPS_SET_OUTCOME_NOT_AVAILABLE;

@@ -24,7 +24,7 @@ static bool going(const CpsiWalk *walk) {
 
 double cpsi_walk_visit(CpsiWalk *walk, double theta, double x[2]) {
     const int n = walk->set->n;
-    const double c = cos(theta), s = sin(theta), *turn = walk->turn, *center = walk->center,
+    const double c = cos(theta), s = sin(theta), *turn = walk->turn, *centre = walk->centre,
                  *basis = walk->basis;
     double along = turn[0] * c + turn[2] * s, across = turn[1] * c + turn[3] * s, p[2] = {0, 0};
     CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_INACCURATE};
@@ -40,8 +40,8 @@ double cpsi_walk_visit(CpsiWalk *walk, double theta, double x[2]) {
     walk->exact = walk->exact && answer.exact;
     walk->gap = fmax(walk->gap, answer.gap);
     for (int i = 0; i < n; i++) {
-        p[0] += (walk->point[i] - center[i]) * basis[i];
-        p[1] += (walk->point[i] - center[i]) * basis[n + i];
+        p[0] += (walk->point[i] - centre[i]) * basis[i];
+        p[1] += (walk->point[i] - centre[i]) * basis[n + i];
     }
     x[0] = turn[0] * p[0] + turn[1] * p[1];
     x[1] = turn[2] * p[0] + turn[3] * p[1];
@@ -214,9 +214,9 @@ CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, C
     *facts = (CpsSetFacts){.outcome = CPS_SET_OUTCOME_INACCURATE};
     *room = malloc((n * n + 3 * n) * sizeof **room);
     if (!*room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the outline of a set");
-    double *center = *room, *basis = center + n;
+    double *centre = *room, *basis = centre + n;
     *walk = (CpsiWalk){.set = set,
-                       .center = center,
+                       .centre = centre,
                        .basis = basis,
                        .w = basis + n * n,
                        .point = basis + n * n + n,
@@ -225,7 +225,7 @@ CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, C
                        .opening = tolerance > 0 ? tolerance : LEAST_OPENING,
                        .exact = true,
                        .err = err};
-    const CpsStatus status = cps_set_facts(set, 0, facts, center, basis, err);
+    const CpsStatus status = cps_set_facts(set, 0, facts, centre, basis, err);
     if (status) return status;
     if (facts->outcome == CPS_SET_OUTCOME_NOT_AVAILABLE && facts->dimension >= 0)
         facts->outcome = CPS_SET_OUTCOME_ANSWERED;
@@ -246,7 +246,7 @@ static void store_point(const CpsiWalk *walk, const double x[2], int capacity, d
     if (*count < capacity)
         for (int i = 0; i < n; i++)
             points[*count * n + i] =
-                walk->center[i] + x[0] * walk->basis[i] + (n > 1 ? x[1] * walk->basis[n + i] : 0);
+                walk->centre[i] + x[0] * walk->basis[i] + (n > 1 ? x[1] * walk->basis[n + i] : 0);
     ++*count;
 }
 

@@ -26,10 +26,10 @@ typedef struct CpsiOutlinePiece {
     double drift;
 } CpsiOutlinePiece;
 
-/* The set in its plane: point = center + basis' (two numbers), x = turn (the two numbers). */
+/* The set in its plane: point = centre + basis' (two numbers), x = turn (the two numbers). */
 typedef struct CpsiWalk {
     const CpsSet *set;
-    const double *center, *basis;
+    const double *centre, *basis;
     double turn[4];
     double *w, *point;       /* (n) scratch */
     double size;             /* unit of length for tolerances */

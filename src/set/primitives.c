@@ -63,8 +63,8 @@ CpsStatus cps_set_segment(int n, const double *from, const double *to, CpsSet **
     return CPS_OK;
 }
 
-CpsStatus cps_set_ball(int n, const double *center, double radius, CpsSet **out, CpsError *err) {
-    CpsStatus status = check_rows("center", n, center ? 1 : 0, 0, center, out, err);
+CpsStatus cps_set_ball(int n, const double *centre, double radius, CpsSet **out, CpsError *err) {
+    CpsStatus status = check_rows("centre", n, centre ? 1 : 0, 0, centre, out, err);
     if (status) return status;
     if (!(radius >= 0) || !isfinite(radius))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "radius is %g, expected a finite number >= 0",
@@ -73,14 +73,14 @@ CpsStatus cps_set_ball(int n, const double *center, double radius, CpsSet **out,
     status =
         cpsi_set_new(radius > 0 ? CPSI_SET_BALL : CPSI_SET_POINTS, n, 1, NULL, (size_t)n, out, err);
     if (status) return status;
-    if (center) memcpy((*out)->a, center, (size_t)n * sizeof *center);
+    if (centre) memcpy((*out)->a, centre, (size_t)n * sizeof *centre);
     (*out)->scalar = radius;
     return CPS_OK;
 }
 
-CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, CpsSet **out,
+CpsStatus cps_set_ellipsoid(int n, const double *centre, const double *shape, CpsSet **out,
                             CpsError *err) {
-    CpsStatus status = check_rows("center", n, center ? 1 : 0, 0, center, out, err);
+    CpsStatus status = check_rows("centre", n, centre ? 1 : 0, 0, centre, out, err);
     if (!status) status = check_rows("shape", n, n, 1, shape, out, err);
     if (status) return status;
     const size_t w = (size_t)n;
@@ -98,7 +98,7 @@ CpsStatus cps_set_ellipsoid(int n, const double *center, const double *shape, Cp
     set->b = set->a + w;
     set->c = set->b + w * w;
     double *lower = set->c + w * w; /* scratch after the arrays that are kept */
-    if (center) memcpy(set->a, center, w * sizeof *center);
+    if (centre) memcpy(set->a, centre, w * sizeof *centre);
     memcpy(set->b, shape, w * w * sizeof *shape);
     if (!cpsi_cholesky(n, shape, lower)) {
         cps_set_release(set);

@@ -14,8 +14,8 @@
 /* kind: the arrays of its data */
 typedef enum CpsiSetKind {
     CPSI_SET_POINTS,    /* a: points (count, n): hull of points, segment, point */
-    CPSI_SET_BALL,      /* a: center (n); scalar: radius */
-    CPSI_SET_ELLIPSOID, /* a: center (n); b: shape (n, n); c: inverse of its lower Cholesky factor
+    CPSI_SET_BALL,      /* a: centre (n); scalar: radius */
+    CPSI_SET_ELLIPSOID, /* a: centre (n); b: shape (n, n); c: inverse of its lower Cholesky factor
                            (n, n) */
     CPSI_SET_BOX,       /* a: low (n); b: high (n) */
     CPSI_SET_INEQUALITIES, /* a: rows (count, n); b: offsets (count): half-space, strip, polyhedron

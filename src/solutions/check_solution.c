@@ -91,7 +91,7 @@ static double scale_of(const CpsLineView *step, double tolerance) {
         work += fabs(vec3_dot(b, u));
         loads += vec3_norm(b);
         moment += vec3_norm(b) * vec3_norm(vec3_sub(x, cpsi_at(step->position, 0)));
-        largest = cpsi_max_nan(largest, vec3_norm(cpsi_at(step->friction, j)));
+        largest = cpsi_max_nan(largest, vec3_norm(cpsi_at(step->friction_force, j)));
         if (!held(step, j)) largest = cpsi_max_nan(largest, step->reaction[j]);
     }
     work += GAP_FLOOR * cpsi_max_nan(loads, largest) * step->arc_length[step->elements] / tolerance;
@@ -112,7 +112,8 @@ static void check_node(const CpsLineView *step, const double *position, int j, C
                n = cpsi_at(step->normal, j);
     const double across = vec3_dot(u, n);
     accept(&c->sliding,
-           slip_gap(step->friction_bound[j], vec3_axpy(-across, n, u), cpsi_at(step->friction, j)),
+           slip_gap(step->friction_bound[j], vec3_axpy(-across, n, u),
+                    cpsi_at(step->friction_force, j)),
            arc);
     if (!isfinite(step->gap[j])) return;
     accept(&c->contact, step->reaction[j] * fmax(0, across + step->gap[j]), arc);

@@ -111,7 +111,7 @@ bool cpsi_piece_moves(const CpsLineView *step, const CpsiPiece *piece) {
 
 static bool at_bound(const CpsLineView *step, int node) {
     const double bound = step->friction_bound[node];
-    return bound > 0 && vec3_norm(cpsi_at(step->friction, node)) >= bound * (1 - AT_BOUND);
+    return bound > 0 && vec3_norm(cpsi_at(step->friction_force, node)) >= bound * (1 - AT_BOUND);
 }
 
 static bool is_held(const CpsLineView *step, int node) {
@@ -125,7 +125,7 @@ static bool may_go(const CpsLineView *step, int node, Vec3 v) {
     if (is_held(step, node)) return false;
     if (!(step->friction_bound[node] > 0)) return true;
     if (!at_bound(step, node)) return false;
-    const Vec3 force = cpsi_at(step->friction, node), n = cpsi_at(step->normal, node);
+    const Vec3 force = cpsi_at(step->friction_force, node), n = cpsi_at(step->normal, node);
     const Vec3 u = vec3_sub(cpsi_at(step->position, node), cpsi_at(step->reference, node));
     const double along = vec3_dot(force, v), size = vec3_norm(force);
     if (!(vec3_norm(vec3_cross(force, v)) <= SAME * size)) return false;
@@ -159,7 +159,7 @@ static bool cluster_goes(const CpsLineView *step, int node, Vec3 v, double force
 
 /* whether a node at its bound can slide on or back */
 static bool may_slide(const CpsLineView *step, int node, double force) {
-    const Vec3 f = cpsi_at(step->friction, node);
+    const Vec3 f = cpsi_at(step->friction_force, node);
     const double size = vec3_norm(f);
     return at_bound(step, node) && size > 0 &&
            (cluster_goes(step, node, vec3_scale(-1 / size, f), force) ||

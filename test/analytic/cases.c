@@ -51,7 +51,7 @@ void case_arc(Case *c, double radius) {
 }
 
 void case_laid(Case *c, double x, double z) {
-    c->line.start.kind = CPS_START_LAID;
+    c->line.start.kind = CPS_START_STATIC;
     c->line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_HELD};
     c->line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_HELD, .value = {x, 0, z}};
 }

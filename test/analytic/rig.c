@@ -33,7 +33,7 @@ void rig_begin(Rig *rig, int elements, double weight, double stiffness) {
     memset(rig, 0, sizeof *rig);
     rig->scene = cps_scene_default();
     rig->line = cps_line_default();
-    rig->scene.friction = CPS_FRICTION_CONSISTENT;
+    rig->scene.friction_policy = CPS_FRICTION_CONSISTENT;
     rig->scene.line_count = 1;
     rig->scene.line = &rig->line;
     rig->scene.obstacle = rig->obstacle;
@@ -261,7 +261,7 @@ static void audit_contact(Audit *audit, const CpsScene *scene, const double *tur
                           const CpsLineView *v, int j, int c, double *sum) {
     const int before = j > 0 ? j - 1 : 0, after = j < v->elements ? j + 1 : j;
     Touch touch = {.reaction = v->reaction[c], .bound = v->friction_bound[c]};
-    memcpy(touch.friction, &v->friction[3 * c], sizeof touch.friction);
+    memcpy(touch.friction, &v->friction_force[3 * c], sizeof touch.friction);
     memcpy(touch.place, &v->position[3 * j], sizeof touch.place);
     memcpy(touch.reference, &v->reference[3 * j], sizeof touch.reference);
     add(touch.along, &v->position[3 * after], -1, &v->position[3 * before]);
@@ -277,7 +277,7 @@ static void audit_element(Audit *audit, const CpsScene *scene, const double *tur
     const int k = v->element_obstacle[e];
     const double b = v->element_share[e], l = v->element_length[e];
     Touch touch = {.reaction = v->element_reaction[e], .bound = v->element_friction_bound[e]};
-    memcpy(touch.friction, &v->element_friction[3 * e], sizeof touch.friction);
+    memcpy(touch.friction, &v->element_friction_force[3 * e], sizeof touch.friction);
     for (int i = 0; i < 3; i++) {
         touch.place[i] = (1 - b) * v->position[3 * e + i] + b * v->position[3 * e + 3 + i];
         touch.reference[i] = (1 - b) * v->reference[3 * e + i] + b * v->reference[3 * e + 3 + i];
@@ -293,7 +293,7 @@ static void audit_element(Audit *audit, const CpsScene *scene, const double *tur
 static void add_element(const CpsLineView *v, int e, int j, double *sum) {
     if (!v->element_obstacle || e < 0 || e >= v->elements || v->element_obstacle[e] < 0) return;
     const double part = j == e ? 1 - v->element_share[e] : v->element_share[e];
-    add(sum, sum, part, &v->element_friction[3 * e]);
+    add(sum, sum, part, &v->element_friction_force[3 * e]);
     add(sum, sum, part * v->element_reaction[e], &v->element_normal[3 * e]);
 }
 
@@ -322,7 +322,7 @@ Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *v)
             audit_element(&audit, scene, turn, v, e, sum);
             /* the normal of the view is the obstacle's there */
             for (int i = 0; i < 3; i++)
-                told[i] = sum[i] - v->element_friction[3 * e + i] -
+                told[i] = sum[i] - v->element_friction_force[3 * e + i] -
                           v->element_reaction[e] * v->element_normal[3 * e + i];
             if (force > 0) audit.balance = fmax(audit.balance, norm(told) / force);
         }
@@ -350,7 +350,7 @@ RigRun rig_open(const Rig *rig) {
 static void turns(RigRun *run, double *turn) {
     const CpsScene *scene = &run->rig->scene;
     for (int k = 0; k < RIG_OBSTACLES; k++) turn[k] = 0;
-    if (run->rig->line.start.kind == CPS_START_LAID && run->steps == 0) return;
+    if (run->rig->line.start.kind == CPS_START_STATIC && run->steps == 0) return;
     if (run->stage >= scene->stage_count) return;
     const CpsStage *stage = &scene->stage[run->stage];
     for (int k = 0; k < stage->turn_count; k++)
@@ -370,7 +370,7 @@ static void check(RigRun *run, const Audit *audit) {
     run->motion += run->report.certificate.tension_bound * run->view.compliance * length;
     run->dissipated += run->report.dissipated;
     run->law += audit->law;
-    const bool frictionless = run->rig->line.start.kind == CPS_START_LAID && run->steps == 1;
+    const bool frictionless = run->rig->line.start.kind == CPS_START_STATIC && run->steps == 1;
     CHECK_LESS(audit->balance, 1e-9);
     CHECK_LESS(audit->penetration, 1e-6);
     CHECK_LESS(audit->open, 1e-8);

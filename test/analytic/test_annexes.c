@@ -11,7 +11,7 @@ enum { ELEMENTS = 200 };
 
 static void unit_line(Case *c, double friction, double x_to) {
     case_begin(c, 1, ELEMENTS, 1, 1);
-    c->scene.friction = CPS_FRICTION_FROZEN; /* the annexes speak of P2.1 */
+    c->scene.friction_policy = CPS_FRICTION_FROZEN; /* the annexes speak of P2.1 */
     case_bed(c, friction);
     case_straight(c, 0, x_to);
 }
@@ -48,7 +48,7 @@ static void annex_5(void **state) {
         if (fabs(middle - abar) > h) tension = fmax(tension, fabs(force(&view, i) - exact));
     }
     // sign of the friction: +e1 near the tip
-    double friction = view.friction[3 * (size_t)(ELEMENTS - 1)] / h;
+    double friction = view.friction_force[3 * (size_t)(ELEMENTS - 1)] / h;
     CHECK_NEAR(show("annex 5", "friction near the tip [N/m]", 1, friction), 0, 1e-4);
     CHECK_LESS(show("annex 5", "place, part that rests [m]", 0, rest), run.motion_error + 1e-12);
     CHECK_LESS(show("annex 5", "place, part folded back [m]", 0, place), 2 * h);
@@ -67,7 +67,7 @@ static void example_11_1(void **state) {
     const double abar = 0.5, part = 1 - abar, h = 1.0 / ELEMENTS;
     unit_line(&c, 0.3, 1);
     case_corner(&c, abar);
-    c.scene.contact = CPS_CONTACT_STRICT;
+    c.scene.contact_policy = CPS_CONTACT_REFERENCE;
     case_force(&c, 1, 0, 0, 0);
     case_force(&c, 1, 0, 0, 0);
     case_force(&c, 1, 0, 0, -0.5);

@@ -114,8 +114,8 @@ static void check_slide(const Corner *corner, const CpsLineView *view, double pu
         CHECK_NEAR(rig_show(corner->name, k ? "second reaction [N]" : "first reaction [N]",
                             corner->reaction[k], view->reaction[c]),
                    0, 1e-8 * load);
-        CHECK_NEAR(along(&view->friction[3 * c], corner->e), -corner->mu[k] * corner->reaction[k],
-                   1e-8 * load);
+        CHECK_NEAR(along(&view->friction_force[3 * c], corner->e),
+                   -corner->mu[k] * corner->reaction[k], 1e-8 * load);
         if (corner->mu[k] > 0) CHECK_INT(view->state[c], CPS_NODE_STATE_SLIP);
     }
 }
@@ -131,7 +131,7 @@ static bool expect(const Corner *corner, Rig *rig, const double force[3], double
     const double *e = corner->e, load = pull + corner->reaction[0] + corner->reaction[1];
     double moved[3], rubs = 0;
     for (int a = 0; a < 3; a++) moved[a] = view.position[3 + a] - LENGTH * e[a];
-    for (int c = 1; c < 4; c += 2) rubs += along(&view.friction[3 * c], e);
+    for (int c = 1; c < 4; c += 2) rubs += along(&view.friction_force[3 * c], e);
     const bool slides = must == MUST_SLIDE || (must == MAY_REST && along(moved, e) > 1e-8 * LENGTH);
     if (slides)
         check_slide(corner, &view, pull, moved, load);
@@ -398,8 +398,8 @@ static void the_same_set_given_twice(void **state) {
                 CHECK_INT(view[0].obstacle[c], view[1].obstacle[d]);
                 force = fmax(force, fabs(view[0].reaction[c] - view[1].reaction[d]));
                 for (int a = 0; a < 3; a++)
-                    rubbed = fmax(rubbed,
-                                  fabs(view[0].friction[3 * c + a] - view[1].friction[3 * d + a]));
+                    rubbed = fmax(rubbed, fabs(view[0].friction_force[3 * c + a] -
+                                               view[1].friction_force[3 * d + a]));
                 if (c >= n) pressed += fmin(view[0].reaction[c], view[0].reaction[j]);
             }
             const char *name = pipe ? "swept against a pipe" : "swept against a wall";

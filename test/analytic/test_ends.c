@@ -166,7 +166,7 @@ static void held_in_the_air(void **unused) {
     rig_begin(&rig, 10, 20, 1e6);
     rig_length(&rig, 10);
     rig_obstacle(&rig, CPS_OBSTACLE_PLANE, 0.5);
-    rig.line.start.kind = CPS_START_LAID;
+    rig.line.start.kind = CPS_START_STATIC;
     rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0.01);
     rig_end(&rig, CPS_END_B, CPS_END_HELD, 9.999, 0, 0.01);
     rig_stage(&rig, 1);
@@ -175,8 +175,8 @@ static void held_in_the_air(void **unused) {
     rig_step(&run);
     const CpsLineView view = rig_step(&run);
     double *p = (double *)(uintptr_t)view.segment_force;
-    CHECK_GREATER(fabs(view.friction[3]), 0.1);
-    CHECK_VECTOR(run.report.end[CPS_END_A].friction, ((double[]){0, 0, 0}), 0);
+    CHECK_GREATER(fabs(view.friction_force[3]), 0.1);
+    CHECK_VECTOR(run.report.end[CPS_END_A].friction_force, ((double[]){0, 0, 0}), 0);
     CHECK_RELATIVE(run.report.end[CPS_END_A].tension, hypot(p[0], p[2] - 10), 1e-12);
     rig_close(&run);
 }

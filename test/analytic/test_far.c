@@ -44,7 +44,7 @@ static void build(Rig *rig, uint64_t seed, const double at[3]) {
         o->point[1] = at[1];
         o->point[2] = at[2];
     }
-    rig->line.start.kind = CPS_START_LAID;
+    rig->line.start.kind = CPS_START_STATIC;
     rig_end(rig, CPS_END_A, CPS_END_HELD, at[0], at[1], at[2] + 0.25);
     rig_end(rig, CPS_END_B, CPS_END_HELD, at[0] + place(0.85, 0.9), at[1], at[2] + 0.375);
     for (int s = 0; s < 3; s++) {

@@ -70,7 +70,7 @@ static void build(Rig *rig, uint64_t seed) {
     state_of_chance = seed;
     rig_begin(rig, ELEMENTS, 1, pow(10, chance(0.5, 4)));
     rig_length(rig, 1);
-    rig->scene.friction = CPS_FRICTION_FROZEN;
+    rig->scene.friction_policy = CPS_FRICTION_FROZEN;
     if (chance(0, 1) < 0.8) {
         CpsObstacle *bed = rig_obstacle(rig, CPS_OBSTACLE_PLANE, chance(0, 0.8));
         bed->normal[0] = chance(-0.2, 0.2);
@@ -90,7 +90,7 @@ static void build(Rig *rig, uint64_t seed) {
         o->axis[1] = 1;
         o->axis[2] = 0;
     }
-    rig->line.start.kind = CPS_START_LAID;
+    rig->line.start.kind = CPS_START_STATIC;
     double a[3], b[3];
     do {
         place(rig, 0.6, a);
@@ -167,7 +167,7 @@ static void look_at_node(const Rig *rig, const CpsLineView *v, const Before *bef
     memcpy(t.x, &v->position[3 * j], sizeof t.x);
     memcpy(t.from, &v->reference[3 * j], sizeof t.from);
     memcpy(t.normal, &v->normal[3 * c], sizeof t.normal);
-    memcpy(t.friction, &v->friction[3 * c], sizeof t.friction);
+    memcpy(t.friction, &v->friction_force[3 * c], sizeof t.friction);
     distance(&rig->obstacle[k], t.from, t.first);
     look_at(rig, &t, before->known, largest, sum, w, law);
 }
@@ -210,7 +210,7 @@ static void look_at_element(const Rig *rig, const CpsLineView *v, const Before *
     }
     distance(&rig->obstacle[k], touched, t.first);
     memcpy(t.normal, &v->element_normal[3 * e], sizeof t.normal);
-    memcpy(t.friction, &v->element_friction[3 * e], sizeof t.friction);
+    memcpy(t.friction, &v->element_friction_force[3 * e], sizeof t.friction);
     w->elements += t.reaction > 0;
     look_at(rig, &t, before->known, largest, sum, w, law);
 }
@@ -222,7 +222,7 @@ static void add_elements(const CpsLineView *v, int j, double *sum) {
             if (e < 0 || e >= v->elements || v->element_obstacle[e] < 0) continue;
             const double part = e == j ? 1 - v->element_share[e] : v->element_share[e];
             for (int a = 0; a < 3; a++)
-                sum[a] += part * (v->element_friction[3 * e + a] +
+                sum[a] += part * (v->element_friction_force[3 * e + a] +
                                   v->element_reaction[e] * v->element_normal[3 * e + a]);
         }
 }
@@ -333,8 +333,8 @@ static void strict_contact(void **state) {
     for (uint64_t seed = 1; seed <= SCENES; seed++) {
         Rig rig;
         build(&rig, seed);
-        rig.scene.contact = CPS_CONTACT_STRICT;
-        rig.scene.friction = seed % 2 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+        rig.scene.contact_policy = CPS_CONTACT_REFERENCE;
+        rig.scene.friction_policy = seed % 2 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
         CpsError err = {0};
         CpsEvolution *evolution;
         if (cps_evolution_create(&rig.scene, &evolution, &err) != CPS_OK) continue;
@@ -370,10 +370,10 @@ static void held_end_on_a_ball(void **state) {
         Rig rig;
         rig_begin(&rig, ELEMENTS, 1, 1000);
         rig_length(&rig, 1);
-        rig.scene.friction = CPS_FRICTION_FROZEN;
+        rig.scene.friction_policy = CPS_FRICTION_FROZEN;
         CpsObstacle *ball = rig_obstacle(&rig, CPS_OBSTACLE_SPHERE, 0.3);
         ball->radius = 0.5;
-        rig.line.start.kind = CPS_START_LAID;
+        rig.line.start.kind = CPS_START_STATIC;
         rig_end(&rig, CPS_END_A, CPS_END_HELD, -0.9, 0, 0.1);
         rig_end(&rig, CPS_END_B, CPS_END_HELD, 0, 0, 0.5);
         for (int s = 1; s <= 3; s++) {

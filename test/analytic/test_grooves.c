@@ -94,7 +94,7 @@ static CpsSceneFile *element(double c, double s, double x, double y, int steps) 
         "]}, grain: [1, 0, 0]}}}\n"
         "lines:\n"
         "  line:\n"
-        "    {length: 1, elements: 1, weight: 10, stiffness: .inf, ends: {A: fixed, B: free},\n"
+        "    {length: 1, elements: 1, weight: 10, stiffness: .inf, ends: {A: held, B: free},\n"
         "     start: {straight: {from: [0, 0, 0], to: [%.17g, %.17g, 0]}}}\n"
         "history: [{steps: %d, line.A: {position: [%.17g, %.17g, 0]}}]\n",
         c, s, steps, x, y);
@@ -110,7 +110,7 @@ static void look_at_tip(const CpsEvolution *evolution, int step, void *user) {
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
     const int j = view.elements;
     *(Tip *)user = (Tip){{view.position[3 * j], view.position[3 * j + 1]},
-                         {view.friction[3 * j], view.friction[3 * j + 1]}};
+                         {view.friction_force[3 * j], view.friction_force[3 * j + 1]}};
 }
 
 /* On each face: B faces A along the middle of the face, A is drawn away and 20 degrees aside. */
@@ -189,7 +189,7 @@ static CpsSceneFile *drag(const char *friction, const char *zones, double pull, 
         "obstacles: {bed: {plane: {}, friction: %s}}\n"
         "lines:\n"
         "  line:\n"
-        "    {length: 100, elements: %d, weight: 10, stiffness: 2e3, ends: {A: fixed, B: free},\n"
+        "    {length: 100, elements: %d, weight: 10, stiffness: 2e3, ends: {A: held, B: free},\n"
         "     friction_zones: %s, start: {straight: {from: [0, 0, 0], to: [100, 0, 0]}}}\n"
         "history:\n"
         "  - {steps: 1, line.B: {force: [%.17g, 0, 0]}}\n"
@@ -335,12 +335,12 @@ static void the_checker_knows_every_set(void **state) {
             snprintf(start, sizeof start, "{straight: {from: [0, 0, 0], to: [2.5, 0, 0]}}");
         else
             snprintf(start, sizeof start,
-                     "{arc: {from: [-1, 0, 0], center: [0, 0, 0], axis: [0, 1, 0]}}");
+                     "{arc: {from: [-1, 0, 0], centre: [0, 0, 0], axis: [0, 1, 0]}}");
         CpsSceneFile *file =
-            read_scene("capstan: 1\nfriction: %s\n"
+            read_scene("capstan: 1\nfriction_policy: %s\n"
                        "obstacles: {bed: {%s, friction: {set: %s, grain: [%g, %g, 0.3]}}}\n"
                        "lines: {line: {length: 2.5, elements: %d, weight: 10, stiffness: 1e4, "
-                       "ends: {A: fixed, B: free},\n"
+                       "ends: {A: held, B: free},\n"
                        "  friction_zones: [{from: %g, to: 1.1, factor: %g}, {from: 1.1, to: 2.2, "
                        "factor: 0}], start: %s}}\n"
                        "history: [{steps: 2, line.B: {force: [%g, %g, %g]}}]\n",
@@ -374,7 +374,7 @@ static void the_form_is_the_set(void **state) {
         random_set(kind, text, sizeof text);
         CpsSceneFile *file = read_scene(
             "capstan: 1\nobstacles: {bed: {plane: {}, friction: {set: %s}}}\n"
-            "lines: {line: {length: 1, weight: 1, stiffness: 1e4, ends: {A: fixed, B: free},\n"
+            "lines: {line: {length: 1, weight: 1, stiffness: 1e4, ends: {A: held, B: free},\n"
             "  start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}}}\n",
             text);
         const CpsSet *set = cps_scene_file_scene(file)->obstacle->friction_set;

@@ -74,7 +74,7 @@ static void pipe_scene(Rig *rig, const View *view) {
     obstacle(rig, view, CPS_OBSTACLE_CYLINDER, (const double[]){3, 0, 0}, (const double[]){0, 1, 0},
              1, 0.3, 0.2)
         ->friction_shape = CPS_FRICTION_BOX;
-    rig->line.start.kind = CPS_START_LAID;
+    rig->line.start.kind = CPS_START_STATIC;
     rig_length(rig, 7.2 * view->scale);
     set_end(rig, view, false, CPS_END_A, CPS_END_HELD, 0, 0, 0);
     set_end(rig, view, false, CPS_END_B, CPS_END_HELD, 6, 0, 0.2);

@@ -75,7 +75,7 @@ static void wheel_forces(void **state) {
     CpsSet *forces = NULL;
     CpsSetAnswer answer;
     CpsSetFacts facts;
-    double vertex[8], center[2];
+    double vertex[8], centre[2];
     int count = 0;
 
     /* rolling straight on: the whole edge, a segment of side forces */
@@ -94,10 +94,10 @@ static void wheel_forces(void **state) {
     /* braking and slipping sideways at once: the corner */
     const double both[2] = {1, 1};
     assert_int_equal(cps_set_forces(cps_law_set(law), both, 0, &forces, &answer, NULL), CPS_OK);
-    assert_int_equal(cps_set_facts(forces, 0, &facts, center, NULL, NULL), CPS_OK);
+    assert_int_equal(cps_set_facts(forces, 0, &facts, centre, NULL, NULL), CPS_OK);
     CHECK_INT(facts.dimension, 0);
-    CHECK_RELATIVE(center[0], -CHORD, EXACT);
-    CHECK_RELATIVE(center[1], -STRIP, EXACT);
+    CHECK_RELATIVE(centre[0], -CHORD, EXACT);
+    CHECK_RELATIVE(centre[1], -STRIP, EXACT);
     cps_set_release(forces);
     cps_law_release(law);
 }
@@ -187,8 +187,8 @@ static void composition_on_a_boundary(void **state) {
 
     /* G -> (0, G) touches a disc round (5, 0) at 0 alone: the reduced law {0} resists every W, the
      * disc none but along it */
-    const double tangent[2] = {0, 1}, center[2] = {5, 0};
-    assert_int_equal(cps_set_ball(2, center, 5, &ball, NULL), CPS_OK);
+    const double tangent[2] = {0, 1}, centre[2] = {5, 0};
+    assert_int_equal(cps_set_ball(2, centre, 5, &ball, NULL), CPS_OK);
     part[0] = set_law(ball);
     assert_int_equal(cps_law_preimage(1, tangent, part[0], &composition, &law, NULL), CPS_OK);
     assert_int_equal(composition, CPS_COMPOSITION_NOT_SATISFIED);

@@ -214,8 +214,8 @@ static void tow(const char *name, CpsFrictionShape shape, double mu1, double mu2
                      r = v.reaction[0];
         const double size = hypot(mu1 * s1, mu2 * s2);
         if (shape == CPS_FRICTION_BOX || size < 1e-6) continue;
-        worst = fmax(worst, hypot(v.friction[0] + r * mu1 * mu1 * s1 / size,
-                                  v.friction[1] + r * mu2 * mu2 * s2 / size) /
+        worst = fmax(worst, hypot(v.friction_force[0] + r * mu1 * mu1 * s1 / size,
+                                  v.friction_force[1] + r * mu2 * mu2 * s2 / size) /
                                 r);
     }
     if (shape == CPS_FRICTION_ELLIPSE)

@@ -49,7 +49,7 @@ static double solve(const Mooring *m, int elements, double tension[2]) {
     for (int e = 0; e < elements; e++) rig.element_length[e] *= m->length / sum;
     rig_graded(&rig);
     if (m->bed) rig_obstacle(&rig, CPS_OBSTACLE_PLANE, m->mu);
-    rig.line.start.kind = CPS_START_LAID;
+    rig.line.start.kind = CPS_START_STATIC;
     rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
     rig_end(&rig, CPS_END_B, CPS_END_HELD, m->span, 0, m->height);
     if (m->shift != 0) {

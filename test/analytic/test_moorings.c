@@ -55,7 +55,7 @@ static Catenary solve(double mu, double x) {
 static void mooring(Rig *rig, int elements, double mu, double laid) {
     rig_begin(rig, elements, WEIGHT, STIFFNESS);
     rig_obstacle(rig, CPS_OBSTACLE_PLANE, mu);
-    rig->line.start.kind = CPS_START_LAID;
+    rig->line.start.kind = CPS_START_STATIC;
     rig_length(rig, LENGTH);
     rig_end(rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
     rig_end(rig, CPS_END_B, CPS_END_HELD, laid, 0, HEIGHT);

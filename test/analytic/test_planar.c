@@ -297,7 +297,7 @@ static void inner_and_outer_laws(void **state) {
 /* ---- driven bodies ---- */
 
 /* Both components of a point imposed, then only the one across: by symmetry the same motion. */
-static void drive_end(const CpsPlanar *body, double gamma, double turning, double center,
+static void drive_end(const CpsPlanar *body, double gamma, double turning, double centre,
                       double tolerance) {
     const double map[6] = {1, 0, 0, 0, 1, 1}, velocity[2] = {0, 1};
     for (int rows = 1; rows <= 2; rows++) {
@@ -311,7 +311,7 @@ static void drive_end(const CpsPlanar *body, double gamma, double turning, doubl
         CHECK_LESS(motion.lower, motion.upper);
         CHECK_NEAR(motion.twist[2], turning, tolerance);
         CHECK_NEAR(motion.twist[0], 0, tolerance);
-        CHECK_NEAR(motion.center[0], center, tolerance);
+        CHECK_NEAR(motion.centre[0], centre, tolerance);
         CHECK_NEAR(motion.drive[rows - 1], gamma, tolerance);
         CHECK_NEAR(motion.wrench[2], motion.wrench[1],
                    tolerance); /* the line of action passes through the end (1, 0) */

@@ -34,7 +34,7 @@ static void example_5_7(Case *c) {
     case_begin(c, 6.28, 800, 9.81, 10);
     case_bed(c, 0.0255);
     case_straight(c, 0, 6.28);
-    c->scene.friction = CPS_FRICTION_FROZEN;
+    c->scene.friction_policy = CPS_FRICTION_FROZEN;
     case_force(c, 1, 0.5, 0.5, 0.5);
 }
 
@@ -166,7 +166,7 @@ static void without_friction(void **state) {
     CpsRegularizedReport wide = solve(classic, p);
     p.delta = 1e-6;
     CpsRegularizedReport narrow = solve(classic, p);
-    CHECK_NEAR(wide.friction, 0, 0);
+    CHECK_NEAR(wide.friction_energy, 0, 0);
     CHECK_NEAR(wide.total, narrow.total, 1e-12);
     // the penalty alone is seen: at most w^2 l/(2 lambda) = 5e-8 J, and a clamped end of 1/(n h) =
     // 2e-9 J
@@ -192,13 +192,13 @@ static void open_annex(Annex *t, double fx, double fy, double fz) {
     case_begin(&t->c, 1, ELEMENTS, 1, 1);
     case_bed(&t->c, 1);
     case_straight(&t->c, 0, 1);
-    t->c.scene.friction = CPS_FRICTION_FROZEN; /* (78) */
+    t->c.scene.friction_policy = CPS_FRICTION_FROZEN; /* (78) */
     case_force(&t->c, 1, fx, fy, fz);
     t->run = case_open(&t->c);
     t->view = case_step(&t->run);
     t->classic = open_regularized(&t->view);
     CpsError err = {0};
-    assert_int_equal(cps_first_order_solve(t->classic, CPS_FIRST_ORDER_CONTACT_TOUCHING,
+    assert_int_equal(cps_first_order_solve(t->classic, CPS_FIRST_ORDER_CONTACT_REFERENCE,
                                            &t->first_order, &err),
                      CPS_OK);
     t->report = cps_first_order_report(t->first_order);
@@ -300,7 +300,7 @@ static void p10_1_with_either_contact(void **state) {
     case_begin(&c, 1, ELEMENTS, 1, 1);
     case_bed(&c, 1);
     case_straight(&c, 0, 1);
-    c.scene.friction = CPS_FRICTION_FROZEN;
+    c.scene.friction_policy = CPS_FRICTION_FROZEN;
     case_force(&c, 1, 0.5, 0, 0.1);
     case_force(&c, 1, 0.5, 0, 0);
     Run run = case_open(&c);
@@ -308,18 +308,18 @@ static void p10_1_with_either_contact(void **state) {
     CpsLineView view = case_step(&run);
     CpsRegularized *classic = open_regularized(&view);
     double lowest[2] = {0, 0};
-    for (int gained = 0; gained < 2; gained++) {
+    for (int reached = 0; reached < 2; reached++) {
         CpsFirstOrder *solution;
         CpsError err = {0};
         const CpsFirstOrderContact contact =
-            gained ? CPS_FIRST_ORDER_CONTACT_GAINED : CPS_FIRST_ORDER_CONTACT_TOUCHING;
+            reached ? CPS_FIRST_ORDER_CONTACT_REACHED : CPS_FIRST_ORDER_CONTACT_REFERENCE;
         assert_int_equal(cps_first_order_solve(classic, contact, &solution, &err), CPS_OK);
         assert_int_equal(cps_first_order_report(solution).contact, contact);
         assert_int_equal(cps_first_order_report(solution).verdict, CPS_FIRST_ORDER_VERDICT_SOLVED);
         const CpsFirstOrderView u = cps_first_order_view(solution);
         for (int j = 0; j <= ELEMENTS; j++)
-            lowest[gained] =
-                fmin(lowest[gained], view.reference[3 * j + 2] + u.displacement[3 * j + 2]);
+            lowest[reached] =
+                fmin(lowest[reached], view.reference[3 * j + 2] + u.displacement[3 * j + 2]);
         cps_first_order_destroy(solution);
     }
     CHECK_LESS(show("P10.1, (77)", "lowest node [m]", -0.01, lowest[0]), 0);
@@ -348,7 +348,7 @@ static void p10_1_is_the_first_order(void **state) {
         t.view = case_step(&t.run);
         t.classic = open_regularized(&t.view);
         CpsError err = {0};
-        assert_int_equal(cps_first_order_solve(t.classic, CPS_FIRST_ORDER_CONTACT_TOUCHING,
+        assert_int_equal(cps_first_order_solve(t.classic, CPS_FIRST_ORDER_CONTACT_REFERENCE,
                                                &t.first_order, &err),
                          CPS_OK);
         t.report = cps_first_order_report(t.first_order);
@@ -370,7 +370,7 @@ static void example_11_3_consistent(void **state) {
     case_begin(&c, 1, ELEMENTS, 1, 1);
     case_bed(&c, 0.4);
     case_straight(&c, 0, 1);
-    c.scene.friction = CPS_FRICTION_CONSISTENT;
+    c.scene.friction_policy = CPS_FRICTION_CONSISTENT;
     case_force(&c, 1, 0, 0, 1);
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);

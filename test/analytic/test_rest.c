@@ -61,7 +61,7 @@ static bool copy(const Rig *rig, const CpsLineView *view, const CpsLineReport *r
                    .slide = (const double(*)[3])(const void *)out->slide,
                    .friction = out->friction,
                    .contact = out->contact,
-                   .frozen = rig->scene.friction == CPS_FRICTION_FROZEN,
+                   .frozen = rig->scene.friction_policy == CPS_FRICTION_FROZEN,
                    .held = {view->end[0].kind == CPS_END_HELD, view->end[1].kind == CPS_END_HELD},
                    .force = report->certificate.largest_force};
     for (int c = 0; c < view->contacts * n; c++) {
@@ -236,7 +236,7 @@ static void with_directions(void **state) {
     for (int k = 0; k < 18; k++) {
         const bool zones = k >= 8 && k < 16, given = k >= 16;
         bed(&rig, INFINITY, k % 3 == 0, 1, 1);
-        if (k % 5 == 0) rig.scene.friction = CPS_FRICTION_FROZEN;
+        if (k % 5 == 0) rig.scene.friction_policy = CPS_FRICTION_FROZEN;
         if (given)
             rig.obstacle[0].friction_set = disc;
         else
@@ -311,7 +311,7 @@ static void shallow(void **state) {
                                                           (k % 8)); /* per length, from 6e-9 */
         rig_begin(&rig, elements, 9.81, INFINITY);
         rig_length(&rig, length);
-        rig.line.start.kind = CPS_START_LAID;
+        rig.line.start.kind = CPS_START_STATIC;
         rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
         rig_end(&rig, CPS_END_B, CPS_END_HELD, length * (1 - slack), 0, 0);
         rig_stage(&rig, 1);
@@ -341,7 +341,7 @@ static void moored_as_a_stiff_one(void **state) {
         rig_begin(&rig[k], 60, 698.1, k ? INFINITY : 1e12);
         rig_length(&rig[k], 902.2);
         rig_obstacle(&rig[k], CPS_OBSTACLE_PLANE, 1);
-        rig[k].line.start.kind = CPS_START_LAID;
+        rig[k].line.start.kind = CPS_START_STATIC;
         rig_end(&rig[k], CPS_END_A, CPS_END_HELD, 0, 0, 0);
         rig_end(&rig[k], CPS_END_B, CPS_END_HELD, 800, 0, 250);
         for (int stage = 0; stage < 4; stage++) {
@@ -493,7 +493,7 @@ static void wind(Rig *rig, uint64_t *seed) {
     const double lengths = pow(10, uniform(seed, -6, 6)), forces = pow(10, uniform(seed, -6, 6)),
                  h = lengths / elements;
     rig_begin(rig, elements, uniform(seed, 0.2, 2) * forces / lengths, INFINITY);
-    if (uniform(seed, 0, 1) < 0.3) rig->scene.friction = CPS_FRICTION_FROZEN;
+    if (uniform(seed, 0, 1) < 0.3) rig->scene.friction_policy = CPS_FRICTION_FROZEN;
     CpsObstacle *plane = rig_obstacle(rig, CPS_OBSTACLE_PLANE, uniform(seed, 0.1, 1));
     const double slope = uniform(seed, 0, 0.08);
     plane->normal[0] = -sin(slope);

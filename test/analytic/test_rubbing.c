@@ -102,7 +102,7 @@ static void drag_over_two_zones(void **state) {
             r.bed.friction = mu;
             r.line.zone_count = 2;
             r.line.zone = zone;
-            r.scene.friction = frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+            r.scene.friction_policy = frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
             r.scene.solver.tolerance = 1e-11;
             change(&r, 3, CPS_END_B, CPS_END_FREE, pull, 0, 0);
             const CpsLineView view = go(&r);
@@ -139,7 +139,7 @@ static Pair difference(const CpsLineView *a, const CpsLineView *b, double length
     Pair out = {0};
     for (int i = 0; i < 3 * (a->elements + 1); i++) {
         out.position = fmax(out.position, fabs(a->position[i] - b->position[i]) / length);
-        out.force = fmax(out.force, fabs(a->friction[i] - b->friction[i]) / force);
+        out.force = fmax(out.force, fabs(a->friction_force[i] - b->friction_force[i]) / force);
     }
     for (int i = 0; i < a->elements; i++)
         out.tension = fmax(out.tension, fabs(a->tension[i] - b->tension[i]) / force);
@@ -177,7 +177,7 @@ static void the_same_set_given_twice(void **state) {
                 Rig a, b;
                 aside(&a, cylinder);
                 aside(&b, cylinder);
-                a.scene.friction = b.scene.friction =
+                a.scene.friction_policy = b.scene.friction_policy =
                     frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
                 a.bed.friction = axial;
                 a.bed.friction_lateral = lateral;
@@ -257,7 +257,7 @@ static void a_free_line_on_a_ratchet(void **state) {
         if (k < 2) {
             const CpsLineView v = go(&r);
             double sum = 0;
-            for (int j = 0; j <= v.elements; j++) sum += v.friction[3 * j];
+            for (int j = 0; j <= v.elements; j++) sum += v.friction_force[3 * j];
             CHECK_NEAR(sum, -force, 1e-9 * all); /* the balance of the loop */
         } else {
             CpsError err = {0};
@@ -286,7 +286,7 @@ static void ratchet(void **state) {
             rig(&r, LENGTH, n, WEIGHT, STIFFNESS);
             r.bed.friction_set = set;
             r.bed.grain[0] = back ? -1 : 1;
-            r.scene.friction = frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+            r.scene.friction_policy = frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
             r.scene.solver.tolerance = 1e-11;
             change(&r, 2, CPS_END_B, CPS_END_FREE, pull, 0, 0);
             const CpsLineView view = go(&r);
@@ -322,7 +322,7 @@ static void a_node_on_grooves(void **state) {
             rig(&r, 1, 1, WEIGHT, 1e4);
             r.bed.friction_set = set;
             r.bed.grain[0] = 1;
-            r.scene.friction = frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+            r.scene.friction_policy = frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
             r.scene.solver.tolerance = 1e-12;
             /* the line lies along `angle` from A to B; A is drawn away from B, a little aside */
             r.point[3] = cos(angle);
@@ -330,7 +330,7 @@ static void a_node_on_grooves(void **state) {
             const double turn = angle + 0.3;
             change(&r, 1, CPS_END_A, CPS_END_HELD, -way * cos(turn), -way * sin(turn), 0);
             const CpsLineView v = go(&r);
-            const double *f = &v.friction[3], R = v.friction_bound[1],
+            const double *f = &v.friction_force[3], R = v.friction_bound[1],
                          u[2] = {v.position[3] - r.point[3], v.position[4] - r.point[4]};
             CHECK_RELATIVE(R, WEIGHT / 2,
                            1e-7); /* its weight; a gap of 1e-12 leaves its root of it */
@@ -494,7 +494,7 @@ static void random_rig(Rig *r, CpsSet *set) {
     } else {
         r->scene.solver.halvings = 2; /* what does not settle says so soon */
     }
-    r->scene.friction = uniform(0, 1) < 0.3 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+    r->scene.friction_policy = uniform(0, 1) < 0.3 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
     const double all = r->line.length * WEIGHT, x = uniform(-0.3, 1) * all;
     change(r, 2, CPS_END_B, CPS_END_FREE, surface ? uniform(-0.2, 0.2) * all : x,
            uniform(-0.3, 0.3) * all, surface ? -fabs(x) - 0.3 * all : 0);
@@ -509,7 +509,8 @@ static double check_against(const Rig *r, const CpsSet *set, const CpsLineView *
     const double size = hypot(r->bed.grain[0], r->bed.grain[1]), c = r->bed.grain[0] / size,
                  s = r->bed.grain[1] / size;
     for (int j = 1; j <= v->elements; j++) {
-        const double w = v->friction_bound[j], *f = &v->friction[3 * j], *u = &v->slide[3 * j];
+        const double w = v->friction_bound[j], *f = &v->friction_force[3 * j],
+                     *u = &v->slide[3 * j];
         if (!(w > 1e-6 * WEIGHT)) continue;
         const double force[] = {(c * f[0] + s * f[1]) / w, (-s * f[0] + c * f[1]) / w},
                      way[] = {-(c * u[0] + s * u[1]), s * u[0] - c * u[1]};
@@ -547,7 +548,7 @@ static void random_sets_are_certified(void **state) {
             }
             solved[grain]++;
             for (int i = 0; i < 3 * (view.elements + 1); i++)
-                CHECK_FINITE(view.friction[i] + view.position[i]);
+                CHECK_FINITE(view.friction_force[i] + view.position[i]);
             CHECK_LESS(report.certificate.gap, 1e-8 * report.certificate.scale);
             if (!known) continue;
             double defect = 0;

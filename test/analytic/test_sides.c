@@ -97,7 +97,7 @@ static void across(uint64_t *seed, int i, Tally *tally) {
     const int elements = 8 + (int)splitmix(seed, 0, 24);
     const double radius = 4.0 / elements * pow(10, splitmix(seed, -1, 0.6));
     rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, splitmix(seed, 2, 4)));
-    rig->scene.friction = i % 3 == 0 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+    rig->scene.friction_policy = i % 3 == 0 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
     rig->scene.solver.halvings = 6;
     rig_length(rig, 4);
     const bool ball = stand(rig, seed, i, radius)->kind == CPS_OBSTACLE_SPHERE;
@@ -116,7 +116,7 @@ static void across(uint64_t *seed, int i, Tally *tally) {
     char name[128];
     snprintf(name, sizeof name, "across %d, %s, R/h %.3g, %d steps, %s", i, ball ? "ball" : "post",
              radius * elements / 4, STEPS[i % 3],
-             rig->scene.friction == CPS_FRICTION_FROZEN ? "frozen" : "consistent");
+             rig->scene.friction_policy == CPS_FRICTION_FROZEN ? "frozen" : "consistent");
     run(rig, name, tally);
     free(rig);
 }
@@ -129,7 +129,7 @@ static void around(uint64_t *seed, int i, Tally *tally) {
     const double length = 3,
                  radius = fmin(0.25, length / elements * pow(10, splitmix(seed, -1, 1)));
     rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, splitmix(seed, 2, 4)));
-    rig->scene.friction = i % 3 == 0 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+    rig->scene.friction_policy = i % 3 == 0 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
     rig->scene.solver.halvings = 6;
     rig_length(rig, length);
     const bool ball = stand(rig, seed, i, radius)->kind == CPS_OBSTACLE_SPHERE;
@@ -150,7 +150,7 @@ static void around(uint64_t *seed, int i, Tally *tally) {
     char name[128];
     snprintf(name, sizeof name, "around %d, %s, R/h %.3g, %s", i, ball ? "ball" : "post",
              radius * elements / length,
-             rig->scene.friction == CPS_FRICTION_FROZEN ? "frozen" : "consistent");
+             rig->scene.friction_policy == CPS_FRICTION_FROZEN ? "frozen" : "consistent");
     run(rig, name, tally);
     free(rig);
 }

@@ -138,7 +138,7 @@ static void what_does_not_slide(void **state) {
         }
         pull_both(&rig, &c, 1.5 * limit_of(&c));
         if (kind == 1) rig_end(&rig, CPS_END_A, CPS_END_HELD, NAN, NAN, NAN);
-        if (kind == 2) rig.scene.friction = CPS_FRICTION_FROZEN;
+        if (kind == 2) rig.scene.friction_policy = CPS_FRICTION_FROZEN;
         RigRun run = rig_open(&rig);
         CpsError err; /* not rig_try: its audit is of consistent friction */
         CHECK_INT(cps_evolution_step(run.evolution, &err), CPS_OK);

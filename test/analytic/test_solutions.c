@@ -45,7 +45,7 @@ static void open_bench(Bench *b, double mu, double stiffness) {
     case_begin(&b->c, 1, ELEMENTS, 1, stiffness);
     case_bed(&b->c, mu);
     case_straight(&b->c, 0, 1);
-    b->c.scene.friction = CPS_FRICTION_FROZEN;
+    b->c.scene.friction_policy = CPS_FRICTION_FROZEN;
 }
 
 static void solve_bench(Bench *b) {
@@ -242,10 +242,10 @@ static void slack_held_by_friction(void **state) {
     // a made-up friction force at its bound: the elements beside it are straight at their length,
     // and hold node 30
     static double rub[COORDINATES], shorter[COORDINATES];
-    memcpy(rub, b.view.friction, sizeof rub);
+    memcpy(rub, b.view.friction_force, sizeof rub);
     rub[3 * 30 + 1] = b.view.friction_bound[30];
     CpsLineView made_up = b.view;
-    made_up.friction = rub;
+    made_up.friction_force = rub;
     CHECK_INT(cps_solution_slack(&made_up, 1, &part), 1);
     assert_true(part.at_bound && !part.sliding);
     // and where they are short it may slide on
@@ -425,7 +425,7 @@ static void inextensible_tensions(void **state) {
             force[3 * i] = tension;
         }
         b.view.segment_force = force;
-        b.view.friction = rub;
+        b.view.friction_force = rub;
         CpsJudgementReport report = judge(&b);
         assert_int_equal(report.judgement, CPS_JUDGEMENT_SOLUTION);
         // at 0.5 m: 0, or 0.4 N less 0.4 of the half of the line beyond

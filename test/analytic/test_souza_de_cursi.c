@@ -27,7 +27,7 @@ static void first_step(double friction, CpsFrictionPolicy law, double minimum, c
                        double digits) {
     Case c;
     example(&c, 800, friction, STRAIGHT);
-    c.scene.friction = law;
+    c.scene.friction_policy = law;
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);
     double primal = cps_evolution_report(run.evolution).certificate.primal;
@@ -95,8 +95,8 @@ static void strict_contact(void **state) {
     enum { N = 800 };
     Case c;
     example(&c, N, 0.0255, STRAIGHT);
-    c.scene.friction = CPS_FRICTION_FROZEN;
-    c.scene.contact = CPS_CONTACT_STRICT;
+    c.scene.friction_policy = CPS_FRICTION_FROZEN;
+    c.scene.contact_policy = CPS_CONTACT_REFERENCE;
     Run run = case_open(&c);
     CpsLineView view = {0};
     while (cps_evolution_remaining(run.evolution) > 0) view = case_step(&run);
@@ -118,7 +118,7 @@ static void fine_mesh(void **state) {
     enum { N = 100000 };
     Case c;
     example(&c, N, 0.0255, STRAIGHT);
-    c.scene.friction = CPS_FRICTION_FROZEN;
+    c.scene.friction_policy = CPS_FRICTION_FROZEN;
     Run run = case_open(&c);
     CpsLineView view = {0};
     for (int step = 0; cps_evolution_remaining(run.evolution) > 0; step++) {

@@ -164,7 +164,7 @@ static void parts_are_steps(void **state) {
                 plain(variant & 1 ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER, 0.4, 0.7 * PI, 20);
             wrap.stiffness = 1e3;
             build(&rig, &wrap);
-            rig.scene.friction = variant & 2 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+            rig.scene.friction_policy = variant & 2 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
             rig_stage(&rig, whole ? 1 : steps);
             rig_turn(&rig, 0, -2 * PI);
             CpsError err;

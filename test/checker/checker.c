@@ -145,9 +145,9 @@ static void judge_ends(Judge *judge, const Source *source, const Record *r, cons
         double off = 0, rubs = 0;
         for (int k = 0; k < 3; k++) off = fmax(off, fabs(said[k] - (double)end.force[k]));
         for (int k = 0; k < 3; k++)
-            rubs = fmax(rubs, fabs(r->end_friction[e][k] - (double)end.friction[k]));
+            rubs = fmax(rubs, fabs(r->end_friction_force[e][k] - (double)end.friction[k]));
         at_most(judge, "end_force against the half element's balance", off, force);
-        at_most(judge, "end_friction against the neighbour's per length", rubs, force);
+        at_most(judge, "end_friction_force against the neighbour's per length", rubs, force);
         at_most(judge, "end_tension against the size of end_force",
                 fabs(r->end_tension[e] - hypot(hypot(said[0], said[1]), said[2])), force / 1000);
         at_most(judge, "reaction on a held end against what presses there",
@@ -165,7 +165,7 @@ static bool without_friction(const Record *r) {
 }
 
 /* A line that is laid comes from nowhere and has no ledger; the other lines of that step do. */
-static bool is_laid(const Record *r) {
+static bool is_static(const Record *r) {
     bool blank = r->dissipated == 0;
     for (int k = 0; k < LEDGER_ENTRIES; k++) blank = blank && r->ledger[k] == 0;
     return blank && without_friction(r);
@@ -357,7 +357,7 @@ static Measures measure_where(const Source *source, const Record *r, size_t step
                          !source->follows     ? SIGHT_REFERENCE
                          : source->consistent ? SIGHT_REACHED
                                               : frozen);
-    if (source->consistent || !source->follows || !source->laid || step > 0) return m;
+    if (source->consistent || !source->follows || !source->has_static || step > 0) return m;
     Measures laid = measure(source, r, SIGHT_REACHED);
     return laid.normal_error <= m.normal_error && laid.slide_error <= m.slide_error ? laid : m;
 }
@@ -393,13 +393,13 @@ static void judge_record(const Source *source, const Record *r, const char *line
         switch (r->outcome) {
         case OUTCOME_SOLVED:
         case OUTCOME_COARSE: // solved as well, but for the mesh
-            judge_solved(&judge, source, r, &m, source->laid && step == 0 && is_laid(r));
+            judge_solved(&judge, source, r, &m, source->has_static && step == 0 && is_static(r));
             judge_bend(&judge, r, &m);
             break;
         case OUTCOME_TAUT: judge_taut(&judge, r, &m); break;
         case OUTCOME_INFEASIBLE:
             if (r->proof_obstacle >= 0)
-                judge_reach(&judge, source, r, &m, source->laid && step == 0);
+                judge_reach(&judge, source, r, &m, source->has_static && step == 0);
             else
                 judge_infeasible(&judge, r, &m);
             break;
@@ -547,7 +547,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         if (step > 0) judge_weight(&record, &previous, &judge);
         // with frozen friction the reactions before a first step, or before the last part of one,
         // are not known
-        bool statics = step == 0 && source->laid && without_friction(&record);
+        bool statics = step == 0 && source->has_static && without_friction(&record);
         if (!statics && (source->consistent || (step > 0 && record.parts == 1)))
             judge_bounds(source, &record, source->consistent ? &record : &previous, &judge);
         report->refuted += judge.findings > 0;

@@ -101,7 +101,7 @@ static Real apart(const Record *r, int e, const End *end) {
     Real sum = fabsl(end->reaction - r->reaction[e ? r->elements : 0]);
     for (int i = 0; i < 3; i++)
         sum += fabsl(end->force[i] - r->end_force[e][i]) +
-               fabsl(end->friction[i] - r->end_friction[e][i]);
+               fabsl(end->friction[i] - r->end_friction_force[e][i]);
     return sum;
 }
 
@@ -136,10 +136,10 @@ Real ends_work(const Record *r, const Record *before) {
         const bool free =
             r->end_kind[e] == END_FREE; // let go from the force it carried, all of it the end's
         for (int i = 0; i < 3; i++) {
-            const Real after = (Real)r->end_force[e][i] + r->end_friction[e][i],
-                       rubbed = r->end_friction[e][i];
+            const Real after = (Real)r->end_force[e][i] + r->end_friction_force[e][i],
+                       rubbed = r->end_friction_force[e][i];
             const Real first =
-                (Real)before->end_force[e][i] + (free ? 0 : before->end_friction[e][i]);
+                (Real)before->end_force[e][i] + (free ? 0 : before->end_friction_force[e][i]);
             work += ((first + after) / 2 - rubbed) * ((Real)r->position[j][i] - r->reference[j][i]);
         }
     }

@@ -106,10 +106,10 @@ static void compare_run(Compare *compare) {
     const Source *source = &compare->source;
     same_number(compare, "tolerance", "the run", source->tolerance, scene->solver.tolerance);
     same(compare, "gravity", "the run", source->gravity, scene->gravity, 3, COPIED);
-    if (source->consistent != (scene->friction == CPS_FRICTION_CONSISTENT))
-        find(compare, "friction: frozen or consistent");
-    if (source->strict != (scene->contact == CPS_CONTACT_STRICT))
-        find(compare, "contact: strict or gained");
+    if (source->consistent != (scene->friction_policy == CPS_FRICTION_CONSISTENT))
+        find(compare, "friction_policy: frozen or consistent");
+    if (source->strict != (scene->contact_policy == CPS_CONTACT_REFERENCE))
+        find(compare, "contact_policy: reference or reached");
     if (source->surfaces != (size_t)scene->obstacle_count) {
         find(compare, "%zu obstacles, in the scene %d", source->surfaces, scene->obstacle_count);
         return;
@@ -163,7 +163,7 @@ static void compare_line(Compare *compare, const CpsLine *line, const Record *r)
 /* The stage and its part that a step is; false: the statics of lines laid, or a scene without
  * stages. */
 static bool stage_of(const Compare *compare, size_t step, int *stage, int *part) {
-    if (compare->source.laid && step-- == 0) return false;
+    if (compare->source.has_static && step-- == 0) return false;
     for (*stage = 0; *stage < compare->scene->stage_count; ++*stage) {
         const size_t steps = (size_t)compare->scene->stage[*stage].steps;
         *part = (int)step + 1;
@@ -175,12 +175,12 @@ static bool stage_of(const Compare *compare, size_t step, int *stage, int *part)
 
 static size_t planned(const Compare *compare) {
     size_t steps = 0;
-    bool laid = false;
+    bool first = false;
     for (int i = 0; i < compare->scene->stage_count; i++)
         steps += (size_t)compare->scene->stage[i].steps;
     for (int i = 0; i < compare->scene->line_count; i++)
-        laid = laid || compare->scene->line[i].start.kind == CPS_START_LAID;
-    return steps + laid > 0 ? steps + laid : 1;
+        first = first || compare->scene->line[i].start.kind == CPS_START_STATIC;
+    return steps + first > 0 ? steps + first : 1;
 }
 
 /* An end of a line as the scene has it. */
@@ -222,7 +222,7 @@ static void arc_end(const CpsLine *line, const Record *r, double place[3]) {
 static void start_place(const Source *source, const CpsLine *line, int e, const Record *r,
                         double place[3]) {
     const CpsStart *start = &line->start;
-    const bool arc = start->kind == CPS_START_ARC, drawn = start->kind != CPS_START_LAID;
+    const bool arc = start->kind == CPS_START_ARC, drawn = start->kind != CPS_START_STATIC;
     const double *point = drawn ? &start->point[e && !arc ? 3 * (start->point_count - 1) : 0]
                                 : r->reference[e ? r->elements : 0];
     memcpy(place, point, 3 * sizeof *place);

@@ -74,14 +74,14 @@ static bool attribute_is(const Source *source, const char *name, const char *wor
     return strcmp(text, word) == 0;
 }
 
-static bool first_step_is_laid(const Source *source) {
-    char name[5] = "";
+static bool first_step_is_static(const Source *source) {
+    char name[7] = "";
     int id, rank = 0;
     const size_t start[2] = {0}, count[2] = {1, sizeof name};
     if (source->steps == 0 || nc_inq_varid(source->nc, "step_name", &id) != NC_NOERR) return false;
     if (nc_inq_varndims(source->nc, id, &rank) != NC_NOERR || rank != 2) return false;
     return nc_get_vara_text(source->nc, id, start, count, name) == NC_NOERR &&
-           memcmp(name, "laid", 5) == 0;
+           memcmp(name, "static", 7) == 0;
 }
 
 /* numbers of one variable of the obstacles, `columns` for each, into surface by surface */
@@ -172,16 +172,17 @@ static int read_set(const Source *source, size_t k, Conic **out, FILE *log) {
         read_length(source, "set_unknown", &unknowns, log))
         return -1;
     double *all = calloc((rows + 2) * (unknowns + 2), sizeof *all);
-    if (!all) return complain(log, "out of memory for", "obstacle_set_rows", 0);
-    int bad = read_matrix(source, "obstacle_set_origin", k, 2, 0, origin, log);
-    bad |= read_matrix(source, "obstacle_set_cone", k, rows, 0, all, log);
-    bad |= read_matrix(source, "obstacle_set_offset", k, rows, 0, all + rows, log);
-    bad |= read_matrix(source, "obstacle_set_rows", k, rows, unknowns, all + 2 * rows, log);
+    if (!all) return complain(log, "out of memory for", "obstacle_friction_set_rows", 0);
+    int bad = read_matrix(source, "obstacle_friction_set_origin", k, 2, 0, origin, log);
+    bad |= read_matrix(source, "obstacle_friction_set_cone", k, rows, 0, all, log);
+    bad |= read_matrix(source, "obstacle_friction_set_offset", k, rows, 0, all + rows, log);
     bad |=
-        read_matrix(source, "obstacle_set_map", k, 2, unknowns, all + (2 + unknowns) * rows, log);
+        read_matrix(source, "obstacle_friction_set_rows", k, rows, unknowns, all + 2 * rows, log);
+    bad |= read_matrix(source, "obstacle_friction_set_map", k, 2, unknowns,
+                       all + (2 + unknowns) * rows, log);
     if (!bad && fill_set(rows, unknowns, all, origin, out))
         bad = complain(log, "no bounded set with points inside its cones in",
-                       "obstacle_set_rows and the like", 0);
+                       "obstacle_friction_set_rows and the like", 0);
     free(all);
     return bad;
 }
@@ -192,10 +193,10 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
     bad |= read_surface_numbers(source, "obstacle_point", 3, k, point, log);
     bad |= read_surface_numbers(source, "obstacle_axis", 3, k, axis, log);
     bad |= read_surface_numbers(source, "obstacle_radius", 1, k, &radius, log);
-    bad |= read_surface_numbers(source, "obstacle_axial", 1, k, &mu[0], log);
-    bad |= read_surface_numbers(source, "obstacle_lateral", 1, k, &mu[1], log);
-    bad |= read_surface_numbers(source, "obstacle_shape", 1, k, &shape, log);
-    bad |= read_surface_numbers(source, "obstacle_grain", 3, k, grain, log);
+    bad |= read_surface_numbers(source, "obstacle_friction_axial", 1, k, &mu[0], log);
+    bad |= read_surface_numbers(source, "obstacle_friction_lateral", 1, k, &mu[1], log);
+    bad |= read_surface_numbers(source, "obstacle_friction_shape", 1, k, &shape, log);
+    bad |= read_surface_numbers(source, "obstacle_friction_grain", 3, k, grain, log);
     if (bad) return -1;
     Real length = hypotl(hypotl(axis[0], axis[1]), axis[2]);
     if (!(kind >= 0 && kind < SURFACE_KINDS) || !(shape == 0 || shape == 1 || shape == 2) ||
@@ -240,6 +241,9 @@ int source_open(const char *path, Source *source, FILE *log) {
     status = nc_get_att_double(source->nc, NC_GLOBAL, "tolerance", &source->tolerance);
     if (status) return complain(log, "cannot read attribute", "tolerance", status);
     size_t numbers = 0;
+    if (nc_inq_attlen(source->nc, NC_GLOBAL, "friction_policy", &numbers) != NC_NOERR &&
+        nc_inq_attlen(source->nc, NC_GLOBAL, "friction", &numbers) == NC_NOERR)
+        return complain(log, "names of an earlier version of capstan, run it again:", path, 0);
     status = nc_inq_attlen(source->nc, NC_GLOBAL, "gravity", &numbers);
     if (!status && numbers != 3) status = NC_EBADDIM;
     if (!status) status = nc_get_att_double(source->nc, NC_GLOBAL, "gravity", source->gravity);
@@ -250,9 +254,9 @@ int source_open(const char *path, Source *source, FILE *log) {
     if (!status) status = nc_get_att_double(source->nc, NC_GLOBAL, "origin", source->origin);
     if (status && status != NC_ENOTATT)
         return complain(log, "cannot read attribute", "origin", status);
-    source->consistent = attribute_is(source, "friction", "consistent");
-    source->strict = attribute_is(source, "contact", "strict");
-    source->laid = first_step_is_laid(source);
+    source->consistent = attribute_is(source, "friction_policy", "consistent");
+    source->strict = attribute_is(source, "contact_policy", "reference");
+    source->has_static = first_step_is_static(source);
     if (read_surfaces(source, log)) return -1;
 
     size_t bytes;
@@ -464,7 +468,8 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "end_kind", step, 2, 0, kind, log);
     bad |= read_step(source, line, "end_value", step, 2, 3, record->end_value[0], log);
     bad |= read_step(source, line, "end_force", step, 2, 3, record->end_force[0], log);
-    bad |= read_step(source, line, "end_friction", step, 2, 3, record->end_friction[0], log);
+    bad |= read_step(source, line, "end_friction_force", step, 2, 3, record->end_friction_force[0],
+                     log);
     bad |= read_step(source, line, "end_tension", step, 2, 0, record->end_tension, log);
     bad |= read_step(source, line, "dissipated", step, 0, 0, &record->dissipated, log);
     bad |= read_step(source, line, "unaccounted", step, 0, 0, &record->unaccounted, log);
@@ -506,11 +511,12 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
 /* what belongs to the first contact of each node, or to the second */
 static int read_contact(const Source *source, const char *line, size_t step, bool second,
                         Record *record, FILE *log) {
-    static const char *const NAME[2][7] = {{"normal", "friction", "slide", "contact_gap",
+    static const char *const NAME[2][7] = {{"normal", "friction_force", "slide", "contact_gap",
                                             "friction_bound", "reaction", "obstacle"},
-                                           {"normal_second", "friction_second", "slide_second",
-                                            "contact_gap_second", "friction_bound_second",
-                                            "reaction_second", "obstacle_second"}};
+                                           {"normal_second", "friction_force_second",
+                                            "slide_second", "contact_gap_second",
+                                            "friction_bound_second", "reaction_second",
+                                            "obstacle_second"}};
     size_t n = record->nodes, from = second ? n : 0, known = record->contacts > 1 ? 7 : 6;
     double *to[7] = {record->normal[from],   record->friction[from],        record->slide[from],
                      record->gap + from,     record->friction_bound + from, record->reaction + from,
@@ -529,7 +535,7 @@ static int read_contact(const Source *source, const char *line, size_t step, boo
  * contact gained */
 static int read_elements(const Source *source, const char *line, size_t step, Record *record,
                          FILE *log) {
-    static const char *const NAME[8] = {"element_normal",         "element_friction",
+    static const char *const NAME[8] = {"element_normal",         "element_friction_force",
                                         "element_slide",          "element_contact_gap",
                                         "element_friction_bound", "element_reaction",
                                         "element_obstacle",       "element_share"};

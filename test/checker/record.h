@@ -88,7 +88,7 @@ typedef struct Record {
     int end_kind[2], outcome, iterations;
     int parts;    /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */
-    Vector end_value[2], end_force[2], end_friction[2], proof;
+    Vector end_value[2], end_force[2], end_friction_force[2], proof;
     double end_tension[2], end_range[RANGES][2];
     double bend_turn, bend_friction,
         bend_at;        /* [rad], [-], [m] of the sharpest bend round an obstacle */
@@ -106,7 +106,7 @@ typedef struct Source {
                          coordinates; 0 0 0 unless it says so */
     bool consistent;  /* friction bounds follow the reactions of the same step */
     bool strict;      /* only what touches at the reference is kept out */
-    bool laid;        /* the first step is statics without friction, of the lines laid */
+    bool has_static;  /* the first step is statics without friction, of the lines laid */
     bool follows; /* normals are those of where the nodes end up: not one plane with one coefficient
                    */
     size_t surfaces;

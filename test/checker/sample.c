@@ -105,7 +105,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     for (int j = 0; j < NODES; j++) field[n].value[3 * j + 2] = weight[j];
     n++;
     field[n++] = vectors("normal", NODES, NULL, 1);
-    field[n++] = vectors("friction", NODES, line->friction, 0);
+    field[n++] = vectors("friction_force", NODES, line->friction, 0);
     field[n++] = vectors("slide", NODES, again ? NULL : line->move, 0);
     field[n++] = vectors("segment_force", ELEMENTS, line->segment, 0);
     field[n++] = constant("contact_gap", NODES, 0, 0);
@@ -121,12 +121,11 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = (Field){"end_value", 2, 3, {0, 0, 0, line->end_b, 0, 0}};
     // the bed carries the half element at A, next to which nothing rubs
     field[n++] = (Field){"end_force", 2, 3, {0, 0, 0, line->end_b, 0, 0}};
-    field[n++] = (Field){"end_friction", 2, 3, {0}};
+    field[n++] = (Field){"end_friction_force", 2, 3, {0}};
     field[n++] = (Field){"end_tension", 2, 0, {0, line->end_b}};
     for (int k = 0; k < RANGES; k++) field[n++] = (Field){RANGE_NAME[k], 2, 0, {NAN, NAN}};
     field[n++] = scalar("dissipated", again ? 0 : work);
-    // the pull of 10 N on its way of 12 C, of which half is too much for a step that begins without
-    // it
+    // the pull of 10 N on its path of 12 C; half is too much for a step that begins without it
     const double pull = again || line->compliance == 0 ? 0 : 120 * C;
     field[n++] = scalar("ledger_ends", pull);
     field[n++] = scalar("ledger_obstacles", 0);
@@ -195,11 +194,11 @@ static int write_set(int nc, int obstacle, const double half[2]) {
     const struct {
         const char *name;
         const double *value;
-    } field[] = {{"obstacle_set_origin", none},
-                 {"obstacle_set_map", map},
-                 {"obstacle_set_cone", cone},
-                 {"obstacle_set_rows", rows},
-                 {"obstacle_set_offset", offset}};
+    } field[] = {{"obstacle_friction_set_origin", none},
+                 {"obstacle_friction_set_map", map},
+                 {"obstacle_friction_set_cone", cone},
+                 {"obstacle_friction_set_rows", rows},
+                 {"obstacle_friction_set_offset", offset}};
     int tangent, unknown, row, id[5], status = nc_redef(nc);
     if (!status) status = nc_def_dim(nc, "tangent", 2, &tangent);
     if (!status) status = nc_def_dim(nc, "set_unknown", 3, &unknown);
@@ -231,9 +230,10 @@ static int write_zones(int nc, const char *line, double middle, double length,
     return status;
 }
 
-enum { BED_NUMBERS = 8 };
-static const char *const BED_NAME[BED_NUMBERS] = {"kind",  "point",   "axis",  "radius",
-                                                  "axial", "lateral", "shape", "grain"};
+static const char *const BED_NAME[] = {"kind",           "point",          "axis",
+                                       "radius",         "friction_axial", "friction_lateral",
+                                       "friction_shape", "friction_grain"};
+enum { BED_NUMBERS = sizeof BED_NAME / sizeof *BED_NAME };
 
 static int write_bed(int nc, const int id[BED_NUMBERS], int turn, size_t k, const Bed *bed) {
     const double none[3] = {0, 0, 0};
@@ -265,7 +265,7 @@ static int write_beds(int nc, const int dims[3], const Bed *bed, size_t count) {
 }
 
 /* dims: step, xyz, end */
-static int begin_file(const char *path, const char *names, const char *friction, int *nc,
+static int begin_file(const char *path, const char *names, const char *policy, int *nc,
                       int dims[3]) {
     const double gravity[3] = {0, 0, -8};
     int status = nc_create(path, NC_CLOBBER | NC_64BIT_OFFSET, nc);
@@ -274,7 +274,8 @@ static int begin_file(const char *path, const char *names, const char *friction,
     if (!status) status = nc_def_dim(*nc, "xyz", 3, &dims[1]);
     if (!status) status = nc_def_dim(*nc, "end", 2, &dims[2]);
     if (!status) status = nc_put_att_text(*nc, NC_GLOBAL, "lines", strlen(names), names);
-    if (!status) status = nc_put_att_text(*nc, NC_GLOBAL, "friction", strlen(friction), friction);
+    if (!status)
+        status = nc_put_att_text(*nc, NC_GLOBAL, "friction_policy", strlen(policy), policy);
     if (!status) status = nc_put_att_double(*nc, NC_GLOBAL, "tolerance", NC_DOUBLE, 1, &TOLERANCE);
     if (!status) status = nc_put_att_double(*nc, NC_GLOBAL, "gravity", NC_DOUBLE, 3, gravity);
     return status;
@@ -345,7 +346,7 @@ static Field *of_nodes(Field *field, const char *name, const double *value) {
 
 /* contacts of elements, none of which touches anything */
 static size_t no_elements(Field *field) {
-    static const char *const NAME[3] = {"element_normal", "element_friction", "element_slide"};
+    static const char *const NAME[] = {"element_normal", "element_friction_force", "element_slide"};
     static const struct {
         const char *name;
         double value;
@@ -372,7 +373,7 @@ static size_t describe_wound(const Wound *w, Field *field) {
     of_nodes(&field[n++], "normal", w->normal);
     of_nodes(&field[n++], "slide", w->slide);
     Field *load = of_nodes(&field[n++], "load", NULL),
-          *friction = of_nodes(&field[n++], "friction", NULL);
+          *friction = of_nodes(&field[n++], "friction_force", NULL);
     field[n] = (Field){"segment_force", ELEMENTS, 3, {0}};
     Field *segment = &field[n++];
     field[n++] = constant("contact_gap", NODES, 0, 0);
@@ -425,7 +426,7 @@ static size_t describe_wound(const Wound *w, Field *field) {
     field[n + 1] = (Field){"end_tension", 2, 0, {hypot(hypot(at_a[0], at_a[1]), at_a[2]), largest}};
     n += 2;
     for (int k = 0; k < RANGES; k++) field[n++] = (Field){RANGE_NAME[k], 2, 0, {NAN, NAN}};
-    field[n++] = (Field){"end_friction", 2, 3, {rub[0], rub[1], rub[2]}};
+    field[n++] = (Field){"end_friction_force", 2, 3, {rub[0], rub[1], rub[2]}};
     field[n++] = scalar("dissipated", work + ends);
     field[n++] = (Field){"proof", 3, 0, {0}};
     field[n++] = scalar("proof_value", 0);
@@ -527,7 +528,7 @@ static size_t describe_corner(int again, Field *field) {
     Field *normal = &field[n++];
     *normal = vectors("normal_second", NODES, NULL, 0);
     for (int j = 0; j < NODES; j++) normal->value[3 * j + 1] = 1;
-    field[n++] = vectors("friction_second", NODES, SECOND, 0);
+    field[n++] = vectors("friction_force_second", NODES, SECOND, 0);
     field[n++] = vectors("slide_second", NODES, again ? NULL : line.move, 0);
     field[n++] = constant("contact_gap_second", NODES, 0, 0);
     field[n++] = constant("friction_bound_second", NODES, 2, 1);
@@ -563,7 +564,7 @@ static size_t describe_post(Field *field) {
     of_nodes(&field[n++], "position", PLACE);
     Field *normal = of_nodes(&field[n++], "normal", NULL);
     of_nodes(&field[n++], "slide", NULL);
-    of_nodes(&field[n++], "friction", NULL);
+    of_nodes(&field[n++], "friction_force", NULL);
     memcpy(&of_nodes(&field[n++], "load", NULL)->value[3 * ELEMENTS], PULL, sizeof PULL);
     field[n] = constant("contact_gap", NODES, 0, 0);
     Field *gap = &field[n++];
@@ -585,7 +586,7 @@ static size_t describe_post(Field *field) {
     field[n++] = (Field){"end_kind", 2, 0, {0, 1}};
     field[n++] = (Field){"end_value", 2, 3, {PLACE[0], PLACE[1], 0, PULL[0], PULL[1], 0}};
     field[n++] = (Field){"end_force", 2, 3, {-FORCE[0], -FORCE[1], 0, PULL[0], PULL[1], 0}};
-    field[n++] = (Field){"end_friction", 2, 3, {0}};
+    field[n++] = (Field){"end_friction_force", 2, 3, {0}};
     field[n++] = (Field){"end_tension", 2, 0, {4, 6}};
     for (int k = 0; k < RANGES; k++) field[n++] = (Field){RANGE_NAME[k], 2, 0, {NAN, NAN}};
     field[n++] = (Field){"proof", 3, 0, {0}};
@@ -695,9 +696,9 @@ int sample_write_spill(const char *path) {
     const size_t count = describe_spill(field);
     int nc, dims[3], status = begin_file(path, "spill", "consistent", &nc, dims);
     if (status) return status;
-    // its chords are deeper than elements may lie: with strict contact nodes alone are kept out
+    // its chords are deeper than elements may lie: contact of the reference keeps out nodes alone
     (void)nc_redef(nc);
-    status = nc_put_att_text(nc, NC_GLOBAL, "contact", 6, "strict");
+    status = nc_put_att_text(nc, NC_GLOBAL, "contact_policy", 9, "reference");
     if (!status) status = write_beds(nc, dims, &DRUM, 1);
     if (!status) status = write_line(nc, dims, "spill", length, C, field, field, count);
     int closed = nc_close(nc);

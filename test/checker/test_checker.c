@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The checker must accept an exact solution and refuse it when any one number is changed. */
 #include <math.h>
+#include <netcdf.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,10 +48,10 @@ typedef struct Tamper {
 
 static const Tamper TAMPER[] = {
     // admissible forces and balance
-    {"drag_friction", 9, -3.99, "imbalance of forces"},
-    {"drag_friction", 9, -4.01, "friction above its bound"},
-    {"drag_friction", 11, 0.01, "friction along the normal"},
-    {"drag_friction", 0, 1, "on a held end"},
+    {"drag_friction_force", 9, -3.99, "imbalance of forces"},
+    {"drag_friction_force", 9, -4.01, "friction above its bound"},
+    {"drag_friction_force", 11, 0.01, "friction along the normal"},
+    {"drag_friction_force", 0, 1, "on a held end"},
     {"drag_reaction", 2, 8.001, "imbalance of forces"},
     {"drag_reaction", 2, -1, "adhesion"},
     {"drag_segment_force", 9, 8.00000002, "imbalance of forces"},
@@ -101,7 +102,7 @@ static const Tamper TAMPER[] = {
     {"drag_outcome", 0, 3, "not certified, as the file says"},
     {"drag_end_force", 0, 1e-6, "end_force against the half element's balance"},
     {"drag_end_force", 3, 10.000001, "end_force against the half element's balance"},
-    {"drag_end_friction", 0, 1e-6, "end_friction against the neighbour's"},
+    {"drag_end_friction_force", 0, 1e-6, "end_friction_force against the neighbour's"},
     {"drag_end_tension", 1, 10.000001, "end_tension against the size"},
     {"drag_end_tension", 0, -1, "end_tension holds a value that cannot be"},
     {"drag_end_tension_least", 1, 10, "the range of an end's tension is not whole"},
@@ -138,7 +139,7 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_slide", 15 + 7, 1e-9, "slide against the way"},
     {"wound_contact_gap", 2, 1e-9, "contact_gap against the distance"},
     {"wound_contact_gap", 2, INFINITY, "contacts not looked for"},
-    {"wound_friction", 7, 1, "friction above its bound"},
+    {"wound_friction_force", 7, 1, "friction above its bound"},
     {"wound_friction_bound", 2, 1.7, "friction bound"},
     {"wound_reaction", 2, 3.4, "imbalance of forces"},
     {"wound_position", 6, 0.98, "sum of local gaps"},
@@ -148,7 +149,7 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_friction_residual", 0, 1e-6, "claimed friction_residual"},
     {"wound_dissipated", 1, 0, "claimed dissipated"},
     {"wound_end_force", 0, 0, "end_force against the half element's balance"},
-    {"wound_end_friction", 0, 0, "end_friction against the neighbour's"},
+    {"wound_end_friction_force", 0, 0, "end_friction_force against the neighbour's"},
     {"wound_end_tension", 0, 8, "end_tension against the size"},
     {"wound_reaction", 0, 0, "reaction on a held end"},
     {"wound_ledger_obstacles", 1, 0, "claimed ledger_obstacles"},
@@ -161,7 +162,7 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_bend_turn", 1, NAN, "bend_turn holds a value that cannot be"},
     {"wound_outcome", 0, 6,
      "mesh too coarse, but friction at one contact holds tensions in the ratio 1.13"},
-    {"obstacle_axial", 0, 7.3,
+    {"obstacle_friction_axial", 0, 7.3,
      "certified, but friction at one contact holds tensions in the ratio 23"},
     {"obstacle_turn", 1, -0.2, "slide against the way"},
     {"obstacle_turn", 1, -0.125 - 2 * 3.14159265358979323846,
@@ -174,27 +175,27 @@ static const Tamper DRUM_TAMPER[] = {
     {"obstacle_axis", 0, 0.1, "normal against the obstacle's"},
     {"obstacle_radius", 0, 1.001, "depth below an obstacle"},
     {"obstacle_radius", 0, 0.999, "contact_gap against the distance"},
-    {"obstacle_axial", 0, 0.51, "friction bound"},
-    {"obstacle_axial", 0, 0.2, "friction above its bound"},
-    {"obstacle_grain", 1, 1, "friction above its bound"},
+    {"obstacle_friction_axial", 0, 0.51, "friction bound"},
+    {"obstacle_friction_axial", 0, 0.2, "friction above its bound"},
+    {"obstacle_friction_grain", 1, 1, "friction above its bound"},
 };
 
 /* the same with a set and zones: 0.4 by 0.2 and the factor 1.25; the boundary of the zones lies in
  * the share of node 1 or 2 */
 static const Tamper SET_TAMPER[] = {
-    {"obstacle_set_map", 0, 0.41, "claimed primal"},
-    {"obstacle_set_map", 0, 0.39, "friction above its bound"},
-    {"obstacle_set_origin", 0, 0.01, "claimed primal"},
-    {"obstacle_set_origin", 1, 0.01, "friction above its bound"},
-    {"obstacle_set_rows", 3, 1.01, "friction above its bound"},
-    {"obstacle_set_offset", 0, 1.01, "claimed primal"},
-    {"obstacle_set_offset", 0, -1, "no bounded set with points inside"},
-    {"obstacle_set_cone", 0, 2, "no bounded set with points inside"},
-    {"obstacle_set_cone", 0, 5, "no bounded set with points inside"},
-    {"obstacle_set_cone", 0, 2.5, "no bounded set with points inside"},
-    {"obstacle_set_rows", 2, NAN, "cannot read variable 'obstacle_set_rows'"},
-    {"obstacle_shape", 0, 0, "friction bound"},
-    {"obstacle_shape", 0, 3, "senseless obstacle"},
+    {"obstacle_friction_set_map", 0, 0.41, "claimed primal"},
+    {"obstacle_friction_set_map", 0, 0.39, "friction above its bound"},
+    {"obstacle_friction_set_origin", 0, 0.01, "claimed primal"},
+    {"obstacle_friction_set_origin", 1, 0.01, "friction above its bound"},
+    {"obstacle_friction_set_rows", 3, 1.01, "friction above its bound"},
+    {"obstacle_friction_set_offset", 0, 1.01, "claimed primal"},
+    {"obstacle_friction_set_offset", 0, -1, "no bounded set with points inside"},
+    {"obstacle_friction_set_cone", 0, 2, "no bounded set with points inside"},
+    {"obstacle_friction_set_cone", 0, 5, "no bounded set with points inside"},
+    {"obstacle_friction_set_cone", 0, 2.5, "no bounded set with points inside"},
+    {"obstacle_friction_set_rows", 2, NAN, "cannot read variable 'obstacle_friction_set_rows'"},
+    {"obstacle_friction_shape", 0, 0, "friction bound"},
+    {"obstacle_friction_shape", 0, 3, "senseless obstacle"},
     {"wound_zone_factor", 0, 1.26, "friction bound"},
     {"wound_zone_factor", 1, 1.2500001, "friction bound"},
     {"wound_zone_factor", 1, -1, "senseless friction zones"},
@@ -202,17 +203,17 @@ static const Tamper SET_TAMPER[] = {
     {"wound_zone_from", 1, 0.374, "senseless friction zones"},
     {"wound_zone_to", 1, 0.8, "friction bound"},
     {"wound_zone_to", 0, NAN, "senseless friction zones"},
-    {"wound_friction", 7, 1, "friction above its bound"},
+    {"wound_friction_force", 7, 1, "friction above its bound"},
     {"wound_friction_bound", 2, 4.7, "friction bound"},
 };
 
 /* the second contact: a wall beside the bed, obstacle 1; a ceiling, obstacle 2, is far */
 static const Tamper CORNER_TAMPER[] = {
-    {"corner_friction_second", 9, -1.99, "imbalance of forces"},
-    {"corner_friction_second", 9, -2.01, "friction above its bound"},
-    {"corner_friction_second", 10, 0.01, "friction along the normal"},
-    {"corner_friction_second", 0, 1, "on a held end"},
-    {"corner_friction_second", 6, NAN, "friction holds a value that cannot be"},
+    {"corner_friction_force_second", 9, -1.99, "imbalance of forces"},
+    {"corner_friction_force_second", 9, -2.01, "friction above its bound"},
+    {"corner_friction_force_second", 10, 0.01, "friction along the normal"},
+    {"corner_friction_force_second", 0, 1, "on a held end"},
+    {"corner_friction_force_second", 6, NAN, "friction_force holds a value that cannot be"},
     {"corner_friction_bound_second", 3, 1.9, "friction above its bound"},
     {"corner_friction_bound_second", 3, 2.1, "friction bound"},
     {"corner_reaction_second", 2, 8.001, "imbalance of forces"},
@@ -229,7 +230,7 @@ static const Tamper CORNER_TAMPER[] = {
     {"corner_obstacle", 2, 2, "contacts that are not with the nearest"},
     {"corner_obstacle", 0, -1, "unknown obstacle"},
     {"corner_obstacle_second", 2, 3, "unknown obstacle"},
-    {"obstacle_axial", 1, 0.3, "friction bound"},
+    {"obstacle_friction_axial", 1, 0.3, "friction bound"},
     {"obstacle_point", 4, 0.001, "depth below an obstacle"},
     {"obstacle_point", 4, -0.001, "contact_gap against the distance"},
     {"corner_friction_residual", 0, 1e-6, "claimed friction_residual"},
@@ -238,10 +239,10 @@ static const Tamper CORNER_TAMPER[] = {
 
 /* the element on the post is the second */
 static const Tamper POST_TAMPER[] = {
-    {"line_element_friction", 3, -1.61, "imbalance of forces"},
-    {"line_element_friction", 3, -3.1, "friction above its bound"},
-    {"line_element_friction", 4, 0.01, "friction along the normal"},
-    {"line_element_friction", 0, 1, "force without an obstacle"},
+    {"line_element_friction_force", 3, -1.61, "imbalance of forces"},
+    {"line_element_friction_force", 3, -3.1, "friction above its bound"},
+    {"line_element_friction_force", 4, 0.01, "friction along the normal"},
+    {"line_element_friction_force", 0, 1, "force without an obstacle"},
     {"line_element_friction_bound", 1, 1.5, "friction above its bound"},
     {"line_element_friction_bound", 1, 3.1, "friction bound"},
     {"line_element_friction_bound", 2, 1, "force without an obstacle"},
@@ -281,7 +282,7 @@ static const Tamper SPILL_TAMPER[] = {
     {"spill_end_kind", 0, 0, "an end is held"},
     {"spill_proof_value", 0, 0.1, "proof_value"},
     {"spill_reference", 6, 0.1, "an element would lengthen"},
-    {"obstacle_axial", 0, 0.51, "a node would press on an obstacle"},
+    {"obstacle_friction_axial", 0, 0.51, "a node would press on an obstacle"},
     {"obstacle_radius", 0, 1.001, "a node lies inside an obstacle"},
     {"obstacle_kind", 0, 0, "a node would press on an obstacle"},
 };
@@ -352,6 +353,24 @@ static void every_change_is_refuted(void **state) {
     refuse_each(sample_write_reel, REEL_TAMPER, sizeof REEL_TAMPER / sizeof *REEL_TAMPER);
     refuse_each(sample_write_spill, SPILL_TAMPER, sizeof SPILL_TAMPER / sizeof *SPILL_TAMPER);
     refuse_each(sample_write_fall, FALL_TAMPER, sizeof FALL_TAMPER / sizeof *FALL_TAMPER);
+}
+
+/* A file with names of an earlier version is refused for them, not for what it seems to lack. */
+static void former_names_are_refused(void **state) {
+    (void)state;
+    char *text = NULL;
+    size_t size = 0;
+    int nc = -1;
+    CHECK_INT(sample_write(path), 0);
+    CHECK_INT(nc_open(path, NC_WRITE, &nc), NC_NOERR);
+    CHECK_INT(nc_redef(nc), NC_NOERR);
+    CHECK_INT(nc_rename_att(nc, NC_GLOBAL, "friction_policy", "friction"), NC_NOERR);
+    CHECK_INT(nc_close(nc), NC_NOERR);
+    FILE *log = open_memstream(&text, &size);
+    CHECK_INT(checker_file(path, NULL, log), 2);
+    fclose(log);
+    CHECK_INT(strncmp(text, "names of an earlier version of capstan, run it again: '", 55), 0);
+    free(text);
 }
 
 static void drum_is_certified(void **state) {
@@ -517,6 +536,7 @@ int main(void) {
         cmocka_unit_test(sets_are_ellipse_and_box),
         cmocka_unit_test(supports_and_distances),
         cmocka_unit_test(what_is_no_result_is_refused),
+        cmocka_unit_test(former_names_are_refused),
     };
     return cmocka_run_group_tests(tests, make_path, drop_path);
 }

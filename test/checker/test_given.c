@@ -32,14 +32,14 @@ static const char SCENE[] =
     "    stiffness: 1000\n"
     "    friction_zones: [{from: 1, to: 2, factor: 2}]\n"
     "    start: {straight: {from: [0, 0, 0], to: [4, 0, 0]}}\n"
-    "    ends: {A: fixed, B: free}\n"
+    "    ends: {A: held, B: free}\n"
     "  wire:\n"
     "    length: 4\n"
     "    elements: 4\n"
     "    weight: 8\n"
     "    stiffness: .inf\n"
     "    start: {straight: {from: [0, 5, 0], to: [4, 5, 0]}}\n"
-    "    ends: {A: fixed, B: free}\n"
+    "    ends: {A: held, B: free}\n"
     "history:\n"
     "  - {name: pull, steps: 2, rope.B: {force: [30, 0, 0]}, wire.B: {force: [30, 0, 0]}}\n"
     "  - {name: turn, steps: 1, drum.turn: 0.5}\n"
@@ -143,11 +143,11 @@ static const Falsified FALSIFIED[] = {
     {"axis of drum", false, {{"obstacle_axis", 3, 0.1}}},
     {"radius of drum", false, {{"obstacle_radius", 1, 1.5}}},
     {"kind of drum", false, {{"obstacle_kind", 1, 2}}},
-    {"axial coefficient of bed", false, {{"obstacle_axial", 0, 0.6}}},
-    {"lateral coefficient of drum", true, {{"obstacle_lateral", 1, 0.3}}},
-    {"grain of drum", true, {{"obstacle_grain", 3, 1}}},
-    {"shape of friction of drum", true, {{"obstacle_shape", 1, 1}}},
-    {"friction set of mat", true, {{"obstacle_set_origin", 4, 0.01}}},
+    {"axial coefficient of bed", false, {{"obstacle_friction_axial", 0, 0.6}}},
+    {"lateral coefficient of drum", true, {{"obstacle_friction_lateral", 1, 0.3}}},
+    {"grain of drum", true, {{"obstacle_friction_grain", 3, 1}}},
+    {"shape of friction of drum", true, {{"obstacle_friction_shape", 1, 1}}},
+    {"friction set of mat", true, {{"obstacle_friction_set_origin", 4, 0.01}}},
     {"obstacle_turn of drum, step 2", false, {{"obstacle_turn", 6 + 1, 0.4}}},
     {"obstacle_turn of mat, step 3", true, {{"obstacle_turn", 9 + 2, 0.4}}},
 };
@@ -186,10 +186,10 @@ static void other_scenes_are_refused(void **state) {
     other.solver.tolerance = 1e-6;
     CHECK_INT(given_file(result, &other, NULL), 1);
     other = *cps_scene_file_scene(scene);
-    other.friction = CPS_FRICTION_FROZEN;
+    other.friction_policy = CPS_FRICTION_FROZEN;
     CHECK_INT(given_file(result, &other, NULL), 1);
     other = *cps_scene_file_scene(scene);
-    other.contact = CPS_CONTACT_STRICT;
+    other.contact_policy = CPS_CONTACT_REFERENCE;
     CHECK_INT(given_file(result, &other, NULL), 1);
     other = *cps_scene_file_scene(scene);
     other.gravity[2] = -9;
@@ -222,7 +222,7 @@ static void first_step_in_parts(void **state) {
                      x + 1.75, x + 3.5);
         if (k / 2 % 3 == 2)
             snprintf(start, sizeof start,
-                     "arc: {from: [%.9g, 0, 0], center: [%.9g, 0.5, 3], axis: [0, 0, -2]}", x,
+                     "arc: {from: [%.9g, 0, 0], centre: [%.9g, 0.5, 3], axis: [0, 0, -2]}", x,
                      x + 1);
         snprintf(
             text, sizeof text,
@@ -231,7 +231,7 @@ static void first_step_in_parts(void **state) {
             "lines:\n  rope:\n    length: 4\n    elements: 8\n    weight: 8\n    stiffness: 1000\n"
             "    start: {%s}\n    ends: {A: %s, B: %s}\n"
             "history:\n  - {name: grab, steps: 2, rope.B: {position: [%.9g, 1.5, 0.7]}}\n",
-            start, k < 6 ? "fixed" : "free", k < 6 ? "free" : "fixed", x + 3);
+            start, k < 6 ? "held" : "free", k < 6 ? "free" : "held", x + 3);
         assert_non_null(mkdtemp(where));
         CpsSceneFile *file = NULL;
         int parts = 0;
@@ -251,10 +251,10 @@ static void first_step_in_parts(void **state) {
 static void first_step_of_nodes(void **state) {
     (void)state;
     static const char text[] =
-        "capstan: 1\ngravity: [0, 0, -10]\nfriction: frozen\n"
+        "capstan: 1\ngravity: [0, 0, -10]\nfriction_policy: frozen\n"
         "obstacles:\n  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
         "lines:\n  rope:\n    length: 4\n    weight: 8\n    stiffness: 1000\n"
-        "    start: {nodes: nodes.csv}\n    ends: {A: fixed, B: free}\n"
+        "    start: {nodes: nodes.csv}\n    ends: {A: held, B: free}\n"
         "history:\n  - {name: pull, rope.B: {force: [5, 5, 0]}}\n";
     char where[] = "capstan-nodes-XXXXXX", path[64];
     assert_non_null(mkdtemp(where));

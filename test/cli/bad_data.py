@@ -16,10 +16,10 @@ INPUT, IO = 3, 4
 ENTRY = "  - {name: pull, cable.B: {force: [1, 0, 0]}}\n"
 METER = "capstan: 1\nplanimeter: {pole: [0, 0], pole_arm: 1, tracer_arm: 1, wheel: 0.5, friction: 0.2, load: 1, curve: {file: %s}}\n"
 LINE = """capstan: 1
-friction: frozen
+friction_policy: frozen
 obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}
 lines:
-  rope: {length: 1, elements: 2, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: free}}
+  rope: {length: 1, elements: 2, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: held, B: free}}
 history: [{name: pull, rope.B: {force: [1, 0, 0]}}]
 """
 
@@ -66,7 +66,7 @@ HISTORIES = [
     ("a move in words", "  - {name: pull, cable.A: {move: [left, 0, 0]}}\n", "12:35: 'move': found 'left', expected a number in m"),
     ("a move below the bed", "  - {name: pull, cable.A: {move: [0, 0, -1]}}\n", "12:18: stage 1: cable.A is moved to 1 m below obstacle 'bed'"),
     ("two moves that end below the bed", "  - {name: up, cable.A: {move: [0, 0, 1]}}\n  - {name: down, cable.A: {move: [0, 0, -2]}}\n", "13:18: stage 2: cable.A is moved to 1 m below obstacle 'bed'"),
-    ("fixed in a history", "  - {name: pull, cable.B: fixed}\n", "12:18: 'cable.B': found 'fixed', expected a mapping with position, move, force"),
+    ("held in a history", "  - {name: pull, cable.B: held}\n", "12:18: 'cable.B': found 'held', expected a mapping with position, move, force"),
     ("free and pulled", "  - {name: pull, cable.B: {free: 1}}\n", "12:28: 'cable.B': unknown key 'free'; did you mean 'force'?"),
     ("a turn of a plane in a later entry", "  - {name: pull, cable.B: {force: [1, 0, 0]}}\n  - {name: turn, bed.turn: 5}\n", "13:18: stage 2: obstacle 'bed' is a plane: only a cylinder or a sphere turns"),
     ("a turn that is nothing", "  - {name: pull, bed.turn: }\n", "12:18: 'bed.turn': found nothing, expected a number in degrees"),
@@ -203,11 +203,11 @@ COMMANDS = [
     ("run -o", 2, "capstan run: option '--output' needs an argument: --output DIR"),
     ("run j.yaml -o", 2, "capstan run: option '--output' needs an argument: --output DIR"),
     ("run j.yaml k.yaml", 2, "capstan run: unexpected 'k.yaml'"),
-    ("run j.yaml --tol", 2, "capstan run: option '--tol' needs an argument: --tol TOL"),
-    ("run j.yaml --tol x", 2, "capstan run: --tol 'x': expected a number, 0 or 1e-9 to 1"),
-    ("run j.yaml --tol -1", 2, "capstan run: --tol '-1': expected a number, 0 or 1e-9 to 1"),
-    ("run j.yaml --tol 2", 2, "capstan run: --tol '2': expected a number, 0 or 1e-9 to 1"),
-    ("run j.yaml --tol nan", 2, "capstan run: --tol 'nan': expected a number, 0 or 1e-9 to 1"),
+    ("run j.yaml --path-tolerance", 2, "capstan run: option '--path-tolerance' needs an argument: --path-tolerance TOL"),
+    ("run j.yaml --path-tolerance x", 2, "capstan run: --path-tolerance 'x': expected a number, 0 or 1e-9 to 1"),
+    ("run j.yaml --path-tolerance -1", 2, "capstan run: --path-tolerance '-1': expected a number, 0 or 1e-9 to 1"),
+    ("run j.yaml --path-tolerance 2", 2, "capstan run: --path-tolerance '2': expected a number, 0 or 1e-9 to 1"),
+    ("run j.yaml --path-tolerance nan", 2, "capstan run: --path-tolerance 'nan': expected a number, 0 or 1e-9 to 1"),
     ("run j.yaml --sync", 2, "capstan run: option '--sync' needs an argument: --sync WHEN"),
     ("run j.yaml --sync never", 2, "capstan run: --sync: found 'never', expected step or end"),
     ("run j.yaml --fields", 2, "capstan run: option '--fields' needs an argument: --fields NAME,.."),

@@ -168,7 +168,7 @@ class Suite:
         self.near("pair", pair["gap_W"], 0)
         bingham = self.ask(os.path.join(examples, "grease.yaml"), "--velocity", "0,1", "--force", "0,-5")
         self.near("power of grease", bingham["answers"][0]["dissipation_W"], 5)
-        self.near("velocity of grease", bingham["answers"][1]["velocities"]["center"][1], 1)
+        self.near("velocity of grease", bingham["answers"][1]["velocities"]["centre"][1], 1)
         outside = self.ask(wheel, "--force", "0,300")
         self.expect("no velocity", outside["answers"][0]["velocities"] == {"outcome": "CPS_SET_OUTCOME_OUTSIDE"}, outside)
 

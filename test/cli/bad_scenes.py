@@ -22,13 +22,13 @@ lines:
     mass: 1
     stiffness: 1e6
     start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}
-    ends: {A: fixed, B: free}
+    ends: {A: held, B: free}
 history:
   - {name: pull, cable.B: {force: [1, 0, 0]}}
 """
 INPUT, IO, LIMIT = 3, 4, 6
 START = "{straight: {from: [0, 0, 0], to: [10, 0, 0]}}"
-ENDS = "{A: fixed, B: free}"
+ENDS = "{A: held, B: free}"
 
 # name, what is replaced in GOOD, by what, exit code, expected after "FILE:"
 CHANGES = [
@@ -51,7 +51,7 @@ CHANGES = [
     ("version of the future", "capstan: 1", "capstan: 2", INPUT, "1:1: 'capstan': found '2', expected a whole number: 1"),
     ("neither mass nor weight", "    mass: 1\n", "", INPUT, "4:3: line 'cable': nothing given, expected exactly one of 'mass', 'weight'"),
     ("mass and weight", "mass: 1", "mass: 1\n    weight: 10", INPUT, "4:3: line 'cable': too much given, expected exactly one of 'mass', 'weight'"),
-    ("end missing", ENDS, "{A: fixed}", INPUT, "10:5: 'ends': 'B' is missing"),
+    ("end missing", ENDS, "{A: held}", INPUT, "10:5: 'ends': 'B' is missing"),
     ("ends missing", "    ends: " + ENDS + "\n", "", INPUT, "4:3: line 'cable': 'ends' is missing"),
     ("a list as key", "mass: 1", "[mass]: 1", INPUT, "7:5: found a mapping or a list as a key"),
     ("name of an obstacle", "{bed:", "{1bed:", INPUT, "2:13: obstacle 1: its name is '1bed'"),
@@ -62,14 +62,14 @@ CHANGES = [
     ("number in quotes", "length: 10", "length: '10'", INPUT, "5:5: 'length': found the text \"10\" in quotes, expected a number"),
     ("nothing for a number", "length: 10", "length:", INPUT, "5:5: 'length': found nothing, expected a number in m"),
     ("list for a number", "length: 10", "length: [10]", INPUT, "5:5: 'length': found a list of 1, expected a number"),
-    ("number for a mapping", "start: " + START, "start: 3", INPUT, "9:5: 'start': found '3', expected 'laid', or a mapping with straight, polyline, arc, nodes"),
+    ("number for a mapping", "start: " + START, "start: 3", INPUT, "9:5: 'start': found '3', expected 'static', or a mapping with straight, polyline, arc, nodes"),
     ("mapping for a list", "  - {name: pull,", "  {name: pull,", INPUT, "11:1: 'history': found a mapping, expected a list"),
     ("list for a mapping", "obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}", "obstacles: []", INPUT, "2:1: 'obstacles': found a list of 0, expected a mapping"),
     ("two components", "to: [10, 0, 0]", "to: [10, 0]", INPUT, "9:41: 'to': found a list of 2, expected three numbers in m, as in [x, y, z]"),
     ("text in a vector", "to: [10, 0, 0]", "to: [10, y, 0]", INPUT, "9:50: 'to': found 'y', expected a number in m"),
-    ("an unknown word", "history:", "contact: lost\nhistory:", INPUT, "11:1: 'contact': found 'lost', expected one of: gained strict"),
+    ("an unknown word", "history:", "contact_policy: lost\nhistory:", INPUT, "11:1: 'contact_policy': found 'lost', expected one of: reached reference"),
     ("one point", START, "{polyline: [[0, 0, 0]]}", INPUT, "9:13: 'polyline': found a list of 1, expected a list of at least 2 rows of 3 numbers in m, as in"),
-    ("two shapes", START, "{straight: {from: [0, 0, 0], to: [10, 0, 0]}, arc: {from: [0, 0, 0], center: [0, 5, 0]}}", INPUT, "9:5: 'start': too much given, expected exactly one of"),
+    ("two shapes", START, "{straight: {from: [0, 0, 0], to: [10, 0, 0]}, arc: {from: [0, 0, 0], centre: [0, 5, 0]}}", INPUT, "9:5: 'start': too much given, expected exactly one of"),
     # numbers
     ("NaN", "length: 10", "length: .nan", INPUT, "5:5: 'length': found '.nan', expected a number in m, greater than 0"),
     ("NaN in a vector", "to: [10, 0, 0]", "to: [10, .NaN, 0]", INPUT, "9:50: 'to': found '.NaN'"),
@@ -109,14 +109,14 @@ CHANGES = [
     ("start too short", "to: [10, 0, 0]", "to: [9, 0, 0]", INPUT, "9:5: line 'cable': start is 9 m long, shorter than the line's length 10 m"),
     ("start too long", "to: [10, 0, 0]", "to: [20.1, 0, 0]", INPUT, "9:5: line 'cable': start is 20.1 m long, more than twice the line's length 10 m"),
     ("start below the bed", "to: [10, 0, 0]", "to: [9, 0, -5]", INPUT, "9:5: line 'cable': start: node 1 lies 1.25 m below obstacle 'bed'"),
-    ("arc without radius", START, "{arc: {from: [0, 0, 5], center: [0, 0, 0]}}", INPUT, "9:5: line 'cable': start: the arc's first point lies on its axis"),
-    ("arc without axis", START, "{arc: {from: [0, 0, 0], center: [0, 5, 0], axis: [0, 0, 0]}}", INPUT, "9:55: line 'cable': start: arc axis is (0, 0, 0)"),
-    ("elements too long for the arc", "elements: 4\n    mass: 1\n    stiffness: 1e6\n    start: " + START, "elements: 1\n    mass: 1\n    stiffness: 1e6\n    start: {arc: {from: [0, 0, 0], center: [0, 2, 0]}}", INPUT, "9:5: line 'cable': start: an element is 10 m long, longer than the arc's diameter 4 m"),
-    ("end beside the start", ENDS, "{A: {fixed: [0, 0, 1]}, B: free}", INPUT, "10:12: line 'cable': ends: end A is fixed at (0, 0, 1) m, but the start puts it at (0, 0, 0) m"),
-    ("end below the bed", ENDS, "{A: {fixed: [0, 0, -1]}, B: free}", INPUT, "10:12: line 'cable': ends: end A is 1 m below obstacle 'bed'"),
-    ("laid without a position", START + "\n    ends: " + ENDS, "laid\n    ends: " + ENDS, INPUT, "10:12: line 'cable': ends: end A has no position, and a laid start gives none"),
-    ("laid with free ends", START + "\n    ends: " + ENDS, "laid\n    ends: {A: free, B: free}", INPUT, "10:5: line 'cable': ends: both are free, but a laid start needs a fixed one"),
-    ("an end fixed and pulled", ENDS, "{A: {fixed: [0, 0, 0], force: [0, 0, 0]}, B: free}", INPUT, "10:12: 'A': too much given, expected exactly one of 'fixed', 'force'"),
+    ("arc without radius", START, "{arc: {from: [0, 0, 5], centre: [0, 0, 0]}}", INPUT, "9:5: line 'cable': start: the arc's first point lies on its axis"),
+    ("arc without axis", START, "{arc: {from: [0, 0, 0], centre: [0, 5, 0], axis: [0, 0, 0]}}", INPUT, "9:55: line 'cable': start: arc axis is (0, 0, 0)"),
+    ("elements too long for the arc", "elements: 4\n    mass: 1\n    stiffness: 1e6\n    start: " + START, "elements: 1\n    mass: 1\n    stiffness: 1e6\n    start: {arc: {from: [0, 0, 0], centre: [0, 2, 0]}}", INPUT, "9:5: line 'cable': start: an element is 10 m long, longer than the arc's diameter 4 m"),
+    ("end beside the start", ENDS, "{A: {held: [0, 0, 1]}, B: free}", INPUT, "10:12: line 'cable': ends: end A is held at (0, 0, 1) m, but the start puts it at (0, 0, 0) m"),
+    ("end below the bed", ENDS, "{A: {held: [0, 0, -1]}, B: free}", INPUT, "10:12: line 'cable': ends: end A is 1 m below obstacle 'bed'"),
+    ("static without a position", START + "\n    ends: " + ENDS, "static\n    ends: " + ENDS, INPUT, "10:12: line 'cable': ends: end A has no position, and a static start gives none"),
+    ("static with free ends", START + "\n    ends: " + ENDS, "static\n    ends: {A: free, B: free}", INPUT, "10:5: line 'cable': ends: both are free, but a static start needs a held one"),
+    ("an end held and pulled", ENDS, "{A: {held: [0, 0, 0], force: [0, 0, 0]}, B: free}", INPUT, "10:12: 'A': too much given, expected exactly one of 'held', 'force'"),
     ("moved below the bed", "{force: [1, 0, 0]}", "{position: [9, 0, -1]}", INPUT, "12:18: stage 1: cable.B is moved to 1 m below obstacle 'bed'"),
     ("move of a free end", "{force: [1, 0, 0]}", "{move: [1, 0, 0]}", INPUT, "12:28: 'cable.B': found a move, but the end's position before it is not known"),
     # obstacles
@@ -128,7 +128,7 @@ CHANGES = [
     ("cylinder misspelt", "{plane: {normal: [0, 0, 1]}", "{cilinder: {radius: 1}", INPUT, "2:19: obstacle 'bed': unknown key 'cilinder'; did you mean 'cylinder'?"),
     ("zero axis", "{plane: {normal: [0, 0, 1]}", "{cylinder: {point: [0, 0, -5], axis: [0, 0, 0], radius: 1}", INPUT, "2:49: obstacle 'bed': axis is (0, 0, 0), expected a direction"),
     ("line in the cylinder", "{plane: {normal: [0, 0, 1]}", "{cylinder: {radius: 1}", INPUT, "9:5: line 'cable': start: node 0 lies 1 m below obstacle 'bed'"),
-    ("second obstacle in the way", "friction: 0.5}}", "friction: 0.5}, ball: {sphere: {center: [5, 0, 0], radius: 1}}}", INPUT, "9:5: line 'cable': start: node 2 lies 1 m below obstacle 'ball'"),
+    ("second obstacle in the way", "friction: 0.5}}", "friction: 0.5}, ball: {sphere: {centre: [5, 0, 0], radius: 1}}}", INPUT, "9:5: line 'cable': start: node 2 lies 1 m below obstacle 'ball'"),
     ("friction as a list", "friction: 0.5", "friction: [0.5, 0.6]", INPUT, "2:47: 'friction': found a list of 2, expected a number, at least 0, or a mapping with axial, set, lateral, shape, grain"),
     ("friction without axial", "friction: 0.5", "friction: {lateral: 0.5}", INPUT, "2:47: 'friction': nothing given, expected exactly one of 'axial', 'set'"),
     ("negative lateral friction", "friction: 0.5", "friction: {axial: 0.5, lateral: -1}", INPUT, "2:70: 'lateral': found '-1', expected a number, at least 0"),

@@ -46,10 +46,10 @@ def fold(folder, kind, friction, radius, element, half, t, n, axis, entries=2, m
     down, up = mix((math.cos(half), t), (-math.sin(half), n)), mix((math.cos(half), t), (math.sin(half), n))
     node = mix((radius, n))
     a, b = mix((1, node), (-element, up)), mix((1, node), (element, down))
-    name = "cylinder: {point: [0, 0, 0]" if kind == "cylinder" else "sphere: {center: [0, 0, 0]"
-    text = (f"capstan: 1\ncontact: strict\n{more}obstacles:\n  post: {{{name}, radius: {radius!r}, axis: {axis}}}, friction: {friction}}}\n"
+    name = "cylinder: {point: [0, 0, 0]" if kind == "cylinder" else "sphere: {centre: [0, 0, 0]"
+    text = (f"capstan: 1\ncontact_policy: reference\n{more}obstacles:\n  post: {{{name}, radius: {radius!r}, axis: {axis}}}, friction: {friction}}}\n"
             f"lines:\n  rope: {{length: {2*element!r}, elements: 2, weight: 0, stiffness: 1e7, start: {{polyline: [{a}, {node}, {b}]}}, "
-            "ends: {A: fixed, B: free}}\nhistory:\n"
+            "ends: {A: held, B: free}}\nhistory:\n"
             + "".join(f"  - {{name: pull {i}, rope.B: {{force: {mix((10 + i, down))}}}}}\n" for i in range(entries)))
     return run(folder, text)
 
@@ -143,7 +143,7 @@ def special(folder):
     if code != 1 or [s["outcome"] for s in steps] != [COARSE]*3 or "'post'" not in said or "elements no longer than" not in said:
         faults.append(f"half a turn: exit {code}, {[s['outcome'] for s in steps]}: {said}")
     # frozen friction: in the first step it has no bound, and no bend; then the same
-    code, said, steps = fold(folder, "cylinder", 0.3, 0.01, 0.1, 0.5*math.pi - 0.05, t, n, axis, entries=3, more="friction: frozen\n")
+    code, said, steps = fold(folder, "cylinder", 0.3, 0.01, 0.1, 0.5*math.pi - 0.05, t, n, axis, entries=3, more="friction_policy: frozen\n")
     if [s["outcome"] for s in steps] != ["solved", COARSE, COARSE]:
         faults.append(f"half a turn, frozen: {[s['outcome'] for s in steps]}")
     code, said, steps = fold(folder, "cylinder", 0, 0.01, 0.1, 1.2, t, n, axis)
@@ -170,8 +170,8 @@ def advised(folder):
             start, centre = [0, 0, 1], [0, 0, 0]
             angle = round(length/element)*2*math.asin(element/2)
             text = (f"capstan: 1\nobstacles:\n  drum: {{cylinder: {{radius: 1}}, friction: {mu!r}}}\nlines:\n  rope: {{length: {length!r}, "
-                    f"elements: {round(length/element)}, weight: 0, stiffness: 1e7, start: {{arc: {{from: {start}, center: {centre}, axis: [0, 1, 0]}}}}, "
-                    f"ends: {{A: fixed, B: free}}}}\nhistory:\n  - {{name: pull, rope.B: {{force: [{10*math.cos(angle)!r}, 0, {-10*math.sin(angle)!r}]}}}}\n")
+                    f"elements: {round(length/element)}, weight: 0, stiffness: 1e7, start: {{arc: {{from: {start}, centre: {centre}, axis: [0, 1, 0]}}}}, "
+                    f"ends: {{A: held, B: free}}}}\nhistory:\n  - {{name: pull, rope.B: {{force: [{10*math.cos(angle)!r}, 0, {-10*math.sin(angle)!r}]}}}}\n")
             return run(folder, text)
         code, said, steps = wound(0.3)
         bend = steps[0]["lines"]["rope"].get("bend") if steps else None

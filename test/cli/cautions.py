@@ -40,7 +40,7 @@ with tempfile.TemporaryDirectory() as folder:
 
         # the cure that is offered: nothing is left to say
         with open(path, encoding="utf-8") as file:
-            text = file.read().replace("friction: frozen", "friction: consistent").replace("contact: strict", "contact: gained")
+            text = file.read().replace("friction_policy: frozen", "friction_policy: consistent").replace("contact_policy: reference", "contact_policy: reached")
         cured = os.path.join(folder, "cured.yaml")
         with open(cured, "w", encoding="utf-8") as file:
             file.write(text)
@@ -69,7 +69,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     # frozen bounds may hold nothing where mu R would: said with its figure, 0.5 (8 x 20 + 80) N, and only where it would
     scene = """capstan: 1
-friction: %s
+friction_policy: %s
 obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}
 lines:
   rope: {length: 8, elements: 40, weight: 20, stiffness: 1e5, start: {straight: {from: [0, 0, 0], to: [8, 0, 0]}}, ends: {A: free, B: free}}
@@ -95,7 +95,7 @@ history: [{name: press, rope.B: {force: [%s, 0, -80]}}]
     scene = {"capstan": 1, "gravity": [0, 0, -9.81], "solver": {"path_tolerance": 1e-3},
              "obstacles": {"drum": {"cylinder": {"point": [0, 0, 0], "axis": [0, 1, 0], "radius": 1}, "friction": 0.5}},
              "lines": {"string": {"length": 1, "elements": 1, "weight": 2, "stiffness": ".inf",
-                                  "start": {"polyline": [[math.sqrt(0.96), 0, 1.2], [0, 0, 1]]}, "ends": {"A": "fixed", "B": "free"}}},
+                                  "start": {"polyline": [[math.sqrt(0.96), 0, 1.2], [0, 0, 1]]}, "ends": {"A": "held", "B": "free"}}},
              "history": [{"name": "draw", "steps": 10, "string.A": {"position": [2, 0, 1.2]}}]}
     path = os.path.join(folder, "crest.yaml")
     with open(path, "w", encoding="utf-8") as file:

@@ -19,7 +19,7 @@ SCENE = """capstan: 1
 obstacles:
   bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}
 lines:
-  rope: {length: 1, elements: 10, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: fixed}}
+  rope: {length: 1, elements: 10, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: held, B: held}}
 history:
   - {name: out, rope.B: {position: [1.1, 0, 0]}, steps: STEPS}
   - {name: back, rope.B: {position: [1, 0, 0]}, steps: STEPS}
@@ -185,8 +185,8 @@ with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for name, steps in (("scene.yaml", 4), ("short.yaml", 1), ("long.yaml", 200)):
         write(name, SCENE.replace("STEPS", str(steps)))
-    write("frozen.yaml", SCENE.replace("STEPS", "1") + "friction: frozen\n")
-    write("grab.yaml", SCENE.replace("STEPS", "1").replace("A: fixed, B: fixed", "A: fixed, B: free").replace("rope.B: {position: [1.1, 0, 0]}",
+    write("frozen.yaml", SCENE.replace("STEPS", "1") + "friction_policy: frozen\n")
+    write("grab.yaml", SCENE.replace("STEPS", "1").replace("A: held, B: held", "A: held, B: free").replace("rope.B: {position: [1.1, 0, 0]}",
           "rope.B: {force: [0.1, 0, 0]}").replace("bed:", "post: {cylinder: {point: [1.5, 0, 0], axis: [0, 0, 1], radius: 0.2}, friction: 0.1}\n  bed:")
           .replace("[1, 0, 0]}, steps", "[2, 0, 0]}, steps"))
     for part in (foreign, again, listed, studies, killed, names):

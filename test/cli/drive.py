@@ -153,13 +153,13 @@ def bodies(r):
     disc = r.ask("disc")
     check("disc gamma", disc["pushes"][0]["upper_W"], 0.525790712182, 1e-11)
     check("disc spin", disc["pushes"][0]["twist"][2], 0.64636634, 1e-7)
-    check("disc centre", disc["pushes"][0]["center"][0], -0.54711027, 1e-7)
+    check("disc centre", disc["pushes"][0]["centre"][0], -0.54711027, 1e-7)
     check("disc torque", disc["torque_Nm"], 2/3, 1e-12)
     expect("disc torque bounds", disc["torque_lower_Nm"] <= 2/3 <= disc["torque_upper_Nm"], disc)
     check("disc ellipsoid", disc["ellipsoid_share"], 0.93420517, 1e-7)
     rod = r.ask("rod")["pushes"][0]
     check("rod gamma", rod["upper_W"], math.sqrt(2) - 1, 1e-11)
-    check("rod centre", rod["center"][0], 1 - math.sqrt(2), 1e-8)
+    check("rod centre", rod["centre"][0], 1 - math.sqrt(2), 1e-8)
     check("ring gamma", r.ask("ring")["pushes"][0]["upper_W"], 2/math.pi, 1e-11)
     feet = r.ask("two-feet")["pushes"]
     check("two feet low", feet[0]["low"][2], -1, 1e-3)    # flat where the load lifts off: root of the tolerance 1e-9, times 30

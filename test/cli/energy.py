@@ -15,7 +15,7 @@ LOOP = """capstan: 1
 gravity: [0, 0, -9.81]
 obstacles: {bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.6}}
 lines:
-  chain: {length: 100, elements: 50, weight: 500, stiffness: 5e5, start: laid, ends: {A: {fixed: [0, 0, 0]}, B: {fixed: [80, 0, 45]}}}
+  chain: {length: 100, elements: 50, weight: 500, stiffness: 5e5, start: static, ends: {A: {held: [0, 0, 0]}, B: {held: [80, 0, 45]}}}
 history:
   - {name: surge out, chain.B: {position: [80, 15, 45]}, steps: 2}
   - {name: surge back, chain.B: {position: [80, 0, 45]}, steps: 2}
@@ -26,9 +26,9 @@ solver: {path_tolerance: TOLERANCE}
 BRANCH = """capstan: 1
 gravity: [0, 0, -9.81]
 obstacles:
-  b0: {sphere: {center: [-0.767, 0.139, 0.006], radius: 0.125, axis: [-0.991, -0.672, 1]}, friction: 0}
-  b1: {sphere: {center: [0.679, -0.105, -0.103], radius: 0.166, axis: [0.547, 0.506, 1]}, friction: 0.846}
-  b2: {sphere: {center: [-0.184, 0.422, 0.008], radius: 0.12, axis: [-0.763, -0.334, 1]}, friction: 0.136}
+  b0: {sphere: {centre: [-0.767, 0.139, 0.006], radius: 0.125, axis: [-0.991, -0.672, 1]}, friction: 0}
+  b1: {sphere: {centre: [0.679, -0.105, -0.103], radius: 0.166, axis: [0.547, 0.506, 1]}, friction: 0.846}
+  b2: {sphere: {centre: [-0.184, 0.422, 0.008], radius: 0.12, axis: [-0.763, -0.334, 1]}, friction: 0.136}
 lines:
   a:
     length: 1.099
@@ -36,7 +36,7 @@ lines:
     weight: 0.91
     stiffness: 3150.266
     start: {straight: {from: [0, 0, 0], to: [-0.8144328489225996, 0.7196483974872974, 0.16311443404002857]}}
-    ends: {A: fixed, B: free}
+    ends: {A: held, B: free}
 history:
   - {name: s0, steps: 3, a.B: {position: [0.11, 0.433, 0.407]}, b0.turn: 20.296, b1.turn: 35.58}
 solver: {halvings: HALVINGS}
@@ -47,7 +47,7 @@ FALL = """capstan: 1
 gravity: [0, 0, -9.81]
 obstacles: {bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.1}}
 lines:
-  a: {length: 10, elements: 20, weight: 5, stiffness: 1e6, start: {straight: {from: [0, 0, 8], to: [10, 0, 8]}}, ends: {A: fixed, B: free}}
+  a: {length: 10, elements: 20, weight: 5, stiffness: 1e6, start: {straight: {from: [0, 0, 8], to: [10, 0, 8]}}, ends: {A: held, B: free}}
 history: [{name: fall, steps: 1}]
 """
 
@@ -113,7 +113,7 @@ def other_way_round(scene):
     """The same line from B to A."""
     return (scene.replace("from: [0, 0, 0], to: [-0.8144328489225996, 0.7196483974872974, 0.16311443404002857]",
                           "from: [-0.8144328489225996, 0.7196483974872974, 0.16311443404002857], to: [0, 0, 0]")
-            .replace("A: fixed, B: free", "A: free, B: fixed").replace("a.B", "a.A"))
+            .replace("A: held, B: free", "A: free, B: held").replace("a.B", "a.A"))
 
 
 def names(capstan, directory):

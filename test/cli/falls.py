@@ -31,11 +31,11 @@ def scene(rng):
     way[0] = math.copysign(max(abs(way[0]), 1.2*radius/before), way[0])  # A is beside the post, not above it
     way[1] = math.copysign(math.sqrt(length**2 - way[0]**2), way[1])
     a = [-before*way[0], rng.uniform(-1, 1)]
-    return {"capstan": 1, "friction": friction, "gravity": [0, 0, -9.81],
+    return {"capstan": 1, "friction_policy": friction, "gravity": [0, 0, -9.81],
             "obstacles": {"post": {"cylinder": {"point": [0, 0, 0], "axis": [0, 1, 0], "radius": radius}, "friction": mu}},
             "lines": {"rope": {"length": length, "elements": rng.choice([20, 40]), "weight": weight, "stiffness": 1e4,
                                "start": {"straight": {"from": [*a, radius], "to": [a[0] + way[0], a[1] + way[1], radius]}},
-                               "ends": {"A": "fixed", "B": "free"}}},
+                               "ends": {"A": "held", "B": "free"}}},
             "history": [{"name": "let go", "steps": 1}]}
 
 
@@ -48,7 +48,7 @@ def runaway(rng):
     points = [[outside, 0, -short], *arc, [-outside, 0, -long]]
     length = short + long + 24*outside*math.sin(math.pi/24)
     elements = int(math.ceil(length/(radius*math.pi/12)))
-    return {"capstan": 1, "friction": friction, "gravity": [0, 0, -9.81],
+    return {"capstan": 1, "friction_policy": friction, "gravity": [0, 0, -9.81],
             "obstacles": {"drum": {"cylinder": {"point": [0, 0, 0], "axis": [0, 1, 0], "radius": radius}, "friction": mu}},
             "lines": {"rope": {"length": length, "elements": min(elements, 60), "weight": weight, "stiffness": rng.choice([1e3, 1e6])*weight*length,
                                "start": {"polyline": points}, "ends": {"A": "free", "B": "free"}}},
@@ -89,7 +89,7 @@ def main():
             given = runaway(random.Random(1000 + case))
             code, line = solve(folder, f"runaway-{case}", given)
             if code != 5 or line["outcome"] not in ("unbounded", "slides"):
-                faults.append(f"runaway {case}, {given['friction']}: exit {code}, {line['outcome']}")
+                faults.append(f"runaway {case}, {given['friction_policy']}: exit {code}, {line['outcome']}")
             elif line["outcome"] == "unbounded":
                 load = given["lines"]["rope"]["weight"]*given["lines"]["rope"]["length"]
                 if not (abs(line["proof"]["fall_N"] - load) <= 1e-9*load and math.dist(line["proof"]["direction"], [0, 0, -1]) <= 1e-9):

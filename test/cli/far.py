@@ -25,7 +25,7 @@ def moved(text):
     def by(match):
         place = [repr(float(x) + s) for x, s in zip(match[2].split(","), SHIFT)]
         return match[1] + "[" + ", ".join(place) + "]"
-    return re.sub(r"((?:point|center|from|to|fixed|position): *)\[([^]]*)\]", by, text)
+    return re.sub(r"((?:point|centre|from|to|held|position): *)\[([^]]*)\]", by, text)
 
 
 def run(folder, scene, out, *more):

@@ -39,7 +39,7 @@ def line(start, ends, **more):
 
 def hanging():
     """Hung from A the tip is l + w l^2/(2 K) of the lumped line below, along gravity; the potential and the elongation change as they should."""
-    scene = {"capstan": 1, "gravity": [0, 0, -10], "lines": {"rope": line({"straight": {"from": [0, 0, 0], "to": [0, 0, -2]}}, {"A": "fixed", "B": "free"})},
+    scene = {"capstan": 1, "gravity": [0, 0, -10], "lines": {"rope": line({"straight": {"from": [0, 0, 0], "to": [0, 0, -2]}}, {"A": "held", "B": "free"})},
              "history": [{"name": "hang"}, {"name": "heavy", "steps": 3, "gravity": [0, 0, -30]}, {"name": "aside", "gravity": [0, -8, -6]}, {"name": "none", "gravity": [0, 0, -1e-3]}]}
     steps, said = run("hanging", scene)
     pulls = [(0, -10), (0, -50 / 3), (0, -70 / 3), (0, -30), (-8, -6), (0, -1e-3)]
@@ -64,7 +64,7 @@ def tilted():
     """A table that tilts: gravity turns by t, the line slides where tan t is above mu, held at A: T(a) = w (sin t - mu cos t)(l - a)."""
     mu, t = 0.3, 0.5
     scene = {"capstan": 1, "gravity": [0, 0, -10], "obstacles": {"table": {"plane": {}, "friction": mu}},
-             "lines": {"rope": line({"straight": {"from": [0, 0, 0], "to": [2, 0, 0]}}, {"A": "fixed", "B": "free"})},
+             "lines": {"rope": line({"straight": {"from": [0, 0, 0], "to": [2, 0, 0]}}, {"A": "held", "B": "free"})},
              "history": [{"name": "rest", "gravity": [10 * math.sin(0.2), 0, -10 * math.cos(0.2)]}, {"name": "slide", "steps": 4, "gravity": [10 * math.sin(t), 0, -10 * math.cos(t)]}]}
     steps, _ = run("tilted", scene)
     # below tan t = mu nothing moves: 1e-9 of the length
@@ -83,7 +83,7 @@ def history(name):
 def resumed():
     """Killed and gone on with: the same numbers, bit for bit."""
     scene = {"capstan": 1, "obstacles": {"table": {"plane": {}, "friction": 0.3}},
-             "lines": {"rope": line({"straight": {"from": [0, 0, 0], "to": [2, 0, 0]}}, {"A": "fixed", "B": {"force": [1, 1, 0]}}, elements=400)},
+             "lines": {"rope": line({"straight": {"from": [0, 0, 0], "to": [2, 0, 0]}}, {"A": "held", "B": {"force": [1, 1, 0]}}, elements=400)},
              "history": [{"name": "pull", "rope.B": {"force": [2, 2, 0]}}, {"name": "light", "steps": 60, "gravity": [0, 1, -2]}, {"name": "on", "rope.B": {"force": [0, 2, 1]}}]}
     run("whole", scene)
     write("part.yaml", json.dumps(scene))
@@ -103,7 +103,7 @@ def resumed():
 
 
 def refused():
-    text = "capstan: 1\nlines:\n  rope: {length: 1, weight: 1, stiffness: 10, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: free}}\nhistory:\n  - {gravity: %s}\n"
+    text = "capstan: 1\nlines:\n  rope: {length: 1, weight: 1, stiffness: 10, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: held, B: free}}\nhistory:\n  - {gravity: %s}\n"
     for value, words in (("-9.81", "5:6: 'gravity': found '-9.81', expected three numbers in m/s2"), ("[0, 0]", "5:6: 'gravity': found a list of 2"),
                          ("[0, 0, .inf]", "'gravity': found '.inf'"), ("[0, 0, 1e200]", "'gravity': found '1e200'")):
         write("bad.yaml", text % value)

@@ -22,8 +22,8 @@ obstacles:
   bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}
   post: {cylinder: {point: [4, 2, 0], axis: [0, 0, 1], radius: 0.5}, friction: 0.1}
 lines:
-  rope: {length: 8, elements: 24, weight: 20, stiffness: 1e5, start: {straight: {from: [0, 0, 0], to: [8, 0, 0]}}, ends: {A: fixed, B: fixed}}
-  tail: {length: 2, elements: 6, weight: 20, stiffness: .inf, start: {straight: {from: [0, -3, 0], to: [2, -3, 0]}}, ends: {A: fixed, B: free}}
+  rope: {length: 8, elements: 24, weight: 20, stiffness: 1e5, start: {straight: {from: [0, 0, 0], to: [8, 0, 0]}}, ends: {A: held, B: held}}
+  tail: {length: 2, elements: 6, weight: 20, stiffness: .inf, start: {straight: {from: [0, -3, 0], to: [2, -3, 0]}}, ends: {A: held, B: free}}
 history:
   - {name: move, steps: 25, rope.B: {position: [7.5, 2.5, 0]}}
   - {name: pull, steps: 5, tail.B: {force: [1, 0.5, 0]}}

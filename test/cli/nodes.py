@@ -79,7 +79,7 @@ def end_after(scene, results, entry, end):
     if "force" in now:
         return now
     x = vectors(results.get("rope_position", entry))
-    return {"fixed": list(x[0 if end == "A" else -1])}
+    return {"held": list(x[0 if end == "A" else -1])}
 
 
 def go_on(name, scene, entry, columns=("tension", "reaction", "arc_length")):
@@ -106,11 +106,11 @@ def go_on(name, scene, entry, columns=("tension", "reaction", "arc_length")):
 
 
 def broken_off():
-    free = {"A": {"fixed": [0, 0, 0]}, "B": {"force": [0, 0, 0]}}
+    free = {"A": {"held": [0, 0, 0]}, "B": {"force": [0, 0, 0]}}
     history = [{"rope.B": {"force": [2, 3, 1]}}, {"rope.B": {"force": [0, 2, 4]}}, {"rope.B": {"force": [-1, 1, 0]}}, {"rope.B": {"force": [1, -3, 0]}}]
     graded = [0.05] * 4 + [[20, 1.2]] + [0.1] * 6
     for law in ("frozen", "consistent"):
-        scene = {"capstan": 1, "friction": law, "obstacles": {"bed": BED}, "lines": {"rope": rope(STRAIGHT, free, elements=graded)}, "history": history}
+        scene = {"capstan": 1, "friction_policy": law, "obstacles": {"bed": BED}, "lines": {"rope": rope(STRAIGHT, free, elements=graded)}, "history": history}
         for entry in range(3):
             go_on(f"{law}-{entry}", scene, entry)
         scene["lines"]["rope"]["friction_zones"] = [{"from": 0.3, "to": 1.1, "factor": 0}, {"from": 1.2, "to": 1.9, "factor": 3}]
@@ -119,22 +119,22 @@ def broken_off():
         go_on(law + "-inextensible", scene, 1)
         # an end that is held on the bed, then let go: its half element rubs from then on
         held = [{"rope.B": {"position": [1.5, 0.8, 0]}}, {"rope.B": {"position": [1.2, 1, 0]}}, {"rope.B": {"force": [0, 1, 0]}}]
-        scene = {"capstan": 1, "friction": law, "obstacles": {"bed": BED}, "lines": {"rope": rope(STRAIGHT, free, elements=30)}, "history": held}
+        scene = {"capstan": 1, "friction_policy": law, "obstacles": {"bed": BED}, "lines": {"rope": rope(STRAIGHT, free, elements=30)}, "history": held}
         go_on(law + "-held", scene, 0)
         # over a drum, where the reaction is the tension's
         drum = {"drum": {"cylinder": {"point": [1, 0, -0.5], "axis": [0, 1, 0], "radius": 0.5}, "friction": 0.3}}
-        line = rope({"arc": {"from": [0.5, 0, -0.5], "center": [1, 0, -0.5], "axis": [0, 1, 0]}}, {"A": {"fixed": [0.5, 0, -0.5]}, "B": {"force": [0, 0, -3]}},
+        line = rope({"arc": {"from": [0.5, 0, -0.5], "centre": [1, 0, -0.5], "axis": [0, 1, 0]}}, {"A": {"held": [0.5, 0, -0.5]}, "B": {"force": [0, 0, -3]}},
                     length=math.pi / 2, elements=40, weight=1)
-        scene = {"capstan": 1, "friction": law, "obstacles": drum, "lines": {"rope": line},
+        scene = {"capstan": 1, "friction_policy": law, "obstacles": drum, "lines": {"rope": line},
                  "history": [{"rope.B": {"force": [0, 0, -4]}}, {"rope.B": {"force": [0, 0.5, -5.4]}}]}
         go_on(law + "-drum", scene, 0)
     # bounds A = mu R in place of R: the zones' factor is in them
-    whole = run({**scene, "friction": "frozen"}, "bounds")
+    whole = run({**scene, "friction_policy": "frozen"}, "bounds")
     columns = nodes_of(whole, "rope", 0, "reaction")
     columns["friction_bound"] = [0.3 * r for r in columns.pop("reaction")]
     write("bounds.csv", table(columns))
-    rest = {**scene, "friction": "frozen", "history": scene["history"][1:]}
-    rest["lines"] = {"rope": {**line, "start": {"nodes": "bounds.csv"}, "ends": {"A": "fixed", "B": {"force": [0, 0, -4]}}}}
+    rest = {**scene, "friction_policy": "frozen", "history": scene["history"][1:]}
+    rest["lines"] = {"rope": {**line, "start": {"nodes": "bounds.csv"}, "ends": {"A": "held", "B": {"force": [0, 0, -4]}}}}
     second = run(rest, "bounds-on")
     apart = max(abs(a - b) for a, b in zip(whole.get("rope_position", 1), second.get("rope_position", 0)))
     expect("bounds A_R continue the history as reactions do", apart < 1e-6, apart)
@@ -146,7 +146,7 @@ SHIFT = 5e6
 
 
 def moved(text):
-    return re.sub(r"((?:from|to|fixed): )\[([^,]*),", lambda m: f"{m[1]}[{float(m[2]) + SHIFT!r},", text)
+    return re.sub(r"((?:from|to|held): )\[([^,]*),", lambda m: f"{m[1]}[{float(m[2]) + SHIFT!r},", text)
 
 
 def far_out(text, rest, here):
@@ -216,8 +216,8 @@ def own_bounds():
         x.append((length * j / n, 0.0, 0.0))
     columns = {"x": [p[0] for p in x], "y": [p[1] for p in x], "z": [p[2] for p in x], "friction_bound": bound}
     write("own.csv", table(columns))
-    scene = {"capstan": 1, "friction": "frozen", "obstacles": {"bed": BED},
-             "lines": {"rope": rope({"nodes": "own.csv"}, {"A": {"fixed": [0, 0, 0]}, "B": {"force": [0, 0, 0]}})}, "history": [{"rope.B": {"force": [f, 0, 0]}}]}
+    scene = {"capstan": 1, "friction_policy": "frozen", "obstacles": {"bed": BED},
+             "lines": {"rope": rope({"nodes": "own.csv"}, {"A": {"held": [0, 0, 0]}, "B": {"force": [0, 0, 0]}})}, "history": [{"rope.B": {"force": [f, 0, 0]}}]}
     results = run(scene, "own")
     tension, left = [0.0] * n, f
     for e in range(n - 1, -1, -1):
@@ -235,7 +235,7 @@ def own_bounds():
     write("drum.csv", table({"x": [p[0] for p in x], "y": [p[1] for p in x], "z": [p[2] for p in x], "tension": [7.0] * m}))
     pull = [7 * c for c in (math.cos(angle / 2 - half), 0, -math.sin(angle / 2 - half))]
     chord = 2 * radius * math.sin(half)
-    scene = {"capstan": 1, "friction": "frozen", "obstacles": {"drum": {"cylinder": {"radius": radius}, "friction": 0.3}},
+    scene = {"capstan": 1, "friction_policy": "frozen", "obstacles": {"drum": {"cylinder": {"radius": radius}, "friction": 0.3}},
              "lines": {"rope": rope({"nodes": "drum.csv"}, {"A": {"force": [-pull[0], 0, pull[2]]}, "B": {"force": pull}}, length=m * chord, weight=0, stiffness=".inf")},
              "history": [{"rope.B": {"force": [1.05 * c for c in pull]}}]}
     results = run(scene, "drum")
@@ -275,7 +275,7 @@ BAD = (("the name of a file elsewhere", "../n.csv", HEAD + ROWS, 3, "scene.yaml:
 
 def refused():
     text = ("capstan: 1\nobstacles: {bed: {plane: {}, friction: 0.5}}\nlines:\n  rope:\n    length: 2\n    start: {nodes: %s}\n    weight: 1\n    stiffness: 10\n"
-            "    ends: {A: fixed, B: free}\n")
+            "    ends: {A: held, B: free}\n")
     for what, name, rows, code, words in BAD:
         write("n.csv", rows)
         write("scene.yaml", text % name)

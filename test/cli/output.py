@@ -12,11 +12,11 @@ CAPSTAN = os.path.abspath(sys.argv[1])
 SCENE = """capstan: 1
 obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}, wall: {plane: {point: [0, -1, 0], normal: [0, 1, 0]}, friction: 0.1}}
 lines:
-  rope: {length: 8, elements: 40, weight: 20, stiffness: 1e5, start: {straight: {from: [0, 0, 0], to: [8, 0, 0]}}, ends: {A: fixed, B: fixed}}
+  rope: {length: 8, elements: 40, weight: 20, stiffness: 1e5, start: {straight: {from: [0, 0, 0], to: [8, 0, 0]}}, ends: {A: held, B: held}}
 history:
   - {name: move, steps: %d, rope.B: {position: [8.2, 0, 0]}}
 """
-PER_STEP = ["reference", "position", "load", "normal", "contact_gap", "friction_bound", "friction", "reaction", "slide",
+PER_STEP = ["reference", "position", "load", "normal", "contact_gap", "friction_bound", "friction_force", "reaction", "slide",
             "segment_force", "tension", "state", "obstacle"]
 ALWAYS = ["arc_length", "element_length", "end_force", "end_tension", "gap", "dissipated", "outcome"]
 faults = []
@@ -64,8 +64,8 @@ with tempfile.TemporaryDirectory() as folder:
     check({"result.nc", "summary.json", "plan.svg"} <= set(names), f"--no-paraview: {names}")
     check(history(folder, "out") == whole, "--no-paraview: other numbers")
 
-    for fields, wanted in (("position,tension", {"position", "tension"}), ("state,obstacle,friction", {"state", "obstacle", "friction",
-                           "state_second", "obstacle_second", "friction_second"}), ("none", set())):
+    for fields, wanted in (("position,tension", {"position", "tension"}), ("state,obstacle,friction_force", {"state", "obstacle", "friction_force",
+                           "state_second", "obstacle_second", "friction_force_second"}), ("none", set())):
         done = run(folder, "short.yaml", "out", "--fields", fields)
         check(done.returncode == 0, f"--fields {fields}: {done.stderr}")
         found = variables(os.path.join(folder, "out", "result.nc"))

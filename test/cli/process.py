@@ -21,7 +21,7 @@ title: a rope
 obstacles:
   bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}
 lines:
-  rope: {length: 1, elements: 10, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: free}}
+  rope: {length: 1, elements: 10, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: held, B: free}}
 history:
   - {name: pull, rope.B: {force: [0.1, 0.1, 0]}, steps: 12}
 """
@@ -64,9 +64,9 @@ HARD = """{"capstan": 1, "gravity": [-2.6601283044409714, 2.759059534438018, 9.0
 "lines": {"a": {"length": 0.9049442288267853, "elements": 321, "weight": 1.1050404744792393, "stiffness": .inf,
   "start": {"polyline": [[4.3675130356665255, -5.036750502636892, -6.671841292277447], [4.467681670279063, -4.795754722754122, -6.715965808802356],
     [4.883361116087756, -4.622687219720161, -6.6463941537083295], [4.9634551277966965, -4.773732076926472, -6.576651410652702]]},
-  "ends": {"A": "fixed", "B": "free"}}},
+  "ends": {"A": "held", "B": "free"}}},
 "history": [{"name": "s0", "a.B": {"force": [-0.2381959893177024, 0.3487532816888836, -0.17672195792042686]}},
-  {"name": "s1", "steps": 2, "a.B": {"force": [0.014897231074644786, -0.006022340182070276, 0.0055996264271495075]}}], "friction": "consistent"}"""
+  {"name": "s1", "steps": 2, "a.B": {"force": [0.014897231074644786, -0.006022340182070276, 0.0055996264271495075]}}], "friction_policy": "consistent"}"""
 
 
 def processor(pid):
@@ -107,7 +107,7 @@ def escapes():
     write("title.yaml", SCENE.replace("a rope", '"\\e[31mred\\u009b2J"'))
     write("law.yaml", 'capstan: 1\ntitle: "\\e[31mred"\nlaw: {disc: 1}\n')
     commands = (["check", "title.yaml"], ["run", "title.yaml", "-o", "out"], ["law", "law.yaml"], ["check", "\x1b[2Jno.yaml"], ["\x1b[2J"],
-                ["run", "--\x1b[2J"], ["run", "scene.yaml", "\x1b[2J"], ["run", "scene.yaml", "--tol", "\x1b[2J"], ["schema", "\x1b[2J"],
+                ["run", "--\x1b[2J"], ["run", "scene.yaml", "\x1b[2J"], ["run", "scene.yaml", "--path-tolerance", "\x1b[2J"], ["schema", "\x1b[2J"],
                 ["study", "frozen.yaml", "--step", "\x1b[2J"], ["study", "frozen.yaml", "--judge", "\x1b[2J"],
                 ["study", "frozen.yaml", "--complete", "\x1b[2J"], ["law", "law.yaml", "-f", "\x1b[2J"],
                 ["law", "law.yaml", "--plot", "none/\x1b[2J.svg"])
@@ -153,7 +153,7 @@ def slow_lines():
     begin = "capstan: 1\na: "
     posts = [f"  p{k}: {{cylinder: {{point: [{k}, 9, 0], axis: [0, 0, 1], radius: 0.1}}}}\n" for k in range(8000)]
     many = SCENE.replace("elements: 10,", "elements: 9999999,").replace("  bed:", "".join(posts[:9]) + "  bed:")
-    arc = many.replace("{straight: {from: [0, 0, 0], to: [1, 0, 0]}}", "{arc: {from: [0, 0, 1], center: [0, 0, 2], axis: [0, 1, 0]}}")
+    arc = many.replace("{straight: {from: [0, 0, 0], to: [1, 0, 0]}}", "{arc: {from: [0, 0, 1], centre: [0, 0, 2], axis: [0, 1, 0]}}")
     for what, text in (("%", "%" * 160000), ("% after a mark", "\ufeff" + "%" * 160000), ("% behind \\r", "\r" + "%" * 160000),
                        ("% in YAML 1.1", "%YAML 1.1\n\u2028" + "%" * 160000), ("empty lines of a text", begin + "|\n  " + "\n" * 100000),
                        ("empty lines, spaces", begin + ">\n  " + " \n" * 100000), ("empty lines, \\r", begin + "|\n  " + "\r" * 100000),
@@ -175,7 +175,7 @@ def slow_lines():
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     write("scene.yaml", SCENE)
-    write("frozen.yaml", SCENE + "friction: frozen\n")
+    write("frozen.yaml", SCENE + "friction_policy: frozen\n")
     for part in (closed_streams, end_while_waiting, end_within_a_step, pipe_to_judge, escapes, named_files, libraries, slow_lines):
         part()
     os.chdir("/")

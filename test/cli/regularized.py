@@ -16,7 +16,7 @@ SLACK = os.path.join(EXAMPLES, "souza-de-cursi-1990-slack.yaml")
 # The last half rubs three times as much; end B is held on the bed in the fourth step and let go in the last.
 ZONES = """\
 capstan: 1
-friction: frozen
+friction_policy: frozen
 gravity: [0, 0, -9.81]
 obstacles: {bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.3}}
 lines:
@@ -27,7 +27,7 @@ lines:
     stiffness: 5
     friction_zones: [{from: 0, to: 0.1, factor: 0.5}, {from: 0.5, to: 1, factor: 3}]
     start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}
-    ends: {A: {fixed: [0, 0, 0]}, B: {force: [0, 0, 0]}}
+    ends: {A: {held: [0, 0, 0]}, B: {force: [0, 0, 0]}}
 history:
   - {name: along, rope.B: {force: [0.3, 0.3, 0]}}
   - {name: aside, rope.B: {force: [0, 0.5, 0]}}
@@ -125,7 +125,7 @@ with tempfile.TemporaryDirectory() as folder:
     for arguments, code, words in (
             ([EXAMPLE, "--method", "newton"], 2, ["newton", "regularized"]),
             ([EXAMPLE, "--method", "regularized", "--resume"], 2, ["--resume"]),
-            ([EXAMPLE, "--method", "regularized", "--tol", "0.1"], 2, ["--tol"]),
+            ([EXAMPLE, "--method", "regularized", "--path-tolerance", "0.1"], 2, ["--path-tolerance"]),
             ([SLACK, "--method", "regularized", "-o", "slack"], 3, ["inextensible"]),
             ([EXAMPLE, "--method", "regularized", "-o", os.path.join("no", "such", "place")], 4, ["no"])):
         done = run(folder, *arguments)

@@ -118,7 +118,7 @@ def check_validation(schema, folder):
         errors = [e.message for e in validator.iter_errors(scene)]
         assert not errors, (name, errors)
 
-    changes = [("capstan", 2), ("lines", []), ("gravity", [0, 0]), ("contact", "lost"), ("unknown", 1),
+    changes = [("capstan", 2), ("lines", []), ("gravity", [0, 0]), ("contact_policy", "lost"), ("unknown", 1),
                ("history", [{"steps": 0}]), ("history", [{"cable.C": {}}]), ("history", [{"cable.B": {}}]),
                ("obstacles", {"bed": {}}), ("obstacles", {"bed": {"plane": {}, "friction": [1]}}),
                ("obstacles", {"pipe": {"cylinder": {}}}),

@@ -20,7 +20,7 @@ def surface(kind, point, axis, radius):
     if kind == "plane":
         return f"plane: {{point: {point}, normal: {axis}}}"
     if kind == "sphere":
-        return f"sphere: {{center: {point}, radius: {radius!r}, axis: {axis}}}"
+        return f"sphere: {{centre: {point}, radius: {radius!r}, axis: {axis}}}"
     return f"cylinder: {{point: {point}, axis: {axis}, radius: {radius!r}}}"
 
 
@@ -46,7 +46,7 @@ def deepest(solid, a, b):
     return -gap(*solid, [p + best*(q - p) for p, q in zip(a, b)])
 
 
-def scene(solids, start, history, ends="{A: fixed, B: fixed}", length=10.0):
+def scene(solids, start, history, ends="{A: held, B: held}", length=10.0):
     """a line straight down from `start`, its end B; as text"""
     obstacles = "".join(f"  {name}: {{{surface(*solid)}}}\n" for name, solid in solids.items())
     foot = [start[0], start[1], start[2] + length]
@@ -130,7 +130,7 @@ def special(folder):
     expect(folder, "let go and grabbed", scene(drum, [-3, 0, 2], ["rope.B: {force: [0, 0, 0]}", position([3, 0, -2])]), None)
     expect(folder, "grabbed, then moved", scene(drum, [-3, 0, 2], ["rope.B: {force: [0, 0, 0]}", position([3, 0, 2]), position([-3, 0, -2])]),
            (2, "B", "drum", 1))
-    expect(folder, "an end that is free at first", scene(drum, [-3, 0, 2], [position([3, 0, -2])], ends="{A: fixed, B: free}"), None)
+    expect(folder, "an end that is free at first", scene(drum, [-3, 0, 2], [position([3, 0, -2])], ends="{A: held, B: free}"), None)
 
 
 def grabbed(folder):

@@ -25,7 +25,7 @@ title: TITLE
 obstacles:
   bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}
 lines:
-  rope: {length: 1, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: fixed}}
+  rope: {length: 1, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: held, B: held}}
 history:
   - {name: out, rope.B: {position: [1.1, 0, 0]}, steps: STEPS}
 """
@@ -153,7 +153,7 @@ def main():
     write("old.yaml", SCENE.replace("TITLE", "old").replace("STEPS", "3"))
     write("new.yaml", SCENE.replace("TITLE", "new").replace("STEPS", "2"))
     for title, name in (("old", "frozen-old.yaml"), ("new", "frozen.yaml")):
-        write(name, SCENE.replace("TITLE", title).replace("STEPS", "1") + "friction: frozen\n")
+        write(name, SCENE.replace("TITLE", title).replace("STEPS", "1") + "friction_policy: frozen\n")
     sweep_sets()
     write("law.yaml", "capstan: 1\nlaw: {disc: 1}\n")
     write("nodes.csv", "".join(f"{x},0,0\n" for x in (0, 0.275, 0.55, 0.825, 1.1)))

@@ -30,7 +30,7 @@ static const char ROPE[] = "capstan: 1\nrope:\n  shape: {straight: {from: [0, 0]
                            "  ends: {B: [1, 1]}\n  path: [[1.1, 0.1]]\n  steps: 2\n";
 static const char METER[] = "capstan: 1\nplanimeter: {pole: [0, 0], pole_arm: 1, tracer_arm: 1.3, "
                             "wheel: 0.4, friction: 0.2, load: 1,\n"
-                            "  curve: {circle: {center: [1, 0], radius: 0.2, points: 9}}}\n";
+                            "  curve: {circle: {centre: [1, 0], radius: 0.2, points: 9}}}\n";
 static const char SWEEP[] =
     "capstan: 1\nsweep: {law: {disc: 1}, stiffness: 1, path: [[2, 0]], steps: 4}\n";
 

@@ -20,7 +20,7 @@ static const char TEXT[] =
     "  wall: {plane: {point: [9, 0, 0], normal: [-1, 0, 0]}, friction: {set: {box: [0.2, 0]}}}\n"
     "lines:\n"
     "  rope:\n"
-    "    {length: 6, elements: 4, weight: 10, stiffness: 1e4, ends: {A: fixed, B: free},\n"
+    "    {length: 6, elements: 4, weight: 10, stiffness: 1e4, ends: {A: held, B: free},\n"
     "     start: {straight: {from: [0, 0, 0], to: [6, 0, 0]}}, friction_zones: [{from: 1, to: 2, "
     "factor: 2}]}\n"
     "history: [{rope.B: {force: [9, 2, 0]}}]\n";

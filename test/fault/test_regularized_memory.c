@@ -23,7 +23,7 @@ static CpsStatus questions(const CpsLineView *view) {
     }
     if (status == CPS_OK)
         status =
-            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_TOUCHING, &first_order, NULL);
+            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_REFERENCE, &first_order, NULL);
     if (status == CPS_OK) status = cps_regularized_next(view, 0.3, classic, &next, NULL);
     if (status == CPS_OK) {
         const CpsRegularizedParameters coarse = cps_regularized_coarse(next);

@@ -16,10 +16,11 @@ static const char SCENE[] = "memory-verbs.yaml", LAID[] = "memory-verbs-laid",
                   NODES[] = "memory-verbs-laid/completed.csv", OUT[] = "memory-verbs-out",
                   PICTURE[] = "memory-verbs-out/plan.svg.none";
 static const char TEXT[] =
-    "capstan: 1\ntitle: without memory\nfriction: frozen\nobstacles:\n  bed: {plane: {normal: [0, "
+    "capstan: 1\ntitle: without memory\nfriction_policy: frozen\nobstacles:\n  bed: {plane: "
+    "{normal: [0, "
     "0, 1]}, friction: 0.5}\nlines:\n"
     "  rope: {length: 1, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, "
-    "0], to: [1, 0, 0]}}, ends: {A: fixed, B: fixed}}\n"
+    "0], to: [1, 0, 0]}}, ends: {A: held, B: held}}\n"
     "history:\n  - {name: out, rope.B: {position: [1.1, 0, 0]}, steps: 2}\n";
 
 /* Is there a file in the directory that only a run which goes on may have? */

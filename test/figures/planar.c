@@ -139,7 +139,7 @@ static void driven(const char *name, CpsPatchKind kind) {
     need(cps_planar_drive(body, 2, (const double[]){1, 0, 0, 0, 1, 1}, (const double[]){0, 1},
                           &motion, &err),
          &err);
-    say(name, 4, motion.twist[2], motion.lower, motion.upper, motion.center[0]);
+    say(name, 4, motion.twist[2], motion.lower, motion.upper, motion.centre[0]);
     cps_planar_destroy(body);
 }
 

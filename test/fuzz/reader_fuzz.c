@@ -144,9 +144,9 @@ static const CpsScene *small_scene(void) {
         "capstan: 1\nobstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}, post: "
         "{cylinder: {point: [1, 1, 0], axis: [0, 0, 1], radius: 0.5}, friction: 0.1}}\nlines:\n  "
         "rope: {length: 2, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, "
-        "0], to: [2, 0, 0]}}, ends: {A: fixed, B: free}}\n  wire: {length: 1, elements: 2, weight: "
+        "0], to: [2, 0, 0]}}, ends: {A: held, B: free}}\n  wire: {length: 1, elements: 2, weight: "
         "1, stiffness: .inf, start: {straight: {from: [0, -1, 0], to: [1, -1, 0]}}, ends: {A: "
-        "fixed, B: fixed}}\nhistory: [{name: a, steps: 2, rope.B: {force: [1, 0.5, 0]}}, {name: b, "
+        "held, B: held}}\nhistory: [{name: a, steps: 2, rope.B: {force: [1, 0.5, 0]}}, {name: b, "
         "wire.B: {position: [0.9, -1, 0]}}]\n";
     static CpsSceneFile *file;
     if (!file)

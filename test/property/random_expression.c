@@ -111,14 +111,14 @@ static CpsSet *polytope(int n, int count, double *inside) {
     return set;
 }
 
-static CpsSet *ellipsoid(int n, const double *center) {
+static CpsSet *ellipsoid(int n, const double *centre) {
     double factor[MAX_SPACE * MAX_SPACE], shape[MAX_SPACE * MAX_SPACE];
     CpsSet *set;
     fill(n * n, 1, factor);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             shape[i * n + j] = dot(n, &factor[i * n], &factor[j * n]) + (i == j) * 0.2;
-    DO(cps_set_ellipsoid(n, center, shape, &set, &err));
+    DO(cps_set_ellipsoid(n, centre, shape, &set, &err));
     return set;
 }
 

@@ -135,7 +135,7 @@ static void make(Rig *rig, uint64_t seed) {
     rig_begin(rig, 20 + (int)uniform(0, 80), weight,
               inextensible ? INFINITY : heavy * decades(1, 6));
     rig_length(rig, length);
-    rig->line.start.kind = CPS_START_LAID;
+    rig->line.start.kind = CPS_START_STATIC;
     double at[3];
     somewhere(length, at);
     rubbing(rig_obstacle(rig, CPS_OBSTACLE_PLANE, 0));
@@ -240,7 +240,7 @@ static void run_one(Count *counts, uint64_t seed, int halvings, int class) {
         count->wrong++;
         return;
     }
-    for (int s = rig.line.start.kind == CPS_START_LAID ? -1 : 0; s < rig.scene.stage_count; s++) {
+    for (int s = rig.line.start.kind == CPS_START_STATIC ? -1 : 0; s < rig.scene.stage_count; s++) {
         double turn[RIG_OBSTACLES] = {0};
         const CpsStage *now = s < 0 ? NULL : &rig.stage[s];
         if (now && now->turn_count) turn[now->turn->obstacle] = now->turn->angle / now->steps;

@@ -226,7 +226,7 @@ static void check_velocities(const CpsSet *set, const double *force, const doubl
 
 static void check_velocity(const CpsSet *set, const double *velocity) {
     const int n = cps_set_space(set);
-    double center[MAX_SPACE], end[MAX_SPACE], basis[MAX_SPACE * MAX_SPACE], twice[MAX_SPACE];
+    double centre[MAX_SPACE], end[MAX_SPACE], basis[MAX_SPACE * MAX_SPACE], twice[MAX_SPACE];
     CpsSet *forces = NULL;
     CpsSetAnswer phi, face, at;
     CpsSetFacts facts;
@@ -241,14 +241,14 @@ static void check_velocity(const CpsSet *set, const double *velocity) {
 
     DO(cps_set_forces(set, velocity, 0, &forces, &face, &err));
     if (is_answered(face.outcome)) {
-        DO(cps_set_facts(forces, 0, &facts, center, basis, &err));
+        DO(cps_set_facts(forces, 0, &facts, centre, basis, &err));
         if (is_answered(facts.outcome)) {
-            check_forms(set, center, velocity, phi.exact);
+            check_forms(set, centre, velocity, phi.exact);
             CpsSetResidual r;
-            DO(cps_set_residual(set, center, velocity, 0, &r, &err));
+            DO(cps_set_residual(set, centre, velocity, 0, &r, &err));
             check(set, "Fenchel-Young on the set of forces", r.dissipation,
                   POWER_TOLERANCE * (r.scale + size));
-            check_velocities(set, center, velocity);
+            check_velocities(set, centre, velocity);
         }
         /* the ends of the set of forces along its first direction */
         if (facts.outcome == CPS_SET_OUTCOME_ANSWERED && facts.dimension > 0)

@@ -39,17 +39,17 @@ class Bed:
 
 def start_of(draw, bed):
     """The start shape, and where it puts end B (None: as it comes)."""
-    kind, a = draw.choice(("straight", "arc", "laid", "bend")), bed.at(0, 0)
+    kind, a = draw.choice(("straight", "arc", "static", "bend")), bed.at(0, 0)
     if kind == "straight":
         return f"{{straight: {{from: {vector(a)}, to: {vector(bed.at(1, 0))}}}}}", None
     if kind == "arc":
         radius = 1 / (2 * math.pi * draw.uniform(0.2, 0.8))
-        return f"{{arc: {{from: {vector(a)}, center: {vector(bed.at(0, radius))}, axis: {vector(bed.normal)}}}}}", None
+        return f"{{arc: {{from: {vector(a)}, centre: {vector(bed.at(0, radius))}, axis: {vector(bed.normal)}}}}}", None
     if kind == "bend":
         share, angle = draw.uniform(0.3, 0.7), draw.uniform(-2.5, 2.5)
         end = bed.at(share + (1 - share) * math.cos(angle), (1 - share) * math.sin(angle))
         return f"{{polyline: [{vector(a)}, {vector(bed.at(share, 0))}, {vector(end)}]}}", None
-    return "laid", bed.at(draw.uniform(0.2, 0.99), 0)
+    return "static", bed.at(draw.uniform(0.2, 0.99), 0)
 
 
 def history_of(draw, bed):
@@ -88,11 +88,11 @@ def scene(draw):
     elements = [length * r / sum(raw) for r in raw]
     stiffness = ".inf" if draw.random() < 0.25 else repr(10 ** draw.uniform(-1, 6) * weight * length)
     friction = 0.0 if draw.random() < 0.8 else draw.uniform(0.01, 0.5)
-    ends = ("{fixed: " + vector(bed.at(0, 0)) + "}", "{fixed: " + vector(held) + "}") if held else ("fixed", draw.choice(("fixed", "fixed", "free")))
+    ends = ("{held: " + vector(bed.at(0, 0)) + "}", "{held: " + vector(held) + "}") if held else ("held", draw.choice(("held", "held", "free")))
     entries, places = history_of(draw, bed)
     text = f"""capstan: 1
-friction: {draw.choice(("frozen", "consistent"))}
-contact: {draw.choice(("gained", "gained", "strict"))}
+friction_policy: {draw.choice(("frozen", "consistent"))}
+contact_policy: {draw.choice(("reached", "reached", "reference"))}
 obstacles: {{bed: {{plane: {{point: {vector(bed.point)}, normal: {vector(bed.normal)}}}, friction: {friction!r}}}}}
 lines:
   rope: {{length: {length!r}, elements: {vector(elements)}, weight: {weight!r}, stiffness: {stiffness}, start: {start}, ends: {{A: {ends[0]}, B: {ends[1]}}}}}

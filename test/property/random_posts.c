@@ -186,7 +186,7 @@ static void make(Scene *s, int number) {
         rig_change(rig, CPS_END_B, CPS_END_HELD, half, up * uniform(0.5, 1), 0);
     rig_stage(rig, 1 + steps / 2);
     rig_change(rig, CPS_END_A, CPS_END_HELD, -0.98 * half, 0.8 * up, 0);
-    rig->scene.friction = chance(0.15) ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+    rig->scene.friction_policy = chance(0.15) ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
 }
 
 /* what is looked at ---------------------------------------------------------------------------- */
@@ -315,7 +315,7 @@ static void judge(const Scene *s, const char *name, const CpsEvolution *evolutio
         printf(
             "%s, %s: WRONG: certified, %.3g of the length too deep, %.6f turns round an obstacle\n",
             name, step, fmax(0, deep), turns);
-    if (s->rig.scene.friction == CPS_FRICTION_CONSISTENT && !s->sets) {
+    if (s->rig.scene.friction_policy == CPS_FRICTION_CONSISTENT && !s->sets) {
         const Audit audit = rig_audit(&s->rig.scene, still, &view);
         if (!right(&audit, &report.certificate)) {
             wrong = true;
@@ -379,10 +379,11 @@ static void run(int number, const char *directory, Tally tallies[2]) {
     CpsError err;
     char name[160];
     make(&s, number);
-    Tally *tally = &tallies[s.rig.scene.friction];
+    Tally *tally = &tallies[s.rig.scene.friction_policy];
     snprintf(name, sizeof name, "scene %d, %d obstacles%s, %d elements, h/R %.2f, %s%s", number,
              s.rig.scene.obstacle_count, s.sets ? " with friction sets" : "", s.rig.line.elements,
-             s.thickest, s.rig.scene.friction == CPS_FRICTION_FROZEN ? "frozen" : "consistent",
+             s.thickest,
+             s.rig.scene.friction_policy == CPS_FRICTION_FROZEN ? "frozen" : "consistent",
              s.rig.line.end[1].kind == CPS_END_FREE ? ", pulled" : "");
     if (cps_evolution_create(&s.rig.scene, &evolution, &err) ||
         cps_results_open(directory, &s.rig.scene, evolution, &terse, &results, &err)) {

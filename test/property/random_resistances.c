@@ -82,7 +82,7 @@ typedef enum ShapeKind { BALL, ELLIPSOID, BOX, PRODUCT, PREIMAGE, SUM, SHAPES } 
 typedef struct Shape {
     ShapeKind kind;
     int n;
-    double center[MOST_SPACE], low[MOST_SPACE], high[MOST_SPACE], radius;
+    double centre[MOST_SPACE], low[MOST_SPACE], high[MOST_SPACE], radius;
     double matrix[MOST_SPACE * MOST_SPACE]; /* ellipsoid: shape; preimage: the inverse of the map */
     struct Shape *part[2];
 } Shape;
@@ -91,7 +91,7 @@ static double support(const Shape *s, const double *w) {
     const int n = s->n;
     double sum = 0, turned[MOST_SPACE];
     switch (s->kind) {
-    case BALL: return dot(n, s->center, w) + s->radius * sqrt(dot(n, w, w));
+    case BALL: return dot(n, s->centre, w) + s->radius * sqrt(dot(n, w, w));
     case ELLIPSOID:
         for (int i = 0; i < n; i++) sum += w[i] * dot(n, s->matrix + i * n, w);
         return sqrt(sum);
@@ -167,8 +167,8 @@ static Shape *random_shape(int n, int depth, CpsSet **set) {
     switch (s->kind) {
     case BALL:
         s->radius = uniform(0.2, 3);
-        if (below(3) == 0) fill(n, -0.3 * s->radius, 0.3 * s->radius, s->center);
-        need(cps_set_ball(n, s->center, s->radius, set, &err), &err, "ball");
+        if (below(3) == 0) fill(n, -0.3 * s->radius, 0.3 * s->radius, s->centre);
+        need(cps_set_ball(n, s->centre, s->radius, set, &err), &err, "ball");
         break;
     case ELLIPSOID:
         random_definite(n, uniform(0.2, 4), s->matrix);

@@ -72,7 +72,7 @@ void maker_begin(Maker *maker, double tilt, double friction, bool obstacle) {
     out->scene.obstacle = obstacle ? out->obstacle : NULL;
     out->scene.line = out->line;
     out->scene.stage = out->stage;
-    out->scene.friction = CPS_FRICTION_FROZEN; // of the classes before "consistent"
+    out->scene.friction_policy = CPS_FRICTION_FROZEN; // of the classes before "consistent"
     out->expected = CPS_OUTCOME_SOLVED;
 }
 
@@ -345,7 +345,7 @@ static void make_imposed(Maker *maker) {
     } else {
         double local[3] = {maker->foot[0] + random_uniform(random, 0.2, 0.8) * maker->length,
                            maker->foot[1], random_uniform(random, 0, 0.5) * maker->length};
-        line->start.kind = CPS_START_LAID;
+        line->start.kind = CPS_START_STATIC;
         maker_place(&maker->frame, maker->foot, line->end[CPS_END_A].value);
         maker_place(&maker->frame, local, line->end[CPS_END_B].value);
     }
@@ -430,7 +430,7 @@ static void make_hanging(Maker *maker) {
         line->end[CPS_END_B] = line->end[CPS_END_A];
         start_polyline(maker, 0.5);
         if (random_chance(random, 0.4)) {
-            line->start.kind = CPS_START_LAID;
+            line->start.kind = CPS_START_STATIC;
             memcpy(line->end[CPS_END_A].value, &line->start.point[0], sizeof line->end[0].value);
             memcpy(line->end[CPS_END_B].value, &line->start.point[3], sizeof line->end[0].value);
             line->start.point_count = 0;
@@ -510,7 +510,7 @@ static void make_consistent(Maker *maker) {
         maker_any_stiffness(maker);
         break;
     }
-    maker->out->scene.friction = CPS_FRICTION_CONSISTENT;
+    maker->out->scene.friction_policy = CPS_FRICTION_CONSISTENT;
 }
 
 void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {

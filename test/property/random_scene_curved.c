@@ -99,11 +99,11 @@ static Arc begin_round(Maker *maker, CpsObstacleKind kind) {
     const double friction = random_chance(random, 0.1) ? 0 : random_uniform(random, 0.03, 0.7);
     const bool standing = random_chance(random, 0.5), ball = kind == CPS_OBSTACLE_SPHERE;
     maker_begin(maker, 0, friction, true);
-    const double most = ball ? 2 : least(5.5, 2 / (friction + 1e-3)), center[3] = {0, 0, 0};
+    const double most = ball ? 2 : least(5.5, 2 / (friction + 1e-3)), centre[3] = {0, 0, 0};
     Arc arc = {.first = 0, .second = standing ? 1 : 2, .axis = standing ? 2 : 1};
     arc.angle = random_uniform(random, 0.3, most);
     arc.radius = random_decades(random, -1, 1);
-    set_round(maker, &maker->out->obstacle[0], kind, center, arc.axis, arc.radius);
+    set_round(maker, &maker->out->obstacle[0], kind, centre, arc.axis, arc.radius);
     if (random_chance(random, 0.3))
         set_directions(maker, &maker->out->obstacle[0], random_chance(random, 0.5), false);
     return arc;
@@ -175,7 +175,7 @@ static void make_pipe(Maker *maker) {
         set_directions(maker, &maker->out->obstacle[0], random_chance(random, 0.5), false);
     maker_begin_line(maker, 10 + random_below(random, SCENE_ELEMENTS - 9));
     CpsLine *line = maker_line(maker);
-    line->start.kind = CPS_START_LAID;
+    line->start.kind = CPS_START_STATIC;
     line->end[CPS_END_B] = line->end[CPS_END_A];
     double a[3] = {-r * random_uniform(random, 1.3, 4), 0, r * random_uniform(random, 0.1, 0.6)};
     double b[3] = {r * random_uniform(random, 1.3, 4), 0, r * random_uniform(random, 0.1, 0.6)};
@@ -213,7 +213,7 @@ static void make_two(Maker *maker) {
     maker->out->scene.obstacle_count = 2;
     maker_begin_line(maker, 20 + random_below(random, SCENE_ELEMENTS - 19));
     CpsLine *line = maker_line(maker);
-    line->start.kind = CPS_START_LAID;
+    line->start.kind = CPS_START_STATIC;
     line->end[CPS_END_B] = line->end[CPS_END_A];
     const double a[3] = {-r * random_uniform(random, 2, 6), 0, 0},
                  b[3] = {r * random_uniform(random, 2, 6), 0, r * random_uniform(random, 0, 1.5)};
@@ -280,5 +280,5 @@ void random_scene_curved(int class_index, Maker *maker) {
     case SCENE_GRAIN: make_wild(maker, random_chance(&maker->random, 0.5), true); break;
     default: make_wild(maker, random_chance(&maker->random, 0.5), false); break; // wild
     }
-    maker->out->scene.friction = CPS_FRICTION_CONSISTENT;
+    maker->out->scene.friction_policy = CPS_FRICTION_CONSISTENT;
 }

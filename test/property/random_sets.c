@@ -197,12 +197,12 @@ static Verdict case_polar(int n) {
 /* Does the face attain h(w) in the set, at its middle and at its ends along the first direction
  * that it has? */
 static Verdict attains(const CpsSet *set, const CpsSet *face, const double *w, double h,
-                       double scale, double *center) {
+                       double scale, double *centre) {
     const int n = cps_set_space(set);
     double basis[MAX_SPACE * MAX_SPACE], end[MAX_SPACE];
     CpsSetFacts facts;
     CpsSetAnswer answer;
-    DO(cps_set_facts(face, 0, &facts, center, basis, &err));
+    DO(cps_set_facts(face, 0, &facts, centre, basis, &err));
     Verdict verdict = due(facts.outcome);
     for (int side = 0; verdict == ANSWERED && side <= (facts.dimension > 0 ? 2 : 0); side++) {
         if (side > 0) {
@@ -211,7 +211,7 @@ static Verdict attains(const CpsSet *set, const CpsSet *face, const double *w, d
             if (answer.outcome == CPS_SET_OUTCOME_UNBOUNDED) continue;
             verdict = due(answer.outcome);
         } else
-            memcpy(end, center, (size_t)n * sizeof *end);
+            memcpy(end, centre, (size_t)n * sizeof *end);
         const double far = fmax(1, norm(n, end)); /* unbounded faces have far middles */
         if (verdict == ANSWERED) verdict = same(dot(n, w, end), h, scale * far);
         if (verdict == ANSWERED) verdict = inside(set, end, scale / norm(n, w) * far);
@@ -571,20 +571,20 @@ static Verdict case_empty(int n, const Sample *sample) {
 
 /* A cut by a hyperplane through its point, or an image in a subspace: flat, and support as ever. */
 static Verdict case_flat(int n, const Sample *sample) {
-    double u[MAX_SPACE], center[MAX_SPACE];
+    double u[MAX_SPACE], centre[MAX_SPACE];
     CpsSet *plane, *flat;
     CpsSetFacts facts;
     fill(n, 1, u);
     const double at = dot(n, u, sample->inside);
     DO(cps_set_strip(n, u, at, at, &plane, &err));
     DO(cps_set_intersection(2, (const CpsSet *[]){sample->set, plane}, &flat, &err));
-    DO(cps_set_facts(flat, 0, &facts, center, NULL, &err));
+    DO(cps_set_facts(flat, 0, &facts, centre, NULL, &err));
     Verdict verdict = due(facts.outcome);
     if (verdict == ANSWERED && (facts.dimension < 0 || facts.dimension >= n || facts.zero_interior))
         verdict = WRONG;
     if (verdict == ANSWERED)
-        verdict = same(dot(n, u, center), at, norm(n, u) * fmax(1, norm(n, center)));
-    if (verdict == ANSWERED) verdict = inside(sample->set, center, fmax(1, norm(n, center)));
+        verdict = same(dot(n, u, centre), at, norm(n, u) * fmax(1, norm(n, centre)));
+    if (verdict == ANSWERED) verdict = inside(sample->set, centre, fmax(1, norm(n, centre)));
     cps_set_release(plane);
     cps_set_release(flat);
     return verdict;
@@ -622,7 +622,7 @@ static Verdict case_unbounded(int n, const Sample *sample) {
 static Verdict case_thin(int n) {
     const int m = 1 + below(MAX_SPACE), count = 1 + below(2);
     double ends[2 * MAX_SPACE], mapped[2 * MAX_SPACE], map[MAX_SPACE * MAX_SPACE], w[MAX_SPACE],
-        center[MAX_SPACE];
+        centre[MAX_SPACE];
     CpsSet *segment, *image, *form;
     CpsSetFacts facts;
     CpsSetAnswer h;
@@ -633,14 +633,14 @@ static Verdict case_thin(int n) {
     DO(cps_set_hull_of_points(m, count, ends, &segment, &err));
     DO(cps_set_image(n, map, segment, &image, &err));
     form = through_form(image);
-    DO(cps_set_facts(form, 0, &facts, center, NULL, &err));
+    DO(cps_set_facts(form, 0, &facts, centre, NULL, &err));
     DO(cps_set_support(form, w, NULL, &h, &err));
     const double one = dot(n, w, mapped), two = count > 1 ? dot(n, w, mapped + n) : one;
     Verdict verdict = both(due(facts.outcome), due(h.outcome));
     if (verdict == ANSWERED) verdict = same(h.value, fmax(one, two), 4 * norm(n, w));
     if (verdict == ANSWERED && (facts.dimension != count - 1 || !facts.bounded)) verdict = WRONG;
     for (int i = 0; verdict == ANSWERED && i < n; i++)
-        verdict = same(center[i], 0.5 * (mapped[i] + mapped[(count - 1) * n + i]), 4);
+        verdict = same(centre[i], 0.5 * (mapped[i] + mapped[(count - 1) * n + i]), 4);
     cps_set_release(segment);
     cps_set_release(image);
     cps_set_release(form);

@@ -148,9 +148,9 @@ class Scene:
         rub = f"friction: {{axial: {self.mu!r}, lateral: {self.mu / 2!r}}}" if "ellipse" in self.features else f"friction: {self.mu!r}"
         lines = ["capstan: 1"]
         if "default_friction" not in self.features or self.verb in ("judge", "complete"):
-            lines.append("friction: frozen")
+            lines.append("friction_policy: frozen")
         if "strict" in self.features:
-            lines.append("contact: strict")
+            lines.append("contact_policy: reference")
         if "default_friction" in self.features and self.draw.random() < 0.5:
             lines.append("solver: {path_tolerance: 0.01}")
         if self.verb in ("judge", "complete"):
@@ -161,10 +161,10 @@ class Scene:
                   f"    weight: {w!r}", f"    stiffness: {'.inf' if 'inextensible' in self.features else repr(self.stiffness * w * L)}"]
         if self.zones:
             lines.append("    friction_zones: [" + ", ".join(f"{{from: {a * L!r}, to: {b * L!r}, factor: {f!r}}}" for a, b, f in self.zones) + "]")
-        first = f"fixed: {vector(end, L)}" if self.steps[0][0] == "place" else "force: [0, 0, 0]"
+        first = f"held: {vector(end, L)}" if self.steps[0][0] == "place" else "force: [0, 0, 0]"
         shape = "nodes: nodes.csv" if self.nodes else f"straight: {{from: {vector(self.origin, L)}, to: {vector(end, L)}}}"
         lines += [f"    start: {{{shape}}}",
-                  f"    ends: {{A: {{fixed: {vector(self.origin, L)}}}, B: {{{first}}}}}", "history:"]
+                  f"    ends: {{A: {{held: {vector(self.origin, L)}}}, B: {{{first}}}}}", "history:"]
         for k, (kind, value) in enumerate(self.steps):
             lines.append(f"  - {{name: s{k}, rope.B: {{{'position' if kind == 'place' else 'force'}: {vector(value, L if kind == 'place' else w * L)}}}}}")
         return "\n".join(lines) + "\n"
@@ -279,7 +279,7 @@ def check_first_order(scene, step, folder, said):
     rows = table(os.path.join(folder, "out", "first-order.csv"))
     force = scene.length * scene.weight
     reference, u = vectors(rows, "reference", scene.length), vectors(rows, "u", scene.length)
-    rub, push = vectors(rows, "friction", force), [float(r["reaction"]) / force for r in rows]
+    rub, push = vectors(rows, "friction_force", force), [float(r["reaction"]) / force for r in rows]
     line = said.split("C of (77)")[1].split("\n")[0]
     verdict = next((v for words, v in FIRST_ORDER if words in line), line)
     elements = first_order_forces(step, reference, u)

@@ -21,9 +21,9 @@ int split_random(int n, SplitPart *part) {
         SplitPart *one = &part[k];
         memset(one, 0, sizeof *one);
         one->kind = (SplitKind)below(k == 0 ? 3 : 5);
-        fill(n, 0.2, one->center);
+        fill(n, 0.2, one->centre);
         for (int i = 0; i < n; i++) {
-            one->center[i] += at[i];
+            one->centre[i] += at[i];
             one->half[i] = uniform(0.4, 1.5);
         }
         do {
@@ -41,14 +41,14 @@ CpsSet *split_set(int n, const SplitPart *part) {
     double a[MAX_SPACE], b[MAX_SPACE], shape[MAX_SPACE * MAX_SPACE];
     CpsSet *set = NULL;
     for (int i = 0; i < n; i++) {
-        a[i] = part->center[i] - part->half[i];
-        b[i] = part->center[i] + part->half[i];
+        a[i] = part->centre[i] - part->half[i];
+        b[i] = part->centre[i] + part->half[i];
         for (int j = 0; j < n; j++)
             shape[i * n + j] = dot(n, &part->factor[i * n], &part->factor[j * n]);
     }
     switch (part->kind) {
-    case SPLIT_BALL: DO(cps_set_ball(n, part->center, part->half[0], &set, &err)); break;
-    case SPLIT_ELLIPSOID: DO(cps_set_ellipsoid(n, part->center, shape, &set, &err)); break;
+    case SPLIT_BALL: DO(cps_set_ball(n, part->centre, part->half[0], &set, &err)); break;
+    case SPLIT_ELLIPSOID: DO(cps_set_ellipsoid(n, part->centre, shape, &set, &err)); break;
     case SPLIT_BOX: DO(cps_set_box(n, a, b, &set, &err)); break;
     case SPLIT_HALF_SPACE: DO(cps_set_half_space(n, part->normal, part->high, &set, &err)); break;
     case SPLIT_STRIP: DO(cps_set_strip(n, part->normal, part->low, part->high, &set, &err)); break;
@@ -68,7 +68,7 @@ typedef struct Normal {
 static double touched(int n, int k, const SplitPart *part, const double *x, Normal *list,
                       int *count) {
     double d[MAX_SPACE], y[MAX_SPACE], outside = -INFINITY;
-    for (int i = 0; i < n; i++) d[i] = x[i] - part->center[i];
+    for (int i = 0; i < n; i++) d[i] = x[i] - part->centre[i];
     if (part->kind == SPLIT_BALL || part->kind == SPLIT_ELLIPSOID) {
         const bool ball = part->kind == SPLIT_BALL;
         times(n, n, part->inverse, 1, d, y);
@@ -174,7 +174,7 @@ static void spread(int n, int count, const Normal *list, const double *w, double
 
 /* h of one part at u, which for half-spaces and strips is `press` times the unit normals chosen */
 static double support(int n, const SplitPart *part, const double *u, double press) {
-    double turned[MAX_SPACE], value = dot(n, u, part->center);
+    double turned[MAX_SPACE], value = dot(n, u, part->centre);
     switch (part->kind) {
     case SPLIT_BALL: return value + part->half[0] * norm(n, u);
     case SPLIT_ELLIPSOID: times(n, n, part->factor, -1, u, turned); return value + norm(n, turned);

@@ -18,8 +18,8 @@ typedef enum SplitKind {
 
 typedef struct SplitPart {
     SplitKind kind;
-    double center[MAX_SPACE];
-    double factor[MAX_SPACE * MAX_SPACE];  /* ellipsoid: {center + F y : |y| <= 1} */
+    double centre[MAX_SPACE];
+    double factor[MAX_SPACE * MAX_SPACE];  /* ellipsoid: {centre + F y : |y| <= 1} */
     double inverse[MAX_SPACE * MAX_SPACE]; /* of F */
     double half[MAX_SPACE];                /* box: half sides; ball: its radius */
     double normal[MAX_SPACE], low, high;   /* half-space, strip: low <= <normal, x> <= high */

@@ -63,7 +63,7 @@ class Line:
 
     def start(self, step):
         """where the step begins; None: not in the file, or it begins nowhere, as the statics of a line that is laid"""
-        if step == 0 and self.scene["lines"][self.name]["start"] == "laid":
+        if step == 0 and self.scene["lines"][self.name]["start"] == "static":
             return None
         if step > 0:
             return self.get("position", step - 1)
@@ -126,7 +126,7 @@ def wanders(line, step):
     """the way of a step in which nothing happens, per length, where that is too far; None: not asked"""
     if step < 1 or not (line.certified(step - 1) and line.certified(step)):
         return None
-    if line.results.attributes["friction"] == "frozen":
+    if line.results.attributes["friction_policy"] == "frozen":
         # what the bounds of friction change by, the line may move
         for bound in ("friction_bound", "friction_bound_second"):
             if f"{line.name}_{bound}" not in line.results.variables:
@@ -194,8 +194,8 @@ def angle(obstacle, a, b):
 def winding_faults(line, step):
     """With both ends held, the angle from A to B along the line changes by what the ends' straight ways sweep."""
     bad, before = [], line.start(step)
-    if before is None or not line.certified(step) or line.results.attributes["contact"] == "strict" or \
-            line.results.attributes["friction"] == "frozen" or any(line.get("end_kind", step)):
+    if before is None or not line.certified(step) or line.results.attributes["contact_policy"] == "reference" or \
+            line.results.attributes["friction_policy"] == "frozen" or any(line.get("end_kind", step)):
         return bad
     now = line.get("position", step)
     origin = line.results.attributes.get("origin", [0.0, 0.0, 0.0])
@@ -231,12 +231,12 @@ def nodes_of_arc(line):
     """chords of the circle, one after the other"""
     arc, n = line["start"]["arc"], line["elements"]
     axis = [a/size(arc["axis"]) for a in arc["axis"]]
-    arm = minus(arc["from"], arc["center"])
+    arm = minus(arc["from"], arc["centre"])
     along = inner(arm, axis)
     spoke = [a - along*b for a, b in zip(arm, axis)]
     across = [axis[(k + 1) % 3]*spoke[(k + 2) % 3] - axis[(k + 2) % 3]*spoke[(k + 1) % 3] for k in range(3)]
     turn = 2*math.asin(line["length"]/n/2/size(spoke))
-    return [[c + along*b + math.cos(turn*j)*s + math.sin(turn*j)*t for c, b, s, t in zip(arc["center"], axis, spoke, across)] for j in range(n + 1)]
+    return [[c + along*b + math.cos(turn*j)*s + math.sin(turn*j)*t for c, b, s, t in zip(arc["centre"], axis, spoke, across)] for j in range(n + 1)]
 
 
 def by_nodes(scene):

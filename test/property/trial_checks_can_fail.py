@@ -41,7 +41,7 @@ def history():
     values.update({name: [[x] for x in of] for name, of in single.items()})
     scene = {"gravity": [0, 0, -9.81], "obstacles": {"post": {"cylinder": {"point": [0.9, 0, -0.3], "axis": [0, 1, 0], "radius": 0.05}}},
              "lines": {"a": {"weight": 6, "stiffness": 100, "start": {"straight": {}}}}}
-    results = Written({f"a_{k}": v for k, v in values.items()}, {"friction": "consistent", "contact": "gained"})
+    results = Written({f"a_{k}": v for k, v in values.items()}, {"friction_policy": "consistent", "contact_policy": "reached"})
     return checks.Line(scene, results, "a")
 
 

@@ -2,7 +2,7 @@
 """Random scenes of 27 classes, each fixed by its class and a seed. scene(name, seed) is a mapping that json.dumps turns into a scene file.
 
 What varies in all of them: the size of the line (from 0.1 to 1000 m, half of the scenes), of the forces (0.01 N to 10 kN), the number of
-elements, inextensible or elastic, straight, bent and laid starts, ends that are pulled, moved and put somewhere, one step or several an entry,
+elements, inextensible or elastic, straight, bent and static starts, ends that are pulled, moved and put somewhere, one step or several an entry,
 friction consistent (three of four) or frozen, friction zero now and then, and a turn and shift of everything in space (two of five)."""
 import math
 import random
@@ -35,7 +35,7 @@ def distance(obstacle, x):
     (kind, at), = ((k, v) for k, v in obstacle.items() if k in ("plane", "cylinder", "sphere"))
     if kind == "plane":
         return dot(add(x, at["point"], -1), at["normal"])/size(at["normal"])
-    arm = add(x, at["center" if kind == "sphere" else "point"], -1)
+    arm = add(x, at["centre" if kind == "sphere" else "point"], -1)
     if kind == "cylinder":
         arm = add(arm, at["axis"], -dot(arm, at["axis"])/dot(at["axis"], at["axis"]))
     return size(arm) - at["radius"]
@@ -110,9 +110,9 @@ class Maker:
     def cylinder(self, name, point, axis, radius, kind=None):
         self.obstacles[name] = {"cylinder": {"point": list(point), "axis": list(axis), "radius": radius}, "friction": self.rub(kind)}
 
-    def ball(self, name, center, radius, kind=None):
+    def ball(self, name, centre, radius, kind=None):
         axis = [self.between(-1, 1), self.between(-1, 1), 1.0]
-        self.obstacles[name] = {"sphere": {"center": list(center), "radius": radius, "axis": axis}, "friction": self.rub(kind)}
+        self.obstacles[name] = {"sphere": {"centre": list(centre), "radius": radius, "axis": axis}, "friction": self.rub(kind)}
 
     def tilted(self, most):
         angle = self.between(0, most)
@@ -140,7 +140,7 @@ class Maker:
     # lines -------------------------------------------------------------------------------------------------------------
 
     def line(self, name, length, start, **given):
-        ends = {"A": given.get("A", "fixed"), "B": given.get("B", "free")}
+        ends = {"A": given.get("A", "held"), "B": given.get("B", "free")}
         stiff = ".inf" if given.get("inextensible", self.chance(0.3)) else self.decade(0.5, 7)*self.force
         self.lines[name] = {"length": length, "elements": given.get("elements", self.count(1, 60)),
                             "weight": given.get("weight", self.force/length), "stiffness": stiff, "start": start, "ends": ends}
@@ -172,8 +172,8 @@ class Maker:
             return self.line(name, length, start, **given)
         heading, climb, reach = self.between(0, 6.28), 0 if self.chance(0.5) else self.between(0, 1.2), self.between(0.5, 0.98)*length
         far = [reach*math.cos(heading)*math.cos(climb), reach*math.sin(heading)*math.cos(climb), reach*math.sin(climb)]
-        ends = {k: {"fixed": add(p, UP, self.lift([p]))} for k, p in (("A", [0.0, 0.0, 0.0]), ("B", far))}
-        return self.line(name, length, "laid", **{**given, **ends})
+        ends = {k: {"held": add(p, UP, self.lift([p]))} for k, p in (("A", [0.0, 0.0, 0.0]), ("B", far))}
+        return self.line(name, length, "static", **{**given, **ends})
 
     # history -----------------------------------------------------------------------------------------------------------
 
@@ -190,7 +190,7 @@ class Maker:
         """within reach of end A, clear of the obstacles"""
         line = self.lines[name]
         start = line["start"]
-        a = line["ends"]["A"]["fixed"] if start == "laid" else start["straight"]["from"] if "straight" in start else start["polyline"][0]
+        a = line["ends"]["A"]["held"] if start == "static" else start["straight"]["from"] if "straight" in start else start["polyline"][0]
         v = self.normal()
         v[2] = abs(v[2]) if self.chance(0.6) else 0.0
         x = add(a, v, line["length"]*self.between(0.1, reach)/size(v))
@@ -219,7 +219,7 @@ class Maker:
             self.history.append(entry)
 
     def scene(self):
-        out = {"capstan": 1, "gravity": self.gravity, "friction": self.friction, **self.more}
+        out = {"capstan": 1, "gravity": self.gravity, "friction_policy": self.friction, **self.more}
         if self.obstacles:
             out["obstacles"] = self.obstacles
         out["lines"], out["history"] = self.lines, self.history
@@ -236,7 +236,7 @@ def turn(maker):
             [2*(x*z - y*w), 2*(y*z + x*w), 1 - 2*(x*x + y*y)]]
 
 
-PLACES = {"point", "center", "from", "to", "fixed", "position", "polyline"}
+PLACES = {"point", "centre", "from", "to", "held", "position", "polyline"}
 DIRECTIONS = {"normal", "axis", "grain", "force", "move", "gravity"}
 
 
@@ -269,8 +269,8 @@ def slope(m):
     m.obstacles["slope"]["friction"] = mu
     heading = m.between(0, 2*math.pi)
     way = add(times(math.cos(heading), [math.cos(angle), 0, -math.sin(angle)]), [0, math.sin(heading), 0])
-    m.line("a", m.length, {"straight": {"from": [0.0, 0.0, 0.0], "to": times(m.length, way)}}, A="free" if m.chance(0.15) else "fixed",
-           B="fixed" if m.chance(0.3) else "free")
+    m.line("a", m.length, {"straight": {"from": [0.0, 0.0, 0.0], "to": times(m.length, way)}}, A="free" if m.chance(0.15) else "held",
+           B="held" if m.chance(0.3) else "free")
     m.history.append({"name": "rest", "steps": m.count(1, 2)})
     if m.chance(0.7):
         m.happen()
@@ -314,10 +314,10 @@ def drum(m):
     m.cylinder("drum", [0, 0, 0], [0, 1, 0], radius, "two" if m.chance(0.3) else None)
     rub = m.obstacles["drum"]["friction"]
     mu, length = rub["axial"] if isinstance(rub, dict) else rub, 2*radius*math.sin(angle/2/n)*n
-    arc = {"arc": {"from": [-radius, 0, 0], "center": [0, 0, 0], "axis": [0, m.random.choice((-1.0, 1.0)), 0]}}
+    arc = {"arc": {"from": [-radius, 0, 0], "centre": [0, 0, 0], "axis": [0, m.random.choice((-1.0, 1.0)), 0]}}
     ratio = math.exp(m.between(-0.85, 0.85)*mu*math.pi) if m.chance(0.75) else m.decade(-1, 1)
     m.line("a", length, arc, elements=n, weight=m.force/length*m.decade(-3, 0.3) if m.chance(0.7) else 0.0,
-           A={"force": [0, 0, -m.force]} if m.chance(0.6) else "fixed", B={"force": [0, 0, -m.force*ratio]})
+           A={"force": [0, 0, -m.force]} if m.chance(0.6) else "held", B={"force": [0, 0, -m.force*ratio]})
     for i in range(m.count(1, 4)):
         entry = {"name": f"s{i}", "steps": m.count(1, 5)}
         if m.chance(0.7):
@@ -333,7 +333,7 @@ def pegs(m):
     for i in range(n):
         m.cylinder(f"c{i}", [0.8*m.length/(n + 1)*(i + 1), 0, (-1)**i*radius*m.between(1, 1.4)], [0, 1, 0], radius)
     m.line("a", m.length, {"straight": {"from": [0.0, 0.0, 0.0], "to": [m.length, 0.0, 0.0]}}, elements=m.count(20, 120),
-           B="fixed" if m.chance(0.5) else {"force": [m.force, 0, 0]}, weight=0.0 if m.chance(0.4) else m.force/m.length)
+           B="held" if m.chance(0.5) else {"force": [m.force, 0, 0]}, weight=0.0 if m.chance(0.4) else m.force/m.length)
     for i in range(m.count(1, 4)):
         entry = {"name": f"s{i}", "steps": m.count(1, 5)}
         if m.chance(0.6):
@@ -482,7 +482,7 @@ def strict(m):
     """contact of what touches at the reference alone"""
     m.plane("bed", normal=m.tilted(0.3), kind="two" if m.chance(0.2) else None)
     m.pipe_on_bed(0.3)
-    m.more["contact"] = "strict"
+    m.more["contact_policy"] = "reference"
     m.rope("a", m.length)
     m.happen()
 
@@ -510,14 +510,14 @@ def several(m):
 def into_obstacles(m):
     """an end sent into an obstacle: to be refused"""
     m.plane("bed")
-    center, radius, kind = [m.between(0.3, 0.6)*m.length, 0, 0], m.length*m.between(0.05, 0.2), m.count(0, 2)
+    centre, radius, kind = [m.between(0.3, 0.6)*m.length, 0, 0], m.length*m.between(0.05, 0.2), m.count(0, 2)
     if kind == 1:
-        m.cylinder("c", center, [0, 1, 0], radius)
+        m.cylinder("c", centre, [0, 1, 0], radius)
     if kind == 2:
-        m.ball("b", center, radius)
+        m.ball("b", centre, radius)
     m.rope("a", m.length)
     x = m.place("a")
-    inside = [x[0], x[1], -m.length*m.decade(-6, -1)] if kind == 0 else add(center, times(radius*m.between(0, 0.9), UP))
+    inside = [x[0], x[1], -m.length*m.decade(-6, -1)] if kind == 0 else add(centre, times(radius*m.between(0, 0.9), UP))
     m.history.append({"name": "in", "steps": m.count(1, 4), "a.B": {"position": inside}})
 
 
@@ -528,8 +528,8 @@ def limits(m):
         r = length*m.between(0.1, 0.3)
         m.cylinder("c", [0, 0, 0], [0, 1, 0], r)
         way = 2*(math.sqrt((0.45*length)**2 - r*r) + r*math.asin(r/(0.45*length)))
-        m.line("a", max(way*m.between(0.97, 1), 0.9001*length), "laid", elements=m.count(10, 60), inextensible=True,
-               A={"fixed": [-0.45*length, 0, r]}, B={"fixed": [0.441*length, 0, r]})
+        m.line("a", max(way*m.between(0.97, 1), 0.9001*length), "static", elements=m.count(10, 60), inextensible=True,
+               A={"held": [-0.45*length, 0, r]}, B={"held": [0.441*length, 0, r]})
         m.history.append({"name": "down", "steps": m.count(1, 6), "a.A": {"position": [-0.45*length, 0, 0]}, "a.B": {"position": [0.45*length, 0, 0]}})
     elif kind in (1, 2):
         if kind == 1:

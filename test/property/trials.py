@@ -98,7 +98,7 @@ class Trial:
 
 def steps_of(scene):
     """in the history, and the statics of lines that are laid before it"""
-    return sum(entry.get("steps", 1) for entry in scene["history"]) + any(line["start"] == "laid" for line in scene["lines"].values())
+    return sum(entry.get("steps", 1) for entry in scene["history"]) + any(line["start"] == "static" for line in scene["lines"].values())
 
 
 def try_scene(asked, scene, tally):

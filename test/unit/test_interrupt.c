@@ -27,11 +27,11 @@ static const char WINCH[] =
     "0.4}, bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}\n"
     "lines:\n"
     "  rope: {length: 1.5, elements: 24, mass: 0.2, stiffness: 1e5, start: {arc: {from: [-0.25, 0, "
-    "2], center: [0, 0, 2], axis: [0, 1, 0]}},\n"
+    "2], centre: [0, 0, 2], axis: [0, 1, 0]}},\n"
     "    ends: {A: {force: [0, 0, -60]}, B: {force: [0, 0, -150]}}}\n"
-    "  line: {length: 3, elements: 16, weight: 2, stiffness: 1e4, start: laid, ends: {A: {fixed: "
-    "[3, 0, 0]}, B: {fixed: [5, 0, 1.5]}}}\n"
-    "friction: consistent\n"
+    "  line: {length: 3, elements: 16, weight: 2, stiffness: 1e4, start: static, ends: {A: {held: "
+    "[3, 0, 0]}, B: {held: [5, 0, 1.5]}}}\n"
+    "friction_policy: consistent\n"
     "history: [{name: load}, {name: lift, steps: 2, drum.turn: -20, line.B: {position: [5, 1, "
     "1.5]}}]\n";
 
@@ -44,10 +44,10 @@ static const char JUMPS[] =
     "-0.920526]}, friction: {axial: 0.5886, lateral: 0}}}\n"
     "lines: {a: {length: 0.9049163, elements: 8, weight: 1.105, stiffness: .inf, start: {polyline: "
     "[[4.3675, -5.0367, -6.6718], [4.46767, -4.79575, -6.71597],\n"
-    "  [4.88336, -4.62269, -6.64639], [4.96346, -4.77373, -6.57665]]}, ends: {A: fixed, B: "
+    "  [4.88336, -4.62269, -6.64639], [4.96346, -4.77373, -6.57665]]}, ends: {A: held, B: "
     "free}}}\n"
     "history: [{name: s0, a.B: {force: [-0.238, 0.349, -0.177]}}]\n"
-    "friction: consistent\n";
+    "friction_policy: consistent\n";
 
 static CpsSceneFile *read_text(const char *text) {
     char path[] = "/tmp/capstan-interrupt-XXXXXX";
@@ -92,7 +92,7 @@ static void expect_same(const CpsEvolution *a, const CpsEvolution *b) {
         same_numbers(x.reference, y.reference, 3 * n);
         same_numbers(x.segment_force, y.segment_force, 3 * x.elements);
         same_numbers(x.tension, y.tension, x.elements);
-        same_numbers(x.friction, y.friction, 3 * x.contacts * n);
+        same_numbers(x.friction_force, y.friction_force, 3 * x.contacts * n);
         same_numbers(x.reaction, y.reaction, x.contacts * n);
         assert_memory_equal(x.state, y.state, (size_t)(x.contacts * n));
         CHECK_INT((int)p.outcome, (int)q.outcome);

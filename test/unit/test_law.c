@@ -36,8 +36,8 @@ static void laws_without_zero_are_refused(void **state) {
     (void)state;
     CpsLaw *law = NULL;
     CpsSet *away = NULL, *empty = NULL;
-    const double center[2] = {3, 0}, rows[4] = {1, 0, -1, 0}, offsets[2] = {-1, -1};
-    OK(cps_set_ball(2, center, 2, &away, NULL));
+    const double centre[2] = {3, 0}, rows[4] = {1, 0, -1, 0}, offsets[2] = {-1, -1};
+    OK(cps_set_ball(2, centre, 2, &away, NULL));
     OK(cps_set_inequalities(2, 2, rows, offsets, &empty, NULL));
     REFUSED(cps_law_friction(away, &law, &err), "does not contain 0");
     REFUSED(cps_law_friction(empty, &law, &err), "empty");

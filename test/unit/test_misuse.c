@@ -524,7 +524,7 @@ static void studies(void **state) {
     REFUSED(cps_study_run(NULL, &options, NULL, NULL, &study, &err));
     RUNS(cps_study_destroy(NULL));
     GIVES(cps_study_row_count(NULL) == 0);
-    REFUSED(cps_first_order_solve(NULL, CPS_FIRST_ORDER_CONTACT_TOUCHING, &first_order, &err));
+    REFUSED(cps_first_order_solve(NULL, CPS_FIRST_ORDER_CONTACT_REFERENCE, &first_order, &err));
     RUNS(cps_first_order_destroy(NULL));
     GIVES(cps_first_order_report(NULL).verdict == CPS_FIRST_ORDER_VERDICT_UNDECIDED);
     GIVES(cps_first_order_view(NULL).elements == 0 && cps_first_order_view(NULL).strain == NULL);

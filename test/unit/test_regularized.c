@@ -64,7 +64,7 @@ static void make_step(Step *s) {
                             .normal = s->normal,
                             .gap = s->gap,
                             .friction_bound = s->bound,
-                            .friction = s->friction,
+                            .friction_force = s->friction,
                             .reaction = s->reaction,
                             .segment_force = s->force,
                             .tension = s->tension,

@@ -62,8 +62,8 @@ static void begin(Fixture *f, double length, double stiffness, double weight, bo
 
 static CpsiStepOptions step_options(void) {
     CpsiStepOptions options = {.solver = cps_scene_default().solver};
-    options.friction = CPS_FRICTION_CONSISTENT;
-    options.contact = CPS_CONTACT_GAINED;
+    options.friction_policy = CPS_FRICTION_CONSISTENT;
+    options.contact_policy = CPS_CONTACT_REACHED;
     return options;
 }
 

@@ -52,7 +52,7 @@ static void make_scene(Fixture *f) {
         (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = ROPE, .axis = {0, 0, 1}};
     f->line[1].name = "mooring-2";
     f->line[1].length = 12;
-    f->line[1].start.kind = CPS_START_LAID;
+    f->line[1].start.kind = CPS_START_STATIC;
     f->line[1].end[CPS_END_A] = (CpsEnd){CPS_END_HELD, {0, 4, 0}};
     f->line[1].end[CPS_END_B] = (CpsEnd){CPS_END_HELD, {9, 4, 5}};
 
@@ -226,7 +226,7 @@ static void netcdf_holds_the_last_step(void **state) {
         same_in_file(file, v.name, "normal", steps - 1, 3 * n, v.normal);
         same_in_file(file, v.name, "contact_gap", steps - 1, n, v.gap);
         same_in_file(file, v.name, "friction_bound", steps - 1, n, v.friction_bound);
-        same_in_file(file, v.name, "friction", steps - 1, 3 * n, v.friction);
+        same_in_file(file, v.name, "friction_force", steps - 1, 3 * n, v.friction_force);
         same_in_file(file, v.name, "reaction", steps - 1, n, v.reaction);
         same_in_file(file, v.name, "segment_force", steps - 1, 3 * n - 3, v.segment_force);
         same_in_file(file, v.name, "tension", steps - 1, n - 1, v.tension);
@@ -280,10 +280,10 @@ static void obstacles_are_written(void **state) {
     whole_in_file(file, "obstacle_point", 6, (double[]){0, 0, 0, 0, 0, 30});
     whole_in_file(file, "obstacle_axis", 6, (double[]){0, 0, 1, 0, 1, 0});
     whole_in_file(file, "obstacle_radius", 2, (double[]){0, 2});
-    whole_in_file(file, "obstacle_axial", 2, (double[]){0.3, 0.2});
-    whole_in_file(file, "obstacle_lateral", 2, (double[]){0.5, 0.2});
-    whole_in_file(file, "obstacle_shape", 2, (double[]){1, 0});
-    /* the laid start, the first stage, four steps of the second and twelve more */
+    whole_in_file(file, "obstacle_friction_axial", 2, (double[]){0.3, 0.2});
+    whole_in_file(file, "obstacle_friction_lateral", 2, (double[]){0.5, 0.2});
+    whole_in_file(file, "obstacle_friction_shape", 2, (double[]){1, 0});
+    /* the static start, the first stage, four steps of the second and twelve more */
     for (size_t step = 0; step < 18; step++)
         same_in_file(file, "obstacle", "turn", step, 2,
                      (double[]){0, step >= 2 && step < 6 ? -0.75 : 0});
@@ -337,7 +337,8 @@ static void both_contacts_are_written(void **state) {
     for (int c = 0; c < 2 * N; c++) {
         on[c] = v.obstacle[c];
         for (int a = 0; a < 3; a++)
-            force[3 * (c % N) + a] += v.reaction[c] * v.normal[3 * c + a] + v.friction[3 * c + a];
+            force[3 * (c % N) + a] +=
+                v.reaction[c] * v.normal[3 * c + a] + v.friction_force[3 * c + a];
         both += c >= N && v.reaction[c] > 1 && v.reaction[c - N] > 1;
     }
     assert_in_range(both, ELEMENTS / 2,
@@ -352,7 +353,7 @@ static void both_contacts_are_written(void **state) {
     } field[] = {{"normal", 3 * N, v.normal},
                  {"contact_gap", N, v.gap},
                  {"friction_bound", N, v.friction_bound},
-                 {"friction", 3 * N, v.friction},
+                 {"friction_force", 3 * N, v.friction_force},
                  {"slide", 3 * N, v.slide},
                  {"reaction", N, v.reaction}};
     for (size_t k = 0; k < sizeof field / sizeof *field; k++) {

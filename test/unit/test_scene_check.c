@@ -277,7 +277,7 @@ static void refuses_wrong_histories(void **state) {
     p.scene.solver.max_iterations = 0;
     refused(&p, "solver: max_iterations is 0");
     make(&p);
-    p.scene.contact = (CpsContactPolicy)7;
+    p.scene.contact_policy = (CpsContactPolicy)7;
     refused(&p, "contact: unknown value 7");
     make(&p);
     p.stage.steps = 0;
@@ -358,7 +358,7 @@ static void bounds_places(void **state) {
     assert_int_equal(cps_scene_check(&p.scene, NULL), CPS_OK);
     make(&p);
     memcpy(p.line.end[0].value, (double[]){0, 0, 1.1e-8}, sizeof(double[3]));
-    refused(&p, "end A is fixed at");
+    refused(&p, "end A is held at");
     make(&p);
     p.obstacle.point[2] = 0.9e-8;
     assert_int_equal(cps_scene_check(&p.scene, NULL), CPS_OK);
@@ -449,7 +449,7 @@ static void guesses_laid(void **state) {
     (void)state;
     Parts p;
     make(&p);
-    p.line.start.kind = CPS_START_LAID;
+    p.line.start.kind = CPS_START_STATIC;
     p.line.end[0] = (CpsEnd){CPS_END_HELD, {1, 0, 0}};
     p.line.end[1] = (CpsEnd){CPS_END_HELD, {1, 8, 4}};
     double x[15], end[3];

@@ -15,7 +15,7 @@
 
 #define HEAD     "capstan: 1\nlines:\n  cable:\n    length: 10\n    stiffness: .inf\n    mass: 2\n"
 #define STRAIGHT "    start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}\n"
-#define ENDS     "    ends: {A: fixed, B: free}\n"
+#define ENDS     "    ends: {A: held, B: free}\n"
 
 /* read a text as a scene file */
 static CpsStatus read_text(const char *text, const CpsReadLimits *limits, CpsSceneFile **file,
@@ -48,9 +48,9 @@ static void reads_defaults(void **state) {
     assert_memory_equal(scene->gravity, usual.gravity, sizeof usual.gravity);
     assert_memory_equal(&scene->solver, &usual.solver, sizeof usual.solver);
     assert_int_equal(scene->obstacle_count, 0);
-    assert_int_equal(scene->friction, usual.friction);
+    assert_int_equal(scene->friction_policy, usual.friction_policy);
     assert_int_equal(scene->stage_count, 0);
-    assert_int_equal(scene->contact, CPS_CONTACT_GAINED);
+    assert_int_equal(scene->contact_policy, CPS_CONTACT_REACHED);
     assert_int_equal(scene->line_count, 1);
     const CpsLine *line = scene->line;
     assert_string_equal(line->name, "cable");
@@ -73,15 +73,16 @@ static void reads_every_key(void **state) {
         "# all keys\ncapstan: 1\ntitle: \"R\\u00fcgen: 'a'\"\ngravity: [0, 0, -10]\n"
         "obstacles:\n  slope-1: {plane: {point: [1, 2, 3], normal: [0, -1, 1]}, friction: 0.25}\n"
         "lines:\n"
-        "  one: {length: 5, elements: 7, weight: 3, stiffness: 1e3, start: laid,\n"
-        "        ends: {A: {fixed: [0, 0, 8]}, B: {force: [4, 5, 6]}}}\n"
-        "  two: {length: 3, elements: 0x10, mass: +1.5, stiffness: 2.E3, ends: {B: {fixed: [0, 1, "
+        "  one: {length: 5, elements: 7, weight: 3, stiffness: 1e3, start: static,\n"
+        "        ends: {A: {held: [0, 0, 8]}, B: {force: [4, 5, 6]}}}\n"
+        "  two: {length: 3, elements: 0x10, mass: +1.5, stiffness: 2.E3, ends: {B: {held: [0, 1, "
         "12]}, A: free},\n"
         "        start: {polyline: [[0, 0, 10], [0, 0, 12], [0, 1, 12]]}}\n"
-        "  three: {length: 3.0, elements: 20, mass: 0, stiffness: .Inf, ends: {A: fixed, B: "
-        "fixed},\n"
-        "          start: {arc: {from: [0, 0, 10], center: [0, 0, 12], axis: [1, 0, 0]}}}\n"
-        "friction: frozen\ncontact: strict\nsolver: {tolerance: 1e-10, max_iterations: 33, "
+        "  three: {length: 3.0, elements: 20, mass: 0, stiffness: .Inf, ends: {A: held, B: "
+        "held},\n"
+        "          start: {arc: {from: [0, 0, 10], centre: [0, 0, 12], axis: [1, 0, 0]}}}\n"
+        "friction_policy: frozen\ncontact_policy: reference\nsolver: {tolerance: 1e-10, "
+        "max_iterations: 33, "
         "linear_system: dense}\n"
         "history:\n- {name: up & down, steps: 4, two.B: {position: [0, 1, 13]}, one.B: {force: [0, "
         "0, 9]}}\n- {}\n");
@@ -91,14 +92,14 @@ static void reads_every_key(void **state) {
     assert_string_equal(scene->obstacle->name, "slope-1");
     assert_true(scene->obstacle->point[2] == 3 && scene->obstacle->normal[1] == -1 &&
                 scene->obstacle->friction == 0.25);
-    assert_int_equal(scene->contact, CPS_CONTACT_STRICT);
+    assert_int_equal(scene->contact_policy, CPS_CONTACT_REFERENCE);
     assert_true(scene->solver.tolerance == 1e-10);
     assert_int_equal(scene->solver.max_iterations, 33);
     assert_int_equal(scene->solver.linear_system, CPS_LINEAR_SYSTEM_DENSE);
 
     const CpsLine *one = &scene->line[0], *has_second_contacts = &scene->line[1],
                   *three = &scene->line[2];
-    assert_int_equal(one->start.kind, CPS_START_LAID);
+    assert_int_equal(one->start.kind, CPS_START_STATIC);
     assert_true(one->weight == 3 && one->elements == 7 && one->end[0].value[2] == 8 &&
                 one->end[1].value[2] == 6);
     assert_int_equal(has_second_contacts->start.kind, CPS_START_POLYLINE);
@@ -133,7 +134,7 @@ static void reads_obstacles(void **state) {
         "  bed: {plane: {}, friction: {axial: 0.6, lateral: 0.8, shape: box, grain: [1, 2, 0]}}\n"
         "  drum: {cylinder: {point: [1, 2, 3], axis: [0, 0, 5], radius: 0.5}, friction: 0.3}\n"
         "  pipe: {cylinder: {radius: 2}, friction: {axial: 0.1}}\n"
-        "  ball: {sphere: {center: [4, 5, 6], radius: 7, axis: [1, 0, 0]}}\n"
+        "  ball: {sphere: {centre: [4, 5, 6], radius: 7, axis: [1, 0, 0]}}\n"
         "history:\n- {drum.turn: 90, cable.B: {force: [0, 0, 1]}, ball.turn: -360, steps: 2}\n- "
         "{}\n");
     const CpsScene *scene = cps_scene_file_scene(file);
@@ -227,7 +228,7 @@ static void reads_graded_elements(void **state) {
 static void adds_moves(void **state) {
     (void)state;
     CpsSceneFile *file =
-        read_good(HEAD STRAIGHT "    ends: {A: fixed, B: fixed}\n"
+        read_good(HEAD STRAIGHT "    ends: {A: held, B: held}\n"
                                 "history:\n"
                                 "- {cable.B: {move: [-1, 0, 0]}}\n"
                                 "- {cable.B: {move: [0, 2, 0]}, cable.A: {move: [0, 0, 1]}}\n"
@@ -242,7 +243,7 @@ static void adds_moves(void **state) {
 
     CpsError err;
     const char *released =
-        HEAD STRAIGHT "    ends: {A: fixed, B: fixed}\n"
+        HEAD STRAIGHT "    ends: {A: held, B: held}\n"
                       "history:\n- {cable.B: {force: [0, 0, 0]}}\n- {cable.B: {move: [0, 2, 0]}}\n";
     assert_int_equal(read_text(released, NULL, &file, &err), CPS_ERR_INPUT);
     assert_int_equal(err.line, 11);

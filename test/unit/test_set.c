@@ -191,7 +191,7 @@ static void projections_and_gauges(void **state) {
 /* A cube by its inequalities: faces, cones and vertices of every dimension. */
 static void faces_and_cones_of_a_cube(void **state) {
     (void)state;
-    double rows[18] = {0}, offsets[6], center[3], ray[9];
+    double rows[18] = {0}, offsets[6], centre[3], ray[9];
     for (int i = 0; i < 6; i++) {
         rows[3 * i + i / 2] = i % 2 ? -1 : 1;
         offsets[i] = 1;
@@ -205,9 +205,9 @@ static void faces_and_cones_of_a_cube(void **state) {
         int count;
         DO(cps_set_face(cube, w, 0, &face, &answer, &err));
         CHECK_NEAR(answer.value, d, 1e-10);
-        DO(cps_set_facts(face, 0, &facts, center, NULL, &err));
+        DO(cps_set_facts(face, 0, &facts, centre, NULL, &err));
         CHECK_INT(facts.dimension, 3 - d);
-        DO(cps_set_normal_cone(cube, center, 0, &cone, &answer, &err));
+        DO(cps_set_normal_cone(cube, centre, 0, &cone, &answer, &err));
         DO(cps_set_rays(cone, 0, 3, ray, &count, &answer, &err));
         CHECK_INT(count, d);
         DO(cps_set_facts(cone, 0, &facts, NULL, NULL, &err));

@@ -108,15 +108,15 @@ static void reach(const CpsDriveBody *body, double x[2], double y[2]) {
 
 /* one push: an arrow, and the centre of rotation joined to it */
 static void draw_push(FILE *out, const CpsiFrame *frame, const CpsDrivePush *push,
-                      const double center[2], bool turns, double unit, const char *colour) {
+                      const double centre[2], bool turns, double unit, const char *colour) {
     const double along[2] = {push->way[0] * unit, push->way[1] * unit};
     char style[80];
     if (push->at_point) cpsi_draw_arrow(out, frame, push->point, along, colour, 2.2);
     if (!turns) return;
     snprintf(style, sizeof style, "fill=\"#fff\" stroke=\"%s\" stroke-width=\"2\"", colour);
-    cpsi_draw_dot(out, frame, center, 5, style);
+    cpsi_draw_dot(out, frame, centre, 5, style);
     if (!push->at_point) return;
-    const double line[4] = {push->point[0], push->point[1], center[0], center[1]};
+    const double line[4] = {push->point[0], push->point[1], centre[0], centre[1]};
     snprintf(style, sizeof style, "fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 3\"", colour);
     cpsi_draw_curve(out, frame, 2, line, false, style);
 }
@@ -140,8 +140,8 @@ static CpsStatus draw_pushes(FILE *out, const BodyPicture *p, int column, CpsErr
         if (status != CPS_OK) break;
         if (push->at_point) cpsi_range_points(frame.x, frame.y, 1, push->point);
         /* a centre that is not too far off is shown */
-        if (hypot(motion[i].center[0], motion[i].center[1]) < 2 * size)
-            cpsi_range_points(frame.x, frame.y, 1, motion[i].center);
+        if (hypot(motion[i].centre[0], motion[i].centre[1]) < 2 * size)
+            cpsi_range_points(frame.x, frame.y, 1, motion[i].centre);
         fastest = fmax(fastest, hypot(push->way[0], push->way[1]));
     }
     const double unit = fastest > 0 ? 0.35 * size / fastest : 0;
@@ -163,8 +163,8 @@ static CpsStatus draw_pushes(FILE *out, const BodyPicture *p, int column, CpsErr
         for (int i = 0; i < count; i++) {
             const CpsiColour colour =
                 cpsi_colour(CPSI_SCALE_TENSION, count > 1 ? 0.3 + 0.6 * i / (count - 1) : 0.6);
-            const bool turns = hypot(motion[i].center[0], motion[i].center[1]) < 1e6 * size;
-            draw_push(out, &frame, &p->body->push[i], motion[i].center, turns, unit, colour.hex);
+            const bool turns = hypot(motion[i].centre[0], motion[i].centre[1]) < 1e6 * size;
+            draw_push(out, &frame, &p->body->push[i], motion[i].centre, turns, unit, colour.hex);
         }
     cpsi_frame_end(out);
     free(motion);

@@ -40,7 +40,7 @@ typedef struct Graph {
     const CpsLawPicture *picture;
     int n, axis[2];
     double most;               /* speed */
-    double *velocity, *center; /* (n) scratch */
+    double *velocity, *centre; /* (n) scratch */
     CpsiFrame frame;
     CpsiUnit unit;
 } Graph;
@@ -203,12 +203,12 @@ static CpsStatus sample_speed(Graph *g, double speed, double *curve) {
         g->velocity[g->axis[1]] = speed * sin(angle);
         CpsStatus status = forces_at(g, &forces, &answer);
         if (status == CPS_OK && forces)
-            status = cps_set_facts(forces, 0, &facts, g->center, NULL, g->err);
+            status = cps_set_facts(forces, 0, &facts, g->centre, NULL, g->err);
         cps_set_release(forces);
         if (status != CPS_OK) return status;
         for (int k = 0; k < 2; k++)
             curve[2 * i + k] =
-                facts.outcome == CPS_SET_OUTCOME_ANSWERED ? g->center[g->axis[k]] : NAN;
+                facts.outcome == CPS_SET_OUTCOME_ANSWERED ? g->centre[g->axis[k]] : NAN;
     }
     return CPS_OK;
 }
@@ -288,7 +288,7 @@ CpsStatus cpsi_law_graph(const CpsSet *set, const CpsResistance *resistance,
     if (g.most == 0) g.most = 1;
     g.velocity = calloc(2 * (size_t)g.n, sizeof *g.velocity);
     if (!g.velocity) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    g.center = g.velocity + g.n;
+    g.centre = g.velocity + g.n;
     const CpsStatus status = cpsi_draw_plain(draw, &g, out, err);
     free(g.velocity);
     return status;

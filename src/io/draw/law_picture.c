@@ -90,10 +90,10 @@ static CpsStatus trace(const CpsSet *set, Curve *curve, CpsError *err) {
 }
 
 /* the mean of the points of contact: Steiner's point, the middle of a segment */
-static void middle(const Curve *curve, double center[2]) {
-    center[0] = center[1] = 0;
+static void middle(const Curve *curve, double centre[2]) {
+    centre[0] = centre[1] = 0;
     for (int i = 0; i < curve->count; i++)
-        for (int k = 0; k < 2; k++) center[k] += curve->x[i][k] / curve->count;
+        for (int k = 0; k < 2; k++) centre[k] += curve->x[i][k] / curve->count;
 }
 
 /* the section by, or the shadow on, the plane of the two components */
@@ -302,26 +302,26 @@ static void list_velocity(const Sheet *s, int i, const double *velocity, const C
 }
 
 /* the middle of what is seen of a planar set */
-static CpsStatus find_middle(const Sheet *s, const CpsSet *flat, Curve *curve, double center[2]) {
+static CpsStatus find_middle(const Sheet *s, const CpsSet *flat, Curve *curve, double centre[2]) {
     CpsSet *seen = cps_set_retain(flat);
     CpsStatus status = cut_off(s, 1, &seen);
     if (status == CPS_OK) status = trace(seen, curve, s->err);
-    if (status == CPS_OK && curve->count > 0) middle(curve, center);
+    if (status == CPS_OK && curve->count > 0) middle(curve, centre);
     cps_set_release(seen);
     return status;
 }
 
 static CpsStatus draw_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetFacts *facts,
-                                    const char *colour, double center[2]) {
+                                    const char *colour, double centre[2]) {
     char style[120];
     if (facts->dimension == 0) {
         fprintf(s->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"5.5\" fill=\"%s\" stroke=\"#fff\"/>\n",
-                px(s, center[0]), py(s, center[1]), colour);
+                px(s, centre[0]), py(s, centre[1]), colour);
         return CPS_OK;
     }
     Curve *curve = malloc(sizeof *curve);
     if (!curve) return out_of_memory(s->err);
-    CpsStatus status = find_middle(s, *flat, curve, center);
+    CpsStatus status = find_middle(s, *flat, curve, centre);
     if (status == CPS_OK && !facts->bounded) status = cut_off(s, BEYOND, flat);
     if (status == CPS_OK) status = trace(*flat, curve, s->err);
     if (status == CPS_OK) {
@@ -336,16 +336,16 @@ static CpsStatus draw_planar_forces(const Sheet *s, CpsSet **flat, const CpsSetF
     return status;
 }
 
-/* a set of forces in the plane: a dot, a thick line, or an area; its middle goes to center */
+/* a set of forces in the plane: a dot, a thick line, or an area; its middle goes to centre */
 static CpsStatus draw_forces(const Sheet *s, const CpsSet *forces, const char *colour,
-                             double center[2]) {
+                             double centre[2]) {
     CpsSet *flat = NULL;
     CpsSetFacts facts;
     CpsStatus status = plane_set(s, forces, false, &flat);
-    if (status == CPS_OK) status = cps_set_facts(flat, 0, &facts, center, NULL, s->err);
+    if (status == CPS_OK) status = cps_set_facts(flat, 0, &facts, centre, NULL, s->err);
     if (status == CPS_OK && facts.outcome == CPS_SET_OUTCOME_ANSWERED &&
         (facts.bounded || s->limit > 0))
-        status = draw_planar_forces(s, &flat, &facts, colour, center);
+        status = draw_planar_forces(s, &flat, &facts, colour, centre);
     cps_set_release(flat);
     return status;
 }
@@ -358,8 +358,8 @@ static CpsStatus draw_velocity(const Sheet *s, int i) {
     CpsSetFacts facts = {.dimension = 0};
     CpsStatus status = cps_set_forces(s->set, velocity, 0, &forces, &answer, s->err);
     if (status == CPS_OK && forces) status = cps_set_facts(forces, 0, &facts, NULL, NULL, s->err);
-    double center[2] = {0, 0};
-    if (status == CPS_OK && forces) status = draw_forces(s, forces, colour.hex, center);
+    double centre[2] = {0, 0};
+    if (status == CPS_OK && forces) status = draw_forces(s, forces, colour.hex, centre);
     cps_set_release(forces);
     if (status != CPS_OK) return status;
 
@@ -368,7 +368,7 @@ static CpsStatus draw_velocity(const Sheet *s, int i) {
                  l = hypot(v[0], v[1]);
     const double direction[2] = {l > 0 ? v[0] / l : 0, l > 0 ? v[1] / l : 0};
     if (answer.outcome == CPS_SET_OUTCOME_ANSWERED)
-        draw_arrow(s, center, direction, ARROW * s->size, colour.hex);
+        draw_arrow(s, centre, direction, ARROW * s->size, colour.hex);
     list_velocity(s, i, velocity, &answer, facts.dimension < 0 ? 0 : facts.dimension);
     return CPS_OK;
 }

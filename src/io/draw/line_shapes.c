@@ -195,8 +195,8 @@ static void draw_step_legend(const CpsResults *results, bool air, double y, FILE
 /* Where a step started. Before a line is laid by statics it is nowhere: the first guess of the
  * solver is no shape to show. */
 static const double *start_of(const CpsResults *results, const CpsiSnapshot *snapshot, int line) {
-    const bool laid = snapshot->step == 0 && strcmp(results->row[0].name, "laid") == 0;
-    return laid ? snapshot->shape[line].position : snapshot->shape[line].reference;
+    const bool first = snapshot->step == 0 && strcmp(results->row[0].name, "static") == 0;
+    return first ? snapshot->shape[line].position : snapshot->shape[line].reference;
 }
 
 /* axes, obstacles, subtitle: what both kinds of sheet begin with; step as of

@@ -41,14 +41,14 @@ static CpsStatus reach(const CpsSet *cone, double middle, int side, double *angl
 
 CpsStatus cpsi_planar_cone(const CpsSet *cone, CpsiPlanarCone *out, CpsError *err) {
     CpsSetFacts facts;
-    double center[2], basis[4];
+    double centre[2], basis[4];
     *out = (CpsiPlanarCone){.dimension = -1};
-    CpsStatus status = cps_set_facts(cone, 0, &facts, center, basis, err);
+    CpsStatus status = cps_set_facts(cone, 0, &facts, centre, basis, err);
     if (status != CPS_OK || facts.outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     out->dimension = facts.dimension;
     if (facts.dimension == 0) return CPS_OK;
     const double middle =
-        facts.dimension == 1 ? atan2(basis[1], basis[0]) : atan2(center[1], center[0]);
+        facts.dimension == 1 ? atan2(basis[1], basis[0]) : atan2(centre[1], centre[0]);
     bool ahead = false, back = false;
     status = holds(cone, middle, &ahead, err);
     if (status == CPS_OK) status = holds(cone, middle + CPSI_PI, &back, err);

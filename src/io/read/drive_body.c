@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "io/read/drive_file.h"
 #include "io/read/path_points.h"
 
@@ -13,6 +14,7 @@
 static CpsStatus build_patch(CpsiSetBuild *b, const CpsiPatchValues *values, CpsPatch *patch) {
     CpsLaw *law = NULL;
     *patch = values->patch;
+    patch->angle = values->orientation * CPSI_DEGREE;
     if (values->locked == 0) patch->brake = INFINITY;
     patch->corner = values->corners.x;
     patch->corner_count = values->corners.rows;
@@ -109,6 +111,8 @@ static CpsStatus build_tow(const CpsiDocument *d, const CpsiTowValues *values, C
     out->start = values->start;
     out->steps = values->steps;
     CpsTow *tow = &out->start;
+    memcpy(tow->pose, values->position, sizeof values->position);
+    tow->pose[2] = values->orientation * CPSI_DEGREE;
     const double *end = values->end;
     const double c = cos(tow->pose[2]), s = sin(tow->pose[2]);
     const double hitch[2] = {tow->pose[0] + c * tow->hitch[0] - s * tow->hitch[1],

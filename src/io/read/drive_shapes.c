@@ -22,8 +22,8 @@ static CpsStatus build_circle(const CpsiDocument *d, const CpsiCircleValues *cir
     if (!x) return cpsi_document_no_memory(d);
     for (int i = 0; i < circle->points; i++) {
         const double a = 2 * CPSI_PI * i / circle->points;
-        x[2 * i] = circle->center[0] + circle->radius * cos(a);
-        x[2 * i + 1] = circle->center[1] + circle->radius * sin(a);
+        x[2 * i] = circle->centre[0] + circle->radius * cos(a);
+        x[2 * i + 1] = circle->centre[1] + circle->radius * sin(a);
     }
     out->points = circle->points;
     out->point = x;
@@ -98,10 +98,12 @@ CpsStatus cpsi_build_planimeter(CpsiSetBuild *b, const CpsiPlanimeterValues *val
 /* ---- rope ---- */
 
 static void arc_shape(const CpsiRopeArcValues *arc, int nodes, double *x) {
+    const double angle = arc->angle * CPSI_DEGREE;
+    const double dx = arc->from[0] - arc->centre[0], dy = arc->from[1] - arc->centre[1];
     for (int i = 0; i < nodes; i++) {
-        const double a = arc->from + arc->turn * i / (nodes - 1);
-        x[2 * i] = arc->center[0] + arc->radius * cos(a);
-        x[2 * i + 1] = arc->center[1] + arc->radius * sin(a);
+        const double a = angle * i / (nodes - 1);
+        x[2 * i] = arc->centre[0] + cos(a) * dx - sin(a) * dy;
+        x[2 * i + 1] = arc->centre[1] + sin(a) * dx + cos(a) * dy;
     }
 }
 
@@ -119,7 +121,7 @@ static CpsStatus build_shape(const CpsiDocument *d, const CpsiRopeShapeValues *s
     else if (shape->straight.node)
         cps_drive_walk(2, 2, straight, nodes, x);
     else
-        cps_drive_walk(2, shape->points.rows, shape->points.x, nodes, x);
+        cps_drive_walk(2, shape->polyline.rows, shape->polyline.x, nodes, x);
     return CPS_OK;
 }
 

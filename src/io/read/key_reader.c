@@ -19,6 +19,12 @@ typedef struct Value {
 
 static CpsStatus wrong(const Value *v, const CpsiYaml *node, const char *hint) {
     char accepted[400], expected[460];
+    int length = 0;
+    const char *now =
+        node->kind == CPSI_YAML_SCALAR ? cpsi_key_renamed_word(v->key, node->text, &length) : NULL;
+    if (now)
+        return cpsi_document_fail(v->d, CPS_ERR_INPUT, node, "%s: '%s' is now '%.*s'", v->what,
+                                  node->text, length, now);
     snprintf(expected, sizeof expected, "%s%s",
              cpsi_key_expected(v->key, accepted, sizeof accepted), hint);
     return cpsi_document_wrong(v->d, node, v->what, expected);

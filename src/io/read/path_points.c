@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "capstan/io.h"
 #include "io/read/key_reader.h"
 
@@ -45,11 +46,12 @@ static CpsStatus build_arc(const CpsiDocument *d, const CpsiPathArcValues *arc, 
     const int sides = steps * (steps < CPSI_DRIVE_ARC_SIDES ? 1 + CPSI_DRIVE_ARC_SIDES / steps : 1);
     double *x = CPSI_POOL_TAKE(d->pool, 2 * ((size_t)sides + 1), double);
     if (!x) return cpsi_document_no_memory(d);
-    const double dx = start[0] - arc->center[0], dy = start[1] - arc->center[1];
+    const double angle = arc->angle * CPSI_DEGREE;
+    const double dx = start[0] - arc->centre[0], dy = start[1] - arc->centre[1];
     for (int i = 0; i <= sides; i++) {
-        const double a = arc->turn * i / sides;
-        x[2 * i] = arc->center[0] + cos(a) * dx - sin(a) * dy;
-        x[2 * i + 1] = arc->center[1] + sin(a) * dx + cos(a) * dy;
+        const double a = angle * i / sides;
+        x[2 * i] = arc->centre[0] + cos(a) * dx - sin(a) * dy;
+        x[2 * i + 1] = arc->centre[1] + sin(a) * dx + cos(a) * dy;
     }
     *points = sides + 1;
     *path = x;

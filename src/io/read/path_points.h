@@ -6,7 +6,7 @@
 #include "io/read/document.h"
 #include "io/schema/drive_keys.h"
 
-/* A path from `start` on: a list of points, or (in the plane) {arc: {center: .., turn: ..}}, which
+/* A path from `start` on: a list of points, or (in the plane) {arc: {centre: .., angle: ..}}, which
  * `steps` equal steps then follow on the arc itself. */
 CpsStatus cpsi_build_path(const CpsiDocument *d, const CpsiPathValues *values, int space,
                           const double *start, int steps, int *points, const double **path);

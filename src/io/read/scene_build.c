@@ -12,9 +12,6 @@
 #include "io/read/node_file.h"
 #include "io/read/set_build.h"
 
-/* [rad] */
-static const double DEGREE = CPSI_PI / 180;
-
 typedef struct Build {
     const CpsiDocument *d;
     CpsiPool *pool; /* of the scene */
@@ -152,7 +149,7 @@ static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsS
     const CpsiArcValues *arc = &values->arc;
     const CpsiRows *polyline = &values->polyline;
     if (!values->node) {
-        start->kind = CPS_START_LAID;
+        start->kind = CPS_START_STATIC;
         return CPS_OK;
     }
     start->kind = straight->node   ? CPS_START_STRAIGHT
@@ -169,13 +166,13 @@ static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsS
         copy_vector(point + 3, straight->to);
     } else {
         copy_vector(point, arc->from);
-        copy_vector(point + 3, arc->center);
+        copy_vector(point + 3, arc->centre);
         copy_vector(start->axis, arc->axis);
     }
     return CPS_OK;
 }
 
-/* `fixed`: where the start puts it, `free`: without force; or at a place, or with a force. */
+/* `held`: where the start puts it, `free`: without force; or at a place, or with a force. */
 static CpsEnd build_end(const CpsiEndValues *values) {
     const bool is_free = values->word == CPSI_END_FREE;
     CpsEnd end = {.kind = is_free ? CPS_END_FREE : CPS_END_HELD};
@@ -300,7 +297,7 @@ static CpsStatus build_change(const Build *b, const CpsiChangeValues *values, Cp
     if (move && isnan(held[0]))
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
                                   "'%s': found a move, but the end's position before it is not "
-                                  "known (it is free, or fixed at "
+                                  "known (it is free, or held at "
                                   "the end of an arc): give a position instead",
                                   key);
     for (int i = 0; i < 3; i++) {
@@ -331,7 +328,7 @@ static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int 
     stage->turn_count = values->turns.count;
     for (int k = 0; k < stage->turn_count; k++)
         turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
-                            .angle = turns[k].number * DEGREE};
+                            .angle = turns[k].number * CPSI_DEGREE};
     CpsStatus status = CPS_OK;
     for (int k = 0; k < stage->change_count && status == CPS_OK; k++)
         status = build_change(b, &changes[k], &change[k]);

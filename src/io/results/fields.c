@@ -27,19 +27,19 @@ const CpsiField cpsi_field[CPSI_FIELDS] = {
      CPSI_PLACE_NODE, false, false, true, VIEW(gap)},
     {"friction_bound", "largest friction force", "N", CPSI_PLACE_NODE, false, false, true,
      VIEW(friction_bound)},
-    {"friction", "friction force on the line", "N", CPSI_PLACE_NODE, true, false, true,
-     VIEW(friction)},
+    {"friction_force", "friction force on the line", "N", CPSI_PLACE_NODE, true, false, true,
+     VIEW(friction_force)},
     {"reaction", "reaction of the obstacle along its normal", "N", CPSI_PLACE_NODE, false, false,
      true, VIEW(reaction)},
-    {"slide", "way on the obstacle in the step, tangential", "m", CPSI_PLACE_NODE, true, false,
+    {"slide", "slip on the obstacle in the step, tangential", "m", CPSI_PLACE_NODE, true, false,
      true, VIEW(slide)},
     {"segment_force", "force of the B side of an element on its A side", "N", CPSI_PLACE_ELEMENT,
      true, false, false, VIEW(segment_force)},
     {"tension", "tension from the elongation", "N", CPSI_PLACE_ELEMENT, false, false, false,
      VIEW(tension)},
     /* only where elements are kept out of round obstacles */
-    {"element_share", "where on its way from A to B an element touches", "1", CPSI_PLACE_ELEMENT,
-     false, false, false, VIEW(element_share)},
+    {"element_share", "place of the contact on an element, as a fraction of it from A to B", "1",
+     CPSI_PLACE_ELEMENT, false, false, false, VIEW(element_share)},
     {"element_normal", "normal of the obstacle there, 0 without one", "1", CPSI_PLACE_ELEMENT, true,
      false, false, VIEW(element_normal)},
     {"element_contact_gap",
@@ -47,19 +47,34 @@ const CpsiField cpsi_field[CPSI_FIELDS] = {
      CPSI_PLACE_ELEMENT, false, false, false, VIEW(element_gap)},
     {"element_friction_bound", "largest friction force on the element", "N", CPSI_PLACE_ELEMENT,
      false, false, false, VIEW(element_friction_bound)},
-    {"element_friction", "friction force on the element", "N", CPSI_PLACE_ELEMENT, true, false,
-     false, VIEW(element_friction)},
+    {"element_friction_force", "friction force on the element", "N", CPSI_PLACE_ELEMENT, true,
+     false, false, VIEW(element_friction_force)},
     {"element_reaction", "reaction of the obstacle on the element, along its normal", "N",
      CPSI_PLACE_ELEMENT, false, false, false, VIEW(element_reaction)},
     {"element_slide",
-     "way of the place where the element touches on the obstacle in the step, tangential", "m",
+     "slip on the obstacle of the place where the element touches, in the step, tangential", "m",
      CPSI_PLACE_ELEMENT, true, false, false, VIEW(element_slide)},
     {"motion", "velocity that proves that the line slides without end, else 0", "1",
      CPSI_PLACE_NODE, true, false, false, VIEW(motion)},
 };
 
-static CpsStatus refuse(const char *name, int length, CpsError *err) {
+/* Names of earlier versions. */
+static const struct {
+    const char *former, *name;
+} RENAMED[] = {{"friction", "friction_force"}, {"element_friction", "element_friction_force"}};
+enum { RENAMED_FIELDS = sizeof RENAMED / sizeof RENAMED[0] };
+
+static bool is_name(const char *given, size_t length, const char *name) {
+    return strlen(name) == length && memcmp(given, name, length) == 0;
+}
+
+static CpsStatus refuse(const char *name, size_t given, CpsError *err) {
     char known[800] = "";
+    const int length = given < 40 ? (int)given : 40;
+    for (int k = 0; k < RENAMED_FIELDS; ++k)
+        if (is_name(name, given, RENAMED[k].former))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "fields: '%s' is now '%s'", RENAMED[k].former,
+                             RENAMED[k].name);
     for (int f = 0; f < CPSI_FIELDS; ++f) {
         if (cpsi_field[f].fixed) continue;
         const size_t used = strlen(known);
@@ -68,10 +83,6 @@ static CpsStatus refuse(const char *name, int length, CpsError *err) {
     return cpsi_fail(err, CPS_ERR_ARGUMENT,
                      "fields: found '%.*s', expected none or some of %sstate, obstacle", length,
                      name, known);
-}
-
-static bool is_name(const char *given, size_t length, const char *name) {
-    return strlen(name) == length && memcmp(given, name, length) == 0;
 }
 
 CpsStatus cpsi_fields_choose(const char *list, unsigned *wanted, CpsError *err) {
@@ -84,7 +95,7 @@ CpsStatus cpsi_fields_choose(const char *list, unsigned *wanted, CpsError *err) 
             if (!cpsi_field[f].fixed && is_name(name, length, cpsi_field[f].name)) bit = 1u << f;
         if (is_name(name, length, "state")) bit = CPSI_WANTED_STATE;
         if (is_name(name, length, "obstacle")) bit = CPSI_WANTED_OBSTACLE;
-        if (!bit) return refuse(name, length < 40 ? (int)length : 40, err);
+        if (!bit) return refuse(name, length, err);
         *wanted |= bit;
         name += length;
         if (*name == '\0') return CPS_OK;

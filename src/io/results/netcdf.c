@@ -113,11 +113,11 @@ static const struct {
      true},
     {"obstacle_axis", "normal of the plane, axis of cylinder and sphere, of any length", "1", true},
     {"obstacle_radius", "radius, 0 for a plane", "m", false},
-    {"obstacle_axial", "friction coefficient along the line or the grain", "1", false},
-    {"obstacle_lateral", "friction coefficient across it", "1", false},
-    {"obstacle_shape", "how the two make a set of forces, or that a set is given instead", "1",
-     false},
-    {"obstacle_grain", "direction of the axial coefficient, 0: that of the line", "1", true},
+    {"obstacle_friction_axial", "friction coefficient along the line or the grain", "1", false},
+    {"obstacle_friction_lateral", "friction coefficient across it", "1", false},
+    {"obstacle_friction_shape", "how the two make a set of forces, or that a set is given instead",
+     "1", false},
+    {"obstacle_friction_grain", "axial direction, 0: that of the line", "1", true},
 };
 
 /* Friction sets {origin + P v : A v + b in K}, padded with zeros to the largest. */
@@ -126,12 +126,12 @@ typedef enum SetField { SET_ORIGIN, SET_MAP, SET_CONE, SET_ROWS, SET_OFFSET, SET
 static const struct {
     const char *name, *long_name;
 } SET[SET_FIELDS] = {
-    {"obstacle_set_origin", "friction set: {origin + P v : A v + b in K}"},
-    {"obstacle_set_map", "P"},
-    {"obstacle_set_cone",
+    {"obstacle_friction_set_origin", "friction set: {origin + P v : A v + b in K}"},
+    {"obstacle_friction_set_map", "P"},
+    {"obstacle_friction_set_cone",
      "rows of the cone of K that begins in this row, 1: half-line, 0: none begins"},
-    {"obstacle_set_rows", "A"},
-    {"obstacle_set_offset", "b"},
+    {"obstacle_friction_set_rows", "A"},
+    {"obstacle_friction_set_offset", "b"},
 };
 
 /* Numbers of CpsFrictionZone. */
@@ -171,8 +171,8 @@ typedef struct LineIds {
     int node, element; /* dimensions */
     int contacts;      /* of a node, as in the view */
     int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force,
-        end_friction, end_tension, end_range[RANGES], outcome, iterations, parts, snaps, places,
-        proof, proof_obstacle, weight_before;
+        end_friction_force, end_tension, end_range[RANGES], outcome, iterations, parts, snaps,
+        places, proof, proof_obstacle, weight_before;
     int field[FIELDS][CONTACTS];         /* unused where a view has no such array */
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
@@ -348,9 +348,10 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     add_text(nc, NC_GLOBAL, "source", source);
     add_history(nc, source);
     add_text(nc, NC_GLOBAL, "lines", names);
-    add_text(nc, NC_GLOBAL, "friction",
-             scene->friction == CPS_FRICTION_CONSISTENT ? "consistent" : "frozen");
-    add_text(nc, NC_GLOBAL, "contact", scene->contact == CPS_CONTACT_STRICT ? "strict" : "gained");
+    add_text(nc, NC_GLOBAL, "friction_policy",
+             scene->friction_policy == CPS_FRICTION_CONSISTENT ? "consistent" : "frozen");
+    add_text(nc, NC_GLOBAL, "contact_policy",
+             scene->contact_policy == CPS_CONTACT_REFERENCE ? "reference" : "reached");
     add_numbers(nc, "gravity", XYZ, scene->gravity);
     add_numbers(nc, "tolerance", 1, &scene->solver.tolerance);
     if (origin[0] != 0 || origin[1] != 0 || origin[2] != 0) add_numbers(nc, "origin", XYZ, origin);
@@ -454,8 +455,8 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
                                   "position in m of a held end, force in N on a free one", NULL);
     ids->end_force = add_variable(nc, view->name, "end_force", NC_DOUBLE, 3, on_ends,
                                   "force on the line at its ends", "N");
-    ids->end_friction =
-        add_variable(nc, view->name, "end_friction", NC_DOUBLE, 3, on_ends,
+    ids->end_friction_force =
+        add_variable(nc, view->name, "end_friction_force", NC_DOUBLE, 3, on_ends,
                      "friction of the half element beside a held end that lies on an obstacle",
                      "N");
     ids->end_tension = add_variable(nc, view->name, "end_tension", NC_DOUBLE, 2, on_ends,
@@ -566,14 +567,14 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
         kind[e] = view->end[e].kind == CPS_END_FREE;
         memcpy(value[e], view->end[e].value, sizeof value[e]);
         memcpy(force[e], report->end[e].force, sizeof force[e]);
-        memcpy(friction[e], report->end[e].friction, sizeof friction[e]);
+        memcpy(friction[e], report->end[e].friction_force, sizeof friction[e]);
         tension[e] = report->end[e].tension;
     }
     if (nc->status == NC_NOERR)
         keep(nc, nc->library.put_vara_uchar(nc->file, ids->end_kind, start, ends, kind));
     write_doubles(nc, ids->end_value, start, ends, value[0]);
     write_doubles(nc, ids->end_force, start, ends, force[0]);
-    write_doubles(nc, ids->end_friction, start, ends, friction[0]);
+    write_doubles(nc, ids->end_friction_force, start, ends, friction[0]);
     write_doubles(nc, ids->end_tension, start, ends, tension);
     for (int i = 0; i < RANGES; ++i) {
         double range[ENDS];

@@ -99,7 +99,8 @@ static void contact_force(const CpsLineView *view, int j, double force[3]) {
     const int nodes = view->elements + 1;
     for (int i = 0; i < view->contacts; ++i)
         for (size_t c = (size_t)j + (size_t)i * (size_t)nodes, k = 0; k < 3; ++k)
-            force[k] += view->reaction[c] * view->normal[3 * c + k] + view->friction[3 * c + k];
+            force[k] +=
+                view->reaction[c] * view->normal[3 * c + k] + view->friction_force[3 * c + k];
 }
 
 static void write_node(FILE *out, const CpsLineView *view, Block block, int j) {

@@ -26,7 +26,7 @@ static const Column COLUMN[] = {
     {"total", "J", REPORT(total), false},
     {"elastic", "J", REPORT(elastic), false},
     {"potential", "J", REPORT(potential), false},
-    {"friction", "J", REPORT(friction), false},
+    {"friction_energy", "J", REPORT(friction_energy), false},
     {"bending", "J", REPORT(bending), false},
     {"contact", "J", REPORT(contact), false},
     {"compression", "N", REPORT(compression), true},

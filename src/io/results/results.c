@@ -18,7 +18,7 @@ static CpsStatus fail_memory(CpsError *err) {
 
 static char *copy_text(const char *text) { return strdup(text ? text : ""); }
 
-/* stages in terms of steps; a laid start is a step before the first stage */
+/* stages in terms of steps; a static start is a step before the first stage */
 static bool copy_stages(CpsResults *results, const CpsScene *scene) {
     if (scene->stage_count == 0) return true;
     results->stage = calloc((size_t)scene->stage_count, sizeof *results->stage);

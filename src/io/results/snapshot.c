@@ -45,7 +45,7 @@ static unsigned char shown_state(const CpsLineView *view, size_t j) {
     const unsigned char state = cpsi_node_state(view, (int)j);
     if (state == CPS_NODE_STATE_FREE)
         for (size_t c = j; c < (size_t)view->contacts * n; c += n) {
-            const double *f = view->friction + 3 * c;
+            const double *f = view->friction_force + 3 * c;
             if (f[0] != 0 || f[1] != 0 || f[2] != 0) return CPSI_SHAPE_IN_AIR;
         }
     return state;

@@ -25,7 +25,7 @@ static const Column COLUMN[] = {
     {"total", "J", ROW(report.total)},
     {"elastic", "J", ROW(report.elastic)},
     {"potential", "J", ROW(report.potential)},
-    {"friction", "J", ROW(report.friction)},
+    {"friction_energy", "J", ROW(report.friction_energy)},
     {"bending", "J", ROW(report.bending)},
     {"contact", "J", ROW(report.contact)},
     {"relaxed", "J", ROW(report.relaxed)},
@@ -75,14 +75,15 @@ static void write_first_order(const CpsStudyFiles *files, FILE *out) {
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     const CpsFirstOrderView view = cps_first_order_view(files->first_order);
     fputs(
-        "arc_length,reference.x,reference.y,reference.z,P2.1.x,P2.1.y,P2.1.z,u.x,u.y,u.z,friction."
-        "x,friction.y,friction.z,reaction,strain,tension.x,tension.y,tension.z,P2.1.tension\n"
+        "arc_length,reference.x,reference.y,reference.z,P2.1.x,P2.1.y,P2.1.z,u.x,u.y,u.z,friction_"
+        "force.x,friction_force.y,friction_force.z,reaction,strain,tension.x,tension.y,tension.z,"
+        "P2.1.tension\n"
         "m,m,m,m,m,m,m,m,m,m,N,N,N,N,-,N,N,N,N\n",
         out);
     for (int j = 0; j <= step.elements; ++j) {
         const size_t k = 3 * (size_t)j;
         const double *const vector[] = {step.reference + k, step.position + k,
-                                        view.displacement + k, view.friction + k};
+                                        view.displacement + k, view.friction_force + k};
         cpsi_write_csv_number(out, view.arc_length[j]);
         for (size_t v = 0; v < sizeof vector / sizeof *vector; ++v)
             for (int x = 0; x < 3; ++x) write_number(out, vector[v][x]);

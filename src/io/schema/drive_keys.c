@@ -7,16 +7,20 @@
 
 /* ---- paths ---- */
 
+#define MOST_ANGLE 57240 /* degrees: 159 turns */
+#define ANGLE      "through which it goes, counterclockwise"
+
 static const CpsiKey PATH_ARC_KEYS[] = {
-    {"center", REQUIRED, POINT(PathArc, center, 2), ANY, .unit = "m",
-     .help = "middle of the circle"},
-    {"turn", REQUIRED, NUMBER(PathArc, turn), -1000, 1000, false, .unit = "rad",
-     .help = "angle, counterclockwise"},
+    {"centre", REQUIRED, POINT(PathArc, centre, 2), ANY, .unit = "m", .formerly = "center",
+     .help = "of the circle"},
+    {"angle", REQUIRED, NUMBER(PathArc, angle), -MOST_ANGLE, MOST_ANGLE, false, .unit = "degrees",
+     .formerly = "turn", .instead = "in degrees, not in radians", .help = ANGLE},
 };
 static const CpsiMapping PATH_ARC = {"arc", "path_arc", KEYS(PATH_ARC_KEYS), INTO(PathArc)};
 
 static const CpsiKey PATH_KEYS[] = {
-    {"arc", REQUIRED, MAPPING(Path, arc), .inside = &PATH_ARC, .help = "{center: .., turn: ..}"},
+    {"arc", REQUIRED, MAPPING(Path, arc), .inside = &PATH_ARC,
+     .help = "an arc of a circle, as in {centre: [0, 0], angle: 90}"},
 };
 static const CpsiMapping PATH = {"path", KEYS(PATH_KEYS), INTO(Path)};
 
@@ -57,13 +61,19 @@ static const CpsiMapping SYSTEM = {"system", KEYS(SYSTEM_KEYS), INTO(System),
 /* ---- bodies ---- */
 
 /* The keys of every patch; only a point may do without friction and load. */
-#define PLACE_AND_LOAD(need)                                                                         \
-    {"position", OPTIONAL,    POINT(Patch, patch.position, 2),                                       \
-     ANY,        .unit = "m", .help = "[x, y] of the patch in body axes; [0, 0] unless given"},      \
-        {"angle", OPTIONAL,      NUMBER(Patch, patch.angle),                                         \
-         ANY,     .unit = "rad", .help = "by which it is turned, counterclockwise; 0 unless given"}, \
-        {"friction", need, NUMBER(Patch, patch.friction), NOT_NEGATIVE, .help = "coefficient"}, {    \
-        "load", need, NUMBER(Patch, patch.load), NOT_NEGATIVE, .unit = "N", .help = "normal force"   \
+#define PLACE_AND_LOAD(need)                                                                       \
+    {"position", OPTIONAL,    POINT(Patch, patch.position, 2),                                     \
+     ANY,        .unit = "m", .help = "[x, y] of the patch in body axes; [0, 0] unless given"},    \
+        {"orientation",                                                                            \
+         OPTIONAL,                                                                                 \
+         NUMBER(Patch, orientation),                                                               \
+         ANY,                                                                                      \
+         .unit = "degrees",                                                                        \
+         .formerly = "angle",                                                                      \
+         .instead = "in degrees, not in radians",                                                  \
+         .help = "angle by which it is turned, counterclockwise; 0 unless given"},                 \
+        {"friction", need, NUMBER(Patch, patch.friction), NOT_NEGATIVE, .help = "coefficient"}, {  \
+        "load", need, NUMBER(Patch, patch.load), NOT_NEGATIVE, .unit = "N", .help = "normal force" \
     }
 #define TILT "slope of the pressure, mean x (1 + tilt . (r - centroid)); 0 unless given"
 
@@ -174,8 +184,11 @@ static const CpsiMapping PUSH = {
             "\"maxProperties\": 3}, {\"required\": [\"twist\"], \"maxProperties\": 1}]"};
 
 static const CpsiKey TOW_KEYS[] = {
-    {"pose", OPTIONAL, POINT(Tow, start.pose, 3), ANY, .unit = "m and rad",
-     .help = "[x, y, angle] where it starts; 0 unless given"},
+    {"position", OPTIONAL, POINT(Tow, position, 2), ANY, .unit = "m", .formerly = "pose",
+     .instead = "[x, y], and 'orientation', in degrees",
+     .help = "[x, y] of the body where it starts; [0, 0] unless given"},
+    {"orientation", OPTIONAL, NUMBER(Tow, orientation), ANY, .unit = "degrees",
+     .help = "angle by which the body is turned there, counterclockwise; 0 unless given"},
     {"hitch", OPTIONAL, POINT(Tow, start.hitch, 2), ANY, .unit = "m",
      .help = "[x, y] in body axes; 0 unless given"},
     {"rope", OPTIONAL, NUMBER(Tow, start.rope), NOT_NEGATIVE, .unit = "m",
@@ -213,7 +226,8 @@ static const CpsiMapping VEHICLE = {"vehicle", KEYS(VEHICLE_KEYS), INTO(Body)};
 /* ---- planimeters ---- */
 
 static const CpsiKey CIRCLE_KEYS[] = {
-    {"center", REQUIRED, POINT(Circle, center, 2), ANY, .unit = "m", .help = "of the circle"},
+    {"centre", REQUIRED, POINT(Circle, centre, 2), ANY, .unit = "m", .formerly = "center",
+     .help = "of the circle"},
     {"radius", REQUIRED, NUMBER(Circle, radius), POSITIVE, .unit = "m", .help = "of the circle"},
     {"points", REQUIRED, INTEGER(Circle, points), 3, CPSI_DRIVE_MOST_STEPS, false,
      .help = "corners on it"},
@@ -263,11 +277,12 @@ static const CpsiKey STRAIGHT_KEYS[] = {
 static const CpsiMapping STRAIGHT = {"straight", KEYS(STRAIGHT_KEYS), INTO(RopeStraight)};
 
 static const CpsiKey ARC_KEYS[] = {
-    {"center", REQUIRED, POINT(RopeArc, center, 2), ANY, .unit = "m", .help = "of the circle"},
-    {"radius", REQUIRED, NUMBER(RopeArc, radius), POSITIVE, .unit = "m", .help = "of the circle"},
-    {"from", REQUIRED, NUMBER(RopeArc, from), ANY, .unit = "rad", .help = "angle of the first end"},
-    {"turn", REQUIRED, NUMBER(RopeArc, turn), ANY, .unit = "rad",
-     .help = "angle to the last end, counterclockwise"},
+    {"from", REQUIRED, POINT(RopeArc, from, 2), ANY, .unit = "m", .formerly = "radius",
+     .instead = "the point [x, y] where it begins", .help = "where end A is"},
+    {"centre", REQUIRED, POINT(RopeArc, centre, 2), ANY, .unit = "m", .formerly = "center",
+     .help = "of the circle"},
+    {"angle", REQUIRED, NUMBER(RopeArc, angle), ANY, .unit = "degrees", .formerly = "turn",
+     .instead = "in degrees, not in radians", .help = ANGLE},
 };
 static const CpsiMapping ARC = {"arc", KEYS(ARC_KEYS), INTO(RopeArc)};
 
@@ -275,8 +290,8 @@ static const CpsiKey SHAPE_KEYS[] = {
     {"straight", ONE_OF, MAPPING(RopeShape, straight), .inside = &STRAIGHT,
      .help = "a straight rope"},
     {"arc", ONE_OF, MAPPING(RopeShape, arc), .inside = &ARC, .help = "an arc of a circle"},
-    {"points", ONE_OF, ROWS(RopeShape, points, 2), 2, CPS_SET_MAX_ITEMS, false, .unit = "m",
-     .help = "[[x, y], ..] joined by straight pieces"},
+    {"polyline", ONE_OF, ROWS(RopeShape, polyline, 2), 2, CPS_SET_MAX_ITEMS, false, .unit = "m",
+     .formerly = "points", .help = "straight pieces between these points"},
 };
 static const CpsiMapping SHAPE = {"shape", KEYS(SHAPE_KEYS), INTO(RopeShape)};
 
@@ -292,7 +307,7 @@ static const CpsiMapping ENDS = {"ends", KEYS(ENDS_KEYS)};
 
 static const CpsiKey ROPE_KEYS[] = {
     {"shape", REQUIRED, MAPPING(Rope, shape), .inside = &SHAPE,
-     .help = "{straight: ..}, {arc: ..} or {points: ..}"},
+     .help = "{straight: ..}, {arc: ..} or {polyline: ..}"},
     {"elements", OPTIONAL, INTEGER(Rope, elements), 1, CPSI_DRIVE_MOST_ELEMENTS, false,
      .help = "straight ones, of equal length; 100 unless given"},
     {"friction", REQUIRED, NUMBER(Rope, friction), POSITIVE, .help = "coefficient"},

@@ -18,7 +18,7 @@ enum {
 /* A path: rows of numbers, or an arc. */
 typedef struct CpsiPathArcValues {
     const CpsiYaml *node;
-    double center[2], turn;
+    double centre[2], angle; /* angle [degrees] */
 } CpsiPathArcValues;
 
 typedef struct CpsiPathValues {
@@ -47,8 +47,9 @@ typedef struct CpsiSystemValues {
 
 typedef struct CpsiPatchValues {
     const CpsiYaml *node;
-    CpsPatch patch; /* its numbers; friction and load NaN: not given */
-    int locked;     /* brake: 0: the word is given */
+    CpsPatch patch;     /* its numbers; friction and load NaN: not given */
+    double orientation; /* [degrees] */
+    int locked;         /* brake: 0: the word is given */
     const CpsiYaml *law;
     CpsiRows corners;
 } CpsiPatchValues;
@@ -60,8 +61,9 @@ typedef struct CpsiPushValues { /* NaN: not given */
 
 typedef struct CpsiTowValues {
     const CpsiYaml *node;
-    CpsTow start;  /* without its end */
-    double end[2]; /* NaN: not given */
+    CpsTow start;                    /* without its pose and end */
+    double position[2], orientation; /* orientation [degrees] */
+    double end[2];                   /* NaN: not given */
     CpsiPathValues path;
     int steps;
 } CpsiTowValues;
@@ -77,7 +79,7 @@ typedef struct CpsiBodyValues {
 
 typedef struct CpsiCircleValues {
     const CpsiYaml *node;
-    double center[2], radius;
+    double centre[2], radius;
     int points;
 } CpsiCircleValues;
 
@@ -102,14 +104,14 @@ typedef struct CpsiRopeStraightValues {
 
 typedef struct CpsiRopeArcValues {
     const CpsiYaml *node;
-    double center[2], radius, from, turn;
+    double from[2], centre[2], angle; /* angle [degrees] */
 } CpsiRopeArcValues;
 
 typedef struct CpsiRopeShapeValues {
     const CpsiYaml *node;
     CpsiRopeStraightValues straight;
     CpsiRopeArcValues arc;
-    CpsiRows points;
+    CpsiRows polyline;
 } CpsiRopeShapeValues;
 
 /* What an end of a rope does. */

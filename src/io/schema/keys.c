@@ -33,6 +33,25 @@ const CpsiKey *cpsi_key_find(const CpsiMapping *mapping, const char *written) {
     return NULL;
 }
 
+const char *cpsi_key_renamed_word(const CpsiKey *key, const char *written, int *length) {
+    for (const CpsiKey *form = key; form; form = form->other) {
+        int number = cpsi_key_word(form->former_words, written);
+        if (number < 0 || cpsi_key_word(form->words, written) >= 0) continue;
+        const char *now = form->words;
+        for (; number > 0; number--) now += strcspn(now, " ") + 1;
+        *length = (int)strcspn(now, " ");
+        return now;
+    }
+    return NULL;
+}
+
+/* The row of a key that earlier versions called so; NULL: there is none. */
+static const CpsiKey *find_former(const CpsiMapping *mapping, const char *written) {
+    for (int i = 0; i < mapping->count; i++)
+        if (cpsi_key_word(mapping->key[i].formerly, written) >= 0) return &mapping->key[i];
+    return NULL;
+}
+
 /* ---- what a row accepts ---- */
 
 /* A text under construction: what does not fit is left out. */
@@ -188,6 +207,11 @@ CpsStatus cpsi_key_unknown(const char *file, const CpsiYaml *node, const char *w
     CpsSuggestion suggestion = {.word = node->key};
     char names[400], start[160];
     Text list = {.text = names, .size = sizeof names};
+    const CpsiKey *renamed = find_former(mapping, node->key);
+    if (renamed)
+        return cpsi_fail_at(err, CPS_ERR_INPUT, file, node->line, node->column,
+                            "%s: '%s' is now '%s'%s%s", what, node->key, renamed->name,
+                            renamed->instead ? ", " : "", renamed->instead ? renamed->instead : "");
     for (int i = 0; i < mapping->count; i++)
         if (!key[i].owner) cps_suggest(&suggestion, key[i].name);
     if (mapping->word)

@@ -67,6 +67,11 @@ typedef struct CpsiKey {
     const char *fallback;             /* default as JSON; NULL: none */
     const char *help;
 
+    /* What earlier versions called it, so that their files are refused by name; NULL: nothing. */
+    const char *formerly;     /* the key, under one name or several, separated by spaces .. */
+    const char *instead;      /* .. and what to write besides its new name; NULL: nothing else */
+    const char *former_words; /* `words` as they were, in their order */
+
     /* A name written as ITS.OWN: owner "lines" for the name of one of the lines, a dot and one of
      * `after`. Values are items of a CpsiList at the offset. NULL: the name as it is. */
     const char *owner;
@@ -122,11 +127,16 @@ const CpsiKey *cpsi_key_find(const CpsiMapping *mapping, const char *written);
 /* The number of a word in a row's words, from 0; -1: none of them. */
 int cpsi_key_word(const char *words, const char *written);
 
+/* Where a word of the row, in any form of its value, was written so by earlier versions: its name
+ * now, of *length bytes; NULL: it never was. */
+const char *cpsi_key_renamed_word(const CpsiKey *key, const char *written, int *length);
+
 /* What a row accepts, for messages: "a number in m, greater than 0".
  * text   (size) written, always terminated; returns text */
 const char *cpsi_key_expected(const CpsiKey *key, char *text, size_t size);
 
-/* WHAT: unknown key 'lenght'; did you mean 'length'?  Returns CPS_ERR_INPUT. */
+/* WHAT: unknown key 'lenght'; did you mean 'length'?  Or: 'fixed' is now 'held'. Returns
+ * CPS_ERR_INPUT. */
 CpsStatus cpsi_key_unknown(const char *file, const CpsiYaml *node, const char *what,
                            const CpsiMapping *mapping, CpsError *err);
 /* WHAT: found '3', expected ..  Returns CPS_ERR_INPUT. */

@@ -27,7 +27,7 @@ static const CpsiKey CYLINDER_KEYS[] = {
 static const CpsiMapping CYLINDER = {"cylinder", KEYS(CYLINDER_KEYS)};
 
 static const CpsiKey SPHERE_KEYS[] = {
-    {"center", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
+    {"centre", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m", .formerly = "center",
      .fallback = "[0, 0, 0]", .help = "centre of the ball"},
     {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
      .help = "what the ball turns about, through its centre; of any length but zero"},
@@ -82,7 +82,7 @@ static const CpsiMapping STRAIGHT = {"straight", KEYS(STRAIGHT_KEYS), INTO(Strai
 
 static const CpsiKey ARC_KEYS[] = {
     {"from", REQUIRED, POINT(Arc, from, 3), ANY, .unit = "m", .help = "where end A starts"},
-    {"center", REQUIRED, POINT(Arc, center, 3), ANY, .unit = "m",
+    {"centre", REQUIRED, POINT(Arc, centre, 3), ANY, .unit = "m", .formerly = "center",
      .help = "a point on the circle's axis"},
     {"axis", OPTIONAL, POINT(Arc, axis, 3), ANY, .fallback = "[0, 0, 1]",
      .help = "direction of the axis; the line turns about it by the right-hand rule"},
@@ -105,7 +105,7 @@ static const CpsiKey START_KEYS[] = {
 static const CpsiMapping START = {"start", KEYS(START_KEYS), INTO(Start)};
 
 static const CpsiKey END_KEYS[] = {
-    {"fixed", ONE_OF, POINT(End, value, 3), ANY, .unit = "m",
+    {"held", ONE_OF, POINT(End, value, 3), ANY, .unit = "m", .formerly = "fixed",
      .help = "held at this position, which must be that of the start shape"},
     {"force", ONE_OF, POINT(End, value, 3), ANY, .unit = "N",
      .help = "free, pulled with this force"},
@@ -113,10 +113,10 @@ static const CpsiKey END_KEYS[] = {
 static const CpsiMapping END = {"end", KEYS(END_KEYS), INTO(End), WHICH(End, word)};
 
 static const CpsiKey ENDS_KEYS[] = {
-    {"A", REQUIRED, WORD(Line, end[0].word), .words = "fixed free",
+    {"A", REQUIRED, WORD(Line, end[0].word), .words = "held free", .former_words = "fixed free",
      .other = &(const CpsiKey){.type = MAPPING(Line, end[0]), .inside = &END},
-     .help = "the first end; fixed: where the start puts it; free: without force"},
-    {"B", REQUIRED, WORD(Line, end[1].word), .words = "fixed free",
+     .help = "the first end; held: where the start puts it; free: without force"},
+    {"B", REQUIRED, WORD(Line, end[1].word), .words = "held free", .former_words = "fixed free",
      .other = &(const CpsiKey){.type = MAPPING(Line, end[1]), .inside = &END},
      .help = "the last end, likewise"},
 };
@@ -145,11 +145,12 @@ static const CpsiKey LINE_KEYS[] = {
     {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unit = "N",
      .help = "axial stiffness EA; .inf for an inextensible line"},
     {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
-     .help = "stretches that rub otherwise, in order from A to B, without overlap"},
-    {"start", REQUIRED, WORD(Line, start.word), .words = "laid",
+     .help = "intervals of arc length with another friction, in order from A to B, without "
+             "overlap"},
+    {"start", REQUIRED, WORD(Line, start.word), .words = "static", .former_words = "laid",
      .other = &(const CpsiKey){.type = MAPPING(Line, start), .inside = &START},
      .help = "shape the line starts from, as long as the line (an elastic one may be "
-             "stretched); laid: the equilibrium without friction, found first"},
+             "stretched); static: the equilibrium without friction, found first"},
     {"ends", REQUIRED, AROUND, .inside = &ENDS, .help = "what holds or pulls the two ends"},
 };
 
@@ -228,15 +229,15 @@ static const CpsiKey SCENE_KEYS[] = {
              "nearest"},
     {"lines", REQUIRED, NAMED(Scene, lines), .inside = &LINE,
      .help = "the lines by name; they do not touch one another"},
-    {"friction", OPTIONAL, WORD(Scene, scene.friction), .words = "frozen consistent",
-     .fallback = "\"consistent\"",
+    {"friction_policy", OPTIONAL, WORD(Scene, scene.friction_policy), .words = "frozen consistent",
+     .formerly = "friction", .fallback = "\"consistent\"",
      .help = "frozen: the friction bound of a step is taken from the configuration the step "
              "starts from; consistent: it is mu times the reaction in the configuration "
              "reached, for nodes that land in the step as well"},
-    {"contact", OPTIONAL, WORD(Scene, scene.contact), .words = "gained strict",
-     .fallback = "\"gained\"",
-     .help = "gained: no node ends a step below the obstacle; strict: only nodes that touch it "
-             "when the step starts are kept out"},
+    {"contact_policy", OPTIONAL, WORD(Scene, scene.contact_policy), .words = "reached reference",
+     .formerly = "contact", .former_words = "gained strict", .fallback = "\"reached\"",
+     .help = "reached: no node ends a step below the obstacle; reference: only nodes that touch "
+             "it in the configuration the step starts from are kept out"},
     {"solver", OPTIONAL, AROUND, .inside = &SOLVER, .fallback = "{}",
      .help = "how steps are solved"},
     {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &STAGE, .fallback = "[]",

@@ -34,20 +34,20 @@ typedef struct CpsiStraightValues {
 
 typedef struct CpsiArcValues {
     const CpsiYaml *node;
-    double from[3], center[3], axis[3];
+    double from[3], centre[3], axis[3];
 } CpsiArcValues;
 
 typedef struct CpsiStartValues {
-    const CpsiYaml *node; /* NULL: laid */
-    int word;             /* that of `laid` */
+    const CpsiYaml *node; /* NULL: a word */
+    int word;             /* that of `static` */
     CpsiStraightValues straight;
     CpsiRows polyline;
     CpsiArcValues arc;
     const char *nodes; /* name of a file */
 } CpsiStartValues;
 
-/* An end of a line: `fixed` or `free` in a word, or with its place or force. */
-typedef enum CpsiEndWord { CPSI_END_FIXED, CPSI_END_FREE } CpsiEndWord;
+/* An end of a line: `held` or `free` in a word, or with its place or force. */
+typedef enum CpsiEndWord { CPSI_END_HELD, CPSI_END_FREE } CpsiEndWord;
 
 typedef struct CpsiEndValues {
     const CpsiYaml *node; /* NULL: a word */
