@@ -169,30 +169,15 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
             ds[1 + a] = du[a];
             dz[1 + a] = q[1 + a] - g * du[a] + pull * w[1 + a];
         }
-        double point[3], scaled_ds[3], scaled_dz[3];
-        cpsi_soc_apply(point, w, z, 1, 3);
-        cpsi_soc_apply(scaled_dz, w, dz, 1, 3);
-        cpsi_soc_apply(scaled_ds, w, ds, -1, 3);
-        for (int a = 0; a < 3; a++) scaled_ds[a] *= g;
-        const double step_s = cpsi_soc_inverse_step(point, scaled_ds, 3),
-                     step_z = cpsi_soc_inverse_step(point, scaled_dz, 3);
-        sums->inverse_step = cpsi_max_nan(sums->inverse_step, cpsi_max_nan(step_s, step_z));
-        if (predictor) cpsi_soc_second_order(disc->q[k], w, point, scaled_ds, scaled_dz, 3);
+        const double step = cpsi_soc_step(disc->q[k], predictor, w, g, z, ds, dz, 3);
+        sums->inverse_step = cpsi_max_nan(sums->inverse_step, step);
     }
 }
 
-/* q with s o z -> target e, less the second-order term that stands in q, or without it. */
 static void aim(CpsiProgram *base, double target, bool second_order) {
-    CpsiChainProgram *program = cpsi_chain(base);
-    CpsiFrictionDisc *disc = &program->disc;
-    for (int i = 0; i < disc->count; i++) {
-        const double *s = disc->s[i], *z = disc->z[i],
-                     inverse = cpsi_soc_aim(target, s, z) / cpsi_soc_det(s, 3);
-        double *q = disc->q[i];
-        const double keep = second_order ? 1 : 0;
-        q[0] = -z[0] + inverse * s[0] - keep * q[0];
-        for (int a = 1; a < 3; a++) q[a] = -z[a] - inverse * s[a] - keep * q[a];
-    }
+    CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
+    for (int k = 0; k < disc->count; k++)
+        cpsi_soc_correct(disc->q[k], disc->s[k], disc->z[k], target, second_order, 3);
 }
 
 static void correct(CpsiProgram *base, double target) { aim(base, target, true); }

@@ -163,31 +163,16 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
                                                    : 2 * g * along * seg.inverse_d;
         dz[0] = (q[0] - g * (1 + 2 * seg.omega) * rho) * seg.inverse_d + w[0] * pull;
         ds[0] = c * dz[0] + rho;
-        /* step to the boundary in the scaled frame, and sums */
-        double point[4], scaled_ds[4], scaled_dz[4];
-        cpsi_soc_apply(point, w, z, 1, 4);
-        cpsi_soc_apply(scaled_dz, w, dz, 1, 4);
-        cpsi_soc_apply(scaled_ds, w, ds, -1, 4);
-        for (int a = 0; a < 4; a++) scaled_ds[a] *= g;
-        const double step_s = cpsi_soc_inverse_step(point, scaled_ds, 4),
-                     step_z = cpsi_soc_inverse_step(point, scaled_dz, 4);
-        sums->inverse_step = cpsi_max_nan(sums->inverse_step, cpsi_max_nan(step_s, step_z));
-        if (predictor) cpsi_soc_second_order(st->q[i], w, point, scaled_ds, scaled_dz, 4);
+        const double step = cpsi_soc_step(st->q[i], predictor, w, g, z, ds, dz, 4);
+        sums->inverse_step = cpsi_max_nan(sums->inverse_step, step);
     }
 }
 
-/* q with s o z -> target e, less the second-order term that stands in q, or without it. */
 static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiSegment *st = &program->segment;
-    for (int i = 1; i < program->n; i++) {
-        const double *s = st->s[i], *z = st->z[i],
-                     inverse = cpsi_soc_aim(target, s, z) / cpsi_soc_det(s, 4);
-        double *q = st->q[i];
-        const double keep = second_order ? 1 : 0;
-        q[0] = -z[0] + inverse * s[0] - keep * q[0];
-        for (int a = 1; a < 4; a++) q[a] = -z[a] - inverse * s[a] - keep * q[a];
-    }
+    for (int i = 1; i < program->n; i++)
+        cpsi_soc_correct(st->q[i], st->s[i], st->z[i], target, second_order, 4);
 }
 
 static void correct(CpsiProgram *base, double target) { aim(base, target, true); }

@@ -25,6 +25,9 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
+
+#include "base/larger.h"
 
 #define CPSI_SOC_MAX 4
 
@@ -131,6 +134,31 @@ static inline void cpsi_soc_second_order(double *out, const double *w, const dou
     cpsi_soc_product(product, ds, dz, n);
     cpsi_soc_divide(scaled, x, product, n);
     cpsi_soc_apply(out, w, scaled, -1, n);
+}
+
+/* The step of a pair along (ds, dz): returns the largest 1/alpha of its two boundaries, and for a
+ * predictor writes its second-order term into q. */
+static inline double cpsi_soc_step(double *q, bool predictor, const double *w, double g,
+                                   const double *z, const double *ds, const double *dz,
+                                   const int n) {
+    double point[CPSI_SOC_MAX], scaled_ds[CPSI_SOC_MAX], scaled_dz[CPSI_SOC_MAX];
+    cpsi_soc_apply(point, w, z, 1, n);
+    cpsi_soc_apply(scaled_dz, w, dz, 1, n);
+    cpsi_soc_apply(scaled_ds, w, ds, -1, n);
+    for (int a = 0; a < n; a++) scaled_ds[a] *= g;
+    const double step_s = cpsi_soc_inverse_step(point, scaled_ds, n),
+                 step_z = cpsi_soc_inverse_step(point, scaled_dz, n);
+    if (predictor) cpsi_soc_second_order(q, w, point, scaled_ds, scaled_dz, n);
+    return cpsi_max_nan(step_s, step_z);
+}
+
+/* q with s o z -> target e, less the second-order term that q contains, or without it. */
+static inline void cpsi_soc_correct(double *q, const double *s, const double *z, double target,
+                                    bool second_order, const int n) {
+    const double inverse = cpsi_soc_aim(target, s, z) / cpsi_soc_det(s, n),
+                 keep = second_order ? 1 : 0;
+    q[0] = -z[0] + inverse * s[0] - keep * q[0];
+    for (int a = 1; a < n; a++) q[a] = -z[a] - inverse * s[a] - keep * q[a];
 }
 
 #endif

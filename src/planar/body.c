@@ -14,16 +14,6 @@ static const double TWO_PI = 2 * CPSI_PI;
  * sides. */
 static const double STRAIGHT = 1e-12;
 
-CpsStatus cpsi_planar_finite(const char *what, int n, const double *a, CpsError *err) {
-    if (!a) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the %s is NULL", what);
-    for (int i = 0; i < n; i++)
-        if (!isfinite(a[i]))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "component %d of the %s is %g, expected a finite number", i + 1, what,
-                             a[i]);
-    return CPS_OK;
-}
-
 /* ---- checks of one patch, under its name: "patch 2" ---- */
 
 /* The tilt of a polygon is checked later, at its corners. */
@@ -285,7 +275,7 @@ CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist
 CpsStatus cps_planar_dissipation(const CpsPlanar *body, const double twist[3], double wrench[3],
                                  double *by_patch, CpsSetAnswer *answer, CpsError *err) {
     if (!body || !answer) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body or answer is NULL");
-    const CpsStatus status = cpsi_planar_finite("twist", 3, twist, err);
+    const CpsStatus status = cpsi_law_check_vector("twist", 3, twist, err);
     return status == CPS_OK
                ? cpsi_planar_dissipation_rate(body, twist, wrench, by_patch, answer, err)
                : status;
@@ -297,7 +287,7 @@ CpsStatus cps_planar_wheel(const CpsPlanar *body, int patch, const double twist[
     if (patch < 0 || patch >= body->count || body->patch[patch].kind != CPS_PATCH_WHEEL)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch %d of %d is not a wheel", patch,
                          body->count);
-    const CpsStatus status = cpsi_planar_finite("twist", 3, twist, err);
+    const CpsStatus status = cpsi_law_check_vector("twist", 3, twist, err);
     if (status != CPS_OK) return status;
     double velocity[2];
     cpsi_patch_velocity(&body->patch[patch], twist, velocity);

@@ -76,7 +76,7 @@ CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double
     if (!(tolerance >= 0) || !isfinite(tolerance))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tolerance is %g, expected a number >= 0",
                          tolerance);
-    CpsStatus status = cpsi_planar_finite("twist", 3, twist, err);
+    CpsStatus status = cpsi_law_check_vector("twist", 3, twist, err);
     CpsPlanarBounds found = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     for (int k = 0; k < body->count && status == CPS_OK; k++) {
         const CpsiPatch *patch = &body->patch[k];

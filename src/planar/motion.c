@@ -101,8 +101,8 @@ static CpsStatus set_drive(Search *self, int rows, const double *map, const doub
                            CpsError *err) {
     if (rows < 1 || rows > 3)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d rows are driven, expected from 1 to 3", rows);
-    CpsStatus status = cpsi_planar_finite("map", 3 * rows, map, err);
-    if (status == CPS_OK) status = cpsi_planar_finite("driving velocity", rows, velocity, err);
+    CpsStatus status = cpsi_law_check_vector("map", 3 * rows, map, err);
+    if (status == CPS_OK) status = cpsi_law_check_vector("driving velocity", rows, velocity, err);
     if (status != CPS_OK) return status;
     self->rows = rows;
     for (int k = 0; k < rows; k++) {

@@ -4,6 +4,7 @@
 #define CAPSTAN_SRC_PLANAR_PLANAR_H
 
 #include "capstan/planar.h"
+#include "law/law.h"
 
 /* A checked patch. For polygons the position is the centroid, and corners are in body axes relative
  * to it. */
@@ -55,9 +56,6 @@ static inline void cpsi_patch_velocity(const CpsiPatch *patch, const double twis
 static inline bool cpsi_patch_is_area(const CpsiPatch *patch) {
     return patch->kind != CPS_PATCH_POINT && patch->kind != CPS_PATCH_WHEEL;
 }
-
-/* CPS_OK, or CPS_ERR_ARGUMENT: "component 2 of the twist is nan, expected a finite number". */
-CpsStatus cpsi_planar_finite(const char *what, int n, const double *a, CpsError *err);
 
 /* phi and a wrench of the law at a twist. Unchecked. */
 CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist[3],

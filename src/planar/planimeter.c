@@ -26,7 +26,7 @@ static CpsStatus check(const CpsPlanimeter *p, int count, const double *point, i
                        CpsError *err) {
     const double number[7] = {p->pole[0], p->pole[1],  p->pole_arm, p->tracer_arm,
                               p->wheel,   p->friction, p->load};
-    CpsStatus status = cpsi_planar_finite("planimeter", 7, number, err);
+    CpsStatus status = cpsi_law_check_vector("planimeter", 7, number, err);
     if (status != CPS_OK) return status;
     if (!(p->pole_arm > 0) || !(p->tracer_arm > 0))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,

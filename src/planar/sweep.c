@@ -23,9 +23,9 @@ CpsStatus cps_sweep_step(const CpsLaw *law, CpsSweep *sweep, const double *end, 
     if (n > MOST)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law has %d components, expected at most %d", n,
                          MOST);
-    CpsStatus status = cpsi_planar_finite("end", n, end, err);
-    if (status == CPS_OK) status = cpsi_planar_finite("position", n, sweep->position, err);
-    if (status == CPS_OK) status = cpsi_planar_finite("last end", n, sweep->end, err);
+    CpsStatus status = cpsi_law_check_vector("end", n, end, err);
+    if (status == CPS_OK) status = cpsi_law_check_vector("position", n, sweep->position, err);
+    if (status == CPS_OK) status = cpsi_law_check_vector("last end", n, sweep->end, err);
     if (status != CPS_OK) return status;
     const double k = sweep->stiffness;
     if (!(k > 0) || !isfinite(k))

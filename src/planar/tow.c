@@ -63,8 +63,8 @@ static CpsStatus check(const CpsTow *tow, const double target[2], CpsError *err)
     const double state[10] = {tow->pose[0],  tow->pose[1],   tow->pose[2], tow->hitch[0],
                               tow->hitch[1], tow->rope,      tow->end[0],  tow->end[1],
                               tow->work,     tow->dissipated};
-    CpsStatus status = cpsi_planar_finite("tow", 10, state, err);
-    if (status == CPS_OK) status = cpsi_planar_finite("target", 2, target, err);
+    CpsStatus status = cpsi_law_check_vector("tow", 10, state, err);
+    if (status == CPS_OK) status = cpsi_law_check_vector("target", 2, target, err);
     if (status == CPS_OK && !(tow->rope >= 0))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the rope is %g m long, expected at least 0",
                          tow->rope);
