@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is asked of the history of a run (see history.h). */
+/* Queries of the history of a run (see history.h). */
 #include "io/history.h"
 
 enum {
-    SHORT_HISTORY = 14, /* up to here every step is pictured */
+    SHORT_HISTORY = 14, /* every step of a history up to this length is drawn */
     EVEN_SELECTION = 12
 };
 

@@ -18,7 +18,7 @@
 static const char MARKER[] = ".capstan", MARKER_PART[] = ".capstan.part", NOTES[] = ".capstan.run";
 static const char FIRST_LINE[] = "capstan directory 1\n";
 
-/* far more than the files of the longest history take */
+/* far more than the list of the longest history */
 enum { MARKER_MOST = 256 << 20 };
 
 static CpsStatus no_memory(CpsError *err) {
@@ -55,7 +55,7 @@ bool cpsi_marker_knows(const char *name) {
     return ends_with(name, ".svg") || ends_with(name, ".vtp");
 }
 
-/* where `name` is, or would be */
+/* the position of `name`, or where it would be inserted */
 static size_t place_of(const CpsiNames *names, const char *name) {
     size_t low = 0, high = names->count;
     while (low < high) {
@@ -111,7 +111,7 @@ void cpsi_marker_free(CpsiMarker *marker) {
     cpsi_names_free(&marker->awaited);
 }
 
-/* what is there -------------------------------------------------------------------------------- */
+/* reading -------------------------------------------------------------------------------------- */
 
 /* A listing of the directory by a descriptor of its own; NULL after a failure. */
 static DIR *list_folder(int folder) {
@@ -156,8 +156,8 @@ const char *cpsi_marker_missing(const CpsiMarker *marker, int folder) {
     return NULL;
 }
 
-/* A regular file of the directory itself that begins with the first line; NULL where there is none,
- * or *status says why. */
+/* A regular file of the directory itself that begins with the first line. NULL where there is none;
+ * after a failure *status gives the reason. */
 static FILE *open_list(int folder, const char *path, const char *name, CpsStatus *status,
                        CpsError *err) {
     char line[sizeof FIRST_LINE];
@@ -180,7 +180,7 @@ static FILE *open_list(int folder, const char *path, const char *name, CpsStatus
     return NULL;
 }
 
-/* The next letter and name; false at the end. A line of no use gives the letter 0. */
+/* The next letter and name; false at the end. A line without meaning gives the letter 0. */
 static bool next_line(FILE *list, char *letter, char name[CPSI_NAME_SIZE]) {
     char line[CPSI_NAME_SIZE + 8];
     if (!fgets(line, sizeof line, list)) return false;
@@ -215,7 +215,7 @@ CpsStatus cpsi_marker_read(int folder, const char *path, CpsiMarker *out, CpsErr
 
 CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *path, bool sync,
                             CpsError *err) {
-    unlinkat(folder, MARKER_PART, 0); /* of a killed run */
+    unlinkat(folder, MARKER_PART, 0); /* left by a killed run */
     const int fd =
         openat(folder, MARKER_PART, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     FILE *list = fd >= 0 ? fdopen(fd, "w") : NULL;
@@ -249,7 +249,7 @@ CpsStatus cpsi_marker_begin(int folder, const char *path, int *notes, CpsError *
             unlinkat(folder, part, 0);
         }
     if (list) fclose(list);
-    /* an empty one is of a run that was killed in its first moment */
+    /* an empty file was left by a run that was killed just after its beginning */
     struct stat about;
     const bool empty = fstatat(folder, NOTES, &about, AT_SYMLINK_NOFOLLOW) == 0 &&
                        S_ISREG(about.st_mode) && about.st_size == 0;

@@ -18,7 +18,7 @@ size_t cpsi_utf8_length(const char *text) {
     if (s[0] < 0xC2 || s[0] > 0xF4) return 0;
     for (size_t i = 1; i < length; ++i)
         if ((s[i] & 0xC0) != 0x80) return 0;
-    /* overlong forms, surrogates and what lies beyond U+10FFFF */
+    /* overlong forms, surrogates and code points beyond U+10FFFF */
     if (s[0] == 0xE0 && s[1] < 0xA0) return 0;
     if (s[0] == 0xED && s[1] > 0x9F) return 0;
     if (s[0] == 0xF0 && s[1] < 0x90) return 0;
@@ -75,7 +75,7 @@ void cpsi_write_json_number(FILE *out, double x) {
     fputs(isfinite(x) ? cpsi_number(buffer, x) : "null", out);
 }
 
-/* one character of XML or CSV text that is not special there */
+/* one character of XML or CSV text without a special meaning there */
 static size_t write_plain(FILE *out, const char *text) {
     const size_t length = cpsi_utf8_length(text);
     if (length == 0 || is_control(text, length))
@@ -132,7 +132,7 @@ void cpsi_write_csv_number(FILE *out, double x) {
     fputs(cpsi_number(buffer, x), out);
 }
 
-/* ---- for other programs ---- */
+/* ---- public functions ---- */
 
 void cps_json_text(FILE *out, const char *text) {
     if (out) cpsi_write_json_string(out, text ? text : "");

@@ -24,7 +24,7 @@ static void make_table(uint32_t table[256]) {
     }
 }
 
-/* Of all bytes of a file. False after an error, which errno tells. */
+/* Checksum and size of a file. False after an error; errno gives the reason. */
 static bool sum_up(int fd, const uint32_t table[256], unsigned char *chunk, uint64_t *bytes,
                    uint32_t *crc) {
     *bytes = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers of files have a decimal point whatever the program's locale. */
+/* Numbers in files have a decimal point whatever the program's locale. */
 #ifndef CAPSTAN_SRC_IO_BASE_NUMBERS_H
 #define CAPSTAN_SRC_IO_BASE_NUMBERS_H
 
@@ -11,7 +11,7 @@ typedef struct CpsiNumbers {
     locale_t plain, before;
 } CpsiNumbers;
 
-/* False: no memory, and nothing has changed. */
+/* Returns false when memory does not suffice; nothing has changed then. */
 bool cpsi_numbers_begin(CpsiNumbers *numbers);
 void cpsi_numbers_end(CpsiNumbers *numbers);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pool: blocks of growing size, each handing out its bytes in turn. */
+/* A pool: blocks of increasing size, each divided among successive requests. */
 #include "io/base/pool.h"
 
 #include <stdalign.h>

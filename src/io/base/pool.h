@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory for many small things of unknown number that are freed together: a parsed file, a
- * scene. */
+/* Memory for many small objects that are freed together: a parsed file, a scene. */
 #ifndef CAPSTAN_SRC_IO_BASE_POOL_H
 #define CAPSTAN_SRC_IO_BASE_POOL_H
 
@@ -10,11 +9,11 @@ typedef struct CpsiPool {
     struct CpsiPoolBlock *newest; /* NULL: empty */
 } CpsiPool;
 
-/* Room for `count` zeroed items of `size` bytes, aligned for any type; NULL when memory or size_t
+/* Memory for `count` zeroed items of `size` bytes, aligned for any type; NULL when memory or size_t
  * does not suffice. */
 void *cpsi_pool_take(CpsiPool *pool, size_t count, size_t size);
 
-/* A copy of n bytes with a NUL behind; NULL as above. */
+/* A copy of n bytes followed by a zero byte; NULL as above. */
 char *cpsi_pool_text(CpsiPool *pool, const char *text, size_t n);
 
 void cpsi_pool_free(CpsiPool *pool);

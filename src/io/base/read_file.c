@@ -17,7 +17,7 @@ static CpsStatus io_error(const char *file, const char *what, CpsError *err) {
     return cpsi_fail_at(err, CPS_ERR_IO, file, 0, 0, "%s", what);
 }
 
-/* Open a regular file; a FIFO must not block us, a device must not be read. `how`: 0 or
+/* Open a regular file. A FIFO must not block the program, a device must not be read. `how`: 0 or
  * O_NOFOLLOW. */
 static CpsStatus open_regular(const char *path, int how, int *fd, CpsError *err) {
     *fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY | how);
@@ -35,7 +35,8 @@ static CpsStatus open_regular(const char *path, int how, int *fd, CpsError *err)
                     err);
 }
 
-/* All bytes of fd and a NUL behind them. The buffer doubles, so a size is never trusted. */
+/* All bytes of fd and a zero byte after them. The buffer is doubled as needed, so that no given
+ * size is trusted. */
 static CpsStatus read_bytes(int fd, const char *file, size_t max_bytes, char **bytes, size_t *size,
                             CpsError *err) {
     size_t room = 4096, used = 0;

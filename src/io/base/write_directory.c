@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Temporary name, write, sync, rename: a set of files that appears whole or not at all (see
- * write_directory.h). The order is that of POSIX fsync(2) and rename(2): data first, then names,
- * then the directory itself. Where files are replaced the one that comes last is removed first, so
- * that its absence tells a set that was replaced in part. */
+/* A set of files that is written completely or not at all: temporary name, write, sync, rename (see
+ * write_directory.h). The order is that of POSIX fsync(2) and rename(2): first the data, then the
+ * names, then the directory itself. Where files are replaced, the last one is removed first, so
+ * that its absence shows a set that was replaced only in part. */
 #define _DEFAULT_SOURCE /* flock */
 
 #include "io/base/write_directory.h"
@@ -21,12 +21,12 @@
 struct CpsiDirectory {
     char *path;
     int fd;
-    bool made;         /* by us: removed again when nothing is committed */
-    bool marked;       /* by us: the same */
-    bool committed;    /* files have begun to take their names */
-    CpsiMarker marker; /* what is there of capstan's */
+    bool made;         /* made by this run: removed again when nothing is committed */
+    bool marked;       /* marked by this run: likewise */
+    bool committed;    /* renaming has begun */
+    CpsiMarker marker; /* capstan's files that are already there */
     int notes;
-    bool late;   /* files are synced at the commit, all of them, and not one by one */
+    bool late;   /* files are synced together at the commit instead of one by one */
     char **name; /* final names, in the order of creation */
     size_t count, capacity;
 };
@@ -43,8 +43,8 @@ static void temporary_name(char out[TEMPORARY_SIZE], const char *name) {
     snprintf(out, TEMPORARY_SIZE, ".%s.part", name);
 }
 
-/* `make`: where it is missing. *out is NULL, and the status CPS_OK, where it is missing and not
- * made. */
+/* `make`: create a directory that is missing. Where it is missing and not created, *out is NULL and
+ * the status CPS_OK. */
 static CpsStatus open_folder(const char *path, bool make, CpsiDirectory **out, CpsError *err) {
     *out = NULL;
     CpsiDirectory *directory = calloc(1, sizeof *directory);
@@ -70,7 +70,7 @@ static CpsStatus open_folder(const char *path, bool make, CpsiDirectory **out, C
         return status;
     }
 
-    /* a file system without locks is accepted, a lock held by another run is not */
+    /* a file system without locks is accepted, a lock of another run is not */
     if (flock(directory->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         directory->made = false;
         cpsi_directory_destroy(directory);
@@ -81,7 +81,7 @@ static CpsStatus open_folder(const char *path, bool make, CpsiDirectory **out, C
     return CPS_OK;
 }
 
-/* Has capstan written to the directory before, or is there nothing in it? */
+/* Check that capstan has written to the directory before, or that it is empty. */
 static CpsStatus look_round(CpsiDirectory *directory, CpsError *err) {
     const CpsStatus status =
         cpsi_marker_read(directory->fd, directory->path, &directory->marker, err);
@@ -146,7 +146,7 @@ bool cpsi_directory_has(const CpsiDirectory *directory, const char *name) {
     return false;
 }
 
-/* remember a name, so that its temporary file is removed or renamed later */
+/* record a name, so that its temporary file is removed or renamed later */
 static CpsStatus remember(CpsiDirectory *directory, const char *name, CpsError *err) {
     if (!cpsi_marker_knows(name))
         return cpsi_fail(
@@ -165,7 +165,7 @@ static CpsStatus remember(CpsiDirectory *directory, const char *name, CpsError *
     const CpsStatus status = cpsi_marker_note(directory->notes, directory->path, name, err);
     if (status != CPS_OK) return status;
 
-    /* what a killed run has left behind */
+    /* remove the file of a killed run */
     char temporary[TEMPORARY_SIZE];
     temporary_name(temporary, name);
     unlinkat(directory->fd, temporary, 0);
@@ -249,8 +249,8 @@ static bool sync_folder(const CpsiDirectory *directory) {
     return fsync(directory->fd) == 0 || errno == EINVAL;
 }
 
-/* What would be refused or lost, before the first earlier file is replaced. *replaces: there are
- * such files. */
+/* Find the files that would be refused or lost, before the first earlier file is replaced.
+ * *replaces: whether there are earlier files. */
 static CpsStatus look_ahead(const CpsiDirectory *directory, bool *replaces, CpsError *err) {
     *replaces = false;
     for (size_t i = 0; i < directory->count; ++i) {
@@ -269,8 +269,8 @@ static CpsStatus look_ahead(const CpsiDirectory *directory, bool *replaces, CpsE
     return CPS_OK;
 }
 
-/* The names of this run in order, and those of the marker with them: all memory that a commit
- * takes. */
+/* The names of this run in order, and those of the marker together with them. All memory of a
+ * commit is allocated here. */
 static CpsStatus list_names(CpsiDirectory *directory, CpsiNames *own, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (size_t i = 0; i < directory->count && status == CPS_OK; ++i) {
@@ -283,7 +283,8 @@ static CpsStatus list_names(CpsiDirectory *directory, CpsiNames *own, CpsError *
                             : status;
 }
 
-/* All names but the last, and what earlier runs have left beyond them. */
+/* Rename all files but the last, and remove the files of earlier runs that this one does not
+ * have. */
 static CpsStatus put_in_place(CpsiDirectory *directory, const CpsiNames *own,
                               bool (*stale)(const char *name), CpsError *err) {
     char temporary[TEMPORARY_SIZE];
@@ -292,8 +293,8 @@ static CpsStatus put_in_place(CpsiDirectory *directory, const CpsiNames *own,
         if (renameat(directory->fd, temporary, directory->fd, directory->name[i]) != 0)
             return fail_mixed(directory, directory->name[i], err);
     }
-    /* pictures and steps of an earlier, longer run would be taken for this run's; one that cannot
-     * be removed stays in the list, for the next */
+    /* Pictures and steps of an earlier, longer run would appear to belong to this run. A file that
+     * cannot be removed remains in the list, for the next run. */
     CpsiNames *written = &directory->marker.written;
     for (size_t i = written->count; i-- > 0;) {
         const char *name = written->name[i];
@@ -304,7 +305,8 @@ static CpsStatus put_in_place(CpsiDirectory *directory, const CpsiNames *own,
     return CPS_OK;
 }
 
-/* From here on the list names old files and new ones, and the one whose absence tells. */
+/* From here on the list contains old and new files, and the name whose absence shows an incomplete
+ * replacement. */
 static CpsStatus replace(CpsiDirectory *directory, const CpsiNames *own,
                          bool (*stale)(const char *name), bool replaces, CpsError *err) {
     CpsiMarker *marker = &directory->marker;
@@ -350,7 +352,7 @@ void cpsi_directory_destroy(CpsiDirectory *directory) {
     char temporary[TEMPORARY_SIZE];
     for (size_t i = 0; i < directory->count; ++i) {
         temporary_name(temporary, directory->name[i]);
-        unlinkat(directory->fd, temporary, 0); /* gone already where it was renamed */
+        unlinkat(directory->fd, temporary, 0); /* does nothing where it has been renamed */
         free(directory->name[i]);
     }
     cpsi_marker_end(directory->fd, directory->notes);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* YAML to a tree, from the events of libfyaml (see yaml.h). No recursion: a stack of open
- * collections. */
+/* From YAML to a tree, by the events of libfyaml (see yaml.h). There is no recursion, but a stack
+ * of open collections. */
 #include "io/base/yaml.h"
 
 #include <libfyaml.h>
@@ -14,13 +14,13 @@
 #include "io/base/escape.h"
 #include "io/base/yaml_lines.h"
 
-/* Values of a file, and bytes of one scalar: far more than a file needs, few enough to stay within
- * memory. */
+/* Limits for the values of a file and the bytes of one scalar: far more than a file needs, and few
+ * enough for the memory. */
 enum { MAX_VALUES = 4000000, MAX_SCALAR = 65536 };
 
-typedef struct Open {      /* a collection not yet closed */
+typedef struct Open {      /* a collection that is not closed yet */
     CpsiYaml *node, *last; /* last child so far */
-    const char *key;       /* mapping: a key that waits for its value */
+    const char *key;       /* mapping: a key whose value has not been read yet */
     int line, column;      /* of that key */
 } Open;
 
@@ -30,7 +30,7 @@ typedef struct Parse {
     CpsError *err;
     Open *open; /* (max_depth) */
     int depth, max_depth, values, documents;
-    int line, column; /* of the last event that has a place */
+    int line, column; /* of the last event that has a position */
     CpsiYaml *root;
 } Parse;
 
@@ -41,7 +41,7 @@ CpsStatus cpsi_fail_at(CpsError *err, CpsStatus status, const char *file, int li
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    /* a cut text may end within a character */
+    /* the end of a truncated text may divide a character */
     for (char *c = message; *c;) {
         const size_t length = cpsi_utf8_length(c);
         if (length == 0) *c = '?';
@@ -63,8 +63,8 @@ const CpsiYaml *cpsi_yaml_child(const CpsiYaml *node, const char *key) {
     return NULL;
 }
 
-/* The child that the first step of a place names, and how long that step is; a key may have dots
- * itself. */
+/* The child that the first part of a path names, and the length of that part. A key may itself
+ * contain dots. */
 static const CpsiYaml *first_step(const CpsiYaml *node, const char *place, size_t *length) {
     const CpsiYaml *best = NULL;
     *length = 0;
@@ -147,7 +147,7 @@ static bool is_control(const char *text) {
     return s[0] < 0x20 || s[0] == 0x7f || (s[0] == 0xc2 && s[1] < 0xa0);
 }
 
-/* bytes[size] is a NUL */
+/* bytes[size] is a zero byte */
 static CpsStatus check_characters(const Parse *p, const char *bytes, size_t size) {
     int line = 1, column = 1;
     for (const char *s = bytes; s < bytes + size;) {
@@ -180,8 +180,8 @@ static CpsStatus out_of_memory(const Parse *p) {
                         p->what);
 }
 
-/* The text of a scalar, copied; NULL after an error. Without memory libfyaml gives an empty
- * text. */
+/* A copy of the text of a scalar; NULL after an error. When memory does not suffice libfyaml
+ * returns an empty text. */
 static const char *scalar_text(Parse *p, struct fy_event *event, int line, int column,
                                CpsStatus *status) {
     size_t n = 0;
@@ -199,7 +199,8 @@ static const char *scalar_text(Parse *p, struct fy_event *event, int line, int c
              !(copy = cpsi_pool_text(p->pool, text, n)))
         *status = out_of_memory(p);
 
-    /* line breaks are folded or escaped, control characters escaped: none may come through */
+    /* line breaks may be folded or escaped, control characters escaped: none may be in the
+     * result */
     for (size_t i = 0; *status == CPS_OK && i < n;) {
         const size_t length = is_control(copy + i) ? 0 : cpsi_utf8_length(copy + i);
         if (length == 0)
@@ -275,7 +276,7 @@ static CpsStatus refuse_nothing(const Parse *p, const char *found) {
                         "found %s: a %s begins with 'capstan: 1'", found, p->what);
 }
 
-/* where an anchor or a tag stands, not the value behind it */
+/* the position of an anchor or tag, not of the value after it */
 static CpsStatus refuse_token(const Parse *p, struct fy_token *token, const char *found) {
     const struct fy_mark *mark = fy_token_start_mark(token);
     return refuse(p, mark ? mark->line + 1 : 1, mark ? mark->column + 1 : 1, found);
@@ -288,7 +289,7 @@ static CpsStatus read_value(Parse *p, struct fy_event *event, int line, int colu
     if (anchor) return refuse_token(p, anchor, "an anchor ('&'): write the value out instead");
     if (tag) return refuse_token(p, tag, "a tag ('!'): remove it");
 
-    /* a key waits for its value */
+    /* the value of the key has not been read yet */
     CpsStatus status = CPS_OK;
     Open *parent = p->depth > 0 ? &p->open[p->depth - 1] : NULL;
     const bool scalar = event->type == FYET_SCALAR;
@@ -320,7 +321,7 @@ static CpsStatus read_value(Parse *p, struct fy_event *event, int line, int colu
 
 static CpsStatus read_event(Parse *p, struct fy_event *event) {
     const struct fy_mark *mark = fy_event_start_mark(event);
-    /* what is not written has no place: that of what stands before it */
+    /* an empty value has no position; that of the preceding token is used */
     if (mark) {
         p->line = mark->line + 1;
         p->column = mark->column + 1;
@@ -328,7 +329,7 @@ static CpsStatus read_event(Parse *p, struct fy_event *event) {
     const int line = p->line;
     int column = p->column;
     if (event->type == FYET_SCALAR) {
-        /* libfyaml points behind an opening quote */
+        /* libfyaml gives the position after an opening quote */
         const enum fy_scalar_style style = fy_token_scalar_style(event->scalar.value);
         if ((style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED) && column > 1) column--;
     }
@@ -347,7 +348,7 @@ static CpsStatus read_event(Parse *p, struct fy_event *event) {
     }
 }
 
-/* libfyaml stopped: repeat its first message. */
+/* libfyaml stopped: return its first message */
 static CpsStatus syntax_error(const Parse *p, struct fy_diag *diag) {
     void *previous = NULL;
     const struct fy_diag_error *error = fy_diag_errors_iterate(diag, &previous);

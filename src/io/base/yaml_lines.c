@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A look at the lines of a file before libfyaml sees it (see yaml_lines.h). */
+/* A check of the lines of a file before libfyaml parses it (see yaml_lines.h). */
 #include "io/base/yaml_lines.h"
 
 #include <limits.h>
 #include <string.h>
 
-/* A directive is '%YAML 1.2'; empty lines part sections. On both libfyaml 0.7 to 0.9 spends a time
- * that grows with the square of what is there: 160 kB of '%' take half a minute, as do 40 kB of
- * line breaks in a block text. At these limits it is not to be measured. */
+/* A directive is '%YAML 1.2'; empty lines separate sections. For both, libfyaml 0.7 to 0.9 needs
+ * quadratic time: 160 kB of '%' take half a minute, and so do 40 kB of line breaks in a block text.
+ * Within these limits the time is not measurable. */
 enum { DIRECTIVE_MOST = 80, EMPTY_MOST = 500 };
 
-/* Bytes of the line break at s, 0: none. YAML 1.1, which a directive may ask for, knows U+0085,
- * U+2028 and U+2029 as well. */
+/* Length of the line break at s, 0: none. YAML 1.1, which a directive can select, also has U+0085,
+ * U+2028 and U+2029. */
 static size_t line_break(const char *s, size_t left) {
     if (s[0] == '\r') return left > 1 && s[1] == '\n' ? 2 : 1;
     if (s[0] == '\n') return 1;

@@ -44,7 +44,7 @@ static double linear_tension(const CpsStudyFiles *files, int i) {
                     tangent(files, i));
 }
 
-/* strain of the reference, as far as P10.1 sees one, and its change */
+/* strain of the reference, limited to what P10.1 can represent, and its change */
 static double linear_strain(const CpsStudyFiles *files, int i) {
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     const double *x = step.reference + 3 * (size_t)i;
@@ -85,7 +85,7 @@ static void draw_pair(const CpsStudyFiles *files, int panel, Along *linear, Alon
     char label[64];
     snprintf(label, sizeof label, "%s (%s)", *base ? "tension along t_R" : "strain", unit.name);
 
-    /* what a line cannot do */
+    /* the region that a line cannot reach */
     const double zero = cpsi_frame_y(&frame, 0), bottom = frame.top + frame.height;
     fprintf(out,
             "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#b91c1c\" "
@@ -98,8 +98,8 @@ static void draw_pair(const CpsStudyFiles *files, int panel, Along *linear, Alon
     cpsi_frame_end(out);
 }
 
-/* Where a place is along the way from end A to end B of the reference: a line that turns over
- * itself comes back there. */
+/* Abscissa of a position along the line between ends A and B of the reference; a line that turns
+ * back has smaller abscissae again. */
 static double along_reference(const CpsRegularizedStep *step, Vec3 x) {
     const Vec3 from = vec3_load(step->reference),
                way = vec3_sub(vec3_load(step->reference + 3 * (size_t)step->elements), from);
@@ -166,7 +166,7 @@ void cpsi_picture_first_order(const CpsStudyFiles *files, FILE *out) {
         draw_pair(files, 0, linear_strain, step_strain, "", out);
         draw_pair(files, 1, linear_tension, step_tension, "N", out);
     } else {
-        /* displacements that run away are no curve to show */
+        /* displacements that diverge are not drawn as curves */
         draw_pair(files, 0, step_tension, step_tension, "N", out);
     }
     draw_places(files, drawn ? 2 : 1, drawn, out);

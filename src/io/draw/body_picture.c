@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body: its limit surface seen along Fy and along M, with the ellipsoid that robotics codes take
- * for it; its outline with pushes and centres of rotation; its way when it is towed. */
+/* A body: its limit surface seen along Fy and along M, with the ellipsoid that robotics codes use
+ * instead; its outline with pushes and centres of rotation; its path when it is towed. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,7 +20,7 @@ typedef struct BodyPicture {
 
 /* ---- limit surface ---- */
 
-/* the shadow of the set of wrenches on two components (i, k): points of contact in all directions
+/* projection of the set of wrenches onto two components (i, k): points of contact in all directions
  * of their plane */
 static CpsStatus shadow(const CpsDriveBody *body, int i, int k, double axis[2], double *point,
                         CpsError *err) {
@@ -35,7 +35,7 @@ static CpsStatus shadow(const CpsDriveBody *body, int i, int k, double axis[2], 
         axis[e] = answer.value > 0 ? answer.value : 1;
     }
     for (int a = 0; a < AROUND; a++) {
-        /* half a step off: no direction is normal to an edge along an axis */
+        /* shifted by half a step, so that no direction is normal to an edge along an axis */
         const double angle = 2 * CPSI_PI * (a + 0.5) / AROUND;
         double twist[3] = {0, 0, 0};
         twist[i] = cos(angle) / axis[0];
@@ -91,7 +91,7 @@ static CpsStatus draw_surface(FILE *out, const BodyPicture *p, int column, int k
 
 /* ---- pushes ---- */
 
-/* how far a body reaches from its origin, as ranges around its patches */
+/* extent of a body from its origin, as ranges around its patches */
 static void reach(const CpsDriveBody *body, double x[2], double y[2]) {
     x[0] = y[0] = INFINITY;
     x[1] = y[1] = -INFINITY;
@@ -106,7 +106,7 @@ static void reach(const CpsDriveBody *body, double x[2], double y[2]) {
     }
 }
 
-/* one push: an arrow, and the centre of rotation joined to it */
+/* one push: an arrow, and a line to the centre of rotation */
 static void draw_push(FILE *out, const CpsiFrame *frame, const CpsDrivePush *push,
                       const double centre[2], bool turns, double unit, const char *colour) {
     const double along[2] = {push->way[0] * unit, push->way[1] * unit};
@@ -139,7 +139,7 @@ static CpsStatus draw_pushes(FILE *out, const BodyPicture *p, int column, CpsErr
                                   &motion[i], err);
         if (status != CPS_OK) break;
         if (push->at_point) cpsi_range_points(frame.x, frame.y, 1, push->point);
-        /* a centre that is not too far off is shown */
+        /* a centre is shown if it is not too far away */
         if (hypot(motion[i].centre[0], motion[i].centre[1]) < 2 * size)
             cpsi_range_points(frame.x, frame.y, 1, motion[i].centre);
         fastest = fmax(fastest, hypot(push->way[0], push->way[1]));
@@ -189,7 +189,7 @@ static void draw_way(FILE *out, const BodyPicture *p, double width) {
         }
     cpsi_range_pad(frame.x, 0.03);
     cpsi_range_pad(frame.y, 0.03);
-    /* as wide as the way is, within the sheet */
+    /* as wide as the path, within the sheet */
     frame.width =
         fmin(width, fmax(SIDE, WAY * (frame.x[1] - frame.x[0]) / (frame.y[1] - frame.y[0])));
     cpsi_frame_equal(&frame);
@@ -217,7 +217,7 @@ static void draw_way(FILE *out, const BodyPicture *p, double width) {
     cpsi_frame_end(out);
 }
 
-/* ---- together ---- */
+/* ---- the whole picture ---- */
 
 static CpsStatus draw_body(void *what, FILE *out, CpsError *err) {
     const BodyPicture *p = what;

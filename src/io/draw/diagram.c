@@ -68,7 +68,7 @@ void cpsi_frame_title(FILE *out, const CpsiFrame *frame, const char *text) {
 
 /* ---- bodies ---- */
 
-/* corners of a patch in its own axes; returns how many */
+/* corners of a patch in its own axes; returns their number */
 enum { ROUND = 64 };
 static int outline(const CpsPatch *p, double x[2 * ROUND]) {
     if (p->kind == CPS_PATCH_POLYGON) {
@@ -98,7 +98,7 @@ static void place(const double pose[3], double x[2]) {
 void cpsi_draw_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
                     const double pose[3], const char *colour, double opacity) {
     char style[160];
-    /* a vehicle's wheels are joined by its frame */
+    /* a vehicle's wheels are connected by its frame */
     double hub[4][2];
     for (int i = 0; i < body->patches; i++) {
         const CpsPatch *p = &body->patch[i];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What pictures of driven systems share: frames of equal scales, curves, arrows; lengths in
- * data. */
+/* Parts shared by pictures of driven systems: frames of equal scales, curves, arrows; lengths are
+ * in data units. */
 #ifndef CAPSTAN_SRC_IO_DRAW_DIAGRAM_H
 #define CAPSTAN_SRC_IO_DRAW_DIAGRAM_H
 
@@ -13,18 +13,18 @@
 #define CPSI_PLUM   "#a03070"
 #define CPSI_GREY   "#999"
 
-/* Widen one of a frame's ranges so that both have the same scale, as its width and height are. */
+/* Widen one of a frame's ranges so that both directions have the same scale. */
 void cpsi_frame_equal(CpsiFrame *frame);
 
-/* Ranges of (count, 2) points, added to those there. */
+/* Extend ranges to contain (count, 2) points. */
 void cpsi_range_points(double x[2], double y[2], int count, const double *point);
 
-/* A polyline, closed or not; `style` is more attributes. Points nearer than half a pixel are left
- * out. */
+/* A polyline, closed or not; `style` are further attributes. Points nearer than half a pixel are
+ * left out. */
 void cpsi_draw_curve(FILE *out, const CpsiFrame *frame, int count, const double *point, bool closed,
                      const char *style);
 
-/* An arrow from a point along (dx, dy) in data, with a head of some pixels. */
+/* An arrow from a point along (dx, dy) in data units, with a head of some pixels. */
 void cpsi_draw_arrow(FILE *out, const CpsiFrame *frame, const double from[2], const double along[2],
                      const char *colour, double width);
 
@@ -34,11 +34,11 @@ void cpsi_draw_dot(FILE *out, const CpsiFrame *frame, const double at[2], double
 /* A heading above a frame. */
 void cpsi_frame_title(FILE *out, const CpsiFrame *frame, const char *text);
 
-/* A body's patches at a pose, filled pale. */
+/* A body's patches at a pose, filled with a pale colour. */
 void cpsi_draw_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
                     const double pose[3], const char *colour, double opacity);
 
-/* Let `draw` write with decimal points whatever the locale. */
+/* Call `draw` in a locale with decimal points. */
 CpsStatus cpsi_draw_plain(CpsStatus (*draw)(void *what, FILE *out, CpsError *err), void *what,
                           FILE *out, CpsError *err);
 

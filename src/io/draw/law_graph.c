@@ -2,8 +2,8 @@
 /* Laws over velocity (see law_graph.h).
  *
  * The graph of a law of one component is a monotone curve with vertical pieces, where one velocity
- * has many forces: it is drawn through the ends of the set of forces at velocities side by side.
- * Forces without bound leave the frame. */
+ * has many forces. It is drawn through the ends of the set of forces at successive velocities.
+ * Unbounded forces leave the frame. */
 #include "io/draw/law_graph.h"
 
 #include <math.h>
@@ -26,10 +26,10 @@ enum {
     LIST = 300
 };
 
-/* The widest velocity asked for, and some room; 1 m/s where none is. */
+/* The range is the largest velocity given, times this factor; 1 m/s where none is given. */
 static const double WIDER = 1.25;
 
-/* Forces without bound are drawn so many frames away. */
+/* Unbounded forces are drawn at a distance of this many frames. */
 static const double FAR = 50;
 
 typedef struct Graph {
@@ -54,7 +54,7 @@ static CpsStatus forces_at(const Graph *g, CpsSet **forces, CpsSetAnswer *answer
 
 /* ---- one component ---- */
 
-/* Both ends of the forces at each velocity, the larger first; NAN where there are none. */
+/* Both ends of the set of forces at each velocity, the larger first; NAN where there are none. */
 static CpsStatus sample(Graph *g, double (*end)[2]) {
     for (int i = 0; i <= STEPS; i++) {
         g->velocity[0] = g->most * (2.0 * i / STEPS - 1);
@@ -88,7 +88,7 @@ static void fit_graph(Graph *g, double (*end)[2]) {
     g->frame = (CpsiFrame){LEFT, TOP, SIDE, 0.75 * SIDE, {-g->most, g->most}, {y[0], y[1]}};
 }
 
-/* A force in the units of the frame; one without bound far outside. */
+/* A force in the units of the frame; an unbounded one far outside. */
 static double in_frame(const Graph *g, double force) {
     return isfinite(force) ? force * g->unit.factor
                            : copysign(FAR * (g->frame.y[1] - g->frame.y[0]), force);
@@ -190,7 +190,7 @@ static CpsStatus draw_graph(Graph *g) {
 
 /* ---- more components ---- */
 
-/* A force at each direction of the plane at one speed, the middle of the set where there are
+/* A force for each direction of the plane at one speed, the middle of the set where there are
  * several; NAN where there is none. */
 static CpsStatus sample_speed(Graph *g, double speed, double *curve) {
     for (int i = 0; i < DIRECTIONS; i++) {

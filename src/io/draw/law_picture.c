@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pictures of friction laws, in the manner of M77 figure 1: the set of forces; at each corner the
  * sector of normals, into which -V points for every velocity that this one force resists; for each
- * velocity asked for its set of forces, and -V from there.
+ * given velocity its set of forces, and -V from there.
  *
- * A set of more dimensions shows its section by the plane of two components, and the shadow it
- * casts on that plane; force sets are then shown by their shadows too. Curves are drawn through
- * points of contact with tangents in evenly turned directions, which are points of the set to
- * rounding and lie dense on arcs; corners come from the set itself.
- */
+ * For a set of more dimensions its section by the plane of two components and its projection onto
+ * that plane are shown; force sets are then shown by their projections too. Curves are drawn
+ * through points of contact with tangents in equally spaced directions, which are points of the set
+ * up to rounding and are dense on arcs; corners come from the set itself. */
 #include <locale.h>
 #include <math.h>
 #include <stdlib.h>
@@ -23,27 +22,27 @@
 enum {
     DIRECTIONS = 720,
     MOST_CORNERS = 256,
-    MOST_LISTED = 14, /* asked velocities and forces told in words */
+    MOST_LISTED = 14, /* number of given velocities and forces described in words */
     SIDE = 520,       /* frame, pixels */
     LEFT = 84,
     TOP = 76,
     LIST = 290 /* width of the list on the right */
 };
 
-/* Height of the frame by its width, at most. */
+/* Largest ratio of the frame's height to its width. */
 static const double TALLEST = 1.15;
 
 /* Powers below this share of the set's size times the speed are rounding. */
 static const double NOTHING = 1e-12;
 
-/* Radius of normal sectors and length of -V, as parts of the set's larger width. */
+/* Radius of normal sectors and length of -V, as shares of the set's larger width. */
 static const double SECTOR = 0.2, ARROW = 0.26;
 
-/* Of a set without bounds so many times its own size is seen; it is cut off so many times farther
- * out, beyond the frame. */
+/* For an unbounded set, SEEN times its own size is shown; it is cut off at BEYOND times that
+ * distance, outside the frame. */
 static const double SEEN = 2, BEYOND = 8;
 
-/* What is drawn, and how data come onto paper. */
+/* The content of the picture, and the map from data to paper. */
 typedef struct Sheet {
     FILE *out;
     CpsError *err;
@@ -53,9 +52,11 @@ typedef struct Sheet {
     double *shadow_map; /* (2 x n) picks the two components */
     CpsiFrame frame;
     CpsiUnit unit;
-    double size;   /* of the set [N] */
-    double limit;  /* of what is seen of a set without bounds, in both components [N]; 0: all is */
-    bool in_space; /* more than two components: section and shadow */
+    double size; /* of the set [N] */
+    /* for an unbounded set: half the range shown, in both components [N]; 0: the whole set is
+     * shown */
+    double limit;
+    bool in_space; /* more than two components: section and projection */
     int corners;   /* drawn */
 } Sheet;
 
@@ -70,11 +71,11 @@ static CpsStatus out_of_memory(CpsError *err) {
 
 /* ---- sets to curves ---- */
 
-/* points of contact all round a set of R^2; none of an empty one */
+/* points of contact all round a set of R^2; none for an empty set */
 static CpsStatus trace(const CpsSet *set, Curve *curve, CpsError *err) {
     curve->count = 0;
     for (int i = 0; i < DIRECTIONS; i++) {
-        /* half a step off: no direction is normal to an edge along an axis */
+        /* shifted by half a step, so that no direction is normal to an edge along an axis */
         const double angle = 2 * CPSI_PI * (i + 0.5) / DIRECTIONS, w[2] = {cos(angle), sin(angle)};
         double *point = curve->x[curve->count];
         CpsSetAnswer answer;
@@ -96,7 +97,7 @@ static void middle(const Curve *curve, double centre[2]) {
         for (int k = 0; k < 2; k++) centre[k] += curve->x[i][k] / curve->count;
 }
 
-/* the section by, or the shadow on, the plane of the two components */
+/* the section by the plane of the two components, or the projection onto it */
 static CpsStatus plane_set(const Sheet *s, const CpsSet *set, bool section, CpsSet **out) {
     if (s->n == 2 && s->picture->axis[0] == 0) {
         *out = cps_set_retain(set);
@@ -112,7 +113,7 @@ static CpsStatus plane_set(const Sheet *s, const CpsSet *set, bool section, CpsS
     return status;
 }
 
-/* Of a set without bounds what lies within so many limits, in place of it. */
+/* Replace an unbounded set by its part within this many limits. */
 static CpsStatus cut_off(const Sheet *s, double limits, CpsSet **set) {
     if (s->limit == 0) return CPS_OK;
     CpsSet *box = NULL, *seen = NULL;
@@ -127,8 +128,8 @@ static CpsStatus cut_off(const Sheet *s, double limits, CpsSet **set) {
     return CPS_OK;
 }
 
-/* How far a set without bounds is seen: some times the largest of its finite supports, its distance
- * from or depth at 0, its corners and the forces asked for. */
+/* Half the range shown of an unbounded set: a multiple of the largest of its finite supports, its
+ * distance from 0 or depth there, its corners and the given forces. */
 static CpsStatus choose_limit(Sheet *s, const CpsSet *shadow) {
     CpsSetFacts facts;
     CpsStatus status = cps_set_facts(shadow, 0, &facts, NULL, NULL, s->err);
@@ -165,7 +166,7 @@ static CpsStatus choose_limit(Sheet *s, const CpsSet *shadow) {
 static double px(const Sheet *s, double x) { return cpsi_frame_x(&s->frame, x * s->unit.factor); }
 static double py(const Sheet *s, double y) { return cpsi_frame_y(&s->frame, y * s->unit.factor); }
 
-/* is a point beyond what is seen of a set without bounds? */
+/* whether a point is outside the range shown of an unbounded set */
 static bool is_beyond(const Sheet *s, const double x[2]) {
     return s->limit > 0 && fmax(fabs(x[0]), fabs(x[1])) > s->limit * (1 + 1e-9);
 }
@@ -174,7 +175,7 @@ static void draw_curve(const Sheet *s, const Curve *curve, const char *style) {
     fprintf(s->out, "<polygon %s stroke-linejoin=\"round\" points=\"", style);
     double lx = INFINITY, ly = INFINITY;
     for (int i = 0; i < curve->count; i++) {
-        /* points that repeat at a corner are written once */
+        /* repeated points at a corner are written once */
         const double x = px(s, curve->x[i][0]), y = py(s, curve->x[i][1]);
         if (fabs(x - lx) + fabs(y - ly) < 0.02) continue;
         fprintf(s->out, "%.2f,%.2f ", x, y);
@@ -202,7 +203,7 @@ static void draw_arrow(const Sheet *s, const double from[2], const double direct
 }
 
 /* a cone of R^2 with its apex at a point: a sector up to the whole disc, an arrow, a line with two
- * heads; *dimension: its own */
+ * heads; *dimension: that of the cone */
 static CpsStatus draw_cone(const Sheet *s, const CpsSet *cone, const double apex[2], bool arrow,
                            const char *style, int *dimension) {
     CpsiPlanarCone found;
@@ -224,7 +225,7 @@ static CpsStatus draw_cone(const Sheet *s, const CpsSet *cone, const double apex
     return CPS_OK;
 }
 
-/* the corners of what is seen of a set of R^2, each with the set's sector of normals */
+/* the corners of the visible part of a set of R^2, each with the set's sector of normals */
 static CpsStatus draw_corners(Sheet *s, const CpsSet *seen, const CpsSet *set) {
     double *corner = malloc(2 * MOST_CORNERS * sizeof *corner);
     if (!corner) return out_of_memory(s->err);
@@ -234,7 +235,7 @@ static CpsStatus draw_corners(Sheet *s, const CpsSet *seen, const CpsSet *set) {
     if (status == CPS_OK && (answer.outcome != CPS_SET_OUTCOME_ANSWERED || count > MOST_CORNERS))
         count = 0;
     for (int i = 0; i < count && status == CPS_OK; i++) {
-        /* where an edge runs into an arc there is one normal: no corner */
+        /* where an edge continues into an arc there is one normal, and no corner */
         const double *at = corner + 2 * i;
         int dimension = 0;
         CpsSet *cone = NULL;
@@ -255,7 +256,7 @@ static CpsStatus draw_corners(Sheet *s, const CpsSet *seen, const CpsSet *set) {
     return status;
 }
 
-/* ---- what was asked ---- */
+/* ---- given velocities and forces ---- */
 
 static CpsiColour colour_of(const Sheet *s, int i) {
     const int count = s->picture->velocity_count;
@@ -301,7 +302,7 @@ static void list_velocity(const Sheet *s, int i, const double *velocity, const C
     draw_line(s, 3 * i + 1, "#555", text);
 }
 
-/* the middle of what is seen of a planar set */
+/* the middle of the visible part of a planar set */
 static CpsStatus find_middle(const Sheet *s, const CpsSet *flat, Curve *curve, double centre[2]) {
     CpsSet *seen = cps_set_retain(flat);
     CpsStatus status = cut_off(s, 1, &seen);
@@ -373,7 +374,7 @@ static CpsStatus draw_velocity(const Sheet *s, int i) {
     return CPS_OK;
 }
 
-/* a force, and the cone of -V, of more components its shadow */
+/* a force, and the cone of -V, or with more components its projection */
 static CpsStatus draw_force(const Sheet *s, int i) {
     const double *force = s->picture->force + (size_t)i * (size_t)s->n;
     const double at[2] = {force[s->picture->axis[0]], force[s->picture->axis[1]]};
@@ -398,7 +399,7 @@ static CpsStatus draw_force(const Sheet *s, int i) {
 
 /* ---- the sheet ---- */
 
-/* equal scales on both axes, with room for sectors and arrows; 0 in sight */
+/* equal scales on both axes, with space for sectors and arrows; 0 is visible */
 static void fit_frame(Sheet *s, const Curve *curve) {
     double x[2] = {0, 0}, y[2] = {0, 0};
     for (int i = 0; i < curve->count; i++) {
@@ -468,7 +469,7 @@ static void draw_legend(const Sheet *s, bool some) {
                     "\xE2\x88\x92V, from its forces");
 }
 
-/* the frame, from what is seen of the shadow */
+/* the frame, from the visible part of the projection */
 static CpsStatus frame_shadow(Sheet *s, const CpsSet *shadow, Curve *curve) {
     CpsSet *seen = cps_set_retain(shadow);
     CpsStatus status = cut_off(s, 1, &seen);
@@ -480,7 +481,8 @@ static CpsStatus frame_shadow(Sheet *s, const CpsSet *shadow, Curve *curve) {
     return status;
 }
 
-/* `whole` is the section; it and the shadow cut off, where they have no bounds, beyond the frame */
+/* `whole` is the section; where it or the projection is unbounded, it is cut off outside the
+ * frame */
 static CpsStatus draw_all(Sheet *s, const CpsSet *whole, const CpsSet *section,
                           const CpsSet *shadow, Curve *curve) {
     CpsStatus status = trace(shadow, curve, s->err);
@@ -501,7 +503,8 @@ static CpsStatus draw_all(Sheet *s, const CpsSet *whole, const CpsSet *section,
             "fill=\"#f6f8fc\" stroke=\"#2b5fa8\" stroke-width=\"1\" stroke-dasharray=\"5 4\"");
         status = trace(section, curve, s->err);
     }
-    /* the plane through 0 may miss a set that a load has moved: its shadow is left */
+    /* the plane through 0 may not intersect a set that a load has translated; then only the
+     * projection is drawn */
     const bool some = curve->count > 0;
     if (status == CPS_OK && some)
         draw_curve(s, curve, "fill=\"#dfe9f6\" stroke=\"#2b5fa8\" stroke-width=\"1.8\"");

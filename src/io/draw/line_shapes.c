@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plan views and elevations: what the lines look like.
+/* Plan views and elevations: the shapes of the lines.
  *
- * One step: colour is tension, a pale band under the line says whether it sticks or slips, grey is
- * where the step started. All steps: colour is the step. Plan views keep both scales equal;
- * elevations may exaggerate heights by a round factor that is printed. */
+ * One step: colour is tension, a pale band under the line shows sticking and slipping, grey is the
+ * initial configuration of the step. All steps: colour is the step. Plan views keep both scales
+ * equal; elevations may exaggerate heights by a round factor that is printed. */
 #include <math.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ enum {
 static const char COLOUR_STICK[] = "#9ad9c8", COLOUR_SLIP[] = "#ffb59b", COLOUR_AIR[] = "#d3b8f0",
                   COLOUR_START[] = "#c4c4c4";
 
-/* largest of 1, 2, 5, 10, ... that is not above x */
+/* largest of 1, 2, 5, 10, ... that is at most x */
 static double round_down(double x) {
     const double power = pow(10, floor(log10(x))), lead = x / power;
     return power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
@@ -39,15 +39,15 @@ static double fit(const CpsiView *view, CpsiFrame *frame) {
     double dx = frame->x[1] - frame->x[0];
     double factor = 1, scale = frame->width / dx; /* pixels per metre along x */
 
-    /* heights: a round exaggeration where they would hardly be seen, none where they are nothing
-     * but rounding */
+    /* heights: a round exaggeration where they would hardly be visible, none where they are only
+     * rounding */
     const double natural = height * scale;
     if (!view->plan && !view->true_scale && natural > 1e-5 * frame->width && natural < LOW_HEIGHT)
         factor = round_down(LOW_HEIGHT / natural);
     const double room = 0.8 * MAX_FRAME_HEIGHT;
     if (natural * factor > room) scale *= room / (natural * factor);
 
-    /* both ranges about their middle, filling the frame */
+    /* both ranges centred, filling the frame */
     frame->height = fmin(MAX_FRAME_HEIGHT, fmax(MIN_PLAN_HEIGHT, natural * factor * 1.3));
     dx = frame->width / scale;
     const double dy = frame->height / (scale * factor);
@@ -106,7 +106,7 @@ static void draw_states(const Pen *pen, const CpsiShape *shape) {
         int last = first;
         while (last + 1 < shape->points && shape->state[last + 1] == shape->state[first]) ++last;
         const unsigned char state = shape->state[first];
-        /* a band reaches half way to its neighbours; to the next point is near enough */
+        /* a band extends half way to its neighbours; up to the next point is accurate enough */
         const int to = last + 1 < shape->points ? last + 1 : last;
         if (state != CPS_NODE_STATE_FREE && to > first)
             draw_polyline(pen, shape->position, first, to, band_colour(state), 11, "");
@@ -140,7 +140,7 @@ static void draw_end(const Pen *pen, const double position[3], bool held, const 
             "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\" stroke=\"#222\" "
             "stroke-width=\"1.4\"/>",
             x, y, held ? "#222" : "#fff");
-    /* on the side where there is room */
+    /* on the side where there is space */
     const bool left = x > pen->frame->left + 0.8 * pen->frame->width;
     cpsi_svg_text(pen->out, left ? x - 7 : x + 7, y - 8, left ? CPSI_END : CPSI_START,
                   "font-size=\"11\" paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"",
@@ -192,14 +192,14 @@ static void draw_step_legend(const CpsResults *results, bool air, double y, FILE
                 "free end");
 }
 
-/* Where a step started. Before a line is laid by statics it is nowhere: the first guess of the
- * solver is no shape to show. */
+/* Initial configuration of a step. Before a line is statically placed it has none: the solver's
+ * first guess is not shown. */
 static const double *start_of(const CpsResults *results, const CpsiSnapshot *snapshot, int line) {
     const bool first = snapshot->step == 0 && strcmp(results->row[0].name, "static") == 0;
     return first ? snapshot->shape[line].position : snapshot->shape[line].reference;
 }
 
-/* axes, obstacles, subtitle: what both kinds of sheet begin with; step as of
+/* axes, obstacles, subtitle: the beginning of both kinds of sheet; step as for
  * cpsi_picture_obstacles */
 static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, int step,
                         const char *what, FILE *out) {

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The loops that force and displacement of a moved end describe.
  *
- * A loop is a run of stages that move a held end away and back to the same place. With u the
+ * A loop is a run of stages that move a held end away and back to the same position. With u the
  * displacement along the direction of the farthest point and F the force along it, the loop's area
- * is the work done on the line there, in a steady cycle what friction dissipates. The figures of
- * the picture are those of the ledger, which takes the parts of every load step; the curve goes
- * straight from step to step and may enclose another area. A stiff line's loop is too thin to see:
- * the second frame shows F less the mean f(u) of the ways out and back, which opens the loop and
- * leaves its area as it is, since f(u) du sums to nothing round a closed path. */
+ * is the work done on the line there, and in a steady cycle the dissipation of friction. The
+ * figures of the picture are those of the ledger, which includes the substeps of every load step;
+ * the curve is straight between steps and may enclose another area. A stiff line's loop is too thin
+ * to be visible. The second frame therefore shows F minus the mean f(u) of the paths out and back.
+ * This opens the loop and does not change its area, since the integral of f(u) du round a closed
+ * path is 0. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,21 +18,21 @@
 #include "io/base/escape.h"
 #include "io/draw/run_picture.h"
 
-/* Displacements closer than this part of the loop's width are equal. */
+/* Displacements closer than this share of the loop's width are equal. */
 static const double SAME_DISPLACEMENT = 1e-6;
 
-/* Ends closer than this part of the line's length are at the same place: far above rounding of
- * imposed positions. */
+/* Ends closer than this share of the line's length are at the same position: far above the rounding
+ * of imposed positions. */
 static const double SAME_PLACE = 1e-9;
 
 enum { MAX_LOOPS = 48, MAX_LOOP_STAGES = 1000, FORCE_HEIGHT = 300, OPENED_HEIGHT = 260 };
 
-/* Steps first..last (rows) of one end of one line that lead back to where they began; row first -
- * 1, if there is one, is the state before. */
+/* Steps first..last (rows) of one end of one line that lead back to the initial position; row first
+ * - 1, if there is one, is the state before. */
 typedef struct Loop {
     int line, end, first_stage, last_stage;
-    int start, last;   /* rows: the state before the loop, or its first step if there is none; its
-                          last step */
+    /* rows: the state before the loop, or its first step if there is none; its last step */
+    int start, last;
     Vec3 direction;    /* unit vector to the farthest point */
     double work;       /* [J] done on the line at this end, by the ledger */
     double dissipated; /* [J] by friction on this line, by the ledger */
@@ -54,7 +55,7 @@ static double force(const CpsResults *results, const Loop *loop, int row) {
     return vec3_dot(loop->direction, vec3_load(end_at(results, loop, row)->force));
 }
 
-/* was the end held and taken elsewhere during this stage? */
+/* whether the end was held and moved during this stage */
 static bool stage_moves(const CpsResults *results, const Loop *loop, const CpsiStage *stage) {
     if (stage->last >= results->row_count || stage->last < 1) return false;
     const int from = stage->first > 0 ? stage->first - 1 : stage->first;
@@ -106,8 +107,8 @@ static int find_loop(const CpsResults *results, Loop *loop, int stage) {
     return stage;
 }
 
-/* what the names of the loop's stages have in common, else the first one's: "surge out", "surge
- * back" -> "surge" */
+/* the common part of the names of the loop's stages, else the first name: "surge out", "surge back"
+ * -> "surge" */
 static void loop_name(const CpsResults *results, const Loop *loop, char out[64]) {
     const char *first = results->stage[loop->first_stage].name;
     size_t length = cpsi_utf8_cut(first, 60);
@@ -121,12 +122,12 @@ static void loop_name(const CpsResults *results, const Loop *loop, char out[64])
     snprintf(out, 64, "%.*s", (int)length, first);
 }
 
-/* A knot of the mean curve, or a point of the path on the way to one. */
+/* A knot of the mean curve, or a point of the path between knots. */
 typedef struct Knot {
     double u, force;
 } Knot;
 
-/* Points of a loop, and their forces less the mean curve. */
+/* Points of a loop, and their forces minus the mean curve. */
 typedef struct Path {
     int count;
     double *u, *force, *opened; /* (count) [m], [N], [N] */
@@ -139,8 +140,7 @@ static int by_displacement(const void *a, const void *b) {
 }
 
 /* The mean curve's knots from the sorted points: where the path passes more than once, half way
- * between the largest and the smallest force there; and both turning points. Returns their
- * number. */
+ * between the largest and the smallest force; and both turning points. Returns their number. */
 static int find_knots(Knot *knot, int count) {
     const double same = SAME_DISPLACEMENT * (knot[count - 1].u - knot[0].u);
     int knots = 0;

@@ -18,19 +18,19 @@ enum {
     SIDE_HEIGHT = 180,
     PITCH = 80,
     CURVES = 60,
-    RINGED = 8,  /* steps that rings tell apart */
-    DOTTED = 120 /* nodes that are seen one by one */
+    RINGED = 8,  /* number of steps separated by rings */
+    DOTTED = 120 /* up to this number, nodes are drawn one by one */
 };
 
-/* what is drawn below each other */
+/* frames below each other */
 enum { PLAN, ELEVATION, PLAN_NEAR, ELEVATION_NEAR, ROWS };
 
 typedef struct Sheet {
     const CpsiMethods *m;
     int rows;
     double column;       /* width */
-    double whole[3][2];  /* ranges of all that is drawn, so that columns compare */
-    double around[3][2]; /* the same of end B after the start; heights are all */
+    double whole[3][2];  /* ranges of everything drawn, so that columns can be compared */
+    double around[3][2]; /* the same for end B after the start; heights are all included */
 } Sheet;
 
 static const double *place(const CpsiMethods *m, int method, int step, int point) {
@@ -91,13 +91,14 @@ static int first_inside(const CpsiMethods *m, const CpsiFrame *frame, int method
     return m->points - 1;
 }
 
-/* Steps that end in one place stay visible: each is drawn over the one before, and thinner. */
+/* Steps with the same final position remain visible: each is drawn over the one before, and
+ * thinner. */
 static double width_of(const CpsiMethods *m, int step, bool near) {
     if (m->steps < 2) return 1.6;
     return 1.2 + (near ? 6 : 2.4) * (m->steps - 1 - step) / m->steps;
 }
 
-/* End B after a step, as a ring: rings of steps that end in one place lie in each other. */
+/* End B after a step, as a ring; rings of steps with the same final position are concentric. */
 static void draw_ring(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up,
                       FILE *out) {
     const double *x = place(m, method, step, m->points - 1);
@@ -108,7 +109,7 @@ static void draw_ring(const CpsiMethods *m, const CpsiFrame *frame, int method, 
             3.0 + 2.6 * (m->steps - 1 - step), step_colour(m, step).hex);
 }
 
-/* The nodes of a short piece: as many elements as there are dots, however close. */
+/* The nodes of a short piece, as dots, whatever their distance. */
 static void draw_dots(const CpsiMethods *m, const CpsiFrame *frame, int method, FILE *out) {
     if (m->points <= DOTTED)
         for (int p = 0; p < m->points; ++p) {
@@ -118,9 +119,8 @@ static void draw_dots(const CpsiMethods *m, const CpsiFrame *frame, int method, 
         }
 }
 
-/* Some 150 points are enough for a whole line, and what is inside the frame for the rest; more only
- * make files large.
- */
+/* About 150 points are enough for a whole line, and for the rest those inside the frame; more would
+ * only make files larger. */
 static void draw_curve(const CpsiMethods *m, const CpsiFrame *frame, int method, int step, int up,
                        bool near, FILE *out) {
     const int last = m->points - 1;
@@ -143,7 +143,7 @@ static double row_bottom(int row) {
     return row_top(row) + (is_plan(row) ? PLAN_HEIGHT : SIDE_HEIGHT);
 }
 
-/* a long history by an even selection, with the first and the last step */
+/* for a long history an even selection, with the first and the last step */
 static bool is_drawn(const CpsiMethods *m, int step) {
     return step % (m->steps / CURVES + 1) == 0 || step == m->steps - 1;
 }

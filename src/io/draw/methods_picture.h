@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Configurations of a line side by side: a column for each method, line or shape, curves of its
- * steps in it. */
+/* Configurations of a line side by side: a column for each method, line or shape, with the curves
+ * of its steps. */
 #ifndef CAPSTAN_SRC_IO_DRAW_METHODS_PICTURE_H
 #define CAPSTAN_SRC_IO_DRAW_METHODS_PICTURE_H
 
@@ -13,7 +13,7 @@ typedef struct CpsiMethods {
     int methods, steps, points;
     const CpsMethodHistory *method; /* (methods) */
     const char *const *step_name;   /* (steps) */
-    bool plan_only; /* else plan and elevation, and both once more where end B goes */
+    bool plan_only; /* else plan and elevation, and both once more near the path of end B */
 } CpsiMethods;
 
 void cpsi_picture_methods(const CpsiMethods *methods, FILE *out);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Obstacles in plan views and elevations.
  *
- * A plane seen from above fills the frame and shows its slope; else it is cut by the paper.
- * Cylinders and balls show their silhouettes: a circle, or the band of a cylinder seen from its
- * side, which has no ends. What turns and is seen along its axis has a spoke that turns with it. */
+ * A plane seen from above fills the frame and shows its slope; otherwise its intersection with the
+ * paper is shown. Cylinders and balls are shown by their silhouettes: a circle, or the band of a
+ * cylinder seen from its side, which has no ends. An obstacle that turns and is seen along its axis
+ * has a spoke that turns with it. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +14,7 @@
 static const char FILL[] = "#efe7d6", ROUND_FILL[] = "#e6dcc4", EDGE[] = "#b9a67c",
                   SEEN_FROM_ABOVE[] = "#faf7f0", TEXT[] = "#9a8350";
 
-/* A cylinder whose axis is this short on paper is seen from its end. */
+/* A cylinder whose axis is this short on paper is shown as a circle. */
 static const double END_ON = 0.1;
 
 enum { CORNERS = 8 };
@@ -39,7 +40,7 @@ static Polygon whole(const CpsiFrame *frame) {
                       {frame->x[0], frame->y[1]}}};
 }
 
-/* The part in the half-plane a x + b y <= c. */
+/* The part of the polygon in the half-plane a x + b y <= c. */
 static Polygon cut(const Polygon *from, double a, double b, double c) {
     Polygon out = {0};
     for (int i = 0; i < from->count; ++i) {
@@ -110,7 +111,7 @@ static void draw_spoke(const CpsObstacle *obstacle, double turned, const CpsiVie
         x, y, cpsi_frame_x(frame, vec3_dot(view->right, rim)),
         cpsi_frame_y(frame, vec3_dot(view->up, rim)), TEXT, x, y, TEXT);
     snprintf(label, sizeof label, "turned %.4g\xC2\xB0", degrees(turned));
-    /* the text where the spoke is not */
+    /* the text is placed where the spoke is not */
     const bool down = vec3_dot(view->up, spoke) < 0;
     cpsi_svg_text(out, x, down ? y - 8 : y + 16, CPSI_MIDDLE, "fill=\"#9a8350\" font-size=\"11\"",
                   label);

@@ -19,7 +19,7 @@ typedef struct TracePicture {
     const CpsPlanimeterReading *reading;
 } TracePicture;
 
-/* the hinge, on the side that the elbow is on */
+/* the hinge, on the side of the elbow */
 static void find_hinge(const CpsPlanimeter *p, const double tracer[2], double hinge[2]) {
     const double dx = tracer[0] - p->pole[0], dy = tracer[1] - p->pole[1], d2 = dx * dx + dy * dy;
     const double along =
@@ -67,7 +67,7 @@ static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
     cpsi_draw_dot(out, &frame, hinge, 4, "fill=\"#fff\" stroke=\"#555\" stroke-width=\"2\"");
     cpsi_draw_dot(out, &frame, tracer, 4, "fill=\"" CPSI_PLUM "\"");
 
-    /* the wheel, across its arm */
+    /* the wheel, perpendicular to its arm */
     const double nx = -(tracer[1] - hinge[1]) / m->tracer_arm,
                  ny = (tracer[0] - hinge[0]) / m->tracer_arm;
     const double half = 0.06 * (frame.x[1] - frame.x[0]) * 0.6;
@@ -128,7 +128,7 @@ static void draw_loop(FILE *out, const SweepPicture *p, int column, const double
     cpsi_frame_end(out);
 }
 
-/* two: the way of the block and of the end, with springs */
+/* two components: the paths of the block and of the end, with springs */
 static void draw_plane(FILE *out, const SweepPicture *p) {
     CpsiFrame frame = {.left = LEFT, .top = TOP, .width = SIDE, .height = SIDE};
     frame.x[0] = frame.y[0] = INFINITY;

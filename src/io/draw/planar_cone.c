@@ -6,11 +6,11 @@
 
 #include "base/math.h"
 
-/* Unit directions as near as this lie in the cone: far below a pixel, above what directions of
- * normals are known to. */
+/* Unit directions at most this far from the cone lie in it: far below a pixel, above the error of
+ * directions of normals. */
 static const double NEAR = 1e-6;
 
-/* Halvings of an angle: to the same. */
+/* Number of halvings of an angle, to the same accuracy. */
 enum { HALVINGS = 22 };
 
 static CpsStatus holds(const CpsSet *cone, double angle, bool *in, CpsError *err) {
@@ -22,7 +22,7 @@ static CpsStatus holds(const CpsSet *cone, double angle, bool *in, CpsError *err
     return status;
 }
 
-/* How far the cone goes on from `middle` inside it, to one side. */
+/* Angle to which the cone extends from `middle`, a direction inside it, to one side. */
 static CpsStatus reach(const CpsSet *cone, double middle, int side, double *angle, CpsError *err) {
     double low = 0, high = CPSI_PI;
     CpsStatus status = CPS_OK;
@@ -58,7 +58,8 @@ CpsStatus cpsi_planar_cone(const CpsSet *cone, CpsiPlanarCone *out, CpsError *er
         out->line = ahead && back;
         return CPS_OK;
     }
-    if (back) { /* beside a direction inside, the opposite one leaves nothing out */
+    /* if the opposite of a direction inside lies in the cone too, nothing else is missing */
+    if (back) {
         out->turn = 2 * CPSI_PI;
         return CPS_OK;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A closed convex cone of the plane as a range of directions: nothing, a ray, a line, a sector, a
- * half-plane, the whole plane. */
+/* A closed convex cone of the plane as a range of directions: the empty range, a ray, a line, a
+ * sector, a half-plane, the whole plane. */
 #ifndef CAPSTAN_SRC_IO_DRAW_PLANAR_CONE_H
 #define CAPSTAN_SRC_IO_DRAW_PLANAR_CONE_H
 
@@ -8,7 +8,7 @@
 
 typedef struct CpsiPlanarCone {
     int dimension;      /* 0: only 0; -1: not known */
-    bool line;          /* of dimension 1: both directions */
+    bool line;          /* for dimension 1: whether both directions belong to it */
     double start, turn; /* angles from `start` on, counterclockwise, turn from 0 to 2 pi */
 } CpsiPlanarCone;
 

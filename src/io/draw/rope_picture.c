@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A rope on a table: its shape with the velocity field and the parts that rest, the tension along
- * it, and a strip of shapes on its way. */
+/* A rope on a table: its shape with the velocity field and the parts at rest, the tension along it,
+ * and a strip of shapes along its path. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@
 
 enum { LEFT = 84, TOP = 96, SHAPE = 460, HEIGHT = 380, GAP = 130, STRIP = 190, ARROWS = 24 };
 
-/* Nodes slower than this share of the fastest rest. */
+/* Nodes slower than this share of the fastest one are at rest. */
 static const double REST = 1e-6;
 
 typedef struct RopePicture {
@@ -100,7 +100,7 @@ static CpsStatus draw_tension(FILE *out, const RopePicture *p, CpsError *err) {
     return CPS_OK;
 }
 
-/* shapes side by side, all to one scale, each over the pale ones before it */
+/* shapes side by side with the same scale, each over the preceding ones in pale colours */
 static void draw_strip(FILE *out, const RopePicture *p, double width) {
     const size_t nodes = (size_t)p->rope->rope.nodes;
     const int columns = p->count < 6 ? p->count : 6;

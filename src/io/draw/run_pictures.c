@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All SVG pictures of a run: which there are. */
+/* All SVG pictures of a run. */
 #include "io/draw/run_picture.h"
 
 static CpsStatus write_steps(CpsResults *results, const CpsiView *view, CpsError *err) {
@@ -8,7 +8,7 @@ static CpsStatus write_steps(CpsResults *results, const CpsiView *view, CpsError
     FILE *out = NULL;
     for (int s = 0; s < results->snapshot_count && !status; ++s) {
         const CpsiSnapshot *snapshot = &results->snapshot[s];
-        /* a history that ended early: its last step is pictured too */
+        /* for a history that ended early the last step is drawn too */
         if (!cpsi_results_pictured(results, snapshot->step) &&
             snapshot->step != results->row_count - 1)
             continue;

@@ -16,7 +16,7 @@ void cpsi_tension_range(const CpsResults *results, double range[2]) {
             for (int i = 0; i + 1 < results->snapshot[s].shape[l].points; ++i)
                 cpsi_range_include(range, results->snapshot[s].shape[l].tension[i]);
     if (!(range[1] >= range[0])) range[0] = range[1] = 0;
-    /* from zero, unless that would leave much of the scale unused */
+    /* the scale begins at zero, unless that would leave much of it unused */
     if (range[0] < 0.25 * range[1]) range[0] = 0;
     if (!(range[1] - range[0] > 1e-6 * range[1])) range[0] = 0;
     if (range[1] <= 0) range[1] = 1;

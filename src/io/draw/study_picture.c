@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The way of a study to its limits: tensions on which the stages come to rest, and errors solve by
- * solve. */
+/* The convergence of a study: the final tensions of the stages, and the errors of all solves. */
 #include <math.h>
 
 #include "io/base/escape.h"
@@ -18,7 +17,7 @@ enum {
     SHEET_HEIGHT = 850
 };
 
-/* errors below this are not shown: rounding, and exact zeros */
+/* smaller errors are not shown: rounding, and exact zeros */
 static const double FLOOR = 1e-13;
 
 static const char *const STAGE_NAME[CPS_STUDY_STAGE_COUNT] = {"h", "\xCE\xBB", "n", "\xCE\xB4"};
@@ -70,7 +69,7 @@ static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
     }
     cpsi_frame_end(out);
 
-    /* what is what */
+    /* the legend */
     const double x = LEFT + WIDTH + 20;
     for (int s = -1; s < CPS_STUDY_STAGE_COUNT; ++s) {
         const double y = TENSION_TOP + 30 + 22 * s;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drawing graphs as SVG 1.1 (see svg.h). Colours are laid out in OKLab (B. Ottosson, 2020), where
- * equal distances look equal: lightness falls evenly along a scale while the hue turns, so they
- * also read in grey. */
+/* Drawing graphs as SVG 1.1 (see svg.h). Colours are defined in OKLab (B. Ottosson, 2020), where
+ * equal distances look equal: lightness decreases uniformly along a scale while the hue changes, so
+ * that scales are also readable in grey. */
 #include "io/draw/svg.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ CpsiUnit cpsi_unit(const char *base, double largest) {
     return unit;
 }
 
-/* put text, cut to `size` bytes with an ellipsis */
+/* write text, cut to `size` bytes with an ellipsis */
 static void draw_cut(FILE *out, const char *text, size_t size) {
     char part[256];
     const size_t cut = cpsi_utf8_cut(text, size < sizeof part ? size : sizeof part - 1);
@@ -87,7 +87,8 @@ void cpsi_svg_text(FILE *out, double x, double y, CpsiAnchor anchor, const char 
     fputs("</text>\n", out);
 }
 
-/* within what SVG readers draw reliably; what is not finite goes out of sight */
+/* within the range that SVG readers draw reliably; what is not finite is placed outside the
+ * sheet */
 static double clamp_pixel(double p) { return p >= -1e4 ? fmin(p, 1e4) : -1e4; }
 
 double cpsi_frame_x(const CpsiFrame *frame, double x) {
@@ -112,7 +113,7 @@ void cpsi_range_pad(double range[2], double share) {
         range[0] = 0;
         range[1] = length = 1;
     }
-    /* a range within rounding of one value is shown as that value in the middle */
+    /* where the range is only the rounding of one value, that value is shown in the middle */
     const double least = 1e-9 * fmax(fabs(range[0]), fabs(range[1]));
     const double more = length > least ? share * length : fmax(0.5, 1e3 * least);
     range[0] -= more;
@@ -125,7 +126,7 @@ static double nice_step(double length, double count) {
     return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
 }
 
-/* ticks inside a range: fills value, returns how many */
+/* ticks inside a range: fills value, returns their number */
 static int find_ticks(const double range[2], double count, double value[MAX_TICKS]) {
     const double step = nice_step(range[1] - range[0], count);
     if (!(step > 0) || !isfinite(step)) return 0;
@@ -134,7 +135,7 @@ static int find_ticks(const double range[2], double count, double value[MAX_TICK
     for (int i = 0; i < MAX_TICKS; ++i) {
         const double x = (first + i) * step;
         if (!(x <= range[1] + 1e-9 * step)) break;
-        value[ticks++] = x == 0 ? 0 : x; /* no -0 */
+        value[ticks++] = x == 0 ? 0 : x; /* avoids -0 */
     }
     return ticks;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Maps of a system with two driven components: what it answers at every driving velocity of a grid.
- * The first map has gamma as colour and the resistance as arrows; the others one velocity parameter
- * each. */
+/* Maps of a system with two driven components: its answers at every driving velocity of a grid. The
+ * first map shows gamma as colour and the resistance as arrows; each other map shows one velocity
+ * parameter. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -24,11 +24,11 @@ static double grid(const CpsDriveSystem *s, int i) {
     return s->map_radius * (2.0 * i / (GRID - 1) - 1);
 }
 
-/* Velocities below this share of the largest of all maps are rounding: the root of what the bounds
- * leave open. */
+/* Velocities below this share of the largest of all maps are rounding: the square root of the error
+ * of the bounds. */
 static const double ROUNDING = 1e-7;
 
-/* A parameter that rests everywhere has a plain map. */
+/* A parameter that is at rest everywhere has a uniform map. */
 static void clear_rounding(Maps *m) {
     const size_t count = (size_t)GRID * GRID * (size_t)m->parameters;
     double most = m->file->system.map_radius;
@@ -64,18 +64,17 @@ static CpsStatus solve_grid(Maps *m, CpsError *err) {
     return CPS_OK;
 }
 
-/* which of LEVELS a value is at, -1: none */
+/* index of the interval of LEVELS that contains a value, -1: none */
 static int level(double x, const double range[2]) {
-    /* rounding is no structure */
+    /* differences that are rounding are not shown */
     const double most = fmax(fabs(range[0]), fabs(range[1]));
     if (!isfinite(x)) return -1;
     if (!(range[1] - range[0] > 1e-9 * most)) return LEVELS / 2;
     return (int)((LEVELS - 1) * (x - range[0]) / (range[1] - range[0]) + 0.5);
 }
 
-/* a field as square cells, one path for all of a colour, runs of a row together; the frame is GRID
- * cells wide and high
- */
+/* a field as square cells, with one path for all cells of a colour and adjacent cells of a row
+ * joined; the frame is GRID cells wide and high */
 static void draw_field(FILE *out, const CpsiFrame *frame, const double *value, int stride,
                        CpsiScale scale) {
     double range[2] = {INFINITY, -INFINITY};
@@ -89,7 +88,7 @@ static void draw_field(FILE *out, const CpsiFrame *frame, const double *value, i
     for (int l = 0; l < LEVELS; l++) {
         bool some = false;
         for (int i = 0; i < GRID * GRID; i++) {
-            int run = 0; /* cells side by side */
+            int run = 0; /* number of adjacent cells */
             while (i % GRID + run < GRID &&
                    level(value[(size_t)(i + run) * (size_t)stride], range) == l)
                 run++;
@@ -124,7 +123,7 @@ static void draw_scale(FILE *out, const CpsiFrame *frame, const double *value, i
                   text);
 }
 
-/* -G at every fourth point, all to one scale */
+/* -G at every fourth point, all with the same scale */
 static void draw_arrows(FILE *out, const CpsiFrame *frame, const Maps *m) {
     const CpsDriveSystem *s = &m->file->system;
     double most = 0;

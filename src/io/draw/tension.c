@@ -12,8 +12,8 @@ static void draw_curve(FILE *out, const CpsiFrame *frame, const CpsiShape *shape
             "points=\"",
             colour, width);
     for (int i = 0; i + 1 < shape->points; ++i) {
-        /* a tension belongs to the middle of its stretch; the curve still reaches both ends of the
-         * line */
+        /* a tension belongs to the middle of its interval; the curve still extends to both ends of
+         * the line */
         const double middle = 0.5 * (shape->abscissa[i] + shape->abscissa[i + 1]);
         const double at = i == 0                   ? shape->abscissa[0]
                           : i + 2 == shape->points ? shape->abscissa[i + 1]

@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where the pictures look from: plan views against gravity, elevations across the direction in
- * which the lines spread most, along a slope, which then is a straight line, or along the axis of a
- * cylinder, which then is round. All pictures of a run share them, so that steps can
- * be laid side by side. */
+/* The directions of view of the pictures: plan views against gravity; elevations across the
+ * direction in which the lines spread most, along a slope, which is then a straight line, or along
+ * the axis of a cylinder, which is then a circle. All pictures of a run have the same ones, so that
+ * steps can be compared. */
 #include <math.h>
 
 #include "io/draw/run_picture.h"
 
-/* A widest direction this close to an axis is taken as the axis: pictures of moorings then show
+/* A widest direction this close to an axis is replaced by the axis: pictures of moorings then show
  * plain x or y. */
 static const double SNAP_COSINE = 0.985; /* 10 degrees */
 
-/* A plane is level below this slope: not seen in a picture. */
+/* A plane with a smaller slope is drawn as level: the slope is not visible in a picture. */
 static const double LEVEL = 1e-3;
 
-/* A cylinder lies when its axis is this long seen from above: 25 degrees from the horizontal at
- * most. */
+/* A cylinder counts as horizontal when its axis is at least this long as seen from above: at most
+ * 25 degrees from the horizontal. */
 static const double HORIZONTAL = 0.9;
 
-/* Silhouettes up to this many times as wide as the lines are shown whole. */
+/* Silhouettes up to this many times as wide as the lines are shown whole ... */
 static const double MOST_ROUND = 2;
-/* ... if they are no farther away than this part of the lines' spread. */
+/* ... if they are no farther away than this share of the lines' spread. */
 static const double NEAR = 0.5;
 
 static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
@@ -31,7 +31,7 @@ static Vec3 upward(const CpsResults *results) {
     return vec3_norm(gravity) > 0 ? unit(vec3_scale(-1, gravity)) : vec3(0, 0, 1);
 }
 
-/* x as far as it is horizontal, else y */
+/* the horizontal part of x, or of y where x is vertical */
 static Vec3 horizontal_x(Vec3 up) {
     const Vec3 axis = fabs(up.x) < 0.9 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     return unit(vec3_axpy(-vec3_dot(axis, up), up, axis));
@@ -49,12 +49,12 @@ static void label_axis(char *out, size_t size, Vec3 a, const char *otherwise) {
     snprintf(out, size, "%s (%.2f, %.2f, %.2f) (m)", otherwise, a.x + 0.0, a.y + 0.0, a.z + 0.0);
 }
 
-/* How far a range is from reaching c - r .. c + r. */
+/* Distance of a range from c - r .. c + r. */
 static double apart(const double range[2], double c, double r) {
     return fmax(0, fmax(range[0] - (c + r), (c - r) - range[1]));
 }
 
-/* round silhouettes too, where the lines would not be lost beside them */
+/* include round silhouettes, unless the lines would be too small beside them */
 static void include_round(const CpsResults *results, CpsiView *view) {
     const double spread = hypot(view->x[1] - view->x[0], view->y[1] - view->y[0]);
     for (int k = 0; k < results->obstacle_count; ++k) {
@@ -75,7 +75,7 @@ static void include_round(const CpsResults *results, CpsiView *view) {
     }
 }
 
-/* ranges over all snapshots, of the configurations and of where their steps start */
+/* ranges over all snapshots, of the configurations and of the initial ones of their steps */
 static void measure(const CpsResults *results, CpsiView *view) {
     view->x[0] = view->y[0] = INFINITY;
     view->x[1] = view->y[1] = -INFINITY;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bytes -> tree (yaml.h) -> what is built of it (see document.h). */
+/* Bytes -> tree (yaml.h) -> the objects built from it (see document.h). */
 #include "io/read/document.h"
 
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 #include "io/base/read_file.h"
 #include "io/schema/keys.h"
 
-/* what tells limits that began as the default */
+/* marks limits that were initialised by their default function */
 static const uint32_t LIMITS_COOKIE = 0x4c494d54;
 
 CpsReadLimits cps_read_limits_default(void) {

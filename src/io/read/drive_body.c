@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* `body:` and `vehicle:` of a file of driven systems: patches or wheels, what is pushed, and a tow.
- */
+/* `body:` and `vehicle:` of a file of driven systems: patches or wheels, pushes, and a tow. */
 #include <math.h>
 #include <string.h>
 
@@ -54,7 +53,7 @@ static CpsStatus build_patches(CpsiSetBuild *b, const CpsiList *list, CpsDriveBo
 
 /* ---- pushes ---- */
 
-/* the rows of the velocity of a point in body axes, (1, 0, -y) and (0, 1, x), along `normal` or
+/* the rows for the velocity of a point in body axes, (1, 0, -y) and (0, 1, x), along `normal` or
  * both */
 static void point_rows(const double at[2], const double *normal, CpsDrivePush *push) {
     const double row[2][3] = {{1, 0, -at[1]}, {0, 1, at[0]}};

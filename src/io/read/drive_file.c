@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Read a file of driven systems: bytes -> tree (yaml.h) -> values by the table of keys
- * (key_reader.h) -> the kind that its key names. */
+ * (key_reader.h) -> the kind that the key names. */
 #include "io/read/drive_file.h"
 
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "base/status.h"
 #include "io/read/key_reader.h"
 
-/* The file and what its texts and arrays live in. */
+/* The file and the memory of its texts and arrays. */
 typedef struct Keep {
     CpsDriveFile file;
     CpsiPool pool;

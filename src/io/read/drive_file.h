@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The kinds of driven system made of their values, one function each; what they make is let go with
+/* The kinds of driven system made from their values, one function each. The results are freed with
  * the file, also on failure. */
 #ifndef CAPSTAN_SRC_IO_READ_DRIVE_FILE_H
 #define CAPSTAN_SRC_IO_READ_DRIVE_FILE_H

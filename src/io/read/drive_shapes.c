@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* `planimeter:`, `rope:` and `sweep:` of a file of driven systems: what follows a curve or a path.
- */
+/* `planimeter:`, `rope:` and `sweep:` of a file of driven systems, which follow a curve or a
+ * path. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,7 +86,7 @@ CpsStatus cpsi_build_planimeter(CpsiSetBuild *b, const CpsiPlanimeterValues *val
         return cpsi_document_fail(d, CPS_ERR_INPUT, values->node,
                                   "planimeter: more than 1e8 steps in all");
 
-    /* a curve out of reach is refused here, with its place */
+    /* a curve out of reach is reported here, with its position */
     CpsPlanimeterReading unused;
     CpsError found;
     if (status == CPS_OK && cps_planimeter_trace(&out->planimeter, out->points, out->point, 1,
@@ -156,7 +156,8 @@ CpsStatus cpsi_build_rope(CpsiSetBuild *b, const CpsiRopeValues *values, CpsDriv
             cpsi_build_path(b->d, &values->path, 2, out->rope.node + 2 * (size_t)values->elements,
                             out->steps, &out->points, &out->path);
 
-    /* a shape that the library refuses (nodes at one place) is refused here, with its place */
+    /* a shape that the library rejects (nodes at one position) is reported here, with its
+     * position */
     CpsError found;
     if (status == CPS_OK && cps_rope_check(&out->rope, &found) != CPS_OK)
         status = cpsi_document_place(b->d, values->shape.node, &found);

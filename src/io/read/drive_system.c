@@ -9,7 +9,7 @@
 #include "io/read/drive_file.h"
 #include "io/read/key_reader.h"
 
-/* The names known, and entries of the map being read. */
+/* The known names, and the entries of the map being read. */
 typedef struct Names {
     CpsiSetBuild *b;
     const CpsiDocument *d;
@@ -114,7 +114,7 @@ static CpsStatus read_map(const Names *names, const CpsiYaml *node, const char *
 
 /* ---- laws ---- */
 
-/* The law acts on the map's rows, which are as many as it has components. */
+/* The law acts on the map's rows; there must be as many as it has components. */
 static CpsStatus add_law(const Names *names, const CpsiSystemLawValues *values, const char *name,
                          const Map *map, CpsSystem *system) {
     CpsLaw *law = NULL;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reading by tables of keys (see key_reader.h). The recursion is as deep as the tables, not as the
- * file. A size is checked before room is taken for it. */
+/* Reading by tables of keys (see key_reader.h). The depth of the recursion is that of the tables,
+ * not of the file. A size is checked before memory is allocated for it. */
 #include "io/read/key_reader.h"
 #include "capstan/io.h"
 
@@ -10,7 +10,7 @@
 
 #include "io/schema/set_keys.h"
 
-/* A value that is being read: its row, and what messages call it. */
+/* A value that is being read: its row, and its name in messages. */
 typedef struct Value {
     const CpsiDocument *d;
     const CpsiKey *key;
@@ -46,7 +46,7 @@ static bool is_word_with_value(const CpsiYaml *node) {
 
 /* ---- numbers ---- */
 
-/* A finite number of the row's range, or infinite where that allows it. */
+/* A finite number within the row's range, or an infinite one where that allows it. */
 static CpsStatus read_number(const Value *v, const CpsiYaml *node, const CpsiKey *range,
                              double *out) {
     double x = NAN;
@@ -78,7 +78,7 @@ static CpsStatus read_whole(const Value *v, const CpsiYaml *node, const CpsiKey 
     return CPS_OK;
 }
 
-/* All numbers of a list, each of the range. */
+/* All numbers of a list, each within the range. */
 static CpsStatus read_numbers(const Value *v, const CpsiYaml *list, const CpsiKey *range,
                               double *out) {
     const CpsiKey number = {.type = CPSI_NUMBER,
@@ -131,7 +131,7 @@ static CpsStatus read_rows(const Value *v, const CpsiYaml *node, const CpsiKey *
     return status;
 }
 
-/* An end of a side: without end on its own side only. */
+/* An end of a side; it may be infinite only on its own side. */
 static CpsStatus read_end(const Value *v, const CpsiYaml *node, double low, double end,
                           double *out) {
     const CpsiKey range = {.type = CPSI_NUMBER, .low = low, .high = CPSI_LARGEST};
@@ -170,7 +170,7 @@ static CpsStatus read_sides(const Value *v, const CpsiYaml *node, const CpsiKey 
     return status;
 }
 
-/* ---- what is read later ---- */
+/* ---- values read later ---- */
 
 /* [length, [count, length], ..] */
 static CpsStatus check_elements(const Value *v, const CpsiYaml *node, const CpsiKey *form) {
@@ -195,7 +195,7 @@ static CpsStatus check_elements(const Value *v, const CpsiYaml *node, const Cpsi
     return status;
 }
 
-/* The node itself, whose form is checked as far as its type says. */
+/* The node itself, whose form is checked as far as its type determines it. */
 static CpsStatus keep_node(const Value *v, const CpsiYaml *node, const CpsiKey *form,
                            const CpsiYaml **out) {
     *out = node;
@@ -277,8 +277,7 @@ static CpsStatus read_list(const Value *v, const CpsiYaml *node, const CpsiKey *
 
 /* ---- values ---- */
 
-/* Is the value of the kind of this form?  Forms that only some scalars have stand first in a row.
- */
+/* Whether the value has this form. Forms that only some scalars have come first in a row. */
 static bool has_form(const CpsiYaml *node, const CpsiKey *form) {
     switch (form->type) {
     case CPSI_WORD:
@@ -354,12 +353,12 @@ CpsStatus cpsi_expect_components(const CpsiDocument *d, const CpsiRows *vector, 
 
 /* ---- mappings ---- */
 
-/* What stands before the last dot must be one of those under `owner`, "lines" or "obstacles". */
+/* The text before the last dot must be a key under `owner`, "lines" or "obstacles". */
 static CpsStatus check_owner(const CpsiDocument *d, const CpsiYaml *node, const char *owner) {
     const CpsiYaml *all = cpsi_yaml_child(d->root, owner);
     const char *dot = strrchr(node->key, '.');
     const size_t n = (size_t)(dot - node->key);
-    char wanted[80] = ""; /* stays empty for what is too long for a name */
+    char wanted[80] = ""; /* stays empty for a text too long for a name */
     if (n < sizeof wanted) memcpy(wanted, node->key, n);
     if (wanted[0] && cpsi_yaml_child(all, wanted)) return CPS_OK;
     CpsSuggestion suggestion = {.word = wanted};
@@ -374,7 +373,7 @@ static CpsStatus check_owner(const CpsiDocument *d, const CpsiYaml *node, const 
                               node->key, letters, owner, owner);
 }
 
-/* Room in the lists of keys with an owner for as many as are given. */
+/* Memory in the lists of keys with an owner for as many as are given. */
 static CpsStatus reserve_owned(const CpsiDocument *d, const CpsiYaml *node,
                                const CpsiMapping *mapping, char *out) {
     for (int i = 0; i < mapping->count; i++) {
@@ -408,7 +407,7 @@ static CpsStatus read_owned(const CpsiDocument *d, const CpsiYaml *node, const C
     return cpsi_read_value(d, node, &item, what, &number->number);
 }
 
-/* The number of the key CPSI_ONE_OF that is given. */
+/* The index of the key CPSI_ONE_OF that is given. */
 static int which_given(const CpsiYaml *node, const CpsiMapping *mapping) {
     int which = 0;
     for (int i = 0; i < mapping->count; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A table of nodes as CSV (see node_file.h). Cells are cut in place, so that messages know their
- * columns. */
+/* A table of nodes as CSV (see node_file.h). Cells are terminated in place, so that messages can
+ * give their columns. */
 #include "io/read/node_file.h"
 
 #include <math.h>
@@ -29,12 +29,12 @@ static const char NAMES[] =
 typedef struct Table {
     const char *path;
     CpsError *err;
-    int line;            /* of the file, from 1 */
-    int columns;         /* found */
-    int column[COLUMNS]; /* what the k-th of them is */
+    int line;            /* number of the line in the file, from 1 */
+    int columns;         /* number of columns found */
+    int column[COLUMNS]; /* meaning of the k-th column */
     bool has[COLUMNS];
     int rows;
-    double *value[COLUMNS]; /* (rows) each, NULL: not there */
+    double *value[COLUMNS]; /* (rows) each, NULL: there is no such column */
 } Table;
 
 static CpsStatus no_memory(const Table *t) {
@@ -44,8 +44,8 @@ static CpsStatus no_memory(const Table *t) {
 
 /* ---- cells ---- */
 
-/* Cut `text` at commas: at most `room` cells without blanks around them. Returns how many there
- * are, room + 1 if more. */
+/* Divide `text` at commas into at most `room` cells without blanks around them. Returns their
+ * number, room + 1 if there are more. */
 static int cut(char *text, char **cell, int room) {
     int count = 0;
     for (char *next = text; next;) {
@@ -119,7 +119,7 @@ static CpsStatus read_row(Table *t, char *text) {
     return CPS_OK;
 }
 
-/* ---- together ---- */
+/* ---- the whole table ---- */
 
 static CpsStatus read_lines(Table *t, CpsiTextRows *rows, CpsiPool *pool) {
     bool named = false;
@@ -141,7 +141,7 @@ static CpsStatus read_lines(Table *t, CpsiTextRows *rows, CpsiPool *pool) {
     return status;
 }
 
-/* Abscissae begin with 0 and rise. */
+/* Check that abscissae begin with 0 and increase. */
 static CpsStatus check_arc_length(const Table *t) {
     const double *a = t->value[ARC_LENGTH];
     if (!a) return CPS_OK;

@@ -26,7 +26,7 @@ void cps_drive_walk(int space, int points, const double *path, int count, double
                 continue;
             }
             here = before + length;
-            /* all that fall on this side, the last point on the last side */
+            /* all points on this side; the last point is on the last side */
             for (; at < count; at++) {
                 const double s = count > 1 ? whole * at / (count - 1) : 0;
                 if (s > here && i + 2 < points) break;
@@ -42,7 +42,7 @@ void cps_drive_walk(int space, int points, const double *path, int count, double
 
 static CpsStatus build_arc(const CpsiDocument *d, const CpsiPathArcValues *arc, const double *start,
                            int steps, int *points, const double **path) {
-    /* corners where the steps end */
+    /* corners at the ends of steps */
     const int sides = steps * (steps < CPSI_DRIVE_ARC_SIDES ? 1 + CPSI_DRIVE_ARC_SIDES / steps : 1);
     double *x = CPSI_POOL_TAKE(d->pool, 2 * ((size_t)sides + 1), double);
     if (!x) return cpsi_document_no_memory(d);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* From what a scene file says to the scene's structs (see scene_build.h). Defaults are those of
- * cps_scene_default() and the like, which reading begins with. */
+/* From the values of a scene file to the scene's structs (see scene_build.h). Defaults are those of
+ * cps_scene_default() and similar functions, with which reading begins. */
 #include "io/read/scene_build.h"
 
 #include <math.h>
@@ -14,13 +14,14 @@
 
 typedef struct Build {
     const CpsiDocument *d;
-    CpsiPool *pool; /* of the scene */
+    CpsiPool *pool; /* memory of the scene */
     CpsScene *scene;
     CpsLine *line;
-    CpsiSetBuild set;     /* of friction sets */
-    double elements;      /* of the lines so far */
-    double (*held)[2][3]; /* (lines) [m] where each end is held after the entry before; NaN: not
-                             held, or not known */
+    CpsiSetBuild set; /* of friction sets */
+    double elements;  /* number of elements of the lines so far */
+    /* (lines) [m] position at which each end is held after the preceding entry; NaN: not held, or
+     * not known */
+    double (*held)[2][3];
 } Build;
 
 static const char *copy_text(const Build *b, const char *text) {
@@ -31,8 +32,8 @@ static void copy_vector(double out[3], const double x[3]) { memcpy(out, x, 3 * s
 
 /* ---- elements ---- */
 
-/* The elements of the lines so far are within the limits, and so are they beside each obstacle,
- * which is what the time of everything goes with. */
+/* Check that the elements of the lines so far are within the limits, and so is their number times
+ * that of the obstacles, with which computing times increase. */
 static CpsStatus check_size(const Build *b, const CpsiYaml *place) {
     const double most = fmin((double)b->d->limits->max_elements, 1e9);
     const double pairs = b->elements * b->scene->obstacle_count;
@@ -51,7 +52,7 @@ static CpsStatus check_size(const Build *b, const CpsiYaml *place) {
     return CPS_OK;
 }
 
-/* Count the elements, within the limits, before room for them is made. */
+/* Count the elements and check the limits before memory is allocated for them. */
 static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
     const CpsiYaml *list = values->elements, *given = cpsi_yaml_child(values->node, "elements");
     double count = isnan(values->count) ? line->elements : values->count;
@@ -95,7 +96,7 @@ static CpsStatus read_nodes(const Build *b, const CpsiStartValues *start, CpsiNo
     return cpsi_node_file_read(path, b->d->limits->max_bytes, b->pool, file, b->d->err);
 }
 
-/* The elements of the file where the scene gives none; else both have the same. */
+/* The elements of the file where the scene gives none; otherwise both must have the same. */
 static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const CpsiNodeFile *file,
                                CpsLine *line) {
     const CpsiYaml *given = cpsi_yaml_child(values->node, "elements");
@@ -121,7 +122,8 @@ static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const Cps
         worst = fmax(worst, fabs(length[e] - here));
     }
     if (!given) line->element_length = length;
-    if (!given || worst <= 1e-9 * line->length) return CPS_OK; /* written with 9 digits */
+    /* tolerance for abscissae written with 9 digits */
+    if (!given || worst <= 1e-9 * line->length) return CPS_OK;
     return cpsi_document_fail(
         b->d, CPS_ERR_INPUT, given,
         "'elements': natural lengths differ by %g m from those of arc_length in "
@@ -180,7 +182,7 @@ static CpsEnd build_end(const CpsiEndValues *values) {
     return end;
 }
 
-/* Where an end is held at first; for the end of an arc only the start itself knows. */
+/* Initial position of a held end; for the end of an arc only the start itself knows it. */
 static void first_position(const CpsLine *line, int end, double out[3]) {
     const CpsStart *start = &line->start;
     const double *value = line->end[end].value;
@@ -267,13 +269,13 @@ static CpsStatus build_obstacles(Build *b, const CpsiList *obstacles) {
 
 /* ---- history ---- */
 
-/* Is it the name of what stands before the last dot of NAME.WHAT? */
+/* Whether this is the name before the last dot of NAME.WHAT. */
 static bool is_owner(const char *name, const char *key) {
     const size_t n = (size_t)(strrchr(key, '.') - key);
     return strncmp(name, key, n) == 0 && !name[n];
 }
 
-/* The index of the line of LINE.END; the reader has seen that there is one. */
+/* The index of the line of LINE.END; the reader has checked that it exists. */
 static int find_line(const Build *b, const char *key) {
     int i = 0;
     while (i + 1 < b->scene->line_count && !is_owner(b->line[i].name, key)) i++;

@@ -12,7 +12,9 @@
 
 struct CpsSceneFile {
     CpsScene scene;
-    CpsiPool pool; /* all that the scene points to, but for the friction sets, which are held */
+    /* memory of everything that the scene refers to, except the friction sets, which are
+     * retained */
+    CpsiPool pool;
 };
 
 void cps_scene_file_destroy(CpsSceneFile *file) {

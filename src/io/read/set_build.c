@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Words made of their values (see set_build.h): make_word and build_parts call each other down the
- * file. */
+/* Words made from their values (see set_build.h). make_word and build_parts call each other
+ * recursively. */
 #include "io/read/set_build.h"
 
 #include <stdio.h>
@@ -19,7 +19,8 @@ static bool is_open_polytope(const CpsiKey *word, int components) {
     return components > MOST_CLOSED && strcmp(word->name, "polytope") == 0;
 }
 
-/* A set just made of a word with `items` points or rows: not too large to be asked questions.
+/* Check that a set just made from a word with `items` points or rows is not too large for
+ * queries.
  *   solved  by a conic program */
 static CpsStatus weigh(CpsiSetBuild *b, const CpsiYaml *node, int components, int items,
                        bool solved) {
@@ -36,7 +37,7 @@ static CpsStatus weigh(CpsiSetBuild *b, const CpsiYaml *node, int components, in
     return CPS_OK;
 }
 
-/* How many points or rows a word has. */
+/* Number of points or rows of a word. */
 static int items_of(const CpsiKey *word, const CpsiSetValues *values) {
     if (word->type == CPSI_EXPRESSION || word->type == CPSI_EXPRESSIONS) return 0;
     return values->rows.rows > 0 ? values->rows.rows : 1;
@@ -52,7 +53,7 @@ static CpsStatus read_laws(const CpsiSetBuild *b, int count, CpsiSetValues *v) {
     return CPS_OK;
 }
 
-/* The first expression of a list, or the one that stands alone, and how many there are. */
+/* The first expression of a list, or a single one, and their number. */
 static const CpsiYaml *expressions(const CpsiYaml *node, int *count) {
     const bool list = node->kind == CPSI_YAML_SEQUENCE;
     *count = list ? node->count : 1;
@@ -114,7 +115,7 @@ static void release_parts(const CpsiSetValues *v) {
 
 /* ---- words ---- */
 
-/* {WORD: value}: read the values, make it of them */
+/* {WORD: value}: read the values, make the object */
 static CpsStatus make_word(CpsiSetBuild *b, const CpsiYaml *node, const CpsiKey *word,
                            CpsiSetMade *made) {
     char what[80];
@@ -143,7 +144,7 @@ static CpsStatus make_word(CpsiSetBuild *b, const CpsiYaml *node, const CpsiKey 
     return status;
 }
 
-/* The word is looked up in `first`, and then among those of sets; NULL: there alone. */
+/* The word is searched for in `first`, and then among those of sets; NULL: only there. */
 static CpsStatus make_expression(CpsiSetBuild *b, const CpsiYaml *node, const CpsiMapping *first,
                                  CpsiSetMade *made) {
     const CpsiYaml *value = node->child;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of fields, and a choice of them by name (fields.h). */
+/* The table of fields, and the selection of fields by name (fields.h). */
 #include "io/results/fields.h"
 
 #include <stddef.h>

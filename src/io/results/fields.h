@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The fields of result.nc along a line, and the choice of those that a run writes. */
+/* The fields of result.nc along a line, and the selection of those that a run writes. */
 #ifndef CAPSTAN_SRC_IO_RESULTS_FIELDS_H
 #define CAPSTAN_SRC_IO_RESULTS_FIELDS_H
 
@@ -11,16 +11,17 @@ typedef enum CpsiPlace { CPSI_PLACE_NODE, CPSI_PLACE_ELEMENT } CpsiPlace;
 typedef struct CpsiField {
     const char *name, *long_name, *units;
     CpsiPlace place;
-    bool vector, fixed; /* fixed: does not change with the steps, and is always written */
-    bool contact; /* belongs to a contact: where nodes have a second one, there is one more variable
-                     of it */
-    size_t offset; /* of a const double * in CpsLineView */
+    bool vector, fixed; /* fixed: does not change from step to step, and is always written */
+    /* belongs to a contact: where nodes have a second one, there is one more variable for it */
+    bool contact;
+    size_t offset; /* offset of a const double * in CpsLineView */
 } CpsiField;
 
 enum { CPSI_FIELDS = 21 };
 extern const CpsiField cpsi_field[CPSI_FIELDS];
 
-/* Those that are wanted: a bit for each field, and these two for arrays that hold no doubles. */
+/* The selected fields: a bit for each field, and these two for arrays that do not contain
+ * doubles. */
 #define CPSI_WANTED_STATE    (1u << CPSI_FIELDS)
 #define CPSI_WANTED_OBSTACLE (2u << CPSI_FIELDS)
 

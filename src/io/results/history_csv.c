@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The history as CSV (RFC 4180): a row of names, a row of units, a row per step. The columns are
- * two tables, one of the step and one of each line; a value that says nothing is an empty cell. */
+ * two tables, one for the step and one for each line; a value without meaning is an empty cell. */
 #include <stddef.h>
 
 #include "io/base/escape.h"
@@ -8,7 +8,7 @@
 
 typedef struct Column {
     const char *name, *unit;
-    size_t offset; /* of a double in the struct that the table describes */
+    size_t offset; /* offset of a double in the struct that the table describes */
 } Column;
 
 #define STEP(member) offsetof(CpsStepReport, member)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A journal of steps (io.h): a head that says which program and which scene it is of, then one
- * record per step: its number, a checksum and the state of cps_evolution_save, each synced before
- * the next step begins unless that is left to the end. The journal ends where no whole record
- * follows: what a killed run left unfinished, and what a power cut made of the tail, is dropped. */
+/* A journal of steps (io.h): a head that identifies the program and the scene, then one record per
+ * step: its number, a checksum and the state of cps_evolution_save. Each record is synced before
+ * the next step begins, unless that is postponed to the end. The journal ends where no complete
+ * record follows: an incomplete record of a killed run, and a tail damaged by a power cut, are
+ * dropped. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <fcntl.h>
@@ -19,32 +20,35 @@ static const char NAME[] = ".journal";
 
 struct CpsJournal {
     char *directory;
-    int folder, file;     /* the directory, the journal in it */
-    bool late;            /* synced by cps_journal_sync alone */
-    bool begun;           /* here and now, and not resumed */
-    bool tail;            /* what lies behind the last whole record has not been cut off yet */
-    uint64_t steps;       /* records read or written */
-    off_t end;            /* of the last of them */
+    int folder, file; /* the directory, the journal in it */
+    bool late;        /* synced by cps_journal_sync only */
+    bool begun;       /* begun in this process, not resumed */
+    /* whether the bytes after the last complete record have not been cut off yet */
+    bool tail;
+    uint64_t steps;       /* number of records read or written */
+    off_t end;            /* end of the last of them */
     size_t size;          /* of a state */
     unsigned char *state; /* (size) */
 };
 
-/* What a journal begins with. The scene is known by the state of its evolution before the first
+/* The head of a journal. The scene is identified by the state of its evolution before the first
  * step. */
 typedef struct Head {
     char magic[8], program[64];
     uint64_t build, scene,
-        size; /* checksums of the program's version and build and of that state; bytes of a state */
-    uint64_t checksum; /* of all before */
+        /* checksums of the program's version and build and of that state; size of a state in
+         * bytes */
+        size;
+    uint64_t checksum; /* of all the above */
 } Head;
 
 static const char MAGIC[8] = "capstnJ2", PROGRAM[] = CAPSTAN_COMMIT " " CAPSTAN_BUILD;
 
 typedef struct Record {
-    uint64_t step, checksum; /* the latter of the number and of the state */
+    uint64_t step, checksum; /* the checksum is that of the number and of the state */
 } Record;
 
-/* FNV-1a over 64-bit words, the last one filled with zeros; begins with `hash`. */
+/* FNV-1a over 64-bit words, the last one filled with zeros; `hash` is the initial value. */
 static uint64_t checksum(uint64_t hash, const void *bytes, size_t size) {
     const unsigned char *byte = bytes;
     for (size_t i = 0; i < size; i += 8) {
@@ -61,7 +65,8 @@ static uint64_t record_checksum(uint64_t step, const CpsJournal *journal) {
     return checksum(checksum(CHECKSUM_BEGINS, &step, sizeof step), journal->state, journal->size);
 }
 
-/* All bytes or a failure, at an offset; a short read is no failure: *got says how many. */
+/* Read all bytes at an offset. Returns false after a failure; a short read is not a failure: *got
+ * is the number of bytes read. */
 static bool read_at(int file, void *to, size_t size, off_t at, size_t *got) {
     for (*got = 0; *got < size;) {
         const ssize_t n = pread(file, (char *)to + *got, size - *got, at + (off_t)*got);
@@ -88,7 +93,7 @@ static CpsStatus fail(const CpsJournal *journal, const char *what, CpsError *err
                      NAME, strerror(errno));
 }
 
-/* refuse: the journal stays as it is */
+/* refuse the journal, which remains unchanged */
 static CpsStatus refuse(const CpsJournal *journal, CpsStatus status, const char *why,
                         CpsError *err) {
     return cpsi_fail(err, status, "%s/%s %s", journal->directory, NAME, why);
@@ -108,7 +113,7 @@ static Head make_head(const CpsJournal *journal) {
     return head;
 }
 
-/* An empty journal, on the disk together with its name. */
+/* An empty journal, synced to the disk together with its name. */
 static CpsStatus begin(CpsJournal *journal, CpsError *err) {
     const Head head = make_head(journal);
     journal->begun = true;
@@ -120,7 +125,7 @@ static CpsStatus begin(CpsJournal *journal, CpsError *err) {
     return fsync(journal->folder) == 0 || errno == EINVAL ? CPS_OK : fail(journal, "write", err);
 }
 
-/* What is there is a journal as far as it goes: `got` bytes of its head. */
+/* Accept what is there as a journal as far as it is complete: `got` bytes of its head. */
 static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const Head *found, size_t got,
                          CpsError *err) {
     if (memcmp(found->magic, MAGIC, got < sizeof MAGIC ? got : sizeof MAGIC) != 0)
@@ -154,7 +159,7 @@ static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const Head *f
     return CPS_OK;
 }
 
-/* The file in the directory itself, never one that a link names. */
+/* The file in the directory itself, never the target of a link. */
 static CpsStatus open_file(CpsJournal *journal, CpsJournalMode mode, CpsError *err) {
     enum { HOW = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC };
     journal->folder = open(journal->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -278,7 +283,7 @@ CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err) {
     return fdatasync(journal->file) == 0 ? CPS_OK : fail(journal, "write", err);
 }
 
-/* Only the file that was opened: what has taken its name meanwhile is somebody's. */
+/* Remove only the file that was opened: a file that has replaced it belongs to someone else. */
 void cps_journal_remove(CpsJournal *journal) {
     struct stat own, named;
     if (journal && journal->file >= 0 && fstat(journal->file, &own) == 0 &&
@@ -290,7 +295,7 @@ void cps_journal_remove(CpsJournal *journal) {
 void cps_journal_destroy(CpsJournal *journal) {
     if (!journal) return;
     if (journal->begun && journal->steps == 0)
-        cps_journal_remove(journal); /* nothing to go on from */
+        cps_journal_remove(journal); /* there are no steps to continue from */
     if (journal->file >= 0) close(journal->file);
     if (journal->folder >= 0) close(journal->folder);
     free(journal->directory);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables and pictures of configurations side by side: a history by several methods; slack laid out
- * in several ways. */
+/* Tables and pictures of configurations side by side: a history by several methods; several
+ * completions of slack. */
 #include <math.h>
 
 #include "base/status.h"
@@ -78,7 +78,7 @@ CpsStatus cps_methods_write(const char *directory, const char *title, int method
 
 /* ---- slack laid out ---- */
 
-/* nodes of the longest loose part, or all where none is */
+/* nodes of the longest loose part, or all where there is none */
 static void find_loose(const CpsLineView *view, int *first, int *last) {
     enum { PARTS = 64 };
     CpsSlackPart part[PARTS];
@@ -96,8 +96,8 @@ static void find_loose(const CpsLineView *view, int *first, int *last) {
     }
 }
 
-/* a file of nodes to go on from (docs/formats.md), in the coordinates of the scene: what belongs to
- * an element stands beside the node it ends at */
+/* a file of nodes that a scene can start from (docs/formats.md), in the coordinates of the scene:
+ * the value of an element is in the row of the node at its end */
 static void completed_table(const void *what, FILE *out) {
     const CpsCompletedLine *c = what;
     const CpsLineView *view = c->view;
@@ -112,7 +112,7 @@ static void completed_table(const void *what, FILE *out) {
     }
 }
 
-/* as found, and each completion; near the longest loose part */
+/* the computed configuration, and each completion, near the longest loose part */
 static void completed_picture(const void *what, FILE *out) {
     const CpsCompletedLine *c = what;
     int first, last;

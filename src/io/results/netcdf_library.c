@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* libnetcdf by its name, as the dynamic linker would find it (see netcdf_library.h). */
-#define _GNU_SOURCE /* RTLD_NODELETE, where it is no part of POSIX */
+/* libnetcdf, opened by its name as the dynamic linker would find it (see netcdf_library.h). */
+#define _GNU_SOURCE /* RTLD_NODELETE, which is not part of POSIX */
 #include "io/results/netcdf_library.h"
 
 #include <dlfcn.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* libnetcdf, opened when a result.nc is to be written: loading it and what it needs takes longer
- * than all else a command does to begin. */
+/* libnetcdf, opened when a result.nc is to be written: loading it and its dependencies takes longer
+ * than everything else at the start of a command. */
 #ifndef CAPSTAN_SRC_IO_RESULTS_NETCDF_LIBRARY_H
 #define CAPSTAN_SRC_IO_RESULTS_NETCDF_LIBRARY_H
 
@@ -10,7 +10,7 @@
 
 #include "capstan/base.h"
 
-/* The functions that are used, nc_NAME of netcdf.h. */
+/* The functions used, nc_NAME of netcdf.h. */
 #define CPSI_NETCDF_CALLS(X) \
     X(create)                \
     X(set_fill)              \
@@ -37,8 +37,8 @@ typedef struct CpsiNetcdfLibrary {
 #undef CPSI_NETCDF_CALL
 } CpsiNetcdfLibrary;
 
-/* Open it. Returns CPS_OK, or CPS_ERR_IO with what the system says. It stays in the process once it
- * has been opened. */
+/* Open it. Returns CPS_OK, or CPS_ERR_IO with the message of the system. It remains loaded until
+ * the process ends. */
 CpsStatus cpsi_netcdf_library(CpsiNetcdfLibrary *out, CpsError *err);
 void cpsi_netcdf_library_close(CpsiNetcdfLibrary *library);
 

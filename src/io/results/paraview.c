@@ -12,7 +12,7 @@
 #include "io/base/escape.h"
 #include "io/results/writers.h"
 
-/* In the order of the file. */
+/* In the order in which they are stored in the file. */
 typedef enum Block {
     BLOCK_POINTS,
     BLOCK_CONNECTIVITY,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the lines lie on as quadrilaterals for ParaView, in text: obstacles.vtp, and
- * step-N-obstacles.vtp of each step in which something turns. Balls are whole; planes and
- * cylinders, which have no ends, reach as far as the lines did, and a little farther. Cells carry
- * the sector of their obstacle that they belong to, without which nobody would see a turn. */
+/* The obstacles as quadrilaterals for ParaView, in text: obstacles.vtp, and step-N-obstacles.vtp
+ * for each step in which an obstacle turns. Balls are complete; planes and cylinders, which have no
+ * ends, extend a little farther than the lines. Cells carry the number of their sector of the
+ * obstacle, which makes a turn visible. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,7 +14,7 @@
 enum { AROUND = 96, ALONG = 48 }; /* quadrilaterals round a circle, and from pole to pole */
 enum { SECTORS = 8 };
 
-/* How much farther than the lines, of their extent. */
+/* Extent beyond that of the lines, relative to it. */
 static const double MARGIN = 0.15;
 
 /* A patch of (rows + 1) x (columns + 1) points. */
@@ -22,15 +22,15 @@ typedef struct Patch {
     const CpsObstacle *obstacle;
     int rows, columns;
     Vec3 centre,
-        axis[3]; /* the third is the plane's normal or what a cylinder or ball turns about */
+        axis[3]; /* the third is the plane's normal or the axis of rotation of a cylinder or ball */
     double reach[2]
                 [2]; /* plane: along the first two axes; cylinder: along the third, in reach[0] */
-    double turned;   /* [rad] about the third, which is right-handed with the others */
+    double turned;   /* [rad] about the third axis, which is right-handed with the others */
 } Patch;
 
 static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
 
-/* Range of the lines along a direction, from a centre, over all that is kept for pictures. */
+/* Range of the lines along a direction, from a centre, over all snapshots of the pictures. */
 static void reach_along(const CpsResults *results, Vec3 centre, Vec3 direction, double range[2]) {
     range[0] = INFINITY;
     range[1] = -INFINITY;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A history of the regularised method by itself as files: table, summary, a picture per line. */
+/* The files of a history by the regularised method alone: table, summary, a picture per line. */
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -8,15 +8,15 @@
 #include "io/base/file_set.h"
 #include "io/draw/methods_picture.h"
 
-/* what replaces a certificate */
+/* the text that replaces a certificate */
 static const char *const WARRANT =
     "none: a regularised solution is no equilibrium under dry friction; 'left' says by how much, "
     "against the certified step with frozen friction";
 
 typedef struct Column {
     const char *name, *unit;
-    size_t offset; /* of a double in CpsRegularizedReport */
-    bool left;     /* one of the residuals of the summary */
+    size_t offset; /* offset of a double in CpsRegularizedReport */
+    bool left;     /* whether it is one of the residuals of the summary */
 } Column;
 
 #define REPORT(member) offsetof(CpsRegularizedReport, member)
@@ -177,7 +177,7 @@ static void portrait(const void *what, FILE *out) {
     cpsi_picture_methods(&m, out);
 }
 
-/* ---- together ---- */
+/* ---- the whole set ---- */
 
 static CpsStatus check(const CpsRegularizedRun *run, CpsError *err) {
     if (!run || !run->title || !run->step_name || !run->line)

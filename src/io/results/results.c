@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A directory of results: open, append each step, finish. The writers are beside this file, the
- * pictures in ../draw; this file owns the memory, the order of the files and what happens when one
- * of them fails. */
+ * pictures in ../draw; this file owns the memory, and determines the order of the files and what
+ * happens when one of them fails. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,7 +47,7 @@ static bool copy_obstacles(CpsResults *results, const CpsScene *scene) {
     results->obstacle_count = scene->obstacle_count;
     for (int k = 0; k < scene->obstacle_count; ++k) {
         results->obstacle[k] = scene->obstacle[k];
-        results->obstacle[k].name = NULL; /* the scene's own */
+        results->obstacle[k].name = NULL; /* owned by the scene */
         results->obstacle[k].friction_set = NULL;
         for (int a = 0; a < 3; ++a) results->obstacle[k].point[a] -= results->origin[a];
     }
@@ -103,7 +103,7 @@ CpsStatus cps_results_missing(const char *directory, char missing[CPS_RESULT_NAM
     return cpsi_directory_missing(directory, missing, err);
 }
 
-/* what tells options that began as the default */
+/* marks options that were initialised by their default function */
 static const uint32_t OPTIONS_COOKIE = 0x5245534c;
 
 CpsResultsOptions cps_results_options_default(void) {
@@ -148,9 +148,9 @@ CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
     return CPS_OK;
 }
 
-/* Largest reaction of an obstacle on a node that does not touch it: what complementarity forbids,
- * in newtons. A held end is carried by what holds it; its reaction is only a share of that and says
- * nothing. */
+/* Largest reaction of an obstacle on a node that does not touch it [N], which complementarity
+ * excludes. For a held end the support takes the force; its reaction is only a part of that and is
+ * left out. */
 static double open_reaction(const CpsLineView *view) {
     const double touch = CPS_TOUCH * view->arc_length[view->elements];
     double worst = 0;
@@ -162,7 +162,7 @@ static double open_reaction(const CpsLineView *view) {
         for (int i = 0; i < view->contacts; ++i) {
             const size_t c = (size_t)j + (size_t)i * ((size_t)view->elements + 1);
             const double distance = vec3_dot(vec3_load(view->normal + 3 * c), moved) + view->gap[c];
-            /* written so that a NaN is seen and not passed over */
+            /* written so that a NaN is kept */
             if (!(distance <= touch) && !(view->reaction[c] <= worst)) worst = view->reaction[c];
         }
     }
@@ -210,7 +210,7 @@ static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsE
     return status || !results->paraview ? status : cpsi_paraview_step(results, evolution, err);
 }
 
-/* Are the lines those that the results were opened for? */
+/* Whether the lines are those for which the results were opened. */
 static bool has_these_lines(const CpsResults *results, const CpsEvolution *evolution) {
     if (cps_evolution_line_count(evolution) != results->line_count) return false;
     for (int i = 0; i < results->line_count; ++i)
@@ -244,7 +244,7 @@ CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution,
     return status;
 }
 
-/* one text file of the directory from a function that prints it */
+/* one text file of the directory, written by a function */
 static CpsStatus write_history(CpsResults *results, CpsError *err) {
     FILE *out = NULL;
     const CpsStatus status = cpsi_directory_create(results->directory, "history.csv", &out, err);
@@ -263,7 +263,7 @@ static CpsStatus write_summary(CpsResults *results, double wall, CpsError *err) 
     return listed ? listed : closed;
 }
 
-/* names of which an earlier run may have left more than this one writes */
+/* names of files of which an earlier run may have written more than this one */
 static bool is_step_or_loop(const char *name) {
     const char *dot = strrchr(name, '.');
     if (!dot) return false;
@@ -282,7 +282,7 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     if (!status && results->paraview) status = cpsi_paraview_obstacles(results, err);
     if (!status) status = cpsi_pictures_write(results, err);
     if (!status) status = write_history(results, err);
-    /* last: where there is a new summary, everything it speaks of is in place */
+    /* last: when there is a new summary, all files that it lists are in place */
     if (!status) status = write_summary(results, wall, err);
     return status ? status : cpsi_directory_commit(results->directory, is_step_or_loop, err);
 }
@@ -293,7 +293,7 @@ CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError *err) {
     const locale_t before = uselocale(results->locale);
     const CpsStatus status = finish(results, wall, err);
     uselocale(before);
-    results->failed = true; /* nothing can be added to finished results either */
+    results->failed = true; /* nothing can be added to finished results */
     cpsi_directory_destroy(results->directory);
     results->directory = NULL;
     return status;

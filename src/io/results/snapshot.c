@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Thinned copies of the lines for the pictures.
+/* Reduced copies of the lines for the pictures.
  *
- * Kept are the steps that get pictures of their own, an even selection for the overviews, and
- * always the last one: while it is only the last so far, the next step overwrites it. */
+ * The copies are those of the steps with their own pictures, an even selection for the overviews,
+ * and always the last step so far, which the next step overwrites unless it is one of the
+ * others. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "io/results/writers.h"
 
 enum {
-    MAX_OVERVIEW = 48,      /* curves that an overview can still show */
-    MAX_LINE_POINTS = 2000, /* per line: more than a picture has pixels */
+    MAX_OVERVIEW = 48,      /* number of curves that an overview can show */
+    MAX_LINE_POINTS = 2000, /* per line: more than the pixels of a picture */
     MAX_POINTS = 20000      /* of all lines together */
 };
 
@@ -32,14 +33,13 @@ static int point_count(const CpsResults *results, int elements) {
     return elements < most ? elements + 1 : most;
 }
 
-/* node of the line that point i of the shape shows; the first and the last node are always among
- * them */
+/* node of the line for point i of the shape; the first and the last node are always included */
 static size_t node_of(int i, int points, int elements) {
     return (size_t)((int64_t)i * elements / (points - 1));
 }
 
-/* How the node rests; one that touches nothing and has friction all the same, frozen friction of
- * the reference, is told apart. */
+/* State of the node. A node without contact but with friction, the frozen friction of the
+ * reference, has its own state. */
 static unsigned char shown_state(const CpsLineView *view, size_t j) {
     const size_t n = (size_t)view->elements + 1;
     const unsigned char state = cpsi_node_state(view, (int)j);
@@ -105,7 +105,7 @@ bool cpsi_snapshot_append(CpsResults *results, const CpsEvolution *evolution) {
     CpsiSnapshot snapshot;
     if (!take(results, evolution, &snapshot)) return false;
 
-    /* the last one so far gives way unless it was to be kept */
+    /* overwrite the last one unless it is to be kept */
     if (results->snapshot_count > 0) {
         CpsiSnapshot *last = &results->snapshot[results->snapshot_count - 1];
         if (!is_kept(results, last->step)) {

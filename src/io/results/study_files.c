@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study of the 1990 method as files: tables of its solves and of P10.1, and the pictures. As in
- * history.csv the first row has the names, the second the units. */
+/* The files of a study of the 1990 method: tables of its solves and of P10.1, and the pictures. As
+ * in history.csv the first row contains the names, the second the units. */
 #include <math.h>
 #include <stddef.h>
 
@@ -11,7 +11,7 @@
 
 typedef struct Column {
     const char *name, *unit;
-    size_t offset; /* of a double in CpsStudyRow */
+    size_t offset; /* offset of a double in CpsStudyRow */
 } Column;
 
 #define ROW(member) offsetof(CpsStudyRow, member)
@@ -69,8 +69,8 @@ static void write_study(const CpsStudyFiles *files, FILE *out) {
     }
 }
 
-/* P10.1 beside P2.1: a row per node; what belongs to an element stands beside the node it ends
- * at */
+/* P10.1 beside P2.1: a row per node; the value of an element is in the row of the node at its
+ * end */
 static void write_first_order(const CpsStudyFiles *files, FILE *out) {
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     const CpsFirstOrderView view = cps_first_order_view(files->first_order);

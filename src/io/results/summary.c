@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The summary as one JSON object (RFC 8259): what `capstan run --json` prints and summary.json
- * holds. Keys are stable and carry their units; a number that says nothing is null. docs/results.md
- * lists them. */
+/* The summary as one JSON object (RFC 8259), printed by `capstan run --json` and written to
+ * summary.json. Keys are stable and contain their units; a number without meaning is null.
+ * docs/results.md lists them. */
 #include "io/base/escape.h"
 #include "io/base/file_list.h"
 #include "io/results/writers.h"
@@ -32,8 +32,8 @@ static void write_vector(FILE *out, const char *key, const double x[3], const ch
     fprintf(out, "]%s", after);
 }
 
-/* between which values the tension of the element at an end lies; null where unbounded or not
- * known, `kind` says which */
+/* smallest and largest possible tension of the element at an end; null where unbounded or not
+ * known, as `kind` says */
 static void write_range(FILE *out, const CpsTensionRange *range) {
     fputs(", \n            \"tension_range_N\": {", out);
     write_string(out, "kind", cps_range_name(range->kind), ", ");
@@ -54,7 +54,7 @@ static void write_end(FILE *out, const char *key, const CpsEndReport *end, const
     fputs(after, out);
 }
 
-/* what proves that there is no solution, in the units of its kind */
+/* the proof that there is no solution, in the units of its kind */
 static void write_proof(FILE *out, const CpsLineReport *report) {
     if (!cps_outcome_is_final(report->outcome)) return;
     const char *value = report->outcome == CPS_OUTCOME_INFEASIBLE ? "excess_m"
@@ -126,7 +126,7 @@ static void write_certificate(FILE *out, const CpsResults *results, const CpsiRo
     write_number(out, "dissipated_J", row->report.dissipated, ",\n      ");
 }
 
-/* where the energy went */
+/* the energy balance of a step */
 static void write_ledger(FILE *out, const CpsStepReport *report) {
     const CpsLedger *ledger = &report->ledger;
     fprintf(out, "\"parts\": %d, \"snaps\": %d, ", report->parts, report->snaps);
@@ -158,7 +158,7 @@ static void write_run(const CpsResults *results, double wall, FILE *out) {
     fputs("{\n  ", out);
     write_string(out, "capstan", cps_version(), ",\n  ");
     write_string(out, "title", results->title, ",\n  ");
-    const double *o = results->origin; /* said where it is not 0 */
+    const double *o = results->origin; /* written where it is not 0 */
     if (o[0] != 0 || o[1] != 0 || o[2] != 0) write_vector(out, "origin_m", o, ",\n  ");
     write_string(out, "outcome", cps_outcome_name(cpsi_results_outcome(results)), ",\n  ");
     write_number(out, "wall_s", wall, ",\n  \"steps\": [");

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The writers of a run's files: each takes the history so far, or the last step of the
- * evolution. */
+/* The writers of a run's files: each uses the history so far, or the last step of the evolution. */
 #ifndef CAPSTAN_SRC_IO_RESULTS_WRITERS_H
 #define CAPSTAN_SRC_IO_RESULTS_WRITERS_H
 
 #include "io/history.h"
 
-/* snapshot.c: keep the last step for the pictures if it is among those to be drawn. */
+/* snapshot.c: copy the last step for the pictures if it is among those to be drawn. */
 bool cpsi_snapshot_append(CpsResults *results, const CpsEvolution *evolution);
 void cpsi_snapshot_free(CpsiSnapshot *snapshot);
 
@@ -16,21 +15,22 @@ void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
 CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, CpsError *err);
 void cpsi_history_write(const CpsResults *results, FILE *out);
 
-/* netcdf.c: result.nc. `turn` is (obstacles) [rad], what they turned in the step. */
+/* netcdf.c: result.nc. `turn` is (obstacles) [rad], their turns in the step. */
 CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution,
                            const CpsResultsOptions *options, CpsiNetcdf **out, CpsError *err);
 CpsStatus cpsi_netcdf_append(CpsiNetcdf *netcdf, const CpsEvolution *evolution, const double *turn,
                              CpsError *err);
-/* Close and free; accepts NULL. Reports what could not be written. */
+/* Close and free; accepts NULL. Reports a failure of any earlier write. */
 CpsStatus cpsi_netcdf_close(CpsiNetcdf *netcdf, CpsError *err);
 
 /* paraview.c: one step as .vtp, the list of steps as .pvd. */
 CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution, CpsError *err);
 CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err);
-/* paraview_obstacles.c: the surfaces of obstacles, where there is something to lie on:
- * obstacles.vtp, and one more file for each step in which something turns. */
+/* paraview_obstacles.c: the surfaces of the obstacles, if there are any: obstacles.vtp, and one
+ * more file for each step in which an obstacle turns. */
 CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err);
-/* Does anything turn in the step; and the name of the file of that step, or of the start (-1). */
+/* Whether an obstacle turns in the step; and the name of the file of that step, or of the start
+ * (-1). */
 bool cpsi_paraview_obstacles_turn(const CpsResults *results, int step);
 void cpsi_paraview_obstacles_name(int step, char name[32]);
 

@@ -60,7 +60,7 @@ static const CpsiMapping SYSTEM = {"system", KEYS(SYSTEM_KEYS), INTO(System),
 
 /* ---- bodies ---- */
 
-/* The keys of every patch; only a point may do without friction and load. */
+/* The keys of every patch; friction and load are optional only for a point. */
 #define PLACE_AND_LOAD(need)                                                                       \
     {"position", OPTIONAL,    POINT(Patch, patch.position, 2),                                     \
      ANY,        .unit = "m", .help = "[x, y] of the patch in body axes; [0, 0] unless given"},    \

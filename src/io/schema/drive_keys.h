@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a file of driven systems is read into (drive_keys.c has the table of its keys). */
+/* The structs into which a file of driven systems is read (drive_keys.c has the table of its
+ * keys). */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_DRIVE_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_DRIVE_KEYS_H
 
 #include "capstan/planar.h"
 #include "io/schema/keys.h"
 
-/* Limits, so that no small file asks for very much work. */
+/* Limits that prevent a small file from requiring very much work. */
 enum {
     CPSI_DRIVE_MOST_PARAMETERS = 10000,
     CPSI_DRIVE_MOST_STEPS = 1000000,
     CPSI_DRIVE_MOST_ELEMENTS = 100000,
-    CPSI_DRIVE_ARC_SIDES = 1000, /* of an arc as a path, about */
+    CPSI_DRIVE_ARC_SIDES = 1000, /* sides of an arc as a path, approximately */
     CPSI_DRIVE_LONGEST_TEXT = 255
 };
 
@@ -22,7 +23,7 @@ typedef struct CpsiPathArcValues {
 } CpsiPathArcValues;
 
 typedef struct CpsiPathValues {
-    const CpsiYaml *node; /* NULL: rows, or nothing */
+    const CpsiYaml *node; /* NULL: rows, or no path */
     CpsiRows points;
     CpsiPathArcValues arc;
 } CpsiPathValues;
@@ -47,9 +48,9 @@ typedef struct CpsiSystemValues {
 
 typedef struct CpsiPatchValues {
     const CpsiYaml *node;
-    CpsPatch patch;     /* its numbers; friction and load NaN: not given */
+    CpsPatch patch;     /* its numbers; friction and load are NaN where not given */
     double orientation; /* [degrees] */
-    int locked;         /* brake: 0: the word is given */
+    int locked;         /* brake: 0: the word `locked` is given */
     const CpsiYaml *law;
     CpsiRows corners;
 } CpsiPatchValues;
@@ -114,14 +115,14 @@ typedef struct CpsiRopeShapeValues {
     CpsiRows polyline;
 } CpsiRopeShapeValues;
 
-/* What an end of a rope does. */
+/* The kinds of end of a rope. */
 typedef enum CpsiRopeEnd { CPSI_ROPE_END_FREE, CPSI_ROPE_END_HELD } CpsiRopeEnd;
 
 typedef struct CpsiRopeValues {
     const CpsiYaml *node;
     CpsiRopeShapeValues shape;
-    int end[2];            /* CpsiRopeEnd, free unless given, or .. */
-    double velocity[2][2]; /* .. NaN: not given */
+    int end[2];            /* CpsiRopeEnd, free unless given; or .. */
+    double velocity[2][2]; /* .. a velocity, NaN: not given */
     CpsiPathValues path;
     int elements, steps, shots;
     double friction, weight;
@@ -139,7 +140,7 @@ typedef struct CpsiSweepValues {
 
 /* ---- the file ---- */
 
-/* Which of them it holds, in the order of the table. */
+/* The kind of system, in the order of the table. */
 typedef enum CpsiDriveKind {
     CPSI_DRIVE_SYSTEM,
     CPSI_DRIVE_BODY,

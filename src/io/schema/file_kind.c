@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Telling the kinds of file apart by the keys that only one of them has (see file_kind.h). */
+/* Recognition of the kind of a file by the keys that only one kind has (see file_kind.h). */
 #include "io/schema/file_kind.h"
 
 typedef struct Kind {
     const char *name, *commands;
-    const char *key[8]; /* its own ones, of which every file of this kind has one */
+    /* keys that only this kind has; every file of the kind has at least one of them */
+    const char *key[8];
 } Kind;
 
 static const Kind KIND[] = {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The JSON schemas (draft 2020-12) of scenes, of laws and of driven systems, from their tables of
- * keys: one definition for each kind of mapping. What does not depend on two values together, such
- * as dimensions, is in them. */
+/* The JSON schemas (draft 2020-12) of scenes, laws and driven systems, from their tables of keys:
+ * one definition for each kind of mapping. They contain everything that does not depend on two
+ * values together, as dimensions do. */
 #include <stdio.h>
 
 #include "base/status.h"
@@ -46,7 +46,7 @@ static void write_number(FILE *out, const CpsiKey *key, const char *type) {
 #define ANY_NAME "[A-Za-z][A-Za-z0-9_-]{0,63}"
 #define ARRAY    "\"type\": \"array\", \"minItems\": "
 
-/* `low` to `high` rows of `columns` numbers; of any number where that is 0 */
+/* `low` to `high` rows of `columns` numbers; of any number of numbers where `columns` is 0 */
 static void write_rows(FILE *out, const CpsiKey *key) {
     fprintf(out, ARRAY "%.0f, ", key->low);
     if (key->high < CPSI_LARGEST) fprintf(out, "\"maxItems\": %.0f, ", key->high);
@@ -60,7 +60,7 @@ static void write_rows(FILE *out, const CpsiKey *key) {
 #define NAME    "{\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 1}"
 #define BY_NAME "\"type\": \"object\", \"additionalProperties\": {\"type\": \"number\"}"
 
-/* What values look like whatever the row. */
+/* Values whose form does not depend on the row. */
 static const char *const ALWAYS[] = {
     [CPSI_FLAG] = "\"type\": \"boolean\"",
     [CPSI_SIDE] = SIDE,
@@ -72,7 +72,7 @@ static const char *const ALWAYS[] = {
     [CPSI_BY_NAME] = BY_NAME,
 };
 
-/* What a form of the value accepts, without braces. */
+/* The values that a form accepts, without braces. */
 static void write_form(FILE *out, const CpsiKey *key) {
     const char *inside = key->inside ? definition(key->inside) : NULL;
     switch (key->type) {
@@ -148,7 +148,7 @@ static void write_key(FILE *out, const CpsiKey *key) {
     fputc('}', out);
 }
 
-/* The name of a row, or its form as a regular expression. */
+/* The name of a row, or a regular expression for its form. */
 static void write_name(FILE *out, const CpsiKey *key) {
     if (!key->owner) {
         fprintf(out, "\"%s\": ", key->name);
@@ -163,7 +163,7 @@ static void write_name(FILE *out, const CpsiKey *key) {
     fputs("$\": ", out);
 }
 
-/* "properties": all keys with a fixed name, or those of a form */
+/* "properties": all keys with a fixed name, or those with a form */
 static void write_keys(FILE *out, const CpsiMapping *mapping, bool forms) {
     int written = 0;
     for (int i = 0; i < mapping->count; i++) {
@@ -228,8 +228,8 @@ typedef struct Definitions {
     int count;
 } Definitions;
 
-/* All mappings that this one leads to, each once; those without a name are written where they
- * stand. */
+/* All mappings that can be reached from this one, each once; those without a name are written in
+ * place. */
 static void collect(Definitions *found, const CpsiMapping *mapping) {
     for (int k = 0; k < found->count; k++)
         if (found->mapping[k] == mapping) return;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What rows of tables of keys say of themselves: names, suggestions and messages (see keys.h). */
+/* Names and messages from the rows of tables of keys (see keys.h). */
 #include "io/schema/keys.h"
 #include "capstan/io.h"
 
@@ -20,7 +20,7 @@ int cpsi_key_word(const char *words, const char *written) {
     return -1;
 }
 
-/* Is it the name of the row, or of its form? */
+/* Whether this is the name of the row, or of its form. */
 static bool has_name(const CpsiKey *key, const char *written) {
     if (!key->owner) return strcmp(key->name, written) == 0;
     const char *dot = strrchr(written, '.');
@@ -54,7 +54,7 @@ static const CpsiKey *find_former(const CpsiMapping *mapping, const char *writte
 
 /* ---- what a row accepts ---- */
 
-/* A text under construction: what does not fit is left out. */
+/* A text under construction; what exceeds its size is dropped. */
 typedef struct Text {
     char *text;
     size_t size, used;
@@ -107,7 +107,7 @@ static void write_rows(Text *out, const CpsiKey *key, const char *unit) {
     if (key->most < 4) put(out, ", as in [%s]", ROWS[key->most]);
 }
 
-/* What values look like whatever the row. */
+/* Values whose form does not depend on the row. */
 static const char *const ALWAYS[] = {
     [CPSI_FLAG] = "true or false",
     [CPSI_VECTOR] = "a list of numbers, as in [1, 2]",
@@ -178,7 +178,7 @@ const char *cpsi_key_expected(const CpsiKey *key, char *text, size_t size) {
 
 /* ---- messages ---- */
 
-/* What was found, for messages. */
+/* Description of a value in messages. */
 static const char *found_text(const CpsiYaml *node, char *text, size_t size) {
     if (node->kind == CPSI_YAML_MAPPING)
         snprintf(text, size, "a mapping");
@@ -231,7 +231,7 @@ CpsStatus cpsi_key_needs(const char *file, const CpsiYaml *node, const char *wha
                          const CpsiMapping *mapping, CpsError *err) {
     char names[200] = "";
     Text list = {.text = names, .size = sizeof names};
-    const CpsiYaml *alone = NULL; /* a key without the one that it goes with */
+    const CpsiYaml *alone = NULL; /* a key that is given without the key that it needs */
     const CpsiKey *companion = NULL;
     int alternatives = 0, given = 0;
     for (int i = 0; i < mapping->count; i++) {

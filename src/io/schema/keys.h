@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of tables of keys: what may stand in a mapping of a file, and where reading puts it. The
- * vocabularies of scenes (scene_keys.c), of laws (set_keys.c) and of driven systems (drive_keys.c)
- * are tables of these rows. One reader (read/key_reader.c) checks a file against them and fills
- * structs; suggestions, messages and JSON schemas come from the same rows. */
+/* Rows of tables of keys: the keys that a mapping of a file may have, and where their values are
+ * stored. The vocabularies of scenes (scene_keys.c), of laws (set_keys.c) and of driven systems
+ * (drive_keys.c) are tables of these rows. One reader (read/key_reader.c) checks a file against
+ * them and fills structs; suggestions, messages and JSON schemas come from the same rows. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_KEYS_H
 
@@ -11,18 +11,18 @@
 
 #include "io/base/yaml.h"
 
-/* What stands under a key, and the type that reading stores at its offset. */
+/* The form of a value, and the type stored at its offset. */
 typedef enum CpsiValue {
     CPSI_TEXT,    /* const char *; at most `most` bytes, or not empty where `most` is 0 */
-    CPSI_INTEGER, /* int of the range, which int holds */
-    CPSI_COUNT,   /* double: a whole number of the range, which may be beyond any int */
-    CPSI_NUMBER,  /* double of the range */
+    CPSI_INTEGER, /* int within the range */
+    CPSI_COUNT,   /* double: a whole number within the range, which may exceed any int */
+    CPSI_NUMBER,  /* double within the range */
     CPSI_FLAG,    /* bool: true, false */
-    CPSI_WORD,    /* int: which of `words`, from 0 */
-    CPSI_POINT,   /* double[most]: exactly so many numbers of the range */
+    CPSI_WORD,    /* int: index of one of `words`, from 0 */
+    CPSI_POINT,   /* double[most]: exactly this many numbers within the range */
 
     /* CpsiRows */
-    CPSI_VECTOR, /* [x, ..]: one row of at most `most` numbers of the range */
+    CPSI_VECTOR, /* [x, ..]: one row of at most `most` numbers within the range */
     CPSI_ROWS,   /* [[x, ..], ..]: `low` to `high` rows of `most` numbers; 0: all equally long */
     CPSI_SQUARE, /* as many rows as columns */
     CPSI_SIDE,   /* b for [-b, b], or [low, high]: two rows of one number */
@@ -32,7 +32,7 @@ typedef enum CpsiValue {
     CPSI_EXPRESSION,   /* {WORD: value}: one of the keys `inside`, a set, a law, .. */
     CPSI_EXPRESSIONS,  /* [{WORD: value}, ..] */
     CPSI_ELEMENTS,     /* [length, [count, length], ..] */
-    CPSI_NAMES,        /* names of parameters, at most `most` */
+    CPSI_NAMES,        /* names of parameters, at most `most` of them */
     CPSI_COMBINATIONS, /* [name, {name: factor, ..}, ..] */
     CPSI_BY_NAME,      /* {name: number, ..} */
 
@@ -44,25 +44,25 @@ typedef enum CpsiValue {
 typedef enum CpsiNeed {
     CPSI_OPTIONAL,
     CPSI_REQUIRED,
-    CPSI_ONE_OF /* exactly one of the mapping's keys marked so */
+    CPSI_ONE_OF /* exactly one of the keys of the mapping with this mark is required */
 } CpsiNeed;
 
 struct CpsiSetValues;
 struct CpsiSetMade;
 
-/* A row. Fields that it does not give are 0. */
+/* A row. Fields that are not given are 0. */
 typedef struct CpsiKey {
     const char *name;
     CpsiNeed need;
     CpsiValue type;
     int most;                         /* see CpsiValue */
-    size_t offset;                    /* of the value in the struct that the mapping is read into */
+    size_t offset;                    /* offset of the value in the struct of its mapping */
     double low, high;                 /* range of numbers; a high of INFINITY allows .inf */
     bool open;                        /* low itself is excluded */
     const char *words;                /* separated by spaces, in the order of the enum */
-    const struct CpsiMapping *inside; /* what a mapping, list or expression holds */
+    const struct CpsiMapping *inside; /* mapping of a value that is a mapping, list or expression */
     const struct CpsiKey *other;      /* another form that the value may have; NULL: none */
-    const char *with;                 /* the key without which this one says nothing; NULL: none */
+    const char *with;                 /* another key that must be given with this one; NULL: none */
     const char *unit;                 /* NULL: none */
     const char *fallback;             /* default as JSON; NULL: none */
     const char *help;
@@ -72,40 +72,43 @@ typedef struct CpsiKey {
     const char *instead;      /* .. and what to write besides its new name; NULL: nothing else */
     const char *former_words; /* `words` as they were, in their order */
 
-    /* A name written as ITS.OWN: owner "lines" for the name of one of the lines, a dot and one of
-     * `after`. Values are items of a CpsiList at the offset. NULL: the name as it is. */
+    /* For a name of the form ITS.OWN: the owner, for instance "lines" for the name of one of the
+     * lines, followed by a dot and one of `after`. Values are items of a CpsiList at the offset.
+     * NULL: the name is fixed. */
     const char *owner;
     const char *after;
 
-    /* Of a word of laws: makes it of its values (set_keys.h). */
+    /* For a word of laws: makes its object from its values (set_keys.h). */
     CpsStatus (*make)(const struct CpsiSetValues *values, struct CpsiSetMade *made, CpsError *err);
-    bool solved; /* questions about it solve a conic program over all its parts */
+    bool solved; /* queries of it solve a conic program over all its parts */
 } CpsiKey;
 
 /* A kind of mapping: its table of keys. */
 typedef struct CpsiMapping {
-    const char *name; /* in messages and JSON schemas: "line", "entry"; NULL: that of its key */
-    const char *definition; /* in JSON schemas, where it is not the name */
+    /* name in messages and JSON schemas: "line", "entry"; NULL: that of its key */
+    const char *name;
+    const char *definition; /* name in JSON schemas, where it differs */
     const CpsiKey *key;
     int count;
-    size_t size; /* of its struct, which begins with a const CpsiYaml *: the mapping,
-                    NULL where it is not given. 0: keys go to the struct around */
+    /* size of its struct, which begins with a const CpsiYaml *: the mapping, NULL where it is not
+     * given. 0: the values are stored in the enclosing struct */
+    size_t size;
     void (*begin)(void *values); /* fills the struct with defaults; NULL: zeros */
-    const size_t *which; /* where to store, as an int from 0, which of the keys CPSI_ONE_OF is
-                            given; NULL: nowhere */
-    const char *word;    /* exactly one key stands in it, which is called a "word" .. */
-    const char *example; /* .. or a list of it: one of them, "{disc: 500}" */
-    const char *also;    /* JSON schema of what else goes together; NULL: nothing */
+    /* offset of an int, from 0, for the index of the key CPSI_ONE_OF that is given; NULL: none */
+    const size_t *which;
+    const char *word;    /* the mapping has exactly one key, which is called a "word" .. */
+    const char *example; /* .. or it is a list of such mappings; an example, "{disc: 500}" */
+    const char *also;    /* further conditions as JSON schema; NULL: none */
 } CpsiMapping;
 
-/* What CPSI_LIST, CPSI_NAMED and names of a form are read into. */
+/* The value of CPSI_LIST, CPSI_NAMED and of keys with an owner. */
 typedef struct CpsiList {
     const CpsiYaml *node; /* NULL: not given */
     int count;
     void *item; /* (count) structs of the mapping's size, or CpsiNumberItem */
 } CpsiList;
 
-/* An item of a list of numbers, as of "OBSTACLE.turn". */
+/* An item of a list of numbers, for instance of "OBSTACLE.turn". */
 typedef struct CpsiNumberItem {
     const CpsiYaml *node;
     double number;
@@ -118,13 +121,14 @@ typedef struct CpsiRows {
     double *x; /* (rows, columns) */
 } CpsiRows;
 
-/* Beyond it squares would overflow (cps_scene_check); .inf where a range allows it. */
+/* Squares of larger numbers would overflow (cps_scene_check); .inf where a range allows it. */
 #define CPSI_LARGEST 1e100
 
-/* The row for a key as it is written; NULL: there is none. A name of a form is told by its form. */
+/* The row for a key as written in a file; NULL: there is none. A name with an owner is recognised
+ * by its form. */
 const CpsiKey *cpsi_key_find(const CpsiMapping *mapping, const char *written);
 
-/* The number of a word in a row's words, from 0; -1: none of them. */
+/* The index of a word in a row's words, from 0; -1: it is not one of them. */
 int cpsi_key_word(const char *words, const char *written);
 
 /* Where a word of the row, in any form of its value, was written so by earlier versions: its name
@@ -132,7 +136,7 @@ int cpsi_key_word(const char *words, const char *written);
 const char *cpsi_key_renamed_word(const CpsiKey *key, const char *written, int *length);
 
 /* What a row accepts, for messages: "a number in m, greater than 0".
- * text   (size) written, always terminated; returns text */
+ *   text   (size) written, always terminated; returned */
 const char *cpsi_key_expected(const CpsiKey *key, char *text, size_t size);
 
 /* WHAT: unknown key 'lenght'; did you mean 'length'?  Or: 'fixed' is now 'held'. Returns

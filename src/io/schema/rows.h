@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Short names for writing tables of keys. A value's type comes with the field that it goes to: a
- * field of another type does not compile. KIND is that of the struct CpsiKINDValues. */
+/* Abbreviations for writing tables of keys. The macros check the type of the field in which a value
+ * is stored: a field of another type does not compile. KIND is that of the struct
+ * CpsiKINDValues. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_ROWS_H
 #define CAPSTAN_SRC_IO_SCHEMA_ROWS_H
 
@@ -18,7 +19,7 @@
     (AT(kind, field) + 0 * sizeof(_Generic(FIELD(kind, field), pointer : 0)))
 #define TREE(kind, field) TYPED(const CpsiYaml **, kind, field)
 
-/* type, most, offset; behind them stands the range of numbers, or of how many rows */
+/* type, most, offset; followed by the range of numbers, or of the number of rows */
 #define TEXT(kind, field, most)    CPSI_TEXT, most, TYPED(const char **, kind, field)
 #define INTEGER(kind, field)       CPSI_INTEGER, 0, TYPED(int *, kind, field)
 #define COUNT(kind, field)         CPSI_COUNT, 0, TYPED(double *, kind, field)
@@ -44,8 +45,8 @@
     CPSI_WORD, 0,         \
         (AT(kind, field) + 0 * sizeof(char[sizeof *FIELD(kind, field) == sizeof(int) ? 1 : -1]))
 
-/* a mapping with a struct of its own; one whose keys go to the struct around; values of a key with
- * an owner */
+/* a mapping with its own struct; a mapping whose values are stored in the enclosing struct; values
+ * of a key with an owner */
 #define MAPPING(kind, field)       CPSI_MAPPING, 0, AT(kind, field)
 #define AROUND                     CPSI_MAPPING, 0, 0
 #define OWNED(kind, field)         CPSI_MAPPING, 0, TYPED(CpsiList *, kind, field)
@@ -56,7 +57,7 @@
 #define POSITIVE     0, CPSI_LARGEST, true
 #define NOT_NEGATIVE 0, CPSI_LARGEST, false
 
-/* Of a mapping: its table, its struct, and where it stores which key is given. */
+/* Of a mapping: its table, its struct, and where the index of the given key is stored. */
 #define KEYS(rows) .key = rows, .count = (int)(sizeof rows / sizeof rows[0])
 #define INTO(kind) .size = sizeof(Cpsi##kind##Values)
 #define WHICH(kind, field) \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a scene file is read into (scene_keys.c has the table of its keys): the scene's own structs
- * where a value can go there as it is, and beside them what scene_build.c turns into the rest. */
+/* The structs into which a scene file is read (scene_keys.c has the table of its keys): the scene's
+ * own structs where they can hold the values directly, and others that scene_build.c converts. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_SCENE_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_SCENE_KEYS_H
 
@@ -17,9 +17,9 @@ typedef struct CpsiSceneValues {
 } CpsiSceneValues;
 
 typedef struct CpsiObstacleValues {
-    const CpsiYaml *node; /* its key is the name */
+    const CpsiYaml *node; /* the key is the name */
     CpsObstacle obstacle;
-    const CpsiYaml *set; /* of friction forces */
+    const CpsiYaml *set; /* set of friction forces */
 } CpsiObstacleValues;
 
 typedef struct CpsiZoneValues {
@@ -56,16 +56,16 @@ typedef struct CpsiEndValues {
 } CpsiEndValues;
 
 typedef struct CpsiLineValues {
-    const CpsiYaml *node; /* its key is the name */
+    const CpsiYaml *node; /* the key is the name */
     CpsLine line;
-    double mass, count;       /* count: of elements; NaN: not given */
+    double mass, count;       /* count: number of elements; NaN: not given */
     const CpsiYaml *elements; /* a list of them */
     CpsiList zones;           /* CpsiZoneValues */
     CpsiStartValues start;
     CpsiEndValues end[2];
 } CpsiLineValues;
 
-/* What happens to an end of a line. */
+/* Kinds of changes at an end of a line. */
 typedef enum CpsiChangeKind {
     CPSI_CHANGE_POSITION,
     CPSI_CHANGE_MOVE,
@@ -73,16 +73,16 @@ typedef enum CpsiChangeKind {
 } CpsiChangeKind;
 
 typedef struct CpsiChangeValues {
-    const CpsiYaml *node; /* its key is LINE.END */
+    const CpsiYaml *node; /* the key is LINE.END */
     int kind;             /* CpsiChangeKind */
     double value[3];
 } CpsiChangeValues;
 
 typedef struct CpsiStageValues {
     const CpsiYaml *node;
-    CpsStage stage;   /* gravity NaN: not given */
+    CpsStage stage;   /* gravity is NaN where not given */
     CpsiList changes; /* CpsiChangeValues */
-    CpsiList turns;   /* CpsiNumberItem, whose key is OBSTACLE.turn */
+    CpsiList turns;   /* CpsiNumberItem, with the key OBSTACLE.turn */
 } CpsiStageValues;
 
 extern const CpsiMapping cpsi_scene_file;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The words of a law file, how each is made of its values, and their table (see set_keys.h). */
+/* The words of a law file, how each is made from its values, and their table (see set_keys.h). */
 #include "io/schema/set_keys.h"
 
 #include <stdlib.h>
@@ -116,7 +116,7 @@ static CpsStatus make_hull(Values v, Made made, CpsError *err) {
     return cps_set_hull(v->count, sets(v), &made->set, err);
 }
 
-/* `map` has `found` of something for each component of a space. */
+/* Check that `map` has as many rows or columns (`found`) as the space has components. */
 static CpsStatus match_map(Values v, int found, const char *what, int space, CpsError *err) {
     return cpsi_set_match(&v->rows, "map", found, what, space, COMPONENTS, err);
 }
@@ -215,7 +215,7 @@ static CpsStatus term_table(Values v, Made made, CpsError *err) {
 #define PARTS(kind) REQUIRED, EXPRESSIONS(Set, kind), .inside = &cpsi_set_words
 #define UNDER(word) REQUIRED, AROUND, .inside = &word
 
-/* The keys of the words that have any; they go to the same values. */
+/* The keys of the words that have keys; they are stored in the same struct. */
 #define WORD_KEYS(word, ...)                            \
     static const CpsiKey word##_KEYS[] = {__VA_ARGS__}; \
     static const CpsiMapping word = {KEYS(word##_KEYS)}
@@ -246,7 +246,7 @@ WORD_KEYS(TABLE,
            .help = "[speed, factor], speeds from 0, factors not falling"},
           {"of", PART(laws), .help = "set"});
 
-/* Each row: word, value, what makes it, whether it is solved for, help. */
+/* Each row: word, value, function that makes it, whether queries solve a conic program, help. */
 #define MADE(function)   .make = function
 #define SOLVED(function) .make = function, .solved = true
 

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The words of a law file: each is a row whose value, numbers or parts, makes a set, a law or a
- * term of a resistance law. To add a word: its row, the few lines that make it, its line in
- * docs/formats.md. */
+/* The words of a law file. Each is a row from whose value, numbers or parts, a set, a law or a term
+ * of a resistance law is made. A new word needs its row, the few lines that make it, and its line
+ * in docs/formats.md. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_SET_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_SET_KEYS_H
 
 #include "capstan/law.h"
 #include "io/schema/keys.h"
 
-/* The values of a word. What a word does not take is zero. */
+/* The values of a word. Values that the word does not have are zero. */
 typedef struct CpsiSetValues {
     CpsiRows rows;    /* points, matrices, directions, sides, tables */
     CpsiRows offsets; /* of inequalities */
     double number;    /* radius, width, offset, friction, factor */
     double load, degree;
     int dimension;
-    const CpsiYaml *sets, *laws; /* its parts: an expression, or a list of them */
+    const CpsiYaml *sets, *laws; /* its parts: an expression, or a list of expressions */
     CpsiList contacts;           /* CpsiContactValues */
 
-    /* of each expression, made by reading; released when the word is made */
+    /* of each expression, made while reading; released after the word has been made */
     int count;
     CpsSet **set;
     CpsLaw **law;
@@ -26,7 +26,7 @@ typedef struct CpsiSetValues {
     int columns;
 } CpsiSetValues;
 
-/* What a word becomes: one of the three; of a preimage of a law also its composition rule. */
+/* The result of a word: one of the three; for the preimage of a law also its composition rule. */
 typedef struct CpsiSetMade {
     CpsSet *set;
     CpsLaw *law;
@@ -51,20 +51,18 @@ typedef struct CpsiLawFileValues {
     const CpsiYaml *law, *resistance;
 } CpsiLawFileValues;
 
-/* Words that make sets, or laws, which where a set is expected stand for their sets of forces;
- * those that make another thing of the same name where a law is expected; terms of resistance laws.
- */
+/* Words that make sets, or laws, which stand for their sets of forces where a set is expected;
+ * words that make something else under the same name where a law is expected; terms of resistance
+ * laws. */
 extern const CpsiMapping cpsi_set_words, cpsi_law_words, cpsi_term_words;
 extern const CpsiMapping cpsi_contact, cpsi_law_file;
 
-/* Limits of what is read, chosen so that no file keeps the program busy for more than about a
- * minute: components of one set, and components, points and rows together of all sets that a conic
- * program is solved over. */
+/* Limits chosen so that no file takes the program more than about a minute: components of one set,
+ * and components, points and rows together of all sets over which a conic program is solved. */
 enum { CPSI_LAW_MOST_COMPONENTS = 32, CPSI_LAW_MOST_SOLVED = 300, CPSI_LAW_LONGEST_TITLE = 255 };
 
-/* Fails, at the value, unless `found` is `expected`: "'map': found 3 columns, expected 2, as many
- * as
- * .." */
+/* Fails, at the value, unless `found` equals `expected`: "'map': found 3 columns, expected 2, as
+ * many as .." */
 CpsStatus cpsi_set_match(const CpsiRows *value, const char *name, int found, const char *what,
                          int expected, const char *reason, CpsError *err);
 
