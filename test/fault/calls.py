@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every system call that writes fails once, and from then on, at every place of a run, a resume and the other verbs.
+"""Every system call on files fails once, and from then on, at every place of a run, a resume and every other verb.
 
 After each: the exit code is one of the documented ones and a message says why; in the directory is the old set of files, the new set, or a
 mixture that capstan itself recognises; and the same command once more ends with the new set and clears all that was left. Where it ends well
@@ -32,24 +32,36 @@ history:
 tried = 0
 
 
-def capstan(*command):
-    return subprocess.run([CAPSTAN, *command], capture_output=True, text=True, timeout=60)
+def capstan(*command, given=""):
+    return subprocess.run([CAPSTAN, *command], input=given, capture_output=True, text=True, timeout=60)
 
 
-def refused(k, mode, code, command):
-    done = subprocess.run([REFUSE, str(k), mode, str(code), "count", CAPSTAN, *command], capture_output=True, text=True, timeout=60)
+def refused(k, mode, code, command, given=""):
+    done = subprocess.run([REFUSE, str(k), mode, str(code), "count", CAPSTAN, *command], input=given, capture_output=True, text=True, timeout=60)
     return done, int(read("count")) if os.path.exists("count") else -1
+
+
+def contents(folder):
+    """{name: bytes} of the files that a listing shows."""
+    names = os.listdir(folder) if os.path.isdir(folder) else []
+    return {name: read(f"{folder}/{name}") for name in names if not name.startswith(".")}
 
 
 class Set:
     """A command that writes a set of files, with their summary, into the directory `out`: whose title begins with `new` then, and perhaps
-    with `old` before it."""
+    with `old` before it. `earlier`: a copy of that directory as it is before; `given`: the command's standard input."""
 
-    def __init__(self, command, summary="summary.json", earlier=None):
-        self.command, self.summary, self.earlier = [*command, "-q", "-o", "out"], summary, earlier
-        shutil.rmtree("out", ignore_errors=True)
-        assert capstan(*self.command).returncode == 0 and self.title() == "new", command
+    def __init__(self, command, summary="summary.json", earlier=None, given=""):
+        self.command, self.summary, self.earlier, self.given = [*command, "-q", "-o", "out"], summary, earlier, given
+        self.before = contents(earlier) if earlier else {}
+        self.begin()
+        assert capstan(*self.command, given=given).returncode == 0 and self.title() == "new", command
         self.whole = set(os.listdir("out"))
+
+    def begin(self):
+        shutil.rmtree("out", ignore_errors=True)
+        if self.earlier:
+            shutil.copytree(self.earlier, "out")
 
     def title(self):
         """Of the set that is whole: its summary is there, and every file that it lists."""
@@ -70,19 +82,19 @@ class Set:
 
     def judge(self, what, done):
         """The directory after a run that a refused call went through."""
-        title = self.title()
-        results = [name for name in os.listdir("out") if not name.startswith(".")] if os.path.isdir("out") else []
+        title, found = self.title(), contents("out")
         if done.returncode == 0 and title != "new":
             faults.append(f"{what}: exit code 0, and the results there are {title}")
-        if title is None and results and not self.is_told():
-            faults.append(f"{what}: a mixture that is not recognised: {sorted(os.listdir('out'))[:6]}")
-        if "earlier results are kept" in done.stderr and self.earlier and title != "old":
+        if title != "new" and found != self.before and not self.is_told():
+            faults.append(f"{what}: a mixture that is not recognised: {sorted(found)[:6]}")
+        if "earlier results are kept" in done.stderr and found != self.before:
             faults.append(f"{what}: says 'earlier results are kept', and there is {title}")
 
     def mend(self, what):
         """The next run, with nothing refused, ends with the new set and leaves nothing of what was there."""
         told = self.is_told()
-        done = capstan(*self.command, *(["--resume"] if os.path.exists("out/.journal") and "--resume" not in self.command else []))
+        goes_on = os.path.exists("out/.journal") and not {"--resume", "--force"} & set(self.command)
+        done = capstan(*self.command, *(["--resume"] if goes_on else []), given=self.given)
         if done.returncode != 0 or self.title() != "new":
             faults.append(f"{what}: the next run: exit code {done.returncode}: {done.stderr[-200:]!r}")
             return
@@ -93,19 +105,17 @@ class Set:
             faults.append(f"{what}: left after the next run: {sorted(left)}")
 
 
-def sweep(name, command, files=None):
+def sweep(name, command, files=None, given=""):
     """One command with each of its calls refused, into copies of the directory of its Set."""
     global tried
-    shutil.rmtree("out", ignore_errors=True)
-    plain = None if files else capstan(*command)
+    plain = None if files else capstan(*command, given=given)
     usual = 0 if files else plain.returncode
     for mode, code in (("once", EIO), ("on", ENOSPC)):
         k = 1
         while True:
-            shutil.rmtree("out", ignore_errors=True)
-            if files and files.earlier:
-                shutil.copytree(files.earlier, "out")
-            done, count = refused(k, mode, code, command)
+            if files:
+                files.begin()
+            done, count = refused(k, mode, code, command, given)
             if done.returncode == 77:
                 print("calls: programs cannot be traced here: skipped")
                 sys.exit(77)
@@ -126,9 +136,24 @@ def sweep(name, command, files=None):
     print(f"{name}: {count} calls, {len(faults)} faults", flush=True)
 
 
+def sweep_foreign():
+    """A directory that is somebody else's: refused, or its files are kept but for those that have names of results."""
+    os.mkdir("foreign")
+    write("foreign/notes.txt", "mine")
+    command = ["run", "new.yaml", "-q", "-o", "foreign"]
+    sweep("a directory of somebody else's", command)
+    if contents("foreign") != {"notes.txt": b"mine"} or set(os.listdir("foreign")) != {"notes.txt"}:
+        faults.append(f"a directory of somebody else's: {sorted(os.listdir('foreign'))}")
+    write("foreign/history.csv", "mine, too")
+    forced = Set(["run", "new.yaml", "--force"], earlier="foreign")
+    sweep("run --force in it", forced.command, forced)
+
+
 def sweep_sets():
     run = ["run", "new.yaml"]
-    sweep("a first run", [*run, "-q", "-o", "out"], Set(run))
+    for words, given in ((run, ""), (["run", "-"], read("new.yaml").decode()), ([*run, "--sync", "end", "--json"], "")):
+        first = Set(words, given=given)
+        sweep("a first " + " ".join(words), first.command, first, given)
     assert capstan("run", "old.yaml", "-q", "-o", "old").returncode == 0
     again = Set(run, earlier="old")
     sweep("a run over an earlier one", again.command, again)
@@ -155,15 +180,22 @@ def main():
     for title, name in (("old", "frozen-old.yaml"), ("new", "frozen.yaml")):
         write(name, SCENE.replace("TITLE", title).replace("STEPS", "1") + "friction_policy: frozen\n")
     sweep_sets()
+    sweep_foreign()
     write("law.yaml", "capstan: 1\nlaw: {disc: 1}\n")
     write("nodes.csv", "".join(f"{x},0,0\n" for x in (0, 0.275, 0.55, 0.825, 1.1)))
-    disc = f"{EXAMPLES}/drive/disc.yaml"
-    for command in (["law", "law.yaml", "--plot", "out.svg"], ["law", "law.yaml", "-v", "1,0", "--json"], ["drive", disc, "--plot", "out.svg"], ["drive", disc],
-                    ["study", "frozen.yaml", "--judge", "nodes.csv"], ["check", "new.yaml"], ["schema"], ["schema", "drive"], ["run", "--help"], ["--version"]):
-        sweep(" ".join(os.path.basename(word) for word in command), command)
+    shutil.copytree(f"{EXAMPLES}/drive", "drive")
+    rows = "1,0\n0,1\n"
+    for command, given in (("law law.yaml --plot out.svg", ""), ("law law.yaml -v 1,0 --json", ""), ("law law.yaml -v -", rows),
+                           ("drive drive/disc.yaml --plot out.svg", ""), ("drive drive/disc.yaml --json", ""),
+                           ("drive drive/planimeter.yaml -q", ""), ("drive drive/rope-arc.yaml -q --plot out.svg", ""),
+                           ("drive drive/plate.yaml --eliminate", ""),
+                           ("study frozen.yaml --judge nodes.csv", ""), ("check new.yaml", ""), ("check -", read("new.yaml").decode()),
+                           ("check none.yaml", ""), ("schema", ""), ("schema law", ""), ("schema drive", ""), ("run --help", ""), ("--version", "")):
+        sweep(command, command.split(), given=given)
 
 
-with tempfile.TemporaryDirectory() as folder:
+# in memory where there is such a place: every command waits for its disk
+with tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None) as folder:
     os.chdir(folder)
     main()
     os.chdir("/")

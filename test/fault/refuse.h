@@ -5,16 +5,41 @@
 #ifndef CAPSTAN_TEST_FAULT_REFUSE_H
 #define CAPSTAN_TEST_FAULT_REFUSE_H
 
+#include <execinfo.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdlib.h>
 
 static long allowed = -1,
             live; /* allocations until the one that fails (negative: none fails); blocks held */
 
+/* While recording none fails; `first` are the first allocations asked for from each place. A place
+ * is known by the functions that are being called there, the innermost ones. */
+static bool recording;
+enum { DEEPEST = 8, MOST_PLACES = 1 << 15 };
+static long asked, places, first[MOST_PLACES];
+static uint64_t seen[2 * MOST_PLACES]; /* hashes of places; 0: free */
+
 static void *counted(void *block) {
     live += block != NULL;
     return block;
 }
-static int refuse(void) { return allowed >= 0 && allowed-- == 0; }
+static void record(void) {
+    void *caller[DEEPEST + 2];
+    const int depth = backtrace(caller, DEEPEST + 2);
+    uint64_t hash = 14695981039346656037u;
+    for (int i = 2; i < depth; i++) hash = (hash ^ (uint64_t)(uintptr_t)caller[i]) * 1099511628211u;
+    size_t at = hash % (2 * MOST_PLACES);
+    while (seen[at] != 0 && seen[at] != hash) at = (at + 1) % (2 * MOST_PLACES);
+    if (seen[at] == 0 && places < MOST_PLACES) first[places++] = asked;
+    if (places < MOST_PLACES) seen[at] = hash;
+    asked++;
+}
+
+static __attribute__((noinline)) bool refuse(void) {
+    if (recording) record();
+    return allowed >= 0 && allowed-- == 0;
+}
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Run a program and let one of its system calls fail: the K-th after it has begun of those that
- * write, or that one and all behind it.
+ * open, read, write, list or remove files, or that one and all behind it.
  *
  *     refuse_calls K once|on ERRNO COUNT_FILE PROGRAM ARGUMENTS..
  *
  * Calls are counted from the program's first fcntl, with which capstan begins, so that those of the
  * dynamic linker are not among them. The number of calls counted goes to COUNT_FILE; the exit code
  * is the program's, 128 + the signal that ended it, or 77 where programs cannot be traced. Unlike
- * functions of a library, what libc itself calls is reached, too. */
+ * functions of a library, what libc itself calls is reached, too. A program built for coverage
+ * writes its counts when it has ended; those calls are its compiler's, and are left alone. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <signal.h>
@@ -24,20 +25,37 @@
 #ifdef __x86_64__
 
 static bool is_counted(long call) {
-    static const long COUNTED[] = {SYS_open,     SYS_openat,    SYS_write,     SYS_pwrite64,
-                                   SYS_writev,   SYS_fsync,     SYS_fdatasync, SYS_rename,
-                                   SYS_renameat, SYS_renameat2, SYS_unlink,    SYS_unlinkat,
-                                   SYS_mkdir,    SYS_mkdirat,   SYS_close,     SYS_ftruncate,
-                                   SYS_lseek};
+    static const long COUNTED[] = {SYS_open,      SYS_openat,     SYS_write,     SYS_pwrite64,
+                                   SYS_writev,    SYS_fsync,      SYS_fdatasync, SYS_rename,
+                                   SYS_renameat,  SYS_renameat2,  SYS_unlink,    SYS_unlinkat,
+                                   SYS_mkdir,     SYS_mkdirat,    SYS_rmdir,     SYS_close,
+                                   SYS_ftruncate, SYS_lseek,      SYS_read,      SYS_pread64,
+                                   SYS_stat,      SYS_lstat,      SYS_fstat,     SYS_newfstatat,
+                                   SYS_statx,     SYS_getdents64, SYS_flock};
     for (size_t i = 0; i < sizeof COUNTED / sizeof *COUNTED; i++)
         if (COUNTED[i] == call) return true;
     return false;
 }
 
+/* Is the path that a stopped program opens one of its coverage counts? */
+static bool opens_counts(pid_t child, unsigned long long path) {
+    char text[4096] = {0};
+    size_t length = 0;
+    while (length + sizeof(long) < sizeof text) {
+        const long word = ptrace(PTRACE_PEEKDATA, child, path + length, 0);
+        memcpy(text + length, &word, sizeof word);
+        if (memchr(text + length, 0, sizeof word)) break;
+        length += sizeof word;
+    }
+    text[sizeof text - 1] = '\0';
+    const size_t whole = strnlen(text, sizeof text);
+    return whole > 5 && strcmp(text + whole - 5, ".gcda") == 0;
+}
+
 /* The traced program from its start to its end; the exit code. */
 static int trace(pid_t child, long k, bool on, long code, long *count) {
     int status;
-    bool inside = false, refused = false, begun = false;
+    bool inside = false, refused = false, begun = false, ended = false;
     if (waitpid(child, &status, 0) != child || !WIFSTOPPED(status)) return 77;
     ptrace(PTRACE_SETOPTIONS, child, 0, PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL);
     for (int pass = 0;;) {
@@ -56,10 +74,11 @@ static int trace(pid_t child, long k, bool on, long code, long *count) {
         if (inside) {
             const long call = (long)regs.orig_rax;
             begun = begun || call == SYS_fcntl;
+            ended = ended || (begun && call == SYS_openat && opens_counts(child, regs.rsi));
             refused = false;
             const bool told =
                 call == SYS_write && regs.rdi == STDERR_FILENO; /* what went wrong shall be read */
-            if (begun && !told && is_counted(call)) {
+            if (begun && !ended && !told && is_counted(call)) {
                 ++*count;
                 refused = *count == k || (on && *count > k && k > 0);
             }

@@ -63,9 +63,43 @@ static void resistance_law(void **state) {
     remove(GREASE);
 }
 
+/* Laws whose sets and cones are unbounded, round, or of every number of dimensions; each is drawn
+ * with what is asked. */
+static void every_shape(void **state) {
+    (void)state;
+    static const struct {
+        const char *law, *velocity, *force;
+    } SHAPE[] = {
+        {"law: {interval: [-2, .inf]}\n", "1", "-2"},
+        {"law: {strip: {normal: [1, 1], width: 2}}\n", "1,1", "1,1"},
+        {"law: {half_space: {normal: [0, 1], offset: 1}}\n", "0,1", "3,1"},
+        {"law: {half_space: {normal: [0, 0, 1], offset: 1}}\n", "0,0,1", "3,1,1"},
+        {"law: {product: [{disc: 1}, {interval: [-1, 2]}]}\n", "1,0,0", "1,0,2"},
+        {"law: {sum: [{ellipse: [1, 2]}, {ellipse: [2, 1]}]}\n", "1,2", "0.5,0.5"},
+        {"law: {image: {map: [[1, 0, 1], [0, 1, 1]], of: {box: [[-1, 1], [-1, 1], [-1, 1]]}}}\n",
+         "1,0", "2,0"},
+        {"resistance:\n  - {dry: {disc: 3}}\n  - {viscous: [[2, 0], [0, 2]]}\n", "1,1", "0,-5"},
+        {"resistance:\n  - {dry: {interval: 3}}\n  - {power: {degree: 1.5, factor: 2, of: "
+         "{interval: 1}}}\n",
+         "1", "-5"},
+        {"resistance:\n  - {table: {points: [[0, 1], [1, 2], [3, 9]], of: {interval: 1}}}\n", "2",
+         "-5"},
+    };
+    for (size_t i = 0; i < sizeof SHAPE / sizeof *SHAPE; i++) {
+        char text[400];
+        snprintf(text, sizeof text, "capstan: 1\n%s", SHAPE[i].law);
+        write_file(WHEEL, text);
+        const char *const draw[] = {"law", WHEEL,          "-v",     SHAPE[i].velocity,
+                                    "-f",  SHAPE[i].force, "--plot", PICTURE};
+        REFUSE_EACH(draw, true);
+        remove(WHEEL);
+    }
+}
+
 int main(int argc, char **argv) {
     if (argc > 1) which = argv[1];
     const struct CMUnitTest tests[] = {cmocka_unit_test(planar_law), cmocka_unit_test(law_in_space),
-                                       cmocka_unit_test(resistance_law)};
+                                       cmocka_unit_test(resistance_law),
+                                       cmocka_unit_test(every_shape)};
     return cmocka_run_group_tests_name("laws without memory", tests, NULL, NULL);
 }

@@ -23,6 +23,32 @@ static const char TEXT[] =
     "0], to: [1, 0, 0]}}, ends: {A: held, B: held}}\n"
     "history:\n  - {name: out, rope.B: {position: [1.1, 0, 0]}, steps: 2}\n";
 
+/* Two lines, each kind of obstacle, friction, start, end and entry; and the nodes of one of them.
+ */
+static const char EVERYTHING[] = "memory-everything.yaml", EVERY_NODE[] = "memory-nodes.csv";
+static const char EVERYTHING_TEXT[] =
+    "capstan: 1\ntitle: everything\ngravity: [0, 0, -9.81]\nobstacles:\n"
+    "  bed: {plane: {normal: [0, 0, 1]}, friction: {axial: 0.5, lateral: 0.2, shape: box}}\n"
+    "  drum: {cylinder: {point: [0, 0, -9], axis: [0, 1, 0], radius: 1}, friction: {set: {hull: "
+    "[{disc: 0.3}, {segment: [[0, -0.5], [0, 0.9]]}, {polytope: [[1, 0], [0, 1], [-1, -1]]}]}, "
+    "grain: [1, 0, 0]}}\n"
+    "  ball: {sphere: {center: [0, 0, -20], radius: 1}, friction: 0.1}\n"
+    "lines:\n"
+    "  rope: {length: 1, elements: [0.25, [3, 0.75]], mass: 1, stiffness: 100, friction_zones: "
+    "[{from: 0, to: 0.5, factor: 2}], start: {polyline: [[0, 0, 0], [0.5, 0, 0], [0.5, 0.5, 0]]}, "
+    "ends: {A: {fixed: [0, 0, 0]}, B: {force: [0, 1, 0]}}}\n"
+    "  wire: {length: 1, weight: 1, stiffness: .inf, start: {nodes: memory-nodes.csv}, ends: {A: "
+    "free, B: fixed}}\n"
+    "  hang: {length: 1, elements: 5, weight: 1, stiffness: 9, start: {arc: {from: [1, 0, 5], "
+    "center: [0, 0, 5]}}, ends: {A: fixed, B: free}}\n"
+    "history:\n"
+    "  - {name: out, rope.B: {force: [0, 2, 0]}, wire.B: {move: [0, 0.1, 0]}, gravity: [0, 0, -5], "
+    "drum.turn: 20, steps: 2}\n"
+    "  - {hang.B: {position: [0, 0, 6]}, hang.A: {force: [0, 0, 0]}}\n";
+static const char EVERY_NODE_TEXT[] =
+    "x,y,z,arc_length,tension,reaction\nm,m,m,m,N,N\n# a remark\n0,9,0,0,,0.5\n0.5,9,0,0.5,1,1\n"
+    "1,9,0,1,1,0.5\n";
+
 /* Is there a file in the directory that only a run which goes on may have? */
 static bool has_temporary(void) {
     DIR *listing = opendir(OUT);
@@ -71,6 +97,12 @@ static void studies(void **state) {
 static void others(void **state) {
     (void)state;
     INTO_DIRECTORY(cmd_check, "check", SCENE);
+    write_file(EVERY_NODE, EVERY_NODE_TEXT);
+    write_file(EVERYTHING, EVERYTHING_TEXT);
+    INTO_DIRECTORY(cmd_check, "check", EVERYTHING);
+    INTO_DIRECTORY(cmd_run, "run", EVERYTHING, "-q", "-o", OUT, "--force");
+    remove(EVERYTHING);
+    remove(EVERY_NODE);
     static const char *const WHAT[] = {"scene", "law", "drive"};
     for (int i = 0; i < 3; ++i) {
         bool reached;
