@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Allocations that fail when a test says so, and a count of the blocks held; by the linker's --wrap
- * of malloc, calloc, realloc, aligned_alloc and free, with REFUSE_TEXT of strdup and open_memstream
- * as well. For one file of a test program. */
+ * of malloc, calloc, realloc, aligned_alloc and free, with REFUSE_TEXT of strdup, newlocale and
+ * open_memstream as well. For one file of a test program. */
 #ifndef CAPSTAN_TEST_FAULT_REFUSE_H
 #define CAPSTAN_TEST_FAULT_REFUSE_H
 
@@ -69,14 +69,20 @@ void __wrap_free(void *block) {
 }
 
 #ifdef REFUSE_TEXT
+#include <locale.h>
 #include <stdio.h>
 
 char *__real_strdup(const char *text);
+locale_t __real_newlocale(int mask, const char *name, locale_t base);
+locale_t __wrap_newlocale(int mask, const char *name, locale_t base);
 FILE *__real_open_memstream(char **text, size_t *size);
 FILE *__wrap_open_memstream(char **text, size_t *size);
 char *__wrap_strdup(const char *text);
 
 char *__wrap_strdup(const char *text) { return refuse() ? NULL : counted(__real_strdup(text)); }
+locale_t __wrap_newlocale(int mask, const char *name, locale_t base) {
+    return refuse() ? (locale_t)0 : __real_newlocale(mask, name, base);
+}
 /* the block is the text, which the caller frees */
 FILE *__wrap_open_memstream(char **text, size_t *size) {
     return refuse() ? NULL : counted(__real_open_memstream(text, size));

@@ -48,7 +48,12 @@ ssize_t __wrap_pread(int file, void *to, size_t size, off_t at) {
 ssize_t __wrap_pwrite(int file, const void *from, size_t size, off_t at) {
     return fails() ? -1 : __real_pwrite(file, from, size < most ? size : most, at);
 }
-int __wrap_fstat(int file, struct stat *about) { return fails() ? -1 : __real_fstat(file, about); }
+static bool elsewhere; /* open files are said to be on another device than they are */
+int __wrap_fstat(int file, struct stat *about) {
+    const int status = fails() ? -1 : __real_fstat(file, about);
+    if (status == 0 && elsewhere) about->st_dev++;
+    return status;
+}
 int __wrap_fsync(int file) { return fails() ? -1 : __real_fsync(file); }
 int __wrap_fdatasync(int file) { return fails() ? -1 : __real_fdatasync(file); }
 int __wrap_ftruncate(int file, off_t size) { return fails() ? -1 : __real_ftruncate(file, size); }
@@ -199,9 +204,58 @@ static void replaced(void **state) {
     assert_true(file >= 0);
     close(file);
     cps_journal_remove(journal);
+    assert_int_equal(access(path, F_OK), 0);
     cps_journal_destroy(journal);
     assert_int_equal(unlink(path), 0);
+    /* as is one of the same number on another device */
+    assert_int_equal(cps_journal_open(folder, evolution, CPS_JOURNAL_NEW, &journal, NULL), CPS_OK);
+    elsewhere = true;
+    cps_journal_remove(journal);
+    elsewhere = false;
+    assert_int_equal(access(path, F_OK), 0);
+    cps_journal_destroy(journal);
+    assert_int_not_equal(access(path, F_OK), 0);
     cps_evolution_destroy(evolution);
+}
+
+/* FNV-1a over 64-bit words, the last one filled with zeros. */
+static uint64_t sum_of(uint64_t step, const unsigned char *state, size_t size) {
+    uint64_t sum = (14695981039346656037u ^ step) * 1099511628211u;
+    for (size_t at = 0; at < size; at += sizeof sum) {
+        uint64_t word = 0;
+        memcpy(&word, state + at, size - at < sizeof word ? size - at : sizeof word);
+        sum = (sum ^ word) * 1099511628211u;
+    }
+    return sum;
+}
+
+/* A journal whose first record has the state of the second one, with the right checksum. */
+static void another_order(void **state) {
+    (void)state;
+    CpsError err;
+    int had;
+    char path[64];
+    CpsEvolution *evolution = make_evolution();
+    const size_t size = cps_evolution_state_size(evolution);
+    cps_evolution_destroy(evolution);
+    unsigned char *bytes = malloc(size);
+    assert_non_null(bytes);
+    assert_int_equal(go_on(CPS_JOURNAL_REPLACE, FIRST, &had, false, &err), CPS_OK);
+    snprintf(path, sizeof path, "%s/.journal", folder);
+    const int file = open(path, O_RDWR | O_CLOEXEC);
+    struct stat about;
+    assert_true(file >= 0 && __real_fstat(file, &about) == 0);
+    const off_t record = (off_t)(2 * sizeof(uint64_t) + size), first = about.st_size - 2 * record;
+    const off_t state_at = first + (off_t)(2 * sizeof(uint64_t));
+    assert_int_equal(__real_pread(file, bytes, size, state_at + record), size);
+    const uint64_t sum = sum_of(0, bytes, size);
+    assert_int_equal(__real_pwrite(file, &sum, sizeof sum, first + 8), sizeof sum);
+    assert_int_equal(__real_pwrite(file, bytes, size, state_at), size);
+    close(file);
+    free(bytes);
+    assert_int_equal(go_on(CPS_JOURNAL_RESUME, STEPS, &had, false, &err), CPS_ERR_ARGUMENT);
+    assert_non_null(strstr(err.message, "in another order"));
+    assert_int_equal(unlink(path), 0);
 }
 
 static int begin(void **state) {
@@ -221,8 +275,9 @@ static int end(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(broken_disk), cmocka_unit_test(full_disk),
-                                       cmocka_unit_test(interrupted), cmocka_unit_test(no_sync),
-                                       cmocka_unit_test(nothing),     cmocka_unit_test(replaced)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(broken_disk),  cmocka_unit_test(full_disk),
+                                       cmocka_unit_test(interrupted),  cmocka_unit_test(no_sync),
+                                       cmocka_unit_test(nothing),      cmocka_unit_test(replaced),
+                                       cmocka_unit_test(another_order)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -3,6 +3,7 @@
  * behind, nothing leaks (the sanitizers look). Allocations are counted by wrapping them at link
  * time, which reaches the static libraries; built as shared libraries they cannot be reached, and
  * the test is skipped. */
+#include <locale.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -40,6 +41,12 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return refuse() ? NULL : __real_aligned_alloc(alignment, size);
 }
 char *__wrap_strdup(const char *text) { return refuse() ? NULL : __real_strdup(text); }
+
+locale_t __real_newlocale(int mask, const char *name, locale_t base);
+locale_t __wrap_newlocale(int mask, const char *name, locale_t base);
+locale_t __wrap_newlocale(int mask, const char *name, locale_t base) {
+    return refuse() ? (locale_t)0 : __real_newlocale(mask, name, base);
+}
 
 static void every_allocation_may_fail(void **state) {
     (void)state;

@@ -114,6 +114,78 @@ static void studies(void **state) {
     REFUSED(cps_regularized_summary(&run, NULL, &err));
 }
 
+/* `call` without one member of what it is given, which has all the others. */
+#define WITHOUT(type, whole, member, call)               \
+    do {                                                 \
+        type given_ = whole;                             \
+        memset(&given_.member, 0, sizeof given_.member); \
+        REFUSED(call);                                   \
+    } while (0)
+
+/* Each thing that a writer needs is missing in turn. None of them gets as far as a file. */
+static void one_thing_missing(void **state) {
+    (void)state;
+    static const char DIRECTORY[] = "results-misuse-io";
+    const char *const names[1] = {"a"}, *const unnamed[1] = {NULL};
+    const CpsRegularizedParameters parameters = {0};
+    const CpsRegularizedReport report = {0};
+    const CpsRegularizedLine line = {.name = "a",
+                                     .points = 2,
+                                     .position = ONE,
+                                     .tension = ONE,
+                                     .parameters = &parameters,
+                                     .report = &report};
+    const CpsRegularizedRun run = {
+        .title = "", .steps = 1, .lines = 1, .step_name = names, .line = &line};
+    WITHOUT(CpsRegularizedRun, run, title, cps_regularized_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsRegularizedRun, run, steps, cps_regularized_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsRegularizedRun, run, lines, cps_regularized_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsRegularizedRun, run, step_name, cps_regularized_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsRegularizedRun, run, line, cps_regularized_write(DIRECTORY, &given_, &err));
+    REFUSED(cps_regularized_write(NULL, &run, &err));
+    REFUSED(cps_regularized_summary(&run, NULL, &err));
+    CpsRegularizedRun other = run;
+    other.step_name = unnamed;
+    REFUSED(cps_regularized_write(DIRECTORY, &other, &err));
+    other = run;
+#define WITHOUT_OF_LINE(member)               \
+    WITHOUT(CpsRegularizedLine, line, member, \
+            (other.line = &given_, cps_regularized_write(DIRECTORY, &other, &err)))
+    WITHOUT_OF_LINE(name);
+    WITHOUT_OF_LINE(points);
+    WITHOUT_OF_LINE(position);
+    WITHOUT_OF_LINE(tension);
+    WITHOUT_OF_LINE(parameters);
+    WITHOUT_OF_LINE(report);
+
+    /* pointers that are refused or handed on, and never looked into */
+    const CpsLineView view = {0};
+    const CpsCompletedLine completed = {.title = "",
+                                        .view = &view,
+                                        .position = {ONE, ONE, ONE},
+                                        .chosen = 0};
+    WITHOUT(CpsCompletedLine, completed, title, cps_completed_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsCompletedLine, completed, view, cps_completed_write(DIRECTORY, &given_, &err));
+    for (i = 0; i < CPS_COMPLETION_COUNT; i++)
+        WITHOUT(CpsCompletedLine, completed, position[i],
+                cps_completed_write(DIRECTORY, &given_, &err));
+    CpsCompletedLine unchosen = completed;
+    unchosen.chosen = CPS_COMPLETION_COUNT;
+    REFUSED(cps_completed_write(DIRECTORY, &unchosen, &err));
+    const CpsMethodHistory placeless = {"one", NULL}, nameless = {NULL, ONE}, whole = {"one", ONE};
+    REFUSED(cps_methods_write(DIRECTORY, "", 1, &placeless, 1, 2, names, &err));
+    REFUSED(cps_methods_write(DIRECTORY, "", 1, &nameless, 1, 2, names, &err));
+    REFUSED(cps_methods_write(DIRECTORY, "", 1, &whole, 1, 2, unnamed, &err));
+    const CpsStudyFiles files = {.title = "",
+                                 .classic = (const void *)ONE,
+                                 .study = (const void *)ONE,
+                                 .first_order = (const void *)ONE};
+    WITHOUT(CpsStudyFiles, files, title, cps_study_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsStudyFiles, files, classic, cps_study_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsStudyFiles, files, study, cps_study_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsStudyFiles, files, first_order, cps_study_write(DIRECTORY, &given_, &err));
+}
+
 static void laws(void **state) {
     (void)state;
     CpsLawFile *file = NULL;
@@ -189,8 +261,10 @@ static void clear(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scenes), cmocka_unit_test(results), cmocka_unit_test(studies),
-        cmocka_unit_test(laws),   cmocka_unit_test(drives),  cmocka_unit_test(clear),
+        cmocka_unit_test(scenes),  cmocka_unit_test(results),
+        cmocka_unit_test(studies), cmocka_unit_test(one_thing_missing),
+        cmocka_unit_test(laws),    cmocka_unit_test(drives),
+        cmocka_unit_test(clear),
     };
     return cmocka_run_group_tests_name("misuse of files", tests, NULL, NULL);
 }

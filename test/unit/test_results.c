@@ -506,6 +506,53 @@ static void misuse_is_refused(void **state) {
     cps_evolution_destroy(evolution);
 }
 
+/* what is missing, of another run, or comes after the end */
+static void wrong_calls_are_refused(void **state) {
+    (void)state;
+    Fixture f;
+    make_scene(&f);
+    CpsError err;
+    CpsResults *results = NULL;
+    CpsEvolution *evolution = evolution_of(&f.scene);
+    const CpsResultsOptions zeros = {0};
+    static const char DIRECTORY[] = "results-wrong";
+    assert_int_equal(cps_results_open("", &f.scene, evolution, NULL, &results, &err),
+                     CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_results_open(DIRECTORY, NULL, evolution, NULL, &results, &err),
+                     CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_results_open(DIRECTORY, &f.scene, NULL, NULL, &results, &err),
+                     CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_results_open(DIRECTORY, &f.scene, evolution, &zeros, &results, &err),
+                     CPS_ERR_ARGUMENT);
+    must(cps_results_prepare(DIRECTORY, true, &err), &err);
+    must(cps_results_open(DIRECTORY, &f.scene, evolution, NULL, &results, &err), &err);
+    must(cps_evolution_step(evolution, &err), &err);
+    assert_int_equal(cps_results_append(results, NULL, &err), CPS_ERR_ARGUMENT);
+
+    /* the same number of lines, of other elements */
+    Fixture g;
+    make_scene(&g);
+    g.line[1].elements++;
+    CpsEvolution *other = evolution_of(&g.scene);
+    must(cps_evolution_step(other, &err), &err);
+    assert_int_equal(cps_results_append(results, other, &err), CPS_ERR_ARGUMENT);
+    cps_evolution_destroy(other);
+
+    must(cps_results_append(results, evolution, &err), &err);
+    assert_int_equal(cps_results_write_summary(results, 0, NULL, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_results_write_summary(NULL, 0, stdout, &err), CPS_ERR_ARGUMENT);
+    FILE *full = fopen("/dev/full", "w");
+    if (full) {
+        assert_int_equal(cps_results_write_summary(results, 0, full, &err), CPS_ERR_IO);
+        fclose(full);
+    }
+    must(cps_results_finish(results, 1, &err), &err);
+    assert_int_equal(cps_results_finish(results, 1, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_results_append(results, evolution, &err), CPS_ERR_ARGUMENT);
+    cps_results_destroy(results);
+    cps_evolution_destroy(evolution);
+}
+
 /* a program that lives in a country of decimal commas */
 static void locale_does_not_matter(void **state) {
     (void)state;
@@ -531,6 +578,7 @@ int main(void) {
         cmocka_unit_test(no_solution_is_written),
         cmocka_unit_test(what_is_not_there_is_refused),
         cmocka_unit_test(misuse_is_refused),
+        cmocka_unit_test(wrong_calls_are_refused),
         cmocka_unit_test(locale_does_not_matter),
     };
     return cmocka_run_group_tests_name("results", tests, NULL, NULL);

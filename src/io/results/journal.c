@@ -283,10 +283,11 @@ CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err) {
     return fdatasync(journal->file) == 0 ? CPS_OK : fail(journal, "write", err);
 }
 
-/* Remove only the file that was opened: a file that has replaced it belongs to someone else. */
+/* Remove only the file that was opened (every journal that a caller has is open): a file that has
+ * replaced it belongs to someone else. */
 void cps_journal_remove(CpsJournal *journal) {
     struct stat own, named;
-    if (journal && journal->file >= 0 && fstat(journal->file, &own) == 0 &&
+    if (journal && fstat(journal->file, &own) == 0 &&
         fstatat(journal->folder, NAME, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
         own.st_dev == named.st_dev && own.st_ino == named.st_ino)
         unlinkat(journal->folder, NAME, 0);

@@ -4,25 +4,32 @@
 #include "io/results/netcdf_library.h"
 
 #include <dlfcn.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "base/status.h"
 
+#define CALL(name) {"nc_" #name, offsetof(CpsiNetcdfLibrary, name)},
+static const struct {
+    const char *name;
+    size_t at; /* of its pointer */
+} FUNCTION[] = {CPSI_NETCDF_CALLS(CALL)};
+#undef CALL
+
 /* A function pointer of POSIX is as wide as a pointer to data. */
-static bool find(void *handle, const char *name, void *to) {
-    void *const found = dlsym(handle, name);
-    memcpy(to, &found, sizeof found);
-    return found != NULL;
+static bool find_all(CpsiNetcdfLibrary *library) {
+    for (size_t i = 0; i < sizeof FUNCTION / sizeof *FUNCTION; i++) {
+        void *const found = dlsym(library->handle, FUNCTION[i].name);
+        if (!found) return false;
+        memcpy((char *)library + FUNCTION[i].at, &found, sizeof found);
+    }
+    return true;
 }
 
 CpsStatus cpsi_netcdf_library(CpsiNetcdfLibrary *out, CpsError *err) {
     *out = (CpsiNetcdfLibrary){.handle =
                                    dlopen(CAPSTAN_NETCDF, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)};
-    bool whole = out->handle != NULL;
-#define FIND(name) whole = whole && find(out->handle, "nc_" #name, &out->name);
-    CPSI_NETCDF_CALLS(FIND)
-#undef FIND
-    if (whole) return CPS_OK;
+    if (out->handle && find_all(out)) return CPS_OK;
     const char *why = dlerror();
     cpsi_netcdf_library_close(out);
     return cpsi_fail(err, CPS_ERR_IO, "cannot write result.nc without %s: %s", CAPSTAN_NETCDF,

@@ -263,14 +263,11 @@ static CpsStatus write_summary(CpsResults *results, double wall, CpsError *err) 
     return listed ? listed : closed;
 }
 
-/* names of files of which an earlier run may have written more than this one */
+/* Names of files of which an earlier run may have written more than this one. The marker knows no
+ * other names that begin so (directory_marker.h). */
 static bool is_step_or_loop(const char *name) {
-    const char *dot = strrchr(name, '.');
-    if (!dot) return false;
-    if (strcmp(name, "obstacles.vtp") == 0 || strcmp(name, "result.pvd") == 0) return true;
-    if (strncmp(name, "loop-", 5) == 0) return strcmp(dot, ".svg") == 0;
-    if (strncmp(name, "step-", 5) != 0 || strspn(name + 5, "0123456789") < 5) return false;
-    return strcmp(dot, ".svg") == 0 || strcmp(dot, ".vtp") == 0;
+    return strcmp(name, "obstacles.vtp") == 0 || strcmp(name, "result.pvd") == 0 ||
+           strncmp(name, "loop-", 5) == 0 || strncmp(name, "step-", 5) == 0;
 }
 
 static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
