@@ -121,30 +121,41 @@ static DIR *list_folder(int folder) {
     return listing;
 }
 
-bool cpsi_marker_is_alone(int folder) {
+/* The next name; NULL at the end, where errno is 0, and after a failure. */
+static const char *next_name(DIR *listing) {
+    errno = 0;
+    const struct dirent *entry = readdir(listing);
+    return entry ? entry->d_name : NULL;
+}
+
+static bool is_own(const char *name) {
     static const char *const OWN[] = {".", "..", MARKER, MARKER_PART, NOTES};
+    for (size_t i = 0; i < sizeof OWN / sizeof *OWN; ++i)
+        if (strcmp(name, OWN[i]) == 0) return true;
+    return false;
+}
+
+bool cpsi_marker_is_alone(int folder) {
     DIR *listing = list_folder(folder);
-    bool alone = listing != NULL;
-    for (struct dirent *entry; alone && (entry = readdir(listing)) != NULL;) {
-        bool own = false;
-        for (size_t i = 0; i < sizeof OWN / sizeof *OWN; ++i)
-            own = own || strcmp(entry->d_name, OWN[i]) == 0;
-        alone = own;
-    }
-    if (listing) closedir(listing);
-    return alone;
+    if (!listing) return false;
+    const char *name;
+    do name = next_name(listing);
+    while (name && is_own(name));
+    const bool whole = !name && errno == 0; /* what could not be listed may be anybody's */
+    closedir(listing);
+    return whole;
 }
 
 CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, CpsError *err) {
     CpsStatus status = CPS_OK;
     DIR *listing = list_folder(folder);
-    if (!listing)
-        return cpsi_fail(err, CPS_ERR_IO, "cannot list the directory of results: %s",
-                         strerror(errno));
-    for (struct dirent *entry; status == CPS_OK && (entry = readdir(listing)) != NULL;)
-        if (cpsi_marker_knows(entry->d_name))
-            status = cpsi_names_add(&marker->written, entry->d_name, err);
-    closedir(listing);
+    const char *name = listing ? next_name(listing) : NULL;
+    for (; name && status == CPS_OK; name = next_name(listing))
+        if (cpsi_marker_knows(name)) status = cpsi_names_add(&marker->written, name, err);
+    if (!name && status == CPS_OK && errno != 0)
+        status =
+            cpsi_fail(err, CPS_ERR_IO, "cannot list the directory of results: %s", strerror(errno));
+    if (listing) closedir(listing);
     return status;
 }
 
