@@ -62,7 +62,7 @@ static void print_end(char letter, const CpsEnd *end) {
 }
 
 static void print_line(const CpsLine *line) {
-    static const char *const START[] = {"straight", "polyline", "arc", "laid by statics",
+    static const char *const START[] = {"straight", "polyline", "arc", "static equilibrium",
                                         "from given nodes"};
     printf("line %s: %g m, %d %selement%s, weight %g N/m, ", line->name, line->length,
            line->elements, line->element_length ? "graded " : "", line->elements == 1 ? "" : "s",

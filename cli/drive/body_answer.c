@@ -15,7 +15,7 @@ typedef struct Trail {
     double *pose, *end; /* (count, 3), (count, 2) */
     CpsTow tow;
     CpsTowStep last;
-    int unsettled, slack, inaccurate;
+    int not_converged, slack, inaccurate;
     double lower, upper; /* [J] bounds of the dissipation */
 } Trail;
 
@@ -228,7 +228,7 @@ static bool go(DriveRun *run, Trail *t) {
                               &run->err) == CPS_OK;
         if (good && t->last.outcome != CPS_SET_OUTCOME_ANSWERED) t->inaccurate++;
         if (good && t->last.pulled) {
-            t->unsettled += !t->last.settled;
+            t->not_converged += !t->last.converged;
             t->lower += t->last.lower;
             t->upper += t->last.upper;
         }
@@ -250,8 +250,8 @@ static void print_tow(DriveRun *run, const Trail *t) {
         drive_json("lower_J", t->lower);
         drive_json("upper_J", t->upper);
         drive_json("turning_radius_m", radius);
-        printf(", \"unsettled\": %d, \"slack\": %d, \"inaccurate\": %d", t->unsettled, t->slack,
-               t->inaccurate);
+        printf(", \"not_converged\": %d, \"slack\": %d, \"inaccurate\": %d", t->not_converged,
+               t->slack, t->inaccurate);
         drive_json_rows("pose", 3, t->count, t->pose);
         drive_json_rows("end", 2, t->count, t->end);
         putchar('}');
@@ -265,9 +265,9 @@ static void print_tow(DriveRun *run, const Trail *t) {
         printf("  the hitch turns on a radius of %.8g m in the last step\n", radius);
     if (t->slack)
         printf("  nothing moved in %d steps: the rope was slack, or its end rested\n", t->slack);
-    if (t->unsettled)
-        printf("  note: %d steps did not settle: the motion jumps with the orientation there\n",
-               t->unsettled);
+    if (t->not_converged)
+        printf("  note: %d steps did not converge: the motion jumps with the orientation there\n",
+               t->not_converged);
     if (t->inaccurate)
         printf("  note: %d steps have no certified motion; shorten them\n", t->inaccurate);
 }

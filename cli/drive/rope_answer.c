@@ -164,10 +164,11 @@ static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *elem
     line.end[CPS_END_A] = (CpsEnd){.kind = rope->rope.driven[0] ? CPS_END_HELD : CPS_END_FREE};
     if (rope->rope.driven[0]) memcpy(line.end[CPS_END_A].value, node, sizeof line.end[0].value);
     line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_HELD, .value = {last[0], last[1], 0}};
-    double *way = node + 3 * (size_t)nodes;
-    cps_drive_walk(2, rope->points, rope->path, steps + 1, way);
+    double *path = node + 3 * (size_t)nodes;
+    cps_drive_walk(2, rope->points, rope->path, steps + 1, path);
     for (int i = 0; i < steps; i++) {
-        change[i] = (CpsChange){0, CPS_END_B, {CPS_END_HELD, {way[2 * i + 2], way[2 * i + 3], 0}}};
+        change[i] =
+            (CpsChange){0, CPS_END_B, {CPS_END_HELD, {path[2 * i + 2], path[2 * i + 3], 0}}};
         stage[i] = (CpsStage){.name = "pull", .steps = 1, .change_count = 1, .change = &change[i]};
     }
     CpsScene scene = cps_scene_default();

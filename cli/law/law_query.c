@@ -23,12 +23,12 @@ static int bad(const QueryList *list, const char *where, int line, const char *w
 }
 
 static bool make_room(QueryList *list) {
-    if (list->count < list->room) return true;
-    const int room = list->room > 0 ? 2 * list->room : 16;
-    double *row = realloc(list->row, (size_t)room * (size_t)list->n * sizeof *row);
+    if (list->count < list->capacity) return true;
+    const int capacity = list->capacity > 0 ? 2 * list->capacity : 16;
+    double *row = realloc(list->row, (size_t)capacity * (size_t)list->n * sizeof *row);
     if (!row) return false;
     list->row = row;
-    list->room = room;
+    list->capacity = capacity;
     return true;
 }
 
@@ -76,11 +76,11 @@ static bool is_names(const char *text, int columns) {
  * skipped */
 static int read_rows(const char *option, QueryList *list) {
     char *text = NULL, expected[80];
-    size_t room = 0;
+    size_t capacity = 0;
     int code = EXIT_OK, line = 0;
     bool first = true;
     const int before = list->count;
-    for (ssize_t length; code == EXIT_OK && (length = getline(&text, &room, stdin)) >= 0;) {
+    for (ssize_t length; code == EXIT_OK && (length = getline(&text, &capacity, stdin)) >= 0;) {
         line++;
         if (length > LONGEST_LINE)
             code = bad(list, option, line, "the line is longer than 1 MiB", "...");

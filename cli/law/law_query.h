@@ -9,7 +9,7 @@
 /* Rows of n numbers. */
 typedef struct QueryList {
     const char *command; /* name in messages */
-    int n, count, room;
+    int n, count, capacity;
     double *row; /* (count x n) */
 } QueryList;
 

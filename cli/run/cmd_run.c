@@ -143,7 +143,7 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
             fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g)", line.proof_value, d[0], d[1],
                     d[2]);
             if (line.proof_obstacle >= 0) {
-                fputs(", the shortest way round obstacle ", stderr);
+                fputs(", the shortest path round obstacle ", stderr);
                 cli_print_text(stderr, scene->obstacle[line.proof_obstacle].name, 80, false);
             }
             fputc(')', stderr);

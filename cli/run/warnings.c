@@ -6,7 +6,7 @@
  * obstacle, friction still acts on it, and an equilibrium without it may be the true one (example
  * 11.3). Strict contact excludes only the penetration of obstacles that were touched before (11.1).
  * An element that lies inside a round obstacle is reported whatever the outcome: the step is then
- * not certified, except with strict contact.
+ * not certified, except with contact of the reference.
  *
  * A step goes directly from one equilibrium to another. Where energy is created, or much of it is
  * released, the path between them was another one: the line jumped, or changed to another branch of

@@ -48,7 +48,7 @@ CpsCompletion study_find_completion(const char *name) {
 
 static const char *hold_of(const CpsSlackPart *part) {
     if (part->loose) return "loose";
-    if (!part->rubs) return "held by its ends";
+    if (!part->has_friction) return "held by its ends";
     if (part->sliding) return "held by friction, at its bound: may slide on";
     return part->at_bound ? "held by friction, at its bound where nothing slides by itself"
                           : "held by friction";

@@ -40,7 +40,7 @@ CPS_API void cps_evolution_destroy(CpsEvolution *evolution);
  * saving it, or to NULL, does nothing. Where there is no such line, or no evolution, the outcome of
  * the report is CPS_OUTCOME_STALLED and the view has no elements and no arrays. */
 
-/* Number of load steps in all (a start laid by statics is the first), and still to do.
+/* Number of load steps in all (a start computed by statics is the first), and still to do.
  * 0 remain after an infeasible or unbounded step: nothing can follow it. */
 CPS_API int cps_evolution_step_count(const CpsEvolution *evolution);
 CPS_API int cps_evolution_remaining(const CpsEvolution *evolution);
@@ -48,7 +48,7 @@ CPS_API int cps_evolution_remaining(const CpsEvolution *evolution);
 /* Take the next load step. The outcome is in the report; the status is CPS_OK even when it is not
  * solved. After an infeasible or unbounded step the lines stay where they were. Returns
  * CPS_ERR_ARGUMENT when no step remains, and where a free end that the next stage grabs would go
- * through an obstacle on its straight way from where it is: nothing has changed then.
+ * through an obstacle on its straight path from where it is: nothing has changed then.
  * CPS_ERR_INTERRUPTED: see below. */
 CPS_API CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err);
 
@@ -158,8 +158,8 @@ typedef struct CpsSlackPart {
     double from, to; /* [m] natural abscissas */
     bool loose; /* its nodes may move and stay a solution; else friction or an end holds each, or it
                    is straight between two */
-    bool rubs;  /* friction acts on one of its nodes at least */
-    bool at_bound; /* friction is at its bound on one of them */
+    bool has_friction; /* friction acts on one of its nodes at least */
+    bool at_bound;     /* friction is at its bound on one of them */
     /* one of those, with what its elements carry along, may slide on against its friction force, or
      * back, and leave a solution; elsewhere friction at its bound holds slack as well, as where a
      * part begins beside one that is taut */
@@ -175,7 +175,7 @@ CPS_API int cps_solution_slack(const CpsLineView *step, int capacity, CpsSlackPa
 
 /* How slack is laid out between two nodes that stay. All have |x'| = 1 and keep to the plane. */
 #define CPS_COMPLETION_LIST(X)                                                                    \
-    X(CPS_COMPLETION_SHORTEST, 0, "shortest", "to and fro along the shortest way")                \
+    X(CPS_COMPLETION_SHORTEST, 0, "shortest", "to and fro along the shortest path")               \
     X(CPS_COMPLETION_STRAIGHT, 1, "straight", "in two straight pieces, or in one to a loose end") \
     X(CPS_COMPLETION_MEANDER, 2, "meander", "in a meander, to one side and the other")
 

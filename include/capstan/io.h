@@ -144,7 +144,7 @@ typedef struct CpsDrivePush {
     int rows;
     double map[9], velocity[3];
     bool at_point;
-    double point[2], way[2]; /* where it is pushed, and how: for pictures */
+    double point[2], point_velocity[2]; /* where it is pushed, and how: for pictures */
 } CpsDrivePush;
 
 /* A path of the hitch or of the rope's far end. */

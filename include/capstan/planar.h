@@ -187,9 +187,9 @@ typedef struct CpsTow {
 typedef struct CpsTowStep {
     CpsSetOutcome outcome; /* not ANSWERED: the state is unchanged. INACCURATE also for a turn of
                               more than 2 rad */
-    bool pulled;  /* false: the rope is slack, or the end did not move, and the body stays */
-    bool settled; /* false: the motion jumps with the orientation (the step is then of first order),
-                     or is too long */
+    bool pulled;         /* false: the rope is slack, or the end did not move, and the body stays */
+    bool converged;      /* false: the motion jumps with the orientation (the step is then of first
+                          order),      or is too long */
     double twist[3];     /* [m, m, rad] of the screw motion, constant in body axes */
     double force[2];     /* [N] on the hitch, in the plane, in the middle of the step */
     double work;         /* [J] of this step, force x displacement of the hitch */
@@ -200,8 +200,8 @@ typedef struct CpsTowStep {
 /* Move the driven end (the hitch or the far end of the rope) to `target` [m]. The body makes the
  * screw motion of least dissipation that brings the hitch there, or to the rope's length from
  * there: second order in the step. Work and dissipation differ by the order of the step squared.
- * Where settled, the hitch is there to rounding. Where the least is not unique (cps_planar_motions)
- * one of the motions is taken. */
+ * Where it has converged, the hitch is there to rounding. Where the least is not unique
+ * (cps_planar_motions) one of the motions is taken. */
 CPS_API CpsStatus cps_planar_tow(const CpsPlanar *body, CpsTow *tow, const double target[2],
                                  CpsTowStep *step, CpsError *err);
 

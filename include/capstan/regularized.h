@@ -227,7 +227,7 @@ typedef enum CpsFirstOrderVerdict {
 } CpsFirstOrderVerdict;
 
 /* Which nodes the obstacle keeps out. (77) asks u.n >= 0 on D(x_R), where the reference touches,
- * and nothing elsewhere; with `gained` contact the step itself asks n.u + psi(x_R) >= 0 of every
+ * and nothing elsewhere; with `reached` contact the step itself asks n.u + psi(x_R) >= 0 of every
  * node, (16). The answers differ where a node comes down. */
 typedef enum CpsFirstOrderContact {
     CPS_FIRST_ORDER_CONTACT_REFERENCE,

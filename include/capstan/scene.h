@@ -26,7 +26,7 @@ typedef enum CpsFrictionShape {
     CPS_FRICTION_BOX      /* |F1| <= mu1 R and |F2| <= mu2 R: two independent laws */
 } CpsFrictionShape;
 
-/* An obstacle. Lines stay on its free side and rub on it. */
+/* An obstacle. Lines stay on its free side and have friction on it. */
 typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
@@ -75,14 +75,14 @@ typedef enum CpsStartKind {
 
 /* The first reference configuration. Nodes follow the shape by natural length, an elastic line
  * being stretched evenly over a shape longer than itself; a shape shorter than the line is refused
- * (use laid).
+ * (use static).
  *
  * Given nodes are any x_R of S90, also one that is slack: no element at more than twice its length,
  * or beyond it where the line is inextensible. With them go T_R and either R_R or A_R; of the
  * arrays that are NULL the first step knows what the places tell. */
 typedef struct CpsStart {
     CpsStartKind kind;
-    int point_count;       /* straight, arc: 2; polyline: >= 2; laid: 0; nodes: elements + 1 */
+    int point_count;       /* straight, arc: 2; polyline: >= 2; static: 0; nodes: elements + 1 */
     const double *point;   /* (point_count, 3) [m] */
     double axis[3];        /* [-] arc: axis of the turn, right-hand rule, default 0 0 1 */
     const double *tension; /* nodes: (elements) [N] T_R >= 0; NULL: K (|x'| - 1)^+, and 0 of an
@@ -95,7 +95,7 @@ typedef struct CpsStart {
     const double *friction_bound;
 } CpsStart;
 
-/* A stretch of a line that rubs otherwise: chain and wire in one line, say. */
+/* An interval of a line with another friction: chain and wire in one line, say. */
 typedef struct CpsFrictionZone {
     double from, to; /* [m] natural arc length from end A, 0 <= from < to <= length of the line */
     double factor;   /* [-] >= 0, of the coefficients, or the friction set, of whatever obstacle it
@@ -155,9 +155,8 @@ typedef enum CpsFrictionPolicy {
 } CpsFrictionPolicy;
 
 typedef enum CpsContactPolicy {
-    CPS_CONTACT_REACHED,  /* no node ends below the obstacle: contact may be gained within a step */
-    CPS_CONTACT_REFERENCE /* only what touches at the reference is kept out              (S90 (35))
-                           */
+    CPS_CONTACT_REACHED,  /* no node ends below an obstacle: contact of the configuration reached */
+    CPS_CONTACT_REFERENCE /* only what touches at the reference is kept out, S90 (35) */
 } CpsContactPolicy;
 
 typedef enum CpsLinearSystem {
@@ -170,7 +169,7 @@ typedef struct CpsSolverOptions {
     int max_iterations; /* of one solve of a line, 1..1000, default 60; 20 more for each doubling of
                            its elements beyond 12 800 */
     CpsLinearSystem linear_system; /* default chain */
-    /* [-] a step is cut until going in halves changes ways per length and tensions per largest
+    /* [-] a step is cut until two halves change displacements per length and tensions per largest
      * force by no more, 1e-9..1; default 0: steps are as given */
     double path_tolerance;
     int halvings; /* how often a step may be halved, for the path or because it does not converge,

@@ -27,7 +27,7 @@ extern "C" {
       "mesh too coarse: one node turns the line by too much for its friction; the answer is not " \
       "certified")                                                                                \
     X(CPS_OUTCOME_SLIDES, 7, "slides",                                                            \
-      "slides without end: no equilibrium at any place along its way")
+      "slides without end: no equilibrium at any place along its path")
 
 typedef enum CpsOutcome {
 #define CPS_OUTCOME_ENUM(name, number, key, sentence) name = number,
@@ -135,13 +135,13 @@ typedef struct CpsEndReport {
 /* The contact at which the mesh changes the law of friction most: a node on a cylinder or sphere at
  * which the line turns by d holds tensions up to the ratio k = (1 + mu tan(d/2))/(1 - mu tan(d/2)),
  * a smooth line exp(mu d). From mu tan(d/2) = 0.9 on the step is not certified (mesh_too_coarse).
- * All 0 where the line turns round nothing that rubs. */
+ * All 0 where the line turns round nothing with friction. */
 typedef struct CpsBend {
     double turn; /* [rad] d, towards the obstacle */
     double
-        friction;   /* [-] mu, the larger coefficient for a slip along the line, this way or that */
-    double ratio;   /* [-] k; INFINITY: any */
-    double coulomb; /* [-] exp(mu d) */
+        friction; /* [-] mu, the larger coefficient for a slip along the line in either direction */
+    double ratio; /* [-] k; INFINITY: any */
+    double coulomb;    /* [-] exp(mu d) */
     double arc_length; /* [m] where */
     double element;    /* [m] elements that are no longer keep k within 1 % of exp(mu d) */
     int obstacle;      /* index in the scene */
@@ -153,7 +153,7 @@ typedef struct CpsLedger {
     double elastic;    /* growth of the energy of elongation */
     double gravity;    /* growth of the weight's potential */
     double ends;       /* work of the forces at the ends, held or free: mean of the force before and
-                          after, times the way */
+                          after, times the path */
     double obstacles;  /* work of the friction of obstacles that turn */
     double dissipated; /* by friction, >= 0 */
     double imbalance;  /* vanishes at first order as load steps get smaller; large and positive in a
@@ -166,12 +166,12 @@ typedef struct CpsLineReport {
     CpsPlaces places;           /* of the parts the one that leaves most open */
     CpsCertificate certificate; /* of the last part */
     double dissipated;          /* [J] in this step */
-    CpsLedger ledger; /* of this step; zero for a line whose start is laid by statics in it */
+    CpsLedger ledger; /* of this step; zero for a line whose start is computed by statics in it */
     int parts;        /* in which the step was taken, 1 or more */
     double share; /* of the step that the last part was, which is what the view shows: 1 where it
                      was not cut */
     int snaps;    /* parts in which the line jumped, however small the load */
-    double jump;  /* [m] the longest way of a node in such a part */
+    double jump;  /* [m] the longest displacement of a node in such a part */
     /* [J] of the imbalance, what parts that could not be cut any more made from nothing; with a
      * path tolerance also what they lost, snaps apart: 0 unless it is more than 5 % of what is
      * dissipated and worked in such a part */
@@ -184,14 +184,14 @@ typedef struct CpsLineReport {
                             order; NaN where there is none */
     int pierced;  /* the obstacle of the certificate's element_penetration; -1 where that is 0 */
     CpsBend bend; /* the sharpest of the parts */
-    /* infeasible: unit vector in which the shortest way to end B leaves end A: straight, where a
+    /* infeasible: unit vector in which the shortest path to end B leaves end A: straight, where a
      * constant force along it proves it, or round an obstacle; unbounded: the rigid direction in
      * which the energy falls; slides: the velocity of the end that leads, of the field `motion` of
      * the view; else 0 0 0 */
     double proof[3];
     /* infeasible: [m] distance of the ends, or the least length of a line round the obstacle, -
      * length > 0; unbounded: [N] fall of the energy per metre > 0; slides: [N] power of the loads
-     * per unit of speed, beyond all that friction can take, the least along the way > 0; else 0 */
+     * per unit of speed, beyond all that friction can take, the least along the path > 0; else 0 */
     double proof_value;
     int proof_obstacle; /* infeasible: the obstacle that the line does not reach round, its index in
                            the scene; -1: none, and else */
@@ -202,7 +202,7 @@ typedef struct CpsLineReport {
 
 /* One step of all lines: sums of energies, residuals and forces at their worst. */
 typedef struct CpsStepReport {
-    const char *name; /* "laid", a stage's name, or "name k/n" within a stage of n steps; owned by
+    const char *name; /* "static", a stage's name, or "name k/n" within a stage of n steps; owned by
                          the evolution */
     int index;        /* 0, 1, ... */
     CpsOutcome outcome;
@@ -248,7 +248,7 @@ typedef struct CpsLineView {
                                       node stands for; NULL: 1 */
     const double *friction_force;  /* (contacts, n, 3) [N] F, in the set of forces that w bounds */
     const double *reaction;        /* (contacts, n) [N] R >= 0, along the normal */
-    /* (contacts, n, 3) [m] way on the obstacle in this step, tangential, on a curved one along the
+    /* (contacts, n, 3) [m] slip on the obstacle in this step, tangential, on a curved one along the
      * surface; NULL on one plane with isotropic friction: the part of u in it */
     const double *slide;
     const double *segment_force; /* (elements, 3) [N] p: what the B side does to the A side */
@@ -262,9 +262,9 @@ typedef struct CpsLineView {
     double origin[3];
     /* Contact of an element with a round obstacle, at the point (1 - beta) x_e + beta x_{e+1} that
      * was nearest to its axis or centre; its forces act on the element's nodes by these shares. As
-     * above for that point, whose way is that of the point with this beta since the reference. All
-     * NULL where no obstacle is round or contact is strict; obstacle -1 and numbers without meaning
-     * where an element has none. */
+     * above for that point, whose slip is that of the point with this beta since the reference. All
+     * NULL where no obstacle is round or contact is that of the reference; obstacle -1 and numbers
+     * without meaning where an element has none. */
     const int *element_obstacle;  /* (elements) */
     const double *element_share;  /* (elements) [-] beta */
     const double *element_normal; /* (elements, 3) [-] */

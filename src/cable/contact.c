@@ -40,7 +40,7 @@ static Vec3 direction(const CpsiLine *line, const double *x, int j) {
 }
 
 /* Does contact c stay with its obstacle through the step? So do contacts of the reference where
- * contact is strict, and contacts on which frozen friction acts. */
+ * contact is that of the reference, and contacts on which frozen friction acts. */
 static bool is_kept(const CpsiLine *line, int c) {
     if (line->obstacle_index[c] < 0) return false;
     return line->contact_everywhere ? line->frozen && line->friction_bound[c] > 0
@@ -453,7 +453,7 @@ static void move_along_surface(CpsiLine *line, int j) {
 }
 
 /* [m] The distance of node j from the obstacles that it may not enter, INFINITY without any: all of
- * them, or with strict contact those of its contacts. */
+ * them, or with contact of the reference those of its contacts. */
 static double node_clearance(const CpsiLine *line, int j) {
     const Vec3 to = vec3_load(&line->position[3 * j]);
     double least = INFINITY;

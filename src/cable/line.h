@@ -4,9 +4,9 @@
  *
  * A node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
  * n): contact c < n is the first contact of node c, contact c >= n is the second contact of node c
- * - n. Where there are round obstacles, and contact is not strict, elements touch as well: contact
- * contacts n + e is that of element e, at the point of the element nearest to the axis or
- * centre. */
+ * - n. Where there are round obstacles, and contact is not that of the reference, elements touch as
+ * well: contact contacts n + e is that of element e, at the point of the element nearest to the
+ * axis or centre. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H
 

@@ -104,7 +104,7 @@ static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     if ((consistent || line->frozen) &&
         !(cpsi_contact_depth(line) <= 0.1 * CPSI_TOUCH * line->length))
         return false;
-    /* strict contact restricts nodes that touched, and nothing else (S90 (35)) */
+    /* contact of the reference restricts nodes that touched, and nothing else (S90 (35)) */
     if (line->contact_everywhere &&
         !(line->report.certificate.element_penetration <= 0.1 * CPSI_TOUCH * line->length))
         return false;

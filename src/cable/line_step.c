@@ -20,8 +20,8 @@
  * is stable (docs/theory.md 2.4). They are accelerated (anderson.h); where that does not converge,
  * plain rounds or rounds with drag are tried. The remaining error of the last round shows in the
  * certificate, which is computed at the position reached, with its own normals. Frozen friction
- * keeps the bounds and axes of the reference, as in S90; with strict contact it keeps the planes of
- * the reference too. */
+ * keeps the bounds and axes of the reference, as in S90; with contact of the reference it keeps the
+ * planes of the reference too. */
 #include "cable/line_step.h"
 
 #include <math.h>

@@ -15,8 +15,8 @@ typedef struct CpsiShortfall {
 
 /* Is there no configuration with the ends at line->end, from the line's position? Ends farther
  * apart than the line is long are not checked here (existence.c). An initial configuration by
- * statics may lie on any side and has the shortest of all paths; strict contact does not keep a
- * line out of obstacles. */
+ * statics may lie on any side and has the shortest of all paths; contact of the reference does not
+ * keep a line out of obstacles. */
 bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
                            CpsiShortfall *out);
 

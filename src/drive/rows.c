@@ -33,28 +33,28 @@ static CpsStatus check(const char *what, int n, int more, int count, const CpsEn
 }
 
 /* Memory for `need` items of `size` bytes, doubling. */
-static bool grow(void **items, size_t *room, size_t need, size_t size) {
-    if (need <= *room) return true;
-    const size_t target = need > 2 * *room ? need : 2 * *room;
+static bool grow(void **items, size_t *capacity, size_t need, size_t size) {
+    if (need <= *capacity) return true;
+    const size_t target = need > 2 * *capacity ? need : 2 * *capacity;
     if (target > SIZE_MAX / 2 / size) return false;
     void *more = realloc(*items, target * size);
     if (!more) return false;
     *items = more;
-    *room = target;
+    *capacity = target;
     return true;
 }
 
-static bool make_room(CpsiRows *rows, size_t more, size_t count) {
+static bool make_capacity(CpsiRows *rows, size_t more, size_t count) {
     const size_t used = rows->rows > 0 ? rows->start[rows->rows] : 0, need = used + count;
-    size_t room = rows->room;
+    size_t capacity = rows->capacity;
     const bool fresh = !rows->start;
-    bool done = grow((void **)&rows->start, &rows->row_room, (size_t)rows->rows + more + 1,
+    bool done = grow((void **)&rows->start, &rows->row_capacity, (size_t)rows->rows + more + 1,
                      sizeof *rows->start);
     if (done && fresh) rows->start[0] = 0;
-    if (done) done = grow((void **)&rows->column, &room, need, sizeof *rows->column);
-    room = rows->room;
-    if (done) done = grow((void **)&rows->value, &room, need, sizeof *rows->value);
-    if (done) rows->room = room;
+    if (done) done = grow((void **)&rows->column, &capacity, need, sizeof *rows->column);
+    capacity = rows->capacity;
+    if (done) done = grow((void **)&rows->value, &capacity, need, sizeof *rows->value);
+    if (done) rows->capacity = capacity;
     return done;
 }
 
@@ -71,7 +71,7 @@ CpsStatus cpsi_rows_append(CpsiRows *rows, const char *what, int n, int more, in
     if (more > INT_MAX / 4 - rows->rows)
         return cpsi_fail(err, CPS_ERR_LIMIT, "%s: more than %d rows", what, INT_MAX / 4);
     CpsEntry *sorted = malloc(((size_t)count + 1) * sizeof *sorted);
-    if (!sorted || !make_room(rows, (size_t)more, (size_t)count)) {
+    if (!sorted || !make_capacity(rows, (size_t)more, (size_t)count)) {
         free(sorted);
         return cpsi_fail(err, CPS_ERR_MEMORY, "%s: no memory for %d entries", what, count);
     }

@@ -9,7 +9,7 @@
  * has no rows. */
 typedef struct CpsiRows {
     int rows;
-    size_t row_room, room;
+    size_t row_capacity, capacity;
     size_t *start; /* (rows + 1), NULL while there are no rows */
     int *column;
     double *value;

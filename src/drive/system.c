@@ -70,13 +70,13 @@ int cps_system_law_space(const CpsSystem *system, int k) {
 /* ---- laws ---- */
 
 /* Memory for one more item, doubling. */
-static bool grow(void **items, size_t *room, int count, size_t size) {
-    if ((size_t)count < *room) return true;
-    const size_t target = *room > 0 ? 2 * *room : 8;
+static bool grow(void **items, size_t *capacity, int count, size_t size) {
+    if ((size_t)count < *capacity) return true;
+    const size_t target = *capacity > 0 ? 2 * *capacity : 8;
     void *more = realloc(*items, target * size);
     if (!more) return false;
     *items = more;
-    *room = target;
+    *capacity = target;
     return true;
 }
 

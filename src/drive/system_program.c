@@ -76,17 +76,17 @@ static CpsStatus gather_forms(CpsiDriveProgram *p, double speed, int *blocks, Cp
 /* A list of entries that grows. */
 typedef struct List {
     CpsEntry *entry;
-    size_t count, room;
+    size_t count, capacity;
 } List;
 
 static bool push(List *list, int row, int column, double value) {
     if (value == 0) return true;
-    if (list->count >= list->room) {
-        const size_t room = list->room > 0 ? 2 * list->room : 1024;
-        CpsEntry *more = realloc(list->entry, room * sizeof *more);
+    if (list->count >= list->capacity) {
+        const size_t capacity = list->capacity > 0 ? 2 * list->capacity : 1024;
+        CpsEntry *more = realloc(list->entry, capacity * sizeof *more);
         if (!more) return false;
         list->entry = more;
-        list->room = room;
+        list->capacity = capacity;
     }
     list->entry[list->count++] = (CpsEntry){row, column, value};
     return list->count < INT_MAX;

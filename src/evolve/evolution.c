@@ -42,8 +42,8 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
     return cpsi_obstacle_needs_local_axes(&only);
 }
 
-/* Do elements have contacts, beside the nodes? With round obstacles they do; strict contact is that
- * of S90, where only nodes touch. */
+/* Do elements have contacts, beside the nodes? With round obstacles they do; contact of the
+ * reference is that of S90, where only nodes touch. */
 static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
     for (int k = 0; k < scene->obstacle_count; k++)

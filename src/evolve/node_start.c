@@ -92,8 +92,8 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
                 }
             }
             if (!(force[j] > NOTHING * largest)) continue;
-            /* a node below the obstacle is refused elsewhere, unless contact is strict, where it
-             * may be there and has no reaction */
+            /* a node below the obstacle is refused elsewhere, unless contact is that of the
+             * reference, where it may be there and has no reaction */
             const bool near =
                 gap <= TOUCH * line->length &&
                 (scene->contact_policy == CPS_CONTACT_REACHED || gap >= -TOUCH * line->length);

@@ -11,7 +11,8 @@
 #define CPSI_PATH_TOUCH 1e-9
 
 /* [m] Depth of the straight path in the obstacle, if it exceeds `touch` and the depth of its first
- * point (a free end may lie below the surface with strict contact or frozen friction); else 0. */
+ * point (a free end may lie below the surface with contact of the reference or frozen friction);
+ * else 0. */
 double cpsi_path_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to, double touch);
 
 /* Check the changes of a history whose initial points are known before anything is solved: those of

@@ -358,7 +358,7 @@ static int first_below(const CpsScene *scene, const CpsLine *line, int count, co
 }
 
 /* No node of the initial shape may lie below the obstacle; statics places a line above it by
- * itself. With strict contact given nodes may lie below it. */
+ * itself. With contact of the reference given nodes may lie below it. */
 static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     const bool through =
         line->start.kind == CPS_START_NODES && scene->contact_policy == CPS_CONTACT_REFERENCE;

@@ -333,13 +333,13 @@ static bool may_branch(const Advance *substeps) {
     return substeps->options->friction_policy == CPS_FRICTION_CONSISTENT && substeps->jumps < JUMPS;
 }
 
-/* May the line jump? With strict contact and frozen friction a step is one convex problem without a
- * path. */
+/* May the line jump? With contact of the reference and frozen friction a step is one convex problem
+ * without a path. */
 static bool may_relax(const Advance *substeps) {
     const CpsiStepOptions *options = substeps->options;
-    const bool strict = options->friction_policy == CPS_FRICTION_FROZEN &&
+    const bool convex = options->friction_policy == CPS_FRICTION_FROZEN &&
                         options->contact_policy == CPS_CONTACT_REFERENCE;
-    return !strict && substeps->relaxed < RELAXATIONS;
+    return !convex && substeps->relaxed < RELAXATIONS;
 }
 
 /* Take a part of the step; `cut`: it may be divided. */

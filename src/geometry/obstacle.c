@@ -46,11 +46,12 @@ double cpsi_obstacle_gap(const CpsiObstacle *o, Vec3 x) {
 }
 
 double cpsi_obstacle_depth(const CpsiObstacle *o, Vec3 from, Vec3 to) {
-    const Vec3 a = cpsi_obstacle_spoke(o, from), way = vec3_sub(cpsi_obstacle_spoke(o, to), a);
+    const Vec3 a = cpsi_obstacle_spoke(o, from), chord = vec3_sub(cpsi_obstacle_spoke(o, to), a);
     if (o->kind == CPS_OBSTACLE_PLANE)
         return -fmin(cpsi_obstacle_gap(o, from), cpsi_obstacle_gap(o, to));
-    const double square = vec3_dot(way, way), nearest = square > 0 ? -vec3_dot(a, way) / square : 0;
-    return o->radius - vec3_norm(vec3_axpy(fmin(1, fmax(0, nearest)), way, a));
+    const double square = vec3_dot(chord, chord),
+                 nearest = square > 0 ? -vec3_dot(a, chord) / square : 0;
+    return o->radius - vec3_norm(vec3_axpy(fmin(1, fmax(0, nearest)), chord, a));
 }
 
 Vec3 cpsi_obstacle_normal(const CpsiObstacle *o, Vec3 x) {
@@ -98,11 +99,11 @@ Vec3 cpsi_obstacle_move(const CpsiObstacle *o, Vec3 x, Vec3 u) {
         straight = vec3_scale(vec3_dot(tangent, o->frame.axis[2]), o->frame.axis[2]);
         tangent = vec3_sub(tangent, straight);
     }
-    const double way = vec3_norm(tangent);
-    if (!(way > 0 && distance > 0)) return vec3_add(x, u);
+    const double length = vec3_norm(tangent);
+    if (!(length > 0 && distance > 0)) return vec3_add(x, u);
     /* along the circle of x in the plane of n and the tangent */
-    const double angle = way / distance, reach = distance + rise;
-    const Vec3 t = vec3_scale(1 / way, tangent), centre = vec3_sub(x, s);
+    const double angle = length / distance, reach = distance + rise;
+    const Vec3 t = vec3_scale(1 / length, tangent), centre = vec3_sub(x, s);
     const Vec3 arm = vec3_axpy(cos(angle), n, vec3_scale(sin(angle), t));
     return vec3_add(vec3_axpy(reach, arm, centre), straight);
 }

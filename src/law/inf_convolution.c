@@ -331,14 +331,14 @@ CpsStatus cpsi_inf_convolution(int n, int count, CpsiShare *share, const double 
     CpsStatus status = CPS_OK;
     if (write_equations(&p, count, share)) {
         eliminate(&p);
-        CpsiArena room = {0};
-        (void)cpsi_conic_layout(&room, p.left, p.rows, p.cones, p.largest);
-        if (cpsi_arena_allocate(&room))
-            *outcome = solve(&p, cpsi_conic_layout(&room, p.left, p.rows, p.cones, p.largest),
+        CpsiArena memory = {0};
+        (void)cpsi_conic_layout(&memory, p.left, p.rows, p.cones, p.largest);
+        if (cpsi_arena_allocate(&memory))
+            *outcome = solve(&p, cpsi_conic_layout(&memory, p.left, p.rows, p.cones, p.largest),
                              count, share, velocity);
         else
             status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory to share a force");
-        cpsi_arena_free(&room);
+        cpsi_arena_free(&memory);
     }
     cpsi_arena_free(&arena);
     return status;

@@ -33,7 +33,7 @@ typedef struct Graph {
          * an element, its members */
         *length;
     int *list, *spare; /* the lists, and the array into which they are packed */
-    size_t used, room;
+    size_t used, capacity;
     /* doubly linked lists of the variables of each degree; -1 ends a list */
     int *degree, *first, *next, *before;
     int *mark, stamp;    /* (n) the members of the newest element have mark = stamp */
@@ -62,12 +62,12 @@ static void take(Graph *g, int i) {
 
 /* ---- lists ---- */
 
-static bool allocate(Graph *g, int n, size_t room) {
+static bool allocate(Graph *g, int n, size_t capacity) {
     const size_t w = (size_t)n;
     g->n = n;
     g->least = n;
-    g->room = room;
-    g->block = calloc(10 * w + 2 * room + 1, sizeof(int));
+    g->capacity = capacity;
+    g->block = calloc(10 * w + 2 * capacity + 1, sizeof(int));
     g->at = calloc(w + 1, sizeof *g->at);
     g->state = calloc(w + 1, 1);
     if (!g->block || !g->at || !g->state) return false;
@@ -76,7 +76,7 @@ static bool allocate(Graph *g, int n, size_t room) {
     int *at = g->block;
     for (size_t k = 0; k < sizeof part / sizeof *part; k++, at += w) *part[k] = at;
     g->list = at;
-    g->spare = at + room;
+    g->spare = at + capacity;
     for (int i = 0; i < n; i++) g->first[i] = -1;
     return true;
 }
@@ -212,7 +212,7 @@ static int prune(Graph *g, int i, int p) {
 static void eliminate(Graph *g, int p) {
     take(g, p);
     g->order[g->ordered++] = p;
-    if (g->room - g->used < (size_t)g->n) pack(g);
+    if (g->capacity - g->used < (size_t)g->n) pack(g);
     make_element(g, p);
     int *member = &g->list[g->at[p]];
     const int count = g->length[p];

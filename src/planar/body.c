@@ -250,20 +250,21 @@ CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist
     *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     for (int k = 0; k < body->count; k++) {
         const CpsiPatch *patch = &body->patch[k];
-        CpsiFrictionDisc rub;
+        CpsiPatchFriction friction;
         double velocity[2];
         cpsi_patch_velocity(patch, twist, velocity);
-        const CpsStatus status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &rub, err);
+        const CpsStatus status =
+            cpsi_patch_dissipation_rate(patch, velocity, twist[2], &friction, err);
         if (status != CPS_OK) return status;
-        if (rub.outcome != CPS_SET_OUTCOME_ANSWERED) answer->outcome = rub.outcome;
-        answer->exact = answer->exact && rub.exact;
-        answer->value += rub.power;
-        answer->gap += rub.gap;
-        total[0] += rub.force[0];
-        total[1] += rub.force[1];
-        total[2] +=
-            rub.torque + patch->position[0] * rub.force[1] - patch->position[1] * rub.force[0];
-        if (by_patch) by_patch[k] = rub.power;
+        if (friction.outcome != CPS_SET_OUTCOME_ANSWERED) answer->outcome = friction.outcome;
+        answer->exact = answer->exact && friction.exact;
+        answer->value += friction.power;
+        answer->gap += friction.gap;
+        total[0] += friction.force[0];
+        total[1] += friction.force[1];
+        total[2] += friction.torque + patch->position[0] * friction.force[1] -
+                    patch->position[1] * friction.force[0];
+        if (by_patch) by_patch[k] = friction.power;
     }
     if (answer->outcome == CPS_SET_OUTCOME_ANSWERED && !isfinite(answer->value))
         answer->outcome = CPS_SET_OUTCOME_INACCURATE;

@@ -88,13 +88,13 @@ CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double
                 found.outcome = CPS_SET_OUTCOME_INACCURATE;
             continue;
         }
-        CpsiFrictionDisc rub;
-        status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &rub, err);
+        CpsiPatchFriction friction;
+        status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &friction, err);
         if (status != CPS_OK) break;
-        if (rub.outcome != CPS_SET_OUTCOME_ANSWERED) found.outcome = rub.outcome;
-        const double slack = rub.gap + ROUNDING * rub.power;
-        found.lower += fmax(rub.power - slack, 0);
-        found.upper += rub.power + slack;
+        if (friction.outcome != CPS_SET_OUTCOME_ANSWERED) found.outcome = friction.outcome;
+        const double slack = friction.gap + ROUNDING * friction.power;
+        found.lower += fmax(friction.power - slack, 0);
+        found.upper += friction.power + slack;
         found.cells++;
     }
     if (status == CPS_OK) *bounds = found;

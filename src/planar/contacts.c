@@ -153,15 +153,15 @@ static CpsStatus keep_contact(Contacts *self, int patch, CpsLaw *law, const doub
 CpsStatus cps_planar_law(const CpsPlanar *body, CpsPlanarSide side, int cells, CpsLaw **out,
                          CpsError *err) {
     if (!body || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body or out is NULL");
-    int room = 0;
-    CpsStatus status = count_contacts(body, side, cells, &room, err);
+    int capacity = 0;
+    CpsStatus status = count_contacts(body, side, cells, &capacity, err);
     if (status != CPS_OK) return status;
     Contacts self = {.body = body, .take = keep_contact, .err = err};
-    self.law = calloc((size_t)room, sizeof *self.law);
-    self.map = malloc((size_t)room * 6 * sizeof *self.map);
-    const double **rows = malloc((size_t)room * sizeof *rows);
+    self.law = calloc((size_t)capacity, sizeof *self.law);
+    self.map = malloc((size_t)capacity * 6 * sizeof *self.map);
+    const double **rows = malloc((size_t)capacity * sizeof *rows);
     if (self.law && self.map && rows) {
-        for (int i = 0; i < room; i++) rows[i] = self.map + 6 * i;
+        for (int i = 0; i < capacity; i++) rows[i] = self.map + 6 * i;
         status = visit_contacts(&self, side, cells);
         if (status == CPS_OK)
             status =

@@ -32,16 +32,16 @@ struct CpsPlanar {
 
 /* Power and friction wrench of a patch about its position, in body axes: power = -(force . velocity
  * + torque w). */
-typedef struct CpsiFrictionDisc {
+typedef struct CpsiPatchFriction {
     CpsSetOutcome outcome;
     bool exact;
     double power, gap;
     double force[2], torque;
-} CpsiFrictionDisc;
+} CpsiPatchFriction;
 
 /* Closed form for a patch whose position moves with `velocity` while it turns with w. */
 CpsStatus cpsi_patch_dissipation_rate(const CpsiPatch *patch, const double velocity[2], double w,
-                                      CpsiFrictionDisc *rub, CpsError *err);
+                                      CpsiPatchFriction *friction, CpsError *err);
 
 /* M77 section 11 for a wheel whose centre moves with `velocity` (body axes). */
 CpsWheelMotion cpsi_wheel_motion(const CpsiPatch *patch, const double velocity[2]);

@@ -21,7 +21,7 @@
 
 /* Passes that change the motion by no more than this share have converged. Where they do not
  * converge, the motion is discontinuous in the orientation, or the step is as long as the body. */
-static const double SETTLED = 1e-13;
+static const double CONVERGED = 1e-13;
 enum { PASSES = 25 };
 
 /* A step that turns the body farther is refused, since its chord says little about its path. */
@@ -73,14 +73,16 @@ static CpsStatus check(const CpsTow *tow, const double target[2], CpsError *err)
 
 /* a0 and a1: from the hitch before the step to the rope's far end (without a rope: to the target)
  * before and after it. */
-typedef struct Way {
+typedef struct Pull {
     double before[2], after[2];
-} Way;
+} Pull;
 
 /* One pass: the increment for the middle and the chord of the preceding pass. */
-static CpsStatus drive_step(const CpsPlanar *body, const CpsTow *tow, const Way *way, Middle middle,
-                            const double chord[2], CpsPlanarMotion *motion, CpsError *err) {
-    const double x = tow->hitch[0], y = tow->hitch[1], *a0 = way->before, *a1 = way->after;
+static CpsStatus drive_step(const CpsPlanar *body, const CpsTow *tow, const Pull *pull_of_end,
+                            Middle middle, const double chord[2], CpsPlanarMotion *motion,
+                            CpsError *err) {
+    const double x = tow->hitch[0], y = tow->hitch[1], *a0 = pull_of_end->before,
+                 *a1 = pull_of_end->after;
     double local[2];
     if (tow->rope > 0) {
         const double e[2] = {0.5 * (a0[0] + a1[0] - chord[0]), 0.5 * (a0[1] + a1[1] - chord[1])},
@@ -98,14 +100,14 @@ static CpsStatus drive_step(const CpsPlanar *body, const CpsTow *tow, const Way 
 }
 
 /* Passes until motion, middle and chord agree. */
-static CpsStatus settle(const CpsPlanar *body, const CpsTow *tow, const Way *way, CpsTowStep *step,
-                        CpsError *err) {
-    const double length = hypot(way->after[0], way->after[1]) + tow->rope;
+static CpsStatus iterate(const CpsPlanar *body, const CpsTow *tow, const Pull *pull_of_end,
+                         CpsTowStep *step, CpsError *err) {
+    const double length = hypot(pull_of_end->after[0], pull_of_end->after[1]) + tow->rope;
     double chord[2] = {0, 0};
     Middle middle = middle_of(tow->pose[2], 0);
-    for (int pass = 0; pass < PASSES && !step->settled; pass++) {
+    for (int pass = 0; pass < PASSES && !step->converged; pass++) {
         CpsPlanarMotion motion;
-        const CpsStatus status = drive_step(body, tow, way, middle, chord, &motion, err);
+        const CpsStatus status = drive_step(body, tow, pull_of_end, middle, chord, &motion, err);
         if (status != CPS_OK) return status;
         step->outcome =
             fabs(motion.twist[2]) <= MOST_TURN ? motion.outcome : CPS_SET_OUTCOME_INACCURATE;
@@ -114,8 +116,8 @@ static CpsStatus settle(const CpsPlanar *body, const CpsTow *tow, const Way *way
         const double last[2] = {chord[0], chord[1]}, turned = step->twist[2];
         middle = middle_of(tow->pose[2], motion.twist[2]);
         displacement(middle, motion.twist, tow->hitch, chord);
-        step->settled = fabs(motion.twist[2] - turned) <= SETTLED &&
-                        hypot(chord[0] - last[0], chord[1] - last[1]) <= SETTLED * length;
+        step->converged = fabs(motion.twist[2] - turned) <= CONVERGED &&
+                          hypot(chord[0] - last[0], chord[1] - last[1]) <= CONVERGED * length;
 
         /* the driver pulls against friction, whose moment about the hitch is 0 */
         turn(middle.angle, (double[2]){-motion.wrench[0], -motion.wrench[1]}, step->force);
@@ -137,15 +139,15 @@ CpsStatus cps_planar_tow(const CpsPlanar *body, CpsTow *tow, const double target
     double arm[2];
     turn(tow->pose[2], tow->hitch, arm);
     const double hitch[2] = {tow->pose[0] + arm[0], tow->pose[1] + arm[1]};
-    const Way way = {.before = {tow->end[0] - hitch[0], tow->end[1] - hitch[1]},
-                     .after = {target[0] - hitch[0], target[1] - hitch[1]}};
+    const Pull pull_of_end = {.before = {tow->end[0] - hitch[0], tow->end[1] - hitch[1]},
+                              .after = {target[0] - hitch[0], target[1] - hitch[1]}};
 
     CpsTowStep out = {.outcome = CPS_SET_OUTCOME_ANSWERED,
-                      .pulled = hypot(way.after[0], way.after[1]) > tow->rope};
-    if (out.pulled) status = settle(body, tow, &way, &out, err);
+                      .pulled = hypot(pull_of_end.after[0], pull_of_end.after[1]) > tow->rope};
+    if (out.pulled) status = iterate(body, tow, &pull_of_end, &out, err);
     if (status != CPS_OK) return status;
     if (out.outcome == CPS_SET_OUTCOME_ANSWERED) {
-        out.settled = out.settled || !out.pulled;
+        out.converged = out.converged || !out.pulled;
         cps_planar_move(tow->pose, out.twist);
         for (int i = 0; i < 2; i++) tow->end[i] = target[i];
         tow->work += out.work;

@@ -34,7 +34,7 @@ typedef struct CpsiFirstOrder {
     double *gap;      /* (m + 1) [m] n.u >= -gap; INFINITY: no condition */
     double *u;        /* (m + 1, 3) [m] */
     double *before;   /* (m + 1, 3) [m] u of the preceding round */
-    double *rub;      /* (m + 1, 3) [N] q */
+    double *friction; /* (m + 1, 3) [N] q */
     double *push;     /* (m + 1) [N] R */
     double *gradient; /* (m + 1, 3) [N] */
     double augment;   /* [N/m2] r per length */
@@ -49,6 +49,7 @@ void cpsi_first_order_slope(const CpsiFirstOrder *f, int element, double slope[3
 void cpsi_first_order_tension(const CpsiFirstOrder *f, int element, double tension[3]);
 
 /* The multipliers of a node updated for u. */
-void cpsi_first_order_multipliers(const CpsiFirstOrder *f, int node, double rub[3], double *push);
+void cpsi_first_order_multipliers(const CpsiFirstOrder *f, int node, double friction[3],
+                                  double *push);
 
 #endif

@@ -69,7 +69,7 @@ static void layout(CpsFirstOrder *s, int elements, CpsiArena *arena) {
     f->gap = CPSI_TAKE(arena, n, double);
     f->u = CPSI_TAKE(arena, 3 * n, double);
     f->before = CPSI_TAKE(arena, 3 * n, double);
-    f->rub = CPSI_TAKE(arena, 3 * n, double);
+    f->friction = CPSI_TAKE(arena, 3 * n, double);
     f->push = CPSI_TAKE(arena, n, double);
     f->gradient = CPSI_TAKE(arena, 3 * n, double);
     s->arc = CPSI_TAKE(arena, n, double);
@@ -80,8 +80,8 @@ static void layout(CpsFirstOrder *s, int elements, CpsiArena *arena) {
     s->work = CPSI_TAKE(arena, 3 * n * (4 + CPSI_FIRST_ORDER_BAND + 1), double);
 }
 
-/* a node at most this far from the obstacle, per length of the line, touches it, as with strict
- * contact */
+/* a node at most this far from the obstacle, per length of the line, touches it, as with contact
+ * of the reference */
 static const double TOUCH = 1e-9;
 
 /* (77), or (16) at every node */
@@ -122,12 +122,13 @@ static double accept_solution(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
     double change = 0, held_most = 0;
     const int end = f->unknowns / 3;
     for (int j = 1; j <= end; ++j) {
-        double rub[3], push;
-        cpsi_first_order_multipliers(f, j, rub, &push);
+        double friction[3], push;
+        cpsi_first_order_multipliers(f, j, friction, &push);
         const Vec3 drag =
             vec3_scale(f->anchor * c->share[j], vec3_sub(cpsi_at(f->u, j), cpsi_at(f->before, j)));
         const double held = vec3_norm(drag);
-        change = cpsi_max_nan(change, vec3_norm(vec3_sub(vec3_load(rub), cpsi_at(f->rub, j))));
+        change =
+            cpsi_max_nan(change, vec3_norm(vec3_sub(vec3_load(friction), cpsi_at(f->friction, j))));
         change = cpsi_max_nan(change, fabs(push - f->push[j]));
         change = cpsi_max_nan(change, held);
         if (held > held_most) {
@@ -135,7 +136,7 @@ static double accept_solution(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
             vec3_store(r->unbalanced, drag);
             r->unbalanced_arc = c->arc[j];
         }
-        memcpy(f->rub + 3 * (size_t)j, rub, sizeof rub);
+        memcpy(f->friction + 3 * (size_t)j, friction, sizeof friction);
         f->push[j] = push;
     }
     memcpy(f->before, f->u, 3 * ((size_t)c->cells + 1) * sizeof(double));
@@ -234,7 +235,7 @@ static void finish(CpsFirstOrder *s) {
     }
     for (int j = 0; j <= c->cells; ++j) {
         const Vec3 reached = vec3_add(cpsi_at(c->reference, j), cpsi_at(f->u, j));
-        vec3_store(s->friction + 3 * (size_t)j, vec3_scale(-1, cpsi_at(f->rub, j)));
+        vec3_store(s->friction + 3 * (size_t)j, vec3_scale(-1, cpsi_at(f->friction, j)));
         r->against_step =
             cpsi_max_nan(r->against_step, vec3_norm(vec3_sub(reached, cpsi_at(c->position, j))));
     }

@@ -71,9 +71,9 @@ static double excess(const CpsiRegularized *f, int j, double distance) {
             need = vec3_axpy((side ? -1 : 1) * cpsi_regularized_tension(f, cell) / length, u, need);
     }
     const Vec3 n = cpsi_at(c->normal, j);
-    const double push = vec3_dot(need, n), rub = vec3_norm(vec3_axpy(-push, n, need));
+    const double push = vec3_dot(need, n), tangential = vec3_norm(vec3_axpy(-push, n, need));
     const bool touches = distance <= 0;
-    return hypot(fmax(0, rub - c->bound[j]), touches ? fmin(0, push) : push);
+    return hypot(fmax(0, tangential - c->bound[j]), touches ? fmin(0, push) : push);
 }
 
 static void measure_place(const CpsiRegularized *f, int j, CpsRegularizedReport *r) {

@@ -25,7 +25,7 @@ typedef struct Kept {
 
 struct CpsStudy {
     CpsStudyRow *row;
-    int rows, room;
+    int rows, capacity;
     Kept end[CPS_STUDY_STAGE_COUNT];
 };
 
@@ -228,7 +228,7 @@ static CpsStatus run_stages(CpsRegularized *classic, const CpsStudyOptions *opti
             row->wall = seconds() - begun;
             follow(trail, classic, options->factor[stage], row);
             ++study->rows;
-            if (progress && !progress(user, row, study->rows, study->room)) return CPS_OK;
+            if (progress && !progress(user, row, study->rows, study->capacity)) return CPS_OK;
         }
         const CpsRegularizedView view = cps_regularized_view(classic);
         const CpsStatus status = keep(&study->end[stage], &view, err);
@@ -271,8 +271,8 @@ CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *options,
         (size_t)(elements > options->from.cells ? elements : options->from.cells);
     double *trails = calloc(4 * samples, sizeof *trails);
     if (study) {
-        for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) study->room += options->values[s];
-        study->row = calloc((size_t)study->room, sizeof *study->row);
+        for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) study->capacity += options->values[s];
+        study->row = calloc((size_t)study->capacity, sizeof *study->row);
     }
     if (!study || !trails || !study->row) {
         status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");

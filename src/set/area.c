@@ -356,9 +356,9 @@ CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *e
     if (closed(set, measure)) return CPS_OK;
     CpsiWalk walk;
     CpsSetFacts facts;
-    double *room;
+    double *scratch;
     *measure = (CpsSetMeasure){.outcome = CPS_SET_OUTCOME_ANSWERED};
-    CpsStatus status = cpsi_walk_start(set, 0, &walk, &facts, &room, err);
+    CpsStatus status = cpsi_walk_start(set, 0, &walk, &facts, &scratch, err);
     if (!status && going(&walk)) {
         if (facts.dimension == 2)
             along_outline(&walk, measure);
@@ -369,6 +369,6 @@ CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, CpsError *e
         *measure = (CpsSetMeasure){.outcome = walk.outcome};
     if (!status) status = walk.status;
     free(walk.piece);
-    free(room);
+    free(scratch);
     return status;
 }

@@ -221,18 +221,18 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
                            .tolerance = (tolerance > 0 ? tolerance : 1e-7) * cpsi_set_size(set)};
     CpsStatus status = facts_of_polar(set, facts, centre, basis, &known, err);
     if (status != CPS_OK || known) return status;
-    double *room = calloc(n * n + 6 * n, sizeof *room);
-    if (!room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the facts of a set");
+    double *scratch = calloc(n * n + 6 * n, sizeof *scratch);
+    if (!scratch) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the facts of a set");
     Search search = {.set = set,
                      .width = (tolerance > 0 ? tolerance : 1e-7) * cpsi_set_size(set),
-                     .basis = room,
-                     .sum = room + n * n,
-                     .plus = room + n * n + n,
-                     .minus = room + n * n + 2 * n,
-                     .turned = room + n * n + 3 * n,
+                     .basis = scratch,
+                     .sum = scratch + n * n,
+                     .plus = scratch + n * n + n,
+                     .minus = scratch + n * n + 2 * n,
+                     .turned = scratch + n * n + 3 * n,
                      .bounded = true,
                      .exact = true};
-    double *rays = room + n * n + 4 * n, *work = room + n * n + 5 * n;
+    double *rays = scratch + n * n + 4 * n, *work = scratch + n * n + 5 * n;
     *facts = (CpsSetFacts){.outcome = CPS_SET_OUTCOME_ANSWERED,
                            .closure = set->closure,
                            .dimension = -1,
@@ -255,6 +255,6 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
         else if (!status)
             status = place_zero(set, search.sum, search.basis, work, search.plus, facts, err);
     }
-    free(room);
+    free(scratch);
     return status;
 }

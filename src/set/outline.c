@@ -53,16 +53,16 @@ static bool same(const CpsiWalk *walk, const double x[2], const double y[2]) {
 }
 
 static void add_piece(CpsiWalk *walk, CpsiOutlinePiece piece) {
-    if (walk->count == walk->room) {
-        const int room = walk->room ? 2 * walk->room : 64;
-        CpsiOutlinePiece *more = realloc(walk->piece, (size_t)room * sizeof *more);
+    if (walk->count == walk->capacity) {
+        const int capacity = walk->capacity ? 2 * walk->capacity : 64;
+        CpsiOutlinePiece *more = realloc(walk->piece, (size_t)capacity * sizeof *more);
         if (!more) {
             walk->status =
                 cpsi_fail(walk->err, CPS_ERR_MEMORY, "no memory for the outline of a set");
             return;
         }
         walk->piece = more;
-        walk->room = room;
+        walk->capacity = capacity;
     }
     walk->piece[walk->count++] = piece;
 }
@@ -208,13 +208,13 @@ void cpsi_walk_round(CpsiWalk *walk) {
 /* ---- public functions ---- */
 
 CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, CpsSetFacts *facts,
-                          double **room, CpsError *err) {
+                          double **scratch, CpsError *err) {
     const size_t n = (size_t)set->n;
     *walk = (CpsiWalk){.outcome = CPS_SET_OUTCOME_INACCURATE};
     *facts = (CpsSetFacts){.outcome = CPS_SET_OUTCOME_INACCURATE};
-    *room = malloc((n * n + 3 * n) * sizeof **room);
-    if (!*room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the outline of a set");
-    double *centre = *room, *basis = centre + n;
+    *scratch = malloc((n * n + 3 * n) * sizeof **scratch);
+    if (!*scratch) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the outline of a set");
+    double *centre = *scratch, *basis = centre + n;
     *walk = (CpsiWalk){.set = set,
                        .centre = centre,
                        .basis = basis,
@@ -297,9 +297,9 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
                          tolerance);
     CpsiWalk walk;
     CpsSetFacts facts;
-    double *room;
+    double *scratch;
     *count = 0;
-    CpsStatus status = cpsi_walk_start(set, tolerance, &walk, &facts, &room, err);
+    CpsStatus status = cpsi_walk_start(set, tolerance, &walk, &facts, &scratch, err);
     if (!status && walk.outcome == CPS_SET_OUTCOME_ANSWERED) {
         if (facts.dimension == 0)
             store_point(&walk, (const double[]){0, 0}, capacity, points, count);
@@ -328,7 +328,7 @@ CpsStatus cps_set_vertices(const CpsSet *set, double tolerance, int capacity, do
                              .tolerance = walk.opening};
     if (!status) status = walk.status;
     free(walk.piece);
-    free(room);
+    free(scratch);
     return status;
 }
 
@@ -460,23 +460,23 @@ CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double
                 rays[i] = -rays[i];
         return status;
     }
-    double *room = malloc((n * n + 3 * n) * sizeof *room);
-    if (!room) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the rays of a cone");
+    double *scratch = malloc((n * n + 3 * n) * sizeof *scratch);
+    if (!scratch) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the rays of a cone");
     CpsSetFacts facts;
-    CpsStatus status = cps_set_facts(set, 0, &facts, room, room + n, err);
+    CpsStatus status = cps_set_facts(set, 0, &facts, scratch, scratch + n, err);
     answer->outcome = facts.outcome;
     answer->exact = false;
     if (!status && facts.outcome == CPS_SET_OUTCOME_ANSWERED && facts.dimension > 0) {
-        const PlanarCone cone = {set, room + n, facts.dimension, room + n + n * n,
-                                 room + 2 * n + n * n};
+        const PlanarCone cone = {set, scratch + n, facts.dimension, scratch + n + n * n,
+                                 scratch + 2 * n + n * n};
         answer->tolerance = ON_CONE;
         if (facts.dimension > 2 || facts.bounded || !facts.has_zero)
             answer->outcome = CPS_SET_OUTCOME_NOT_PLANAR;
         else if (facts.dimension == 1)
             status = line_rays(&cone, capacity, rays, count, answer, err);
         else
-            status = planar_rays(&cone, room, capacity, rays, count, answer, err);
+            status = planar_rays(&cone, scratch, capacity, rays, count, answer, err);
     }
-    free(room);
+    free(scratch);
     return status;
 }

@@ -36,7 +36,7 @@ typedef struct CpsiWalk {
     double opening;          /* smallest range of angles of a corner */
     int looks;               /* number of supports evaluated so far */
     CpsiOutlinePiece *piece; /* freed by the caller */
-    int count, room;
+    int count, capacity;
     bool exact;
     double gap;
     CpsSetOutcome outcome;
@@ -49,9 +49,9 @@ typedef struct CpsiWalk {
 enum { CPSI_MOST_LOOKS = 50000 };
 
 /* Prepare for a set of dimension `facts->dimension`; outcome UNBOUNDED or EMPTY where there is no
- * outline. The caller frees *room. */
+ * outline. The caller frees *scratch. */
 CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, CpsSetFacts *facts,
-                          double **room, CpsError *err);
+                          double **scratch, CpsError *err);
 /* x(theta); returns h. */
 double cpsi_walk_visit(CpsiWalk *walk, double theta, double x[2]);
 /* All pieces, counterclockwise. */

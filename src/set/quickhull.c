@@ -19,12 +19,12 @@ typedef struct Work {
     const double *c;
     double size;
     CpsiTriangle *triangle;
-    int triangles, room;
+    int triangles, capacity;
     int *next;    /* (count) next point in the list of the same triangle */
     int *at;      /* (count) the new triangle whose edge begins there */
     int *stack;   /* visible triangles, in the order found */
     int *horizon; /* (3 each) triangle across the edge, its edge, unused */
-    int stack_room;
+    int stack_capacity;
 } Work;
 
 static double height(const Work *w, const CpsiTriangle *t, int p) {
@@ -34,12 +34,12 @@ static double height(const Work *w, const CpsiTriangle *t, int p) {
 
 /* Add a triangle; -1: no memory, -2: no area. */
 static int add(Work *w, int a, int b, int c) {
-    if (w->triangles == w->room) {
-        const int room = 2 * w->room + 64;
-        CpsiTriangle *more = realloc(w->triangle, (size_t)room * sizeof *more);
+    if (w->triangles == w->capacity) {
+        const int capacity = 2 * w->capacity + 64;
+        CpsiTriangle *more = realloc(w->triangle, (size_t)capacity * sizeof *more);
         if (!more) return -1;
         w->triangle = more;
-        w->room = room;
+        w->capacity = capacity;
     }
     CpsiTriangle *t = &w->triangle[w->triangles];
     *t =
@@ -108,13 +108,13 @@ static int begin(Work *w, const int start[4]) {
 
 /* Allocate for all triangles on the stack and their edges. */
 static bool grow(Work *w) {
-    if (w->stack_room >= w->triangles) return true;
-    const int room = 2 * w->triangles + 64;
-    int *stack = realloc(w->stack, (size_t)room * sizeof *stack);
+    if (w->stack_capacity >= w->triangles) return true;
+    const int capacity = 2 * w->triangles + 64;
+    int *stack = realloc(w->stack, (size_t)capacity * sizeof *stack);
     if (stack) w->stack = stack;
-    int *horizon = realloc(w->horizon, 6 * (size_t)room * sizeof *horizon);
+    int *horizon = realloc(w->horizon, 6 * (size_t)capacity * sizeof *horizon);
     if (horizon) w->horizon = horizon;
-    if (stack && horizon) w->stack_room = room;
+    if (stack && horizon) w->stack_capacity = capacity;
     return stack && horizon;
 }
 

@@ -167,8 +167,8 @@ typedef struct Text {
 __attribute__((format(printf, 2, 3))) static void put(Text *text, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    const size_t room = text->length < text->size ? text->size - text->length : 0;
-    const int wrote = vsnprintf(room ? text->at + text->length : NULL, room, format, args);
+    const size_t left = text->length < text->size ? text->size - text->length : 0;
+    const int wrote = vsnprintf(left ? text->at + text->length : NULL, left, format, args);
     va_end(args);
     if (wrote > 0) text->length += (size_t)wrote;
 }

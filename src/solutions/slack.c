@@ -171,13 +171,13 @@ static bool may_slide(const CpsLineView *step, int node, double force) {
 /* count what holds a node in the part that it belongs to */
 static void note_node(const CpsLineView *step, int j, double force, CpsSlackPart *part) {
     part->grounded = part->grounded || step->reaction[j] > 0;
-    part->rubs = part->rubs || step->friction_bound[j] > 0;
+    part->has_friction = part->has_friction || step->friction_bound[j] > 0;
     part->at_bound = part->at_bound || at_bound(step, j);
     part->sliding = part->sliding || may_slide(step, j, force);
 }
 
-int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part) {
-    if (!step || step->elements < 1 || (room > 0 && !part)) return 0;
+int cps_solution_slack(const CpsLineView *step, int capacity, CpsSlackPart *part) {
+    if (!step || step->elements < 1 || (capacity > 0 && !part)) return 0;
     const double force = cpsi_slack_force(step);
     int parts = 0;
     CpsSlackPart now = {.to = -1};
@@ -193,7 +193,7 @@ int cps_solution_slack(const CpsLineView *step, int room, CpsSlackPart *part) {
         }
         now.to = step->arc_length[i];
         for (int j = piece.first + 1; j <= i; ++j) note_node(step, j, force, &now);
-        if (parts <= room) part[parts - 1] = now;
+        if (parts <= capacity) part[parts - 1] = now;
     }
     return parts;
 }

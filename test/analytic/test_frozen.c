@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frozen friction (S90) among several obstacles, planes, cylinders and balls, with gained contact:
+/* Frozen friction (S90) among several obstacles, planes, cylinders and balls, with contact reached:
  * random scenes, and what every step that is called solved must obey, from a geometry of the test's
  * own.
  *

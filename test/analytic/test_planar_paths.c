@@ -31,7 +31,7 @@ typedef struct Arc {
 typedef struct Towed {
     CpsTow tow;
     double radius, worst_gap, worst_hitch;
-    int unsettled; /* steps; the hitch is watched in the others */
+    int not_converged; /* steps; the hitch is watched in the others */
 } Towed;
 
 static Towed tow_along(const CpsPlanar *body, CpsTow tow, const Arc *arc, int steps) {
@@ -45,14 +45,14 @@ static Towed tow_along(const CpsPlanar *body, CpsTow tow, const Arc *arc, int st
         assert_int_equal(step.outcome, CPS_SET_OUTCOME_ANSWERED);
         assert_true(step.pulled);
         assert_true(step.lower <= step.upper);
-        towed.unsettled += !step.settled;
+        towed.not_converged += !step.converged;
         towed.worst_gap = fmax(towed.worst_gap, step.upper - step.lower);
 
         /* where the hitch is now: at the target, or the rope's length from it */
         const double *pose = towed.tow.pose, *hitch = tow.hitch;
         const double x = pose[0] + cos(pose[2]) * hitch[0] - sin(pose[2]) * hitch[1];
         const double y = pose[1] + sin(pose[2]) * hitch[0] + cos(pose[2]) * hitch[1];
-        if (step.settled)
+        if (step.converged)
             towed.worst_hitch =
                 fmax(towed.worst_hitch, fabs(hypot(x - target[0], y - target[1]) - tow.rope));
     }
@@ -87,7 +87,7 @@ static void axle_follows_tractrix(void **state) {
                                             NULL),
                              CPS_OK);
             assert_int_equal(step.outcome, CPS_SET_OUTCOME_ANSWERED);
-            assert_true(step.settled);
+            assert_true(step.converged);
         }
         error[k] = hypot(tow.pose[0] - L / cosh(2), tow.pose[1] - (4 - L * tanh(2)));
         CHECK_LESS(
@@ -111,10 +111,10 @@ static void axle_on_a_circle(void **state) {
     CpsPlanar *body = body_of(2, axle);
     const Arc arc = {.start = {2.5, 0}, .radius = 10, .angle = 3};
     const Towed towed = tow_along(body, (CpsTow){.hitch = {2.5, 0}}, &arc, 400);
-    CHECK_INT(towed.unsettled, 0);
+    CHECK_INT(towed.not_converged, 0);
     CHECK_RELATIVE(towed.radius, sqrt(100 - 6.25), 2e-5);
     CHECK_LESS(towed.worst_hitch,
-               1e-12); /* settled to 1e-13 of a step of 75 mm; positions of 20 m round at 4e-15 */
+               1e-12); /* converged to 1e-13 of a step of 75 mm; positions of 20 m round at 4e-15 */
     cps_planar_destroy(body);
 }
 
@@ -138,7 +138,7 @@ static void towed_car(void **state) {
         const double defect = towed[k].tow.work - towed[k].tow.dissipated;
         const double next = towed[k + 1].tow.work - towed[k + 1].tow.dissipated;
         CHECK_BETWEEN(defect / next, 3.9, 4.1); /* order 2 */
-        CHECK_INT(towed[k].unsettled, 0);
+        CHECK_INT(towed[k].not_converged, 0);
         CHECK_LESS(towed[k].worst_gap, 1e-12 * towed[k].tow.work);
     }
     CHECK_LESS(fabs(towed[3].tow.work - towed[3].tow.dissipated),
@@ -163,7 +163,7 @@ static void towed_car_on_a_rope(void **state) {
     for (int k = 0; k < 2; k++)
         towed[k] = tow_along(body, (CpsTow){.hitch = {3.2, 0}, .rope = 3, .end = {6.2, 0}}, &arc,
                              100 << k);
-    CHECK_GREATER(towed[0].unsettled, 0);
+    CHECK_GREATER(towed[0].not_converged, 0);
     CHECK_LESS(towed[0].worst_gap, 1e-12 * towed[0].tow.work);
     CHECK_RELATIVE(towed[0].radius, towed[1].radius, 0.01);
     CHECK_RELATIVE(towed[0].tow.dissipated, towed[1].tow.dissipated, 0.01);
@@ -194,7 +194,7 @@ static void plate_on_a_rope(void **state) {
     CHECK_BETWEEN((towed[0].tow.work - towed[0].tow.dissipated) /
                       (towed[1].tow.work - towed[1].tow.dissipated),
                   3.9, 4.1);
-    CHECK_INT(towed[2].unsettled, 0);
+    CHECK_INT(towed[2].not_converged, 0);
     CHECK_LESS(towed[2].worst_hitch, 1e-12);
     CHECK_LESS(towed[2].worst_gap,
                1e-14); /* of a power of 4e-3 J a step: 64 ulp of it and its scale */

@@ -2,7 +2,7 @@
 /* Inextensible lines round a cylinder or a ball whose end B is drawn away until the line is too
  * short to reach it.
  *
- * The shortest way from A to B is a helix between two tangents: unrolled, t_A + t_B + R (turn -
+ * The shortest path from A to B is a helix between two tangents: unrolled, t_A + t_B + R (turn -
  * acos(R/r_A) - acos(R/r_B)) across the axis and the rise along it. A line at least as long as that
  * round the obstacle can be laid there: its nodes on the way, its elements chords no deeper than
  * they may be. A line shorter than the way round the obstacle shrunk by what elements may cut in,

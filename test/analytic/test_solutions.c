@@ -238,7 +238,7 @@ static void slack_held_by_friction(void **state) {
     CHECK_NEAR(slack.held, slack.slack, 1e-12);
     CHECK_INT(slack.parts, 0);
 
-    assert_true(part.rubs && !part.sliding && part.grounded);
+    assert_true(part.has_friction && !part.sliding && part.grounded);
     // a made-up friction force at its bound: the elements beside it are straight at their length,
     // and hold node 30
     static double rub[COORDINATES], shorter[COORDINATES];
@@ -393,7 +393,7 @@ static void loose_end(void **state) {
     b.view = case_step(&b.run);
     CpsSlackPart part;
     CHECK_INT(cps_solution_slack(&b.view, 1, &part), 1);
-    assert_true(part.loose && part.grounded && !part.rubs);
+    assert_true(part.loose && part.grounded && !part.has_friction);
     for (CpsCompletion how = CPS_COMPLETION_SHORTEST; how < CPS_COMPLETION_COUNT; how++) {
         complete(&b, how);
         assert_int_equal(judge(&b).judgement, CPS_JUDGEMENT_SOLUTION);

@@ -243,9 +243,9 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     at_most(judge, "adhesion (-R)", -m->reaction_least, 0);
     at_most(judge, "compression (-T)", -m->tension_least, 0);
     at_most(judge, "depth below the obstacle", m->penetration, place);
-    // strict contact keeps out only what the reference touches
-    if (!source->strict) at_most(judge, "depth below an obstacle", m->sunk, place);
-    if (!source->strict)
+    // contact of the reference keeps out only what the reference touches
+    if (!source->touching_only) at_most(judge, "depth below an obstacle", m->sunk, place);
+    if (!source->touching_only)
         at_most(judge, "depth of an element inside an obstacle", m->pierced, place);
     at_most(judge, "contacts that are not with the nearest obstacles", m->misplaced, 0);
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
@@ -260,8 +260,9 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
             1 + GONE_ROUNDING);
     at_most(judge, "contact_gap against the distance", m->gap_error,
             COPY_TOLERANCE * (m->length + m->reach));
-    // statics keeps a line out of everything, with strict contact as well
-    if (!(laid && source->strict)) at_most(judge, "contacts not looked for", m->unwatched, 0);
+    // statics keeps a line out of everything, with contact of the reference as well
+    if (!(laid && source->touching_only))
+        at_most(judge, "contacts not looked for", m->unwatched, 0);
     at_most(judge, "elongation beyond the tension", m->strain_error, strain);
     at_most(judge, "distance of a held end", m->held_error,
             COPY_TOLERANCE * (m->length + m->extent));
@@ -304,7 +305,7 @@ static void judge_reach(Judge *judge, const Source *source, const Record *r, con
     // the coordinates are about the obstacle there, which may be far larger than the line
     double size = m->length + m->extent + (double)source->surface[r->proof_obstacle].radius;
     same(judge, "proof_value", r->proof_value, missing, COPY_TOLERANCE * size);
-    at_most(judge, "proof vector off the shortest way", off, CLAIM_TOLERANCE);
+    at_most(judge, "proof vector off the shortest path", off, CLAIM_TOLERANCE);
     at_most(judge, "length of the proof vector - 1",
             fabs(hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1), COPY_TOLERANCE);
 }
@@ -349,10 +350,10 @@ static void judge_slides(Judge *judge, const Source *source, const Record *r) {
 }
 
 /* Contact is seen from where the nodes end up, but from the reference on one plane, where it is the
- * same, and where friction is frozen and contact strict; frozen friction itself always from the
- * reference, but in a line laid by statics. */
+ * same, and where friction is frozen and contact of the reference; frozen friction itself always
+ * from the reference, but in a line laid by statics. */
 static Measures measure_where(const Source *source, const Record *r, size_t step) {
-    const Sight frozen = source->strict ? SIGHT_REFERENCE : SIGHT_FROZEN;
+    const Sight frozen = source->touching_only ? SIGHT_REFERENCE : SIGHT_FROZEN;
     Measures m = measure(source, r,
                          !source->follows     ? SIGHT_REFERENCE
                          : source->consistent ? SIGHT_REACHED

@@ -108,7 +108,7 @@ static void compare_run(Compare *compare) {
     same(compare, "gravity", "the run", source->gravity, scene->gravity, 3, COPIED);
     if (source->consistent != (scene->friction_policy == CPS_FRICTION_CONSISTENT))
         find(compare, "friction_policy: frozen or consistent");
-    if (source->strict != (scene->contact_policy == CPS_CONTACT_REFERENCE))
+    if (source->touching_only != (scene->contact_policy == CPS_CONTACT_REFERENCE))
         find(compare, "contact_policy: reference or reached");
     if (source->surfaces != (size_t)scene->obstacle_count) {
         find(compare, "%zu obstacles, in the scene %d", source->surfaces, scene->obstacle_count);

@@ -216,9 +216,9 @@ static const Surface *surface_of(const Where *where, const Record *r, size_t j, 
 }
 
 /* Does contact c stay with its obstacle through the step, whichever are near where it ends? Frozen
- * friction does, and what strict contact keeps out. */
+ * friction does, and what contact of the reference keeps out. */
 static bool stays(const Where *where, const Record *r, size_t c) {
-    if (where->source->strict) return where->reached && isfinite(r->gap[c]);
+    if (where->source->touching_only) return where->reached && isfinite(r->gap[c]);
     return where->frozen && r->friction_bound[c] > 0;
 }
 
@@ -310,11 +310,11 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     bool far = c != j && round &&
                surface_distance(seat->surface, place) > (0.5L - 1e-9L) * seat->surface->radius;
     if (isfinite(r->gap[c])) raise_to(&m->gap_error, fabsl((Real)r->gap[c] - seat->gap));
-    if (!where->source->strict) {
+    if (!where->source->touching_only) {
         m->unwatched += !isfinite(r->gap[c]) && !far;
         return;
     }
-    // strict: what the reference touches, neither more nor less, but for rounding
+    // contact of the reference: what it touches, neither more nor less, but for rounding
     Real apart = fabsl(surface_distance(seat->surface, reference)),
          rounding = 4 * 0x1p-53L * where->reach;
     if (isfinite(r->gap[c]) ? apart > margin + rounding : apart < margin - rounding) m->unwatched++;

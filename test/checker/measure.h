@@ -40,8 +40,8 @@ typedef struct Measures {
     double pierced; /* [m] how deep an element lies in a round obstacle beyond what its chord may
                        cut in, >= 0 */
     double reach;   /* [m] largest coordinate or radius of anything */
-    int unwatched;  /* contacts without a contact_gap that should have one; strict: or the other way
-                       round */
+    int unwatched;  /* contacts without a contact_gap that should have one; of the reference: or the
+                       other way  round */
     double gap_error;   /* [m] max |contact_gap - what it must be| */
     double slide_error; /* [m] max |slide - way from the carried reference| */
     double quarters;    /* of a turn by which an obstacle turns in the part that the arrays show, at

@@ -61,7 +61,7 @@ static bool is_inside(const Source *source, const Record *r, size_t j, Real leng
 }
 
 /* Does element i lie on an obstacle between its nodes, or nearly so?  The principle above counts
- * forces at nodes only, which are all there are with strict contact. */
+ * forces at nodes only, which are all there are with contact of the reference. */
 static bool rests_between(const Source *source, const Record *r, size_t i) {
     Triple a, b;
     for (int k = 0; k < 3; k++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The claim "too short to reach round an obstacle", by a search for the shortest way.
+/* The claim "too short to reach round an obstacle", by a search for the shortest path.
  *
  * Nodes lie outside the radius R, so an element of length l has at most a chord c <= l inside it,
  * and an element that is kept out of a smaller radius has no longer chord than that leaves. Each
@@ -104,7 +104,7 @@ static Real least_share(const Source *source, const Record *r, const Seen *seen)
     Real least = 1;
     for (size_t i = 0; i < r->elements; i++) {
         const Real l = r->element_length[i], R = seen->radius;
-        const bool kept = r->has_elements && !source->strict;
+        const bool kept = r->has_elements && !source->touching_only;
         const Real inner = kept ? seen->surface->radius - surface_allowance(seen->surface, l) : 0;
         if (!kept && l >= 2 * R) return 0;
         const Real chord = fminl(l, inner < R ? 2 * sqrtl(R * R - inner * inner) : 0),
@@ -121,7 +121,8 @@ const char *reach_contradiction(const Source *source, const Record *r, bool stat
     const Surface *s = &source->surface[r->proof_obstacle];
     if (s->kind == SURFACE_PLANE) return "its obstacle is a plane";
     if (r->end_kind[0] != END_HELD || r->end_kind[1] != END_HELD) return "an end is free";
-    if (source->strict && !statics) return "contact is strict and keeps the line out of nothing";
+    if (source->touching_only && !statics)
+        return "contact is that of the reference and keeps the line out of nothing";
     if (r->parts != 1) return "it is of a part of a step";
     const Seen seen = look(s, r);
     Real turn = fabsl(seen.angle), length = 0;

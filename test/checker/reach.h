@@ -7,7 +7,7 @@
 
 /* What contradicts the claim that the line of the record does not reach round obstacle
  * record->proof_obstacle, or NULL; then *missing is by how much [m] and *off how far the proof
- * vector is from the direction in which the shortest way leaves end A. `statics`: the line comes
+ * vector is from the direction in which the shortest path leaves end A. `statics`: the line comes
  * from no side. */
 const char *reach_contradiction(const Source *source, const Record *record, bool statics,
                                 double *missing, double *off);

@@ -255,7 +255,7 @@ int source_open(const char *path, Source *source, FILE *log) {
     if (status && status != NC_ENOTATT)
         return complain(log, "cannot read attribute", "origin", status);
     source->consistent = attribute_is(source, "friction_policy", "consistent");
-    source->strict = attribute_is(source, "contact_policy", "reference");
+    source->touching_only = attribute_is(source, "contact_policy", "reference");
     source->has_static = first_step_is_static(source);
     if (read_surfaces(source, log)) return -1;
 
@@ -532,7 +532,7 @@ static int read_contact(const Source *source, const char *line, size_t step, boo
 }
 
 /* what belongs to the contacts of elements: where an obstacle is round, friction consistent and
- * contact gained */
+ * contact reached */
 static int read_elements(const Source *source, const char *line, size_t step, Record *record,
                          FILE *log) {
     static const char *const NAME[8] = {"element_normal",         "element_friction_force",
@@ -546,7 +546,7 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
                      record->obstacle + from,       record->share_of};
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
-        record->has_elements |= source->surface[k].kind != SURFACE_PLANE && !source->strict;
+        record->has_elements |= source->surface[k].kind != SURFACE_PLANE && !source->touching_only;
     if (record->has_elements)
         for (size_t k = 0; k < 8; k++)
             bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);

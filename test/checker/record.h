@@ -102,11 +102,11 @@ typedef struct Source {
     size_t steps, lines;
     char **line_name;
     double tolerance, gravity[3];
-    double origin[3]; /* [m] from which the places of the file are measured, in the scene's
-                         coordinates; 0 0 0 unless it says so */
-    bool consistent;  /* friction bounds follow the reactions of the same step */
-    bool strict;      /* only what touches at the reference is kept out */
-    bool has_static;  /* the first step is statics without friction, of the lines laid */
+    double origin[3];   /* [m] from which the places of the file are measured, in the scene's
+                           coordinates; 0 0 0 unless it says so */
+    bool consistent;    /* friction bounds follow the reactions of the same step */
+    bool touching_only; /* only what touches at the reference is kept out */
+    bool has_static;    /* the first step is statics without friction, of the lines laid */
     bool follows; /* normals are those of where the nodes end up: not one plane with one coefficient
                    */
     size_t surfaces;

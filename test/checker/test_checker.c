@@ -314,7 +314,7 @@ static const Tamper REEL_TAMPER[] = {
     {"reel_parts", 0, 2, "it is of a part of a step"},
     {"reel_proof_value", 0, 0.5, "proof_value"},
     {"reel_proof", 0, 0.01, "proof vector"},
-    {"reel_proof", 2, -1, "proof vector off the shortest way"},
+    {"reel_proof", 2, -1, "proof vector off the shortest path"},
     {"reel_proof_obstacle", 0, -1, "infeasible, but the ends are"},
     {"reel_proof_obstacle", 0, 1, "unknown obstacle of the proof"},
     {"reel_reference", 8, 0.1, "the line lies across the axis"},

@@ -23,13 +23,13 @@ void *cpsi_pool_take(CpsiPool *pool, size_t count, size_t size) {
 
     CpsiPoolBlock *block = pool->newest;
     if (!block || block->size - block->used < bytes) {
-        size_t room = !block                            ? FIRST_BLOCK
-                      : block->size < LARGEST_BLOCK / 2 ? 2 * block->size
-                                                        : LARGEST_BLOCK;
-        if (room < bytes) room = bytes;
-        block = calloc(1, sizeof *block + room);
+        size_t capacity = !block                            ? FIRST_BLOCK
+                          : block->size < LARGEST_BLOCK / 2 ? 2 * block->size
+                                                            : LARGEST_BLOCK;
+        if (capacity < bytes) capacity = bytes;
+        block = calloc(1, sizeof *block + capacity);
         if (!block) return NULL;
-        *block = (CpsiPoolBlock){.older = pool->newest, .size = room};
+        *block = (CpsiPoolBlock){.older = pool->newest, .size = capacity};
         pool->newest = block;
     }
     void *place = block->data + block->used;

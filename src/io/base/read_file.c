@@ -39,10 +39,10 @@ static CpsStatus open_regular(const char *path, int how, int *fd, CpsError *err)
  * size is trusted. */
 static CpsStatus read_bytes(int fd, const char *file, size_t max_bytes, char **bytes, size_t *size,
                             CpsError *err) {
-    size_t room = 4096, used = 0;
-    char *buffer = malloc(room);
+    size_t capacity = 4096, used = 0;
+    char *buffer = malloc(capacity);
     while (buffer) {
-        const ssize_t n = read(fd, buffer + used, room - used - 1);
+        const ssize_t n = read(fd, buffer + used, capacity - used - 1);
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) {
             free(buffer);
@@ -60,11 +60,11 @@ static CpsStatus read_bytes(int fd, const char *file, size_t max_bytes, char **b
             return cpsi_fail_at(err, CPS_ERR_LIMIT, file, 0, 0,
                                 "is larger than %zu bytes, the limit", max_bytes);
         }
-        if (used + 1 == room) {
-            char *larger = room <= SIZE_MAX / 2 ? realloc(buffer, 2 * room) : NULL;
+        if (used + 1 == capacity) {
+            char *larger = capacity <= SIZE_MAX / 2 ? realloc(buffer, 2 * capacity) : NULL;
             if (!larger) free(buffer);
             buffer = larger;
-            room *= 2;
+            capacity *= 2;
         }
     }
     return cpsi_fail_at(err, CPS_ERR_MEMORY, file, 0, 0, "out of memory while reading the file");

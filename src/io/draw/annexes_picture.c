@@ -102,9 +102,9 @@ static void draw_pair(const CpsStudyFiles *files, int panel, Along *linear, Alon
  * back has smaller abscissae again. */
 static double along_reference(const CpsRegularizedStep *step, Vec3 x) {
     const Vec3 from = vec3_load(step->reference),
-               way = vec3_sub(vec3_load(step->reference + 3 * (size_t)step->elements), from);
-    const double length = vec3_norm(way);
-    return length > 0 ? vec3_dot(vec3_sub(x, from), way) / length : 0;
+               chord = vec3_sub(vec3_load(step->reference + 3 * (size_t)step->elements), from);
+    const double length = vec3_norm(chord);
+    return length > 0 ? vec3_dot(vec3_sub(x, from), chord) / length : 0;
 }
 
 /* x of P2.1, or x_R + u of P10.1, or x_R */

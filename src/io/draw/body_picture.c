@@ -109,7 +109,7 @@ static void reach(const CpsDriveBody *body, double x[2], double y[2]) {
 /* one push: an arrow, and a line to the centre of rotation */
 static void draw_push(FILE *out, const CpsiFrame *frame, const CpsDrivePush *push,
                       const double centre[2], bool turns, double unit, const char *colour) {
-    const double along[2] = {push->way[0] * unit, push->way[1] * unit};
+    const double along[2] = {push->point_velocity[0] * unit, push->point_velocity[1] * unit};
     char style[80];
     if (push->at_point) cpsi_draw_arrow(out, frame, push->point, along, colour, 2.2);
     if (!turns) return;
@@ -142,13 +142,13 @@ static CpsStatus draw_pushes(FILE *out, const BodyPicture *p, int column, CpsErr
         /* a centre is shown if it is not too far away */
         if (hypot(motion[i].centre[0], motion[i].centre[1]) < 2 * size)
             cpsi_range_points(frame.x, frame.y, 1, motion[i].centre);
-        fastest = fmax(fastest, hypot(push->way[0], push->way[1]));
+        fastest = fmax(fastest, hypot(push->point_velocity[0], push->point_velocity[1]));
     }
     const double unit = fastest > 0 ? 0.35 * size / fastest : 0;
     for (int i = 0; i < count; i++) {
         const CpsDrivePush *push = &p->body->push[i];
-        const double tip[2] = {push->point[0] + unit * push->way[0],
-                               push->point[1] + unit * push->way[1]};
+        const double tip[2] = {push->point[0] + unit * push->point_velocity[0],
+                               push->point[1] + unit * push->point_velocity[1]};
         if (push->at_point) cpsi_range_points(frame.x, frame.y, 1, tip);
     }
     cpsi_range_pad(frame.x, 0.15);
@@ -195,8 +195,8 @@ static void draw_way(FILE *out, const BodyPicture *p, double width) {
     cpsi_frame_equal(&frame);
     cpsi_frame_title(out, &frame,
                      p->body->tow.start.rope > 0
-                         ? "towed on a rope: the way of its far end, and the body"
-                         : "towed: the way of the hitch, and the body");
+                         ? "towed on a rope: the path of its far end, and the body"
+                         : "towed: the path of the hitch, and the body");
     cpsi_frame_axes(out, &frame, "x (m)", "y (m)");
     cpsi_frame_begin(out, &frame, 9);
     cpsi_draw_curve(out, &frame, p->count, p->end, false,

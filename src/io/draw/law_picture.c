@@ -414,8 +414,8 @@ static void fit_frame(Sheet *s, const Curve *curve) {
     }
     s->size = fmax(fmax(x[1] - x[0], y[1] - y[0]), 1e-300);
     s->unit = cpsi_unit("N", 0.5 * s->size);
-    const double room = 0.31 * s->size, wide = 0.5 * (x[1] - x[0]) + room,
-                 high = 0.5 * (y[1] - y[0]) + room;
+    const double margin = 0.31 * s->size, wide = 0.5 * (x[1] - x[0]) + margin,
+                 high = 0.5 * (y[1] - y[0]) + margin;
     const double half = fmax(wide, high / TALLEST) * s->unit.factor,
                  share = fmin(high / wide, TALLEST);
     const double cx = 0.5 * (x[0] + x[1]) * s->unit.factor,

@@ -44,8 +44,8 @@ static double fit(const CpsiView *view, CpsiFrame *frame) {
     const double natural = height * scale;
     if (!view->plan && !view->true_scale && natural > 1e-5 * frame->width && natural < LOW_HEIGHT)
         factor = round_down(LOW_HEIGHT / natural);
-    const double room = 0.8 * MAX_FRAME_HEIGHT;
-    if (natural * factor > room) scale *= room / (natural * factor);
+    const double most = 0.8 * MAX_FRAME_HEIGHT;
+    if (natural * factor > most) scale *= most / (natural * factor);
 
     /* both ranges centred, filling the frame */
     frame->height = fmin(MAX_FRAME_HEIGHT, fmax(MIN_PLAN_HEIGHT, natural * factor * 1.3));

@@ -235,7 +235,7 @@ static void draw_loop(const CpsResults *results, const Loop *loop, const Path *p
     snprintf(x_label, sizeof x_label, "displacement along (%.3g, %.3g, %.3g) (m)", d.x + 0.0,
              d.y + 0.0, d.z + 0.0);
     draw_path(path, path->force, above, x_label, "force along it", out);
-    draw_path(path, path->opened, below, x_label, "less the mean of both ways", out);
+    draw_path(path, path->opened, below, x_label, "less the mean of loading and unloading", out);
     cpsi_svg_finish(out);
 }
 

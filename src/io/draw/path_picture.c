@@ -105,7 +105,7 @@ typedef struct SweepPicture {
 
 /* one component: a value over the moved end */
 static void draw_loop(FILE *out, const SweepPicture *p, int column, const double *value,
-                      const char *label, const char *colour, double *room) {
+                      const char *label, const char *colour, double *scratch) {
     CpsiFrame frame = {.left = LEFT + column * (SIDE - 60.0),
                        .top = TOP,
                        .width = SIDE - 160,
@@ -114,17 +114,17 @@ static void draw_loop(FILE *out, const SweepPicture *p, int column, const double
     frame.x[1] = frame.y[1] = -INFINITY;
     char style[80];
     for (int i = 0; i < p->count; i++) {
-        room[2 * (size_t)i] = p->end[i];
-        room[2 * (size_t)i + 1] = value[i];
+        scratch[2 * (size_t)i] = p->end[i];
+        scratch[2 * (size_t)i + 1] = value[i];
     }
-    cpsi_range_points(frame.x, frame.y, p->count, room);
+    cpsi_range_points(frame.x, frame.y, p->count, scratch);
     cpsi_range_pad(frame.x, 0.08);
     cpsi_range_pad(frame.y, 0.08);
     cpsi_frame_axes(out, &frame, "moved end of the spring (m)", label);
     cpsi_frame_begin(out, &frame, 1 + column);
     snprintf(style, sizeof style, "fill=\"none\" stroke=\"%s\" stroke-width=\"2\"", colour);
-    cpsi_draw_curve(out, &frame, p->count, room, false, style);
-    cpsi_draw_dot(out, &frame, room, 4, "fill=\"#333\"");
+    cpsi_draw_curve(out, &frame, p->count, scratch, false, style);
+    cpsi_draw_dot(out, &frame, scratch, 4, "fill=\"#333\"");
     cpsi_frame_end(out);
 }
 
@@ -166,8 +166,8 @@ static void draw_plane(FILE *out, const SweepPicture *p) {
 static CpsStatus draw_sweep(void *what, FILE *out, CpsError *err) {
     const SweepPicture *p = what;
     const bool plane = p->file->sweep.space == 2;
-    double *room = malloc(2 * (size_t)p->count * sizeof *room);
-    if (!room) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    double *scratch = malloc(2 * (size_t)p->count * sizeof *scratch);
+    if (!scratch) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     cpsi_svg_begin(out, LEFT + SIDE + (plane ? 40 : SIDE - 160),
                    TOP + (plane ? SIDE + 90 : SIDE - 90),
                    *p->file->title ? p->file->title : "block on a spring",
@@ -178,11 +178,11 @@ static CpsStatus draw_sweep(void *what, FILE *out, CpsError *err) {
     if (plane) {
         draw_plane(out, p);
     } else {
-        draw_loop(out, p, 0, p->position, "block (m)", CPSI_BLUE, room);
-        draw_loop(out, p, 1, p->force, "friction on the block (N)", CPSI_PLUM, room);
+        draw_loop(out, p, 0, p->position, "block (m)", CPSI_BLUE, scratch);
+        draw_loop(out, p, 1, p->force, "friction on the block (N)", CPSI_PLUM, scratch);
     }
     cpsi_svg_finish(out);
-    free(room);
+    free(scratch);
     return CPS_OK;
 }
 

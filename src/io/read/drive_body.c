@@ -86,7 +86,7 @@ static CpsStatus build_push(const CpsiDocument *d, const CpsiPushValues *values,
         for (int k = 0; k < 2; k++) normal[k] /= length;
     point_rows(at, one ? normal : NULL, push);
     push->rows = one ? 1 : 2;
-    for (int k = 0; k < 2; k++) push->way[k] = one ? speed * normal[k] : velocity[k];
+    for (int k = 0; k < 2; k++) push->point_velocity[k] = one ? speed * normal[k] : velocity[k];
     push->velocity[0] = one ? speed : velocity[0];
     push->velocity[1] = one ? 0 : velocity[1];
     return CPS_OK;

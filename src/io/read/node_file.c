@@ -44,9 +44,9 @@ static CpsStatus no_memory(const Table *t) {
 
 /* ---- cells ---- */
 
-/* Divide `text` at commas into at most `room` cells without blanks around them. Returns their
- * number, room + 1 if there are more. */
-static int cut(char *text, char **cell, int room) {
+/* Divide `text` at commas into at most `capacity` cells without blanks around them. Returns their
+ * number, capacity + 1 if there are more. */
+static int cut(char *text, char **cell, int capacity) {
     int count = 0;
     for (char *next = text; next;) {
         char *begin = next + strspn(next, " \t");
@@ -55,7 +55,7 @@ static int cut(char *text, char **cell, int room) {
         if (next) next++;
         while (end > begin && strchr(" \t\r", end[-1])) end--;
         *end = '\0';
-        if (count == room) return room + 1;
+        if (count == capacity) return capacity + 1;
         cell[count++] = begin;
     }
     return count;

@@ -25,9 +25,9 @@ static const double *place(const CpsiMethods *m, int method, int step, int point
 static double farthest(const CpsiMethods *m, int method, int step) {
     double most = 0;
     for (int p = 0; p < m->points; ++p) {
-        const Vec3 way =
+        const Vec3 difference =
             vec3_sub(vec3_load(place(m, method, step, p)), vec3_load(place(m, 0, step, p)));
-        most = fmax(most, vec3_norm(way));
+        most = fmax(most, vec3_norm(difference));
     }
     return most;
 }

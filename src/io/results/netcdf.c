@@ -70,7 +70,7 @@ static const Number NUMBER[] = {
     {"dissipated", "energy dissipated by friction in the step", "J", REPORT(dissipated)},
     {"share", "part of the step that the arrays show, the last one of a step that was cut", "1",
      REPORT(share)},
-    {"jump", "longest way of a node in a snap", "m", REPORT(jump)},
+    {"jump", "longest displacement of a node in a jump", "m", REPORT(jump)},
     {"bend_turn", "turn of the line at the contact where the mesh changes the law of friction most",
      "rad", REPORT(bend.turn)},
     {"bend_friction", "coefficient along the line there", "1", REPORT(bend.friction)},
@@ -490,7 +490,7 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
                                       NUMBER[i].long_name, NUMBER[i].units);
 }
 
-/* The way slid where the view leaves it out, on one plane: the tangential part of the
+/* The slip where the view leaves it out, on one plane: the tangential part of the
  * displacement. */
 static const double *plane_slide(CpsiNetcdf *nc, const CpsLineView *view) {
     for (size_t j = 0; j <= (size_t)view->elements; ++j) {

@@ -174,7 +174,7 @@ static const CpsiKey SOLVER_KEYS[] = {
      .help = "of one solve of a line; 20 more for each doubling of its elements beyond 12 800"},
     {"path_tolerance", OPTIONAL, NUMBER(Scene, scene.solver.path_tolerance), 0, 1, false,
      .fallback = "0",
-     .help = "a step is cut until going in halves changes ways per length and tensions per "
+     .help = "a step is cut until two halves change displacements per length and tensions per "
              "largest force by no more; 0: steps as given"},
     {"halvings", OPTIONAL, INTEGER(Scene, scene.solver.halvings), 0, 30, false, .fallback = "10",
      .help = "how often a step may be halved, for the path or because it does not converge"},
