@@ -130,8 +130,11 @@ static void setup_fill(Setup *setup, const Case *which, int elements) {
     setup->line.elements = elements;
     setup->bed.name = "bed";
     which->fill(setup);
-    setup->stage =
-        (CpsStage){.name = "step", .steps = 1, .change_count = 1, .change = &setup->change};
+    setup->stage = (CpsStage){.cookie = cps_stage_default().cookie,
+                              .name = "step",
+                              .steps = 1,
+                              .change_count = 1,
+                              .change = &setup->change};
     setup->scene.obstacle = &setup->bed;
     setup->scene.obstacle_count = 1;
     setup->scene.line = &setup->line;

@@ -20,7 +20,10 @@ int main(void) {
 
     /* one step: half a newton along x on end B, which is free */
     const CpsChange pull = {.line = 0, .end = CPS_END_B, .to = {CPS_END_FREE, {0.5, 0, 0}}};
-    const CpsStage stage = {.name = "pull", .steps = 1, .change_count = 1, .change = &pull};
+    CpsStage stage = cps_stage_default();
+    stage.name = "pull";
+    stage.change_count = 1;
+    stage.change = &pull;
     CpsScene scene = cps_scene_default();
     scene.obstacle_count = scene.line_count = scene.stage_count = 1;
     scene.obstacle = &floor;

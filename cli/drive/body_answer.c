@@ -83,7 +83,7 @@ static bool query_facts(DriveRun *run, Facts *f) {
     if (cps_planar_bounds(b->planar, turn, 1e-5, &bounds, &run->err) != CPS_OK) return false;
     f->torque_lower = bounds.lower;
     f->torque_upper = bounds.upper;
-    f->cells = bounds.cells;
+    f->cells = bounds.cell_count;
     if (f->fx > 0 && f->torque > 0) find_ellipsoid(b->planar, f);
     return true;
 }

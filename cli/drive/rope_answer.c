@@ -30,7 +30,8 @@ typedef struct RopeRun {
 static double fastest(const RopeRun *r) {
     double most = 0;
     const double *v = cps_motion_velocity(r->motion);
-    for (int i = 0; i < r->rope->rope.nodes; i++) most = fmax(most, hypot(v[2 * i], v[2 * i + 1]));
+    for (int i = 0; i < r->rope->rope.node_count; i++)
+        most = fmax(most, hypot(v[2 * i], v[2 * i + 1]));
     return most;
 }
 
@@ -39,20 +40,20 @@ static void measure(const RopeRun *r, double *length, double *sliding, double *t
     const CpsRope *rope = &r->rope->rope;
     const double *v = cps_motion_velocity(r->motion), rest = REST * fastest(r);
     *length = *sliding = *tension = 0;
-    for (int i = 0; i + 1 < rope->nodes; i++) {
+    for (int i = 0; i + 1 < rope->node_count; i++) {
         const double *x = rope->node + 2 * (size_t)i, l = hypot(x[2] - x[0], x[3] - x[1]);
         int slide = 0;
         for (int k = 0; k < 2; k++) slide += hypot(v[2 * (i + k)], v[2 * (i + k) + 1]) > rest;
         *length += l;
         *sliding += 0.5 * slide * l;
-        *tension = fmax(*tension, -cps_motion_law_force(r->motion, rope->nodes + i)[0]);
+        *tension = fmax(*tension, -cps_motion_law_force(r->motion, rope->node_count + i)[0]);
     }
 }
 
 static void json_rope(const RopeRun *r, double length, double sliding, double tension) {
     const CpsRope *rope = &r->rope->rope;
     const CpsMotionReport p = cps_motion_report(r->motion);
-    printf(", \"nodes\": %d", rope->nodes);
+    printf(", \"nodes\": %d", rope->node_count);
     drive_json_word("outcome", cps_motion_outcome_name(p.outcome));
     drive_json("gamma_W", p.value);
     drive_json("lower_W", p.lower);
@@ -60,11 +61,11 @@ static void json_rope(const RopeRun *r, double length, double sliding, double te
     drive_json("length_m", length);
     drive_json("sliding_m", sliding);
     drive_json("tension_max_N", tension);
-    drive_json_rows("velocity", 2, rope->nodes, cps_motion_velocity(r->motion));
+    drive_json_rows("velocity", 2, rope->node_count, cps_motion_velocity(r->motion));
     fputs(", \"tension_N\": [", stdout);
-    for (int i = 0; i + 1 < rope->nodes; i++) {
+    for (int i = 0; i + 1 < rope->node_count; i++) {
         if (i) fputs(", ", stdout);
-        law_json_number(-cps_motion_law_force(r->motion, rope->nodes + i)[0], stdout);
+        law_json_number(-cps_motion_law_force(r->motion, rope->node_count + i)[0], stdout);
     }
     putchar(']');
     drive_json_list("resistance_N", 2 * (rope->driven[0] + rope->driven[1]),
@@ -89,7 +90,7 @@ static void print_velocity(const RopeRun *r) {
         return;
     }
     printf("rope of %.6g m on %d elements, friction %.6g N/m; end B moves with (%.6g, %.6g) m/s\n",
-           length, r->rope->rope.nodes - 1, r->rope->rope.resistance,
+           length, r->rope->rope.node_count - 1, r->rope->rope.resistance,
            r->rope->driving[r->rope->rope.driven[0] ? 2 : 0],
            r->rope->driving[r->rope->rope.driven[0] ? 3 : 1]);
     printf("  gamma = %.10g W, proved between bounds %.2g W apart\n", p.value, p.upper - p.lower);
@@ -104,7 +105,7 @@ static void print_velocity(const RopeRun *r) {
 /* ---- along the path ---- */
 
 static void keep_shot(RopeRun *r, const double *position, size_t stride) {
-    const size_t nodes = (size_t)r->rope->rope.nodes;
+    const size_t nodes = (size_t)r->rope->rope.node_count;
     double *to = r->shot + (size_t)r->shots++ * 2 * nodes;
     for (size_t i = 0; i < nodes; i++) {
         to[2 * i] = position[stride * i];
@@ -116,7 +117,7 @@ static void keep_shot(RopeRun *r, const double *position, size_t stride) {
 static bool step_through(RopeRun *r, CpsEvolution *evolution) {
     const int steps = r->rope->steps, wanted = r->rope->shots;
     Progress progress =
-        progress_begin(steps, r->run->options->quiet || steps * r->rope->rope.nodes < 20000);
+        progress_begin(steps, r->run->options->quiet || steps * r->rope->rope.node_count < 20000);
     bool good = true;
     for (int i = 1; i <= steps && good && cps_evolution_remaining(evolution) > 0; i++) {
         good = cps_evolution_step(evolution, &r->run->err) == CPS_OK;
@@ -140,7 +141,7 @@ static bool step_through(RopeRun *r, CpsEvolution *evolution) {
 /* the rope and its path as a scene, in the caller's arrays */
 static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *element,
                             CpsChange *change, CpsStage *stage, CpsEvolution **out, CpsError *err) {
-    const int nodes = rope->rope.nodes, steps = rope->steps;
+    const int nodes = rope->rope.node_count, steps = rope->steps;
     CpsObstacle table = cps_obstacle_default();
     table.name = "table";
     table.friction = rope->friction;
@@ -169,7 +170,10 @@ static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *elem
     for (int i = 0; i < steps; i++) {
         change[i] =
             (CpsChange){0, CPS_END_B, {CPS_END_HELD, {path[2 * i + 2], path[2 * i + 3], 0}}};
-        stage[i] = (CpsStage){.name = "pull", .steps = 1, .change_count = 1, .change = &change[i]};
+        stage[i] = cps_stage_default();
+        stage[i].name = "pull";
+        stage[i].change_count = 1;
+        stage[i].change = &change[i];
     }
     CpsScene scene = cps_scene_default();
     scene.obstacle_count = scene.line_count = 1;
@@ -181,7 +185,7 @@ static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *elem
 }
 
 static bool follow_path(RopeRun *r) {
-    const size_t nodes = (size_t)r->rope->rope.nodes, steps = (size_t)r->rope->steps;
+    const size_t nodes = (size_t)r->rope->rope.node_count, steps = (size_t)r->rope->steps;
     double *number = calloc(4 * nodes + 2 * (steps + 1), sizeof *number);
     CpsChange *change = calloc(steps, sizeof *change);
     CpsStage *stage = calloc(steps, sizeof *stage);
@@ -203,7 +207,7 @@ static bool follow_path(RopeRun *r) {
 }
 
 static void print_path(const RopeRun *r) {
-    const int last = r->shots - 1, nodes = r->rope->rope.nodes;
+    const int last = r->shots - 1, nodes = r->rope->rope.node_count;
     if (cps_outcome_is_final(r->outcome))
         r->run->none = true;
     else

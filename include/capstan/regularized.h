@@ -29,6 +29,7 @@ extern "C" {
 /* P5.5 with its four parameters. The stiffness enters the energy as (1/2n) |x''|^2, so that (46)
  * holds as printed. */
 typedef struct CpsRegularizedParameters {
+    uint32_t cookie; /* of one of the three calls below; parameters made otherwise are refused */
     int cells; /* N of (47)-(48), h = length/N; 0: the step's own elements, each with one slope x'
                 */
     double penalty;   /* [N/m2] lambda > 0: energy (lambda/2) (penetration)^2 per length */
@@ -36,6 +37,8 @@ typedef struct CpsRegularizedParameters {
                          condition on x'(0) */
     double delta;     /* [m] > 0: friction energy A sqrt(delta^2 + |u_T|^2) per length */
 } CpsRegularizedParameters;
+/* All 0: penalty and delta are still to be set. */
+CPS_API CpsRegularizedParameters cps_regularized_parameters_default(void);
 
 /* One solve: how it went, its energies, how far it is from the step's solution, and what its
  * parameters leave. */
@@ -162,7 +165,8 @@ typedef struct CpsStudyRow {
 } CpsStudyRow;
 
 typedef struct CpsStudyOptions {
-    CpsRegularizedParameters from;        /* cells: of the coarsest external approximation */
+    uint32_t cookie;               /* of the two calls below; options made otherwise are refused */
+    CpsRegularizedParameters from; /* cells: of the coarsest external approximation */
     int values[CPS_STUDY_STAGE_COUNT];    /* solves per stage, 1..64 */
     double factor[CPS_STUDY_STAGE_COUNT]; /* each value is the one before it divided by this, > 1;
                                              h: 2 */
@@ -172,7 +176,7 @@ typedef struct CpsStudyOptions {
 typedef struct CpsStudy CpsStudy;
 
 /* From coarse parameters down to cps_regularized_fine. */
-CPS_API CpsStudyOptions cps_study_options(const CpsRegularized *classic);
+CPS_API CpsStudyOptions cps_study_options_default(const CpsRegularized *classic);
 
 /* Down to parameters of one's own, by factors of 10 at most.
  *

@@ -136,6 +136,7 @@ typedef struct CpsTurn {
 
 /* An entry of the history, reached in `steps` equal load steps. */
 typedef struct CpsStage {
+    uint32_t cookie; /* of cps_stage_default(); a stage made otherwise is refused */
     const char *name;
     int steps; /* >= 1 */
     int change_count;
@@ -194,6 +195,7 @@ typedef struct CpsScene {
 CPS_API CpsScene cps_scene_default(void);
 CPS_API CpsLine cps_line_default(void);
 CPS_API CpsObstacle cps_obstacle_default(void);
+CPS_API CpsStage cps_stage_default(void); /* one step in which nothing changes; without a name */
 
 /* Check everything that can be known before solving.
  *

@@ -15,7 +15,12 @@
 #include "evolve/start.h"
 #include "geometry/obstacle.h"
 
-enum { SCENE_COOKIE = 0x5ce9e501, LINE_COOKIE = 0x11e00e02, OBSTACLE_COOKIE = 0x0b57ac03 };
+enum {
+    SCENE_COOKIE = 0x5ce9e501,
+    LINE_COOKIE = 0x11e00e02,
+    OBSTACLE_COOKIE = 0x0b57ac03,
+    STAGE_COOKIE = 0x57a9e004
+};
 
 /* A start shape must be as long as the line to this relative accuracy: lengths written with 9
  * digits pass. */
@@ -67,6 +72,8 @@ CpsObstacle cps_obstacle_default(void) {
         .friction_lateral = -1,
     };
 }
+
+CpsStage cps_stage_default(void) { return (CpsStage){.cookie = STAGE_COOKIE, .steps = 1}; }
 
 /* ---- the check ----
  *
@@ -534,6 +541,8 @@ static CpsStatus check_turns(const CpsScene *scene, int index, CpsError *err) {
 /* An entry of the history; `steps` counts those of all so far. */
 static CpsStatus check_stage(const CpsScene *scene, int k, int64_t *steps, CpsError *err) {
     const CpsStage *stage = &scene->stage[k];
+    if (stage->cookie != STAGE_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: not made by cps_stage_default()", k + 1);
     if (!stage->name || !stage->name[0])
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: it has no name", k + 1);
     if (stage->steps < 1)

@@ -8,11 +8,15 @@
 #include "base/status.h"
 #include "planar/planar.h"
 
+enum { PATCH_COOKIE = 0x1a7c4a11 };
+
 static const double TWO_PI = 2 * CPSI_PI;
 
 /* Three corners of a convex polygon count as collinear up to this share of the product of two
  * sides. */
 static const double STRAIGHT = 1e-12;
+
+CpsPatch cps_patch_default(void) { return (CpsPatch){.cookie = PATCH_COOKIE}; }
 
 /* ---- checks of one patch, under its name: "patch 2" ---- */
 
@@ -33,6 +37,8 @@ static CpsStatus check_tilt(const char *name, const CpsPatch *patch, CpsError *e
 }
 
 static CpsStatus check_numbers(const char *name, const CpsPatch *patch, CpsError *err) {
+    if (patch->cookie != PATCH_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s was not made by cps_patch_default()", name);
     if ((unsigned)patch->kind > CPS_PATCH_POLYGON)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s has kind %d, which is none of CpsPatchKind",
                          name, (int)patch->kind);
@@ -173,14 +179,13 @@ static CpsStatus place_patch(const char *name, const CpsPatch *patch, double *co
     return CPS_OK;
 }
 
-/* The name of a patch in messages: `alone`, or its number from 0 where that is NULL. */
-static const char *patch_name(const char *alone, int k, char number[32]) {
-    snprintf(number, 32, "patch %d", k);
-    return alone ? alone : number;
+/* The name of patch k in messages. */
+static const char *patch_name(int k, char name[32]) {
+    snprintf(name, 32, "patch %d", k);
+    return name;
 }
 
-static CpsStatus create(int count, const CpsPatch *patch, const char *alone, CpsPlanar **out,
-                        CpsError *err) {
+CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out, CpsError *err) {
     if (!patch || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch or out is NULL");
     if (count < 1 || count > CPS_PLANAR_MAX_PATCHES)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d patches given, expected from 1 to %d", count,
@@ -189,8 +194,8 @@ static CpsStatus create(int count, const CpsPatch *patch, const char *alone, Cps
     size_t corners = 0;
     char name[32];
     for (int k = 0; k < count && status == CPS_OK; k++) {
-        status = check_patch(patch_name(alone, k, name), &patch[k], err);
-        if (status != CPS_OK && !alone) cpsi_fail_inside(err, status, "patch[%d]", k + 1);
+        status = check_patch(patch_name(k, name), &patch[k], err);
+        if (status != CPS_OK) cpsi_fail_inside(err, status, "patch[%d]", k + 1);
         if (status == CPS_OK && patch[k].kind == CPS_PATCH_POLYGON)
             corners += (size_t)patch[k].corner_count;
     }
@@ -207,8 +212,8 @@ static CpsStatus create(int count, const CpsPatch *patch, const char *alone, Cps
     body->corner = corner;
     for (int k = 0; k < count && status == CPS_OK; k++) {
         CpsiPatch *to = &body->patch[k];
-        status = place_patch(patch_name(alone, k, name), &patch[k], corner, to, err);
-        if (status != CPS_OK && !alone) cpsi_fail_inside(err, status, "patch[%d]", k + 1);
+        status = place_patch(patch_name(k, name), &patch[k], corner, to, err);
+        if (status != CPS_OK) cpsi_fail_inside(err, status, "patch[%d]", k + 1);
         corner += 2 * to->corner_count;
         const double extent = patch[k].kind == CPS_PATCH_WHEEL ? 0 : to->size;
         body->reach = fmax(body->reach, hypot(to->position[0], to->position[1]) + extent);
@@ -221,15 +226,17 @@ static CpsStatus create(int count, const CpsPatch *patch, const char *alone, Cps
     return status;
 }
 
-CpsStatus cps_planar_create(int count, const CpsPatch *patch, CpsPlanar **out, CpsError *err) {
-    return create(count, patch, NULL, out, err);
-}
-
 CpsStatus cps_patch_check(const CpsPatch *patch, CpsError *err) {
-    CpsPlanar *body = NULL;
-    const CpsStatus status = create(1, patch, "this patch", &body, err);
-    cps_planar_destroy(body);
-    return status;
+    const char *name = "this patch";
+    if (!patch) return cpsi_fail(err, CPS_ERR_ARGUMENT, "patch is NULL");
+    const CpsStatus status = check_patch(name, patch, err);
+    if (status != CPS_OK || patch->kind != CPS_PATCH_POLYGON) return status;
+    double *corner = malloc(2 * (size_t)patch->corner_count * sizeof *corner);
+    if (!corner) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    CpsiPatch placed;
+    const CpsStatus fits = place_patch(name, patch, corner, &placed, err);
+    free(corner);
+    return fits;
 }
 
 void cps_planar_destroy(CpsPlanar *body) {

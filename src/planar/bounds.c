@@ -62,7 +62,7 @@ static bool bound_area(const CpsiPatch *patch, const double velocity[2], double 
         if (near || n >= most) {
             bounds->lower += lower * fastest;
             bounds->upper += upper * fastest;
-            bounds->cells += cpsi_cell_count(patch, n);
+            bounds->cell_count += cpsi_cell_count(patch, n);
             return near;
         }
         const double wanted = n * sqrt(gap / (0.8 * tolerance * upper));
@@ -95,7 +95,7 @@ CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double
         const double slack = friction.gap + ROUNDING * friction.power;
         found.lower += fmax(friction.power - slack, 0);
         found.upper += friction.power + slack;
-        found.cells++;
+        found.cell_count++;
     }
     if (status == CPS_OK) *bounds = found;
     return status;

@@ -22,8 +22,15 @@
 /* Arms nearer than this to being stretched or folded are refused, relative to their length. */
 static const double MARGIN = 1e-6;
 
-static CpsStatus check(const CpsPlanimeter *p, int count, const double *point, int steps,
-                       CpsError *err) {
+enum { PLANIMETER_COOKIE = 0x11a1a5e0 };
+
+CpsPlanimeter cps_planimeter_default(void) { return (CpsPlanimeter){.cookie = PLANIMETER_COOKIE}; }
+
+static CpsStatus check_numbers(const CpsPlanimeter *p, int count, const double *point,
+                               CpsError *err) {
+    if (p->cookie != PLANIMETER_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the planimeter was not made by cps_planimeter_default()");
     const double number[7] = {p->pole[0], p->pole[1],  p->pole_arm, p->tracer_arm,
                               p->wheel,   p->friction, p->load};
     CpsStatus status = cpsi_law_check_vector("planimeter", 7, number, err);
@@ -37,9 +44,7 @@ static CpsStatus check(const CpsPlanimeter *p, int count, const double *point, i
                          "friction %g and load %g N of the wheel, expected more than 0: what turns "
                          "it is friction",
                          p->friction, p->load);
-    if (count < 3 || steps < 1)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d points and %d steps, expected at least 3 and 1",
-                         count, steps);
+    if (count < 3) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d points, expected at least 3", count);
     if (point)
         for (int i = 0; i < count; i++)
             if (!isfinite(point[2 * i]) || !isfinite(point[2 * i + 1]))
@@ -91,38 +96,54 @@ static void roll_wheel(const CpsPlanimeter *p, const Arms *from, const Arms *to,
     sum->arm_turns += turned;
 }
 
+/* The tracer is between two points of the curve, or at the second of them. */
+static CpsStatus out_of_reach(const CpsPlanimeter *p, const double tracer[2], int from, int to,
+                              CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                     "the tracer cannot reach (%g, %g), between points %d and %d: the "
+                     "arms of %g m and %g m are too short or too unequal",
+                     tracer[0], tracer[1], from, to, p->pole_arm, p->tracer_arm);
+}
+
+CpsStatus cps_planimeter_check(const CpsPlanimeter *planimeter, int count, const double *point,
+                               CpsError *err) {
+    if (!planimeter) return cpsi_fail(err, CPS_ERR_ARGUMENT, "planimeter is NULL");
+    const CpsStatus status = check_numbers(planimeter, count, point, err);
+    if (status != CPS_OK) return status;
+    Arms arms;
+    if (!place_arms(planimeter, point, &arms))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tracer cannot reach the first point (%g, %g)",
+                         point[0], point[1]);
+    for (int i = 1; i < count; i++)
+        if (!place_arms(planimeter, point + 2 * i, &arms))
+            return out_of_reach(planimeter, point + 2 * i, i - 1, i, err);
+    return CPS_OK;
+}
+
 CpsStatus cps_planimeter_trace(const CpsPlanimeter *planimeter, int count, const double *point,
                                int steps, CpsPlanimeterReading *reading, CpsError *err) {
-    if (!planimeter || !reading)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "planimeter or reading is NULL");
-    const CpsStatus status = check(planimeter, count, point, steps, err);
+    if (!reading) return cpsi_fail(err, CPS_ERR_ARGUMENT, "reading is NULL");
+    const CpsStatus status = cps_planimeter_check(planimeter, count, point, err);
     if (status != CPS_OK) return status;
+    if (steps < 1) return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d steps, expected at least 1", steps);
 
     CpsPlanimeterReading sum = {0};
     Arms arms, next;
     const double *origin = point;
-    bool reached = place_arms(planimeter, point, &arms);
-    for (int i = 0; i < count && reached; i++) {
+    place_arms(planimeter, point, &arms);
+    for (int i = 0; i < count; i++) {
         const double *a = point + 2 * i, *b = point + 2 * ((i + 1) % count);
-        for (int s = 1; s <= steps && reached; s++) {
+        for (int s = 1; s <= steps; s++) {
             const double t = (double)s / steps,
                          tracer[2] = {(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]};
-            reached = place_arms(planimeter, tracer, &next);
-            if (!reached)
-                return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                                 "the tracer cannot reach (%g, %g), between points %d and %d: the "
-                                 "arms of %g m and %g m are too short or too unequal",
-                                 tracer[0], tracer[1], i, (i + 1) % count, planimeter->pole_arm,
-                                 planimeter->tracer_arm);
+            if (!place_arms(planimeter, tracer, &next))
+                return out_of_reach(planimeter, tracer, i, (i + 1) % count, err);
             roll_wheel(planimeter, &arms, &next, &sum);
             arms = next;
         }
         sum.exact += 0.5 * cross((double[2]){a[0] - origin[0], a[1] - origin[1]},
                                  (double[2]){b[0] - origin[0], b[1] - origin[1]});
     }
-    if (!reached)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tracer cannot reach the first point (%g, %g)",
-                         point[0], point[1]);
 
     /* the curve is closed, so the angles change by whole turns */
     const double a = planimeter->pole_arm, l = planimeter->tracer_arm;

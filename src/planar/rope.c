@@ -11,17 +11,24 @@
 
 #include "base/status.h"
 
+enum { ROPE_COOKIE = 0x40be1a5e };
+
+CpsRope cps_rope_default(void) { return (CpsRope){.cookie = ROPE_COOKIE}; }
+
 CpsStatus cps_rope_check(const CpsRope *rope, CpsError *err) {
+    if (rope && rope->cookie != ROPE_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the rope was not made by cps_rope_default()");
     if (!rope || !rope->node) return cpsi_fail(err, CPS_ERR_ARGUMENT, "rope or its nodes are NULL");
-    if (rope->nodes < 2)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "found %d nodes, expected at least 2", rope->nodes);
-    if (rope->nodes > CPS_ROPE_MAX_NODES)
-        return cpsi_fail(err, CPS_ERR_LIMIT, "found %d nodes, at most %d", rope->nodes,
+    if (rope->node_count < 2)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "found %d nodes, expected at least 2",
+                         rope->node_count);
+    if (rope->node_count > CPS_ROPE_MAX_NODES)
+        return cpsi_fail(err, CPS_ERR_LIMIT, "found %d nodes, at most %d", rope->node_count,
                          CPS_ROPE_MAX_NODES);
     if (!(rope->resistance >= 0) || !isfinite(rope->resistance))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "found resistance %g N/m, expected at least 0",
                          rope->resistance);
-    for (int i = 0; i + 1 < rope->nodes; i++) {
+    for (int i = 0; i + 1 < rope->node_count; i++) {
         const double *x = rope->node + 2 * (size_t)i, length = hypot(x[2] - x[0], x[3] - x[1]);
         if (!(length > 0) || !isfinite(length))
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -46,9 +53,9 @@ static CpsStatus add_nodes(CpsSystem *system, const CpsRope *rope, CpsError *err
     double last = -1;
     char name[32];
     CpsStatus status = CPS_OK;
-    for (int i = 0; i < rope->nodes && status == CPS_OK; i++) {
+    for (int i = 0; i < rope->node_count && status == CPS_OK; i++) {
         const double before = i > 0 ? element_length(rope, i - 1) : 0;
-        const double after = i + 1 < rope->nodes ? element_length(rope, i) : 0;
+        const double after = i + 1 < rope->node_count ? element_length(rope, i) : 0;
         const double radius = 0.5 * rope->resistance * (before + after);
         const CpsEntry map[] = {{0, 2 * i, 1}, {1, 2 * i + 1, 1}};
         /* lengths that differ only by rounding are equal */
@@ -71,7 +78,7 @@ static CpsStatus add_elements(CpsSystem *system, const CpsRope *rope, CpsError *
     char name[32];
     CpsStatus status = cps_set_interval(-INFINITY, rope->slack ? 0 : INFINITY, &pull, err);
     if (status == CPS_OK) status = cps_law_friction(pull, &law, err);
-    for (int i = 0; i + 1 < rope->nodes && status == CPS_OK; i++) {
+    for (int i = 0; i + 1 < rope->node_count && status == CPS_OK; i++) {
         const double *x = rope->node + 2 * (size_t)i, length = element_length(rope, i);
         const double tx = (x[2] - x[0]) / length, ty = (x[3] - x[1]) / length;
         const CpsEntry map[] = {{0, 2 * i, -tx},
@@ -92,7 +99,7 @@ static CpsStatus set_drive(CpsSystem *system, const CpsRope *rope, CpsError *err
     for (int end = 0; end < 2; end++)
         if (rope->driven[end])
             for (int k = 0; k < 2; k++, rows++)
-                map[rows] = (CpsEntry){rows, (end ? 2 * (rope->nodes - 1) : 0) + k, 1};
+                map[rows] = (CpsEntry){rows, (end ? 2 * (rope->node_count - 1) : 0) + k, 1};
     return rows ? cps_system_set_drive(system, rows, rows, map, err) : CPS_OK;
 }
 
@@ -101,7 +108,7 @@ CpsStatus cps_rope_system(const CpsRope *rope, CpsSystem **out, CpsError *err) {
     *out = NULL;
     CpsSystem *system = NULL;
     CpsStatus status = cps_rope_check(rope, err);
-    if (status == CPS_OK) status = cps_system_create(2 * rope->nodes, &system, err);
+    if (status == CPS_OK) status = cps_system_create(2 * rope->node_count, &system, err);
     if (status == CPS_OK) status = add_nodes(system, rope, err);
     if (status == CPS_OK) status = add_elements(system, rope, err);
     if (status == CPS_OK) status = set_drive(system, rope, err);

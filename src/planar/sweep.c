@@ -13,12 +13,16 @@
 #include "base/status.h"
 #include "planar/planar.h"
 
-enum { MOST = 3 };
+enum { MOST = 3, SWEEP_COOKIE = 0x5eeb1a5e };
+
+CpsSweep cps_sweep_default(void) { return (CpsSweep){.cookie = SWEEP_COOKIE}; }
 
 CpsStatus cps_sweep_step(const CpsLaw *law, CpsSweep *sweep, const double *end, CpsSweepStep *step,
                          CpsError *err) {
     if (!law || !sweep || !step)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, sweep or step is NULL");
+    if (sweep->cookie != SWEEP_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the sweep was not made by cps_sweep_default()");
     const int n = cps_law_space(law);
     if (n > MOST)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the law has %d components, expected at most %d", n,

@@ -59,7 +59,13 @@ void cps_planar_move(double pose[3], const double twist[3]) {
     pose[2] += twist[2];
 }
 
+enum { TOW_COOKIE = 0x70ed1a5e };
+
+CpsTow cps_tow_default(void) { return (CpsTow){.cookie = TOW_COOKIE}; }
+
 static CpsStatus check(const CpsTow *tow, const double target[2], CpsError *err) {
+    if (tow->cookie != TOW_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "the tow was not made by cps_tow_default()");
     const double state[10] = {tow->pose[0],  tow->pose[1],   tow->pose[2], tow->hitch[0],
                               tow->hitch[1], tow->rope,      tow->end[0],  tow->end[1],
                               tow->work,     tow->dissipated};

@@ -50,13 +50,20 @@ CpsRegularizedStep cps_regularized_step(const CpsRegularized *classic) {
                                 .tension = step->own.tension};
 }
 
+enum { PARAMETERS_COOKIE = 0x0e901a12 };
+
+CpsRegularizedParameters cps_regularized_parameters_default(void) {
+    return (CpsRegularizedParameters){.cookie = PARAMETERS_COOKIE};
+}
+
 CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *classic) {
     if (!classic) return (CpsRegularizedParameters){0};
     const CpsiStep *step = &classic->step;
     double load = 0;
     for (int k = 0; k < 3 * (step->own.cells + 1); ++k) load += fabs(step->own.load[k]);
     const double per_length = fmax(load, 1e-3 * step->force) / step->length;
-    return (CpsRegularizedParameters){.cells = COARSE_CELLS,
+    return (CpsRegularizedParameters){.cookie = PARAMETERS_COOKIE,
+                                      .cells = COARSE_CELLS,
                                       /* the line sinks in by a tenth of its length */
                                       .penalty = 10 * per_length / step->length,
                                       /* the line bends under its own weight */
@@ -158,6 +165,10 @@ static void follow(CpsRegularized *c, CpsRegularizedParameters from,
 }
 
 static CpsStatus check(const CpsRegularizedParameters *p, int max_iterations, CpsError *err) {
+    if (p->cookie != PARAMETERS_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the parameters were not made by cps_regularized_parameters_default(), "
+                         "_coarse() or _fine()");
     if (p->cells != 0 && !(p->cells >= 2 && p->cells <= MAX_CELLS))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "cells: found %d, expected 0 (the step's elements) or 2 to %d", p->cells,

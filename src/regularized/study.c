@@ -56,10 +56,13 @@ static int divisions(double ratio, double *factor) {
     return count;
 }
 
+enum { OPTIONS_COOKIE = 0x57d01a12 };
+
 CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
                                      const CpsRegularizedParameters *to) {
     if (!classic || !to) return (CpsStudyOptions){0};
-    CpsStudyOptions options = {.from = cps_regularized_coarse(classic),
+    CpsStudyOptions options = {.cookie = OPTIONS_COOKIE,
+                               .from = cps_regularized_coarse(classic),
                                .factor = {2, 10, 10, 10},
                                .max_iterations = NEWTON_LIMIT};
     CpsRegularizedParameters *from = &options.from;
@@ -97,7 +100,7 @@ CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
     return options;
 }
 
-CpsStudyOptions cps_study_options(const CpsRegularized *classic) {
+CpsStudyOptions cps_study_options_default(const CpsRegularized *classic) {
     if (!classic) return (CpsStudyOptions){0};
     const CpsRegularizedParameters fine = cps_regularized_fine(classic);
     return cps_study_options_to(classic, &fine);
@@ -238,6 +241,9 @@ static CpsStatus run_stages(CpsRegularized *classic, const CpsStudyOptions *opti
 }
 
 static CpsStatus check(const CpsStudyOptions *options, CpsError *err) {
+    if (options->cookie != OPTIONS_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the options were not made by cps_study_options_default()");
     for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
         const char *key = cps_study_stage_name((CpsStudyStage)s);
         if (!(options->values[s] >= 1 && options->values[s] <= MAX_VALUES))

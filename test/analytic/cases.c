@@ -60,8 +60,11 @@ static void add(Case *c, int steps, CpsEndKind kind, double x, double y, double 
     int s = c->scene.stage_count++;
     assert_true(s < CASE_STAGES);
     c->change[s] = (CpsChange){.end = CPS_END_B, .to = {.kind = kind, .value = {x, y, z}}};
-    c->stage[s] =
-        (CpsStage){.name = "stage", .steps = steps, .change_count = 1, .change = &c->change[s]};
+    c->stage[s] = (CpsStage){.cookie = cps_stage_default().cookie,
+                             .name = "stage",
+                             .steps = steps,
+                             .change_count = 1,
+                             .change = &c->change[s]};
 }
 
 void case_force(Case *c, int steps, double x, double y, double z) {

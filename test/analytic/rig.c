@@ -82,7 +82,8 @@ void rig_end(Rig *rig, int end, CpsEndKind kind, double x, double y, double z) {
 void rig_stage(Rig *rig, int steps) {
     const int s = rig->scene.stage_count++;
     assert_true(s < RIG_STAGES);
-    rig->stage[s] = (CpsStage){.name = "stage",
+    rig->stage[s] = (CpsStage){.cookie = cps_stage_default().cookie,
+                               .name = "stage",
                                .steps = steps,
                                .change = rig->change[s],
                                .turn = &rig->turn[s]};

@@ -25,7 +25,8 @@ static void let_go(Case *c, int end) { c->line.end[end] = (CpsEnd){.kind = CPS_E
 
 /* A step named so that changes nothing. */
 static void hold(Case *c, int steps) {
-    c->stage[c->scene.stage_count++] = (CpsStage){.name = "nothing", .steps = steps};
+    c->stage[c->scene.stage_count++] =
+        (CpsStage){.cookie = cps_stage_default().cookie, .name = "nothing", .steps = steps};
 }
 
 static CpsPlaces places(const Run *run) {

@@ -33,13 +33,18 @@ static CpsPlanar *body_of(int count, const CpsPatch *patch) {
 
 /* Unit friction force and unit size at the origin. */
 static CpsPlanar *unit_body(CpsPatchKind kind) {
-    return body_of(1, &(CpsPatch){.kind = kind, .friction = 1, .load = 1, .size = 1});
+    return body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                  .kind = kind,
+                                  .friction = 1,
+                                  .load = 1,
+                                  .size = 1});
 }
 
 static const double SQUARE[8] = {-0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5};
 
 static CpsPlanar *square_body(double tilt_x, double tilt_y) {
-    return body_of(1, &(CpsPatch){.kind = CPS_PATCH_POLYGON,
+    return body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                  .kind = CPS_PATCH_POLYGON,
                                   .friction = 1,
                                   .load = 1,
                                   .tilt = {tilt_x, tilt_y},
@@ -91,7 +96,8 @@ static void ring(void **state) {
 
     /* under linear pressure, which in pure rotation takes as much and in translation has its centre
      * off the middle */
-    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_RING,
+    body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                  .kind = CPS_PATCH_RING,
                                   .friction = 1,
                                   .load = 1,
                                   .size = 2,
@@ -137,7 +143,8 @@ static void disc(void **state) {
 
     /* under linear pressure: the force of a pure rotation is tilt a/3, the torque of a translation
      * tilt a^2/4 */
-    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_DISC,
+    body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                  .kind = CPS_PATCH_DISC,
                                   .friction = 1,
                                   .load = 1,
                                   .size = 2,
@@ -192,7 +199,8 @@ static void rod(void **state) {
 
     /* pressure that falls to 0 at one end, in pure rotation: integral of (1 + s)|s|/2 = 1/2, at any
      * heading */
-    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_ROD,
+    body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                  .kind = CPS_PATCH_ROD,
                                   .friction = 0.5,
                                   .load = 2,
                                   .size = 1,
@@ -221,7 +229,8 @@ static void polygon(void **state) {
     cps_planar_destroy(body);
 
     /* with linear pressure, turned and moved */
-    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_POLYGON,
+    body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                  .kind = CPS_PATCH_POLYGON,
                                   .position = {0.4, -1},
                                   .angle = 0.3,
                                   .friction = 0.7,
@@ -242,7 +251,8 @@ static void polygon(void **state) {
         corner[2 * i] = cos(2 * PI * i / CORNERS);
         corner[2 * i + 1] = sin(2 * PI * i / CORNERS);
     }
-    body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_POLYGON,
+    body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                  .kind = CPS_PATCH_POLYGON,
                                   .friction = 1,
                                   .load = 1,
                                   .corner_count = CORNERS,
@@ -362,9 +372,16 @@ static void driven_disc_by_cells(void **state) {
 /* ---- two supports: motions and forces that are not unique ---- */
 
 static CpsPlanar *bipod(void) {
-    const CpsPatch patch[2] = {
-        {.kind = CPS_PATCH_POINT, .position = {-1, 0}, .friction = 1, .load = 0.5},
-        {.kind = CPS_PATCH_POINT, .position = {1, 0}, .friction = 1, .load = 0.5}};
+    const CpsPatch patch[2] = {{.cookie = cps_patch_default().cookie,
+                                .kind = CPS_PATCH_POINT,
+                                .position = {-1, 0},
+                                .friction = 1,
+                                .load = 0.5},
+                               {.cookie = cps_patch_default().cookie,
+                                .kind = CPS_PATCH_POINT,
+                                .position = {1, 0},
+                                .friction = 1,
+                                .load = 0.5}};
     return body_of(2, patch);
 }
 
@@ -449,7 +466,8 @@ static const Wheel CAR[4] = {{0, 0.75, 0, 0.8, 4000, 0.3, 100},
 static CpsPlanar *car_body(void) {
     CpsPatch patch[4];
     for (int i = 0; i < 4; i++)
-        patch[i] = (CpsPatch){.kind = CPS_PATCH_WHEEL,
+        patch[i] = (CpsPatch){.cookie = cps_patch_default().cookie,
+                              .kind = CPS_PATCH_WHEEL,
                               .position = {CAR[i].x, CAR[i].y},
                               .angle = CAR[i].heading,
                               .friction = CAR[i].friction,

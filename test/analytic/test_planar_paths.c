@@ -61,7 +61,8 @@ static Towed tow_along(const CpsPlanar *body, CpsTow tow, const Arc *arc, int st
 }
 
 static CpsPatch wheel(double x, double y, double heading, double load, double brake) {
-    return (CpsPatch){.kind = CPS_PATCH_WHEEL,
+    return (CpsPatch){.cookie = cps_patch_default().cookie,
+                      .kind = CPS_PATCH_WHEEL,
                       .position = {x, y},
                       .angle = heading,
                       .friction = 0.8,
@@ -80,7 +81,7 @@ static void axle_follows_tractrix(void **state) {
     double error[3];
     for (int k = 0; k < 3; k++) {
         const int steps = 100 << k;
-        CpsTow tow = {.pose = {L, 0, PI}, .hitch = {L, 0}};
+        CpsTow tow = {.cookie = cps_tow_default().cookie, .pose = {L, 0, PI}, .hitch = {L, 0}};
         CpsTowStep step;
         for (int i = 1; i <= steps; i++) {
             assert_int_equal(cps_planar_tow(body, &tow, (double[2]){0, 4.0 * i / steps}, &step,
@@ -110,7 +111,8 @@ static void axle_on_a_circle(void **state) {
     const CpsPatch axle[2] = {wheel(0, 0.75, 0, 4000, 0), wheel(0, -0.75, 0, 4000, 0)};
     CpsPlanar *body = body_of(2, axle);
     const Arc arc = {.start = {2.5, 0}, .radius = 10, .angle = 3};
-    const Towed towed = tow_along(body, (CpsTow){.hitch = {2.5, 0}}, &arc, 400);
+    const Towed towed =
+        tow_along(body, (CpsTow){.cookie = cps_tow_default().cookie, .hitch = {2.5, 0}}, &arc, 400);
     CHECK_INT(towed.not_converged, 0);
     CHECK_RELATIVE(towed.radius, sqrt(100 - 6.25), 2e-5);
     CHECK_LESS(towed.worst_hitch,
@@ -129,7 +131,8 @@ static void towed_car(void **state) {
     const Arc arc = {.start = {3.2, 0}, .radius = 15, .angle = 2};
     Towed towed[4];
     for (int k = 0; k < 4; k++)
-        towed[k] = tow_along(body, (CpsTow){.hitch = {3.2, 0}}, &arc, 200 << k);
+        towed[k] = tow_along(body, (CpsTow){.cookie = cps_tow_default().cookie, .hitch = {3.2, 0}},
+                             &arc, 200 << k);
 
     /* 200 against 1600 steps: within 1 % asked; second order gives 1e-4 of that */
     CHECK_RELATIVE(towed[0].radius, towed[3].radius, 1e-5);
@@ -161,8 +164,12 @@ static void towed_car_on_a_rope(void **state) {
     const Arc arc = {.start = {6.2, 0}, .radius = 15, .angle = 2};
     Towed towed[2];
     for (int k = 0; k < 2; k++)
-        towed[k] = tow_along(body, (CpsTow){.hitch = {3.2, 0}, .rope = 3, .end = {6.2, 0}}, &arc,
-                             100 << k);
+        towed[k] = tow_along(body,
+                             (CpsTow){.cookie = cps_tow_default().cookie,
+                                      .hitch = {3.2, 0},
+                                      .rope = 3,
+                                      .end = {6.2, 0}},
+                             &arc, 100 << k);
     CHECK_GREATER(towed[0].not_converged, 0);
     CHECK_LESS(towed[0].worst_gap, 1e-12 * towed[0].tow.work);
     CHECK_RELATIVE(towed[0].radius, towed[1].radius, 0.01);
@@ -176,7 +183,8 @@ static void towed_car_on_a_rope(void **state) {
 static void plate_on_a_rope(void **state) {
     (void)state;
     static const double SQUARE[8] = {-0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5};
-    CpsPlanar *body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_POLYGON,
+    CpsPlanar *body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                             .kind = CPS_PATCH_POLYGON,
                                              .friction = 0.5,
                                              .load = 2,
                                              .corner_count = 4,
@@ -184,8 +192,12 @@ static void plate_on_a_rope(void **state) {
     const Arc arc = {.start = {0.9, 0}, .radius = 1, .angle = 2};
     Towed towed[3];
     for (int k = 0; k < 3; k++)
-        towed[k] = tow_along(body, (CpsTow){.hitch = {0.5, 0}, .rope = 0.4, .end = {0.9, 0}}, &arc,
-                             100 << k);
+        towed[k] = tow_along(body,
+                             (CpsTow){.cookie = cps_tow_default().cookie,
+                                      .hitch = {0.5, 0},
+                                      .rope = 0.4,
+                                      .end = {0.9, 0}},
+                             &arc, 100 << k);
     for (int i = 0; i < 3; i++) {
         const double first = towed[1].tow.pose[i] - towed[0].tow.pose[i],
                      then = towed[2].tow.pose[i] - towed[1].tow.pose[i];
@@ -214,7 +226,7 @@ static void spring_draws_tractrix(void **state) {
     assert_int_equal(cps_law_coulomb(0.5, 2, &law, NULL), CPS_OK);
     for (int k = 0; k < 3; k++) {
         const int steps = 1000 << k;
-        CpsSweep sweep = {.stiffness = 1, .position = {1, 0}};
+        CpsSweep sweep = {.cookie = cps_sweep_default().cookie, .stiffness = 1, .position = {1, 0}};
         CpsSweepStep step;
         for (int i = 1; i <= steps; i++) {
             assert_int_equal(cps_sweep_step(law, &sweep, (double[2]){0, 2.0 * i / steps}, &step,
@@ -246,7 +258,7 @@ static void spring_on_a_ski(void **state) {
     double defect[2];
     for (int k = 0; k < 2; k++) {
         const int steps = 250 << k;
-        CpsSweep sweep = {.stiffness = 4};
+        CpsSweep sweep = {.cookie = cps_sweep_default().cookie, .stiffness = 4};
         CpsSweepStep step;
         for (int i = 1; i <= steps; i++) {
             const double a = 2 * PI * i / steps;
@@ -278,7 +290,7 @@ static void play_loop(void **state) {
     assert_int_equal(cps_set_interval(-1, 1, &interval, NULL), CPS_OK);
     assert_int_equal(cps_law_friction(interval, &law, NULL), CPS_OK);
     for (int quarter = 40; quarter <= 97; quarter += 57) {
-        CpsSweep sweep = {.stiffness = 2};
+        CpsSweep sweep = {.cookie = cps_sweep_default().cookie, .stiffness = 2};
         CpsSweepStep step;
         double work = 0, dissipated = 0;
         for (int i = 1; i <= 12 * quarter; i++) {
@@ -306,8 +318,12 @@ static void play_loop(void **state) {
 /* ---- planimeter ---- */
 
 static CpsPlanimeterReading trace_circle(double x, double y, double radius, int count) {
-    const CpsPlanimeter planimeter = {
-        .pole_arm = 1, .tracer_arm = 1.3, .wheel = 0.4, .friction = 0.3, .load = 2};
+    const CpsPlanimeter planimeter = {.cookie = cps_planimeter_default().cookie,
+                                      .pole_arm = 1,
+                                      .tracer_arm = 1.3,
+                                      .wheel = 0.4,
+                                      .friction = 0.3,
+                                      .load = 2};
     double *point = malloc(2 * (size_t)count * sizeof *point);
     assert_non_null(point);
     for (int i = 0; i < count; i++) {
@@ -376,8 +392,12 @@ static void place_wheel(const CpsPlanimeter *planimeter, const double *tracer, d
 static void planimeter_on_a_polygon(void **state) {
     (void)state;
     static const double POINT[10] = {0.6, 0.1, 1.6, 0.2, 1.7, 0.9, 1.1, 1.3, 0.8, 0.7};
-    CpsPlanimeter planimeter = {
-        .pole_arm = 1, .tracer_arm = 1.3, .wheel = -0.2, .friction = 0.3, .load = 2};
+    CpsPlanimeter planimeter = {.cookie = cps_planimeter_default().cookie,
+                                .pole_arm = 1,
+                                .tracer_arm = 1.3,
+                                .wheel = -0.2,
+                                .friction = 0.3,
+                                .load = 2};
     double backwards[10], error[2];
     for (int i = 0; i < 5; i++) {
         backwards[2 * i] = POINT[8 - 2 * i];

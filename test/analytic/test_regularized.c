@@ -55,7 +55,7 @@ static void study_of_example_5_7(void **state) {
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);
     CpsRegularized *classic = open_regularized(&view);
-    CpsStudyOptions options = cps_study_options(classic);
+    CpsStudyOptions options = cps_study_options_default(classic);
     CpsStudy *study;
     CpsError err = {0};
     assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_OK);
@@ -162,7 +162,10 @@ static void without_friction(void **state) {
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);
     CpsRegularized *classic = open_regularized(&view);
-    CpsRegularizedParameters p = {.penalty = 1e7, .stiffness = 1e-11, .delta = 1};
+    CpsRegularizedParameters p = {.cookie = cps_regularized_parameters_default().cookie,
+                                  .penalty = 1e7,
+                                  .stiffness = 1e-11,
+                                  .delta = 1};
     CpsRegularizedReport wide = solve(classic, p);
     p.delta = 1e-6;
     CpsRegularizedReport narrow = solve(classic, p);

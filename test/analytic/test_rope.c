@@ -23,8 +23,12 @@ typedef struct Case {
 } Case;
 
 static Case make(int elements, bool held, bool slack) {
-    Case c = {
-        .rope = {.nodes = elements + 1, .resistance = 1, .driven = {held, true}, .slack = slack}};
+    Case c = {.rope = cps_rope_default()};
+    c.rope.node_count = elements + 1;
+    c.rope.resistance = 1;
+    c.rope.driven[0] = held;
+    c.rope.driven[1] = true;
+    c.rope.slack = slack;
     c.node = malloc(2 * ((size_t)elements + 1) * sizeof *c.node);
     assert_non_null(c.node);
     c.rope.node = c.node;
@@ -32,15 +36,15 @@ static Case make(int elements, bool held, bool slack) {
 }
 
 static void straight(Case *c, double length) {
-    for (int i = 0; i < c->rope.nodes; i++) {
-        c->node[2 * i] = length * i / (c->rope.nodes - 1);
+    for (int i = 0; i < c->rope.node_count; i++) {
+        c->node[2 * i] = length * i / (c->rope.node_count - 1);
         c->node[2 * i + 1] = 0;
     }
 }
 
 static void arc(Case *c, double radius, double angle) {
-    for (int i = 0; i < c->rope.nodes; i++) {
-        const double a = angle * i / (c->rope.nodes - 1);
+    for (int i = 0; i < c->rope.node_count; i++) {
+        const double a = angle * i / (c->rope.node_count - 1);
         c->node[2 * i] = radius * cos(a);
         c->node[2 * i + 1] = radius * sin(a);
     }
@@ -57,7 +61,7 @@ static CpsMotionReport solve(Case *c, const double *driving) {
 }
 
 static double tension(const Case *c, int element) {
-    return -cps_motion_law_force(c->motion, c->rope.nodes + element)[0];
+    return -cps_motion_law_force(c->motion, c->rope.node_count + element)[0];
 }
 
 static void finish(Case *c) {
@@ -68,8 +72,8 @@ static void finish(Case *c) {
 
 /* no element grows, none pushes, and tension only where the length is kept */
 static void check_elements(const Case *c, double scale) {
-    for (int i = 0; i + 1 < c->rope.nodes; i++) {
-        const double growth = cps_motion_law_velocity(c->motion, c->rope.nodes + i)[0];
+    for (int i = 0; i + 1 < c->rope.node_count; i++) {
+        const double growth = cps_motion_law_velocity(c->motion, c->rope.node_count + i)[0];
         /* residuals of the solver, of unit speeds and forces */
         CHECK_LESS(growth, 1e-9);
         CHECK_GREATER(tension(c, i), -1e-9);
@@ -169,7 +173,7 @@ static void inextensible(void **state) {
         value[slack] = solve(&c, (double[]){sin(1), -cos(1)}).value;
         if (!slack)
             for (int i = 0; i < 100; i++)
-                CHECK_NEAR(cps_motion_law_velocity(c.motion, c.rope.nodes + i)[0], 0,
+                CHECK_NEAR(cps_motion_law_velocity(c.motion, c.rope.node_count + i)[0], 0,
                            1e-9); /* linear residual */
         finish(&c);
     }
@@ -185,16 +189,18 @@ static void refused(void **state) {
     CpsSystem *system = NULL;
     CpsError err;
     const double node[] = {0, 0, 1, 0, 1, 0};
-    const CpsRope bad[] = {{1, node, 1, {false, true}, false},
-                           {3, node, 1, {false, true}, false},
-                           {2, node, -1, {false, true}, false},
-                           {2, node, NAN, {false, true}, false},
-                           {2, NULL, 1, {false, true}, false}};
+    const uint32_t cookie = cps_rope_default().cookie;
+    const CpsRope bad[] = {{cookie, 1, node, 1, {false, true}, false},
+                           {cookie, 3, node, 1, {false, true}, false},
+                           {cookie, 2, node, -1, {false, true}, false},
+                           {cookie, 2, node, NAN, {false, true}, false},
+                           {cookie, 2, NULL, 1, {false, true}, false},
+                           {0, 2, node, 1, {false, true}, false}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         CHECK_INT(cps_rope_system(&bad[i], &system, &err), CPS_ERR_ARGUMENT);
         assert_null(system);
     }
-    const CpsRope long_rope = {CPS_ROPE_MAX_NODES + 1, node, 1, {false, true}, false};
+    const CpsRope long_rope = {cookie, CPS_ROPE_MAX_NODES + 1, node, 1, {false, true}, false};
     CHECK_INT(cps_rope_system(&long_rope, &system, &err), CPS_ERR_LIMIT);
 }
 

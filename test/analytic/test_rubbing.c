@@ -54,7 +54,11 @@ static void rig(Rig *r, double length, int elements, double weight, double stiff
 
 static void change(Rig *r, int steps, int end, CpsEndKind kind, double x, double y, double z) {
     r->change[0] = (CpsChange){.end = end, .to = {.kind = kind, .value = {x, y, z}}};
-    r->stage = (CpsStage){.name = "go", .steps = steps, .change_count = 1, .change = r->change};
+    r->stage = (CpsStage){.cookie = cps_stage_default().cookie,
+                          .name = "go",
+                          .steps = steps,
+                          .change_count = 1,
+                          .change = r->change};
     r->scene.stage_count = 1;
     r->scene.stage = &r->stage;
 }

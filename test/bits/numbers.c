@@ -38,7 +38,11 @@ static int pull(const char *what, CpsObstacle obstacle, const double *start, int
     const CpsChange change = {.line = 0,
                               .end = CPS_END_B,
                               .to = {CPS_END_FREE, {force[0], force[1], force[2]}}};
-    const CpsStage stage = {.name = "pull", .steps = 4, .change_count = 1, .change = &change};
+    const CpsStage stage = {.cookie = cps_stage_default().cookie,
+                            .name = "pull",
+                            .steps = 4,
+                            .change_count = 1,
+                            .change = &change};
     CpsScene scene = cps_scene_default();
     scene.obstacle_count = scene.line_count = scene.stage_count = 1;
     scene.obstacle = &obstacle;
@@ -95,8 +99,13 @@ static int wheel(void) {
 
 static int body(void) {
     CpsError err;
-    const CpsPatch patch[2] = {{.kind = CPS_PATCH_DISC, .friction = 0.5, .load = 10, .size = 0.3},
-                               {.kind = CPS_PATCH_ROD,
+    const CpsPatch patch[2] = {{.cookie = cps_patch_default().cookie,
+                                .kind = CPS_PATCH_DISC,
+                                .friction = 0.5,
+                                .load = 10,
+                                .size = 0.3},
+                               {.cookie = cps_patch_default().cookie,
+                                .kind = CPS_PATCH_ROD,
                                 .position = {1, 0.2},
                                 .angle = 0.7,
                                 .friction = 0.3,

@@ -25,9 +25,16 @@ static inline CpsStatus small_run(const char *directory, int elements, CpsError 
     const double point[6] = {0, 0, 0, 6, 0, 0};
     const CpsChange change[2] = {{0, CPS_END_B, {CPS_END_HELD, {5.9, 0.2, 0}}},
                                  {0, CPS_END_B, {CPS_END_HELD, {6, 0, 0}}}};
-    const CpsStage stage[2] = {
-        {.name = "there", .steps = 2, .change_count = 1, .change = &change[0]},
-        {.name = "back", .steps = 2, .change_count = 1, .change = &change[1]}};
+    const CpsStage stage[2] = {{.cookie = cps_stage_default().cookie,
+                                .name = "there",
+                                .steps = 2,
+                                .change_count = 1,
+                                .change = &change[0]},
+                               {.cookie = cps_stage_default().cookie,
+                                .name = "back",
+                                .steps = 2,
+                                .change_count = 1,
+                                .change = &change[1]}};
     CpsObstacle bed = cps_obstacle_default();
     bed.name = "bed";
     bed.friction = 0.3;

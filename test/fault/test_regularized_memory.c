@@ -17,7 +17,7 @@ static CpsStatus questions(const CpsLineView *view) {
     CpsRegularizedReport report;
     CpsStatus status = cps_regularized_create(view, &classic, NULL);
     if (status == CPS_OK) {
-        CpsStudyOptions options = cps_study_options(classic);
+        CpsStudyOptions options = cps_study_options_default(classic);
         for (int s = 0; s < CPS_STUDY_STAGE_COUNT; s++) options.values[s] = 2;
         status = cps_study_run(classic, &options, NULL, NULL, &study, NULL);
     }
@@ -50,7 +50,11 @@ static void every_allocation_may_fail(void **state) {
     line.stiffness = 1;
     line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point};
     const CpsChange change = {.end = CPS_END_B, .to = {.kind = CPS_END_FREE, .value = {0.5, 0, 0}}};
-    const CpsStage stage = {.name = "pull", .steps = 1, .change_count = 1, .change = &change};
+    const CpsStage stage = {.cookie = cps_stage_default().cookie,
+                            .name = "pull",
+                            .steps = 1,
+                            .change_count = 1,
+                            .change = &change};
     CpsScene scene = cps_scene_default();
     scene.obstacle_count = 1;
     scene.obstacle = &bed;

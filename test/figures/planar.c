@@ -38,7 +38,8 @@ static CpsPlanar *body_of(int count, const CpsPatch *patch) {
 static CpsPlanar *unit_body(CpsPatchKind kind) {
     static const double SQUARE[8] = {-0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5};
     const bool polygon = kind == CPS_PATCH_POLYGON;
-    return body_of(1, &(CpsPatch){.kind = kind,
+    return body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                  .kind = kind,
                                   .friction = 1,
                                   .load = 1,
                                   .size = polygon ? 0 : 1,
@@ -63,7 +64,7 @@ static void bounds(void) {
         CpsError err;
         need(cps_planar_bounds(body, (double[3]){E[k], 0, 1}, 0, &found, &err), &err);
         const double value = power(body, E[k], 0, 1, NULL);
-        say("bounds", 5, E[k], (double)found.cells, found.lower - value, found.upper - value,
+        say("bounds", 5, E[k], (double)found.cell_count, found.lower - value, found.upper - value,
             value);
     }
     cps_planar_destroy(body);
@@ -168,7 +169,8 @@ static void driven_by_cells(void) {
 /* ---- along paths ---- */
 
 static CpsPatch wheel(double x, double y, double heading, double load, double brake) {
-    return (CpsPatch){.kind = CPS_PATCH_WHEEL,
+    return (CpsPatch){.cookie = cps_patch_default().cookie,
+                      .kind = CPS_PATCH_WHEEL,
                       .position = {x, y},
                       .angle = heading,
                       .friction = 0.8,
@@ -184,7 +186,7 @@ static void towed_car(void) {
                                 wheel(2.5, -0.75, 0.2, 5000, 300)};
     CpsPlanar *body = body_of(4, wheels);
     for (int steps = 200; steps <= 1600; steps *= 2) {
-        CpsTow tow = {.hitch = {3.2, 0}};
+        CpsTow tow = {.cookie = cps_tow_default().cookie, .hitch = {3.2, 0}};
         CpsTowStep step;
         CpsError err;
         for (int i = 1; i <= steps; i++) {
@@ -204,7 +206,7 @@ static void axle(void) {
     CpsPlanar *body =
         body_of(2, (CpsPatch[]){wheel(0, 0.75, 0, 4000, 0), wheel(0, -0.75, 0, 4000, 0)});
     for (int steps = 100; steps <= 400; steps *= 2) {
-        CpsTow tow = {.pose = {2, 0, PI}, .hitch = {2, 0}};
+        CpsTow tow = {.cookie = cps_tow_default().cookie, .pose = {2, 0, PI}, .hitch = {2, 0}};
         CpsTowStep step;
         CpsError err;
         for (int i = 1; i <= steps; i++)
@@ -220,7 +222,7 @@ static void block_on_a_spring(void) {
     CpsError err;
     need(cps_law_coulomb(0.5, 2, &law, &err), &err);
     for (int steps = 1000; steps <= 4000; steps *= 2) {
-        CpsSweep sweep = {.stiffness = 1, .position = {1, 0}};
+        CpsSweep sweep = {.cookie = cps_sweep_default().cookie, .stiffness = 1, .position = {1, 0}};
         CpsSweepStep step;
         for (int i = 1; i <= steps; i++)
             need(cps_sweep_step(law, &sweep, (double[]){0, 2.0 * i / steps}, &step, &err), &err);
@@ -231,8 +233,12 @@ static void block_on_a_spring(void) {
 }
 
 static void planimeter(const char *name, double x, double radius, double y) {
-    const CpsPlanimeter arms = {
-        .pole_arm = 1, .tracer_arm = 1.3, .wheel = 0.4, .friction = 0.3, .load = 2};
+    const CpsPlanimeter arms = {.cookie = cps_planimeter_default().cookie,
+                                .pole_arm = 1,
+                                .tracer_arm = 1.3,
+                                .wheel = 0.4,
+                                .friction = 0.3,
+                                .load = 2};
     static const int POINTS[3] = {1000, 4000, 256000};
     for (int k = 0; k < 3; k++) {
         const int count = POINTS[k];

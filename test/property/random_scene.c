@@ -180,7 +180,8 @@ void maker_stage(Maker *maker, int steps) {
     RandomScene *out = maker->out;
     int s = out->scene.stage_count++;
     snprintf(out->stage_name[s], sizeof out->stage_name[s], "s%d", s);
-    out->stage[s] = (CpsStage){.name = out->stage_name[s],
+    out->stage[s] = (CpsStage){.cookie = cps_stage_default().cookie,
+                               .name = out->stage_name[s],
                                .steps = steps,
                                .change = out->change[s],
                                .turn = out->turn[s]};

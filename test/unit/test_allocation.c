@@ -42,9 +42,14 @@ void __wrap_free(void *place) {
 
 static const double ends[] = {0, 0, 0, 6.28, 0, 0};
 static const CpsChange pull = {.line = 0, .end = CPS_END_B, .to = {CPS_END_FREE, {0.5, 0.5, 0.5}}};
-static const CpsStage stage = {.name = "pull", .steps = 3, .change_count = 1, .change = &pull};
+static CpsStage stage;
 
 static CpsScene scene(const CpsObstacle *bed, const CpsLine *line) {
+    stage = cps_stage_default();
+    stage.name = "pull";
+    stage.steps = 3;
+    stage.change_count = 1;
+    stage.change = &pull;
     CpsScene out = cps_scene_default();
     out.obstacle_count = out.line_count = out.stage_count = 1;
     out.obstacle = bed;

@@ -4,6 +4,7 @@
  * its line and the others go on. (Those of evolve.h: results_test.c.) */
 #include <limits.h>
 #include <math.h>
+#include <string.h>
 
 #include "capstan/capstan.h"
 #include "misuse.h"
@@ -397,15 +398,23 @@ static void motions(void **state) {
 
 static void bodies(void **state) {
     (void)state;
-    const CpsPatch patch[2] = {{.kind = CPS_PATCH_DISC, .friction = 0.5, .load = 1, .size = 1},
-                               {.kind = CPS_PATCH_WHEEL, .friction = 0.5, .load = 1, .size = 1}};
+    const CpsPatch patch[2] = {{.cookie = cps_patch_default().cookie,
+                                .kind = CPS_PATCH_DISC,
+                                .friction = 0.5,
+                                .load = 1,
+                                .size = 1},
+                               {.cookie = cps_patch_default().cookie,
+                                .kind = CPS_PATCH_WHEEL,
+                                .friction = 0.5,
+                                .load = 1,
+                                .size = 1}};
     CpsPatch bad = patch[0];
     CpsPlanar *body = NULL, *other = NULL;
     CpsSystem *system = NULL;
     CpsPlanarBounds bounds;
     CpsPlanarMotion motion;
     CpsWheelMotion wheel;
-    CpsTow tow = {.rope = 0};
+    CpsTow tow = {.cookie = cps_tow_default().cookie, .rope = 0};
     CpsTowStep step;
     SOUND(cps_planar_create(2, patch, &body, &err));
     REFUSED(cps_planar_create(0, patch, &other, &err));
@@ -414,7 +423,11 @@ static void bodies(void **state) {
     REFUSED(cps_planar_create(1, patch, NULL, &err));
     bad.kind = (CpsPatchKind)NEVER;
     REFUSED(cps_planar_create(1, &bad, &other, &err));
-    bad = (CpsPatch){.kind = CPS_PATCH_POLYGON, .friction = 1, .load = 1, .corner_count = 3};
+    bad = (CpsPatch){.cookie = cps_patch_default().cookie,
+                     .kind = CPS_PATCH_POLYGON,
+                     .friction = 1,
+                     .load = 1,
+                     .corner_count = 3};
     REFUSED(cps_planar_create(1, &bad, &other, &err));
     RUNS(cps_planar_destroy(NULL));
     GIVES(cps_planar_patch_count(NULL) == 0);
@@ -465,13 +478,19 @@ static void bodies(void **state) {
 static void ropes_and_sweeps(void **state) {
     (void)state;
     CpsSystem *system = NULL;
-    CpsRope rope = {.nodes = 2};
-    CpsSweep sweep = {.stiffness = 1};
+    CpsRope rope = {.cookie = cps_rope_default().cookie, .node_count = 2};
+    CpsSweep sweep = {.cookie = cps_sweep_default().cookie, .stiffness = 1};
     CpsSweepStep step;
-    const CpsPlanimeter meter = {
-        .pole_arm = 1, .tracer_arm = 1, .wheel = 0.5, .friction = 0.1, .load = 1};
+    const CpsPlanimeter meter = {.cookie = cps_planimeter_default().cookie,
+                                 .pole_arm = 1,
+                                 .tracer_arm = 1,
+                                 .wheel = 0.5,
+                                 .friction = 0.1,
+                                 .load = 1};
     const double triangle[6] = {1, 0, 1.1, 0, 1, 0.1};
     CpsPlanimeterReading reading;
+    REFUSED(cps_rope_check(NULL, &err));
+    REFUSED(cps_patch_check(NULL, &err));
     REFUSED(cps_rope_system(NULL, &system, &err));
     REFUSED(cps_rope_system(&rope, &system, &err)); /* without nodes */
     REFUSED(cps_rope_system(&rope, NULL, &err));
@@ -481,6 +500,9 @@ static void ropes_and_sweeps(void **state) {
     REFUSED(cps_sweep_step(law, &sweep, ONE, NULL, &err));
     REFUSED(cps_planimeter_trace(NULL, 3, triangle, 1, &reading, &err));
     REFUSED(cps_planimeter_trace(&meter, 3, NULL, 1, &reading, &err));
+    REFUSED(cps_planimeter_check(NULL, 3, triangle, &err));
+    REFUSED(cps_planimeter_check(&meter, 3, NULL, &err));
+    REFUSED(cps_planimeter_check(&meter, -1, triangle, &err));
     REFUSED(cps_planimeter_trace(&meter, 3, triangle, 1, NULL, &err));
     for (i = 0; i < ABSENCES; ++i) {
         n = ABSENT[i] == 99 || ABSENT[i] == INT_MAX ? 0 : ABSENT[i];
@@ -519,7 +541,7 @@ static void studies(void **state) {
         GIVES(cps_study_row(NULL, ABSENT[i]).parameters.penalty == 0);
         GIVES(cps_study_stage_end(NULL, (CpsStudyStage)ABSENT[i]).cells == 0);
     }
-    GIVES(cps_study_options(NULL).max_iterations == 0);
+    GIVES(cps_study_options_default(NULL).max_iterations == 0);
     GIVES(cps_study_options_to(NULL, NULL).max_iterations == 0);
     REFUSED(cps_study_run(NULL, &options, NULL, NULL, &study, &err));
     RUNS(cps_study_destroy(NULL));
@@ -529,6 +551,54 @@ static void studies(void **state) {
     GIVES(cps_first_order_report(NULL).verdict == CPS_FIRST_ORDER_VERDICT_UNDECIDED);
     GIVES(cps_first_order_view(NULL).elements == 0 && cps_first_order_view(NULL).strain == NULL);
     REFUSED(cps_scene_check(NULL, &err));
+}
+
+/* What a caller fills is refused without the cookie of its default, with the name of that. */
+#define WITHOUT_COOKIE(thing, call)                       \
+    do {                                                  \
+        (thing).cookie = 0;                               \
+        REFUSED(call);                                    \
+        GIVES(strstr(err.message, "_default()") != NULL); \
+    } while (0)
+
+static void without_cookies(void **state) {
+    (void)state;
+    const double node[4] = {0, 0, 1, 0}, triangle[6] = {1, 0, 1.1, 0, 1, 0.1};
+    CpsPatch patch = cps_patch_default();
+    CpsTow tow = cps_tow_default();
+    CpsSweep sweep = cps_sweep_default();
+    CpsPlanimeter meter = cps_planimeter_default();
+    CpsRope rope = cps_rope_default();
+    CpsMotionOptions options = cps_motion_options_default();
+    CpsPlanar *body = NULL, *other = NULL;
+    CpsSystem *system = NULL, *roped = NULL;
+    CpsMotion *motion = NULL;
+    CpsTowStep towed;
+    CpsSweepStep swept;
+    CpsPlanimeterReading reading;
+    patch.friction = patch.load = 1;
+    sweep.stiffness = 1;
+    meter.pole_arm = meter.tracer_arm = meter.friction = meter.load = 1;
+    rope.node_count = 2;
+    rope.node = node;
+    SOUND(cps_planar_create(1, &patch, &body, &err));
+    SOUND(cps_patch_check(&patch, &err));
+    SOUND(cps_planar_tow(body, &tow, ZERO, &towed, &err));
+    SOUND(cps_sweep_step(law, &sweep, ONE, &swept, &err));
+    SOUND(cps_planimeter_check(&meter, 3, triangle, &err));
+    SOUND(cps_rope_check(&rope, &err));
+    SOUND(cps_system_create(2, &system, &err));
+    WITHOUT_COOKIE(patch, cps_planar_create(1, &patch, &other, &err));
+    REFUSED(cps_patch_check(&patch, &err));
+    WITHOUT_COOKIE(tow, cps_planar_tow(body, &tow, ZERO, &towed, &err));
+    WITHOUT_COOKIE(sweep, cps_sweep_step(law, &sweep, ONE, &swept, &err));
+    WITHOUT_COOKIE(meter, cps_planimeter_trace(&meter, 3, triangle, 1, &reading, &err));
+    REFUSED(cps_planimeter_check(&meter, 3, triangle, &err));
+    WITHOUT_COOKIE(rope, cps_rope_system(&rope, &roped, &err));
+    REFUSED(cps_rope_check(&rope, &err));
+    WITHOUT_COOKIE(options, cps_system_solve(system, NULL, &options, &motion, &err));
+    cps_system_destroy(system);
+    cps_planar_destroy(body);
 }
 
 static void clear(void **state) {
@@ -546,7 +616,8 @@ int main(void) {
         cmocka_unit_test(laws),    cmocka_unit_test(resistances),
         cmocka_unit_test(systems), cmocka_unit_test(motions),
         cmocka_unit_test(bodies),  cmocka_unit_test(ropes_and_sweeps),
-        cmocka_unit_test(studies), cmocka_unit_test(clear),
+        cmocka_unit_test(studies), cmocka_unit_test(without_cookies),
+        cmocka_unit_test(clear),
     };
     return cmocka_run_group_tests_name("misuse", tests, NULL, NULL);
 }

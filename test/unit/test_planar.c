@@ -111,7 +111,9 @@ static void cells_keep_load_and_moment(void **state) {
          1.25},
     };
     for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++) {
-        CpsPlanar *body = body_of(1, &CASE[i].patch);
+        CpsPatch given = CASE[i].patch;
+        given.cookie = cps_patch_default().cookie;
+        CpsPlanar *body = body_of(1, &given);
         const CpsiPatch *patch = &body->patch[0];
         for (int n = 1; n <= 9; n += 4) {
             Moments inner = {0}, outer = {0};
@@ -145,7 +147,8 @@ static void wheel_slip_and_spin(void **state) {
                                      {1, 1, -1.8785473984267176, 658.257569495584},
                                      {0.5, 2, -5.939273699213359, 629.128784747792},
                                      {0, 1, -10.0 / 3, 200}};
-    CpsPlanar *body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_WHEEL,
+    CpsPlanar *body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                             .kind = CPS_PATCH_WHEEL,
                                              .angle = 0.5 * PI,
                                              .friction = 0.5,
                                              .load = 1000,
@@ -188,7 +191,8 @@ enum { MOST_PATCHES = 4, CORNERS = 5 };
 
 /* Any patch of a size around `scale`; corners for a polygon. */
 static CpsPatch random_patch(double scale, int kinds, double corner[2 * CORNERS]) {
-    CpsPatch patch = {.kind = (CpsPatchKind)(random_share() * kinds),
+    CpsPatch patch = {.cookie = cps_patch_default().cookie,
+                      .kind = (CpsPatchKind)(random_share() * kinds),
                       .position = {scale * random_sign(), scale * random_sign()},
                       .angle = 7 * random_sign(),
                       .friction = random_share(),
@@ -351,7 +355,11 @@ static void bad_patches(void **state) {
     for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
         CpsPlanar *body = NULL;
         CpsError err = {.message = ""};
-        assert_int_equal(cps_planar_create(1, &BAD[i].patch, &body, &err), CPS_ERR_ARGUMENT);
+        CpsPatch bad = BAD[i].patch;
+        bad.cookie = cps_patch_default().cookie;
+        assert_int_equal(cps_patch_check(&bad, &err), CPS_ERR_ARGUMENT);
+        assert_non_null(strstr(err.message, BAD[i].says));
+        assert_int_equal(cps_planar_create(1, &bad, &body, &err), CPS_ERR_ARGUMENT);
         assert_null(body);
         if (!strstr(err.message, BAD[i].says))
             fail_msg("\"%s\" does not say \"%s\"", err.message, BAD[i].says);
@@ -362,8 +370,11 @@ static void bad_patches(void **state) {
 
 static void bad_questions(void **state) {
     (void)state;
-    CpsPlanar *body =
-        body_of(1, &(CpsPatch){.kind = CPS_PATCH_DISC, .friction = 1, .load = 1, .size = 1});
+    CpsPlanar *body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                             .kind = CPS_PATCH_DISC,
+                                             .friction = 1,
+                                             .load = 1,
+                                             .size = 1});
     const double twice[6] = {1, 0, 0, 2, 0, 0}, twist[3] = {0, NAN, 0}, one[3] = {1, 1, 1};
     CpsPlanarMotion motion;
     CpsPlanarBounds bounds;
@@ -381,7 +392,7 @@ static void bad_questions(void **state) {
                      CPS_ERR_ARGUMENT); /* a disc needs 4 cells */
     assert_int_equal(cps_planar_law(body, CPS_PLANAR_OUTER, 60000, &law, &err), CPS_ERR_LIMIT);
     assert_null(law);
-    CpsTow tow = {.rope = -1};
+    CpsTow tow = {.cookie = cps_tow_default().cookie, .rope = -1};
     assert_int_equal(cps_planar_tow(body, &tow, one, &step, &err), CPS_ERR_ARGUMENT);
 
     /* more accuracy than cells can give: said, and the bounds hold */
@@ -407,7 +418,9 @@ static void minimum_not_attained(void **state) {
     CpsPlanarMotion motion;
     assert_int_equal(cps_set_ball(2, (double[2]){1, 0}, 1, &ball, NULL), CPS_OK);
     assert_int_equal(cps_law_friction(ball, &law, NULL), CPS_OK);
-    CpsPlanar *body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_POINT, .law = law});
+    CpsPlanar *body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                             .kind = CPS_PATCH_POINT,
+                                             .law = law});
     assert_int_equal(cps_planar_drive(body, 2, (double[6]){0, 1, 0, 0, 0, 1}, (double[2]){1, 0},
                                       &motion, NULL),
                      CPS_OK);
@@ -420,7 +433,10 @@ static void minimum_not_attained(void **state) {
 /* One point contact: nothing resists turning about it, and any turning goes with a push. */
 static void free_turning(void **state) {
     (void)state;
-    CpsPlanar *body = body_of(1, &(CpsPatch){.kind = CPS_PATCH_POINT, .friction = 1, .load = 2});
+    CpsPlanar *body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                             .kind = CPS_PATCH_POINT,
+                                             .friction = 1,
+                                             .load = 2});
     double low[3], high[3];
     assert_int_equal(cps_planar_motions(body, 2, (double[6]){1, 0, 0, 0, 1, 0}, (double[2]){3, 4},
                                         0, low, high, NULL),
@@ -435,8 +451,11 @@ static void free_turning(void **state) {
     for (int i = 0; i < 200; i++) {
         const double x = 0.0122635 + 1e-9 * i, y = -0.337436;
         CpsPlanarMotion motion;
-        body = body_of(
-            1, &(CpsPatch){.kind = CPS_PATCH_POINT, .position = {x, y}, .friction = 1, .load = 2});
+        body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                      .kind = CPS_PATCH_POINT,
+                                      .position = {x, y},
+                                      .friction = 1,
+                                      .load = 2});
         assert_int_equal(cps_planar_drive(body, 1, (double[3]){1, 0, -y}, (double[1]){0.7}, &motion,
                                           NULL),
                          CPS_OK);
@@ -450,9 +469,16 @@ static void free_turning(void **state) {
 /* A slack rope pulls nothing; a step that would spin the body is not made; both leave the pose. */
 static void tow_leaves_the_body(void **state) {
     (void)state;
-    CpsPlanar *body =
-        body_of(1, &(CpsPatch){.kind = CPS_PATCH_DISC, .friction = 1, .load = 1, .size = 1});
-    CpsTow tow = {.pose = {1, 2, 0.5}, .hitch = {0, 1}, .rope = 3, .end = {1, 2}};
+    CpsPlanar *body = body_of(1, &(CpsPatch){.cookie = cps_patch_default().cookie,
+                                             .kind = CPS_PATCH_DISC,
+                                             .friction = 1,
+                                             .load = 1,
+                                             .size = 1});
+    CpsTow tow = {.cookie = cps_tow_default().cookie,
+                  .pose = {1, 2, 0.5},
+                  .hitch = {0, 1},
+                  .rope = 3,
+                  .end = {1, 2}};
     CpsTowStep step;
     assert_int_equal(cps_planar_tow(body, &tow, (double[2]){2, 4}, &step, NULL), CPS_OK);
     assert_true(step.outcome == CPS_SET_OUTCOME_ANSWERED && !step.pulled && step.converged);
@@ -466,7 +492,7 @@ static void tow_leaves_the_body(void **state) {
     const double x = tow.pose[0] - sin(tow.pose[2]), y = tow.pose[1] + cos(tow.pose[2]);
     CHECK_RELATIVE(hypot(2 - x, 5.6 - y), 3, 1e-12); /* passes settle to 1e-13 */
 
-    tow = (CpsTow){.hitch = {0, 1}};
+    tow = (CpsTow){.cookie = cps_tow_default().cookie, .hitch = {0, 1}};
     assert_int_equal(cps_planar_tow(body, &tow, (double[2]){50, 1}, &step, NULL), CPS_OK);
     assert_int_equal(step.outcome, CPS_SET_OUTCOME_INACCURATE);
     CHECK_NEAR(tow.pose[2], 0, 0);
@@ -487,8 +513,12 @@ static void move_along_a_screw(void **state) {
 static void bad_planimeters(void **state) {
     (void)state;
     static const double NEAR[6] = {0, 1, 1, 0, 1, 1}, FAR[6] = {1, 0, 5, 0, 1, 1};
-    CpsPlanimeter planimeter = {
-        .pole_arm = 1, .tracer_arm = 1.3, .wheel = 0.4, .friction = 0.3, .load = 1};
+    CpsPlanimeter planimeter = {.cookie = cps_planimeter_default().cookie,
+                                .pole_arm = 1,
+                                .tracer_arm = 1.3,
+                                .wheel = 0.4,
+                                .friction = 0.3,
+                                .load = 1};
     CpsPlanimeterReading reading;
     CpsError err;
     assert_int_equal(cps_planimeter_trace(&planimeter, 3, NEAR, 10, &reading, &err), CPS_OK);
@@ -502,7 +532,11 @@ static void bad_planimeters(void **state) {
     planimeter.load = 0;
     assert_int_equal(cps_planimeter_trace(&planimeter, 3, NEAR, 10, &reading, &err),
                      CPS_ERR_ARGUMENT);
-    planimeter = (CpsPlanimeter){.pole_arm = 1, .tracer_arm = NAN, .friction = 1, .load = 1};
+    planimeter = (CpsPlanimeter){.cookie = cps_planimeter_default().cookie,
+                                 .pole_arm = 1,
+                                 .tracer_arm = NAN,
+                                 .friction = 1,
+                                 .load = 1};
     assert_int_equal(cps_planimeter_trace(&planimeter, 3, NEAR, 10, &reading, &err),
                      CPS_ERR_ARGUMENT);
 }
@@ -513,7 +547,7 @@ static void bad_sweeps(void **state) {
     CpsSweepStep step;
     const double end[2] = {1, 0}, nowhere[2] = {INFINITY, 0};
     assert_int_equal(cps_law_coulomb(1, 1, &law, NULL), CPS_OK);
-    CpsSweep sweep = {.stiffness = 0};
+    CpsSweep sweep = {.cookie = cps_sweep_default().cookie, .stiffness = 0};
     assert_int_equal(cps_sweep_step(law, &sweep, end, &step, NULL), CPS_ERR_ARGUMENT);
     sweep.stiffness = 1;
     assert_int_equal(cps_sweep_step(law, &sweep, nowhere, &step, NULL), CPS_ERR_ARGUMENT);

@@ -412,12 +412,22 @@ static void refusals(void **state) {
     assert_int_equal(cps_regularized_next(&step.view, NAN, classic, &next, &err), CPS_ERR_ARGUMENT);
 
     CpsStudy *study = NULL;
-    CpsStudyOptions options = cps_study_options(classic);
+    CpsRegularizedParameters bare = good;
+    bare.cookie = 0;
+    CpsRegularizedReport none_of_it;
+    assert_int_equal(cps_regularized_solve(classic, &bare, 10, &none_of_it, &err),
+                     CPS_ERR_ARGUMENT);
+    assert_non_null(strstr(err.message, "_default()"));
+    CpsStudyOptions options = cps_study_options_default(classic);
+    options.cookie = 0;
+    assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_ERR_ARGUMENT);
+    assert_non_null(strstr(err.message, "_default()"));
+    options = cps_study_options_default(classic);
     options.factor[CPS_STUDY_STAGE_N] = 1;
     assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_ERR_ARGUMENT);
     assert_null(study);
     assert_non_null(strstr(err.message, "stage n"));
-    options = cps_study_options(classic);
+    options = cps_study_options_default(classic);
     options.values[CPS_STUDY_STAGE_H] = options.values[CPS_STUDY_STAGE_LAMBDA] =
         options.values[CPS_STUDY_STAGE_N] = options.values[CPS_STUDY_STAGE_DELTA] = 1;
     assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_OK);

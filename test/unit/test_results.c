@@ -60,15 +60,23 @@ static void make_scene(Fixture *f) {
     f->change[1] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {9.5, 4, 5}}};
     f->change[2] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {8.5, 4, 5}}};
     f->change[3] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {9, 4, 5}}};
-    f->stage[0] =
-        (CpsStage){.name = HOSTILE, .steps = 1, .change_count = 1, .change = &f->change[0]};
-    f->stage[1] =
-        (CpsStage){.name = "surge out", .steps = CYCLE, .change_count = 1, .change = &f->change[1]};
-    f->stage[2] = (CpsStage){.name = "surge in",
+    f->stage[0] = (CpsStage){.cookie = cps_stage_default().cookie,
+                             .name = HOSTILE,
+                             .steps = 1,
+                             .change_count = 1,
+                             .change = &f->change[0]};
+    f->stage[1] = (CpsStage){.cookie = cps_stage_default().cookie,
+                             .name = "surge out",
+                             .steps = CYCLE,
+                             .change_count = 1,
+                             .change = &f->change[1]};
+    f->stage[2] = (CpsStage){.cookie = cps_stage_default().cookie,
+                             .name = "surge in",
                              .steps = 2 * CYCLE,
                              .change_count = 1,
                              .change = &f->change[2]};
-    f->stage[3] = (CpsStage){.name = "surge home",
+    f->stage[3] = (CpsStage){.cookie = cps_stage_default().cookie,
+                             .name = "surge home",
                              .steps = CYCLE,
                              .change_count = 1,
                              .change = &f->change[3]};

@@ -33,7 +33,11 @@ static void make(Parts *p) {
     p->line.start.point_count = 2;
     p->line.start.point = p->point;
     p->change = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_FREE, {1, 0, 0}}};
-    p->stage = (CpsStage){.name = "pull", .steps = 3, .change_count = 1, .change = &p->change};
+    p->stage = (CpsStage){.cookie = cps_stage_default().cookie,
+                          .name = "pull",
+                          .steps = 3,
+                          .change_count = 1,
+                          .change = &p->change};
     p->scene = cps_scene_default();
     p->scene.obstacle_count = 1;
     p->scene.obstacle = &p->obstacle;
@@ -282,6 +286,9 @@ static void refuses_wrong_histories(void **state) {
     make(&p);
     p.stage.steps = 0;
     refused(&p, "stage 1: steps is 0");
+    make(&p);
+    p.stage.cookie = 0;
+    refused(&p, "stage 1: not made by cps_stage_default()");
     make(&p);
     p.stage.name = NULL;
     refused(&p, "stage 1: it has no name");

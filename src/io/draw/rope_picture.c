@@ -24,7 +24,8 @@ typedef struct RopePicture {
 static double fastest(const RopePicture *p) {
     const double *v = cps_motion_velocity(p->motion);
     double most = 0;
-    for (int i = 0; i < p->rope->rope.nodes; i++) most = fmax(most, hypot(v[2 * i], v[2 * i + 1]));
+    for (int i = 0; i < p->rope->rope.node_count; i++)
+        most = fmax(most, hypot(v[2 * i], v[2 * i + 1]));
     return most;
 }
 
@@ -34,10 +35,10 @@ static void draw_shape(FILE *out, const RopePicture *p) {
     CpsiFrame frame = {.left = LEFT, .top = TOP, .width = SHAPE, .height = HEIGHT};
     frame.x[0] = frame.y[0] = INFINITY;
     frame.x[1] = frame.y[1] = -INFINITY;
-    cpsi_range_points(frame.x, frame.y, rope->nodes, rope->node);
+    cpsi_range_points(frame.x, frame.y, rope->node_count, rope->node);
     const double size = fmax(frame.x[1] - frame.x[0], frame.y[1] - frame.y[0]),
                  unit = most > 0 ? 0.22 * size / most : 0;
-    for (int i = 0; i < rope->nodes; i++) {
+    for (int i = 0; i < rope->node_count; i++) {
         const double tip[2] = {rope->node[2 * i] + unit * v[2 * i],
                                rope->node[2 * i + 1] + unit * v[2 * i + 1]};
         cpsi_range_points(frame.x, frame.y, 1, tip);
@@ -48,52 +49,52 @@ static void draw_shape(FILE *out, const RopePicture *p) {
     cpsi_frame_title(out, &frame, "velocities; grey: resting");
     cpsi_frame_axes(out, &frame, "x (m)", "y (m)");
     cpsi_frame_begin(out, &frame, 1);
-    cpsi_draw_curve(out, &frame, rope->nodes, rope->node, false,
+    cpsi_draw_curve(out, &frame, rope->node_count, rope->node, false,
                     "fill=\"none\" stroke=\"#bbb\" stroke-width=\"5\"");
     /* runs of sliding nodes */
-    for (int i = 0; i < rope->nodes;) {
+    for (int i = 0; i < rope->node_count;) {
         int end = i;
-        while (end < rope->nodes && hypot(v[2 * end], v[2 * end + 1]) > REST * most) end++;
+        while (end < rope->node_count && hypot(v[2 * end], v[2 * end + 1]) > REST * most) end++;
         if (end > i + 1)
             cpsi_draw_curve(out, &frame, end - i, rope->node + 2 * (size_t)i, false,
                             "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"5\"");
         i = end + 1;
     }
     for (int k = 0; k <= ARROWS; k++) {
-        const int i = (int)((long long)(rope->nodes - 1) * k / ARROWS);
+        const int i = (int)((long long)(rope->node_count - 1) * k / ARROWS);
         const double along[2] = {unit * v[2 * i], unit * v[2 * i + 1]};
         cpsi_draw_arrow(out, &frame, rope->node + 2 * (size_t)i, along, CPSI_PLUM, 1.3);
     }
     for (int k = 0; k < 2; k++)
         if (rope->driven[k])
-            cpsi_draw_dot(out, &frame, rope->node + (k ? 2 * (size_t)(rope->nodes - 1) : 0), 4.5,
-                          "fill=\"#fff\" stroke=\"#333\" stroke-width=\"1.6\"");
+            cpsi_draw_dot(out, &frame, rope->node + (k ? 2 * (size_t)(rope->node_count - 1) : 0),
+                          4.5, "fill=\"#fff\" stroke=\"#333\" stroke-width=\"1.6\"");
     cpsi_frame_end(out);
 }
 
 static CpsStatus draw_tension(FILE *out, const RopePicture *p, CpsError *err) {
     const CpsRope *rope = &p->rope->rope;
-    double *point = malloc(2 * (size_t)rope->nodes * sizeof *point), along = 0;
+    double *point = malloc(2 * (size_t)rope->node_count * sizeof *point), along = 0;
     if (!point) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     CpsiFrame frame = {.left = LEFT + SHAPE + GAP,
                        .top = TOP,
                        .width = SHAPE - 100,
                        .height = HEIGHT,
                        .y = {0, 0}};
-    for (int i = 0; i + 1 < rope->nodes; i++) {
+    for (int i = 0; i + 1 < rope->node_count; i++) {
         const double *x = rope->node + 2 * (size_t)i, length = hypot(x[2] - x[0], x[3] - x[1]);
         point[2 * i] = along + 0.5 * length;
         along += length;
-        point[2 * i + 1] = fmax(-cps_motion_law_force(p->motion, rope->nodes + i)[0], 0);
+        point[2 * i + 1] = fmax(-cps_motion_law_force(p->motion, rope->node_count + i)[0], 0);
     }
     frame.x[1] = along;
-    cpsi_range_points(frame.x, frame.y, rope->nodes - 1, point);
+    cpsi_range_points(frame.x, frame.y, rope->node_count - 1, point);
     cpsi_range_pad(frame.y, 0.06);
     frame.y[0] = fmin(frame.y[0], 0);
     cpsi_frame_title(out, &frame, "tension");
     cpsi_frame_axes(out, &frame, "along the rope, from end A (m)", "tension (N)");
     cpsi_frame_begin(out, &frame, 2);
-    cpsi_draw_curve(out, &frame, rope->nodes - 1, point, false,
+    cpsi_draw_curve(out, &frame, rope->node_count - 1, point, false,
                     "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2\"");
     cpsi_frame_end(out);
     free(point);
@@ -102,7 +103,7 @@ static CpsStatus draw_tension(FILE *out, const RopePicture *p, CpsError *err) {
 
 /* shapes side by side with the same scale, each over the preceding ones in pale colours */
 static void draw_strip(FILE *out, const RopePicture *p, double width) {
-    const size_t nodes = (size_t)p->rope->rope.nodes;
+    const size_t nodes = (size_t)p->rope->rope.node_count;
     const int columns = p->count < 6 ? p->count : 6;
     const double side = (width - 14.0 * (columns - 1)) / columns;
     double x[2] = {INFINITY, -INFINITY}, y[2] = {INFINITY, -INFINITY};

@@ -87,10 +87,9 @@ CpsStatus cpsi_build_planimeter(CpsiSetBuild *b, const CpsiPlanimeterValues *val
                                   "planimeter: more than 1e8 steps in all");
 
     /* a curve out of reach is reported here, with its position */
-    CpsPlanimeterReading unused;
     CpsError found;
-    if (status == CPS_OK && cps_planimeter_trace(&out->planimeter, out->points, out->point, 1,
-                                                 &unused, &found) != CPS_OK)
+    if (status == CPS_OK &&
+        cps_planimeter_check(&out->planimeter, out->points, out->point, &found) != CPS_OK)
         status = cpsi_document_place(d, cpsi_yaml_child(values->node, "curve"), &found);
     return status;
 }
@@ -114,7 +113,7 @@ static CpsStatus build_shape(const CpsiDocument *d, const CpsiRopeShapeValues *s
     const double straight[4] = {from[0], from[1], to[0], to[1]};
     double *x = CPSI_POOL_TAKE(d->pool, 2 * (size_t)nodes, double);
     if (!x) return cpsi_document_no_memory(d);
-    out->rope.nodes = nodes;
+    out->rope.node_count = nodes;
     out->rope.node = x;
     if (shape->arc.node)
         arc_shape(&shape->arc, nodes, x);
@@ -138,6 +137,7 @@ static void build_ends(const CpsiRopeValues *values, CpsDriveRope *out) {
 
 CpsStatus cpsi_build_rope(CpsiSetBuild *b, const CpsiRopeValues *values, CpsDriveRope *out) {
     const CpsiYaml *path = cpsi_yaml_child(values->node, "path");
+    out->rope = cps_rope_default();
     out->friction = values->friction;
     out->weight = values->weight;
     out->steps = values->steps;
@@ -168,6 +168,7 @@ CpsStatus cpsi_build_rope(CpsiSetBuild *b, const CpsiRopeValues *values, CpsDriv
 
 CpsStatus cpsi_build_sweep(CpsiSetBuild *b, const CpsiSweepValues *values, CpsDriveSweep *out) {
     CpsLaw *law = NULL;
+    out->start = cps_sweep_default();
     out->start.stiffness = values->stiffness;
     out->steps = values->steps;
     CpsStatus status = cpsi_build_law(b, values->law, &law);

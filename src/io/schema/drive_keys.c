@@ -79,6 +79,7 @@ static const CpsiMapping SYSTEM = {"system", KEYS(SYSTEM_KEYS), INTO(System),
 
 static void begin_patch(void *values) {
     CpsiPatchValues *patch = values;
+    patch->patch = cps_patch_default();
     patch->patch.friction = patch->patch.load = NAN;
     patch->locked = -1;
 }
@@ -202,7 +203,11 @@ static const CpsiKey TOW_KEYS[] = {
      .help = "equal steps along the path"},
 };
 
-static void begin_tow(void *values) { ((CpsiTowValues *)values)->end[0] = NAN; }
+static void begin_tow(void *values) {
+    CpsiTowValues *tow = values;
+    tow->start = cps_tow_default();
+    tow->end[0] = NAN;
+}
 
 static const CpsiMapping TOW = {"tow", KEYS(TOW_KEYS), INTO(Tow), .begin = begin_tow};
 
@@ -263,7 +268,11 @@ static const CpsiKey PLANIMETER_KEYS[] = {
      .help = "on each side of the curve; 1 unless given"},
 };
 
-static void begin_planimeter(void *values) { ((CpsiPlanimeterValues *)values)->steps = 1; }
+static void begin_planimeter(void *values) {
+    CpsiPlanimeterValues *planimeter = values;
+    planimeter->planimeter = cps_planimeter_default();
+    planimeter->steps = 1;
+}
 
 static const CpsiMapping PLANIMETER = {"planimeter", KEYS(PLANIMETER_KEYS), INTO(Planimeter),
                                        .begin = begin_planimeter};

@@ -211,7 +211,9 @@ static const CpsiKey STAGE_KEYS[] = {
 };
 
 static void begin_stage(void *values) {
-    ((CpsiStageValues *)values)->stage = (CpsStage){.steps = 1, .gravity = {NAN}};
+    CpsStage *stage = &((CpsiStageValues *)values)->stage;
+    *stage = cps_stage_default();
+    stage->gravity[0] = NAN; /* not given */
 }
 
 static const CpsiMapping STAGE = {"entry", KEYS(STAGE_KEYS), INTO(Stage), .begin = begin_stage};
