@@ -646,7 +646,7 @@ static void check_missed_interior(void) {
     check("missed interior: lower bound", report.lower, 1e-6 * law.size);
     check("missed interior: upper bound", -report.upper, 0);
     check("missed interior: attained", report.outcome != CPS_MOTION_OUTCOME_NOT_ATTAINED, 0);
-    check("missed interior: no direction", largest(2, cps_motion_direction(motion)), 0);
+    check("missed interior: no direction", largest(2, cps_motion_direction(motion)) == 0, 0);
     cps_motion_destroy(motion);
     cps_system_destroy(system);
     cps_law_release(law.law);
