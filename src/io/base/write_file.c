@@ -18,9 +18,9 @@ static CpsStatus fail(const char *path, int code, CpsError *err) {
 }
 
 int cpsi_close_stream(FILE *stream, bool sync) {
-    errno = 0;
-    const bool failed =
-        ferror(stream) || fflush(stream) != 0 || (sync && fsync(fileno(stream)) != 0);
+    const bool before = ferror(stream) != 0; /* then errno is that of the write that failed */
+    if (!before) errno = 0;
+    const bool failed = before || fflush(stream) != 0 || (sync && fsync(fileno(stream)) != 0);
     int code = failed ? (errno ? errno : EIO) : 0;
     errno = 0;
     if (fclose(stream) != 0 && code == 0) code = errno ? errno : EIO;
@@ -36,6 +36,7 @@ static CpsStatus write_and_close(CpsFileWriter *write, void *user, int fd, bool 
         close(fd);
         return CPS_OK;
     }
+    errno = 0;
     const CpsStatus status = write(user, out, err);
     *code = cpsi_close_stream(out, sync);
     return status;
