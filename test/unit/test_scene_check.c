@@ -58,120 +58,133 @@ static void refused(const Parts *p, const char *fragment) {
     assert_int_equal(cps_scene_check(&p->scene, NULL), status);
 }
 
-/* Each statement by itself makes a good scene of two lines and two obstacles bad. */
-static void refuses_each_fault(void **state) {
-    (void)state;
+/* A good scene of two lines and two obstacles. */
+typedef struct Whole {
     Parts p;
     CpsLine line[2];
     CpsObstacle obstacle[2];
-    CpsFrictionZone zone = {0, 1, 0.5};
+    CpsFrictionZone zone;
     CpsTurn turn[2];
     CpsChange change[2];
     double length[4];
+} Whole;
+
+static void make_whole(Whole *w) {
     static const double PLACE[6] = {0, 1, 0, 10, 1, 0};
-#define BEGIN()                                                   \
-    do {                                                          \
-        make(&p);                                                 \
-        line[0] = line[1] = p.line;                               \
-        line[1].name = "other";                                   \
-        line[1].start.point = PLACE;                              \
-        line[0].zone = &zone;                                     \
-        line[0].zone_count = 1;                                   \
-        line[0].element_length = length;                          \
-        for (int i = 0; i < 4; i++) length[i] = 2.5;              \
-        obstacle[0] = obstacle[1] = p.obstacle;                   \
-        obstacle[1].name = "drum";                                \
-        obstacle[1].kind = CPS_OBSTACLE_CYLINDER;                 \
-        obstacle[1].radius = 1;                                   \
-        obstacle[1].point[2] = -5;                                \
-        turn[0] = turn[1] = (CpsTurn){.obstacle = 1, .angle = 1}; \
-        change[0] = change[1] = p.change;                         \
-        change[1].line = 1;                                       \
-        p.scene.line = line;                                      \
-        p.scene.line_count = 2;                                   \
-        p.scene.obstacle = obstacle;                              \
-        p.scene.obstacle_count = 2;                               \
-        p.stage.turn = turn;                                      \
-        p.stage.turn_count = 1;                                   \
-        p.stage.change = change;                                  \
-        p.stage.change_count = 2;                                 \
+    make(&w->p);
+    w->zone = (CpsFrictionZone){0, 1, 0.5};
+    for (int i = 0; i < 4; i++) w->length[i] = 2.5;
+    w->line[0] = w->line[1] = w->p.line;
+    w->line[0].start.point = w->p.point;
+    w->line[0].zone = &w->zone;
+    w->line[0].zone_count = 1;
+    w->line[0].element_length = w->length;
+    w->line[1].name = "other";
+    w->line[1].start.point = PLACE;
+    w->obstacle[0] = w->obstacle[1] = w->p.obstacle;
+    w->obstacle[1].name = "drum";
+    w->obstacle[1].kind = CPS_OBSTACLE_CYLINDER;
+    w->obstacle[1].radius = 1;
+    w->obstacle[1].point[2] = -5;
+    w->turn[0] = w->turn[1] = (CpsTurn){.obstacle = 1, .angle = 1};
+    w->change[0] = w->change[1] = w->p.change;
+    w->change[1].line = 1;
+    w->p.scene.line = w->line;
+    w->p.scene.line_count = 2;
+    w->p.scene.obstacle = w->obstacle;
+    w->p.scene.obstacle_count = 2;
+    w->p.stage.turn = w->turn;
+    w->p.stage.turn_count = 1;
+    w->p.stage.change = w->change;
+    w->p.stage.change_count = 2;
+}
+
+/* The statements make it bad. */
+#define BAD(...)           \
+    do {                   \
+        make_whole(&w);    \
+        __VA_ARGS__;       \
+        refused(&w.p, ""); \
     } while (0)
-#define BAD(...)         \
-    do {                 \
-        BEGIN();         \
-        __VA_ARGS__;     \
-        refused(&p, ""); \
-    } while (0)
-    BEGIN();
-    assert_int_equal(cps_scene_check(&p.scene, NULL), CPS_OK);
+
+static void refuses_each_wrong_count_and_kind(void **state) {
+    (void)state;
+    Whole w;
+    make_whole(&w);
+    assert_int_equal(cps_scene_check(&w.p.scene, NULL), CPS_OK);
     /* what there is how many of */
-    BAD(p.scene.obstacle_count = -1);
-    BAD(p.scene.obstacle = NULL);
-    BAD(p.scene.line_count = 0);
-    BAD(p.scene.line = NULL);
-    BAD(p.scene.stage_count = -1);
-    BAD(p.scene.stage = NULL);
-    BAD(p.stage.change_count = -1);
-    BAD(p.stage.change = NULL);
-    BAD(p.stage.turn_count = -1);
-    BAD(p.stage.turn = NULL);
-    BAD(line[0].zone_count = -1);
-    BAD(line[0].zone = NULL);
-    BAD(line[0].start.point = NULL);
-    BAD(line[0].start.point_count = 3);
-    BAD(line[0].start.kind = CPS_START_POLYLINE; line[0].start.point_count = 1);
+    BAD(w.p.scene.obstacle_count = -1);
+    BAD(w.p.scene.obstacle = NULL);
+    BAD(w.p.scene.line_count = 0);
+    BAD(w.p.scene.line = NULL);
+    BAD(w.p.scene.stage_count = -1);
+    BAD(w.p.scene.stage = NULL);
+    BAD(w.p.stage.change_count = -1);
+    BAD(w.p.stage.change = NULL);
+    BAD(w.p.stage.turn_count = -1);
+    BAD(w.p.stage.turn = NULL);
+    BAD(w.line[0].zone_count = -1);
+    BAD(w.line[0].zone = NULL);
+    BAD(w.line[0].start.point = NULL);
+    BAD(w.line[0].start.point_count = 3);
+    BAD(w.line[0].start.kind = CPS_START_POLYLINE; w.line[0].start.point_count = 1);
     /* what has been begun as nothing */
-    BAD(p.scene.cookie = 0);
-    BAD(line[1].cookie = 0);
-    BAD(obstacle[1].cookie = 0);
+    BAD(w.p.scene.cookie = 0);
+    BAD(w.line[1].cookie = 0);
+    BAD(w.obstacle[1].cookie = 0);
     /* unknown kinds */
-    BAD(obstacle[0].kind = -1);
-    BAD(obstacle[0].kind = 99);
-    BAD(line[0].start.kind = -1);
-    BAD(line[0].start.kind = 99);
-    BAD(line[0].end[0].kind = 99);
-    BAD(change[0].to.kind = 99);
-    BAD(change[0].end = 2);
-    BAD(p.scene.solver.linear_system = 99);
-    BAD(p.scene.friction_policy = 99);
-    BAD(p.scene.contact_policy = 99);
+    BAD(w.obstacle[0].kind = -1);
+    BAD(w.obstacle[0].kind = 99);
+    BAD(w.line[0].start.kind = -1);
+    BAD(w.line[0].start.kind = 99);
+    BAD(w.line[0].end[0].kind = 99);
+    BAD(w.change[0].to.kind = 99);
+    BAD(w.change[0].end = 2);
+    BAD(w.p.scene.solver.linear_system = 99);
+    BAD(w.p.scene.friction_policy = 99);
+    BAD(w.p.scene.contact_policy = 99);
+}
+
+static void refuses_each_wrong_name_and_number(void **state) {
+    (void)state;
+    Whole w;
+    make_whole(&w);
+    assert_int_equal(cps_scene_check(&w.p.scene, NULL), CPS_OK);
     /* names */
-    BAD(obstacle[1].name = NULL);
-    BAD(obstacle[1].name = "");
-    BAD(obstacle[1].name = "bed");
-    BAD(line[1].name = "cable");
-    BAD(line[1].name = "a name that is far longer than the sixty-four characters it may have");
-    BAD(p.stage.name = NULL);
-    BAD(p.stage.name = "");
+    BAD(w.obstacle[1].name = NULL);
+    BAD(w.obstacle[1].name = "");
+    BAD(w.obstacle[1].name = "bed");
+    BAD(w.line[1].name = "cable");
+    BAD(w.line[1].name = "a name that is far longer than the sixty-four characters it may have");
+    BAD(w.p.stage.name = NULL);
+    BAD(w.p.stage.name = "");
     /* indices */
-    BAD(change[0].line = -1);
-    BAD(change[0].line = 2);
-    BAD(change[1] = change[0]);
-    BAD(turn[0].obstacle = -1);
-    BAD(turn[0].obstacle = 2);
-    BAD(turn[0].obstacle = 0);
-    BAD(p.stage.turn_count = 2);
+    BAD(w.change[0].line = -1);
+    BAD(w.change[0].line = 2);
+    BAD(w.change[1] = w.change[0]);
+    BAD(w.turn[0].obstacle = -1);
+    BAD(w.turn[0].obstacle = 2);
+    BAD(w.turn[0].obstacle = 0);
+    BAD(w.p.stage.turn_count = 2);
     /* numbers */
-    BAD(length[2] = 0);
-    BAD(length[2] = NAN);
-    BAD(obstacle[1].kind = CPS_OBSTACLE_SPHERE; obstacle[1].radius = 0);
-    BAD(obstacle[1].kind = CPS_OBSTACLE_SPHERE; obstacle[1].point[0] = NAN);
-    BAD(obstacle[1].kind = CPS_OBSTACLE_SPHERE; obstacle[1].axis[0] = NAN);
-    BAD(obstacle[1].point[0] = INFINITY);
-    BAD(obstacle[0].grain[2] = NAN);
-    BAD(p.scene.solver.path_tolerance = 1e-10);
-    BAD(p.scene.solver.path_tolerance = 2);
-    BAD(p.scene.solver.path_tolerance = NAN);
-    BAD(p.scene.solver.halvings = -1);
-    BAD(p.scene.solver.halvings = 31);
-    BAD(p.scene.solver.max_iterations = 0);
-    BAD(p.scene.solver.max_iterations = 1001);
-    BAD(p.stage.gravity_changes = true; p.stage.gravity[0] = NAN);
-    BAD(p.stage.steps = 0);
-    BAD(line[0].start.kind = CPS_START_STATIC;
-        line[0].end[0].kind = line[0].end[1].kind = CPS_END_FREE);
-#undef BAD
-#undef BEGIN
+    BAD(w.length[2] = 0);
+    BAD(w.length[2] = NAN);
+    BAD(w.obstacle[1].kind = CPS_OBSTACLE_SPHERE; w.obstacle[1].radius = 0);
+    BAD(w.obstacle[1].kind = CPS_OBSTACLE_SPHERE; w.obstacle[1].point[0] = NAN);
+    BAD(w.obstacle[1].kind = CPS_OBSTACLE_SPHERE; w.obstacle[1].axis[0] = NAN);
+    BAD(w.obstacle[1].point[0] = INFINITY);
+    BAD(w.obstacle[0].grain[2] = NAN);
+    BAD(w.p.scene.solver.path_tolerance = 1e-10);
+    BAD(w.p.scene.solver.path_tolerance = 2);
+    BAD(w.p.scene.solver.path_tolerance = NAN);
+    BAD(w.p.scene.solver.halvings = -1);
+    BAD(w.p.scene.solver.halvings = 31);
+    BAD(w.p.scene.solver.max_iterations = 0);
+    BAD(w.p.scene.solver.max_iterations = 1001);
+    BAD(w.p.stage.gravity_changes = true; w.p.stage.gravity[0] = NAN);
+    BAD(w.p.stage.steps = 0);
+    BAD(w.line[0].start.kind = CPS_START_STATIC;
+        w.line[0].end[0].kind = w.line[0].end[1].kind = CPS_END_FREE);
 }
 
 /* one number made bad, and where the error says that it is */
@@ -663,14 +676,23 @@ static void checks_given_nodes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(says_the_place),         cmocka_unit_test(refuses_each_fault),
-        cmocka_unit_test(accepts_the_good_scene), cmocka_unit_test(refuses_nan_and_infinity),
-        cmocka_unit_test(refuses_wrong_lines),    cmocka_unit_test(refuses_wrong_obstacles),
-        cmocka_unit_test(refuses_wrong_friction), cmocka_unit_test(refuses_wrong_histories),
-        cmocka_unit_test(limits_sizes),           cmocka_unit_test(bounds_the_start_length),
-        cmocka_unit_test(bounds_places),          cmocka_unit_test(places_straight),
-        cmocka_unit_test(places_polyline),        cmocka_unit_test(places_arc),
-        cmocka_unit_test(guesses_laid),           cmocka_unit_test(places_many),
+        cmocka_unit_test(says_the_place),
+        cmocka_unit_test(refuses_each_wrong_count_and_kind),
+        cmocka_unit_test(refuses_each_wrong_name_and_number),
+        cmocka_unit_test(accepts_the_good_scene),
+        cmocka_unit_test(refuses_nan_and_infinity),
+        cmocka_unit_test(refuses_wrong_lines),
+        cmocka_unit_test(refuses_wrong_obstacles),
+        cmocka_unit_test(refuses_wrong_friction),
+        cmocka_unit_test(refuses_wrong_histories),
+        cmocka_unit_test(limits_sizes),
+        cmocka_unit_test(bounds_the_start_length),
+        cmocka_unit_test(bounds_places),
+        cmocka_unit_test(places_straight),
+        cmocka_unit_test(places_polyline),
+        cmocka_unit_test(places_arc),
+        cmocka_unit_test(guesses_laid),
+        cmocka_unit_test(places_many),
         cmocka_unit_test(checks_given_nodes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
