@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A line on a cylinder: the capstan law, what an elastic line remembers of it, a heavy string, and
- * a hoist.
+/* A line on a cylinder: the capstan law, the dependence of an elastic line on its history, a heavy
+ * string, and a hoist.
  *
  * Where a weightless line slides along a circle and turns by the angle d at each node, the node's
  * normal halves the angle: equilibrium of T, T', R and mu R gives T'/T = k = (1 + mu tan(d/2))/(1 -

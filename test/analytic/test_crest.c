@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A weight on a string drawn over the crest of a drum: where it leaves, and that it does not
- * before.
+/* A weight on a string pulled over the crest of a drum: the position where it leaves the drum, and
+ * that it does not leave before.
  *
  * One inextensible element of 1 m and 2 N, half of it at B; A moves along x at height 1.2 m, the
- * drum has radius 1 m about the y axis. While B lies on the drum and is drawn, |A - B| = |B| = 1 m
- * put it at the angle
+ * drum has radius 1 m about the y axis. While B lies on the drum and slides, |A - B| = |B| = 1 m
+ * place it at the angle
  *
  *     theta = atan(a/h) - acos(sqrt(a^2 + h^2)/2)
  *
- * from the crest, a = x_A. At theta = atan(mu) the weight slides by itself; the string holds it
- * back no more, and B falls to where it hangs, (a, h - 1). That is the only stable place then: to
- * be in equilibrium on the drum beyond it B would have to be pushed. */
+ * from the crest, a = x_A. At theta = atan(mu) the weight slides by itself; the string no longer
+ * holds it, and B falls to its hanging position, (a, h - 1). That is then the only stable position:
+ * for equilibrium on the drum beyond it the string would have to push B. */
 #include "rig.h"
 
 static const double HEIGHT = 1.2, LENGTH = 1, WEIGHT = 1;

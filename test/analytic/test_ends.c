@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Force and tension at the ends of a line, against closed forms that count the last half element.
+/* Force and tension at the ends of a line, compared with closed forms that include the last half
+ * element.
  *
- * On a plane that it rubs on all over, a line of weight w has T' = mu w f(a) with f the factor of
- * its zones. The program's nodes carry the integral over what they stand for, so the tension at a
- * held end is exact for any mesh, down to one element, once that end's half element is counted. On
- * a drum T grows like exp(mu theta), to second order in the mesh. */
+ * On a plane on which it slides everywhere, a line of weight w has T' = mu w f(a) with f the factor
+ * of its zones. The program's nodes carry the integral over the part of the line that they stand
+ * for, so the tension at a held end is exact for any mesh, down to one element, once that end's
+ * half element is included. On a drum T grows like exp(mu theta), to second order in the mesh. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scenes far from the origin of their coordinates: random ones, shifted by up to 1e7 lengths, are
- * answered as where they were.
+/* Random scenes shifted by up to 1e7 lengths from the origin of their coordinates: the answers must
+ * be those of the unshifted scenes.
  *
  * Coordinates are multiples of 2^-20 of the length and shifts of 2^-6, so that the shifted data are
- * exact: what differs is the program's. */
+ * exact and any difference is due to the program. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

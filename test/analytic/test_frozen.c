@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Frozen friction (S90) among several obstacles, planes, cylinders and balls, with contact reached:
- * random scenes, and what every step that is called solved must obey, from a geometry of the test's
- * own.
+ * random scenes, and the conditions that every step reported as solved must satisfy, with a
+ * geometry of the test's own.
  *
- * At the place reached: no node is below an obstacle; what pushes a node touches it, and along its
- * own normal there. At the reference: friction lies in the tangent plane, its bound is mu times the
- * reaction of the step before, and it dissipates all that it can. A held end on an obstacle is
- * carried by the part of its support along the normal. Elements obey the same at one point each, no
- * deeper than min(l^2/(4 R), R/4). */
+ * At the final positions: no node is below an obstacle; an obstacle with a reaction touches the
+ * node, and the reaction has the direction of its normal there. At the reference: friction lies in
+ * the tangent plane, its bound is mu times the reaction of the preceding step, and its dissipation
+ * is the largest possible. A held end on an obstacle is carried by the part of its support along
+ * the normal. Elements satisfy the same conditions at one point each, at a depth of at most
+ * min(l^2/(4 R), R/4). */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same scene in other words: turned and shifted, in other units, told from the other end.
+/* The same scene in other forms: rotated and shifted, in other units, with the ends exchanged.
  *
  * A heavy elastic line lies over a half-buried pipe and along a bed, both with different friction
- * along and across the line, one end is lifted and drawn aside; another one is wound around a drum
- * that turns. Positions per length and forces per force must agree. Turned, shifted or scaled, the
- * same iteration runs on the same numbers but for rounding, 1e-16 and amplified by the conditioning
- * of steps that are solved to 1e-13 of their scale: 1e-9. From the other end another elimination
- * leads elsewhere inside that gap, and the gap is quadratic in places along which the energy is
+ * along and across the line; one end is lifted and moved aside. Another line is wound around a drum
+ * that turns. Positions per length and forces per force must agree. Rotated, shifted or scaled, the
+ * same iteration has the same numbers up to rounding, 1e-16 amplified by the conditioning of steps
+ * that are solved to 1e-13 of their scale: 1e-9. With the ends exchanged another elimination leads
+ * to another point inside that gap, and the gap is quadratic in positions along which the energy is
  * flat: 1e-7. */
 #include <stdio.h>
 #include <string.h>

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lines laid in curves: what holds them in place on a bed and on a sphere, and where they go when
- * it does not.
+/* Lines placed in curves: what holds them in place on a bed and on a sphere, and where they move
+ * when nothing does.
  *
- * On a bed, a line of weight w and tension T laid with curvature kappa holds as long as its
- * friction, T' along and T kappa across the line, stays in its set: (T'/mu_a)^2 + (T kappa/mu_t)^2
- * <= w^2. With even tension that is T <= mu_t w r. Pulled at the end of an arc of angle theta, T =
- * mu_t w r sin(mu_a theta/mu_t) up to a quarter turn of the sine, then mu_t w r. A line that slides
- * across itself without axial friction takes the shape of a circle, r = T/(mu w). On a sphere a
- * taut line of even tension on a circle of latitude lambda presses with T cos(lambda)/r and pulls
- * sideways with T sin(lambda)/r: it holds iff tan(lambda) <= mu, whatever its tension, and else
- * slides towards the great circle.
- */
+ * On a bed, a line of weight w and tension T placed with curvature kappa is held as long as its
+ * friction, T' along and T kappa across the line, lies in its set: (T'/mu_a)^2 + (T kappa/mu_t)^2
+ * <= w^2. With uniform tension that is T <= mu_t w r. Pulled at the end of an arc of angle theta, T
+ * = mu_t w r sin(mu_a theta/mu_t) up to a quarter turn of the sine, then mu_t w r. A line that
+ * slides across itself without axial friction takes the shape of a circle, r = T/(mu w). On a
+ * sphere a taut line of uniform tension on a circle of latitude lambda presses with T cos(lambda)/r
+ * and pulls sideways with T sin(lambda)/r: it holds if and only if tan(lambda) <= mu, whatever its
+ * tension, and otherwise slides towards the great circle. */
 #include <stdio.h>
 
 #include "rig.h"

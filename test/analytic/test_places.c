@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where nothing holds a line it goes no farther than it must: of all places that go with the forces
- * that of least sum h |x - x_R|^2.
+/* Where forces do not determine the positions of a line, it moves no farther than necessary: of all
+ * positions compatible with the forces, those of least sum h |x - x_R|^2.
  *
- * Closed forms first: lines that nothing loads, a rope at rest and a rope dropped on a smooth
- * floor, an end that goes straight back. Then slack lines with both ends moved at random, against
+ * First closed forms: lines without load, a rope at rest and a rope dropped on a smooth floor, an
+ * end that moves straight back. Then slack lines with both ends moved at random, compared with
  * Dykstra's alternating projections, which find the nearest point of an intersection of convex sets
- * from their projections alone. Ends named the other way round, and turned axes, give the same
- * places. */
+ * from their projections alone. Exchanged names of the ends, and rotated axes, give the same
+ * positions. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lines against posts and balls that are thin beside their elements: nodes are kept out of them and
- * so are elements.
+/* Lines against posts and balls that are thin beside their elements: nodes are kept out of them,
+ * and so are elements.
  *
- * A line of 2 m, EA = 1e4 N, drawn out by 1 %, is carried sideways against a post by both of its
- * ends. Without friction it is a string drawn over the post: two tangents and an arc. Here it is a
- * chain; its chords cut in by up to min(l^2/(4 R), R/4). */
+ * A line of 2 m, EA = 1e4 N, stretched by 1 %, is carried sideways against a post by both of its
+ * ends. Without friction the exact line is a string over the post: two tangents and an arc. The
+ * discrete line is a chain, whose chords penetrate by up to min(l^2/(4 R), R/4). */
 #include <stdio.h>
 
 #include "rig.h"

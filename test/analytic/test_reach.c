@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inextensible lines round a cylinder or a ball whose end B is drawn away until the line is too
+/* Inextensible lines round a cylinder or a ball whose end B is moved away until the line is too
  * short to reach it.
  *
- * The shortest path from A to B is a helix between two tangents: unrolled, t_A + t_B + R (turn -
- * acos(R/r_A) - acos(R/r_B)) across the axis and the rise along it. A line at least as long as that
- * round the obstacle can be laid there: its nodes on the way, its elements chords no deeper than
- * they may be. A line shorter than the way round the obstacle shrunk by what elements may cut in,
- * min(l^2/(4 R), R/4), cannot. */
+ * The shortest path from A to B is a helix between two tangents: developed, t_A + t_B + R (turn -
+ * acos(R/r_A) - acos(R/r_B)) across the axis and the rise along it. A line at least as long as the
+ * path round the obstacle can be placed there, with its nodes on the path and its elements as
+ * chords of admissible depth. A line shorter than the path round the obstacle reduced by the
+ * admissible depth, min(l^2/(4 R), R/4), cannot. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

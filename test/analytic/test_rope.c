@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A rope on a table (M77, remark of section 11) against closed forms.
+/* A rope on a table (M77, remark of section 11) compared with closed forms.
  *
- * Straight rope of length L pulled at an angle psi < 90 degrees: all but the end follow along
- * themselves with W cos(psi), so gamma = f w W [ (L - h/2) cos(psi) + h/2 ] with elements of length
- * h: the end node's friction, f w h/2, moves with W. Rope in an arc of radius R and angle theta <=
- * pi/2, at rest or sliding: T'^2 + (T/R)^2 <= (f w)^2, so the tension is at most f w R
- * sin(theta). */
+ * A straight rope of length L pulled at an angle psi < 90 degrees: all of it except the end moves
+ * along itself with W cos(psi), so gamma = f w W [ (L - h/2) cos(psi) + h/2 ] with elements of
+ * length h: the end node, with the friction f w h/2, moves with W. A rope in an arc of radius R and
+ * angle theta <= pi/2, at rest or sliding: T'^2 + (T/R)^2 <= (f w)^2, so the tension is at most f w
+ * R sin(theta). */
 #include <stdio.h>
 #include <stdlib.h>
 

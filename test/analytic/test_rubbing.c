@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Friction that differs along the line, and friction sets: closed forms of drag, normality on faces
- * and corners, and the same sets given in two ways. No files: what the certificate says is
- * asserted, and forces are checked against the sets themselves. */
+ * and corners, and the same sets given in two ways. No files are written: the certificate is
+ * asserted, and forces are compared with the sets themselves. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A line passes no post: the angle by which it winds about the axis, from end A to end B, changes
- * by what its ends go round it and by nothing else, in one step as in many, with fine elements and
- * with coarse ones. Nor does it pass a ball in whose equator it lies, unless it goes over the
- * ball. */
+/* A line cannot pass through a post: the angle by which it winds about the axis, from end A to end
+ * B, changes only by the angle of its ends' paths round the axis, in one step as in many, with fine
+ * elements and with coarse ones. Nor does it pass through a ball in whose equator it lies, unless
+ * it goes over the ball. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A line that slides over a drum without end: beyond the capstan limit there is no equilibrium, and
- * the step says so with its proof.
+ * the step reports this with its proof.
  *
- * A weightless line is laid round a cylinder by n nodes that turn it by d each, pulled by F_A and
+ * A weightless line lies round a cylinder with n nodes that turn it by d each, pulled by F_A and
  * F_B along straight leads. It can be in equilibrium for k^-n <= F_B/F_A <= k^n, k = (1 + mu
- * tan(d/2))/(1 - mu tan(d/2)). Beyond, the velocity that keeps every element as long as it is and
- * leaves the drum as fast as friction asks, mu per speed along it, falls by k from node to node.
- * With speed 1 in the lead that follows it is k^-n in the lead that pulls, so the loads have the
- * power F_B k^-n - F_A. The fastest node is the one of the lead that lies on the drum before the
- * line turns: it leaves the chord by d/2 and moves at sqrt(1 + mu^2)/(cos(d/2) - mu sin(d/2)).
- * Further along its way the trailing force helps: e^(-mu a)(cos a + mu sin a) falls with the angle
- * a. */
+ * tan(d/2))/(1 - mu tan(d/2)). Beyond this limit there is a velocity that keeps the length of every
+ * element and leaves the drum as fast as friction requires, mu per speed along it; it decreases by
+ * k from node to node. With speed 1 in the lead that follows it is k^-n in the lead that pulls, so
+ * the loads have the power F_B k^-n - F_A. The fastest node is the one of the lead that lies on the
+ * drum before the line turns: it leaves the chord by d/2 and moves at sqrt(1 + mu^2)/(cos(d/2) - mu
+ * sin(d/2)). Farther along its path the trailing force helps: e^(-mu a)(cos a + mu sin a) decreases
+ * with the angle a. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

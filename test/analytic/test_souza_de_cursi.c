@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* S90 example 5.7: 6.28 m of cable on a rough bed, pulled up, aside and let go; from three
- * starts. */
+/* S90 example 5.7: 6.28 m of cable on a rough bed, pulled up, aside and released; from three
+ * initial configurations. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ropes placed statically across a pipe that lies on a bed, or half in it.
  *
- * The rope is held on the bed on both sides and is long enough to lie slack there. Without friction
- * T + T^2/(2 EA) - w z is the same all along it: dT/da = w dz/dl, dl = (1 + T/EA) da. It is 0 on
- * the bed, so that at the crest of the pipe T + T^2/(2 EA) = w z, whatever the rest. The rope
- * starts straight, on the bed, and so inside the pipe, and for most pipes below its axis, between
- * pipe and bed. */
+ * The rope is held on the bed on both sides and is long enough to be slack there. Without friction
+ * T + T^2/(2 EA) - w z is constant along it: dT/da = w dz/dl, dl = (1 + T/EA) da. It is 0 on the
+ * bed, so that at the crest of the pipe T + T^2/(2 EA) = w z, whatever the rest. The initial guess
+ * is straight, on the bed, and therefore inside the pipe; for most pipes it is below the axis,
+ * between pipe and bed. */
 #include <stdio.h>
 
 #include "rig.h"

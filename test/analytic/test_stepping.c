@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Load steps in parts, the energy ledger and snaps, on cases whose answer is known. */
+/* Load steps in substeps, the energy ledger and jumps, on cases with known answers. */
 #include <math.h>
 #include <stdlib.h>
 

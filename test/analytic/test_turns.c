@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drums and balls that turn far in one load step.
+/* Drums and balls that turn by large angles in one load step.
  *
  * A weightless line that slides everywhere along a circle, n nodes at equal angles d, keeps T'/T =
  * k = (1 + mu tan(d/2))/(1 - mu tan(d/2)) at each node however far the circle turns under it, so
  * k^n between its ends, whatever the angle, its sign and the number of load steps. A step in which
- * something turns by more than a quarter is cut into equal parts of a quarter at most; it is then
- * the same as those parts taken as load steps, to the last bit. */
+ * an obstacle turns by more than a quarter turn is divided into equal substeps of at most a quarter
+ * turn. It must be equal, to the last bit, to those substeps given as load steps. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers of every layer of the library, all their digits, for scripts/same-bits: a rope that is
- * pulled over a floor with friction and over a drum, a wheel with a brake, a disc that is pushed,
- * an area of a set. It needs the library alone. */
+/* Numbers of every layer of the library, with all their digits, for scripts/same-bits: a rope that
+ * is pulled over a floor with friction and over a drum, a wheel with a brake, a disc that is
+ * pushed, an area of a set. Only the library is needed. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The verdict of the checker: what each outcome claims, held against what was recomputed. */
+/* The judgement of the checker: the claims of each outcome compared with the recomputed
+ * quantities. */
 #include "checker.h"
 
 #include <math.h>

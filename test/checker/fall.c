@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The way of a falling line, by a search: the distance of a straight element from a convex obstacle
- * is a convex function of the place on the element, and its least over the element a convex
- * function of the way fallen. So both are found by sections, out to a thousand times the extent of
- * the scene; and where the distance still grows there it does for ever. */
+/* The path of a falling line, by a search. The distance of a straight element from a convex
+ * obstacle is a convex function of the point on the element, and its minimum over the element is a
+ * convex function of the distance fallen. Both minima are therefore found by sections, out to a
+ * thousand times the extent of the scene. Where the distance still increases there, it increases
+ * forever. */
 #include "fall.h"
 
 #include <math.h>

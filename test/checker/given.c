@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scene against file (given.h).
+/* Comparison of a file with its scene (given.h).
  *
- * A stage takes an end from where it is to the stage's value in equal steps. Where it is: the value
- * imposed before; where the kind of the end changes, the place that it had reached, or the force
- * that it carried. These two are results, and taken from the file's step before; before the first
- * step an end is where the start shape puts it. */
+ * A stage moves an end from its present value to the stage's value in equal steps. The present
+ * value is the value imposed before; where the kind of the end changes, it is the position that the
+ * end had reached, or the force that it carried. These two are results, and are taken from the
+ * preceding step of the file; before the first step an end has the position of the start shape. */
 #include "given.h"
 
 #include <math.h>

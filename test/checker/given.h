@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a file takes from its scene, held against the scene: a copy in which an end force, a weight
- * or a coefficient has been changed together with what follows from it is a sound record of another
- * scene. The scene is read through the C interface, and read only. */
+/* The data that a file takes from its scene, compared with the scene. A copy in which an end force,
+ * a weight or a coefficient has been changed together with everything that follows from it is a
+ * valid record of another scene. The scene is read through the C interface, and only read. */
 #ifndef CAPSTAN_CHECKER_GIVEN_H
 #define CAPSTAN_CHECKER_GIVEN_H
 

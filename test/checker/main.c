@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan-checker FILE.nc [SCENE.yaml] [-v]: recompute every residual of a result file and say
- * whether its claims hold; with the scene also whether what the file takes from it is the scene's.
- * capstan-checker SUMMARY.json: are the files beside it those that it lists? */
+/* capstan-checker FILE.nc [SCENE.yaml] [-v]: recompute every residual of a result file and report
+ * whether its claims hold; with the scene, also whether the data that the file takes from the scene
+ * are those of the scene. capstan-checker SUMMARY.json: whether the files beside it are those that
+ * it lists. */
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Does a velocity field prove that a line slides along itself without end? */
+/* Whether a velocity field proves that a line slides along itself without end. */
 #ifndef CAPSTAN_CHECKER_MOTION_H
 #define CAPSTAN_CHECKER_MOTION_H
 

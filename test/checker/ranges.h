@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The ranges of tensions that a record claims, against those that rest.c finds. */
+/* The ranges of tensions that a record claims, compared with those of rest.c. */
 #ifndef CAPSTAN_CHECKER_RANGES_H
 #define CAPSTAN_CHECKER_RANGES_H
 

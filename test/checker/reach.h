@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is an inextensible line too short to reach round an obstacle? */
+/* Whether an inextensible line is too short to reach round an obstacle. */
 #ifndef CAPSTAN_CHECKER_REACH_H
 #define CAPSTAN_CHECKER_REACH_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the checker reads of one line: the constants of the line and one step at a time. */
+/* The data of one line that the checker reads: the constants of the line and one step at a time. */
 #ifndef CAPSTAN_CHECKER_RECORD_H
 #define CAPSTAN_CHECKER_RECORD_H
 

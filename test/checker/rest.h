@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Least and greatest tension of an inextensible line that is held where it is, by the conic solver
- * of the checker.
+/* Smallest and largest tension of an inextensible line that is held where it is, by the checker's
+ * conic solver.
  *
- * Unknown are the tensions of all taut elements alone. What is then missing at a node is what its
- * contacts do together,
+ * The unknowns are the tensions of all taut elements. The remaining force at a node is that of its
+ * contacts,
  *
  *     c_j = T_j t_j - T_j+1 t_j+1 - b_j,
  *
- * and must lie in their cone: nothing at a free node, R n + F with |F| <= mu R where it rests, R (n
- * - mu u/|u|) where it slips. At a node with two contacts the force of the first is unknown too. */
+ * and must lie in their cone: 0 at a free node, R n + F with |F| <= mu R where it sticks, R (n - mu
+ * u/|u|) where it slips. At a node with two contacts the force of the first is an unknown too. */
 #ifndef CAPSTAN_CHECKER_REST_H
 #define CAPSTAN_CHECKER_REST_H
 

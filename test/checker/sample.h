@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Result files with known contents, to try the checker on. */
+/* Result files with known contents, for tests of the checker. */
 #ifndef CAPSTAN_CHECKER_SAMPLE_H
 #define CAPSTAN_CHECKER_SAMPLE_H
 

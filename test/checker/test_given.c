@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Copies of a sound file that are sound records of another scene: the checker passes them by
- * themselves, and refuses them beside their scene. */
+/* Copies of a valid file that are valid records of another scene: the checker accepts them by
+ * themselves, and refuses them together with their scene. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

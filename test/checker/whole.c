@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Result files against the list in their summary (see whole.h). */
+/* Result files compared with the list in their summary (see whole.h). */
 #include "whole.h"
 
 #include <inttypes.h>

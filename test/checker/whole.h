@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is a result file one of the set that it lies in?  Two runs into one directory, the second
- * interrupted while it put its files in place, leave files of both. */
+/* Whether a result file belongs to the set of files around it. Two runs into one directory, the
+ * second of which was interrupted while it renamed its files, leave files of both. */
 #ifndef CAPSTAN_TEST_CHECKER_WHOLE_H
 #define CAPSTAN_TEST_CHECKER_WHOLE_H
 

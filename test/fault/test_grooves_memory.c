@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Memory runs out at the k-th allocation of a run with a friction set and friction zones, for every
- * k: from reading the scene to results in place. The call says so and nothing is left behind; the
- * address sanitizer looks for what is not given back. */
+ * k: from reading the scene to the finished results. The call reports it and no file is left
+ * behind; the address sanitizer finds memory that is not freed. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A journal whose system calls fail, one after the other: an error with a message or the same
- * steps, and no step that it had before is lost. The calls are replaced (linked with --wrap). */
+/* A journal whose system calls fail, one after the other: the result is an error with a message or
+ * the same steps, and no earlier step is lost. The calls are replaced (linked with --wrap). */
 #include <errno.h>
 #include <fcntl.h>
 #include <setjmp.h>

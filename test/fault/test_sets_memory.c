@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory runs out at the k-th allocation of a round of questions about sets, for every k: the call
- * says so, and everything allocated is given back. Allocations are counted by wrapping them at link
- * time. */
+/* Memory runs out at the k-th allocation of a series of queries of sets, for every k: the call
+ * reports it, and all memory is freed. Allocations are counted by wrapping them at link time. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>

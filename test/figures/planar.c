@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The numbers of docs/planar.md: a name and its numbers on each line, for scripts/figures.
  *
- * That they are right is what test_planar and test_planar_paths check; here they are written out as
- * the library gives them. */
+ * test_planar and test_planar_paths check that they are right; here they are printed as the library
+ * returns them. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A fuzzer for where libFuzzer is not: mutates the files given and hands them to the reader that
- * this is linked with.
+/* A fuzzer for systems without libFuzzer: mutates the given files and passes them to the reader
+ * that it is linked with.
  *
  *     mutate SECONDS SEED FINDING [FILE..]
  *
- * It knows nothing of coverage; its inputs are cuts, copies, splices, flips, words of YAML and CSV
- * in what is there, and words repeated up to 1 MiB. An input that crashes the reader, or takes more
- * than 2 s of processor time, is written to FINDING, and the exit code is not 0. */
+ * It does not measure coverage. Its inputs are cuts, copies, splices, bit flips, words of YAML and
+ * CSV inserted into the given text, and words repeated up to 1 MiB. An input that crashes the
+ * reader, or takes more than 2 s of processor time, is written to FINDING, and the exit code is not
+ * 0. */
 #define _POSIX_C_SOURCE 200809L
 #include <fcntl.h>
 #include <signal.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The classes of random_extremes.c: how a case fails, and a cone of velocities against what is
- * expected of it. */
+/* The classes of random_extremes.c: reporting of failures, and comparison of a cone of velocities
+ * with the expected one. */
 #ifndef CAPSTAN_TEST_EXTREME_CASE_H
 #define CAPSTAN_TEST_EXTREME_CASE_H
 

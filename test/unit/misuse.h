@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls that have to be refused: each by itself, so that a crash of one hides no other. For one
- * file of a test program. */
+/* Calls that must be refused, each separately, so that the crash of one does not hide others. For
+ * one file of a test program. */
 #ifndef CAPSTAN_TEST_UNIT_MISUSE_H
 #define CAPSTAN_TEST_UNIT_MISUSE_H
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A load step that is interrupted is not taken: whenever that happens, the evolution is as it was,
- * and goes on from there with the same bits as if nothing had been. */
+/* A load step that is interrupted has no effect: whenever that happens, the evolution is in the
+ * state before the step, and continues from there with the same bits as without the
+ * interruption. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

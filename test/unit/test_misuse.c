@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function of the library that takes a handle, an index or an array gets none, or one
- * that there is not: it refuses with a status and a message, or gives nothing. A crash is told with
- * its line and the others go on. (Those of evolve.h: results_test.c.) */
+/* Every public function of the library that has a handle, an index or an array as argument is
+ * called with NULL or with an invalid one: it refuses with a status and a message, or returns
+ * nothing. A crash is reported with its line, and the other calls are still made. (Those of
+ * evolve.h: test_results.c.) */
 #include <limits.h>
 #include <math.h>
 #include <string.h>

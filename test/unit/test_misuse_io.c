@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* As misuse_test.c, of the library that reads and writes files. */
+/* As test_misuse.c, for the library that reads and writes files. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Geometry of planes, cylinders and spheres against differences and by ways there and back. */
+/* Geometry of planes, cylinders and spheres compared with differences and by moves there and
+ * back. */
 #include "geometry/obstacle.h"
 
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far a move may go before an element comes too near to an axis or a centre, against the move
- * taken in small steps. */
+/* The distance that a move may go before an element comes too near to an axis or a centre, compared
+ * with the move in small steps. */
 #include "cable/obstacle_side.h"
 
 #include <stdio.h>

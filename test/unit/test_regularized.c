@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The 1990 method piece by piece: band factor, Newton, the functional of section 5 and P10.1
- * against differences, the external approximation, and what is refused. A small made-up step: six
- * uneven elements, a tilted obstacle, nothing at rest. */
+ * compared with differences, the external approximation, and what is refused. A small artificial
+ * step: six elements of different lengths, a tilted obstacle, no node at rest. */
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>

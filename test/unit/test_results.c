@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Results of small runs: text that stays text, files that hold what the evolution said, calls out
- * of order. The files are left in the working directory, where results_files.py reads them with
- * other people's readers. */
+/* Results of small runs: text that stays text, files with the numbers of the evolution, calls in
+ * the wrong order. The files are left in the working directory, where results_files.py reads them
+ * with independent readers. */
 #include <limits.h>
 #include <locale.h>
 #include <math.h>

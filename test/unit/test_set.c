@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sets: arguments, holds, degenerate sets, users' sets, projections and gauges with known
- * answers. */
+/* Sets: arguments, reference counts, degenerate sets, users' sets, projections and gauges with
+ * known answers. */
 #include "check.h"
 
 #include <string.h>
