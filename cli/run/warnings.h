@@ -20,7 +20,7 @@ enum {
     WARNING_ROUNDED,
     WARNING_PIERCED,
     WARNING_BEND,
-    CAUTIONS
+    WARNINGS
 };
 
 /* The worst case of each kind. */
@@ -29,7 +29,7 @@ typedef struct Warnings {
         int steps;        /* number of steps in which it occurred */
         double value, of; /* the value, and the value that it is a share of */
         char step[96], line[96], obstacle[96];
-    } kind[CAUTIONS];
+    } kind[WARNINGS];
     CpsBend bend; /* the worst */
 } Warnings;
 

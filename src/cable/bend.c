@@ -13,6 +13,7 @@
  * it. */
 #include "cable/bend.h"
 
+#include "base/math.h"
 #include "cable/friction_law.h"
 #include "chain/frame.h"
 
@@ -46,7 +47,7 @@ bool cpsi_bend_is_sharper(const CpsBend *a, const CpsBend *b) {
 
 /* The turn at which the two ratios differ by RATIO_TOL. */
 static double resolved_turn(double friction) {
-    double low = 0, high = acos(-1.0);
+    double low = 0, high = CPSI_PI;
     for (int i = 0; i < 60; i++) {
         const double turn = 0.5 * (low + high);
         if (log_ratio_held(friction, turn) - friction * turn < log1p(RATIO_TOL))

@@ -31,14 +31,6 @@
  * work is done. */
 static const double GAP_FLOOR = 1e-12;
 
-/* |a||b| - a.b for any two vectors, without cancellation. */
-static double angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {
-    const double dot = vec3_dot(a, b), sum = size_a * size_b + dot;
-    if (!(dot > 0)) return size_a * size_b - dot;
-    const Vec3 cross = vec3_cross(a, b);
-    return vec3_dot(cross, cross) / sum;
-}
-
 static Vec3 tangential(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
 
 Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
@@ -190,7 +182,7 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
         if (!(force > 0) && size > 1 && size <= 1 + LEAST_STRAIN + coordinate_rounding(line, e))
             size = 1;
         const double over = size - 1;
-        double gap = angle_defect(p, strain, force, size);
+        double gap = vec3_angle_defect(p, strain, force, size);
         if (size > 0) raise_to(&out->element_push, -vec3_dot(p, strain) / size);
         if (c > 0) raise_to(&out->elongation_residual, over - along);
         if (over > 0 && c > 0) {

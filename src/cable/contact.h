@@ -3,13 +3,14 @@
 #ifndef CAPSTAN_SRC_CABLE_CONTACT_H
 #define CAPSTAN_SRC_CABLE_CONTACT_H
 
+#include "base/math.h"
 #include "cable/line.h"
 
 #define CPSI_TOUCH CPS_TOUCH /* evolve.h */
 
 /* [rad] In one substep no obstacle turns by more, and no node with friction moves farther round
  * one. */
-#define CPSI_QUARTER 1.57079632679489661923
+#define CPSI_QUARTER (0.5 * CPSI_PI)
 
 /* At the reference, where a step begins: base, axes, normals, gaps; friction bounds of the
  * reference, a first guess where friction is consistent, zero for an initial configuration by

@@ -35,10 +35,8 @@ void cpsi_line_lay_out_friction(CpsiLine *line) {
 
 /* |f||u| + f.u in the plane, without cancellation. */
 static double defect(const double f[2], const double u[2]) {
-    const double product = hypot(f[0], f[1]) * hypot(u[0], u[1]), dot = f[0] * u[0] + f[1] * u[1];
-    if (!(dot < 0)) return product + dot;
-    const double cross = f[0] * u[1] - f[1] * u[0];
-    return cross * cross / (product - dot);
+    return vec3_angle_defect(vec3(-f[0], -f[1], 0), vec3(u[0], u[1], 0), hypot(f[0], f[1]),
+                             hypot(u[0], u[1]));
 }
 
 /* f with F = B f; 0 where the set has no width. */

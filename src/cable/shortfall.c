@@ -4,6 +4,7 @@
  * step plus the angles of the held ends on their straight paths. */
 #include "cable/shortfall.h"
 
+#include "base/math.h"
 #include "cable/line_solve.h"
 #include "geometry/shortest_path.h"
 
@@ -11,7 +12,7 @@
  * determined; the elements of a solution stay beyond three quarters. */
 static const double TOO_NEAR = 0.5;
 
-static const double ROUND = 6.28318530717958647692;
+static const double ROUND = 2 * CPSI_PI;
 
 static Vec3 held_at(const CpsiLine *line, int end) { return vec3_load(line->end[end].value); }
 

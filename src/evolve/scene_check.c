@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "base/status.h"
 #include "base/vec3.h"
 #include "cable/friction_set.h"
@@ -39,7 +40,7 @@ enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000, MAX_OBST
 
 /* [rad] Limit of a turn in one stage, which takes a substep for every quarter of a turn: 10 000
  * turns. */
-static const double MAX_TURN = 62831.853071795864769, DEGREES = 57.295779513082320877;
+static const double MAX_TURN = 2e4 * CPSI_PI, DEGREES = 180 / CPSI_PI;
 
 CpsScene cps_scene_default(void) {
     return (CpsScene){

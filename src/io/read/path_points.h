@@ -6,8 +6,8 @@
 #include "io/read/document.h"
 #include "io/schema/drive_keys.h"
 
-/* A path from `start` on: a list of points, or (in the plane) {arc: {centre: .., angle: ..}}, which
- * `steps` equal steps then follow on the arc itself. */
+/* A path that begins at `start`: a list of points, or (in the plane) {arc: {centre: .., angle:
+ * ..}}, on which `steps` equal steps are taken exactly. */
 CpsStatus cpsi_build_path(const CpsiDocument *d, const CpsiPathValues *values, int space,
                           const double *start, int steps, int *points, const double **path);
 

@@ -174,7 +174,8 @@ static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsS
     return CPS_OK;
 }
 
-/* `held`: where the start puts it, `free`: without force; or at a place, or with a force. */
+/* `held`: at its initial position, `free`: without force; or at a given position, or with a given
+ * force. */
 static CpsEnd build_end(const CpsiEndValues *values) {
     const bool is_free = values->word == CPSI_END_FREE;
     CpsEnd end = {.kind = is_free ? CPS_END_FREE : CPS_END_HELD};

@@ -8,8 +8,8 @@
 
 enum { XYZ = 3, TANGENTS = 2 };
 
-/* Numbers of an obstacle. Their names are none that a line's field could have, whatever the line is
- * called. */
+/* Numbers of an obstacle. Their names differ from the names of all fields of a line, whatever its
+ * name. */
 typedef enum ObstacleField {
     OBSTACLE_KIND,
     OBSTACLE_POINT,

@@ -46,7 +46,7 @@ typedef struct CpsiStartValues {
     const char *nodes; /* name of a file */
 } CpsiStartValues;
 
-/* An end of a line: `held` or `free` in a word, or with its place or force. */
+/* An end of a line: `held` or `free` as a word, or with its position or force. */
 typedef enum CpsiEndWord { CPSI_END_HELD, CPSI_END_FREE } CpsiEndWord;
 
 typedef struct CpsiEndValues {
