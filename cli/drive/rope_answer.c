@@ -225,7 +225,7 @@ static void print_path(const RopeRun *r) {
     const double *a = r->shot + (size_t)last * 2 * (size_t)nodes;
     printf("end B along its path in %d steps: %s\n", r->rope->steps, cps_outcome_text(r->outcome));
     if (r->uncertified)
-        printf("  note: %d steps are not certified, so energies are not told\n", r->uncertified);
+        printf("  note: %d steps are not certified, so energies are not given\n", r->uncertified);
     else
         printf("  dissipated %.8g J, work of the ends %.8g J, gaps of all steps together %.1e J\n",
                r->dissipated, r->work, r->gap);

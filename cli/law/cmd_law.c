@@ -255,7 +255,7 @@ static bool print_all(LawRun *run, const QueryList *velocity, const QueryList *f
                 return false;
         if (run->json) fputs("]", stdout);
     } else if (force->count > 0 && velocity->count > 0 && !run->json) {
-        printf("no pairs: %d velocities and %d forces; pairs are told of as many of each, in the "
+        printf("no pairs: %d velocities and %d forces; pairs are given for as many of each, in the "
                "order given\n",
                velocity->count, force->count);
     }

@@ -259,7 +259,7 @@ CPS_API CpsStatus cps_drive_draw_planimeter(const CpsDriveFile *file,
                                             CpsError *err);
 
 /* Of a rope: its shape with velocities, sliding and resting parts, tension along it; and shapes on
- * the way.
+ * its path.
  *
  *   motion  of cps_rope_system
  *   shots   (count, nodes, 2) shapes, the first being the start; NULL: none

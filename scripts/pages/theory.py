@@ -88,6 +88,6 @@ SENTENCES = [
     ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),
 ]
 # data of the papers, exponents of formulas, and what double precision is
-GIVEN = ["Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a way of 350 degrees is not taken for one of -10",
+GIVEN = ["Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
          "d^3/12 and more", "positions and reactions (1e-16)", "lie 1e-7 beside", "lemma 9.6 for 7.6", "\"A = 0.25 N\"",
          "slack on 0.6 of its length"]

@@ -11,8 +11,8 @@
  *     element i:    m_i . d_i - a_i t_i = h_i
  *     held node:    x_j = 0, its equation is dropped
  *
- * An element may have a point, at the share 0 < b_i < 1 of its way, in axes Q_{n+i} of its own. It
- * moves with the element, and its force acts on the nodes,
+ * An element may have a point, at the share 0 < b_i < 1 of its length, in axes Q_{n+i} of its own.
+ * It moves with the element, and its force acts on the nodes,
  *
  *     point i:      x_{n+i} = Q_{n+i} ((1 - b_i) Q_{i-1}^T x_{i-1} + b_i Q_i^T x_i),
  *         f_{n+i} - D_{n+i} x_{n+i} on the point,

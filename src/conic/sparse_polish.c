@@ -330,10 +330,10 @@ void cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
     CPSI_FOR_CONES(k, i, cones->count, cones->dim)
         p.active[k] = cpsi_active(&cones->s[i], &cones->z[i], cones->dim[k]);
     for (int trial = 0; trial < TRIALS; trial++) {
-        const bool done = polish_steps(&p), settled = p.best <= ROUNDING * (1 + largest);
-        if (done && !settled && !p.left_some) doubt(&p);
+        const bool done = polish_steps(&p), converged = p.best <= ROUNDING * (1 + largest);
+        if (done && !converged && !p.left_some) doubt(&p);
         release(&p);
-        if (!done || settled || !p.left_some) break;
+        if (!done || converged || !p.left_some) break;
         memcpy(p.active, p.other, (size_t)cones->count * sizeof *p.active);
     }
     free(p.active);

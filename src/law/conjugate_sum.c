@@ -38,7 +38,7 @@ static const double WIDEN = 0.3, NARROWEST = 1e-8;
 static const double WITHOUT_END = 1e9;
 /* The range of a term ends where the term alone costs this many times the best split found, a
  * margin for better splits. */
-static const double ROOM = 4;
+static const double RANGE_MARGIN = 4;
 /* The speed at which the slope counts as its limit. SHORT keeps rounding from reaching a limit that
  * is only approached. */
 static const double FAST = 1e100, SHORT = 1e-12;
@@ -404,7 +404,7 @@ static CpsStatus next_pieces(Sum *sum, bool first, CpsError *err) {
     for (int i = 0; i < sum->count && status == CPS_OK; i++) {
         Part *part = &sum->part[i];
         CpsiShare *share = &sum->share[i];
-        status = find_range(part, ROOM * sum->best.upper, err);
+        status = find_range(part, RANGE_MARGIN * sum->best.upper, err);
         if (status != CPS_OK) break;
         share->unit = part->range > 0 ? part->range : 1;
         share->pieces = 0;

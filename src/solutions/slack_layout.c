@@ -216,12 +216,12 @@ static void read_piece(const CpsLineView *step, const CpsiPiece *piece, CpsCompl
             r->straight += step->element_length[i];
     const Laying lay = begin(step, piece, how);
     const bool straight_on = open && how == CPS_COMPLETION_STRAIGHT;
-    bool laid = !straight_on && moves && piece->last > piece->first && place_slack(lay, position);
-    if (open && !laid) {
+    bool placed = !straight_on && moves && piece->last > piece->first && place_slack(lay, position);
+    if (open && !placed) {
         place_straight_on(&lay, position);
-        laid = true;
+        placed = true;
     }
-    r->parts += laid;
+    r->parts += placed;
     for (int i = piece->first; i <= piece->last; ++i)
         if (cpsi_element_stretch(step, position, i) < 1 - CPSI_FULL)
             r->left += step->element_length[i];

@@ -409,8 +409,8 @@ static void the_same_set_given_twice(void **state) {
             rig_show(name, "smaller of two reactions, sum [N]", 0, pressed);
             CHECK_GREATER(pressed, 1);
             /* the loops end at a relative gap of 1e-13; its root 3e-7 bounds what forces keep that
-             * is not strictly complementary (test_rubbing.c), of the pull of 200 N; places keep the
-             * elongation that goes with it, 200/1e4 of that and 10 m */
+             * is not strictly complementary (test_friction_sets.c), of the pull of 200 N; places
+             * keep the elongation that goes with it, 200/1e4 of that and 10 m */
             CHECK_LESS(place, 1e-8 * 10);
             CHECK_LESS(force, 3e-7 * 200);
             CHECK_LESS(rubbed, 3e-7 * 200);

@@ -9,7 +9,7 @@
 #include "capstan/results.h"
 #include "io/draw/diagram.h"
 
-enum { AROUND = 360, SIDE = 320, GAP = 120, LEFT = 84, TOP = 96, WAY = 420, POSES = 9 };
+enum { AROUND = 360, SIDE = 320, GAP = 120, LEFT = 84, TOP = 96, PATH_HEIGHT = 420, POSES = 9 };
 
 typedef struct BodyPicture {
     const CpsDriveFile *file;
@@ -174,7 +174,10 @@ static CpsStatus draw_pushes(FILE *out, const BodyPicture *p, int column, CpsErr
 /* ---- tow ---- */
 
 static void draw_way(FILE *out, const BodyPicture *p, double width) {
-    CpsiFrame frame = {.left = LEFT, .top = TOP + SIDE + 110, .width = width, .height = WAY};
+    CpsiFrame frame = {.left = LEFT,
+                       .top = TOP + SIDE + 110,
+                       .width = width,
+                       .height = PATH_HEIGHT};
     double x[2], y[2];
     reach(p->body, x, y);
     const double r = fmax(fmax(fabs(x[0]), fabs(x[1])), fmax(fabs(y[0]), fabs(y[1])));
@@ -190,8 +193,8 @@ static void draw_way(FILE *out, const BodyPicture *p, double width) {
     cpsi_range_pad(frame.x, 0.03);
     cpsi_range_pad(frame.y, 0.03);
     /* as wide as the path, within the sheet */
-    frame.width =
-        fmin(width, fmax(SIDE, WAY * (frame.x[1] - frame.x[0]) / (frame.y[1] - frame.y[0])));
+    frame.width = fmin(width, fmax(SIDE, PATH_HEIGHT * (frame.x[1] - frame.x[0]) /
+                                             (frame.y[1] - frame.y[0])));
     cpsi_frame_equal(&frame);
     cpsi_frame_title(out, &frame,
                      p->body->tow.start.rope > 0
@@ -223,7 +226,7 @@ static CpsStatus draw_body(void *what, FILE *out, CpsError *err) {
     const BodyPicture *p = what;
     const double width = 3 * SIDE + 2 * GAP;
     const bool towed = p->count > 1;
-    cpsi_svg_begin(out, LEFT + width + 40, TOP + SIDE + 90 + (towed ? WAY + 80 : 0),
+    cpsi_svg_begin(out, LEFT + width + 40, TOP + SIDE + 90 + (towed ? PATH_HEIGHT + 80 : 0),
                    *p->file->title    ? p->file->title
                    : p->body->vehicle ? "vehicle"
                                       : "body on a plane",

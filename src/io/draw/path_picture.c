@@ -10,7 +10,7 @@
 
 enum { LEFT = 84, TOP = 96, SIDE = 520 };
 
-static const char WAY[] = "fill=\"none\" stroke=\"" CPSI_PLUM "\" stroke-width=\"1.4\"";
+static const char PATH_STYLE[] = "fill=\"none\" stroke=\"" CPSI_PLUM "\" stroke-width=\"1.4\"";
 
 /* ---- planimeter ---- */
 
@@ -148,7 +148,7 @@ static void draw_plane(FILE *out, const SweepPicture *p) {
                         "fill=\"none\" stroke=\"" CPSI_GREY "\" stroke-dasharray=\"2 2\"");
         cpsi_draw_dot(out, &frame, line, 3, "fill=\"" CPSI_BLUE "\"");
     }
-    cpsi_draw_curve(out, &frame, p->count, p->end, false, WAY);
+    cpsi_draw_curve(out, &frame, p->count, p->end, false, PATH_STYLE);
     cpsi_draw_curve(out, &frame, p->count, p->position, false,
                     "fill=\"none\" stroke=\"" CPSI_BLUE "\" stroke-width=\"2\"");
     cpsi_frame_end(out);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Held ends are moved straight from place to place: a way that leads through an obstacle is refused, with its line and column, the end,
-the obstacle and the depth; a way past it, along it or away from it is not.                                  usage: ways.py CAPSTAN"""
+"""Held ends are moved straight from place to place: a path that leads through an obstacle is refused, with its line and column, the end,
+the obstacle and the depth; a path past it, along it or away from it is not.                                  usage: end_paths.py CAPSTAN"""
 import json
 import math
 import os
