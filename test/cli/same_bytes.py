@@ -23,7 +23,7 @@ obstacles:
   bed: {plane: {}, friction: {axial: 0.5, lateral: 0.8, shape: box}}
   wall: {plane: {point: [0, -1, 0], normal: [0, 1, 0]}, friction: 0.2}
 lines:
-  rope: {length: 1, elements: ELEMENTS, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: fixed, B: fixed}}
+  rope: {length: 1, elements: ELEMENTS, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: held, B: held}}
 history:
   - {name: out, rope.B: {position: [1.1, 0, 0]}, steps: 3}
 """
