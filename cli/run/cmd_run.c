@@ -121,7 +121,7 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
         for (int e = 0; e < 2; ++e)
             print_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
-        if (solved && scene->friction_policy == CPS_FRICTION_FROZEN && !view.slide)
+        if (solved && scene->friction_policy == CPS_FRICTION_FROZEN && view.one_plane)
             print_verdict(verdicts, step.name, &line, &view);
     }
 }

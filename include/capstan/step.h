@@ -219,6 +219,9 @@ typedef struct CpsStepReport {
     double wall;                /* [s] */
 } CpsStepReport;
 
+/* The index of an obstacle where there is none. */
+enum { CPS_NO_OBSTACLE = -1 };
+
 /* Everything about one line after a step. Views into the evolution; n = elements + 1 nodes. Forces
  * act on the line; arrays (n, 3) are stored node after node. A node touches up to `contacts`
  * obstacles at once, and what belongs to a contact has all nodes' nearest obstacles first: entry j
@@ -226,8 +229,10 @@ typedef struct CpsStepReport {
 typedef struct CpsLineView {
     const char *name;
     int elements;
-    int contacts;             /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    const double *arc_length; /* (n) [m] natural abscissa a of the nodes */
+    int contacts;   /* of a node: 2 where the scene has more than one obstacle, else 1 */
+    bool one_plane; /* all contacts are with one plane with isotropic friction, or there is no
+                       obstacle: what regularized.h and the solutions of a step (evolve.h) need */
+    const double *arc_length;     /* (n) [m] natural abscissa a of the nodes */
     const double *element_length; /* (elements) [m] */
     double compliance;            /* [1/N] 1/EA, 0: inextensible */
     CpsEnd end[2];                /* what was imposed in this step */
@@ -236,8 +241,8 @@ typedef struct CpsLineView {
     const double *load;           /* (n, 3) [N] weight and free-end forces */
     double weight_before[3]; /* [N/m] per natural length where the step, or its last part, began;
                                 another one than now where gravity changes */
-    const int *obstacle;  /* (contacts, n) which: the nearest and the next, -1 without; NULL on one
-                             plane with isotropic  friction: the first */
+    const int *obstacle;  /* (contacts, n) index in the scene of the nearest and the next obstacle;
+                             CPS_NO_OBSTACLE without one */
     const double *normal; /* (contacts, n, 3) [-] that of the obstacle at the configuration reached;
                              0 0 0 without */
     const double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact
@@ -245,11 +250,11 @@ typedef struct CpsLineView {
     const double *friction_bound;  /* (contacts, n) [N] w = A h, of the larger coefficient (of a
                                       friction set: its multiple); 0 where friction does not act */
     const double *friction_factor; /* (n) [-] of the friction zones, the mean over the length that a
-                                      node stands for; NULL: 1 */
+                                      node stands for; 1 without zones */
     const double *friction_force;  /* (contacts, n, 3) [N] F, in the set of forces that w bounds */
     const double *reaction;        /* (contacts, n) [N] R >= 0, along the normal */
-    /* (contacts, n, 3) [m] slip on the obstacle in this step, tangential, on a curved one along the
-     * surface; NULL on one plane with isotropic friction: the part of u in it */
+    /* (contacts, n, 3) [m] slip on the obstacle in this step, tangential: on a plane the part of u
+     * in it, on a curved obstacle along the surface; 0 before the first step */
     const double *slide;
     const double *segment_force; /* (elements, 3) [N] p: what the B side does to the A side */
     /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
@@ -262,9 +267,11 @@ typedef struct CpsLineView {
     double origin[3];
     /* Contact of an element with a round obstacle, at the point (1 - beta) x_e + beta x_{e+1} that
      * was nearest to its axis or centre; its forces act on the element's nodes by these shares. As
-     * above for that point, whose slip is that of the point with this beta since the reference. All
-     * NULL where no obstacle is round or contact is that of the reference; obstacle -1 and numbers
-     * without meaning where an element has none. */
+     * above for that point, whose slip is that of the point with this beta since the reference.
+     * They are looked for where an obstacle is round and contact is not that of the reference;
+     * elsewhere all numbers are 0. Where they are looked for, the other numbers of an element
+     * without obstacle have no meaning. */
+    bool has_element_contacts;
     const int *element_obstacle;  /* (elements) */
     const double *element_share;  /* (elements) [-] beta */
     const double *element_normal; /* (elements, 3) [-] */

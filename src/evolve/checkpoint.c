@@ -267,6 +267,8 @@ void cps_evolution_save(const CpsEvolution *evolution, void *state) {
 
 void cpsi_evolution_restore(CpsEvolution *evolution, const void *state) {
     pass_state(&(Tape){.in = state}, evolution);
+    for (int i = 0; i < evolution->line_count; i++)
+        cpsi_view_update(&evolution->line[i], evolution->done > 0);
     evolution->report.name = evolution->step_name;
     evolution->ended = cps_outcome_is_final(evolution->report.outcome);
 }

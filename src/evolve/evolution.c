@@ -133,6 +133,8 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
+    cpsi_view_layout(&evolution->fill, arena, nodes);
+    if (real) cpsi_view_fill(&evolution->fill, nodes);
     cpsi_substeps_layout(&evolution->scratch, arena, nodes, contacts + element_contacts,
                          scene->solver.path_tolerance > 0);
     if (inextensible > 0)
@@ -532,6 +534,7 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
     evolution->done++;
+    for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i], true);
     evolution->ended = cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;
     return CPS_OK;
@@ -561,47 +564,4 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
             if (evolution->origin[a] != 0)
                 report.end[end].position[a] += evolution->origin[a]; /* 0 keeps its sign */
     return report;
-}
-
-CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
-    if (!has_line(evolution, line)) return (CpsLineView){.name = ""};
-    const CpsiLine *from = &evolution->line[line];
-    CpsLineView view = {
-        .name = from->name,
-        .elements = from->n - 1,
-        .contacts = from->contacts,
-        .arc_length = from->arc_length,
-        .element_length = from->element_length,
-        .compliance = from->compliance,
-        .end = {from->end[0], from->end[1]},
-        .reference = from->reference,
-        .position = from->position,
-        .load = from->load,
-        .weight_before = {from->weight_before[0], from->weight_before[1], from->weight_before[2]},
-        .normal = from->normal,
-        .gap = from->gap,
-        .friction_bound = from->friction_bound,
-        .friction_factor = from->friction_factor,
-        .friction_force = from->friction_force,
-        .reaction = from->reaction,
-        .slide = from->slide,
-        .segment_force = from->segment_force,
-        .tension = from->tension,
-        .motion = from->motion,
-        .state = from->state,
-        .obstacle = from->obstacle_index,
-        .origin = {evolution->origin[0], evolution->origin[1], evolution->origin[2]},
-    };
-    if (from->element_contacts == 0) return view;
-    const size_t first = (size_t)cpsi_line_contacts(from);
-    view.element_obstacle = from->obstacle_index + first;
-    view.element_share = from->beta;
-    view.element_normal = from->normal + 3 * first;
-    view.element_gap = from->gap + first;
-    view.element_friction_bound = from->friction_bound + first;
-    view.element_friction_force = from->friction_force + 3 * first;
-    view.element_reaction = from->reaction + first;
-    view.element_slide = from->slide + 3 * first;
-    view.element_state = from->state + first;
-    return view;
 }

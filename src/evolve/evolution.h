@@ -8,6 +8,7 @@
 #include "cable/least_motion.h"
 #include "capstan/evolve.h"
 #include "evolve/substeps.h"
+#include "evolve/view.h"
 
 enum { CPSI_STEP_NAME = 96 };
 
@@ -53,6 +54,7 @@ struct CpsEvolution {
     CpsiLeastMotion least;
     CpsiInterrupt interrupt; /* of all programs */
     void *before;            /* the state before a step, where one may be interrupted; else NULL */
+    CpsiViewFill fill;       /* what views show where a line lacks an array */
     double origin[3];        /* [m] all positions are relative to it */
     uint64_t fingerprint;    /* of all constant data: identifies the scene */
 };

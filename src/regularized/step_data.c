@@ -38,8 +38,7 @@ static void fill_own(CpsiCells *own, const CpsLineView *view) {
     memcpy(own->load, view->load, 3 * n * sizeof(double));
     memcpy(own->tension, view->tension, elements * sizeof(double));
     memcpy(own->position, view->position, 3 * n * sizeof(double));
-    for (size_t j = 0; j < n; ++j)
-        own->factor[j] = view->friction_factor ? view->friction_factor[j] : 1;
+    for (size_t j = 0; j < n; ++j) own->factor[j] = view->friction_factor[j];
     for (size_t i = 0; i < elements; ++i) {
         own->share[i] += own->width[i] / 2;
         own->share[i + 1] += own->width[i] / 2;
@@ -80,7 +79,7 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
                          "line '%s' is inextensible: the method of 1990 has no multiplier for "
                          "that; give it a stiffness much larger than its tension",
                          view->name);
-    if (view->slide)
+    if (!view->one_plane)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s': more than one obstacle, or one that is curved or has "
                          "directions; the paper's step slides in one tangent plane with one "

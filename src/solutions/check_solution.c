@@ -141,7 +141,7 @@ CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, do
     if (!(tolerance > 0 && tolerance < 1))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "tolerance: found %g, expected a number between 0 and 1", tolerance);
-    if (step->slide)
+    if (!step->one_plane)
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
             "line '%s': more than one obstacle, or one that is curved or has directions; only "

@@ -235,7 +235,7 @@ CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, doub
     if ((unsigned)how >= CPS_COMPLETION_COUNT)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "completion: found %d, expected shortest, straight or meander", (int)how);
-    if (step->slide)
+    if (!step->one_plane)
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
             "line '%s': more than one obstacle, or one that is curved or has directions; only "

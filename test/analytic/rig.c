@@ -266,9 +266,7 @@ static void audit_contact(Audit *audit, const CpsScene *scene, const double *tur
     memcpy(touch.place, &v->position[3 * j], sizeof touch.place);
     memcpy(touch.reference, &v->reference[3 * j], sizeof touch.reference);
     add(touch.along, &v->position[3 * after], -1, &v->position[3 * before]);
-    audit_touch(audit, scene, turn, &touch,
-                v->obstacle ? v->obstacle[c] : scene->obstacle_count - 1, 0,
-                v->arc_length[v->elements], sum);
+    audit_touch(audit, scene, turn, &touch, v->obstacle[c], 0, v->arc_length[v->elements], sum);
 }
 
 /* The contact of element e, at the point of it that is nearest to the obstacle: what it does in

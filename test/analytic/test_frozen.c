@@ -126,7 +126,7 @@ typedef struct Worst {
     int elements; /* contacts of elements with a reaction */
 } Worst;
 
-static int obstacle_of(const CpsLineView *v, int c) { return v->obstacle ? v->obstacle[c] : 0; }
+static int obstacle_of(const CpsLineView *v, int c) { return v->obstacle[c]; }
 
 /* What touches an obstacle: a node, or a point of an element. */
 typedef struct Touch {

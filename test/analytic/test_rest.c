@@ -67,13 +67,11 @@ static bool copy(const Rig *rig, const CpsLineView *view, const CpsLineReport *r
     for (int c = 0; c < view->contacts * n; c++) {
         const double *x = &view->position[3 * (c % n)], *from = &view->reference[3 * (c % n)],
                      *normal = &view->normal[3 * c];
-        const int on = view->obstacle ? view->obstacle[c] : 0;
+        const int on = view->obstacle[c];
         double open = view->gap[c], up = 0;
         memcpy(out->normal[c], normal, sizeof out->normal[c]);
         for (int a = 0; a < 3; a++) up += normal[a] * (x[a] - from[a]);
-        for (int a = 0; a < 3; a++)
-            out->slide[c][a] =
-                view->slide ? view->slide[3 * c + a] : x[a] - from[a] - up * normal[a];
+        for (int a = 0; a < 3; a++) out->slide[c][a] = view->slide[3 * c + a];
         open += up;
         if (on < 0 || !(open <= fine)) {
             if (view->friction_bound[c] > 1e-9 * out->line.force) return false;

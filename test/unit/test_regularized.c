@@ -21,7 +21,7 @@ typedef struct Step {
         load[COORDINATES];
     double normal[COORDINATES], gap[NODES], bound[NODES], friction[COORDINATES], reaction[NODES],
         force[3 * ELEMENTS];
-    double tension[ELEMENTS];
+    double tension[ELEMENTS], factor[NODES];
     unsigned char state[NODES];
     CpsLineView view;
 } Step;
@@ -51,11 +51,13 @@ static void make_step(Step *s) {
         s->normal[3 * j + 2] = 0.8;
         s->gap[j] = j % 3 == 2 ? INFINITY : 0.01 * j;
         s->bound[j] = j % 3 == 1 ? 0.7 : 0.2;
+        s->factor[j] = 1;
     }
     s->view = (CpsLineView){.name = "line",
                             .elements = ELEMENTS,
                             .arc_length = s->arc,
                             .element_length = s->width,
+                            .one_plane = true,
                             .compliance = 0.05,
                             .end = {{CPS_END_HELD, {0}}, {CPS_END_FREE, {0.1, 0.2, 0.3}}},
                             .reference = s->reference,
@@ -64,6 +66,7 @@ static void make_step(Step *s) {
                             .normal = s->normal,
                             .gap = s->gap,
                             .friction_bound = s->bound,
+                            .friction_factor = s->factor,
                             .friction_force = s->friction,
                             .reaction = s->reaction,
                             .segment_force = s->force,
@@ -380,7 +383,7 @@ static void refusals(void **state) {
     assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "inextensible"));
     make_step(&step);
-    step.view.slide = step.friction;
+    step.view.one_plane = false;
     assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "tangent plane"));
     make_step(&step);

@@ -5,7 +5,11 @@
 
 #include "capstan/step.h"
 
-typedef enum CpsiPlace { CPSI_PLACE_NODE, CPSI_PLACE_ELEMENT } CpsiPlace;
+typedef enum CpsiPlace {
+    CPSI_PLACE_NODE,
+    CPSI_PLACE_ELEMENT,
+    CPSI_PLACE_ELEMENT_CONTACT /* of elements, where their contacts are looked for */
+} CpsiPlace;
 
 /* An array of CpsLineView. */
 typedef struct CpsiField {

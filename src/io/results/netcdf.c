@@ -16,7 +16,6 @@
 #include <time.h>
 
 #include "base/status.h"
-#include "base/vec3.h"
 #include "io/base/escape.h"
 #include "io/results/fields.h"
 #include "io/results/netcdf_file.h"
@@ -30,7 +29,6 @@ enum { XYZ = 3, ENDS = 2, CONTACTS = 2, NAME_LENGTH = 96 };
 /* the format's limit on one variable in one record, in bytes (the specification of CDF-2) */
 static const uint64_t MAX_RECORD = 4294967292;
 
-#define VIEW(member)        offsetof(CpsLineView, member)
 #define REPORT(member)      offsetof(CpsLineReport, member)
 #define CERTIFICATE(member) REPORT(certificate.member)
 
@@ -143,7 +141,6 @@ struct CpsiNetcdf {
     int step, xyz, end, name_length; /* dimensions */
     int step_name, outcome, wall;
     CpsiNetcdfObstacles obstacles;
-    double *slide; /* (nodes of the longest line, 3) where a view has none */
     int line_count;
     LineIds *line;
 };
@@ -229,9 +226,9 @@ static const double *in_view(const CpsLineView *view, const CpsiField *field) {
     return array;
 }
 
-/* Has the view such an array, or is it made for it? */
+/* Contacts of elements are written only where they are looked for. */
 static bool has_field(const CpsLineView *view, const CpsiField *field) {
-    return field->offset == VIEW(slide) || in_view(view, field);
+    return field->place != CPSI_PLACE_ELEMENT_CONTACT || view->has_element_contacts;
 }
 
 static void define_field(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view, int f) {
@@ -280,11 +277,11 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
                                        "place of the obstacle in the scene", "1");
     }
     const int on_elements[] = {nc->step, ids->element};
-    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_OBSTACLE))
+    if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_OBSTACLE))
         ids->element_obstacle = cpsi_netcdf_variable(
             &nc->file, view->name, "element_obstacle", NC_INT, 2, on_elements,
             "place of the obstacle that an element touches in the scene, -1: none", "1");
-    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_STATE)) {
+    if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_STATE)) {
         ids->element_state = cpsi_netcdf_variable(&nc->file, view->name, "element_state", NC_BYTE,
                                                   2, on_elements, "rest of the element on it", "1");
         cpsi_netcdf_flags(&nc->file, ids->element_state, NC_BYTE, 3, NULL, "free stick slip");
@@ -332,24 +329,6 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
                                               &nc->step, NUMBER[i].long_name, NUMBER[i].units);
 }
 
-/* The slip where the view leaves it out, on one plane: the tangential part of the
- * displacement. */
-static const double *plane_slide(CpsiNetcdf *nc, const CpsLineView *view) {
-    for (size_t j = 0; j <= (size_t)view->elements; ++j) {
-        const Vec3 n = vec3_load(view->normal + 3 * j);
-        const Vec3 u =
-            vec3_sub(vec3_load(view->position + 3 * j), vec3_load(view->reference + 3 * j));
-        vec3_store(nc->slide + 3 * j,
-                   vec3_norm(n) > 0 ? vec3_axpy(-vec3_dot(u, n), n, u) : vec3(0, 0, 0));
-    }
-    return nc->slide;
-}
-
-static const double *array_of(CpsiNetcdf *nc, const CpsLineView *view, const CpsiField *field) {
-    const double *array = in_view(view, field);
-    return array || field->offset != VIEW(slide) ? array : plane_slide(nc, view);
-}
-
 static const size_t ONE[] = {1}; /* count of a single number */
 
 /* the fields that do not change (fixed), or those of a step; an array of contacts has the first of
@@ -360,7 +339,7 @@ static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *
         if (field->fixed != fixed || !is_wanted(nc, f) || !has_field(view, field)) continue;
         const size_t along = (size_t)view->elements + (field->place == CPSI_PLACE_NODE);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
-        const double *array = array_of(nc, view, field);
+        const double *array = in_view(view, field);
         for (int c = 0; c < (field->contact ? ids->contacts : 1);
              ++c, array += along * (field->vector ? XYZ : 1))
             cpsi_netcdf_doubles(&nc->file, ids->field[f][c], start + fixed, count + fixed, array);
@@ -382,9 +361,9 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     }
 
     const size_t elements[] = {1, (size_t)view->elements};
-    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_OBSTACLE))
+    if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_OBSTACLE))
         cpsi_netcdf_ints(&nc->file, ids->element_obstacle, start, elements, view->element_obstacle);
-    if (view->element_obstacle && (nc->wanted & CPSI_WANTED_STATE))
+    if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_STATE))
         cpsi_netcdf_bytes(&nc->file, ids->element_state, start, elements, view->element_state);
 
     unsigned char kind[ENDS];
@@ -477,14 +456,10 @@ static char *join_names(const CpsEvolution *evolution, int count) {
     return names;
 }
 
-/* *longest: most nodes of a line */
-static CpsStatus check_sizes(const CpsEvolution *evolution, int count, size_t *longest,
-                             CpsError *err) {
-    *longest = 0;
+static CpsStatus check_sizes(const CpsEvolution *evolution, int count, CpsError *err) {
     for (int i = 0; i < count; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const size_t nodes = (size_t)view.elements + 1;
-        if (nodes > *longest) *longest = nodes;
         if ((uint64_t)nodes * (XYZ * sizeof(double)) > MAX_RECORD) /* an int of nodes fits */
             return cpsi_fail(err, CPS_ERR_LIMIT,
                              "line %s has %d elements; result.nc holds at most %llu per line",
@@ -498,10 +473,9 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
                            const CpsResultsOptions *options, CpsiNetcdf **out, CpsError *err) {
     *out = NULL;
     const int lines = cps_evolution_line_count(evolution);
-    size_t nodes = 0;
     unsigned wanted = 0;
     CpsStatus status = cpsi_fields_choose(options->fields, &wanted, err);
-    if (!status) status = check_sizes(evolution, lines, &nodes, err);
+    if (!status) status = check_sizes(evolution, lines, err);
     if (status) return status;
     CpsiNetcdf *nc = calloc(1, sizeof *nc);
     char *names = join_names(evolution, lines);
@@ -511,9 +485,8 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
         nc->line = calloc((size_t)lines, sizeof *nc->line);
         nc->line_count = lines;
     }
-    if (nc) nc->slide = calloc(nodes, XYZ * sizeof *nc->slide);
-    if (nc && nc->line && nc->slide && names) status = cpsi_netcdf_library(&nc->file.library, err);
-    if (!status && nc && nc->line && nc->slide && names) {
+    if (nc && nc->line && names) status = cpsi_netcdf_library(&nc->file.library, err);
+    if (!status && nc && nc->line && names) {
         pthread_mutex_lock(&library_lock);
         begin(nc, path, scene, evolution, names);
         cpsi_netcdf_free_sets(&nc->obstacles);
@@ -570,7 +543,6 @@ CpsStatus cpsi_netcdf_close(CpsiNetcdf *nc, CpsError *err) {
     const CpsStatus status = result_of(nc, err);
     cpsi_netcdf_library_close(&nc->file.library);
     free(nc->line);
-    free(nc->slide);
     free(nc);
     return status;
 }

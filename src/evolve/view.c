@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The views of the lines of an evolution (view.h). */
+#include "evolve/view.h"
+
+#include "evolve/evolution.h"
+
+void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n) {
+    fill->zero = CPSI_TAKE(arena, 3 * n, double);
+    fill->one = CPSI_TAKE(arena, n, double);
+    fill->first = CPSI_TAKE(arena, n, int);
+    fill->none = CPSI_TAKE(arena, n, int);
+    fill->state = CPSI_TAKE(arena, n, unsigned char);
+}
+
+void cpsi_view_fill(CpsiViewFill *fill, int n) {
+    for (int j = 0; j < n; j++) {
+        fill->one[j] = 1;
+        fill->none[j] = -1;
+        fill->state[j] = CPS_NODE_STATE_FREE;
+    }
+}
+
+void cpsi_view_update(CpsiLine *line, bool stepped) {
+    if (line->has_local_axes) return;
+    for (int j = 0; j < line->n; j++) {
+        const bool slides = stepped && vec3_norm(vec3_load(&line->normal[3 * j])) > 0;
+        vec3_store(&line->plane_slide[3 * j], slides ? cpsi_line_slide(line, j) : vec3(0, 0, 0));
+    }
+}
+
+/* The contacts of elements, which follow those of the nodes in a line's arrays. */
+static void view_elements(const CpsiLine *from, const CpsiViewFill *fill, CpsLineView *view) {
+    const size_t first = (size_t)cpsi_line_contacts(from);
+    view->has_element_contacts = from->element_contacts > 0;
+    if (view->has_element_contacts) {
+        view->element_obstacle = from->obstacle_index + first;
+        view->element_share = from->beta;
+        view->element_normal = from->normal + 3 * first;
+        view->element_gap = from->gap + first;
+        view->element_friction_bound = from->friction_bound + first;
+        view->element_friction_force = from->friction_force + 3 * first;
+        view->element_reaction = from->reaction + first;
+        view->element_slide = from->slide + 3 * first;
+        view->element_state = from->state + first;
+    } else {
+        view->element_obstacle = fill->none;
+        view->element_share = view->element_normal = view->element_gap = fill->zero;
+        view->element_friction_bound = view->element_friction_force = fill->zero;
+        view->element_reaction = view->element_slide = fill->zero;
+        view->element_state = fill->state;
+    }
+}
+
+CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
+    if (!evolution || line < 0 || line >= evolution->line_count) return (CpsLineView){.name = ""};
+    const CpsiLine *from = &evolution->line[line];
+    const CpsiViewFill *fill = &evolution->fill;
+    const int *const only = from->obstacle_count > 0 ? fill->first : fill->none;
+    CpsLineView view = {
+        .name = from->name,
+        .elements = from->n - 1,
+        .contacts = from->contacts,
+        .one_plane = !from->has_local_axes,
+        .arc_length = from->arc_length,
+        .element_length = from->element_length,
+        .compliance = from->compliance,
+        .end = {from->end[0], from->end[1]},
+        .reference = from->reference,
+        .position = from->position,
+        .load = from->load,
+        .weight_before = {from->weight_before[0], from->weight_before[1], from->weight_before[2]},
+        .normal = from->normal,
+        .gap = from->gap,
+        .friction_bound = from->friction_bound,
+        .friction_factor = from->has_zones ? from->friction_factor : fill->one,
+        .friction_force = from->friction_force,
+        .reaction = from->reaction,
+        .slide = from->has_local_axes ? from->slide : from->plane_slide,
+        .segment_force = from->segment_force,
+        .tension = from->tension,
+        .motion = from->motion,
+        .state = from->state,
+        .obstacle = from->has_local_axes ? from->obstacle_index : only,
+        .origin = {evolution->origin[0], evolution->origin[1], evolution->origin[2]},
+    };
+    view_elements(from, fill, &view);
+    return view;
+}
