@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A saved state is refused by any other scene: each key of a scene file is changed in turn, and the
+ * state of the scene before the change is not accepted by the one after it. A key that nobody
+ * changes here fails the test, so that a new key cannot be left out of a scene's fingerprint. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "check.h"
+
+#include "capstan/evolve.h"
+#include "capstan/io.h"
+#include "io/schema/scene_keys.h"
+
+static const char SCENE[] =
+    "capstan: 1\n"
+    "title: keys\n"
+    "gravity: [0, 0, -10]\n"
+    "obstacles:\n"
+    "  bed: {plane: {point: [0, 0, -1], normal: [0, 0, 1]}, friction: 0.3}\n"
+    "  post: {cylinder: {point: [0, 50, 0], axis: [0, 0, 1], radius: 1}, friction:"
+    " {axial: 0.2, lateral: 0.1, shape: ellipse, grain: [0, 0, 1]}}\n"
+    "  ball: {sphere: {centre: [0, 90, 0], axis: [1, 0, 0], radius: 2}, friction:"
+    " {set: {disc: 0.4}}}\n"
+    "lines:\n"
+    "  one: {length: 10, elements: 4, mass: 2, stiffness: 1000, friction_zones:"
+    " [{from: 2, to: 5, factor: 2}], start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}},"
+    " ends: {A: held, B: {force: [1, 0, 0]}}}\n"
+    "  two: {length: 10, elements: 4, weight: 3, stiffness: 1000,"
+    " start: {polyline: [[0, 5, 0], [10, 5, 0]]}, ends: {A: {held: [0, 5, 0]}, B: free}}\n"
+    "  bow: {length: 3, elements: 4, mass: 1, stiffness: 1000,"
+    " start: {arc: {from: [0, -9, 0], centre: [0, -8, 0], axis: [0, 0, 1]}},"
+    " ends: {A: held, B: held}}\n"
+    "friction_policy: consistent\n"
+    "contact_policy: reached\n"
+    "solver: {tolerance: 1e-8, max_iterations: 60, path_tolerance: 0.1, halvings: 3,"
+    " linear_system: chain}\n"
+    "history:\n"
+    "  - {name: pull, steps: 2, gravity: [0, 0, -9], one.B: {force: [2, 0, 0]}, post.turn: 5}\n"
+    "  - {one.A: {move: [1, 0, 0]}, two.A: {position: [0, 6, 0]}}\n";
+
+/* The key, what is written of it, and what else could be. */
+static const struct Change {
+    const char *key, *from, *to;
+} CHANGE[] = {
+    {"gravity", "gravity: [0, 0, -10]", "gravity: [0, 0, -9.9]"},
+    {"obstacles", "  ball:", "  best: {plane: {}}\n  ball:"},
+    {"plane", "bed: {plane: {point: [0, 0, -1], normal: [0, 0, 1]}",
+     "bed: {sphere: {centre: [0, 0, -9], radius: 1}"},
+    {"point", "point: [0, 0, -1]", "point: [0, 0, -2]"},
+    {"normal", "normal: [0, 0, 1]", "normal: [0, 0.1, 1]"},
+    {"friction", "friction: 0.3", "friction: 0.31"},
+    {"cylinder", "point: [0, 50, 0]", "point: [0, 51, 0]"},
+    {"axis", "axis: [0, 0, 1], radius", "axis: [0, 0.1, 1], radius"},
+    {"axis", "axis: [1, 0, 0]", "axis: [1, 1, 0]"},
+    {"radius", "radius: 1", "radius: 1.5"},
+    {"radius", "radius: 2", "radius: 2.5"},
+    {"axial", "axial: 0.2", "axial: 0.25"},
+    {"lateral", "lateral: 0.1", "lateral: 0.15"},
+    {"shape", "shape: ellipse", "shape: box"},
+    {"grain", "grain: [0, 0, 1]", "grain: [0, 1, 1]"},
+    {"sphere", "centre: [0, 90, 0]", "centre: [0, 91, 0]"},
+    {"centre", "centre: [0, 90, 0]", "centre: [1, 90, 0]"},
+    {"set", "{disc: 0.4}", "{disc: 0.5}"},
+    {"set", "{disc: 0.4}", "{ellipse: [0.4, 0.5]}"},
+    {"lines", "  bow:", "  bog:"},
+    {"length", "bow: {length: 3", "bow: {length: 3.1"},
+    {"elements", "length: 3, elements: 4", "length: 3, elements: [1, [2, 2]]"},
+    {"mass", "mass: 2", "mass: 2.5"},
+    {"weight", "weight: 3", "weight: 3.5"},
+    {"stiffness", "mass: 1, stiffness: 1000", "mass: 1, stiffness: .inf"},
+    {"friction_zones", "[{from: 2, to: 5, factor: 2}]", "[]"},
+    {"from", "{from: 2, to", "{from: 0.2, to"},
+    {"to", "to: 5, factor", "to: 9, factor"},
+    {"factor", "factor: 2", "factor: 2.5"},
+    {"start", "start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}",
+     "start: {polyline: [[0, 0, 0], [5, 0, 0], [5, 5, 0]]}"},
+    {"straight", "to: [10, 0, 0]", "to: [0, 10, 0]"},
+    {"polyline", "[[0, 5, 0], [10, 5, 0]]", "[[0, 5, 0], [5, 5, 0], [5, 0, 0]]"},
+    {"arc", "centre: [0, -8, 0]", "centre: [0, -7, 0]"},
+    {"ends", "ends: {A: held, B: held}", "ends: {A: held, B: free}"},
+    {"A", "{A: held, B: held}", "{A: free, B: held}"},
+    {"B", "B: free", "B: held"},
+    {"force", "B: {force: [1, 0, 0]}", "B: {force: [1, 1, 0]}"},
+    {"held", "B: {force: [1, 0, 0]}", "B: {held: [10, 0, 0]}"},
+    {"friction_policy", "consistent", "frozen"},
+    {"contact_policy", "reached", "reference"},
+    {"solver",
+     "solver: {tolerance: 1e-8, max_iterations: 60, path_tolerance: 0.1, halvings: 3,"
+     " linear_system: chain}\n",
+     ""},
+    {"tolerance", "tolerance: 1e-8", "tolerance: 1e-9"},
+    {"max_iterations", "max_iterations: 60", "max_iterations: 61"},
+    {"path_tolerance", "path_tolerance: 0.1", "path_tolerance: 0.2"},
+    {"halvings", "halvings: 3", "halvings: 4"},
+    {"linear_system", "chain", "dense"},
+    {"history", "  - {one.A: {move: [1, 0, 0]}, two.A: {position: [0, 6, 0]}}\n", ""},
+    {"name", "name: pull", "name: push"},
+    {"steps", "steps: 2", "steps: 3"},
+    {"gravity", "gravity: [0, 0, -9]", "gravity: [0, 0, -8]"},
+    {"LINE.END", "one.B: {", "two.B: {"},
+    {"force", "force: [2, 0, 0]", "force: [2, 0, 1]"},
+    {"OBSTACLE.turn", "post.turn: 5", "post.turn: 6"},
+    {"OBSTACLE.turn", "post.turn: 5", "ball.turn: 5"},
+    {"move", "move: [1, 0, 0]", "move: [1, 1, 0]"},
+    {"position", "position: [0, 6, 0]", "position: [0, 7, 0]"},
+};
+
+/* Keys that change no answer, and a file of places, which is a start as good as any. */
+static const char *const LEFT_OUT[] = {"capstan", "title", "nodes"};
+
+enum { CHANGES = sizeof CHANGE / sizeof *CHANGE, LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT };
+
+static CpsEvolution *evolution_of(const char *text) {
+    char path[] = "other_scene_test_XXXXXX";
+    const int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    assert_int_equal(write(fd, text, strlen(text)), strlen(text));
+    close(fd);
+    CpsSceneFile *file = NULL;
+    CpsEvolution *evolution = NULL;
+    CpsError err = {0};
+    if (cps_scene_read(path, NULL, &file, &err) != CPS_OK ||
+        cps_evolution_create(cps_scene_file_scene(file), &evolution, &err) != CPS_OK) {
+        print_error("%d:%d: %s, in\n%s\n", err.line, err.column, err.message, text);
+        fail();
+    }
+    unlink(path);
+    cps_scene_file_destroy(file);
+    return evolution;
+}
+
+static void changed(const struct Change *change, char *text, size_t size) {
+    const char *at = strstr(SCENE, change->from);
+    if (!at) fail_msg("'%s' is not in the scene", change->from);
+    const int before = (int)(at - SCENE);
+    const int length = snprintf(text, size, "%.*s%s%s", before, SCENE, change->to,
+                                at + strlen(change->from));
+    assert_true(length > 0 && (size_t)length < size);
+}
+
+static void every_change_makes_another_scene(void **state) {
+    (void)state;
+    CpsEvolution *evolution = evolution_of(SCENE), *same = evolution_of(SCENE);
+    const size_t size = cps_evolution_state_size(evolution);
+    unsigned char *saved = malloc(size);
+    assert_non_null(saved);
+    cps_evolution_save(evolution, saved);
+    assert_int_equal(cps_evolution_load(same, saved, size, NULL), CPS_OK);
+    for (int i = 0; i < CHANGES; i++) {
+        char text[2 * sizeof SCENE];
+        changed(&CHANGE[i], text, sizeof text);
+        CpsEvolution *other = evolution_of(text);
+        CpsError err = {0};
+        if (cps_evolution_load(other, saved, size, &err) == CPS_OK ||
+            !strstr(err.message, "another scene"))
+            fail_msg("%s: '%s' for '%s' is taken for the same scene; %s", CHANGE[i].key,
+                     CHANGE[i].to, CHANGE[i].from, err.message);
+        cps_evolution_destroy(other);
+    }
+    free(saved);
+    cps_evolution_destroy(same);
+    cps_evolution_destroy(evolution);
+}
+
+static bool is_tried(const char *key) {
+    for (int i = 0; i < CHANGES; i++)
+        if (strcmp(CHANGE[i].key, key) == 0) return true;
+    for (int i = 0; i < LEFT; i++)
+        if (strcmp(LEFT_OUT[i], key) == 0) return true;
+    return false;
+}
+
+/* All keys of a mapping and of the mappings in it; the words of sets are one key. */
+static void try_all(const CpsiMapping *mapping, int *count) {
+    for (int i = 0; i < mapping->count; i++) {
+        const CpsiKey *key = &mapping->key[i];
+        if (!is_tried(key->name)) fail_msg("no change of '%s' is tried", key->name);
+        ++*count;
+        for (const CpsiKey *form = key; form; form = form->other)
+            if (form->inside && form->type != CPSI_EXPRESSION) try_all(form->inside, count);
+    }
+}
+
+static void every_key_is_changed(void **state) {
+    (void)state;
+    int count = 0;
+    try_all(&cpsi_scene_file, &count);
+    assert_true(count >= CHANGES - 10);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_change_makes_another_scene),
+                                       cmocka_unit_test(every_key_is_changed)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
