@@ -62,8 +62,9 @@ CPS_API void cps_set_release(CpsSet *set);
 
 /* n of R^n. */
 CPS_API int cps_set_space(const CpsSet *set);
-/* The expression as text, "intersection(ball(2; 0 0; r 500), strip(0 1; -200 .. 200))", cut to
- * `size` with a final zero; returns the length that the whole text has, as snprintf does. */
+/* The expression as text, "intersection(ball(2; 0 0; r 500), inequalities(0 1 <= 200; -0 -1 <=
+ * 200))", cut to `size` with a final zero; returns the length that the whole text has, as snprintf
+ * does. */
 CPS_API size_t cps_set_text(const CpsSet *set, char *text, size_t size);
 
 /* ---- primitives: *out is a new set, or untouched on failure ---- */

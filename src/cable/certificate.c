@@ -96,7 +96,7 @@ static void distribute_excess(CpsiLine *line, Vec3 rest) {
         const Vec3 n = vec3_load(&line->normal[3 * c]);
         const double margin = friction_margin(line, c);
         add_outer(m, line->reaction[c] - margin, n, n);
-        if (line->frozen) {
+        if (line->keeps_reference_axes) {
             add_outer(m, margin, n, n);
             add_outer(m, -margin, cpsi_line_friction_normal(line, c),
                       cpsi_line_friction_normal(line, c));

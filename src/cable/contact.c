@@ -43,7 +43,7 @@ static Vec3 direction(const CpsiLine *line, const double *x, int j) {
  * contact is that of the reference, and contacts on which frozen friction acts. */
 static bool is_kept(const CpsiLine *line, int c) {
     if (line->obstacle_index[c] < 0) return false;
-    return line->contact_everywhere ? line->frozen && line->friction_bound[c] > 0
+    return line->contact_everywhere ? line->keeps_reference_axes && line->friction_bound[c] > 0
                                     : isfinite(line->gap[c]);
 }
 
@@ -262,7 +262,7 @@ Vec3 cpsi_contact_slip_between(const CpsiLine *line, int c, Vec3 from, Vec3 to) 
 /* The slip of contact c at x: along the surface, or in the plane of friction where that is
  * frozen. */
 static Vec3 slip_to(const CpsiLine *line, int c, Vec3 x) {
-    if (line->frozen) return plane_slip(line, c, x);
+    if (line->keeps_reference_axes) return plane_slip(line, c, x);
     return line->obstacle_index[c] < 0
                ? vec3(0, 0, 0)
                : cpsi_contact_slip_between(line, c, carried_along(line, c), x);
@@ -309,7 +309,7 @@ void cpsi_contact_update_geometry(CpsiLine *line) {
         const Vec3 before = vec3_load(&line->normal[3 * c]);
         update_contact(line, c);
         update_winding(line, c, before);
-        if (line->frozen) set_reference_axes(line, c);
+        if (line->keeps_reference_axes) set_reference_axes(line, c);
         const Vec3 x = cpsi_line_place(line, line->base, c), n = vec3_load(&line->normal[3 * c]);
         vec3_store(&line->slide[3 * c], slip_to(line, c, x));
         const Vec3 u = vec3_sub(x, cpsi_line_place(line, line->reference, c));
@@ -357,8 +357,8 @@ void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
                                 CpsFrictionPolicy friction, bool frictionless) {
     const size_t n = (size_t)line->n;
     line->contact_everywhere = contact == CPS_CONTACT_REACHED;
-    line->frozen = line->has_local_axes && line->contact_everywhere &&
-                   friction == CPS_FRICTION_FROZEN && !frictionless;
+    line->keeps_reference_axes = line->has_local_axes && line->contact_everywhere &&
+                                 friction == CPS_FRICTION_FROZEN && !frictionless;
     memcpy(line->reference, line->position, 3 * n * sizeof *line->reference);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         line->friction_bound[c] = 0;
@@ -373,7 +373,7 @@ void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
     else
         cpsi_line_lay_out_friction(line);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-        if (line->frozen) set_reference_axes(line, c);
+        if (line->keeps_reference_axes) set_reference_axes(line, c);
         if (!line->has_local_axes && line->obstacle_count > 0)
             vec3_store(&line->normal[3 * c], line->obstacle->frame.axis[2]);
         set_reference(line, c, frictionless);
@@ -416,7 +416,7 @@ bool cpsi_contact_turns_too_far(const CpsiLine *line) {
         for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
             if (line->obstacle_index[c] < 0 || !(line->friction_bound[c] > 0)) continue;
             /* it has left the surface, and its slip is that in the plane of the reference */
-            if (line->frozen && !(line->reaction[c] > 0)) continue;
+            if (line->keeps_reference_axes && !(line->reaction[c] > 0)) continue;
             if (!(fabs(line->winding[c]) <= CPSI_QUARTER + QUARTER_ROUNDING) ||
                 !(angle_from_reference(line, c) < HALF_ROUND))
                 return true;
@@ -480,7 +480,7 @@ static double turn_of_axes(const CpsiLine *line, int c, const double now[9]) {
     const double *before = &line->axes[9 * c];
     const Vec3 tangent = vec3_load(&now[0]), from = vec3_load(&before[0]);
     const double normal = vec3_norm(vec3_sub(vec3_load(&now[6]), vec3_load(&before[6])));
-    if (line->frozen) return normal;
+    if (line->keeps_reference_axes) return normal;
     const double along = vec3_norm(vec3_sub(tangent, from)),
                  against = vec3_norm(vec3_axpy(1, tangent, from));
     return fmax(normal, line->friction_law[c].given ? along : fmin(along, against));

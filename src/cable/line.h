@@ -3,10 +3,10 @@
  * SI units.
  *
  * A node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
- * n): contact c < n is the first contact of node c, contact c >= n is the second contact of node c
- * - n. Where there are round obstacles, and contact is not that of the reference, elements touch as
- * well: contact contacts n + e is that of element e, at the point of the element nearest to the
- * axis or centre. */
+ * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
+ * node c - n. Where there are round obstacles, and contact is not that of the reference, elements
+ * touch as well: the contact of element e has the number `contacts` * n + e, at the point of the
+ * element nearest to the axis or centre. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H
 
@@ -79,10 +79,11 @@ typedef struct CpsiLine {
     double *node_reaction; /* (n) [N] sum of the reactions on the node and on its elements */
     bool *active; /* (contacts, n) the constraint is active in the last solution: the reaction
                      exceeds the distance, both in units of the program */
-    bool contact_everywhere; /* contacts are detected everywhere, not only where the reference
-                                touches */
-    bool frozen; /* friction keeps the bounds and axes of the reference while contacts are detected
-                    at the present positions */
+    bool contact_everywhere;   /* contacts are detected everywhere, not only where the reference
+                                  touches */
+    bool keeps_reference_axes; /* friction is frozen with its bounds and axes at the reference while
+                                  contacts are detected at the present positions; false on one plane
+                                  and where contact is that of the reference */
     double *watched;       /* (2 n, 3) [m] positions from which the progress of rounds with drag is
                               measured */
     CpsiAnderson anderson; /* of the rounds of a step */
@@ -167,14 +168,15 @@ static inline const CpsiObstacle *cpsi_line_obstacle(const CpsiLine *line, int c
 }
 
 static inline const double *cpsi_line_axes(const CpsiLine *line, int c) {
-    if (line->frozen) return &line->reference_axes[9 * c];
+    if (line->keeps_reference_axes) return &line->reference_axes[9 * c];
     return line->has_local_axes ? &line->axes[9 * c] : line->common_axes;
 }
 
-/* The normal of the plane of friction of contact c: that of the contact, or with frozen friction
- * that of the reference. */
+/* The normal of the plane of friction of contact c: that of the contact, or of the reference
+ * where the line keeps that. */
 static inline Vec3 cpsi_line_friction_normal(const CpsiLine *line, int c) {
-    return vec3_load(line->frozen ? &line->reference_axes[9 * c + 6] : &line->normal[3 * c]);
+    return vec3_load(line->keeps_reference_axes ? &line->reference_axes[9 * c + 6]
+                                                : &line->normal[3 * c]);
 }
 
 /* [m] The slip of contact c on its obstacle in this step. */

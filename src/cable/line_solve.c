@@ -101,15 +101,15 @@ bool cpsi_line_is_near(const CpsiLine *line) {
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool consistent =
         line->has_local_axes && options->friction_policy == CPS_FRICTION_CONSISTENT;
-    if ((consistent || line->frozen) &&
+    if ((consistent || line->keeps_reference_axes) &&
         !(cpsi_contact_depth(line) <= 0.1 * CPSI_TOUCH * line->length))
         return false;
     /* contact of the reference restricts nodes that touched, and nothing else (S90 (35)) */
     if (line->contact_everywhere &&
         !(line->report.certificate.element_penetration <= 0.1 * CPSI_TOUCH * line->length))
         return false;
-    const bool straight =
-        line->has_local_axes && !consistent && !line->frozen && !options->frictionless;
+    const bool straight = line->has_local_axes && !consistent && !line->keeps_reference_axes &&
+                          !options->frictionless;
     if (straight && cpsi_obstacle_side_share(line, line->reference, line->position, 1) < 1)
         return false;
     if (consistent && !cpsi_friction_law_is_satisfied(line, options->solver.tolerance))
@@ -150,7 +150,7 @@ void cpsi_line_release_open_contacts(CpsiLine *line, const CpsiChainProgram *pro
         if (!(unilateral->z[k] < unilateral->s[k] &&
               unilateral->weight[k] * unilateral->z[k] < LEAST_REACTION))
             continue;
-        if (line->frozen)
+        if (line->keeps_reference_axes)
             line->reaction[unilateral->contact[k]] = 0;
         else
             cpsi_contact_clear(line, unilateral->contact[k]);

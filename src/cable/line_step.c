@@ -99,8 +99,8 @@ static unsigned conditions(const CpsiLine *line, const CpsiStepOptions *options)
     if (!line->has_local_axes) return found;
     found |= LOCAL_AXES;
     if (options->frictionless) found |= STATIC_ROUNDS;
-    if (line->frozen) found |= FROZEN;
-    if (consistent || options->frictionless || line->frozen) found |= ROUNDS;
+    if (line->keeps_reference_axes) found |= FROZEN;
+    if (consistent || options->frictionless || line->keeps_reference_axes) found |= ROUNDS;
     return found;
 }
 
@@ -299,7 +299,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     const bool looked =
         line->has_local_axes &&
         (options->friction_policy == CPS_FRICTION_CONSISTENT || options->frictionless);
-    if ((looked || line->frozen) && line->contacts > 1) {
+    if ((looked || line->keeps_reference_axes) && line->contacts > 1) {
         cpsi_contact_detect(line, true);
         cpsi_contact_update_geometry(line);
     }

@@ -124,7 +124,8 @@ static bool certify_last_round(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options, CpsiBounds bounds,
                                const CpsiIpmReport *ipm) {
     if (bounds != CPSI_BOUNDS_FIXED) cpsi_rounds_couple_bounds(line);
-    if (bounds != CPSI_BOUNDS_FIXED || line->frozen) cpsi_line_release_open_contacts(line, program);
+    if (bounds != CPSI_BOUNDS_FIXED || line->keeps_reference_axes)
+        cpsi_line_release_open_contacts(line, program);
     cpsi_line_certify(line, options, ipm);
     return cps_outcome_is_certified(line->report.outcome);
 }

@@ -121,7 +121,7 @@ static void contact_axes(const CpsiLine *line, const CpsiChainProgram *program, 
  * keeps its own. */
 static void friction_axes(const CpsiLine *line, const CpsiChainProgram *program, int c,
                           double axes[9]) {
-    if (!line->frozen)
+    if (!line->keeps_reference_axes)
         contact_axes(line, program, c, axes);
     else
         cpsi_frame_relative(axes, cpsi_line_axes(line, c), &program->frame[9 * node_of(line, c)]);
@@ -143,8 +143,9 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
     friction_axes(line, program, c, axes);
     conic->node[k] = j;
     conic->contact[k] = c;
-    conic->second[k] = is_second(line, c) ||
-                       line->frozen; /* the tangents of a first contact are those of the node */
+    conic->second[k] =
+        is_second(line, c) ||
+        line->keeps_reference_axes; /* the tangents of a first contact are those of the node */
     conic->weight[k] = share;
     conic->form[k] = cpsi_friction_set_conic(set->given);
     conic->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;

@@ -20,6 +20,8 @@ typedef struct Head {
     uint64_t size, fingerprint;
 } Head;
 
+/* The number at its end is raised when the bytes of a state change. Journals need no more: they are
+ * tied to the build. */
 static const char MAGIC[8] = "capstan4";
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
@@ -41,15 +43,15 @@ static void pass(Tape *tape, void *data, size_t size) {
 #if UINTPTR_MAX == 0xffffffffffffffff
 _Static_assert(sizeof(CpsCertificate) == 16 * 8 && sizeof(CpsLedger) == 6 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
-               "pass_certificate, ..");
+               "these are passed whole: numbers without padding between them");
 _Static_assert(sizeof(CpsEndReport) == 11 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
-               "pass_end_report, pass_bend");
+               "add the new field to pass_end_report or pass_bend, then its size here");
 _Static_assert(sizeof(CpsLineReport) == 19 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
                                             2 * sizeof(CpsEndReport) + sizeof(CpsBend),
-               "pass_line_report");
+               "add the new field to pass_line_report, then its size here");
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
-               "pass_step_report");
-_Static_assert(sizeof(CpsEnd) == 4 * 8, "pass_end");
+               "add the new field to pass_step_report, then its size here");
+_Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its size here");
 #endif
 
 /* numbers only, without padding */

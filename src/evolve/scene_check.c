@@ -602,11 +602,11 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
                        (int)solver->linear_system);
     if (scene->friction_policy != CPS_FRICTION_FROZEN &&
         scene->friction_policy != CPS_FRICTION_CONSISTENT)
-        return FAIL_AT("friction", err, CPS_ERR_ARGUMENT, "friction: unknown value %d",
-                       (int)scene->friction_policy);
+        return FAIL_AT("friction_policy", err, CPS_ERR_ARGUMENT,
+                       "friction_policy: unknown value %d", (int)scene->friction_policy);
     if (scene->contact_policy != CPS_CONTACT_REACHED &&
         scene->contact_policy != CPS_CONTACT_REFERENCE)
-        return FAIL_AT("contact", err, CPS_ERR_ARGUMENT, "contact: unknown value %d",
+        return FAIL_AT("contact_policy", err, CPS_ERR_ARGUMENT, "contact_policy: unknown value %d",
                        (int)scene->contact_policy);
     if (!are_usable(scene->gravity))
         return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,

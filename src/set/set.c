@@ -200,8 +200,8 @@ static void write_set(Text *text, const CpsSet *set) {
                                        [CPSI_SET_POLAR] = "polar"};
     const size_t n = (size_t)set->n, count = (size_t)set->count;
     const bool point = set->kind == CPSI_SET_POINTS && count == 1,
-               strip = set->kind == CPSI_SET_INEQUALITIES && count == 1;
-    put(text, "%s(", point ? "point" : strip ? "half_space" : NAME[set->kind]);
+               half_space = set->kind == CPSI_SET_INEQUALITIES && count == 1;
+    put(text, "%s(", point ? "point" : half_space ? "half_space" : NAME[set->kind]);
     switch (set->kind) {
     case CPSI_SET_BALL:
         write_numbers(text, n, set->a);

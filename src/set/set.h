@@ -24,7 +24,8 @@ typedef enum CpsiSetKind {
                               others its normals */
     CPSI_SET_RAYS,         /* a: rays (count, n) */
     CPSI_SET_USER,
-    CPSI_SET_CONIC, /* its own form: a face or cone that the solver found */
+    CPSI_SET_CONIC, /* its own conic form: written by a constructor (conic_set.c), or a face or
+                       cone that the solver found */
     CPSI_SET_PRODUCT,
     CPSI_SET_INTERSECTION,
     CPSI_SET_PREIMAGE, /* a: map (part's n, n); b: shift (part's n) */

@@ -430,9 +430,10 @@ static void judge_record(const Source *source, const Record *r, const char *line
 }
 
 /* The work of the ends needs the forces that they had at the end of the step before. */
-static void judge_work(const Record *r, const Record *before, const Source *source, Judge *judge) {
+static void judge_work(const Record *r, const Record *before, const Source *source, size_t step,
+                       Judge *judge) {
     if (r->outcome != OUTCOME_SOLVED || r->parts > 1 || before->outcome > OUTCOME_TAUT) return;
-    const Measures m = measure(source, r, source->follows && source->consistent);
+    const Measures m = measure_where(source, r, step);
     if (m.missing) return;
     same(judge, "ledger_ends", r->ledger[LEDGER_ENDS], (double)ends_work(r, before),
          ENERGY_FLOOR * m.scale + 1e-13 * m.largest_force * m.reach);
@@ -478,7 +479,7 @@ static void judge_element_bound(const Record *r, const Record *before, size_t c,
         noise += 1e-9 * fabs(r->factor[i + 1] - r->factor[i]) * R * fmax(1, r->mu[c]);
     if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared))
         find(judge, "friction bound %.9g on element %zu, expected %.9g times the reaction %.9g", w,
-             i, r->mu[c], R);
+             i, before->mu[c], R);
 }
 
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step
@@ -545,7 +546,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         if (step > 0 && record.parts == 1 &&
             memcmp(record.reference, previous.position, record.nodes * sizeof(Vector)) != 0)
             find(&judge, "the reference is not the position of the step before");
-        if (step > 0) judge_work(&record, &previous, source, &judge);
+        if (step > 0) judge_work(&record, &previous, source, step, &judge);
         if (step > 0) judge_weight(&record, &previous, &judge);
         // with frozen friction the reactions before a first step, or before the last part of one,
         // are not known

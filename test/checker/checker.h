@@ -3,8 +3,9 @@
  * line.
  *
  * It shares no code and no header with the solver or the writer: own reader, own arithmetic (long
- * double, compensated sums). What it knows is docs/formats.md (the file) and docs/theory.md (the
- * step problem). */
+ * double, compensated sums). What it knows is docs/results.md (the file) and docs/theory.md (the
+ * step problem). Only given.c, which compares the file with a scene, reads that scene with the
+ * library. */
 #ifndef CAPSTAN_CHECKER_H
 #define CAPSTAN_CHECKER_H
 

@@ -531,8 +531,8 @@ static int read_contact(const Source *source, const char *line, size_t step, boo
     return bad;
 }
 
-/* what belongs to the contacts of elements: where an obstacle is round, friction consistent and
- * contact reached */
+/* what belongs to the contacts of elements: where an obstacle is round and contact is with every
+ * obstacle reached */
 static int read_elements(const Source *source, const char *line, size_t step, Record *record,
                          FILE *log) {
     static const char *const NAME[8] = {"element_normal",         "element_friction_force",

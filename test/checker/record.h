@@ -9,7 +9,7 @@
 
 #include "surface.h"
 
-/* flag values of the file, by docs/formats.md */
+/* flag values of the file, by docs/results.md */
 enum {
     OUTCOME_SOLVED,
     OUTCOME_TAUT,

@@ -223,7 +223,7 @@ def reflected(word):
         return {kind: [[-side[1], -side[0]] if isinstance(side, list) else side for side in of]}
     if kind in ("hull", "sum"):
         return {kind: [reflected(w) for w in of]}
-    assert kind == "translate"
+    assert kind == "translate", f"how is a set {kind} reflected? add the word here"
     return {kind: {"by": [-x for x in of["by"]], "of": reflected(of["of"])}}
 
 

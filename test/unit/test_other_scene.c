@@ -135,8 +135,8 @@ static void changed(const struct Change *change, char *text, size_t size) {
     const char *at = strstr(SCENE, change->from);
     if (!at) fail_msg("'%s' is not in the scene", change->from);
     const int before = (int)(at - SCENE);
-    const int length = snprintf(text, size, "%.*s%s%s", before, SCENE, change->to,
-                                at + strlen(change->from));
+    const int length =
+        snprintf(text, size, "%.*s%s%s", before, SCENE, change->to, at + strlen(change->from));
     assert_true(length > 0 && (size_t)length < size);
 }
 

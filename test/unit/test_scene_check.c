@@ -411,7 +411,7 @@ static void refuses_wrong_histories(void **state) {
     refused(&p, "solver: max_iterations is 0");
     make(&p);
     p.scene.contact_policy = (CpsContactPolicy)7;
-    refused(&p, "contact: unknown value 7");
+    refused(&p, "contact_policy: unknown value 7");
     make(&p);
     p.stage.steps = 0;
     refused(&p, "stage 1: steps is 0");

@@ -97,15 +97,14 @@ static void reads_every_key(void **state) {
     assert_int_equal(scene->solver.max_iterations, 33);
     assert_int_equal(scene->solver.linear_system, CPS_LINEAR_SYSTEM_DENSE);
 
-    const CpsLine *one = &scene->line[0], *two = &scene->line[1],
-                  *three = &scene->line[2];
+    const CpsLine *one = &scene->line[0], *two = &scene->line[1], *three = &scene->line[2];
     assert_int_equal(one->start.kind, CPS_START_STATIC);
     assert_true(one->weight == 3 && one->elements == 7 && one->end[0].value[2] == 8 &&
                 one->end[1].value[2] == 6);
     assert_int_equal(two->start.kind, CPS_START_POLYLINE);
     assert_int_equal(two->start.point_count, 3);
-    assert_true(two->elements == 16 && two->weight == 15 &&
-                two->stiffness == 2000 && two->start.point[7] == 1);
+    assert_true(two->elements == 16 && two->weight == 15 && two->stiffness == 2000 &&
+                two->start.point[7] == 1);
     assert_int_equal(two->end[0].kind, CPS_END_FREE);
     assert_int_equal(three->start.kind, CPS_START_ARC);
     assert_true(three->start.point[5] == 12 && three->start.axis[0] == 1 &&

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The words of a law file. Each is a row from whose value, numbers or parts, a set, a law or a term
- * of a resistance law is made. A new word needs its row, the few lines that make it, and its line
- * in docs/formats.md. */
+/* The words of sets and laws, in every kind of file. Each is a row from whose value, numbers or
+ * parts, a set, a law or a term of a resistance law is made. CONTRIBUTING lists what a new word
+ * needs ("Add a friction set"). */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_SET_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_SET_KEYS_H
 
 #include "capstan/law.h"
 #include "io/schema/keys.h"
 
-/* The values of a word. Values that the word does not have are zero. */
+/* The values of a word. Values that the word does not have are zero. A word whose value has another
+ * meaning gets a field of its own. */
 typedef struct CpsiSetValues {
     CpsiRows rows;    /* points, matrices, directions, sides, tables */
     CpsiRows offsets; /* of inequalities */
