@@ -25,7 +25,7 @@ def systems(program):
                    for key in ("velocities", "forces")}
             scale = max(abs(v) for v in a["V"]) if a["V"] else 0
             v = vector([x if abs(x) > 1e-9*scale else 0 for x in a["V"]])
-            rows.append(f"| `{name}` | {vector(a['velocity'])} | {a['outcome'][len('CPS_MOTION_'):]} | {a['gamma_W']:.6g} | "
+            rows.append(f"| `{name}` | {vector(a['velocity'])} | {a['outcome'][len('CPS_MOTION_OUTCOME_'):]} | {a['gamma_W']:.6g} | "
                         f"{v if few['velocities'] == 'one' else 'not unique'} | {few['velocities']} | {few['forces']} |")
     return rows
 
