@@ -23,8 +23,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     line->tension = CPSI_TAKE(arena, n, double);
     line->motion = CPSI_TAKE(arena, 3 * n, double);
     line->state = CPSI_TAKE(arena, contacts, unsigned char);
-    line->plane_slide = line->has_local_axes ? NULL : CPSI_TAKE(arena, 3 * n, double);
-    line->slide = line->has_local_axes ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
+    line->slide = CPSI_TAKE(arena, 3 * contacts, double);
     line->winding = line->has_local_axes ? CPSI_TAKE(arena, contacts, double) : NULL;
     line->base = line->has_local_axes ? CPSI_TAKE(arena, 3 * n, double) : NULL;
     line->axes = line->has_local_axes ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;

@@ -59,10 +59,10 @@ typedef struct CpsiLine {
     double *tension;               /* (n - 1) [N] */
     double *motion;                /* (n, 3) [-] of a line that slides without end, else 0 */
     unsigned char *state;          /* (contacts, n) CpsNodeState */
-    double *plane_slide; /* (n, 3) [m] without has_local_axes: the slip on the plane, for views */
+    /* (contacts, n, 3) [m] slip of the node on the obstacle in this step, tangential; without
+     * has_local_axes computed after the step, for views */
+    double *slide;
     /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
-    double
-        *slide; /* (contacts, n, 3) [m] slip of the node on the obstacle in this step, tangential */
     /* (contacts, n) [rad] angle by which the node has moved round the contact's obstacle in this
      * step: on a cylinder the sum over the rounds, which may exceed a turn; on a ball the angle of
      * the great circle */

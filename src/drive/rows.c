@@ -44,7 +44,7 @@ static bool grow(void **items, size_t *capacity, size_t need, size_t size) {
     return true;
 }
 
-static bool make_capacity(CpsiRows *rows, size_t more, size_t count) {
+static bool ensure_capacity(CpsiRows *rows, size_t more, size_t count) {
     const size_t used = rows->rows > 0 ? rows->start[rows->rows] : 0, need = used + count;
     size_t capacity = rows->capacity;
     const bool fresh = !rows->start;
@@ -71,7 +71,7 @@ CpsStatus cpsi_rows_append(CpsiRows *rows, const char *what, int n, int more, in
     if (more > INT_MAX / 4 - rows->rows)
         return cpsi_fail(err, CPS_ERR_LIMIT, "%s: more than %d rows", what, INT_MAX / 4);
     CpsEntry *sorted = malloc(((size_t)count + 1) * sizeof *sorted);
-    if (!sorted || !make_capacity(rows, (size_t)more, (size_t)count)) {
+    if (!sorted || !ensure_capacity(rows, (size_t)more, (size_t)count)) {
         free(sorted);
         return cpsi_fail(err, CPS_ERR_MEMORY, "%s: no memory for %d entries", what, count);
     }

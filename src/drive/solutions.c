@@ -246,7 +246,7 @@ static CpsStatus value_beside(const CpsMotion *motion, const double *d, double s
 /* Whether the bounds distinguish V from its neighbours. They do not where a step of a hundredth
  * along a free direction raises phi by less than the distance of the bounds: the motion found is
  * then one of several within the bounds, and the answer `unique` would be unfounded. */
-static CpsStatus check_told_apart(Gather *g, CpsError *err) {
+static CpsStatus check_distinguished(Gather *g, CpsError *err) {
     const CpsMotion *motion = g->motion;
     const size_t n = (size_t)motion->system->n;
     double *work = malloc((n + (size_t)motion->system->components + 1) * sizeof *work), beside;
@@ -281,7 +281,7 @@ CpsStatus cps_motion_velocities(const CpsMotion *motion, double tolerance, CpsSo
     if (status == CPS_OK)
         status = finish(&g, motion->system->n, motion->velocity, motion->speed, low, high, err);
     if (status == CPS_OK && g.found.unique && motion->speed > 0 && motion->report.minimum > 0)
-        status = check_told_apart(&g, err);
+        status = check_distinguished(&g, err);
     if (status == CPS_OK)
         *all = g.found;
     else

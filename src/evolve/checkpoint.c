@@ -22,7 +22,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = "capstan4";
+static const char MAGIC[8] = "capstan5";
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -136,7 +136,7 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     for (size_t i = 0; i < sizeof nodes / sizeof *nodes; i++)
         pass(tape, nodes[i], 3 * n * sizeof(double));
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
-        if (vectors[i]) pass(tape, vectors[i], 3 * contacts * sizeof(double));
+        pass(tape, vectors[i], 3 * contacts * sizeof(double));
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
         pass(tape, scalars[i], contacts * sizeof(double));
     pass(tape, line->segment_force, 3 * (n - 1) * sizeof(double));
@@ -269,8 +269,6 @@ void cps_evolution_save(const CpsEvolution *evolution, void *state) {
 
 void cpsi_evolution_restore(CpsEvolution *evolution, const void *state) {
     pass_state(&(Tape){.in = state}, evolution);
-    for (int i = 0; i < evolution->line_count; i++)
-        cpsi_view_update(&evolution->line[i], evolution->done > 0);
     evolution->report.name = evolution->step_name;
     evolution->ended = cps_outcome_is_final(evolution->report.outcome);
 }

@@ -534,7 +534,7 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
     evolution->done++;
-    for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i], true);
+    for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
     evolution->ended = cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;
     return CPS_OK;

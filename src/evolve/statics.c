@@ -52,7 +52,8 @@ static void raise(CpsiLine *line, Vec3 up, double height) {
     }
 }
 
-/* Move the line to rest with a given compliance. */
+/* Move the line to rest with a given compliance. The choice among tensions, which an inextensible
+ * line has (`forces`), is left out while it is elastic, where they are unique. */
 static void relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                   CpsiSubsteps *scratch, double compliance, int *iterations) {
     const double own = line->compliance;

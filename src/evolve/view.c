@@ -20,11 +20,11 @@ void cpsi_view_fill(CpsiViewFill *fill, int n) {
     }
 }
 
-void cpsi_view_update(CpsiLine *line, bool stepped) {
+void cpsi_view_update(CpsiLine *line) {
     if (line->has_local_axes) return;
     for (int j = 0; j < line->n; j++) {
-        const bool slides = stepped && vec3_norm(vec3_load(&line->normal[3 * j])) > 0;
-        vec3_store(&line->plane_slide[3 * j], slides ? cpsi_line_slide(line, j) : vec3(0, 0, 0));
+        const bool slides = vec3_norm(vec3_load(&line->normal[3 * j])) > 0;
+        vec3_store(&line->slide[3 * j], slides ? cpsi_line_slide(line, j) : vec3(0, 0, 0));
     }
 }
 
@@ -75,7 +75,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .friction_factor = from->has_zones ? from->friction_factor : fill->one,
         .friction_force = from->friction_force,
         .reaction = from->reaction,
-        .slide = from->has_local_axes ? from->slide : from->plane_slide,
+        .slide = from->slide,
         .segment_force = from->segment_force,
         .tension = from->tension,
         .motion = from->motion,

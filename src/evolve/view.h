@@ -19,8 +19,8 @@ typedef struct CpsiViewFill {
 void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n);
 void cpsi_view_fill(CpsiViewFill *fill, int n);
 
-/* Compute the slip of a line on one plane, which the solver has as the tangential part of the
- * displacement only; 0 before the first step. Does nothing for other lines. */
-void cpsi_view_update(CpsiLine *line, bool stepped);
+/* Compute the slip of a line on one plane in the step made, which the solver has as the tangential
+ * part of the displacement only. Does nothing for other lines. */
+void cpsi_view_update(CpsiLine *line);
 
 #endif

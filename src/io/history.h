@@ -74,6 +74,7 @@ struct CpsResults {
     int stage_count;
     CpsiStage *stage;
     int planned_steps;
+    bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;
     CpsiRow *row;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""capstan run with less output: --no-paraview, --fields, --sync.                        usage: output.py CAPSTAN"""
+"""capstan run with less output: --no-paraview, --fields, --sync; pictures of a stage named "static".                        usage: output.py CAPSTAN"""
 import csv
 import os
 import signal
@@ -79,6 +79,17 @@ with tempfile.TemporaryDirectory() as folder:
         check(done.returncode == 2, f"{more}: exit code {done.returncode}")
         check(all(word in done.stderr for word in words), f"{more}: {done.stderr}")
         check(not os.path.exists(os.path.join(folder, "bad")), f"{more}: left a directory behind")
+
+    # a stage may be named as the step that places lines statically; its pictures show it moving as others
+    sheets = {}
+    for stage in ("static", "pull"):
+        with open(os.path.join(folder, "one.yaml"), "w", encoding="utf-8") as file:
+            file.write((SCENE % 1).replace("name: move", f"name: {stage}").replace("8.2, 0, 0", "8.2, 0.5, 0"))
+        done = run(folder, "one.yaml", stage, "--no-paraview")
+        check(done.returncode == 0, f"stage named {stage}: {done.stderr}")
+        with open(os.path.join(folder, stage, "step-00000-plan.svg"), encoding="utf-8") as file:
+            sheets[stage] = file.read().replace(stage, "NAME")
+    check(sheets["static"] == sheets["pull"], "stage named static: drawn as a placement")
 
     # synced at the end: killed in the middle it still goes on, and ends with the same numbers
     done = run(folder, "long.yaml", "whole", "-q", "--no-paraview")

@@ -195,8 +195,8 @@ static void draw_step_legend(const CpsResults *results, bool air, double y, FILE
 /* Initial configuration of a step. Before a line is statically placed it has none: the solver's
  * first guess is not shown. */
 static const double *start_of(const CpsResults *results, const CpsiSnapshot *snapshot, int line) {
-    const bool first = snapshot->step == 0 && strcmp(results->row[0].name, "static") == 0;
-    return first ? snapshot->shape[line].position : snapshot->shape[line].reference;
+    return snapshot->step == 0 && results->begins_static ? snapshot->shape[line].position
+                                                         : snapshot->shape[line].reference;
 }
 
 /* axes, obstacles, subtitle: the beginning of both kinds of sheet; step as for

@@ -71,6 +71,7 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
         results->line_length[i] = view.arc_length[view.elements];
         results->line_elements[i] = view.elements;
         results->line_name[i] = copy_text(view.name);
+        results->begins_static |= scene->line[i].start.kind == CPS_START_STATIC;
         results->line_count = (int)i + 1;
         if (!results->line_name[i]) return false;
     }
